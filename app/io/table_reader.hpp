@@ -1,0 +1,70 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <boresight/app/io/quantity.hpp>
+
+namespace boresight::app {
+
+/// Reads one table of a TOML file key by key and remembers what was read, so that a key nobody
+/// asked for is an error with the nearest known key as a suggestion.
+///
+/// Every error is an InvalidInput with one message of the form
+///   FILE:LINE:COLUMN: KEY: expected WHAT, found WHAT (REMEDY)
+/// where KEY is the full path ("oil.line[1].length").
+///
+/// A quantity is a text with unit ("0.97 Hz"), or a table with `value` and optionally
+/// `uncertainty` (same kind, or relative as "1 %"), `also` (text or list of texts: the number
+/// printed again in other units), `basis` ("measured", "published", "inferred", "assumed"),
+/// `source`, `uncertainty_source`. A bare TOML number is refused ("has no unit") except for
+/// Kind::number.
+class TableReader {
+ public:
+  /// Parses a file. @throws InvalidInput if it cannot be read or is not TOML (line, column).
+  static TableReader open(const std::string& path);
+  /// Parses a text; `name` stands for the file in messages.
+  static TableReader parse(std::string_view text, const std::string& name);
+
+  TableReader(TableReader&&) noexcept;
+  TableReader& operator=(TableReader&&) noexcept;
+  ~TableReader();
+
+  bool has(std::string_view key) const;
+  /// Location of a key's value, or of this table if the key is absent.
+  Location location(std::string_view key = {}) const;
+  /// Full path of a key in this table.
+  std::string path(std::string_view key = {}) const;
+
+  Quantity quantity(std::string_view key, Kind kind, Range range = {});
+  std::optional<Quantity> optional_quantity(std::string_view key, Kind kind, Range range = {});
+  std::string text(std::string_view key);
+  std::optional<std::string> optional_text(std::string_view key);
+  /// A text out of a closed list; a misspelt one gets the nearest suggested.
+  std::string choice(std::string_view key, const std::vector<std::string>& choices);
+  long integer(std::string_view key, long minimum, long maximum);
+  std::optional<long> optional_integer(std::string_view key, long minimum, long maximum);
+  bool boolean(std::string_view key);
+  std::optional<bool> optional_boolean(std::string_view key);
+  std::vector<std::string> texts(std::string_view key);
+
+  TableReader table(std::string_view key);
+  std::optional<TableReader> optional_table(std::string_view key);
+  /// An array of tables; absent counts as empty unless `required`.
+  std::vector<TableReader> tables(std::string_view key, bool required = false);
+
+  /// Refuses every key of this table that was not read. @throws InvalidInput
+  void finish() const;
+  /// Ends in an InvalidInput at the key's place: "expected ..., found ..." is the caller's text.
+  [[noreturn]] void refuse(std::string_view key, const std::string& message) const;
+
+ private:
+  struct Content;
+  explicit TableReader(std::unique_ptr<Content> content);
+  std::unique_ptr<Content> content_;
+};
+
+}  // namespace boresight::app

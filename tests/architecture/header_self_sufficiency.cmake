@@ -1,0 +1,19 @@
+# Every public header once as the first line of a source file, so that none lives on what another
+# happened to include before it.
+file(GLOB headers CONFIGURE_DEPENDS
+  ${PROJECT_SOURCE_DIR}/plant/*.hpp ${PROJECT_SOURCE_DIR}/identification/*.hpp
+  ${PROJECT_SOURCE_DIR}/control/*.hpp ${PROJECT_SOURCE_DIR}/design/*.hpp)
+set(sources "")
+foreach(header IN LISTS headers)
+  file(RELATIVE_PATH name ${PROJECT_SOURCE_DIR} ${header})
+  set(source ${CMAKE_CURRENT_BINARY_DIR}/${name}.cpp)
+  # Twice: an include guard is part of standing alone.
+  file(CONFIGURE OUTPUT ${source} CONTENT
+    "#include <boresight/${name}>\n#include <boresight/${name}>\n")
+  list(APPEND sources ${source})
+endforeach()
+
+add_library(header_self_sufficiency OBJECT ${sources})
+# Nothing here runs, and parsing is all that is asked.
+target_compile_options(header_self_sufficiency PRIVATE -O0 -g0 -fno-sanitize=all)
+target_link_libraries(header_self_sufficiency PRIVATE boresight::design boresight_warnings)

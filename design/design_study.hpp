@@ -1,0 +1,59 @@
+#pragma once
+
+#include <functional>
+#include <vector>
+
+#include <boresight/control/closed_loop.hpp>
+#include <boresight/control/margins.hpp>
+#include <boresight/design/tuner.hpp>
+
+namespace boresight::design {
+
+/// A tuned law looked at again by code that shares nothing with the tuner.
+struct Verification {
+  control::StabilityVerdict stability;
+  std::array<control::SensitivityPeak, 3> peaks;  // order of control::loop_breaks
+  control::LyapunovRms lyapunov;                  // rad of motor
+  double spectral_rms = 0.0;                      // rad of motor, on the problem's grid
+  /// |lyapunov - spectral|/spectral of the total rms.
+  double rms_disagreement = 0.0;
+  /// Eigenvalues stable, every peak within its goal (1e-6), the two rms within 0.5 %.
+  bool passed = false;
+};
+
+Verification verify(const TrackingProblem& problem, const control::ControlLaw& law,
+                    const HardGoals& goals);
+
+/// One thing to tune.
+struct DesignTask {
+  std::string name;
+  TrackingProblem problem;
+  control::LoopStructure structure = control::LoopStructure::pi_with_lag;
+  HardGoals goals;
+  TuningOptions options;
+};
+
+/// One tuned, verified design. Rms at the sky in rad, one axis.
+struct Design {
+  std::string name;
+  TuningResult tuning;
+  Verification verification;
+  plant::PlantMode hydraulic_mode;
+  double reflected_inertia = 0.0;  // kg m2
+  double beam_rms = 0.0;
+  double wind_rms = 0.0;
+  double noise_rms = 0.0;
+  double valve_effort = 0.0;  // rad/s
+  /// Margins of the loops cut at each of control::loop_breaks.
+  std::array<control::Margins, 3> margins;
+};
+
+/// Tunes and verifies one task. @throws as tune.
+Design solve(const DesignTask& task);
+
+/// Solves every task on `threads` threads; results in the order of the tasks, the same for any
+/// thread count. `progress(done, all)` is called under a lock after each.
+std::vector<Design> solve_all(const std::vector<DesignTask>& tasks, unsigned threads,
+                              const std::function<void(std::size_t, std::size_t)>& progress);
+
+}  // namespace boresight::design

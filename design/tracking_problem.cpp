@@ -1,0 +1,76 @@
+#include <cmath>
+#include <numbers>
+
+#include <boresight/design/tracking_problem.hpp>
+
+namespace boresight::design {
+namespace {
+constexpr double two_pi = 2.0 * std::numbers::pi;
+}
+
+Eigen::ArrayXd motor_wind_spectrum(const WindCondition& wind, double gear_ratio,
+                                   const Eigen::ArrayXd& frequency) {
+  return frequency.unaryExpr([&](double w) {
+    return plant::wind_torque_spectrum(wind.site, wind.model, wind.mean_speed, w / two_pi) /
+           (gear_ratio * gear_ratio);
+  });
+}
+
+control::LoopEvaluator make_evaluator(const TrackingProblem& problem) {
+  const Eigen::ArrayXd frequency =
+      plant::frequency_grid(problem.plant, problem.lowest_frequency, problem.highest_frequency,
+                            problem.points_per_decade);
+  return {problem.plant, frequency, problem.delay, problem.noise,
+          motor_wind_spectrum(problem.wind, problem.gear_ratio, frequency)};
+}
+
+plant::ShapingFilter fit_wind_filter(const WindCondition& wind, double gear_ratio) {
+  constexpr Eigen::Index points = 200;
+  const Eigen::ArrayXd frequency =
+      Eigen::ArrayXd::LinSpaced(points, std::log(5e-4), std::log(5.0)).exp();
+  return plant::fit_shaping_filter(
+      frequency, motor_wind_spectrum(wind, gear_ratio, two_pi * frequency), 4);
+}
+
+double beam_rms_at_speed(const TrackingProblem& problem, const control::LoopEvaluator& evaluator,
+                         const Eigen::ArrayXd& wind_transmission, double noise_variance,
+                         double mean_speed) {
+  WindCondition wind = problem.wind;
+  wind.mean_speed = mean_speed;
+  const Eigen::ArrayXd spectrum =
+      motor_wind_spectrum(wind, problem.gear_ratio, evaluator.response().frequency);
+  const double variance =
+      (evaluator.integration_weight() * wind_transmission * spectrum).sum() + noise_variance;
+  return std::sqrt(variance) / problem.gear_ratio;
+}
+
+double wind_speed_limit(const TrackingProblem& problem, const control::LoopEvaluator& evaluator,
+                        const control::ControlLaw& law, double noise_variance,
+                        double rms_budget) {
+  const Eigen::ArrayXd transmission = evaluator.wind_transmission(law);
+  const auto rms = [&](double speed) {
+    return beam_rms_at_speed(problem, evaluator, transmission, noise_variance, speed);
+  };
+  double low = 0.1, high = 60.0;
+  if (rms(low) >= rms_budget) return 0.0;
+  if (rms(high) <= rms_budget) return high;
+  // The rms rises with speed nearly as its square: regula falsi in logarithms, safeguarded.
+  double log_low = std::log(rms(low) / rms_budget), log_high = std::log(rms(high) / rms_budget);
+  while (std::log(high / low) > 1e-5) {
+    double share = log_low / (log_low - log_high);
+    share = std::min(std::max(share, 0.02), 0.98);
+    const double middle = low * std::pow(high / low, share);
+    const double value = std::log(rms(middle) / rms_budget);
+    if (std::abs(value) < 1e-7) return middle;
+    if (value < 0.0) {
+      low = middle;
+      log_low = value;
+    } else {
+      high = middle;
+      log_high = value;
+    }
+  }
+  return std::sqrt(low * high);
+}
+
+}  // namespace boresight::design

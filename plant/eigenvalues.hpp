@@ -1,0 +1,25 @@
+#pragma once
+
+#include <Eigen/Core>
+
+namespace boresight::plant {
+
+/// Eigenvalues of a real square matrix, sorted by magnitude, then imaginary part.
+/// @throws InvalidInput if it is not square or not finite; NumericalFailure if QR does not converge.
+Eigen::VectorXcd eigenvalues(const Eigen::MatrixXd& matrix);
+
+/// Right and left eigenvectors as columns, left ones scaled to left^H right = identity.
+struct EigenDecomposition {
+  Eigen::VectorXcd values;
+  Eigen::MatrixXcd right;
+  Eigen::MatrixXcd left;
+};
+
+/// @throws as eigenvalues, and NumericalFailure if the eigenvectors are not independent to
+/// working precision (defective matrix).
+EigenDecomposition eigen_decomposition(const Eigen::MatrixXd& matrix);
+
+/// The largest real part of the eigenvalues: negative for a stable system dx/dt = A x.
+double spectral_abscissa(const Eigen::MatrixXd& matrix);
+
+}  // namespace boresight::plant

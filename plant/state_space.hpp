@@ -1,0 +1,55 @@
+#pragma once
+
+#include <Eigen/Core>
+
+#include <complex>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace boresight::plant {
+
+/// dx/dt = A x + B u, y = C x + D u with a name for every input, output and state.
+/// A: n x n, B: n x inputs, C: outputs x n, D: outputs x inputs.
+struct StateSpace {
+  Eigen::MatrixXd a, b, c, d;
+  std::vector<std::string> inputs;
+  std::vector<std::string> outputs;
+  std::vector<std::string> states;
+};
+
+/// Refuses shapes that do not fit the names, duplicate names within inputs, outputs or states, and
+/// elements that are not finite. @throws InvalidInput naming the first defect.
+void validate(const StateSpace& system);
+
+/// Position of a name; @throws InvalidInput listing the names there are.
+Eigen::Index input_index(const StateSpace& system, std::string_view name);
+Eigen::Index output_index(const StateSpace& system, std::string_view name);
+
+/// A system without states: y = gain u.
+StateSpace static_gain(const Eigen::MatrixXd& gain, std::vector<std::string> inputs,
+                       std::vector<std::string> outputs);
+
+/// A real single-input, single-output transfer function numerator/denominator, ascending powers
+/// of s, as controllable companion form with states `name`.1, .2, ... Low orders only (filters,
+/// compensators): high-order polynomials are ill-conditioned.
+/// @throws InvalidInput if it is not proper or the leading denominator coefficient is 0.
+StateSpace rational(const std::vector<double>& numerator, const std::vector<double>& denominator,
+                    const std::string& input, const std::string& output, const std::string& name);
+
+/// Connects systems by name: an input of one that is called as an output of another (or of its
+/// own) is fed from it. What is left of the inputs must be among `external_inputs` (one external
+/// input may feed several systems); the result has exactly `external_inputs` and
+/// `external_outputs`, and all states.
+/// @throws InvalidInput for an output name given twice, a state name given twice, an input that
+/// nothing feeds, an external name that does not exist, or one that is also an output (loop to
+/// outside); NumericalFailure for an algebraic loop without solution.
+StateSpace connect(const std::vector<StateSpace>& systems,
+                   const std::vector<std::string>& external_inputs,
+                   const std::vector<std::string>& external_outputs);
+
+/// C (j w I - A)^-1 B + D, outputs x inputs, at one angular frequency w (rad/s). O(n^3): the
+/// independent check of the O(modes) responses, not for inner loops.
+Eigen::MatrixXcd frequency_response(const StateSpace& system, double angular_frequency);
+
+}  // namespace boresight::plant

@@ -1,0 +1,212 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <boresight/app/io/quantity.hpp>
+
+namespace boresight::app {
+
+/// A solid disk of a rotating assembly, or a part whose inertia is given.
+struct AssemblyPart {
+  std::string name;
+  std::string description;
+  std::optional<Quantity> radius;
+  std::optional<Quantity> length;
+  std::optional<Quantity> inertia;
+};
+
+/// Bodies that turn together behind the first `stages` reductions. `count` of them, one a motor.
+struct RotatingAssembly {
+  std::string name;
+  std::string description;
+  long count = 1;
+  std::size_t stages = 0;
+  std::optional<Quantity> inertia;  // of one, about its own axis; else the sum of the parts
+  std::vector<AssemblyPart> parts;
+};
+
+struct GearStageEntry {
+  Quantity driven_teeth;
+  Quantity driving_teeth;
+};
+
+struct GearTrainEntry {
+  std::vector<GearStageEntry> stages;
+  std::optional<Quantity> density;
+  std::vector<RotatingAssembly> assemblies;
+};
+
+/// The antenna inertia as another place of the source has it.
+struct AntennaAlternative {
+  std::string name;
+  std::optional<Quantity> inertia;            // about the antenna axis
+  std::optional<Quantity> reflected_inertia;  // at the motor shaft
+};
+
+struct AntennaEntry {
+  Quantity dish_diameter;
+  Quantity inertia;  // about the antenna axis
+  std::vector<AntennaAlternative> alternatives;
+};
+
+struct MotorEntry {
+  long count = 1;
+  Quantity inertia;  // one motor as built, flywheel included
+  double flywheel_disks = 0.0;
+  Quantity rotor_inertia;  // one bare motor
+  Quantity disk_inertia;   // one flywheel disk
+  Quantity displacement;
+  Quantity torque_efficiency;
+  Quantity volumetric_efficiency;
+};
+
+struct OilLine {
+  std::string name;
+  Quantity length;
+  Quantity slosh_frequency;
+};
+
+struct OilEntry {
+  Quantity density;
+  std::optional<Quantity> bulk_modulus;  // else the mean over the lines
+  Quantity volume_1;
+  Quantity volume_2;
+  bool efficiency_in_stiffness = true;
+  std::vector<OilLine> lines;
+};
+
+struct TachometerEntry {
+  Quantity voltage;
+  Quantity shaft_speed;
+  Quantity motor_teeth;       // motor turns per tachometer turn, numerator
+  Quantity tachometer_teeth;  // and denominator
+  Quantity recorder_limit;
+};
+
+struct FrictionTestsEntry {
+  std::optional<Quantity> constant_speed_coulomb;
+  std::optional<Quantity> constant_speed_slope;
+  std::optional<Quantity> slow_ramp_up;
+  std::optional<Quantity> slow_ramp_down;
+};
+
+/// A reflected inertia found by impulse and momentum.
+struct ImpulseResult {
+  std::string name;
+  std::string friction;  // "constant_speed" or "slow_ramp": the friction that was subtracted
+  Quantity reflected_inertia;
+};
+
+struct DriveEntry {
+  Quantity leakage_rate;
+  Quantity viscous_friction;
+  Quantity valve_frequency;
+  Quantity valve_damping;
+  Quantity supply_pressure;
+  Quantity slew_rate;
+  Quantity tracking_rate;
+};
+
+struct FrictionCurveEntry {
+  Quantity coulomb, breakaway, stribeck_rate, saturating, saturating_rate, viscous;
+};
+
+struct StructureModeEntry {
+  Quantity frequency, damping_ratio, inertia_fraction, wind_fraction, beam_weight;
+};
+
+struct StructureEntry {
+  Quantity locked_rotor_frequency;
+  Quantity gear_damping_ratio;
+  Quantity bull_gear_wind_fraction;
+  Quantity bull_gear_beam_weight;
+  std::vector<StructureModeEntry> modes;
+  /// A bound from a structural model and the axis it was computed for.
+  std::optional<Quantity> lowest_predicted;
+  std::string lowest_predicted_axis;
+};
+
+struct SensorsEntry {
+  Quantity encoder_noise, tachometer_noise, noise_bandwidth, tachometer_frequency;
+};
+
+struct WindEntry {
+  Quantity air_density, surface_drag, torque_coefficient, gradient_coefficient, coherence_decay;
+  Quantity design_speed;
+  std::string model;
+};
+
+struct BandEntry {
+  std::string name;
+  Quantity frequency;
+  Quantity beamwidth_factor;
+};
+
+/// A pointing budget: a loss in a band by a named convention, or an rms error an axis.
+struct BudgetEntry {
+  std::string name;
+  std::string band;
+  std::optional<Quantity> loss;  // dB
+  std::string convention;
+  std::optional<Quantity> rms;
+};
+
+struct GoalsEntry {
+  Quantity sensitivity_peak;
+  Quantity valve_effort;
+  Quantity lowest_frequency;
+  Quantity highest_frequency;
+};
+
+/// A derived number that the source prints, for the audit.
+struct StatedEntry {
+  std::string quantity;  // id, see docs/case-file.md
+  Quantity value;
+};
+
+/// What the case's writer noted by hand about the source: equations, captions, conventions.
+struct RemarkEntry {
+  std::string place;
+  std::string text;
+};
+
+/// One antenna axis as a case file describes it.
+struct Case {
+  std::string path;
+  std::string title;
+  std::string axis;
+  AntennaEntry antenna;
+  GearTrainEntry gear_train;
+  MotorEntry motor;
+  OilEntry oil;
+  std::optional<Quantity> resonance_frequency;
+  std::optional<TachometerEntry> tachometer;
+  FrictionTestsEntry friction_tests;
+  std::vector<ImpulseResult> impulse_results;
+  DriveEntry drive;
+  FrictionCurveEntry friction_curve;
+  StructureEntry structure;
+  SensorsEntry sensors;
+  Quantity controller_delay;
+  WindEntry wind;
+  std::vector<BandEntry> bands;
+  std::vector<BudgetEntry> budgets;
+  GoalsEntry goals;
+  std::vector<double> matching_disks;
+  std::vector<StatedEntry> stated;
+  std::vector<RemarkEntry> remarks;
+  /// Every quantity of the file, in file order, for the list of assumptions.
+  std::vector<Quantity> quantities;
+};
+
+/// Reads and checks a case file. @throws InvalidInput with one message: file, line, column, key,
+/// what was expected and what was found.
+Case read_case(const std::string& path);
+
+/// The kind of a stated quantity's id ("reflected_inertia" is an inertia), from the closed list of
+/// docs/case-file.md; nothing for an unknown id.
+std::optional<Kind> stated_kind(const std::string& id, const Case& antenna);
+
+}  // namespace boresight::app

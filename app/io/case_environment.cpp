@@ -1,0 +1,79 @@
+#include <algorithm>
+#include <set>
+
+#include <boresight/app/io/case_sections.hpp>
+
+namespace boresight::app {
+
+void read_wind(TableReader& file, Case& antenna) {
+  TableReader table = file.table("wind");
+  WindEntry& wind = antenna.wind;
+  wind.model = table.choice("model", {"uniform", "vickery", "coherence"});
+  wind.design_speed = table.quantity("design_speed", Kind::speed, Range::between(0.1, 60.0));
+  wind.air_density = table.quantity("air_density", Kind::density, Range::between(0.1, 2.0));
+  wind.surface_drag = table.quantity("surface_drag", Kind::number, Range::positive(1.0));
+  wind.torque_coefficient =
+      table.quantity("torque_coefficient", Kind::number, Range::not_negative(10.0));
+  wind.gradient_coefficient =
+      table.quantity("gradient_coefficient", Kind::number, Range::not_negative(10.0));
+  wind.coherence_decay = table.quantity("coherence_decay", Kind::number, Range::positive(1000.0));
+  table.finish();
+}
+
+void read_pointing(TableReader& file, Case& antenna) {
+  TableReader table = file.table("pointing");
+  std::vector<std::string> names;
+  for (auto& entry : table.tables("band", true)) {
+    BandEntry band;
+    band.name = entry.text("name");
+    band.frequency = entry.quantity("frequency", Kind::frequency, Range::between(1e8, 1e13));
+    band.beamwidth_factor =
+        entry.quantity("beamwidth_factor", Kind::angle, Range::between(0.5, 2.0));
+    entry.finish();
+    if (std::find(names.begin(), names.end(), band.name) != names.end()) {
+      entry.refuse("name", "expected a name of its own, found '" + band.name + "' again");
+    }
+    names.push_back(band.name);
+    antenna.bands.push_back(std::move(band));
+  }
+  for (auto& entry : table.tables("budget", true)) {
+    BudgetEntry budget;
+    budget.name = entry.text("name");
+    budget.band = entry.choice("band", names);
+    budget.loss = entry.optional_quantity("loss", Kind::level, Range::positive(3.0));
+    budget.rms = entry.optional_quantity("rms", Kind::angle, Range::positive(1.0));
+    if (budget.loss.has_value() == budget.rms.has_value()) {
+      entry.refuse("loss", "expected either loss (dB) or rms (angle), found both or neither");
+    }
+    if (budget.loss) {
+      budget.convention = entry.choice(
+          "convention", {"mean_loss_two_axes", "mean_loss_one_axis", "loss_at_mean_radial_error"});
+    }
+    entry.finish();
+    antenna.budgets.push_back(std::move(budget));
+  }
+  table.finish();
+}
+
+void read_goals(TableReader& file, Case& antenna) {
+  TableReader table = file.table("goals");
+  GoalsEntry& goals = antenna.goals;
+  goals.sensitivity_peak =
+      table.quantity("sensitivity_peak", Kind::number, Range::between(1.01, 100.0));
+  goals.valve_effort = table.quantity("valve_effort", Kind::angular_rate, Range::positive());
+  goals.lowest_frequency =
+      table.quantity("lowest_frequency", Kind::frequency, Range::between(1e-6, 1.0));
+  goals.highest_frequency =
+      table.quantity("highest_frequency", Kind::frequency, Range::between(1.0, 1e4));
+  table.finish();
+
+  TableReader matching = file.table("matching");
+  const long most = matching.integer("most_disks", 1, 10000);
+  const long step = matching.integer("step", 1, most);
+  for (long disks = 0; disks <= most; disks += step) {
+    antenna.matching_disks.push_back(static_cast<double>(disks));
+  }
+  matching.finish();
+}
+
+}  // namespace boresight::app

@@ -1,0 +1,98 @@
+#include <algorithm>
+#include <set>
+
+#include <boresight/app/io/case_file.hpp>
+#include <boresight/app/io/case_sections.hpp>
+#include <boresight/app/io/table_reader.hpp>
+
+namespace boresight::app {
+namespace {
+
+void read_stated(TableReader& file, Case& antenna) {
+  for (auto& entry : file.tables("stated")) {
+    StatedEntry stated;
+    stated.quantity = entry.text("quantity");
+    const auto kind = stated_kind(stated.quantity, antenna);
+    if (!kind) {
+      entry.refuse("quantity", "expected the id of a derived quantity or input (docs/case-file.md "
+                               "lists them), found '" + stated.quantity + "'");
+    }
+    stated.value = entry.quantity("value", *kind);
+    entry.finish();
+    antenna.stated.push_back(std::move(stated));
+  }
+  for (auto& entry : file.tables("remark")) {
+    antenna.remarks.push_back({entry.text("place"), entry.text("text")});
+    entry.finish();
+  }
+}
+
+bool starts_with(const std::string& text, std::string_view prefix) {
+  return text.compare(0, prefix.size(), prefix) == 0;
+}
+
+// "line.longest.slosh_frequency" is a line's name between prefix and suffix.
+template <typename Entries>
+bool names_one_of(const std::string& id, std::string_view prefix, std::string_view suffix,
+                  const Entries& entries) {
+  return std::any_of(entries.begin(), entries.end(), [&](const auto& entry) {
+    return id == std::string(prefix) + entry.name + std::string(suffix);
+  });
+}
+
+}  // namespace
+
+Case read_case(const std::string& path) {
+  TableReader file = TableReader::open(path);
+  Case antenna;
+  antenna.path = path;
+  antenna.title = file.text("title");
+  antenna.axis = file.choice("axis", {"elevation", "azimuth"});
+  read_antenna(file, antenna);
+  read_gear_train(file, antenna);
+  read_motor(file, antenna);
+  read_oil(file, antenna);
+  read_tests(file, antenna);
+  read_drive(file, antenna);
+  read_structure(file, antenna);
+  read_sensors(file, antenna);
+  read_wind(file, antenna);
+  read_pointing(file, antenna);
+  read_goals(file, antenna);
+  read_stated(file, antenna);
+  antenna.quantities = file.quantities_read();
+  file.finish();
+  return antenna;
+}
+
+std::optional<Kind> stated_kind(const std::string& id, const Case& antenna) {
+  static const std::set<std::string> inertias{"load_inertia", "load_inertia.antenna",
+                                              "reflected_inertia", "reflected_inertia.one_train",
+                                              "resonance.reflected_inertia", "motor_inertia"};
+  static const std::set<std::string> numbers{"motor_to_load_ratio",
+                                             "resonance.motor_to_load_ratio", "gear_ratio"};
+  if (inertias.count(id) != 0) return Kind::inertia;
+  if (numbers.count(id) != 0) return Kind::number;
+  if (id == "oil_stiffness") return Kind::stiffness;
+  if (id == "bulk_modulus") return Kind::pressure;
+  if (id == "resonance.frequency") return Kind::frequency;
+  if (id == "tachometer.scale") return Kind::tachometer_scale;
+  if (id == "friction.slow_ramp.coulomb" || id == "friction.slow_ramp.offset") return Kind::torque;
+  if (starts_with(id, "load_inertia.") &&
+      names_one_of(id, "load_inertia.", "", antenna.gear_train.assemblies)) {
+    return Kind::inertia;
+  }
+  if (names_one_of(id, "line.", ".bulk_modulus", antenna.oil.lines)) return Kind::pressure;
+  if (names_one_of(id, "line.", ".slosh_frequency", antenna.oil.lines)) return Kind::frequency;
+  if (names_one_of(id, "line.", ".length", antenna.oil.lines)) return Kind::length;
+  if (names_one_of(id, "band.", ".frequency", antenna.bands)) return Kind::frequency;
+  if (names_one_of(id, "impulse.", ".reflected_inertia", antenna.impulse_results)) {
+    return Kind::inertia;
+  }
+  if (names_one_of(id, "impulse.", ".motor_to_load_ratio", antenna.impulse_results)) {
+    return Kind::number;
+  }
+  return std::nullopt;
+}
+
+}  // namespace boresight::app

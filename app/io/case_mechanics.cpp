@@ -1,0 +1,170 @@
+#include <cmath>
+#include <set>
+
+#include <boresight/app/io/case_sections.hpp>
+
+namespace boresight::app {
+namespace {
+
+AssemblyPart read_part(TableReader& entry) {
+  AssemblyPart part;
+  part.name = entry.text("name");
+  part.description = entry.optional_text("description").value_or("");
+  part.radius = entry.optional_quantity("radius", Kind::length, Range::positive(100.0));
+  part.length = entry.optional_quantity("length", Kind::length, Range::positive(100.0));
+  part.inertia = entry.optional_quantity("inertia", Kind::inertia, Range::positive());
+  if (part.radius.has_value() != part.length.has_value()) {
+    entry.refuse(part.radius ? "length" : "radius",
+                 "expected radius and length together, found one of them");
+  }
+  if (!part.radius && !part.inertia) {
+    entry.refuse("inertia", "expected an inertia, or radius and length of a disk, found neither");
+  }
+  entry.finish();
+  return part;
+}
+
+RotatingAssembly read_assembly(TableReader& entry, long stages) {
+  RotatingAssembly assembly;
+  assembly.name = entry.text("name");
+  assembly.description = entry.optional_text("description").value_or("");
+  assembly.count = entry.integer("count", 1, 1000);
+  assembly.stages = static_cast<std::size_t>(entry.integer("stages", 0, stages));
+  assembly.inertia = entry.optional_quantity("inertia", Kind::inertia, Range::positive());
+  for (auto& part : entry.tables("part")) assembly.parts.push_back(read_part(part));
+  if (!assembly.inertia && assembly.parts.empty()) {
+    entry.refuse("inertia", "expected an inertia or parts to sum, found neither");
+  }
+  entry.finish();
+  return assembly;
+}
+
+}  // namespace
+
+void read_antenna(TableReader& file, Case& antenna) {
+  TableReader table = file.table("antenna");
+  antenna.antenna.dish_diameter =
+      table.quantity("dish_diameter", Kind::length, Range::between(0.5, 1000.0));
+  antenna.antenna.inertia = table.quantity("inertia", Kind::inertia, Range::positive());
+  for (auto& entry : table.tables("alternative")) {
+    AntennaAlternative alternative;
+    alternative.name = entry.text("name");
+    alternative.inertia = entry.optional_quantity("inertia", Kind::inertia, Range::positive());
+    alternative.reflected_inertia =
+        entry.optional_quantity("reflected_inertia", Kind::inertia, Range::positive());
+    if (alternative.inertia.has_value() == alternative.reflected_inertia.has_value()) {
+      entry.refuse("inertia",
+                   "expected either inertia or reflected_inertia, found both or neither");
+    }
+    entry.finish();
+    antenna.antenna.alternatives.push_back(std::move(alternative));
+  }
+  table.finish();
+}
+
+void read_gear_train(TableReader& file, Case& antenna) {
+  TableReader table = file.table("gear_train");
+  GearTrainEntry& train = antenna.gear_train;
+  train.density = table.optional_quantity("density", Kind::density, Range::between(100.0, 25000.0));
+  for (auto& entry : table.tables("stage", true)) {
+    GearStageEntry stage;
+    stage.driven_teeth = entry.quantity("driven_teeth", Kind::number, Range::positive(1e6));
+    stage.driving_teeth = entry.quantity("driving_teeth", Kind::number, Range::positive(1e6));
+    entry.finish();
+    train.stages.push_back(std::move(stage));
+  }
+  std::set<std::string> names;
+  for (auto& entry : table.tables("assembly")) {
+    train.assemblies.push_back(read_assembly(entry, static_cast<long>(train.stages.size())));
+    const RotatingAssembly& assembly = train.assemblies.back();
+    if (!names.insert(assembly.name).second) {
+      entry.refuse("name", "expected a name of its own, found '" + assembly.name + "' again");
+    }
+    for (const auto& part : assembly.parts) {
+      if (part.radius && !train.density) {
+        table.refuse("density", "expected a density for the disks' dimensions, found none");
+      }
+    }
+  }
+  table.finish();
+}
+
+void read_motor(TableReader& file, Case& antenna) {
+  TableReader table = file.table("motor");
+  MotorEntry& motor = antenna.motor;
+  motor.count = table.integer("count", 1, 1000);
+  motor.flywheel_disks = static_cast<double>(table.integer("flywheel_disks", 0, 10000));
+  motor.inertia = table.quantity("inertia", Kind::inertia, Range::positive());
+  motor.rotor_inertia = table.quantity("rotor_inertia", Kind::inertia, Range::positive());
+  motor.disk_inertia = table.quantity("disk_inertia", Kind::inertia, Range::positive());
+  motor.displacement = table.quantity("displacement", Kind::displacement, Range::positive(1.0));
+  motor.torque_efficiency =
+      table.quantity("torque_efficiency", Kind::number, Range::positive(1.0));
+  motor.volumetric_efficiency =
+      table.quantity("volumetric_efficiency", Kind::number, Range::positive(1.0));
+  const double built =
+      motor.rotor_inertia.value + motor.flywheel_disks * motor.disk_inertia.value;
+  if (std::abs(built - motor.inertia.value) > 0.05 * motor.inertia.value) {
+    table.refuse("disk_inertia",
+                 "expected rotor_inertia + flywheel_disks x disk_inertia within 5 % of inertia (" +
+                     std::to_string(motor.inertia.value) + " kg.m2), found " +
+                     std::to_string(built) + " kg.m2");
+  }
+  table.finish();
+}
+
+void read_structure(TableReader& file, Case& antenna) {
+  TableReader table = file.table("structure");
+  StructureEntry& structure = antenna.structure;
+  const Range damping = Range::between(0.0, 1.0);
+  const Range share = Range::between(0.0, 1.0);
+  structure.locked_rotor_frequency =
+      table.quantity("locked_rotor_frequency", Kind::frequency, Range::positive(1000.0));
+  structure.gear_damping_ratio = table.quantity("gear_damping_ratio", Kind::number, damping);
+  structure.bull_gear_wind_fraction =
+      table.quantity("bull_gear_wind_fraction", Kind::number, share);
+  structure.bull_gear_beam_weight =
+      table.quantity("bull_gear_beam_weight", Kind::number, Range::between(-10.0, 10.0));
+  structure.lowest_predicted =
+      table.optional_quantity("lowest_predicted", Kind::frequency, Range::positive(1000.0));
+  if (structure.lowest_predicted) {
+    structure.lowest_predicted_axis =
+        table.choice("lowest_predicted_axis", {"elevation", "azimuth"});
+  }
+  double fraction = 0.0;
+  double wind = structure.bull_gear_wind_fraction.value;
+  double beam = structure.bull_gear_beam_weight.value;
+  for (auto& entry : table.tables("mode")) {
+    StructureModeEntry mode;
+    mode.frequency = entry.quantity("frequency", Kind::frequency, Range::positive(1000.0));
+    mode.damping_ratio = entry.quantity("damping_ratio", Kind::number, damping);
+    mode.inertia_fraction = entry.quantity("inertia_fraction", Kind::number, Range::positive(1.0));
+    mode.wind_fraction = entry.quantity("wind_fraction", Kind::number, Range::between(-1.0, 1.0));
+    mode.beam_weight = entry.quantity("beam_weight", Kind::number, Range::between(-10.0, 10.0));
+    if (mode.frequency.value <= structure.locked_rotor_frequency.value) {
+      entry.refuse("frequency",
+                   "expected a frequency above locked_rotor_frequency (the gear spring can only "
+                   "lower it), found '" + mode.frequency.text + "'");
+    }
+    entry.finish();
+    fraction += mode.inertia_fraction.value;
+    wind += mode.wind_fraction.value;
+    beam += mode.beam_weight.value;
+    structure.modes.push_back(std::move(mode));
+  }
+  if (fraction >= 1.0) {
+    table.refuse("mode", "expected inertia_fraction to sum to less than 1 (the rest sits at the "
+                         "bull gear), found " + std::to_string(fraction));
+  }
+  if (std::abs(wind - 1.0) > 1e-6) {
+    table.refuse("mode", "expected wind fractions (bull gear and modes) to sum to 1, found " +
+                             std::to_string(wind));
+  }
+  if (std::abs(beam - 1.0) > 1e-6) {
+    table.refuse("mode", "expected beam weights (bull gear and modes) to sum to 1, found " +
+                             std::to_string(beam));
+  }
+  table.finish();
+}
+
+}  // namespace boresight::app

@@ -1,0 +1,23 @@
+#pragma once
+
+#include <boresight/app/io/case_file.hpp>
+#include <boresight/app/io/table_reader.hpp>
+
+namespace boresight::app {
+
+/// One function a part of the case file: reads its tables into the case and refuses what does not
+/// belong there. Each @throws InvalidInput as TableReader does.
+void read_antenna(TableReader& file, Case& antenna);
+void read_gear_train(TableReader& file, Case& antenna);
+void read_motor(TableReader& file, Case& antenna);
+void read_oil(TableReader& file, Case& antenna);
+/// Resonance, tachometer, friction tests, impulse results: what the test campaign gave.
+void read_tests(TableReader& file, Case& antenna);
+void read_drive(TableReader& file, Case& antenna);
+void read_structure(TableReader& file, Case& antenna);
+void read_sensors(TableReader& file, Case& antenna);
+void read_wind(TableReader& file, Case& antenna);
+void read_pointing(TableReader& file, Case& antenna);
+void read_goals(TableReader& file, Case& antenna);
+
+}  // namespace boresight::app

@@ -15,13 +15,18 @@ namespace boresight::app {
 ///
 /// Every error is an InvalidInput with one message of the form
 ///   FILE:LINE:COLUMN: KEY: expected WHAT, found WHAT (REMEDY)
-/// where KEY is the full path ("oil.line[1].length").
+/// where KEY is the full path ("oil.line[1].length") and the column that of the offending token,
+/// within a quantity's text too. A missing key stands at its table's header; a syntax error has no
+/// KEY.
 ///
 /// A quantity is a text with unit ("0.97 Hz"), or a table with `value` and optionally
-/// `uncertainty` (same kind, or relative as "1 %"), `also` (text or list of texts: the number
-/// printed again in other units), `basis` ("measured", "published", "inferred", "assumed"),
+/// `uncertainty` (same kind, or relative to |value| as "1 %"), `also` (text or list of texts: the
+/// number printed again in other units), `basis` ("measured", "published", "inferred", "assumed"),
 /// `source`, `uncertainty_source`. A bare TOML number is refused ("has no unit") except for
 /// Kind::number.
+///
+/// An uncertainty in "%" is always relative, of Kind::number too: value = "5 %" with uncertainty =
+/// "1 %" means 0.05 with 0.0005. An absolute one of a plain number is written without unit, "0.01".
 class TableReader {
  public:
   /// Parses a file. @throws InvalidInput if it cannot be read or is not TOML (line, column).
@@ -33,12 +38,14 @@ class TableReader {
   TableReader& operator=(TableReader&&) noexcept;
   ~TableReader();
 
+  /// Whether the table holds the key; does not count as reading it.
   bool has(std::string_view key) const;
   /// Location of a key's value, or of this table if the key is absent.
   Location location(std::string_view key = {}) const;
-  /// Full path of a key in this table.
+  /// Full path of a key in this table ("" for the file's own table).
   std::string path(std::string_view key = {}) const;
 
+  /// The value must lie in `range`, which a message states with its unit.
   Quantity quantity(std::string_view key, Kind kind, Range range = {});
   std::optional<Quantity> optional_quantity(std::string_view key, Kind kind, Range range = {});
   std::string text(std::string_view key);

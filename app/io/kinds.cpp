@@ -112,7 +112,7 @@ std::string in_base_units(const Dimension& dimension) {
     }
   }
   if (above.empty()) {
-    above = "1";
+    above.push_back('1');
   }
   if (divisors == 0) {
     return above;

@@ -1,0 +1,121 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <boresight/identification/propagation.hpp>
+#include <boresight/plant/gear_train.hpp>
+#include <boresight/plant/hydraulics.hpp>
+
+namespace boresight::identification {
+
+/// A number with its standard uncertainty, SI.
+struct Uncertain {
+  double value = 0.0;
+  double standard_uncertainty = 0.0;
+};
+
+/// Everything the three methods rest on, from drawings, test stand and tests. SI; frequencies Hz.
+struct DriveEvidence {
+  struct Assembly {
+    std::string name;
+    Uncertain inertia;  // one of them, about its own axis
+    double count = 1.0;
+    std::size_t stages = 0;
+  };
+  struct AntennaInertia {
+    std::string name;
+    Uncertain reflected;  // at the motor shaft
+  };
+  struct Line {
+    std::string name;
+    Uncertain length;
+    Uncertain slosh_frequency;
+  };
+  struct Impulse {
+    std::string name;
+    Uncertain reflected_inertia;
+  };
+  std::vector<plant::GearStage> stages;
+  std::vector<Assembly> assemblies;
+  std::vector<AntennaInertia> antenna;  // at least one; the first is the one used
+  double motor_count = 1.0;
+  Uncertain motor_inertia;  // one motor with flywheel
+  Uncertain displacement;   // one motor, m3/rad
+  Uncertain torque_efficiency;
+  Uncertain volumetric_efficiency;
+  Uncertain oil_density;
+  std::vector<Line> lines;
+  std::optional<Uncertain> bulk_modulus;  // else the mean over the lines
+  Uncertain volume_1;
+  Uncertain volume_2;
+  plant::EfficiencyInStiffness efficiency_in_stiffness = plant::EfficiencyInStiffness::both;
+  std::optional<Uncertain> resonance_frequency;
+  std::vector<Impulse> impulse;
+};
+
+/// One method's answer.
+struct InertiaMethod {
+  std::string name;
+  std::string assumes;
+  PropagatedResult reflected_inertia;    // kg m2
+  PropagatedResult motor_to_load_ratio;  // eq. 27: motors against everything else
+  /// What the method leaves for the antenna after motors and gear train (kg m2).
+  PropagatedResult antenna_remainder;
+};
+
+struct InertiaIdentification {
+  double gear_ratio = 1.0;
+  std::vector<PropagatedResult> load_rows;   // each assembly and each antenna inertia, kg m2
+  std::vector<PropagatedResult> line_bulk_modulus;  // Pa, eq. 26
+  PropagatedResult bulk_modulus;             // Pa, as used
+  PropagatedResult oil_stiffness;            // N m/rad, eq. 17
+  /// Rigid hydraulic frequency that mass properties and oil stiffness give (Hz), eq. 18.
+  PropagatedResult expected_frequency;
+  std::vector<InertiaMethod> methods;        // mass properties (each antenna), resonance, impulses
+};
+
+/// Reflected inertia and ratio by mass properties (eqs. 3-6), hydraulic resonance (eqs. 7-26) and
+/// impulse-momentum, each with an interval propagated from all its inputs (propagation.hpp).
+/// @throws InvalidInput for evidence without an antenna inertia, or as the plant's formulas do.
+InertiaIdentification identify_inertia(const DriveEvidence& evidence,
+                                       const PropagationOptions& options = {});
+
+/// One estimate from several methods.
+struct ReconciledInertia {
+  double value = 0.0;
+  double standard_uncertainty = 0.0;
+  double lower = 0.0;  // 95 %
+  double upper = 0.0;
+  /// Standard deviation between the methods beyond their own uncertainties.
+  double between_methods = 0.0;
+  /// Cochran's Q and its degrees of freedom: Q far above them says that the methods contradict one
+  /// another.
+  double heterogeneity = 0.0;
+  int degrees_of_freedom = 0;
+  double motor_to_load_ratio = 0.0;
+  double ratio_lower = 0.0;
+  double ratio_upper = 0.0;  // infinity where the inertia's interval reaches the motors' own
+};
+
+/// Random-effects mean (DerSimonian and Laird, Controlled Clinical Trials 7, 1986): each method's
+/// own variance plus one between-method variance estimated from their scatter. Interval by
+/// Student's t with methods - 1 degrees of freedom. Results of one record count as one method: pass
+/// their mean. `motor_inertia`: all motors.
+/// @throws InvalidInput for fewer than two estimates or an uncertainty that is not positive.
+ReconciledInertia reconcile(const std::vector<Uncertain>& estimates, double motor_inertia);
+
+/// Tachometer scale (rad/s of motor per V): shaft speed (rad/s) at a voltage (V), times the motor's
+/// turns per tachometer turn. Sommerville eq. 32.
+double tachometer_scale(double shaft_speed, double voltage, double motor_turns_per_turn);
+
+/// Coulomb friction and offset torque from the torques that keep the antenna moving up and down:
+/// half their sum and half their difference (down less up). Sommerville section IV.B.
+struct FrictionAndOffset {
+  double coulomb = 0.0;
+  double offset = 0.0;
+};
+FrictionAndOffset friction_and_offset(double torque_up, double torque_down);
+
+}  // namespace boresight::identification

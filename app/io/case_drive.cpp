@@ -75,8 +75,7 @@ void read_tests(TableReader& file, Case& antenna) {
 void read_drive(TableReader& file, Case& antenna) {
   TableReader table = file.table("drive");
   DriveEntry& drive = antenna.drive;
-  drive.leakage_rate =
-      table.quantity("leakage_rate", Kind::rate_constant, Range::positive(1000.0));
+  drive.leakage_rate = table.quantity("leakage_rate", Kind::rate_constant, Range::positive(1000.0));
   drive.viscous_friction =
       table.quantity("viscous_friction", Kind::viscous_friction, Range::not_negative());
   drive.valve_frequency =

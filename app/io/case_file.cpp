@@ -14,8 +14,10 @@ void read_stated(TableReader& file, Case& antenna) {
     stated.quantity = entry.text("quantity");
     const auto kind = stated_kind(stated.quantity, antenna);
     if (!kind) {
-      entry.refuse("quantity", "expected the id of a derived quantity or input (docs/case-file.md "
-                               "lists them), found '" + stated.quantity + "'");
+      entry.refuse("quantity",
+                   "expected the id of a derived quantity or input (docs/case-file.md "
+                   "lists them), found '" +
+                       stated.quantity + "'");
     }
     stated.value = entry.quantity("value", *kind);
     entry.finish();
@@ -66,11 +68,14 @@ Case read_case(const std::string& path) {
 }
 
 std::optional<Kind> stated_kind(const std::string& id, const Case& antenna) {
-  static const std::set<std::string> inertias{"load_inertia", "load_inertia.antenna",
-                                              "reflected_inertia", "reflected_inertia.one_train",
-                                              "resonance.reflected_inertia", "motor_inertia"};
-  static const std::set<std::string> numbers{"motor_to_load_ratio",
-                                             "resonance.motor_to_load_ratio", "gear_ratio"};
+  static const std::set<std::string> inertias{"load_inertia",
+                                              "load_inertia.antenna",
+                                              "reflected_inertia",
+                                              "reflected_inertia.one_train",
+                                              "resonance.reflected_inertia",
+                                              "motor_inertia"};
+  static const std::set<std::string> numbers{"motor_to_load_ratio", "resonance.motor_to_load_ratio",
+                                             "gear_ratio"};
   if (inertias.count(id) != 0) return Kind::inertia;
   if (numbers.count(id) != 0) return Kind::number;
   if (id == "oil_stiffness") return Kind::stiffness;

@@ -98,12 +98,10 @@ void read_motor(TableReader& file, Case& antenna) {
   motor.rotor_inertia = table.quantity("rotor_inertia", Kind::inertia, Range::positive());
   motor.disk_inertia = table.quantity("disk_inertia", Kind::inertia, Range::positive());
   motor.displacement = table.quantity("displacement", Kind::displacement, Range::positive(1.0));
-  motor.torque_efficiency =
-      table.quantity("torque_efficiency", Kind::number, Range::positive(1.0));
+  motor.torque_efficiency = table.quantity("torque_efficiency", Kind::number, Range::positive(1.0));
   motor.volumetric_efficiency =
       table.quantity("volumetric_efficiency", Kind::number, Range::positive(1.0));
-  const double built =
-      motor.rotor_inertia.value + motor.flywheel_disks * motor.disk_inertia.value;
+  const double built = motor.rotor_inertia.value + motor.flywheel_disks * motor.disk_inertia.value;
   if (std::abs(built - motor.inertia.value) > 0.05 * motor.inertia.value) {
     table.refuse("disk_inertia",
                  "expected rotor_inertia + flywheel_disks x disk_inertia within 5 % of inertia (" +
@@ -144,7 +142,8 @@ void read_structure(TableReader& file, Case& antenna) {
     if (mode.frequency.value <= structure.locked_rotor_frequency.value) {
       entry.refuse("frequency",
                    "expected a frequency above locked_rotor_frequency (the gear spring can only "
-                   "lower it), found '" + mode.frequency.text + "'");
+                   "lower it), found '" +
+                       mode.frequency.text + "'");
     }
     entry.finish();
     fraction += mode.inertia_fraction.value;
@@ -153,8 +152,10 @@ void read_structure(TableReader& file, Case& antenna) {
     structure.modes.push_back(std::move(mode));
   }
   if (fraction >= 1.0) {
-    table.refuse("mode", "expected inertia_fraction to sum to less than 1 (the rest sits at the "
-                         "bull gear), found " + std::to_string(fraction));
+    table.refuse("mode",
+                 "expected inertia_fraction to sum to less than 1 (the rest sits at the "
+                 "bull gear), found " +
+                     std::to_string(fraction));
   }
   if (std::abs(wind - 1.0) > 1e-6) {
     table.refuse("mode", "expected wind fractions (bull gear and modes) to sum to 1, found " +

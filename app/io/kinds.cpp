@@ -65,6 +65,7 @@ constexpr std::array kinds{
         Kind::proportional_gain, {.time = -1}, {"proportional gain", "1/s", "1/s, (rad/s)/rad"}},
     KindEntry{
         Kind::bandwidth_frequency, {.time = -1, .angle = 1}, {"bandwidth", "rad/s", "rad/s, Hz"}},
+    KindEntry{Kind::level, {.level = 1}, {"level", "dB", "dB"}},
 };
 
 constexpr bool stand_in_order_of_the_enumeration() {
@@ -73,7 +74,7 @@ constexpr bool stand_in_order_of_the_enumeration() {
       return false;
     }
   }
-  return kinds.back().kind == Kind::bandwidth_frequency;
+  return kinds.back().kind == Kind::level;
 }
 static_assert(stand_in_order_of_the_enumeration());
 
@@ -82,8 +83,8 @@ const KindEntry& entry(Kind kind) {
 }
 
 Dimension ratio(const Dimension& a, const Dimension& b) {
-  return {a.length - b.length, a.mass - b.mass, a.time - b.time, a.angle - b.angle,
-          a.current - b.current};
+  return {a.length - b.length, a.mass - b.mass,       a.time - b.time,
+          a.angle - b.angle,   a.current - b.current, a.level - b.level};
 }
 
 void append_factor(std::string& product, std::string_view name, int exponent) {
@@ -103,7 +104,7 @@ std::string in_base_units(const Dimension& dimension) {
   for (const auto& [name, exponent] :
        {std::pair{"kg", dimension.mass}, std::pair{"m", dimension.length},
         std::pair{"rad", dimension.angle}, std::pair{"s", dimension.time},
-        std::pair{"A", dimension.current}}) {
+        std::pair{"A", dimension.current}, std::pair{"dB", dimension.level}}) {
     if (exponent > 0) {
       append_factor(above, name, exponent);
     } else if (exponent < 0) {

@@ -24,6 +24,8 @@ namespace {
 struct Document {
   std::string name;
   TomlNode root;
+  /// Of all tables: the reader's record, not the file's content.
+  mutable std::vector<Quantity> quantities;
 };
 
 bool is_bare_key(std::string_view key) {
@@ -95,6 +97,11 @@ struct TableReader::Content {
     return nested(found.node, found.path);
   }
 
+  Quantity record(Quantity quantity) const {
+    document->quantities.push_back(quantity);
+    return quantity;
+  }
+
   Quantity quantity(const Field& found, Kind kind, const Range& range) const {
     if (found.node.type == TomlType::table) {
       return quantity_table(found, kind, range);
@@ -161,7 +168,8 @@ TableReader TableReader::open(const std::string& path) {
 }
 
 TableReader TableReader::parse(std::string_view text, const std::string& name) {
-  const auto document = std::make_shared<const Document>(Document{name, parse_toml(text, name)});
+  const auto document =
+      std::make_shared<const Document>(Document{name, parse_toml(text, name), {}});
   return TableReader(std::unique_ptr<Content>(new Content{document, document->root, "", {}}));
 }
 
@@ -179,13 +187,19 @@ std::string TableReader::path(std::string_view key) const {
 }
 
 Quantity TableReader::quantity(std::string_view key, Kind kind, Range range) {
-  return content_->quantity(content_->require(key, expectation(kind)), kind, range);
+  return content_->record(
+      content_->quantity(content_->require(key, expectation(kind)), kind, range));
 }
 
 std::optional<Quantity> TableReader::optional_quantity(std::string_view key, Kind kind,
                                                        Range range) {
   const std::optional<Field> found = content_->ask(key);
-  return found ? std::optional(content_->quantity(*found, kind, range)) : std::nullopt;
+  return found ? std::optional(content_->record(content_->quantity(*found, kind, range)))
+               : std::nullopt;
+}
+
+const std::vector<Quantity>& TableReader::quantities_read() const {
+  return content_->document->quantities;
 }
 
 std::string TableReader::text(std::string_view key) {

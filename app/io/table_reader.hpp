@@ -63,6 +63,9 @@ class TableReader {
   /// An array of tables; absent counts as empty unless `required`.
   std::vector<TableReader> tables(std::string_view key, bool required = false);
 
+  /// Every quantity read so far from the whole file, in the order of reading.
+  const std::vector<Quantity>& quantities_read() const;
+
   /// Refuses every key of this table that was not read. @throws InvalidInput
   void finish() const;
   /// Ends in an InvalidInput at the key's place: "expected ..., found ..." is the caller's text.

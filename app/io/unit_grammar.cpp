@@ -48,8 +48,8 @@ std::string_view trimmed(std::string_view text) {
 }
 
 Dimension combine(const Dimension& a, const Dimension& b, int power) {
-  return {a.length + power * b.length, a.mass + power * b.mass, a.time + power * b.time,
-          a.angle + power * b.angle, a.current + power * b.current};
+  return {a.length + power * b.length, a.mass + power * b.mass,       a.time + power * b.time,
+          a.angle + power * b.angle,   a.current + power * b.current, a.level + power * b.level};
 }
 
 ExactUnit times_power(ExactUnit left, const ExactUnit& right, int power) {
@@ -65,7 +65,7 @@ ExactUnit times_power(ExactUnit left, const ExactUnit& right, int power) {
 
 bool is_sound(const ExactUnit& unit) {
   const Dimension& d = unit.dimension;
-  for (const int exponent : {d.length, d.mass, d.time, d.angle, d.current}) {
+  for (const int exponent : {d.length, d.mass, d.time, d.angle, d.current, d.level}) {
     if (exponent < -largest_dimension || exponent > largest_dimension) {
       return false;
     }

@@ -23,6 +23,7 @@ constexpr Dimension pressure{.length = -1, .mass = 1, .time = -2};
 constexpr Dimension power{.length = 2, .mass = 1, .time = -3};
 constexpr Dimension voltage{.length = 2, .mass = 1, .time = -3, .current = -1};
 constexpr Dimension current{.current = 1};
+constexpr Dimension level{.level = 1};
 
 // Exact by definition: international yard and pound (1959), standard gravity (CGPM 1901).
 constexpr long double inch = 0.0254L;
@@ -100,6 +101,7 @@ constexpr std::array unit_list{
     NamedUnit{"mV", {1e-3L, voltage}},
     NamedUnit{"A", {1.0L, current}},
     NamedUnit{"mA", {1e-3L, current}},
+    NamedUnit{"dB", {1.0L, level}},
 };
 
 struct RefusedName {

@@ -15,6 +15,7 @@ struct Dimension {
   int time = 0;
   int angle = 0;
   int current = 0;
+  int level = 0;  // decibel: a logarithm is neither number nor angle
   bool operator==(const Dimension&) const = default;
 };
 
@@ -78,6 +79,7 @@ enum class Kind {
   tachometer_scale,      // rad/(s V): "600/157 rpm/V" is written as its value, e.g. "3.82166 rpm/V"
   proportional_gain,     // 1/s of a position loop: rad/s per rad; also "1/s"
   bandwidth_frequency,   // rad/s of a compensator corner: takes rad/s and Hz alike
+  level,                 // dB: a loss or gain
 };
 
 /// The name a message uses ("inertia"), the unit of the values ("kg.m2"; "Hz" for a frequency),

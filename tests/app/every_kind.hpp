@@ -8,7 +8,7 @@ namespace boresight::app {
 
 inline std::vector<Kind> every_kind() {
   std::vector<Kind> kinds;
-  for (int i = 0; i <= static_cast<int>(Kind::bandwidth_frequency); ++i) {
+  for (int i = 0; i <= static_cast<int>(Kind::level); ++i) {
     kinds.push_back(static_cast<Kind>(i));
   }
   return kinds;

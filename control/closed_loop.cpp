@@ -49,14 +49,10 @@ plant::StateSpace without_free_angle(const plant::AntennaPlant& antenna) {
   for (Eigen::Index i = 0; i < n; ++i) {
     if (i != bull) kept.push_back(i);
   }
-  plant::StateSpace rate{a(kept, kept),
-                         b(kept, Eigen::all),
-                         c(kept),
-                         Eigen::MatrixXd::Zero(1, 2),
-                         system.inputs,
-                         {"tachometer"},
-                         {}};
-  for (const Eigen::Index i : kept) rate.states.push_back(system.states[static_cast<std::size_t>(i)]);
+  plant::StateSpace rate{a(kept, kept), b(kept, Eigen::all), c(kept), Eigen::MatrixXd::Zero(1, 2),
+                         system.inputs, {"tachometer"},      {}};
+  for (const Eigen::Index i : kept)
+    rate.states.push_back(system.states[static_cast<std::size_t>(i)]);
   return rate;
 }
 
@@ -86,13 +82,12 @@ plant::StateSpace closed_loop(const plant::AntennaPlant& antenna, const ControlL
                               double delay) {
   const auto controller = renamed(renamed(to_state_space(law), "tachometer", "measured_rate"),
                                   "encoder", "measured_angle");
-  return plant::connect(
-      {plant::to_state_space(antenna), controller,
-       adder("tachometer", "tachometer_noise", "measured_rate"),
-       adder("encoder", "encoder_noise", "measured_angle"),
-       delay_approximant(delay, delay_order, "valve_demand", "valve_command")},
-      {"wind_torque", "encoder_noise", "tachometer_noise", "rate_disturbance"},
-      {"beam", "encoder", "tachometer", "motor_torque", "valve_demand"});
+  return plant::connect({plant::to_state_space(antenna), controller,
+                         adder("tachometer", "tachometer_noise", "measured_rate"),
+                         adder("encoder", "encoder_noise", "measured_angle"),
+                         delay_approximant(delay, delay_order, "valve_demand", "valve_command")},
+                        {"wind_torque", "encoder_noise", "tachometer_noise", "rate_disturbance"},
+                        {"beam", "encoder", "tachometer", "motor_torque", "valve_demand"});
 }
 
 StabilityVerdict stability(const plant::AntennaPlant& antenna, const ControlLaw& law, double delay,

@@ -1,6 +1,6 @@
-#include <fmt/format.h>
-
 #include <cmath>
+
+#include <fmt/format.h>
 
 #include <boresight/control/control_law.hpp>
 #include <boresight/plant/error.hpp>
@@ -51,8 +51,7 @@ double gain(const ControlLaw& law, Gain kind) {
   for (std::size_t i = 0; i < descriptions.size(); ++i) {
     if (descriptions[i].gain == kind) return law.gains[i];
   }
-  throw InvalidInput(
-      fmt::format("control law: {} has no such gain", to_string(law.structure)));
+  throw InvalidInput(fmt::format("control law: {} has no such gain", to_string(law.structure)));
 }
 
 CompensatorResponse compensator_response(const ControlLaw& law, double angular_frequency) {
@@ -108,8 +107,7 @@ plant::StateSpace to_state_space(const ControlLaw& law) {
       plant::static_gain(sum, {"position_output", "rate_disturbance"}, {"rate_command"});
   Eigen::MatrixXd difference(1, 2);
   difference << 1.0, -1.0;
-  const auto error =
-      plant::static_gain(difference, {"rate_command", "tachometer"}, {"rate_error"});
+  const auto error = plant::static_gain(difference, {"rate_command", "tachometer"}, {"rate_error"});
   const bool lag = law.structure == LoopStructure::pi_with_lag;
   std::vector<plant::StateSpace> parts{
       position, command, error,

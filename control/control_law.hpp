@@ -1,11 +1,11 @@
 #pragma once
 
-#include <Eigen/Core>
-
 #include <array>
 #include <complex>
 #include <string_view>
 #include <vector>
+
+#include <Eigen/Core>
 
 #include <boresight/plant/state_space.hpp>
 

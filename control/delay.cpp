@@ -1,6 +1,6 @@
-#include <fmt/format.h>
-
 #include <cmath>
+
+#include <fmt/format.h>
 
 #include <boresight/control/delay.hpp>
 #include <boresight/plant/error.hpp>

@@ -1,8 +1,8 @@
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+
+#include <fmt/format.h>
 
 #include <boresight/control/loop_evaluator.hpp>
 #include <boresight/plant/error.hpp>
@@ -186,8 +186,8 @@ LoopEvaluation LoopEvaluator::evaluate(const ControlLaw& law, bool with_gradient
     result.wind_variance += wind_weight * std::norm(wind);
     result.noise_variance +=
         encoder_weight * std::norm(encoder) + tachometer_weight * std::norm(act);
-    result.effort_variance += encoder_weight * std::norm(effort_position) +
-                              tachometer_weight * std::norm(effort_rate);
+    result.effort_variance +=
+        encoder_weight * std::norm(effort_position) + tachometer_weight * std::norm(effort_rate);
     if (!with_gradients) continue;
     for (std::size_t k = 0; k < gains; ++k) {
       const Complex by_rate = point.compensator.rate_by_gain[k];
@@ -216,25 +216,23 @@ LoopEvaluation LoopEvaluator::evaluate(const ControlLaw& law, bool with_gradient
 
 SensitivityPeak LoopEvaluator::peak_at(const ControlLaw& law, LoopBreak loop_break,
                                        double frequency) const {
-  const auto response =
-      plant::plant_response(plant_, Eigen::ArrayXd::Constant(1, frequency));
+  const auto response = plant::plant_response(plant_, Eigen::ArrayXd::Constant(1, frequency));
   const LoopPoint point = loop_point(response, 0, law, std::polar(1.0, -frequency * delay_));
   const Complex rate_return = 1.0 + point.rate_loop;
   const Complex both_return = rate_return + point.position_part;
   SensitivityPeak peak;
   peak.frequency = frequency;
   const bool alone = loop_break == LoopBreak::rate_loop_alone;
-  peak.magnitude = alone ? 1.0 / std::abs(rate_return)
-                   : loop_break == LoopBreak::valve_command
-                       ? 1.0 / std::abs(both_return)
-                       : std::abs(rate_return / both_return);
+  peak.magnitude = alone                                    ? 1.0 / std::abs(rate_return)
+                   : loop_break == LoopBreak::valve_command ? 1.0 / std::abs(both_return)
+                                                            : std::abs(rate_return / both_return);
   for (std::size_t k = 0; k < law.gains.size(); ++k) {
     const LoopDerivative change = derivative(point, k);
     const double of_rate = (change.rate_loop / rate_return).real();
     const double of_both = (change.both / both_return).real();
-    peak.log_gradient[k] = alone                                       ? -of_rate
+    peak.log_gradient[k] = alone                                    ? -of_rate
                            : loop_break == LoopBreak::valve_command ? -of_both
-                                                                       : of_rate - of_both;
+                                                                    : of_rate - of_both;
   }
   return peak;
 }
@@ -244,19 +242,18 @@ std::vector<SensitivityPeak> LoopEvaluator::find_peaks(const ControlLaw& law, Lo
   constexpr std::size_t kept = 3;
   std::vector<Eigen::Index> maxima;
   for (Eigen::Index i = 1; i + 1 < square.size(); ++i) {
-    if (square[i] > 1.0 && square[i] >= square[i - 1] &&
-        square[i] > square[i + 1]) {
+    if (square[i] > 1.0 && square[i] >= square[i - 1] && square[i] > square[i + 1]) {
       maxima.push_back(i);
     }
   }
   const std::size_t count = std::min(kept, maxima.size());
   std::partial_sort(maxima.begin(), maxima.begin() + static_cast<std::ptrdiff_t>(count),
-                    maxima.end(), [&](Eigen::Index x, Eigen::Index y) {
-                      return square[x] > square[y];
-                    });
+                    maxima.end(),
+                    [&](Eigen::Index x, Eigen::Index y) { return square[x] > square[y]; });
   std::vector<SensitivityPeak> peaks;
   for (std::size_t m = 0; m < count; ++m) {
-    // Vertex of the parabola through three points in (ln w, ln |S|^2), then the exact response there.
+    // Vertex of the parabola through three points in (ln w, ln |S|^2), then the exact response
+    // there.
     const Eigen::Index i = maxima[m];
     const double left = std::log(response_.frequency[i - 1] / response_.frequency[i]);
     const double right = std::log(response_.frequency[i + 1] / response_.frequency[i]);
@@ -264,8 +261,7 @@ std::vector<SensitivityPeak> LoopEvaluator::find_peaks(const ControlLaw& law, Lo
     const double down_right = std::log(square[i + 1] / square[i]);
     const double curvature = (down_right / right - down_left / left) / (right - left);
     const double slope = down_left / left - curvature * left;
-    const double shift =
-        curvature < 0.0 ? std::clamp(-0.5 * slope / curvature, left, right) : 0.0;
+    const double shift = curvature < 0.0 ? std::clamp(-0.5 * slope / curvature, left, right) : 0.0;
     peaks.push_back(peak_at(law, loop_break, response_.frequency[i] * std::exp(shift)));
   }
   std::sort(peaks.begin(), peaks.end(), [](const SensitivityPeak& x, const SensitivityPeak& y) {

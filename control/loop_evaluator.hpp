@@ -1,9 +1,9 @@
 #pragma once
 
-#include <Eigen/Core>
-
 #include <array>
 #include <vector>
+
+#include <Eigen/Core>
 
 #include <boresight/control/control_law.hpp>
 #include <boresight/plant/plant_response.hpp>

@@ -1,5 +1,5 @@
-#include <fmt/format.h>
 #include <Eigen/Eigenvalues>
+#include <fmt/format.h>
 
 #include <boresight/control/lyapunov.hpp>
 #include <boresight/plant/error.hpp>
@@ -9,9 +9,9 @@ namespace boresight::control {
 LyapunovSolution solve_lyapunov(const Eigen::MatrixXd& a, const Eigen::MatrixXd& q) {
   const Eigen::Index n = a.rows();
   if (n == 0 || a.cols() != n || q.rows() != n || q.cols() != n) {
-    throw InvalidInput(
-        fmt::format("solve_lyapunov: expected square A and Q of one size, found {} x {} and {} x {}",
-                    a.rows(), a.cols(), q.rows(), q.cols()));
+    throw InvalidInput(fmt::format(
+        "solve_lyapunov: expected square A and Q of one size, found {} x {} and {} x {}", a.rows(),
+        a.cols(), q.rows(), q.cols()));
   }
   if (!a.allFinite() || !q.allFinite()) {
     throw InvalidInput("solve_lyapunov: A or Q has elements that are not finite");

@@ -1,10 +1,10 @@
 #pragma once
 
-#include <Eigen/Core>
-
 #include <complex>
 #include <functional>
 #include <vector>
+
+#include <Eigen/Core>
 
 namespace boresight::control {
 
@@ -31,8 +31,8 @@ struct Margins {
   double delay_margin = 0.0;
 };
 
-/// `loop_gain`: L(j w), w in rad/s, with S = 1/(1 + L). `frequency`: rising grid (rad/s) fine enough
-/// to separate neighbouring crossings; each crossing is bisected to 1e-12 in ln w.
+/// `loop_gain`: L(j w), w in rad/s, with S = 1/(1 + L). `frequency`: rising grid (rad/s) fine
+/// enough to separate neighbouring crossings; each crossing is bisected to 1e-12 in ln w.
 Margins margins(const std::function<std::complex<double>(double)>& loop_gain,
                 const Eigen::ArrayXd& frequency);
 

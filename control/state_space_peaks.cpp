@@ -87,8 +87,7 @@ std::array<SensitivityPeak, 3> state_space_peaks(const plant::AntennaPlant& ante
     peaks[b].magnitude = 1.0;
     for (std::size_t i = 1; i + 1 < grid.size(); ++i) {
       const double here = values[i][b];
-      if (here < values[i - 1][b] || here <= values[i + 1][b] ||
-          here < 0.98 * peaks[b].magnitude) {
+      if (here < values[i - 1][b] || here <= values[i + 1][b] || here < 0.98 * peaks[b].magnitude) {
         continue;
       }
       const double at = golden_section_maximum([&](double x) { return sensitivity(x)[b]; },

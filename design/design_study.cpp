@@ -88,7 +88,8 @@ std::vector<Design> solve_all(const std::vector<DesignTask>& tasks, unsigned thr
   };
   {
     std::vector<std::jthread> workers;
-    const std::size_t count = std::clamp<std::size_t>(threads, 1, std::max<std::size_t>(1, tasks.size()));
+    const std::size_t count =
+        std::clamp<std::size_t>(threads, 1, std::max<std::size_t>(1, tasks.size()));
     for (std::size_t t = 1; t < count; ++t) workers.emplace_back(work);
     work();
   }

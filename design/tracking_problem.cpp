@@ -28,8 +28,8 @@ plant::ShapingFilter fit_wind_filter(const WindCondition& wind, double gear_rati
   constexpr Eigen::Index points = 200;
   const Eigen::ArrayXd frequency =
       Eigen::ArrayXd::LinSpaced(points, std::log(5e-4), std::log(5.0)).exp();
-  return plant::fit_shaping_filter(
-      frequency, motor_wind_spectrum(wind, gear_ratio, two_pi * frequency), 4);
+  return plant::fit_shaping_filter(frequency,
+                                   motor_wind_spectrum(wind, gear_ratio, two_pi * frequency), 4);
 }
 
 double beam_rms_at_speed(const TrackingProblem& problem, const control::LoopEvaluator& evaluator,
@@ -45,8 +45,7 @@ double beam_rms_at_speed(const TrackingProblem& problem, const control::LoopEval
 }
 
 double wind_speed_limit(const TrackingProblem& problem, const control::LoopEvaluator& evaluator,
-                        const control::ControlLaw& law, double noise_variance,
-                        double rms_budget) {
+                        const control::ControlLaw& law, double noise_variance, double rms_budget) {
   const Eigen::ArrayXd transmission = evaluator.wind_transmission(law);
   const auto rms = [&](double speed) {
     return beam_rms_at_speed(problem, evaluator, transmission, noise_variance, speed);

@@ -1,6 +1,3 @@
-#include <fmt/format.h>
-#include <nlopt.hpp>
-
 #include <algorithm>
 #include <cmath>
 #include <exception>
@@ -8,6 +5,9 @@
 #include <numbers>
 #include <optional>
 #include <random>
+
+#include <fmt/format.h>
+#include <nlopt.hpp>
 
 #include <boresight/control/closed_loop.hpp>
 #include <boresight/design/tuner.hpp>
@@ -148,9 +148,8 @@ class Search {
       const double variance = evaluation.beam_variance();
       value = 0.5 * std::log(variance);
       for (std::size_t k = 0; k < gradient.size(); ++k) {
-        gradient[k] = 0.5 *
-                      (evaluation.wind_log_gradient[k] + evaluation.noise_log_gradient[k]) /
-                      variance;
+        gradient[k] =
+            0.5 * (evaluation.wind_log_gradient[k] + evaluation.noise_log_gradient[k]) / variance;
       }
       if (!evaluation.stable()) value += unstable_penalty;
     });
@@ -218,8 +217,7 @@ std::vector<Candidate> distinct(const std::vector<Candidate>& sorted,
   std::vector<Candidate> chosen;
   for (const auto& candidate : sorted) {
     const bool copy = std::any_of(chosen.begin(), chosen.end(), [&](const Candidate& other) {
-      return candidate.evaluation.beam_variance() <
-             other.evaluation.beam_variance() * (1.0 + 1e-4);
+      return candidate.evaluation.beam_variance() < other.evaluation.beam_variance() * (1.0 + 1e-4);
     });
     if (!copy && chosen.size() < count) chosen.push_back(candidate);
   }
@@ -255,8 +253,8 @@ double worst_goal_ratio(const control::LoopEvaluation& evaluation, const HardGoa
   if (!evaluation.stable()) return std::numeric_limits<double>::infinity();
   double worst = std::sqrt(evaluation.effort_variance) / goals.valve_effort;
   for (std::size_t b = 0; b < control::loop_breaks.size(); ++b) {
-    worst = std::max(worst, evaluation.highest_peak(control::loop_breaks[b]) /
-                                goals.sensitivity_peak[b]);
+    worst = std::max(worst,
+                     evaluation.highest_peak(control::loop_breaks[b]) / goals.sensitivity_peak[b]);
   }
   return worst;
 }
@@ -280,9 +278,9 @@ TuningResult tune(const TrackingProblem& problem, control::LoopStructure structu
     if (search.evaluate(point).stable()) anchor = point;
   }
   if (anchor.empty()) {
-    throw InfeasibleRequirement(fmt::format(
-        "tune: no stable control law found for {} in {} evaluations", control::to_string(structure),
-        search.evaluations()));
+    throw InfeasibleRequirement(
+        fmt::format("tune: no stable control law found for {} in {} evaluations",
+                    control::to_string(structure), search.evaluations()));
   }
   std::vector<Candidate> found;
   for (int start = 0; start < options.starts; ++start) {
@@ -309,9 +307,9 @@ TuningResult tune(const TrackingProblem& problem, control::LoopStructure structu
   for (const auto& candidate : from) {
     refine.minimise(logarithms(candidate.law.gains), options.evaluations_per_start);
     auto best = refine.take_best();
-    if (best && control::stability(problem.plant, best->law, problem.delay,
-                                   fine.response().frequency)
-                    .stable()) {
+    if (best &&
+        control::stability(problem.plant, best->law, problem.delay, fine.response().frequency)
+            .stable()) {
       refined.push_back(std::move(*best));
     }
   }

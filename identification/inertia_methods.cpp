@@ -1,8 +1,8 @@
-#include <fmt/format.h>
-
 #include <array>
 #include <cmath>
 #include <limits>
+
+#include <fmt/format.h>
 
 #include <boresight/identification/inertia_methods.hpp>
 #include <boresight/plant/error.hpp>
@@ -95,7 +95,8 @@ InertiaIdentification identify_inertia(const DriveEvidence& evidence,
     const Formula remainder = [inertia, motors, gear_train](Point point) {
       return inertia(point) - motors(point) - gear_train(point);
     };
-    methods.push_back({std::move(name), std::move(assumes), targets.add("reflected inertia", inertia),
+    methods.push_back({std::move(name), std::move(assumes),
+                       targets.add("reflected inertia", inertia),
                        targets.add("motor-to-load ratio", load_to_motor, true),
                        targets.add("left for the antenna", remainder)});
   };
@@ -126,19 +127,17 @@ InertiaIdentification identify_inertia(const DriveEvidence& evidence,
                                    ? inputs.add("bulk modulus", *evidence.bulk_modulus)
                                    : mean_of(line_moduli);
   const std::size_t bulk_target = targets.add("bulk modulus", bulk_modulus);
-  const Formula stiffness = [&, displacement = inputs.add("displacement", evidence.displacement),
-                             torque_efficiency =
-                                 inputs.add("torque efficiency", evidence.torque_efficiency),
-                             volumetric_efficiency = inputs.add("volumetric efficiency",
-                                                                evidence.volumetric_efficiency),
-                             volume_1 = inputs.add("volume V1", evidence.volume_1),
-                             volume_2 = inputs.add("volume V2", evidence.volume_2),
-                             bulk_modulus](Point point) {
-    return plant::oil_stiffness({evidence.motor_count, displacement(point),
-                                 torque_efficiency(point), volumetric_efficiency(point),
-                                 bulk_modulus(point), volume_1(point), volume_2(point),
-                                 evidence.efficiency_in_stiffness});
-  };
+  const Formula stiffness =
+      [&, displacement = inputs.add("displacement", evidence.displacement),
+       torque_efficiency = inputs.add("torque efficiency", evidence.torque_efficiency),
+       volumetric_efficiency = inputs.add("volumetric efficiency", evidence.volumetric_efficiency),
+       volume_1 = inputs.add("volume V1", evidence.volume_1),
+       volume_2 = inputs.add("volume V2", evidence.volume_2), bulk_modulus](Point point) {
+        return plant::oil_stiffness({evidence.motor_count, displacement(point),
+                                     torque_efficiency(point), volumetric_efficiency(point),
+                                     bulk_modulus(point), volume_1(point), volume_2(point),
+                                     evidence.efficiency_in_stiffness});
+      };
   const std::size_t stiffness_target = targets.add("oil stiffness", stiffness);
   const std::size_t frequency_target =
       targets.add("expected hydraulic frequency", [stiffness, first_total](Point point) {
@@ -191,9 +190,8 @@ ReconciledInertia reconcile(const std::vector<Uncertain>& estimates, double moto
     result.heterogeneity +=
         std::pow((estimate.value - weighted / weights) / estimate.standard_uncertainty, 2);
   }
-  const double between =
-      std::max(0.0, (result.heterogeneity - result.degrees_of_freedom) /
-                        (weights - squares / weights));
+  const double between = std::max(
+      0.0, (result.heterogeneity - result.degrees_of_freedom) / (weights - squares / weights));
   result.between_methods = std::sqrt(between);
   weights = weighted = 0.0;
   for (const auto& estimate : estimates) {
@@ -204,7 +202,8 @@ ReconciledInertia reconcile(const std::vector<Uncertain>& estimates, double moto
   result.value = weighted / weights;
   result.standard_uncertainty = 1.0 / std::sqrt(weights);
   // Student's t, 97.5 %, for 1 to 10 degrees of freedom; the normal's beyond.
-  constexpr std::array student{12.706, 4.303, 3.182, 2.776, 2.571, 2.447, 2.365, 2.306, 2.262, 2.228};
+  constexpr std::array student{12.706, 4.303, 3.182, 2.776, 2.571,
+                               2.447,  2.365, 2.306, 2.262, 2.228};
   const auto index = static_cast<std::size_t>(result.degrees_of_freedom - 1);
   const double factor = index < student.size() ? student[index] : 1.96;
   result.lower = result.value - factor * result.standard_uncertainty;

@@ -67,13 +67,13 @@ struct InertiaMethod {
 
 struct InertiaIdentification {
   double gear_ratio = 1.0;
-  std::vector<PropagatedResult> load_rows;   // each assembly and each antenna inertia, kg m2
+  std::vector<PropagatedResult> load_rows;          // each assembly and each antenna inertia, kg m2
   std::vector<PropagatedResult> line_bulk_modulus;  // Pa, eq. 26
-  PropagatedResult bulk_modulus;             // Pa, as used
-  PropagatedResult oil_stiffness;            // N m/rad, eq. 17
+  PropagatedResult bulk_modulus;                    // Pa, as used
+  PropagatedResult oil_stiffness;                   // N m/rad, eq. 17
   /// Rigid hydraulic frequency that mass properties and oil stiffness give (Hz), eq. 18.
   PropagatedResult expected_frequency;
-  std::vector<InertiaMethod> methods;        // mass properties (each antenna), resonance, impulses
+  std::vector<InertiaMethod> methods;  // mass properties (each antenna), resonance, impulses
 };
 
 /// Reflected inertia and ratio by mass properties (eqs. 3-6), hydraulic resonance (eqs. 7-26) and

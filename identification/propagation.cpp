@@ -1,10 +1,10 @@
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numbers>
 #include <random>
+
+#include <fmt/format.h>
 
 #include <boresight/identification/propagation.hpp>
 #include <boresight/plant/error.hpp>

@@ -8,7 +8,8 @@
 
 namespace boresight::identification {
 
-/// A positive number that other results rest on, with its standard uncertainty (1 sigma, same unit).
+/// A positive number that other results rest on, with its standard uncertainty (1 sigma, same
+/// unit).
 struct UncertainInput {
   std::string name;
   double value = 0.0;

@@ -1,7 +1,7 @@
-#include <fmt/format.h>
-
 #include <cmath>
 #include <numbers>
+
+#include <fmt/format.h>
 
 #include <boresight/plant/antenna_plant.hpp>
 #include <boresight/plant/error.hpp>
@@ -47,8 +47,8 @@ Structure make_structure(const StructureSpecification& specification) {
   constexpr const char* function = "make_structure";
   const double antenna = specification.antenna_inertia;
   require(antenna > 0.0, function, "a positive antenna inertia", antenna);
-  require(specification.locked_rotor_frequency > 0.0, function,
-          "a positive locked-rotor frequency", specification.locked_rotor_frequency);
+  require(specification.locked_rotor_frequency > 0.0, function, "a positive locked-rotor frequency",
+          specification.locked_rotor_frequency);
   double fraction = 0.0;
   double wind = specification.bull_gear_wind_fraction;
   double beam = specification.bull_gear_beam_weight;
@@ -62,8 +62,7 @@ Structure make_structure(const StructureSpecification& specification) {
             "every mode above the locked-rotor frequency", mode.frequency);
     require(mode.inertia_fraction > 0.0, function, "positive inertia fractions",
             mode.inertia_fraction);
-    require(mode.damping_ratio >= 0.0, function, "modal damping of at least 0",
-            mode.damping_ratio);
+    require(mode.damping_ratio >= 0.0, function, "modal damping of at least 0", mode.damping_ratio);
     const double wi = two_pi * mode.frequency;
     const double inertia = mode.inertia_fraction * antenna;
     structure.modes.push_back({inertia, inertia * wi * wi, 2.0 * mode.damping_ratio * inertia * wi,
@@ -99,7 +98,17 @@ StateSpace to_state_space(const AntennaPlant& plant) {
   const auto modes = static_cast<Eigen::Index>(structure.modes.size());
   const Eigen::Index n = 8 + 2 * modes;
   // The valve's second state is its rate over its corner: both states then have one magnitude.
-  enum : Eigen::Index { valve, valve_rate, torque, motor_rate, motor, bull, bull_rate, tach, first };
+  enum : Eigen::Index {
+    valve,
+    valve_rate,
+    torque,
+    motor_rate,
+    motor,
+    bull,
+    bull_rate,
+    tach,
+    first
+  };
 
   StateSpace system{Eigen::MatrixXd::Zero(n, n),
                     Eigen::MatrixXd::Zero(n, 2),

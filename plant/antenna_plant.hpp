@@ -1,8 +1,8 @@
 #pragma once
 
-#include <Eigen/Core>
-
 #include <vector>
+
+#include <Eigen/Core>
 
 #include <boresight/plant/state_space.hpp>
 
@@ -31,7 +31,7 @@ struct Structure {
 /// How a structure is described by frequencies and inertia shares.
 struct StructureSpecification {
   struct Mode {
-    double frequency = 0.0;         // Hz, with the bull gear locked
+    double frequency = 0.0;  // Hz, with the bull gear locked
     double damping_ratio = 0.01;
     double inertia_fraction = 0.0;  // of the antenna inertia; the rest sits at the bull gear
     double wind_fraction = 0.0;
@@ -59,13 +59,13 @@ double antenna_inertia(const Structure& structure);
 
 /// Oil, motors, valve and tachometer, all motors lumped at the motor shaft.
 struct Drive {
-  double oil_stiffness = 0.0;       // N m/rad
-  double leakage_rate = 0.0;        // 1/s, stiffness/leakage damper
-  double viscous_friction = 0.0;    // N m s/rad
-  double motor_inertia = 0.0;       // kg m2: motors, flywheels, gear train, counter-torque motors
-  double valve_corner = 0.0;        // rad/s
+  double oil_stiffness = 0.0;     // N m/rad
+  double leakage_rate = 0.0;      // 1/s, stiffness/leakage damper
+  double viscous_friction = 0.0;  // N m s/rad
+  double motor_inertia = 0.0;     // kg m2: motors, flywheels, gear train, counter-torque motors
+  double valve_corner = 0.0;      // rad/s
   double valve_damping = 0.7;
-  double tachometer_corner = 0.0;   // rad/s, first-order lag
+  double tachometer_corner = 0.0;  // rad/s, first-order lag
 };
 
 /// The linear antenna at the motor shaft, from physics of the reference antenna:
@@ -91,12 +91,12 @@ StateSpace to_state_space(const AntennaPlant& plant);
 
 /// One mode of the plant.
 struct PlantMode {
-  std::complex<double> pole;      // rad/s, upper half plane
-  double frequency = 0.0;         // |pole|/2 pi, Hz
-  double damping_ratio = 0.0;     // -Re(pole)/|pole|
-  std::string description;        // what moves most: largest participation factor
-  double participation = 0.0;     // of the described part, 0..1
-  double oil_participation = 0.0; // of motors and oil spring, whatever moves most
+  std::complex<double> pole;       // rad/s, upper half plane
+  double frequency = 0.0;          // |pole|/2 pi, Hz
+  double damping_ratio = 0.0;      // -Re(pole)/|pole|
+  std::string description;         // what moves most: largest participation factor
+  double participation = 0.0;      // of the described part, 0..1
+  double oil_participation = 0.0;  // of motors and oil spring, whatever moves most
 };
 
 /// Modes in order of frequency; a part's participation is the sum of |left_k right_k| over its

@@ -1,10 +1,10 @@
-#include <fmt/format.h>
-#include <Eigen/Eigenvalues>
-#include <Eigen/LU>
-
 #include <algorithm>
 #include <numeric>
 #include <vector>
+
+#include <Eigen/Eigenvalues>
+#include <Eigen/LU>
+#include <fmt/format.h>
 
 #include <boresight/plant/eigenvalues.hpp>
 #include <boresight/plant/error.hpp>

@@ -5,7 +5,8 @@
 namespace boresight::plant {
 
 /// Eigenvalues of a real square matrix, sorted by magnitude, then imaginary part.
-/// @throws InvalidInput if it is not square or not finite; NumericalFailure if QR does not converge.
+/// @throws InvalidInput if it is not square or not finite; NumericalFailure if QR does not
+/// converge.
 Eigen::VectorXcd eigenvalues(const Eigen::MatrixXd& matrix);
 
 /// Right and left eigenvectors as columns, left ones scaled to left^H right = identity.

@@ -8,10 +8,9 @@ double friction_torque(const FrictionCurve& curve, double rate) {
   if (rate == 0.0) return 0.0;
   const double w = std::abs(rate);
   const double bump = std::exp(-std::pow(w / curve.stribeck_rate, 2));
-  const double torque = curve.coulomb_torque +
-                        (curve.breakaway_torque - curve.coulomb_torque) * bump -
-                        curve.saturating_torque * std::expm1(-w / curve.saturating_rate) +
-                        curve.viscous_friction * w;
+  const double torque =
+      curve.coulomb_torque + (curve.breakaway_torque - curve.coulomb_torque) * bump -
+      curve.saturating_torque * std::expm1(-w / curve.saturating_rate) + curve.viscous_friction * w;
   return std::copysign(torque, rate);
 }
 

@@ -8,12 +8,12 @@ namespace boresight::plant {
 /// The saturating part is what lets a slow-ramp and a constant-speed test see different Coulomb
 /// levels; a pure Stribeck curve (Th = 0) cannot.
 struct FrictionCurve {
-  double coulomb_torque = 0.0;      // Tc
-  double breakaway_torque = 0.0;    // Ts
-  double stribeck_rate = 1.0;       // ws
-  double saturating_torque = 0.0;   // Th
-  double saturating_rate = 1.0;     // wh
-  double viscous_friction = 0.0;    // Bv, N m s/rad
+  double coulomb_torque = 0.0;     // Tc
+  double breakaway_torque = 0.0;   // Ts
+  double stribeck_rate = 1.0;      // ws
+  double saturating_torque = 0.0;  // Th
+  double saturating_rate = 1.0;    // wh
+  double viscous_friction = 0.0;   // Bv, N m s/rad
 };
 
 /// T(w), odd in the rate; 0 at rest, where friction takes any value up to the breakaway torque.

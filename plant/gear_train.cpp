@@ -1,7 +1,7 @@
-#include <fmt/format.h>
-
 #include <cmath>
 #include <numbers>
+
+#include <fmt/format.h>
 
 #include <boresight/plant/error.hpp>
 #include <boresight/plant/gear_train.hpp>
@@ -29,9 +29,9 @@ double gear_ratio(const std::vector<GearStage>& stages, std::size_t stage_count)
   for (std::size_t i = 0; i < stage_count; ++i) {
     const auto& [driven, driving] = stages[i];
     if (!(driven > 0.0) || !(driving > 0.0)) {
-      throw InvalidInput(fmt::format(
-          "gear_ratio: expected positive tooth counts in stage {}, found {}/{}", i + 1, driven,
-          driving));
+      throw InvalidInput(
+          fmt::format("gear_ratio: expected positive tooth counts in stage {}, found {}/{}", i + 1,
+                      driven, driving));
     }
     ratio *= driven / driving;
   }

@@ -1,7 +1,7 @@
-#include <fmt/format.h>
-
 #include <cmath>
 #include <numbers>
+
+#include <fmt/format.h>
 
 #include <boresight/plant/error.hpp>
 #include <boresight/plant/hydraulics.hpp>

@@ -1,5 +1,5 @@
-#include <fmt/format.h>
 #include <Eigen/LU>
+#include <fmt/format.h>
 
 #include <boresight/plant/error.hpp>
 #include <boresight/plant/linear_solve.hpp>
@@ -9,9 +9,10 @@ namespace boresight::plant {
 Eigen::MatrixXd linear_solve(const Eigen::MatrixXd& matrix, const Eigen::MatrixXd& right_hand_side,
                              const char* what) {
   if (matrix.rows() != matrix.cols() || matrix.rows() != right_hand_side.rows()) {
-    throw InvalidInput(fmt::format("{}: expected a square matrix and as many rows on the right, "
-                                   "found {} x {} and {} rows",
-                                   what, matrix.rows(), matrix.cols(), right_hand_side.rows()));
+    throw InvalidInput(
+        fmt::format("{}: expected a square matrix and as many rows on the right, "
+                    "found {} x {} and {} rows",
+                    what, matrix.rows(), matrix.cols(), right_hand_side.rows()));
   }
   if (matrix.size() == 0) return right_hand_side;
   const Eigen::PartialPivLU<Eigen::MatrixXd> lu(matrix);

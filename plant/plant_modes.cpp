@@ -1,8 +1,8 @@
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+
+#include <fmt/format.h>
 
 #include <boresight/plant/antenna_plant.hpp>
 #include <boresight/plant/eigenvalues.hpp>
@@ -28,9 +28,9 @@ std::vector<Part> parts_of(const AntennaPlant& plant) {
   for (std::size_t i = 0; i < plant.structure.modes.size(); ++i, state += 2) {
     const auto& mode = plant.structure.modes[i];
     const double locked = std::sqrt(mode.stiffness / mode.inertia) / (2.0 * std::numbers::pi);
-    parts.push_back({fmt::format("structure: mode {} ({:.3g} Hz with the bull gear locked)", i + 1,
-                                 locked),
-                     {state, state + 1}});
+    parts.push_back(
+        {fmt::format("structure: mode {} ({:.3g} Hz with the bull gear locked)", i + 1, locked),
+         {state, state + 1}});
   }
   return parts;
 }

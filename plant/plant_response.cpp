@@ -1,8 +1,8 @@
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+
+#include <fmt/format.h>
 
 #include <boresight/plant/eigenvalues.hpp>
 #include <boresight/plant/error.hpp>

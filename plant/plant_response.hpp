@@ -9,12 +9,13 @@ namespace boresight::plant {
 /// What the drive sees of the structure, frequency by frequency: O(modes) each, made once and
 /// shared by every drive in front of it (other flywheels, friction, oil, valve).
 struct StructureResponse {
-  Eigen::ArrayXd frequency;              // rad/s
-  Eigen::ArrayXcd inertial_stiffness;    // b: dynamic stiffness of bull gear and modes, gear spring free
-  Eigen::ArrayXcd gear_stiffness;        // G = Kg + s Cg
-  Eigen::ArrayXcd wind_at_bull_gear;     // torque at the bull gear per wind torque, bull gear held
-  Eigen::ArrayXcd beam_per_bull_gear;    // rad/rad
-  Eigen::ArrayXcd beam_per_wind;         // rad/(N m), bull gear held: bending no encoder sees
+  Eigen::ArrayXd frequency;  // rad/s
+  Eigen::ArrayXcd
+      inertial_stiffness;          // b: dynamic stiffness of bull gear and modes, gear spring free
+  Eigen::ArrayXcd gear_stiffness;  // G = Kg + s Cg
+  Eigen::ArrayXcd wind_at_bull_gear;   // torque at the bull gear per wind torque, bull gear held
+  Eigen::ArrayXcd beam_per_bull_gear;  // rad/rad
+  Eigen::ArrayXcd beam_per_wind;       // rad/(N m), bull gear held: bending no encoder sees
 };
 
 StructureResponse structure_response(const Structure& structure, const Eigen::ArrayXd& frequency);

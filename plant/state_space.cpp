@@ -1,9 +1,9 @@
-#include <fmt/format.h>
-#include <fmt/ranges.h>
-
 #include <algorithm>
 #include <map>
 #include <set>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <boresight/plant/error.hpp>
 #include <boresight/plant/linear_solve.hpp>
@@ -16,8 +16,8 @@ void refuse_duplicates(const char* what, const std::vector<std::string>& names) 
   std::set<std::string> seen;
   for (const auto& name : names) {
     if (!seen.insert(name).second) {
-      throw InvalidInput(fmt::format("state space: expected unique {} names, found '{}' twice",
-                                     what, name));
+      throw InvalidInput(
+          fmt::format("state space: expected unique {} names, found '{}' twice", what, name));
     }
   }
 }
@@ -44,8 +44,13 @@ StateSpace stack(const std::vector<StateSpace>& systems) {
     m += system.b.cols();
     p += system.c.rows();
   }
-  StateSpace all{Eigen::MatrixXd::Zero(n, n), Eigen::MatrixXd::Zero(n, m),
-                 Eigen::MatrixXd::Zero(p, n), Eigen::MatrixXd::Zero(p, m), {}, {}, {}};
+  StateSpace all{Eigen::MatrixXd::Zero(n, n),
+                 Eigen::MatrixXd::Zero(n, m),
+                 Eigen::MatrixXd::Zero(p, n),
+                 Eigen::MatrixXd::Zero(p, m),
+                 {},
+                 {},
+                 {}};
   n = m = p = 0;
   for (const auto& system : systems) {
     const Eigen::Index dn = system.a.rows(), dm = system.b.cols(), dp = system.c.rows();
@@ -113,7 +118,8 @@ StateSpace rational(const std::vector<double>& numerator, const std::vector<doub
                     const std::string& input, const std::string& output, const std::string& name) {
   const auto n = static_cast<Eigen::Index>(denominator.size()) - 1;
   if (n < 0 || denominator.back() == 0.0) {
-    throw InvalidInput(fmt::format("rational '{}': the leading denominator coefficient is 0", name));
+    throw InvalidInput(
+        fmt::format("rational '{}': the leading denominator coefficient is 0", name));
   }
   if (numerator.size() > denominator.size()) {
     throw InvalidInput(

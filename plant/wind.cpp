@@ -1,9 +1,9 @@
-#include <fmt/format.h>
-
 #include <array>
 #include <cmath>
 #include <numbers>
 #include <utility>
+
+#include <fmt/format.h>
 
 #include <boresight/plant/error.hpp>
 #include <boresight/plant/wind.hpp>
@@ -124,7 +124,8 @@ double wind_torque_spectrum(const WindSite& site, WindModel model, double mean_s
       const double radius = 0.5 * site.dish_diameter;
       const auto [uniform, gradient] =
           coherence_averages(site.coherence_decay * frequency * radius / mean_speed);
-      const double lever = site.air_density * mean_speed * site.gradient_coefficient * area * radius;
+      const double lever =
+          site.air_density * mean_speed * site.gradient_coefficient * area * radius;
       return gust * (per_gust * per_gust * uniform + lever * lever * gradient);
     }
   }

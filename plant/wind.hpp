@@ -19,12 +19,12 @@ std::string_view to_string(WindModel model);
 
 /// The wind at the site and how the dish takes it.
 struct WindSite {
-  double air_density = 0.0;            // kg/m3
-  double surface_drag = 0.0;           // Davenport's kappa; gust variance 6 kappa V^2
-  double torque_coefficient = 0.0;     // CT: mean torque 1/2 rho V^2 A D CT
-  double gradient_coefficient = 0.0;   // Cn
-  double coherence_decay = 0.0;        // c
-  double dish_diameter = 0.0;          // m
+  double air_density = 0.0;           // kg/m3
+  double surface_drag = 0.0;          // Davenport's kappa; gust variance 6 kappa V^2
+  double torque_coefficient = 0.0;    // CT: mean torque 1/2 rho V^2 A D CT
+  double gradient_coefficient = 0.0;  // Cn
+  double coherence_decay = 0.0;       // c
+  double dish_diameter = 0.0;         // m
 };
 
 /// Davenport's spectrum of the longitudinal gust, one-sided in Hz, (m/s)^2/Hz:
@@ -36,8 +36,8 @@ double davenport_spectrum(double surface_drag, double mean_speed, double frequen
 double mean_wind_torque(const WindSite& site, double mean_speed);
 
 /// Averages of exp(-a r/R) over pairs of points of a disc of radius R, r their distance:
-/// `uniform` is <coh>, `gradient` is <y y' coh>/R^2, y one coordinate from the centre. At a = 0 they
-/// are 1 and 0. One-dimensional integrals over the density of the distance (physics of the
+/// `uniform` is <coh>, `gradient` is <y y' coh>/R^2, y one coordinate from the centre. At a = 0
+/// they are 1 and 0. One-dimensional integrals over the density of the distance (physics of the
 /// reference antenna, section 4), by Gauss-Legendre quadrature to about 1e-10.
 struct CoherenceAverages {
   double uniform = 0.0;

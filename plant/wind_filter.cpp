@@ -1,9 +1,9 @@
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numbers>
+
+#include <fmt/format.h>
 
 #include <boresight/plant/error.hpp>
 #include <boresight/plant/linear_solve.hpp>
@@ -14,7 +14,8 @@ namespace {
 
 constexpr double two_pi = 2.0 * std::numbers::pi;
 
-// Unknowns: ln gain, ln zeros, ln poles. Model: ln 2 + 2 ln g + sum ln(1 + w^2/z^2) - sum ln(1 + w^2/p^2).
+// Unknowns: ln gain, ln zeros, ln poles. Model: ln 2 + 2 ln g + sum ln(1 + w^2/z^2) - sum ln(1 +
+// w^2/p^2).
 struct Fit {
   Eigen::VectorXd unknowns;
   Eigen::VectorXd residual;

@@ -1,0 +1,153 @@
+#include <cstdio>
+#include <exception>
+#include <functional>
+#include <string>
+#include <thread>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include <boresight/app/commands/command_line.hpp>
+#include <boresight/app/commands/progress_line.hpp>
+#include <boresight/app/redesign/sections.hpp>
+#include <boresight/app/report/json_report.hpp>
+#include <boresight/app/report/text_report.hpp>
+
+namespace boresight::app {
+namespace {
+
+enum ExitCode { done = 0, internal_error = 1, bad_input = 2, infeasible = 3, numerical = 4 };
+
+struct Arguments {
+  std::string case_path;
+  std::string json_path;
+  std::uint64_t seed = 1;
+  unsigned threads = 0;
+};
+
+using Section = std::function<void(const Case&, const StudyOptions&, Report&)>;
+
+struct Command {
+  const char* name;
+  const char* description;
+  Section run;
+};
+
+void fill_redesign(const Case& antenna, const StudyOptions& options, Report& report) {
+  report.identification = identify(antenna, options);
+  report.audit = audit(antenna);
+  report.plant = describe_plant(antenna);
+  redesign(antenna, options, report);
+  report.conclusions = conclude(report);
+}
+
+const std::vector<Command>& commands() {
+  static const std::vector<Command> list{
+      {"redesign", "identify, audit, model, tune, match and conclude: the whole report",
+       fill_redesign},
+      {"audit", "recompute every derived number the case states; list what does not follow",
+       [](const Case& antenna, const StudyOptions&, Report& report) {
+         report.audit = audit(antenna);
+       }},
+      {"identify", "reflected inertia and motor-to-load ratio by each method, with intervals",
+       [](const Case& antenna, const StudyOptions& options, Report& report) {
+         report.identification = identify(antenna, options);
+       }},
+      {"model", "the linear plant: parameters, poles, what each mode is",
+       [](const Case& antenna, const StudyOptions&, Report& report) {
+         report.plant = describe_plant(antenna);
+       }},
+      {"tune", "tune the loops for the least beam rms in wind, verified, from eight seeds",
+       [](const Case& antenna, const StudyOptions& options, Report& report) {
+         report.tuning = tune_loops(antenna, options);
+         report.conclusions = conclude(report);
+       }},
+      {"match", "re-tune at each number of flywheel disks and at ratio 1",
+       [](const Case& antenna, const StudyOptions& options, Report& report) {
+         report.matching = match_inertia(antenna, options);
+         report.conclusions = conclude(report);
+       }}};
+  return list;
+}
+
+int run(const Command& command, const Arguments& arguments) {
+  const Case antenna = read_case(arguments.case_path);
+  StudyOptions options;
+  options.seed = arguments.seed;
+  options.threads = arguments.threads != 0 ? arguments.threads
+                                           : std::max(1U, std::thread::hardware_concurrency());
+  Report report;
+  report.command = command.name;
+  report.title = antenna.title;
+  report.axis = antenna.axis;
+  report.case_path = arguments.case_path;
+  report.seed = arguments.seed;
+  report.assumed = assumed_inputs(antenna);
+  {
+    ProgressLine progress;
+    options.progress = [&](std::size_t finished, std::size_t all) { progress.show(finished, all); };
+    command.run(antenna, options, report);
+  }
+  if (arguments.json_path == "-") {
+    fmt::print("{}", to_json(report));
+  } else {
+    if (!arguments.json_path.empty()) write_atomically(arguments.json_path, to_json(report));
+    fmt::print("{}", to_text(report));
+  }
+  if (std::fflush(stdout) != 0) throw InvalidInput("standard output: cannot be written to");
+  if (report.tuning && report.tuning->design.tuning.status != design::TuningStatus::optimal) {
+    fmt::print(stderr, "boresight: no control law meets the hard goals of {}\n",
+               arguments.case_path);
+    return infeasible;
+  }
+  return done;
+}
+
+}  // namespace
+
+int run_command_line(int argc, char** argv) {
+  CLI::App program{"Redesigns the servo of a large antenna from measured data.", "boresight"};
+  program.set_version_flag("--version", std::string("boresight ") + BORESIGHT_VERSION);
+  program.require_subcommand(1);
+  program.footer(
+      "Exit codes: 0 done, 1 internal error, 2 bad input, 3 goals infeasible, 4 numerical "
+      "failure.\n"
+      "Example: boresight redesign cases/dss14-70m/case.toml --json report.json");
+  Arguments arguments;
+  for (const auto& command : commands()) {
+    CLI::App* sub = program.add_subcommand(command.name, command.description);
+    sub->add_option("CASE", arguments.case_path, "case file (TOML), see docs/case-file.md")
+        ->required();
+    sub->add_option("--json", arguments.json_path,
+                    "also write the report as JSON to this file; '-' writes JSON only, to standard "
+                    "output");
+    sub->add_option("--seed", arguments.seed, "first seed of the searches and draws")
+        ->capture_default_str();
+    sub->add_option("--threads", arguments.threads,
+                    "threads to work on; results do not depend on it (default: all)");
+  }
+  try {
+    program.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return program.exit(error) == 0 ? done : bad_input;
+  }
+  try {
+    for (const auto& command : commands()) {
+      if (program.got_subcommand(command.name)) return run(command, arguments);
+    }
+  } catch (const InvalidInput& error) {
+    fmt::print(stderr, "boresight: {}\n", error.what());
+    return bad_input;
+  } catch (const InfeasibleRequirement& error) {
+    fmt::print(stderr, "boresight: {}\n", error.what());
+    return infeasible;
+  } catch (const NumericalFailure& error) {
+    fmt::print(stderr, "boresight: {}\n", error.what());
+    return numerical;
+  } catch (const std::exception& error) {
+    fmt::print(stderr, "boresight: internal error: {}\n", error.what());
+  }
+  return internal_error;
+}
+
+}  // namespace boresight::app

@@ -1,0 +1,270 @@
+#include <cmath>
+#include <numbers>
+
+#include <boresight/app/redesign/antenna_model.hpp>
+
+namespace boresight::app {
+namespace {
+
+constexpr double two_pi = 2.0 * std::numbers::pi;
+
+std::vector<plant::GearStage> gear_stages(const Case& antenna) {
+  std::vector<plant::GearStage> stages;
+  for (const auto& stage : antenna.gear_train.stages) {
+    stages.push_back({stage.driven_teeth.value, stage.driving_teeth.value});
+  }
+  return stages;
+}
+
+identification::Uncertain uncertain(const Quantity& quantity) {
+  return {quantity.value, quantity.standard_uncertainty};
+}
+
+// A composite inertia if the case gives one, else the sum of its parts' inertias or disks.
+identification::Uncertain assembly_inertia(const Case& antenna, const RotatingAssembly& assembly) {
+  if (assembly.inertia) return uncertain(*assembly.inertia);
+  identification::Uncertain sum;
+  double variance = 0.0;
+  for (const auto& part : assembly.parts) {
+    if (part.inertia) {
+      sum.value += part.inertia->value;
+      variance += std::pow(part.inertia->standard_uncertainty, 2);
+      continue;
+    }
+    const Quantity& density = *antenna.gear_train.density;
+    const double inertia =
+        plant::disk_inertia(part.radius->value, part.length->value, density.value);
+    sum.value += inertia;
+    // J goes with R^4, H and rho.
+    const double relative = std::hypot(4.0 * part.radius->standard_uncertainty / part.radius->value,
+                                       part.length->standard_uncertainty / part.length->value,
+                                       density.standard_uncertainty / density.value);
+    variance += std::pow(inertia * relative, 2);
+  }
+  sum.standard_uncertainty = std::sqrt(variance);
+  return sum;
+}
+
+design::LossConvention convention_of(const std::string& name) {
+  if (name == "mean_loss_one_axis") return design::LossConvention::mean_loss_one_axis;
+  if (name == "loss_at_mean_radial_error") return design::LossConvention::loss_at_mean_radial_error;
+  return design::LossConvention::mean_loss_two_axes;
+}
+
+plant::WindModel wind_model(const std::string& name) {
+  if (name == "uniform") return plant::WindModel::uniform;
+  if (name == "vickery") return plant::WindModel::vickery;
+  return plant::WindModel::coherence;
+}
+
+}  // namespace
+
+double gear_ratio(const Case& antenna) {
+  return plant::gear_ratio(gear_stages(antenna));
+}
+
+double gear_train_inertia(const Case& antenna) {
+  const auto stages = gear_stages(antenna);
+  double sum = 0.0;
+  for (const auto& assembly : antenna.gear_train.assemblies) {
+    sum += plant::reflected_inertia(assembly_inertia(antenna, assembly).value,
+                                    plant::gear_ratio(stages, assembly.stages),
+                                    static_cast<double>(assembly.count));
+  }
+  return sum;
+}
+
+double motor_inertia(const Case& antenna, double disks) {
+  const MotorEntry& motor = antenna.motor;
+  // As built the stated inertia holds; rotor and disks say what a change of disks does to it.
+  return static_cast<double>(motor.count) *
+         (motor.inertia.value + (disks - motor.flywheel_disks) * motor.disk_inertia.value);
+}
+
+double antenna_inertia(const Case& antenna) {
+  return plant::reflected_inertia(antenna.antenna.inertia.value, gear_ratio(antenna));
+}
+
+double antenna_inertia(const Case& antenna, const AntennaAlternative& alternative) {
+  return alternative.reflected_inertia
+             ? alternative.reflected_inertia->value
+             : plant::reflected_inertia(alternative.inertia->value, gear_ratio(antenna));
+}
+
+double oil_stiffness(const Case& antenna, plant::EfficiencyInStiffness efficiency) {
+  const OilEntry& oil = antenna.oil;
+  double bulk_modulus = 0.0;
+  if (oil.bulk_modulus) {
+    bulk_modulus = oil.bulk_modulus->value;
+  } else {
+    for (const auto& line : oil.lines) {
+      bulk_modulus += plant::bulk_modulus_from_slosh(line.length.value, line.slosh_frequency.value,
+                                                     oil.density.value) /
+                      static_cast<double>(oil.lines.size());
+    }
+  }
+  const MotorEntry& motor = antenna.motor;
+  return plant::oil_stiffness({static_cast<double>(motor.count), motor.displacement.value,
+                               motor.torque_efficiency.value, motor.volumetric_efficiency.value,
+                               bulk_modulus, oil.volume_1.value, oil.volume_2.value, efficiency});
+}
+
+double oil_stiffness(const Case& antenna) {
+  return oil_stiffness(antenna, antenna.oil.efficiency_in_stiffness
+                                    ? plant::EfficiencyInStiffness::both
+                                    : plant::EfficiencyInStiffness::none);
+}
+
+plant::AntennaPlant make_plant(const Case& antenna, const PlantVariant& variant) {
+  plant::AntennaPlant plant;
+  const double disks = variant.flywheel_disks.value_or(antenna.motor.flywheel_disks);
+  plant.drive.oil_stiffness = variant.oil_stiffness.value_or(oil_stiffness(antenna));
+  plant.drive.leakage_rate = antenna.drive.leakage_rate.value;
+  plant.drive.viscous_friction =
+      variant.viscous_friction.value_or(antenna.drive.viscous_friction.value);
+  plant.drive.motor_inertia =
+      variant.inertia_scale * (motor_inertia(antenna, disks) + gear_train_inertia(antenna));
+  plant.drive.valve_corner = two_pi * antenna.drive.valve_frequency.value;
+  plant.drive.valve_damping = antenna.drive.valve_damping.value;
+  plant.drive.tachometer_corner = two_pi * antenna.sensors.tachometer_frequency.value;
+
+  const StructureEntry& structure = antenna.structure;
+  plant::StructureSpecification specification;
+  specification.antenna_inertia =
+      variant.inertia_scale * variant.antenna_inertia.value_or(antenna_inertia(antenna));
+  specification.bull_gear_wind_fraction = structure.bull_gear_wind_fraction.value;
+  specification.bull_gear_beam_weight = structure.bull_gear_beam_weight.value;
+  specification.locked_rotor_frequency = structure.locked_rotor_frequency.value;
+  specification.gear_damping_ratio = structure.gear_damping_ratio.value;
+  for (const auto& mode : structure.modes) {
+    specification.modes.push_back({mode.frequency.value, mode.damping_ratio.value,
+                                   mode.inertia_fraction.value, mode.wind_fraction.value,
+                                   mode.beam_weight.value});
+  }
+  plant.structure = plant::make_structure(specification);
+  return plant;
+}
+
+plant::FrictionCurve friction_curve(const Case& antenna) {
+  const FrictionCurveEntry& curve = antenna.friction_curve;
+  return {curve.coulomb.value,    curve.breakaway.value,       curve.stribeck_rate.value,
+          curve.saturating.value, curve.saturating_rate.value, curve.viscous.value};
+}
+
+double tracking_friction(const Case& antenna) {
+  return plant::friction_slope(friction_curve(antenna),
+                               antenna.drive.tracking_rate.value * gear_ratio(antenna));
+}
+
+design::TrackingProblem make_problem(const Case& antenna, const PlantVariant& variant) {
+  design::TrackingProblem problem;
+  problem.plant = make_plant(antenna, variant);
+  problem.gear_ratio = gear_ratio(antenna);
+  problem.delay = antenna.controller_delay.value;
+  problem.noise = {antenna.sensors.encoder_noise.value * problem.gear_ratio,
+                   antenna.sensors.tachometer_noise.value, antenna.sensors.noise_bandwidth.value};
+  const WindEntry& wind = antenna.wind;
+  problem.wind = {{wind.air_density.value, wind.surface_drag.value, wind.torque_coefficient.value,
+                   wind.gradient_coefficient.value, wind.coherence_decay.value,
+                   antenna.antenna.dish_diameter.value},
+                  wind_model(wind.model),
+                  wind.design_speed.value};
+  problem.lowest_frequency = antenna.goals.lowest_frequency.value;
+  problem.highest_frequency = antenna.goals.highest_frequency.value;
+  return problem;
+}
+
+design::HardGoals make_goals(const Case& antenna) {
+  design::HardGoals goals;
+  goals.sensitivity_peak.fill(antenna.goals.sensitivity_peak.value);
+  goals.valve_effort = antenna.goals.valve_effort.value;
+  return goals;
+}
+
+identification::DriveEvidence make_evidence(const Case& antenna) {
+  identification::DriveEvidence evidence;
+  evidence.stages = gear_stages(antenna);
+  for (const auto& assembly : antenna.gear_train.assemblies) {
+    evidence.assemblies.push_back({assembly.name, assembly_inertia(antenna, assembly),
+                                   static_cast<double>(assembly.count), assembly.stages});
+  }
+  const double ratio = gear_ratio(antenna);
+  const auto reflected = [ratio](const Quantity& inertia) {
+    return identification::Uncertain{inertia.value / (ratio * ratio),
+                                     inertia.standard_uncertainty / (ratio * ratio)};
+  };
+  const Quantity& own = antenna.antenna.inertia;
+  evidence.antenna.push_back({own.source.empty() ? "the case" : own.source, reflected(own)});
+  for (const auto& alternative : antenna.antenna.alternatives) {
+    evidence.antenna.push_back({alternative.name, alternative.reflected_inertia
+                                                      ? uncertain(*alternative.reflected_inertia)
+                                                      : reflected(*alternative.inertia)});
+  }
+  const MotorEntry& motor = antenna.motor;
+  evidence.motor_count = static_cast<double>(motor.count);
+  evidence.motor_inertia = uncertain(motor.inertia);
+  evidence.displacement = uncertain(motor.displacement);
+  evidence.torque_efficiency = uncertain(motor.torque_efficiency);
+  evidence.volumetric_efficiency = uncertain(motor.volumetric_efficiency);
+  const OilEntry& oil = antenna.oil;
+  evidence.oil_density = uncertain(oil.density);
+  for (const auto& line : oil.lines) {
+    evidence.lines.push_back({line.name, uncertain(line.length), uncertain(line.slosh_frequency)});
+  }
+  if (oil.bulk_modulus) evidence.bulk_modulus = uncertain(*oil.bulk_modulus);
+  evidence.volume_1 = uncertain(oil.volume_1);
+  evidence.volume_2 = uncertain(oil.volume_2);
+  evidence.efficiency_in_stiffness = oil.efficiency_in_stiffness
+                                         ? plant::EfficiencyInStiffness::both
+                                         : plant::EfficiencyInStiffness::none;
+  if (antenna.resonance_frequency) {
+    evidence.resonance_frequency = uncertain(*antenna.resonance_frequency);
+  }
+  for (const auto& impulse : antenna.impulse_results) {
+    evidence.impulse.push_back({impulse.name + " friction", uncertain(impulse.reflected_inertia)});
+  }
+  return evidence;
+}
+
+std::vector<PointingBand> make_bands(const Case& antenna) {
+  std::vector<PointingBand> bands;
+  for (const auto& band : antenna.bands) {
+    bands.push_back({band.name, band.frequency.value,
+                     design::half_power_beamwidth(band.beamwidth_factor.value, band.frequency.value,
+                                                  antenna.antenna.dish_diameter.value)});
+  }
+  return bands;
+}
+
+std::vector<PointingBudget> make_budgets(const Case& antenna) {
+  std::vector<PointingBudget> budgets;
+  const auto bands = make_bands(antenna);
+  for (const auto& entry : antenna.budgets) {
+    PointingBudget budget;
+    budget.name = entry.name;
+    budget.band = entry.band;
+    for (const auto& band : bands) {
+      if (band.name == entry.band) budget.beamwidth = band.beamwidth;
+    }
+    if (entry.rms) {
+      budget.rms = entry.rms->value;
+      budget.convention = "rms error an axis";
+    } else {
+      const auto convention = convention_of(entry.convention);
+      budget.rms = design::rms_for_loss(entry.loss->value, budget.beamwidth, convention);
+      budget.convention = design::to_string(convention);
+    }
+    budgets.push_back(std::move(budget));
+  }
+  return budgets;
+}
+
+std::optional<double> disks_at_unit_ratio(const Case& antenna, double load_inertia) {
+  const MotorEntry& motor = antenna.motor;
+  const double each = load_inertia / static_cast<double>(motor.count);
+  const double disks =
+      motor.flywheel_disks + (each - motor.inertia.value) / motor.disk_inertia.value;
+  return disks >= 0.0 ? std::optional(disks) : std::nullopt;
+}
+
+}  // namespace boresight::app

@@ -1,0 +1,66 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <boresight/app/io/case_file.hpp>
+#include <boresight/design/design_study.hpp>
+#include <boresight/design/pointing.hpp>
+#include <boresight/identification/inertia_methods.hpp>
+#include <boresight/plant/friction.hpp>
+
+namespace boresight::app {
+
+/// What a study changes about the antenna of a case. SI, at the motor shaft.
+struct PlantVariant {
+  std::optional<double> flywheel_disks = std::nullopt;  // on each motor
+  std::optional<double> viscous_friction = std::nullopt;
+  std::optional<double> antenna_inertia = std::nullopt;
+  std::optional<double> oil_stiffness = std::nullopt;
+  /// Multiplies every inertia, motors' and antenna's.
+  double inertia_scale = 1.0;
+};
+
+double gear_ratio(const Case& antenna);
+/// Gear train and counter-torque motors at the motor shaft (kg m2).
+double gear_train_inertia(const Case& antenna);
+/// All motors with `disks` flywheel disks each (kg m2).
+double motor_inertia(const Case& antenna, double disks);
+/// The antenna inertia of the case, and of an alternative, at the motor shaft (kg m2).
+double antenna_inertia(const Case& antenna);
+double antenna_inertia(const Case& antenna, const AntennaAlternative& alternative);
+/// Oil spring by the case's bulk modulus, or the mean of its lines (N m/rad).
+double oil_stiffness(const Case& antenna, plant::EfficiencyInStiffness efficiency);
+double oil_stiffness(const Case& antenna);
+
+plant::AntennaPlant make_plant(const Case& antenna, const PlantVariant& variant = {});
+plant::FrictionCurve friction_curve(const Case& antenna);
+/// Slope of the friction curve at the tracking rate (N m s/rad of motor).
+double tracking_friction(const Case& antenna);
+design::TrackingProblem make_problem(const Case& antenna, const PlantVariant& variant = {});
+design::HardGoals make_goals(const Case& antenna);
+identification::DriveEvidence make_evidence(const Case& antenna);
+
+/// A pointing budget as rms error an axis (rad).
+struct PointingBudget {
+  std::string name;
+  std::string band;
+  double beamwidth = 0.0;  // rad
+  double rms = 0.0;        // rad
+  std::string convention;  // in words
+};
+std::vector<PointingBudget> make_budgets(const Case& antenna);
+
+struct PointingBand {
+  std::string name;
+  double frequency = 0.0;  // Hz
+  double beamwidth = 0.0;  // rad
+};
+std::vector<PointingBand> make_bands(const Case& antenna);
+
+/// Number of flywheel disks at which motors and load (gear train and antenna) have one inertia;
+/// nothing if that would need fewer than none.
+std::optional<double> disks_at_unit_ratio(const Case& antenna, double load_inertia);
+
+}  // namespace boresight::app

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <functional>
+
+#include <boresight/app/report/report.hpp>
+
+namespace boresight::app {
+
+struct StudyOptions {
+  std::uint64_t seed = 1;
+  unsigned threads = 2;
+  /// Called with tasks done and all tasks; may be empty.
+  std::function<void(std::size_t, std::size_t)> progress;
+};
+
+IdentificationSection identify(const Case& antenna, const StudyOptions& options);
+PlantSection describe_plant(const Case& antenna);
+/// Tunes the case's plant from eight seeds, starting with options.seed.
+TuningSection tune_loops(const Case& antenna, const StudyOptions& options);
+/// Re-tunes at the case's flywheel counts and at ratio 1, with and without lag, with the linear
+/// plant's friction and with the curve's slope at the tracking rate.
+MatchingSection match_inertia(const Case& antenna, const StudyOptions& options);
+/// Tuning, choices and matching in one pool of work; fills the report's sections.
+void redesign(const Case& antenna, const StudyOptions& options, Report& report);
+
+/// Quantities of basis `assumed`, and those whose uncertainty is.
+std::vector<Quantity> assumed_inputs(const Case& antenna);
+/// A few sentences that say what the numbers mean, from the numbers.
+std::vector<std::string> conclude(const Report& report);
+
+}  // namespace boresight::app

@@ -1,0 +1,272 @@
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include <fmt/format.h>
+
+#include <boresight/app/redesign/sections.hpp>
+#include <boresight/plant/plant_response.hpp>
+
+namespace boresight::app {
+namespace {
+
+using control::LoopStructure;
+constexpr int seed_count = 8;
+
+design::DesignTask make_task(const Case& antenna, const StudyOptions& options, std::string name,
+                             const PlantVariant& variant, LoopStructure structure) {
+  design::DesignTask task;
+  task.name = std::move(name);
+  task.problem = make_problem(antenna, variant);
+  task.structure = structure;
+  task.goals = make_goals(antenna);
+  task.options.seed = options.seed;
+  return task;
+}
+
+double ratio_of(const Case& antenna, const design::TrackingProblem& problem, double disks) {
+  return plant::motor_to_load_ratio(motor_inertia(antenna, disks),
+                                    plant::reflected_inertia(problem.plant));
+}
+
+std::vector<design::DesignTask> tuning_tasks(const Case& antenna, const StudyOptions& options) {
+  std::vector<design::DesignTask> tasks;
+  for (int i = 0; i < seed_count; ++i) {
+    tasks.push_back(make_task(antenna, options, "as built", {}, LoopStructure::pi_with_lag));
+    tasks.back().options.seed = options.seed + static_cast<std::uint64_t>(i);
+  }
+  return tasks;
+}
+
+TuningSection tuning_section(const Case& antenna, const StudyOptions& options,
+                             const std::vector<design::Design>& designs) {
+  TuningSection section;
+  const auto better = [](const design::Design& x, const design::Design& y) {
+    const bool x_good = x.verification.passed, y_good = y.verification.passed;
+    return x_good != y_good ? x_good : x.beam_rms < y.beam_rms;
+  };
+  section.design = *std::min_element(designs.begin(), designs.end(), better);
+  section.goals = make_goals(antenna);
+  for (std::size_t i = 0; i < designs.size(); ++i) {
+    section.seeds.push_back(
+        {options.seed + i, designs[i].beam_rms, designs[i].verification.passed});
+    if (designs[i].verification.passed && designs[i].beam_rms < 1.01 * section.design.beam_rms) {
+      ++section.seeds_within_1_percent;
+    }
+  }
+
+  const design::TrackingProblem problem = make_problem(antenna);
+  section.design_speed = problem.wind.mean_speed;
+  section.wind_model = problem.wind.model;
+  control::LoopEvaluator evaluator = design::make_evaluator(problem);
+  const control::ControlLaw& law = section.design.tuning.law;
+  const double noise = section.design.tuning.evaluation.noise_variance;
+  const Eigen::ArrayXd transmission = evaluator.wind_transmission(law);
+  for (const auto model :
+       {plant::WindModel::uniform, plant::WindModel::vickery, plant::WindModel::coherence}) {
+    design::TrackingProblem alternative = problem;
+    alternative.wind.model = model;
+    section.wind_alternatives.push_back(
+        {model, design::beam_rms_at_speed(alternative, evaluator, transmission, noise,
+                                          problem.wind.mean_speed)});
+  }
+  const auto structure =
+      plant::structure_response(problem.plant.structure, evaluator.response().frequency);
+  section.bending_floor = design::beam_rms_at_speed(
+      problem, evaluator, structure.beam_per_wind.abs2(), 0.0, problem.wind.mean_speed);
+  double compliance = 0.0;
+  for (const auto& mode : problem.plant.structure.modes) {
+    compliance += mode.wind_fraction * mode.beam_weight / mode.stiffness;
+  }
+  section.static_bending = compliance *
+                           plant::mean_wind_torque(problem.wind.site, problem.wind.mean_speed) /
+                           (problem.gear_ratio * problem.gear_ratio);
+  for (const auto& band : make_bands(antenna)) {
+    section.losses.push_back(
+        {band, design::pointing_loss_db(section.design.beam_rms, band.beamwidth,
+                                        design::LossConvention::mean_loss_two_axes)});
+  }
+  for (const auto& budget : make_budgets(antenna)) {
+    section.budgets.push_back(
+        {budget, design::wind_speed_limit(problem, evaluator, law, noise, budget.rms)});
+  }
+  return section;
+}
+
+// Every series of the matching study is one task a row.
+struct MatchingPlan {
+  MatchingSection section;
+  std::vector<design::DesignTask> tasks;
+};
+
+MatchingPlan plan_matching(const Case& antenna, const StudyOptions& options) {
+  MatchingPlan plan;
+  std::vector<double> disks = antenna.matching_disks;
+  const double as_built = antenna.motor.flywheel_disks;
+  if (std::find(disks.begin(), disks.end(), as_built) == disks.end()) disks.push_back(as_built);
+  const double load = gear_train_inertia(antenna) + antenna_inertia(antenna);
+  std::vector<std::pair<double, std::string>> points;
+  for (const double count : disks) points.emplace_back(count, fmt::format("{:g} disks", count));
+  if (const auto unit = disks_at_unit_ratio(antenna, load)) {
+    points.emplace_back(*unit, "ratio 1");
+  }
+  for (const auto& alternative : antenna.antenna.alternatives) {
+    const double other = gear_train_inertia(antenna) + antenna_inertia(antenna, alternative);
+    if (const auto unit = disks_at_unit_ratio(antenna, other)) {
+      points.emplace_back(*unit, "ratio 1 by " + alternative.name);
+    }
+  }
+  std::stable_sort(points.begin(), points.end(),
+                   [](const auto& x, const auto& y) { return x.first < y.first; });
+  for (const auto& [count, label] : points) {
+    MatchingRow row;
+    row.disks = count;
+    row.label = label;
+    row.motor_inertia = motor_inertia(antenna, count);
+    const auto problem = make_problem(antenna, {.flywheel_disks = count});
+    row.reflected_inertia = plant::reflected_inertia(problem.plant);
+    row.motor_to_load_ratio = ratio_of(antenna, problem, count);
+    plan.section.rows.push_back(std::move(row));
+  }
+  const double linear = antenna.drive.viscous_friction.value;
+  const double tracking = tracking_friction(antenna);
+  for (const auto& [friction, name] :
+       {std::pair{linear, "linear plant"}, std::pair{tracking, "slope at tracking rate"}}) {
+    for (const auto structure : {LoopStructure::pi_with_lag, LoopStructure::pi}) {
+      plan.section.series.push_back({name, friction, structure, {}});
+      for (const auto& row : plan.section.rows) {
+        plan.tasks.push_back(make_task(antenna, options, row.label,
+                                       {.flywheel_disks = row.disks, .viscous_friction = friction},
+                                       structure));
+      }
+    }
+  }
+  return plan;
+}
+
+MatchingSection finish_matching(MatchingPlan plan, std::vector<design::Design>::iterator design) {
+  for (auto& series : plan.section.series) {
+    for (std::size_t i = 0; i < plan.section.rows.size(); ++i) {
+      series.designs.push_back(std::move(*design++));
+    }
+  }
+  return std::move(plan.section);
+}
+
+struct Choice {
+  ChoiceResult result;
+  std::optional<design::DesignTask> task;
+};
+
+std::vector<Choice> plan_choices(const Case& antenna, const StudyOptions& options) {
+  std::vector<Choice> choices;
+  const double disks = antenna.motor.flywheel_disks;
+  const double motors = motor_inertia(antenna, disks);
+  const double fixed = motors + gear_train_inertia(antenna);
+  const double inertia = fixed + antenna_inertia(antenna);
+  const auto add = [&](std::string name, std::string says, const PlantVariant& variant) {
+    Choice choice;
+    choice.task = make_task(antenna, options, name, variant, LoopStructure::pi_with_lag);
+    const auto& plant = choice.task->problem.plant;
+    choice.result = {
+        std::move(name),
+        std::move(says),
+        plant.drive.oil_stiffness,
+        plant::reflected_inertia(plant),
+        plant::motor_to_load_ratio(variant.inertia_scale * motors, plant::reflected_inertia(plant)),
+        std::nullopt,
+        {}};
+    choices.push_back(std::move(choice));
+  };
+  add("reference", "masses and oil stiffness as the case gives them", {});
+  for (const auto& alternative : antenna.antenna.alternatives) {
+    add("antenna of " + alternative.name, "another antenna inertia",
+        {.antenna_inertia = antenna_inertia(antenna, alternative)});
+  }
+  const auto other = antenna.oil.efficiency_in_stiffness ? plant::EfficiencyInStiffness::none
+                                                         : plant::EfficiencyInStiffness::both;
+  add(antenna.oil.efficiency_in_stiffness ? "stiffness without efficiencies"
+                                          : "stiffness with efficiencies",
+      "the other convention for the oil spring", {.oil_stiffness = oil_stiffness(antenna, other)});
+  // The inertia a test found, with motors and gear train kept and the antenna taking the rest.
+  const auto add_test = [&](const std::string& name, double found) {
+    if (found - fixed > 0.05 * antenna_inertia(antenna)) {
+      add(name, "motors and gear train kept, the antenna takes the rest",
+          {.antenna_inertia = found - fixed});
+      return;
+    }
+    Choice choice;
+    choice.result = {name,
+                     "motors and gear train kept, the antenna takes the rest",
+                     oil_stiffness(antenna),
+                     found,
+                     plant::motor_to_load_ratio(motors, found),
+                     std::nullopt,
+                     fmt::format("{:.3f} - {:.3f} leaves {:.3f} kg.m2 for an antenna of {:.3f}",
+                                 found, fixed, found - fixed, antenna_inertia(antenna))};
+    choices.push_back(std::move(choice));
+  };
+  if (antenna.resonance_frequency) {
+    const double frequency = antenna.resonance_frequency->value;
+    const double angular = 2.0 * std::numbers::pi * frequency;
+    const double found = plant::inertia_from_resonance(oil_stiffness(antenna), frequency);
+    add("masses right, stiffness from resonance",
+        fmt::format("oil spring raised so that the rigid masses ring at {:g} Hz", frequency),
+        {.oil_stiffness = inertia * angular * angular});
+    add_test("stiffness right, inertia from resonance", found);
+    add("stiffness right, all masses scaled",
+        fmt::format("every inertia times {:.3f}", found / inertia),
+        {.inertia_scale = found / inertia});
+  }
+  for (const auto& impulse : antenna.impulse_results) {
+    add_test("inertia from impulse, " + impulse.name + " friction",
+             impulse.reflected_inertia.value);
+  }
+  return choices;
+}
+
+std::vector<design::DesignTask> tasks_of(const std::vector<Choice>& choices) {
+  std::vector<design::DesignTask> tasks;
+  for (const auto& choice : choices) {
+    if (choice.task) tasks.push_back(*choice.task);
+  }
+  return tasks;
+}
+
+}  // namespace
+
+TuningSection tune_loops(const Case& antenna, const StudyOptions& options) {
+  return tuning_section(
+      antenna, options,
+      design::solve_all(tuning_tasks(antenna, options), options.threads, options.progress));
+}
+
+MatchingSection match_inertia(const Case& antenna, const StudyOptions& options) {
+  MatchingPlan plan = plan_matching(antenna, options);
+  auto designs = design::solve_all(plan.tasks, options.threads, options.progress);
+  return finish_matching(std::move(plan), designs.begin());
+}
+
+void redesign(const Case& antenna, const StudyOptions& options, Report& report) {
+  const auto tuning = tuning_tasks(antenna, options);
+  std::vector<Choice> choices = plan_choices(antenna, options);
+  const auto choice_tasks = tasks_of(choices);
+  MatchingPlan matching = plan_matching(antenna, options);
+
+  std::vector<design::DesignTask> tasks = tuning;
+  tasks.insert(tasks.end(), choice_tasks.begin(), choice_tasks.end());
+  tasks.insert(tasks.end(), matching.tasks.begin(), matching.tasks.end());
+  auto designs = design::solve_all(tasks, options.threads, options.progress);
+
+  const auto first_choice = designs.begin() + static_cast<std::ptrdiff_t>(tuning.size());
+  const auto first_match = first_choice + static_cast<std::ptrdiff_t>(choice_tasks.size());
+  report.tuning = tuning_section(antenna, options, {designs.begin(), first_choice});
+  auto design = first_choice;
+  for (auto& choice : choices) {
+    if (choice.task) choice.result.design = std::move(*design++);
+    report.choices.push_back(std::move(choice.result));
+  }
+  report.matching = finish_matching(std::move(matching), first_match);
+}
+
+}  // namespace boresight::app

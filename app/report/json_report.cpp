@@ -1,0 +1,287 @@
+#include <cmath>
+#include <numbers>
+
+#include <nlohmann/json.hpp>
+
+#include <boresight/app/report/json_report.hpp>
+#include <boresight/app/report/sky_units.hpp>
+
+namespace boresight::app {
+namespace {
+
+using Json = nlohmann::ordered_json;
+constexpr double two_pi = 2.0 * std::numbers::pi;
+
+Json number(double value) {
+  return std::isfinite(value) ? Json(value) : Json(nullptr);
+}
+
+Json propagated(const identification::PropagatedResult& result, const std::string& unit) {
+  Json json{{"name", result.name},
+            {"value_" + unit, number(result.value)},
+            {"standard_uncertainty_" + unit, number(result.standard_uncertainty)},
+            {"lower_95_" + unit, number(result.lower)},
+            {"upper_95_" + unit, number(result.upper)}};
+  Json contributions = Json::array();
+  for (const auto& contribution : result.contributions) {
+    contributions.push_back(
+        {{"input", contribution.input}, {"variance_share_1", number(contribution.share)}});
+  }
+  json["contributions"] = std::move(contributions);
+  return json;
+}
+
+Json list(const std::vector<identification::PropagatedResult>& results, const std::string& unit) {
+  Json json = Json::array();
+  for (const auto& result : results) json.push_back(propagated(result, unit));
+  return json;
+}
+
+Json text_or_null(const std::string& text) {
+  return text.empty() ? Json(nullptr) : Json(text);
+}
+
+Json identification_json(const IdentificationSection& section) {
+  Json json;
+  json["gear_ratio_1"] = section.inertia.gear_ratio;
+  Json methods = Json::array();
+  for (std::size_t i = 0; i < section.inertia.methods.size(); ++i) {
+    const auto& method = section.inertia.methods[i];
+    methods.push_back(
+        {{"name", method.name},
+         {"assumes", method.assumes},
+         {"reflected_inertia", propagated(method.reflected_inertia, "kg_m2")},
+         {"motor_to_load_ratio", propagated(method.motor_to_load_ratio, "1")},
+         {"draws_below_motor_inertia_1", number(method.motor_to_load_ratio.beyond_pole)},
+         {"antenna_remainder", propagated(method.antenna_remainder, "kg_m2")},
+         {"printed_reflected_inertia", text_or_null(section.printed[i].inertia)},
+         {"printed_motor_to_load_ratio", text_or_null(section.printed[i].ratio)}});
+  }
+  json["methods"] = std::move(methods);
+  if (section.reconciled) {
+    const auto& one = *section.reconciled;
+    json["reconciled"] = {{"reflected_inertia_kg_m2", number(one.value)},
+                          {"standard_uncertainty_kg_m2", number(one.standard_uncertainty)},
+                          {"lower_95_kg_m2", number(one.lower)},
+                          {"upper_95_kg_m2", number(one.upper)},
+                          {"between_methods_kg_m2", number(one.between_methods)},
+                          {"cochran_q_1", number(one.heterogeneity)},
+                          {"degrees_of_freedom", one.degrees_of_freedom},
+                          {"motor_to_load_ratio_1", number(one.motor_to_load_ratio)},
+                          {"motor_to_load_ratio_lower_95_1", number(one.ratio_lower)},
+                          {"motor_to_load_ratio_upper_95_1", number(one.ratio_upper)}};
+  } else {
+    json["reconciled"] = nullptr;
+  }
+  json["load_rows"] = list(section.inertia.load_rows, "kg_m2");
+  json["line_bulk_modulus"] = list(section.inertia.line_bulk_modulus, "Pa");
+  json["bulk_modulus"] = propagated(section.inertia.bulk_modulus, "Pa");
+  json["oil_stiffness"] = propagated(section.inertia.oil_stiffness, "N_m_per_rad");
+  json["expected_hydraulic_frequency"] = propagated(section.inertia.expected_frequency, "Hz");
+  json["tachometer_scale_rad_per_s_V"] =
+      section.tachometer_scale ? number(*section.tachometer_scale) : Json(nullptr);
+  json["slow_ramp"] = section.slow_ramp
+                          ? Json{{"coulomb_friction_N_m", number(section.slow_ramp->coulomb)},
+                                 {"offset_torque_N_m", number(section.slow_ramp->offset)}}
+                          : Json(nullptr);
+  return json;
+}
+
+Json mode_json(const plant::PlantMode& mode) {
+  return {{"description", mode.description},
+          {"frequency_Hz", number(mode.frequency)},
+          {"damping_ratio_1", number(mode.damping_ratio)},
+          {"pole_real_rad_per_s", number(mode.pole.real())},
+          {"pole_imaginary_rad_per_s", number(mode.pole.imag())},
+          {"participation_1", number(mode.participation)}};
+}
+
+Json plant_json(const PlantSection& section) {
+  const auto& drive = section.plant.drive;
+  Json modes = Json::array();
+  for (const auto& mode : section.modes) modes.push_back(mode_json(mode));
+  return {{"gear_ratio_1", section.gear_ratio},
+          {"motor_side_inertia_kg_m2", drive.motor_inertia},
+          {"antenna_inertia_kg_m2", plant::antenna_inertia(section.plant.structure)},
+          {"reflected_inertia_kg_m2", section.reflected_inertia},
+          {"motor_to_load_ratio_1", number(section.motor_to_load_ratio)},
+          {"oil_stiffness_N_m_per_rad", drive.oil_stiffness},
+          {"leakage_rate_per_s", drive.leakage_rate},
+          {"viscous_friction_N_m_s_per_rad", drive.viscous_friction},
+          {"tracking_friction_slope_N_m_s_per_rad", section.tracking_friction},
+          {"gear_stiffness_N_m_per_rad", section.plant.structure.gear_stiffness},
+          {"valve_frequency_Hz", drive.valve_corner / two_pi},
+          {"supply_torque_N_m", section.supply_torque},
+          {"mean_wind_torque_N_m", section.mean_wind_torque},
+          {"rigid_hydraulic_frequency_Hz", section.rigid_frequency},
+          {"hydraulic_mode", mode_json(section.hydraulic)},
+          {"modes", std::move(modes)}};
+}
+
+Json margins_json(const control::Margins& margins) {
+  const auto decibel = [](double factor) {
+    return factor > 0.0 ? number(20.0 * std::log10(factor)) : Json(nullptr);
+  };
+  return {{"phase_margin_deg", number(margins.phase_margin_deg)},
+          {"increasing_gain_margin_dB", decibel(margins.increasing_gain_margin)},
+          {"decreasing_gain_margin_dB", decibel(margins.decreasing_gain_margin)},
+          {"delay_margin_s", number(margins.delay_margin)}};
+}
+
+std::string gain_key(const control::GainDescription& gain) {
+  std::string key(gain.name);
+  for (char& c : key) {
+    if (c == ' ') c = '_';
+  }
+  return key + (gain.unit == "1" ? "_1" : gain.unit == "1/s" ? "_per_s" : "_rad_per_s");
+}
+
+Json design_json(const design::Design& design) {
+  Json gains;
+  const auto& law = design.tuning.law;
+  const auto& descriptions = control::gain_descriptions(law.structure);
+  for (std::size_t i = 0; i < law.gains.size(); ++i) {
+    gains[gain_key(descriptions[i])] = law.gains[i];
+  }
+  Json breaks = Json::array();
+  for (std::size_t b = 0; b < control::loop_breaks.size(); ++b) {
+    const auto& peak = design.verification.peaks[b];
+    breaks.push_back({{"loop_break", control::to_string(control::loop_breaks[b])},
+                      {"sensitivity_peak_1", number(peak.magnitude)},
+                      {"sensitivity_peak_frequency_Hz", number(peak.frequency / two_pi)},
+                      {"margins", margins_json(design.margins[b])}});
+  }
+  const auto& check = design.verification;
+  return {{"structure", control::to_string(law.structure)},
+          {"feasible", design.tuning.status == design::TuningStatus::optimal},
+          {"verified", check.passed},
+          {"gains", std::move(gains)},
+          {"beam_rms_mdeg", number(design.beam_rms / millidegree)},
+          {"wind_rms_mdeg", number(design.wind_rms / millidegree)},
+          {"noise_rms_mdeg", number(design.noise_rms / millidegree)},
+          {"valve_effort_rad_per_s", number(design.valve_effort)},
+          {"loop_breaks", std::move(breaks)},
+          {"hydraulic_mode", mode_json(design.hydraulic_mode)},
+          {"active_goals", design.tuning.active_goals},
+          {"gains_at_bound", design.tuning.gains_at_bound},
+          {"worst_goal_ratio_1", number(design.tuning.worst_goal_ratio)},
+          {"starts", design.tuning.starts},
+          {"starts_at_optimum", design.tuning.starts_at_optimum},
+          {"evaluations", design.tuning.evaluations},
+          {"verification",
+           {{"rate_loop_abscissa_per_s", number(check.stability.rate_loop_abscissa)},
+            {"closed_loop_abscissa_per_s", number(check.stability.closed_loop_abscissa)},
+            {"dead_time_residue_1", number(check.stability.dead_time_residue)},
+            {"lyapunov_to_spectral_rms_1", number(check.lyapunov.total / check.spectral_rms)}}}};
+}
+
+Json tuning_json(const TuningSection& section) {
+  Json json{{"design_wind_speed_m_per_s", section.design_speed},
+            {"wind_model", plant::to_string(section.wind_model)},
+            {"design", design_json(section.design)},
+            {"seeds_within_1_percent", section.seeds_within_1_percent},
+            {"bending_floor_mdeg", number(section.bending_floor / millidegree)},
+            {"static_bending_mdeg", number(section.static_bending / millidegree)}};
+  Json goals = Json::array();
+  for (std::size_t b = 0; b < control::loop_breaks.size(); ++b) {
+    goals.push_back({{"loop_break", control::to_string(control::loop_breaks[b])},
+                     {"sensitivity_peak_1", section.goals.sensitivity_peak[b]}});
+  }
+  json["sensitivity_goals"] = std::move(goals);
+  json["valve_effort_goal_rad_per_s"] = section.goals.valve_effort;
+  json["seeds"] = Json::array();
+  for (const auto& seed : section.seeds) {
+    json["seeds"].push_back({{"seed", seed.seed},
+                             {"beam_rms_mdeg", number(seed.beam_rms / millidegree)},
+                             {"verified", seed.verified}});
+  }
+  json["wind_models"] = Json::array();
+  for (const auto& alternative : section.wind_alternatives) {
+    json["wind_models"].push_back({{"model", plant::to_string(alternative.model)},
+                                   {"beam_rms_mdeg", number(alternative.beam_rms / millidegree)}});
+  }
+  json["bands"] = Json::array();
+  for (const auto& loss : section.losses) {
+    json["bands"].push_back({{"name", loss.band.name},
+                             {"frequency_Hz", loss.band.frequency},
+                             {"beamwidth_mdeg", loss.band.beamwidth / millidegree},
+                             {"mean_loss_two_axes_dB", number(loss.mean_loss_db)}});
+  }
+  json["budgets"] = Json::array();
+  for (const auto& result : section.budgets) {
+    json["budgets"].push_back({{"name", result.budget.name},
+                               {"band", result.budget.band},
+                               {"convention", result.budget.convention},
+                               {"rms_mdeg", result.budget.rms / millidegree},
+                               {"wind_speed_limit_m_per_s", number(result.wind_speed_limit)}});
+  }
+  return json;
+}
+
+Json choices_json(const std::vector<ChoiceResult>& choices) {
+  Json json = Json::array();
+  for (const auto& choice : choices) {
+    json.push_back({{"name", choice.name},
+                    {"says", choice.says},
+                    {"oil_stiffness_N_m_per_rad", number(choice.oil_stiffness)},
+                    {"reflected_inertia_kg_m2", number(choice.reflected_inertia)},
+                    {"motor_to_load_ratio_1", number(choice.motor_to_load_ratio)},
+                    {"impossible_because", text_or_null(choice.impossible)},
+                    {"design", choice.design ? design_json(*choice.design) : Json(nullptr)}});
+  }
+  return json;
+}
+
+Json matching_json(const MatchingSection& section) {
+  Json json = Json::array();
+  for (const auto& series : section.series) {
+    Json points = Json::array();
+    for (std::size_t i = 0; i < section.rows.size(); ++i) {
+      const MatchingRow& row = section.rows[i];
+      points.push_back({{"label", row.label},
+                        {"flywheel_disks_1", row.disks},
+                        {"motor_inertia_kg_m2", row.motor_inertia},
+                        {"reflected_inertia_kg_m2", row.reflected_inertia},
+                        {"motor_to_load_ratio_1", number(row.motor_to_load_ratio)},
+                        {"design", design_json(series.designs[i])}});
+    }
+    json.push_back({{"structure", control::to_string(series.structure)},
+                    {"friction", series.friction},
+                    {"viscous_friction_N_m_s_per_rad", series.viscous_friction},
+                    {"points", std::move(points)}});
+  }
+  return json;
+}
+
+Json assumed_json(const std::vector<Quantity>& assumed) {
+  Json json = Json::array();
+  for (const auto& quantity : assumed) {
+    const bool value = quantity.basis == Basis::assumed;
+    json.push_back({{"key", quantity.key},
+                    {"value", quantity.text},
+                    {"assumed", value ? "value" : "uncertainty"},
+                    {"source", value ? quantity.source : quantity.uncertainty_source}});
+  }
+  return json;
+}
+
+}  // namespace
+
+std::string to_json(const Report& report) {
+  Json json{{"program", "boresight"},
+            {"version", BORESIGHT_VERSION},
+            {"command", report.command},
+            {"case", {{"path", report.case_path}, {"title", report.title}, {"axis", report.axis}}},
+            {"seed", report.seed}};
+  if (report.identification) json["identification"] = identification_json(*report.identification);
+  if (report.audit) json["audit"] = Json::parse(to_json(*report.audit));
+  if (report.plant) json["plant"] = plant_json(*report.plant);
+  if (report.tuning) json["tuning"] = tuning_json(*report.tuning);
+  if (!report.choices.empty()) json["choices"] = choices_json(report.choices);
+  if (report.matching) json["matching"] = matching_json(*report.matching);
+  json["assumed_inputs"] = assumed_json(report.assumed);
+  json["conclusions"] = report.conclusions;
+  return json.dump(2) + "\n";
+}
+
+}  // namespace boresight::app

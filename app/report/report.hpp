@@ -1,0 +1,124 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <boresight/app/audit/audit_report.hpp>
+#include <boresight/app/redesign/antenna_model.hpp>
+
+namespace boresight::app {
+
+struct IdentificationSection {
+  identification::InertiaIdentification inertia;
+  std::optional<identification::ReconciledInertia> reconciled;
+  /// Values the case states for a method's inertia and ratio, by method; empty text where none.
+  struct Printed {
+    std::string inertia;
+    std::string ratio;
+  };
+  std::vector<Printed> printed;
+  std::optional<double> tachometer_scale;  // rad/(s V)
+  std::optional<identification::FrictionAndOffset> slow_ramp;
+};
+
+struct PlantSection {
+  plant::AntennaPlant plant;
+  double gear_ratio = 1.0;
+  double reflected_inertia = 0.0;
+  double motor_to_load_ratio = 0.0;
+  double rigid_frequency = 0.0;    // Hz, all inertia rigid on the oil spring
+  double tracking_friction = 0.0;  // N m s/rad
+  std::vector<plant::PlantMode> modes;
+  plant::PlantMode hydraulic;
+  double supply_torque = 0.0;     // N m
+  double mean_wind_torque = 0.0;  // N m at the motor, design speed
+};
+
+/// Wind speed up to which a budget is met with the gains held.
+struct BudgetResult {
+  PointingBudget budget;
+  double wind_speed_limit = 0.0;  // m/s
+};
+
+struct TuningSection {
+  control::LoopStructure structure = control::LoopStructure::pi_with_lag;
+  design::HardGoals goals;
+  design::Design design;
+  double design_speed = 0.0;
+  plant::WindModel wind_model = plant::WindModel::coherence;
+  struct SeedResult {
+    std::uint64_t seed = 0;
+    double beam_rms = 0.0;  // rad
+    bool verified = false;
+  };
+  std::vector<SeedResult> seeds;
+  int seeds_within_1_percent = 0;
+  struct WindAlternative {
+    plant::WindModel model;
+    double beam_rms = 0.0;  // rad, same gains
+  };
+  std::vector<WindAlternative> wind_alternatives;
+  /// Bending between bull gear and beam that no encoder sees, with the encoder held still (rad
+  /// rms).
+  double bending_floor = 0.0;
+  double static_bending = 0.0;  // rad under the mean wind: calibration's job, not the servo's
+  struct BandLoss {
+    PointingBand band;
+    double mean_loss_db = 0.0;  // two equal axes
+  };
+  std::vector<BandLoss> losses;
+  std::vector<BudgetResult> budgets;
+};
+
+/// The same loop tuned on what another choice among contradictory numbers would make of the plant.
+struct ChoiceResult {
+  std::string name;
+  std::string says;  // what it takes from where
+  double oil_stiffness = 0.0;
+  double reflected_inertia = 0.0;
+  double motor_to_load_ratio = 0.0;
+  std::optional<design::Design> design;  // none where the choice leaves no plant
+  std::string impossible;                // why
+};
+
+struct MatchingRow {
+  double disks = 0.0;
+  std::string label;  // "24 disks", "ratio 1"
+  double motor_inertia = 0.0;
+  double motor_to_load_ratio = 0.0;
+  double reflected_inertia = 0.0;
+};
+
+/// One tuned design in the matching study.
+struct MatchingSeries {
+  std::string friction;  // "linear plant", "slope at tracking speed"
+  double viscous_friction = 0.0;
+  control::LoopStructure structure = control::LoopStructure::pi_with_lag;
+  std::vector<design::Design> designs;  // one a row
+};
+
+struct MatchingSection {
+  std::vector<MatchingRow> rows;
+  std::vector<MatchingSeries> series;
+};
+
+/// What one command found: the sections it computed.
+struct Report {
+  std::string command;
+  std::string title;
+  std::string axis;
+  std::string case_path;
+  std::uint64_t seed = 1;
+  std::optional<AuditReport> audit;
+  std::optional<IdentificationSection> identification;
+  std::optional<PlantSection> plant;
+  std::optional<TuningSection> tuning;
+  std::vector<ChoiceResult> choices;
+  std::optional<MatchingSection> matching;
+  std::vector<Quantity> assumed;
+  std::vector<std::string> conclusions;
+};
+
+}  // namespace boresight::app

@@ -1,0 +1,203 @@
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <boresight/app/report/sky_units.hpp>
+#include <boresight/app/report/text_layout.hpp>
+#include <boresight/app/report/text_report.hpp>
+
+namespace boresight::app {
+namespace {
+
+using design::Design;
+constexpr double two_pi = 2.0 * std::numbers::pi;
+constexpr std::size_t position = 2;  // of control::loop_breaks
+
+std::string mdeg(double angle) {
+  return fmt::format("{:.4f}", angle / millidegree);
+}
+
+std::string decibel(double factor) {
+  return std::isfinite(factor) && factor > 0.0 ? fmt::format("{:.1f}", 20.0 * std::log10(factor))
+                                               : "none";
+}
+
+std::string verdict(const Design& design) {
+  if (design.tuning.status != design::TuningStatus::optimal) return "infeasible";
+  return design.verification.passed ? "ok" : "NOT VERIFIED";
+}
+
+std::string gains_text(const TuningSection& section) {
+  const auto& law = section.design.tuning.law;
+  const auto& descriptions = control::gain_descriptions(law.structure);
+  std::vector<std::vector<std::string>> rows{{"gain", "value", "unit", "searched"}};
+  for (std::size_t i = 0; i < law.gains.size(); ++i) {
+    const auto& gain = descriptions[i];
+    rows.push_back({fmt::format("{} {}", gain.symbol, gain.name),
+                    fmt::format("{:.5g}", law.gains[i]), std::string(gain.unit),
+                    fmt::format("{:g} .. {:g}", gain.lower, gain.upper)});
+  }
+  return table(rows);
+}
+
+std::string breaks_text(const TuningSection& section) {
+  std::vector<std::vector<std::string>> rows{{"loop cut at", "peak of S", "goal", "at Hz",
+                                              "phase margin deg", "gain margin dB", "down dB",
+                                              "delay margin s"}};
+  for (std::size_t b = 0; b < control::loop_breaks.size(); ++b) {
+    const auto& peak = section.design.verification.peaks[b];
+    const auto& margins = section.design.margins[b];
+    rows.push_back(
+        {std::string(control::to_string(control::loop_breaks[b])),
+         fmt::format("{:.4f}", peak.magnitude),
+         fmt::format("{:g}", section.goals.sensitivity_peak[b]),
+         fmt::format("{:.3f}", peak.frequency / two_pi),
+         fmt::format("{:.1f}", margins.phase_margin_deg), decibel(margins.increasing_gain_margin),
+         decibel(margins.decreasing_gain_margin), fmt::format("{:.4f}", margins.delay_margin)});
+  }
+  return table(rows);
+}
+
+}  // namespace
+
+std::string to_text(const TuningSection& section) {
+  const Design& design = section.design;
+  const auto& check = design.verification;
+  std::string text = heading(fmt::format(
+      "Tuned loops: {}, as built, {:g} m/s, wind model {}", control::to_string(section.structure),
+      section.design_speed, plant::to_string(section.wind_model)));
+  text += gains_text(section) + "\n" + breaks_text(section) + "\n";
+  text += wrapped(
+      fmt::format("Beam rms {} mdeg at the sky (wind {}, sensor noise {}); noise-driven valve "
+                  "command {:.3f} rad/s rms of {:g} allowed. Limited by: {}.{}",
+                  mdeg(design.beam_rms), mdeg(design.wind_rms), mdeg(design.noise_rms),
+                  design.valve_effort, section.goals.valve_effort,
+                  design.tuning.active_goals.empty()
+                      ? "no goal"
+                      : fmt::format("{}", fmt::join(design.tuning.active_goals, "; ")),
+                  design.tuning.gains_at_bound.empty()
+                      ? ""
+                      : fmt::format(" At the bound of the search: {}.",
+                                    fmt::join(design.tuning.gains_at_bound, ", "))),
+      "  ");
+  text += wrapped(
+      fmt::format("Verified {}: largest real part of the eigenvalues {:.4f} 1/s (position loop "
+                  "open) and {:.4f} 1/s (closed); what the rational dead time leaves out is {:.1e} "
+                  "of the return difference; Lyapunov rms {} mdeg against {} by the spectrum, "
+                  "{:.3f} % apart.",
+                  check.passed ? "by independent code" : "WITHOUT SUCCESS",
+                  check.stability.rate_loop_abscissa, check.stability.closed_loop_abscissa,
+                  check.stability.dead_time_residue,
+                  mdeg(design.beam_rms * check.lyapunov.total / check.spectral_rms),
+                  mdeg(design.beam_rms), 100.0 * check.rms_disagreement),
+      "  ");
+  std::string seeds;
+  for (const auto& seed : section.seeds) {
+    seeds += fmt::format("{}{}{}", seeds.empty() ? "" : ", ", mdeg(seed.beam_rms),
+                         seed.verified ? "" : " (not verified)");
+  }
+  text += wrapped(fmt::format("From {} seeds: {} mdeg; {} of them within 1 % of the best.",
+                              section.seeds.size(), seeds, section.seeds_within_1_percent),
+                  "  ");
+  text += "\n";
+  std::vector<std::vector<std::string>> rows{{"wind model, same gains", "beam rms mdeg"}};
+  for (const auto& alternative : section.wind_alternatives) {
+    rows.push_back({std::string(plant::to_string(alternative.model)), mdeg(alternative.beam_rms)});
+  }
+  rows.push_back({"bending the encoder cannot see, encoder held", mdeg(section.bending_floor)});
+  rows.push_back({"static bending by the mean wind (calibration's job, not in the rms)",
+                  mdeg(section.static_bending)});
+  text += table(rows) + "\n";
+  rows = {{"band", "beamwidth mdeg", "mean loss dB, two equal axes"}};
+  for (const auto& loss : section.losses) {
+    rows.push_back({fmt::format("{} {:g} GHz", loss.band.name, loss.band.frequency / 1e9),
+                    fmt::format("{:.3f}", loss.band.beamwidth / millidegree),
+                    fmt::format("{:.4f}", loss.mean_loss_db)});
+  }
+  text += table(rows) + "\n";
+  rows = {{"budget", "band", "convention", "rms mdeg", "met up to m/s", "km/h"}};
+  for (const auto& result : section.budgets) {
+    rows.push_back({result.budget.name, result.budget.band, result.budget.convention,
+                    mdeg(result.budget.rms), fmt::format("{:.2f}", result.wind_speed_limit),
+                    fmt::format("{:.1f}", 3.6 * result.wind_speed_limit)});
+  }
+  return text + table(rows, "lllrrr");
+}
+
+std::string choices_text(const std::vector<ChoiceResult>& choices) {
+  std::string text =
+      heading("Where the case's numbers contradict each other: what each choice would do");
+  std::vector<std::vector<std::string>> rows{{"choice", "K N.m/rad", "J kg.m2", "R", "hydraulic Hz",
+                                              "damping", "beam rms mdeg", "verified"}};
+  for (const auto& choice : choices) {
+    std::vector<std::string> row{choice.name, fmt::format("{:.2f}", choice.oil_stiffness),
+                                 fmt::format("{:.3f}", choice.reflected_inertia),
+                                 choice.motor_to_load_ratio > 0.0
+                                     ? fmt::format("{:.2f}", choice.motor_to_load_ratio)
+                                     : "none"};
+    if (choice.design) {
+      const Design& design = *choice.design;
+      row.insert(row.end(), {fmt::format("{:.3f}", design.hydraulic_mode.frequency),
+                             fmt::format("{:.3f}", design.hydraulic_mode.damping_ratio),
+                             mdeg(design.beam_rms), verdict(design)});
+    } else {
+      row.insert(row.end(), {"-", "-", "-", "no plant"});
+    }
+    rows.push_back(std::move(row));
+  }
+  text += table(rows);
+  for (const auto& choice : choices) {
+    text += wrapped(
+        fmt::format(
+            "{}: {}.{}", choice.name, choice.says,
+            choice.impossible.empty() ? "" : fmt::format(" Not possible: {}.", choice.impossible)),
+        "  ");
+  }
+  text += wrapped(
+      "Structural frequencies are kept throughout: a lighter antenna is then a softer one, and "
+      "bends "
+      "more in the same wind.",
+      "  ");
+  return text;
+}
+
+std::string to_text(const MatchingSection& section) {
+  std::string text = heading("Inertia matching: re-tuned at each motor inertia");
+  for (const auto& series : section.series) {
+    text +=
+        fmt::format("\n  {}; friction: {}, {:.3g} N.m.s/rad\n",
+                    control::to_string(series.structure), series.friction, series.viscous_friction);
+    std::vector<std::vector<std::string>> rows{{"motors", "disks", "R", "J kg.m2", "hydr. Hz",
+                                                "damping", "S rate", "S valve", "S pos.",
+                                                "phase m. deg", "gain m. dB", "rms mdeg", "check"}};
+    for (std::size_t i = 0; i < section.rows.size(); ++i) {
+      const MatchingRow& row = section.rows[i];
+      const Design& design = series.designs[i];
+      const auto& peaks = design.verification.peaks;
+      const auto& margins = design.margins[position];
+      rows.push_back(
+          {row.label, fmt::format("{:.2f}", row.disks),
+           fmt::format("{:.3f}", row.motor_to_load_ratio),
+           fmt::format("{:.3f}", row.reflected_inertia),
+           fmt::format("{:.3f}", design.hydraulic_mode.frequency),
+           fmt::format("{:.3f}", design.hydraulic_mode.damping_ratio),
+           fmt::format("{:.3f}", peaks[0].magnitude), fmt::format("{:.3f}", peaks[1].magnitude),
+           fmt::format("{:.3f}", peaks[2].magnitude),
+           fmt::format("{:.1f}", margins.phase_margin_deg), decibel(margins.increasing_gain_margin),
+           mdeg(design.beam_rms), verdict(design)});
+    }
+    text += table(rows);
+  }
+  text += "\n";
+  text += wrapped(
+      "Phase and gain margins at the position loop; S: peak of the sensitivity "
+      "with the loop cut at rate loop alone, valve command, position loop.",
+      "  ");
+  return text;
+}
+
+}  // namespace boresight::app

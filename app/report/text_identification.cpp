@@ -1,0 +1,124 @@
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include <boresight/app/report/sky_units.hpp>
+#include <boresight/app/report/text_layout.hpp>
+#include <boresight/app/report/text_report.hpp>
+
+namespace boresight::app {
+namespace {
+
+using identification::PropagatedResult;
+
+std::string bound(double value, int decimals) {
+  return std::isfinite(value) ? fmt::format("{:.{}f}", value, decimals) : "infinity";
+}
+
+std::string interval(const PropagatedResult& result, int decimals, double unit = 1.0) {
+  return fmt::format("{} .. {}", bound(result.lower / unit, decimals),
+                     bound(result.upper / unit, decimals));
+}
+
+std::string ratio_value(const PropagatedResult& ratio) {
+  return ratio.value > 0.0 ? fmt::format("{:.3f}", ratio.value) : "none: J < Jm";
+}
+
+std::string deciding(const PropagatedResult& result) {
+  std::string text;
+  for (std::size_t i = 0; i < result.contributions.size() && i < 2; ++i) {
+    text += fmt::format("{}{} {:.0f} %", i == 0 ? "" : ", ", result.contributions[i].input,
+                        100.0 * result.contributions[i].share);
+  }
+  return text;
+}
+
+std::string either(const std::string& text) {
+  return text.empty() ? "-" : text;
+}
+
+}  // namespace
+
+std::string to_text(const IdentificationSection& section) {
+  const auto& inertia = section.inertia;
+  std::string text = heading("Inertia at the motor shaft, by method (95 % intervals)");
+  std::vector<std::vector<std::string>> rows{{"method", "J kg.m2", "interval", "lbf.ft.s2",
+                                              "printed J", "R = Jm/(J - Jm)", "interval",
+                                              "printed R"}};
+  for (std::size_t i = 0; i < inertia.methods.size(); ++i) {
+    const auto& method = inertia.methods[i];
+    const auto& printed = section.printed[i];
+    rows.push_back(
+        {method.name, fmt::format("{:.4f}", method.reflected_inertia.value),
+         interval(method.reflected_inertia, 3),
+         fmt::format("{:.4f}", method.reflected_inertia.value / pound_foot_second_squared),
+         either(printed.inertia), ratio_value(method.motor_to_load_ratio),
+         interval(method.motor_to_load_ratio, 2), either(printed.ratio)});
+  }
+  text += table(rows);
+  text += "\n";
+  for (const auto& method : inertia.methods) {
+    const auto& left = method.antenna_remainder;
+    text += wrapped(
+        fmt::format("{}: assumes {}; leaves {:.3f} kg.m2 ({}) for the antenna; decided by {}.",
+                    method.name, method.assumes, left.value, interval(left, 3),
+                    deciding(method.reflected_inertia)),
+        "  ");
+    if (method.motor_to_load_ratio.beyond_pole > 0.0) {
+      text += wrapped(fmt::format("In {:.0f} % of the draws its J is below the motors' own "
+                                  "inertia: no load at all, R without meaning.",
+                                  100.0 * method.motor_to_load_ratio.beyond_pole),
+                      "    ");
+    }
+  }
+  if (section.reconciled) {
+    const auto& one = *section.reconciled;
+    text += "\n";
+    text += wrapped(
+        fmt::format(
+            "Reconciled: J = {:.3f} kg.m2, 95 % interval {:.2f} .. {:.2f}; R = {:.2f}, interval {} "
+            ".. "
+            "{}. Random-effects mean of {} methods (the impulse results count as one); standard "
+            "deviation between methods {:.3f} kg.m2; Cochran's Q {:.1f} on {} degrees of "
+            "freedom{}.",
+            one.value, one.lower, one.upper, one.motor_to_load_ratio, bound(one.ratio_lower, 2),
+            bound(one.ratio_upper, 2), one.degrees_of_freedom + 1, one.between_methods,
+            one.heterogeneity, one.degrees_of_freedom,
+            one.heterogeneity > 2.0 * one.degrees_of_freedom
+                ? ": the methods contradict one another"
+                : ""),
+        "  ");
+  }
+  text += heading("What the methods rest on");
+  rows = {{"quantity", "value", "interval", "unit", "decided by"}};
+  for (const auto& line : inertia.line_bulk_modulus) {
+    rows.push_back({line.name + " (eq. 26)", fmt::format("{:.1f}", line.value / megapascal),
+                    interval(line, 0, megapascal), "MPa", deciding(line)});
+  }
+  rows.push_back(
+      {"bulk modulus as used", fmt::format("{:.1f}", inertia.bulk_modulus.value / megapascal),
+       interval(inertia.bulk_modulus, 0, megapascal), "MPa", deciding(inertia.bulk_modulus)});
+  rows.push_back({"oil stiffness (eq. 17)", fmt::format("{:.2f}", inertia.oil_stiffness.value),
+                  interval(inertia.oil_stiffness, 2), "N.m/rad", deciding(inertia.oil_stiffness)});
+  rows.push_back({"hydraulic frequency, masses rigid (eq. 18)",
+                  fmt::format("{:.4f}", inertia.expected_frequency.value),
+                  interval(inertia.expected_frequency, 3), "Hz",
+                  deciding(inertia.expected_frequency)});
+  for (const auto& row : inertia.load_rows) {
+    rows.push_back({"reflected: " + row.name, fmt::format("{:.6f}", row.value), interval(row, 4),
+                    "kg.m2", deciding(row)});
+  }
+  if (section.tachometer_scale) {
+    rows.push_back({"tachometer scale (eq. 32)", fmt::format("{:.4f}", *section.tachometer_scale),
+                    "", "rad/(s.V)", ""});
+  }
+  if (section.slow_ramp) {
+    rows.push_back({"Coulomb friction, slow ramp",
+                    fmt::format("{:.2f}", section.slow_ramp->coulomb), "", "N.m", ""});
+    rows.push_back({"offset torque, slow ramp", fmt::format("{:.2f}", section.slow_ramp->offset),
+                    "", "N.m", ""});
+  }
+  return text + table(rows, "lrrll");
+}
+
+}  // namespace boresight::app

@@ -1,0 +1,20 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace boresight::app {
+
+/// "\nTITLE\n-----\n"
+std::string heading(std::string_view title);
+
+/// Breaks a paragraph at blanks to at most `width` columns, each line behind `indent`.
+std::string wrapped(std::string_view paragraph, std::string_view indent, std::size_t width = 108);
+
+/// A table with a header row, two blanks between columns, each to the left ('l') or right ('r') by
+/// its letter in `alignment`; columns beyond it to the right. Columns count characters, not bytes.
+std::string table(const std::vector<std::vector<std::string>>& rows,
+                  std::string_view alignment = "l");
+
+}  // namespace boresight::app

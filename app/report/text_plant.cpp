@@ -1,0 +1,54 @@
+#include <numbers>
+
+#include <fmt/format.h>
+
+#include <boresight/app/report/sky_units.hpp>
+#include <boresight/app/report/text_layout.hpp>
+#include <boresight/app/report/text_report.hpp>
+
+namespace boresight::app {
+
+std::string to_text(const PlantSection& section) {
+  constexpr double two_pi = 2.0 * std::numbers::pi;
+  const auto& drive = section.plant.drive;
+  const auto& structure = section.plant.structure;
+  std::string text = heading("Plant, at the motor shaft, all motors lumped");
+  const auto row = [](const char* name, double value, const char* unit) {
+    return std::vector<std::string>{name, fmt::format("{:.6g}", value), unit};
+  };
+  text += table(
+      {row("gear ratio", section.gear_ratio, "1"),
+       row("motor side inertia (motors, flywheels, gear train)", drive.motor_inertia, "kg.m2"),
+       row("antenna inertia", plant::antenna_inertia(structure), "kg.m2"),
+       row("reflected inertia", section.reflected_inertia, "kg.m2"),
+       row("motor-to-load ratio", section.motor_to_load_ratio, "1"),
+       row("oil stiffness", drive.oil_stiffness, "N.m/rad"),
+       row("leakage rate", drive.leakage_rate, "1/s"),
+       row("viscous friction", drive.viscous_friction, "N.m.s/rad"),
+       row("friction slope at tracking rate", section.tracking_friction, "N.m.s/rad"),
+       row("gear stiffness", structure.gear_stiffness, "N.m/rad"),
+       row("valve", drive.valve_corner / two_pi, "Hz"),
+       row("supply torque", section.supply_torque, "N.m"),
+       row("mean wind torque at design speed", section.mean_wind_torque, "N.m")});
+  text += "\n";
+  std::vector<std::vector<std::string>> rows{
+      {"mode", "frequency Hz", "damping", "pole 1/s", "share"}};
+  for (const auto& mode : section.modes) {
+    rows.push_back({mode.description, fmt::format("{:.4f}", mode.frequency),
+                    mode.frequency > 0.0 ? fmt::format("{:.4f}", mode.damping_ratio) : "-",
+                    mode.pole.imag() > 0.0
+                        ? fmt::format("{:.4f} + {:.4f}i", mode.pole.real(), mode.pole.imag())
+                        : fmt::format("{:.4f}", mode.pole.real()),
+                    fmt::format("{:.2f}", mode.participation)});
+  }
+  text += table(rows);
+  text += wrapped(
+      fmt::format("The hydraulic mode of the flexible antenna is {:.3f} Hz with damping {:.3f}; "
+                  "all masses rigid on the oil spring would give {:.3f} Hz.",
+                  section.hydraulic.frequency, section.hydraulic.damping_ratio,
+                  section.rigid_frequency),
+      "  ");
+  return text;
+}
+
+}  // namespace boresight::app

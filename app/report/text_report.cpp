@@ -1,0 +1,38 @@
+#include <fmt/format.h>
+
+#include <boresight/app/report/text_layout.hpp>
+#include <boresight/app/report/text_report.hpp>
+
+namespace boresight::app {
+
+std::string assumed_text(const std::vector<Quantity>& assumed) {
+  std::string text = heading("Assumed inputs");
+  if (assumed.empty()) return text + "  none\n";
+  std::vector<std::vector<std::string>> rows{{"key", "value", "assumed", "because"}};
+  for (const auto& quantity : assumed) {
+    const bool value = quantity.basis == Basis::assumed;
+    const std::string& source = value ? quantity.source : quantity.uncertainty_source;
+    rows.push_back({quantity.key, quantity.text, value ? "value" : "uncertainty", source});
+  }
+  return text + table(rows, "llll");
+}
+
+std::string to_text(const Report& report) {
+  std::string text =
+      fmt::format("Boresight {} {}: {} ({} axis)\ncase {}, seed {}\n", BORESIGHT_VERSION,
+                  report.command, report.title, report.axis, report.case_path, report.seed);
+  if (report.identification) text += to_text(*report.identification);
+  if (report.audit) text += "\n" + to_text(*report.audit);
+  if (report.plant) text += to_text(*report.plant);
+  if (report.tuning) text += to_text(*report.tuning);
+  if (!report.choices.empty()) text += choices_text(report.choices);
+  if (report.matching) text += to_text(*report.matching);
+  if (report.command != "audit") text += assumed_text(report.assumed);
+  if (!report.conclusions.empty()) {
+    text += heading("What the numbers mean");
+    for (const auto& sentence : report.conclusions) text += wrapped(sentence, "  ") + "\n";
+  }
+  return text;
+}
+
+}  // namespace boresight::app

@@ -1,0 +1,20 @@
+#pragma once
+
+#include <string>
+
+#include <boresight/app/report/report.hpp>
+
+namespace boresight::app {
+
+/// The report as text for a terminal, about 110 columns; angles at the sky in mdeg.
+std::string to_text(const Report& report);
+
+// One function a section; each begins with its heading.
+std::string to_text(const IdentificationSection& section);
+std::string to_text(const PlantSection& section);
+std::string to_text(const TuningSection& section);
+std::string choices_text(const std::vector<ChoiceResult>& choices);
+std::string to_text(const MatchingSection& section);
+std::string assumed_text(const std::vector<Quantity>& assumed);
+
+}  // namespace boresight::app

@@ -45,6 +45,22 @@ identification::Uncertain assembly_inertia(const Case& antenna, const RotatingAs
   return sum;
 }
 
+plant::Structure make_structure(const Case& antenna) {
+  const StructureEntry& structure = antenna.structure;
+  plant::StructureSpecification specification;
+  specification.antenna_inertia = antenna_inertia(antenna);
+  specification.bull_gear_wind_fraction = structure.bull_gear_wind_fraction.value;
+  specification.bull_gear_beam_weight = structure.bull_gear_beam_weight.value;
+  specification.locked_rotor_frequency = structure.locked_rotor_frequency.value;
+  specification.gear_damping_ratio = structure.gear_damping_ratio.value;
+  for (const auto& mode : structure.modes) {
+    specification.modes.push_back({mode.frequency.value, mode.damping_ratio.value,
+                                   mode.inertia_fraction.value, mode.wind_fraction.value,
+                                   mode.beam_weight.value});
+  }
+  return plant::make_structure(specification);
+}
+
 design::LossConvention convention_of(const std::string& name) {
   if (name == "mean_loss_one_axis") return design::LossConvention::mean_loss_one_axis;
   if (name == "loss_at_mean_radial_error") return design::LossConvention::loss_at_mean_radial_error;
@@ -128,20 +144,12 @@ plant::AntennaPlant make_plant(const Case& antenna, const PlantVariant& variant)
   plant.drive.valve_damping = antenna.drive.valve_damping.value;
   plant.drive.tachometer_corner = two_pi * antenna.sensors.tachometer_frequency.value;
 
-  const StructureEntry& structure = antenna.structure;
-  plant::StructureSpecification specification;
-  specification.antenna_inertia =
-      variant.inertia_scale * variant.antenna_inertia.value_or(antenna_inertia(antenna));
-  specification.bull_gear_wind_fraction = structure.bull_gear_wind_fraction.value;
-  specification.bull_gear_beam_weight = structure.bull_gear_beam_weight.value;
-  specification.locked_rotor_frequency = structure.locked_rotor_frequency.value;
-  specification.gear_damping_ratio = structure.gear_damping_ratio.value;
-  for (const auto& mode : structure.modes) {
-    specification.modes.push_back({mode.frequency.value, mode.damping_ratio.value,
-                                   mode.inertia_fraction.value, mode.wind_fraction.value,
-                                   mode.beam_weight.value});
-  }
-  plant.structure = plant::make_structure(specification);
+  plant.structure = make_structure(antenna);
+  const double lighter = variant.inertia_scale *
+                         variant.antenna_inertia.value_or(antenna_inertia(antenna)) /
+                         antenna_inertia(antenna);
+  plant.structure.bull_gear_inertia *= lighter;
+  for (auto& mode : plant.structure.modes) mode.inertia *= lighter;
   return plant;
 }
 

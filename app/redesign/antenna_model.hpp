@@ -12,7 +12,8 @@
 
 namespace boresight::app {
 
-/// What a study changes about the antenna of a case. SI, at the motor shaft.
+/// What a study changes about the antenna of a case. SI, at the motor shaft. Structural springs are
+/// kept whatever the inertia: steel does not soften because an estimate of its mass changed.
 struct PlantVariant {
   std::optional<double> flywheel_disks = std::nullopt;  // on each motor
   std::optional<double> viscous_friction = std::nullopt;

@@ -158,9 +158,8 @@ std::string choices_text(const std::vector<ChoiceResult>& choices) {
         "  ");
   }
   text += wrapped(
-      "Structural frequencies are kept throughout: a lighter antenna is then a softer one, and "
-      "bends "
-      "more in the same wind.",
+      "Structural springs are kept throughout: a lighter antenna rings higher, it does not bend "
+      "more.",
       "  ");
   return text;
 }

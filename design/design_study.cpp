@@ -75,15 +75,15 @@ std::vector<Design> solve_all(const std::vector<DesignTask>& tasks, unsigned thr
     for (std::size_t i = next++; i < tasks.size(); i = next++) {
       try {
         designs[i] = solve(tasks[i]);
+        const std::lock_guard lock(mutex);
+        ++done;
+        if (progress) progress(done, tasks.size());
       } catch (...) {
         const std::lock_guard lock(mutex);
         if (!failure) failure = std::current_exception();
         next = tasks.size();
         return;
       }
-      const std::lock_guard lock(mutex);
-      ++done;
-      if (progress) progress(done, tasks.size());
     }
   };
   {

@@ -52,7 +52,8 @@ struct Design {
 Design solve(const DesignTask& task);
 
 /// Solves every task on `threads` threads; results in the order of the tasks, the same for any
-/// thread count. `progress(done, all)` is called under a lock after each.
+/// thread count. `progress(done, all)` is called under a lock after each; what
+/// it throws stops the work and comes out of here.
 std::vector<Design> solve_all(const std::vector<DesignTask>& tasks, unsigned threads,
                               const std::function<void(std::size_t, std::size_t)>& progress);
 

@@ -33,4 +33,10 @@ class NumericalFailure : public Error {
   using Error::Error;
 };
 
+/// The user asked to stop. Exit code 130.
+class Interrupted : public Error {
+ public:
+  using Error::Error;
+};
+
 }  // namespace boresight

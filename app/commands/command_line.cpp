@@ -1,3 +1,4 @@
+#include <csignal>
 #include <cstdio>
 #include <exception>
 #include <functional>
@@ -16,7 +17,20 @@
 namespace boresight::app {
 namespace {
 
-enum ExitCode { done = 0, internal_error = 1, bad_input = 2, infeasible = 3, numerical = 4 };
+enum ExitCode {
+  done = 0,
+  internal_error = 1,
+  bad_input = 2,
+  infeasible = 3,
+  numerical = 4,
+  interrupted = 130
+};
+
+volatile std::sig_atomic_t interrupt_requested = 0;
+
+void request_interrupt(int /*signal*/) {
+  interrupt_requested = 1;
+}
 
 struct Arguments {
   std::string case_path;
@@ -85,8 +99,16 @@ int run(const Command& command, const Arguments& arguments) {
   report.assumed = assumed_inputs(antenna);
   {
     ProgressLine progress;
-    options.progress = [&](std::size_t finished, std::size_t all) { progress.show(finished, all); };
-    command.run(antenna, options, report);
+    options.progress = [&](std::size_t finished, std::size_t all) {
+      progress.show(finished, all);
+      if (interrupt_requested != 0) throw Interrupted("interrupted by the user");
+    };
+    std::signal(SIGINT, request_interrupt);
+    try {
+      command.run(antenna, options, report);
+    } catch (const Interrupted&) {
+      report.interrupted = true;
+    }
   }
   if (arguments.json_path == "-") {
     fmt::print("{}", to_json(report));
@@ -95,6 +117,7 @@ int run(const Command& command, const Arguments& arguments) {
     fmt::print("{}", to_text(report));
   }
   if (std::fflush(stdout) != 0) throw InvalidInput("standard output: cannot be written to");
+  if (report.interrupted) return interrupted;
   if (report.tuning && report.tuning->design.tuning.status != design::TuningStatus::optimal) {
     fmt::print(stderr, "boresight: no control law meets the hard goals of {}\n",
                arguments.case_path);
@@ -110,8 +133,8 @@ int run_command_line(int argc, char** argv) {
   program.set_version_flag("--version", std::string("boresight ") + BORESIGHT_VERSION);
   program.require_subcommand(1);
   program.footer(
-      "Exit codes: 0 done, 1 internal error, 2 bad input, 3 goals infeasible, 4 numerical "
-      "failure.\n"
+      "Exit codes: 0 done, 1 internal error, 2 bad input, 3 goals infeasible, 4 numerical failure, "
+      "130 interrupted.\n"
       "Example: boresight redesign cases/dss14-70m/case.toml --json report.json");
   Arguments arguments;
   for (const auto& command : commands()) {

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <span>
 
 #include <fmt/format.h>
 
@@ -14,6 +15,41 @@ std::string printed(const Case& antenna, const std::string& id) {
     if (stated.quantity == id) return stated.value.text;
   }
   return {};
+}
+
+// Tachometer scale, friction and offset: small results with inputs of their own.
+void identify_sensors(const Case& antenna, const StudyOptions& options,
+                      IdentificationSection& section) {
+  using Point = std::span<const double>;
+  const auto input = [](const Quantity& quantity) {
+    return identification::UncertainInput{quantity.key, quantity.value,
+                                          quantity.standard_uncertainty};
+  };
+  const identification::PropagationOptions draws{20000, options.seed};
+  if (antenna.tachometer) {
+    const TachometerEntry& tachometer = *antenna.tachometer;
+    section.tachometer_scale =
+        identification::propagate(
+            {input(tachometer.shaft_speed), input(tachometer.voltage)},
+            {{"tachometer scale",
+              [turns = tachometer.motor_teeth.value / tachometer.tachometer_teeth.value](Point x) {
+                return identification::tachometer_scale(x[0], x[1], turns);
+              }}},
+            draws)
+            .front();
+  }
+  const FrictionTestsEntry& tests = antenna.friction_tests;
+  if (tests.slow_ramp_up && tests.slow_ramp_down) {
+    const auto results = identification::propagate(
+        {input(*tests.slow_ramp_up), input(*tests.slow_ramp_down)},
+        {{"Coulomb friction, slow ramp",
+          [](Point x) { return identification::friction_and_offset(x[0], x[1]).coulomb; }},
+         {"offset torque, slow ramp",
+          [](Point x) { return identification::friction_and_offset(x[0], x[1]).offset; }}},
+        draws);
+    section.slow_ramp_coulomb = results[0];
+    section.slow_ramp_offset = results[1];
+  }
 }
 
 }  // namespace
@@ -80,17 +116,7 @@ IdentificationSection identify(const Case& antenna, const StudyOptions& options)
     section.reconciled =
         identification::reconcile(estimates, motor_inertia(antenna, antenna.motor.flywheel_disks));
   }
-  if (antenna.tachometer) {
-    const TachometerEntry& tachometer = *antenna.tachometer;
-    section.tachometer_scale = identification::tachometer_scale(
-        tachometer.shaft_speed.value, tachometer.voltage.value,
-        tachometer.motor_teeth.value / tachometer.tachometer_teeth.value);
-  }
-  const FrictionTestsEntry& tests = antenna.friction_tests;
-  if (tests.slow_ramp_up && tests.slow_ramp_down) {
-    section.slow_ramp =
-        identification::friction_and_offset(tests.slow_ramp_up->value, tests.slow_ramp_down->value);
-  }
+  identify_sensors(antenna, options, section);
   return section;
 }
 

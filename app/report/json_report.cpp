@@ -78,12 +78,13 @@ Json identification_json(const IdentificationSection& section) {
   json["bulk_modulus"] = propagated(section.inertia.bulk_modulus, "Pa");
   json["oil_stiffness"] = propagated(section.inertia.oil_stiffness, "N_m_per_rad");
   json["expected_hydraulic_frequency"] = propagated(section.inertia.expected_frequency, "Hz");
-  json["tachometer_scale_rad_per_s_V"] =
-      section.tachometer_scale ? number(*section.tachometer_scale) : Json(nullptr);
-  json["slow_ramp"] = section.slow_ramp
-                          ? Json{{"coulomb_friction_N_m", number(section.slow_ramp->coulomb)},
-                                 {"offset_torque_N_m", number(section.slow_ramp->offset)}}
-                          : Json(nullptr);
+  const auto optional = [](const std::optional<identification::PropagatedResult>& result,
+                           const std::string& unit) {
+    return result ? propagated(*result, unit) : Json(nullptr);
+  };
+  json["tachometer_scale"] = optional(section.tachometer_scale, "rad_per_s_V");
+  json["slow_ramp_coulomb_friction"] = optional(section.slow_ramp_coulomb, "N_m");
+  json["slow_ramp_offset_torque"] = optional(section.slow_ramp_offset, "N_m");
   return json;
 }
 
@@ -272,7 +273,8 @@ std::string to_json(const Report& report) {
             {"version", BORESIGHT_VERSION},
             {"command", report.command},
             {"case", {{"path", report.case_path}, {"title", report.title}, {"axis", report.axis}}},
-            {"seed", report.seed}};
+            {"seed", report.seed},
+            {"interrupted", report.interrupted}};
   if (report.identification) json["identification"] = identification_json(*report.identification);
   if (report.audit) json["audit"] = Json::parse(to_json(*report.audit));
   if (report.plant) json["plant"] = plant_json(*report.plant);

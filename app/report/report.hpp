@@ -19,8 +19,9 @@ struct IdentificationSection {
     std::string ratio;
   };
   std::vector<Printed> printed;
-  std::optional<double> tachometer_scale;  // rad/(s V)
-  std::optional<identification::FrictionAndOffset> slow_ramp;
+  std::optional<identification::PropagatedResult> tachometer_scale;   // rad/(s V), eq. 32
+  std::optional<identification::PropagatedResult> slow_ramp_coulomb;  // N m
+  std::optional<identification::PropagatedResult> slow_ramp_offset;   // N m
 };
 
 struct PlantSection {
@@ -119,6 +120,8 @@ struct Report {
   std::optional<MatchingSection> matching;
   std::vector<Quantity> assumed;
   std::vector<std::string> conclusions;
+  /// The user stopped the work: the sections here are whole, others are missing.
+  bool interrupted = false;
 };
 
 }  // namespace boresight::app

@@ -105,18 +105,20 @@ std::string to_text(const IdentificationSection& section) {
                   interval(inertia.expected_frequency, 3), "Hz",
                   deciding(inertia.expected_frequency)});
   for (const auto& row : inertia.load_rows) {
-    rows.push_back({"reflected: " + row.name, fmt::format("{:.6f}", row.value), interval(row, 4),
-                    "kg.m2", deciding(row)});
+    rows.push_back({fmt::format("reflected: {}", row.name), fmt::format("{:.6f}", row.value),
+                    interval(row, 4),
+                    fmt::format("kg.m2 ({:.5f} lbf.ft.s2)", row.value / pound_foot_second_squared),
+                    deciding(row)});
   }
   if (section.tachometer_scale) {
-    rows.push_back({"tachometer scale (eq. 32)", fmt::format("{:.4f}", *section.tachometer_scale),
-                    "", "rad/(s.V)", ""});
+    rows.push_back(
+        {"tachometer scale (eq. 32)", fmt::format("{:.4f}", section.tachometer_scale->value),
+         interval(*section.tachometer_scale, 3), "rad/(s.V)", deciding(*section.tachometer_scale)});
   }
-  if (section.slow_ramp) {
-    rows.push_back({"Coulomb friction, slow ramp",
-                    fmt::format("{:.2f}", section.slow_ramp->coulomb), "", "N.m", ""});
-    rows.push_back({"offset torque, slow ramp", fmt::format("{:.2f}", section.slow_ramp->offset),
-                    "", "N.m", ""});
+  for (const auto& friction : {section.slow_ramp_coulomb, section.slow_ramp_offset}) {
+    if (!friction) continue;
+    rows.push_back({friction->name, fmt::format("{:.2f}", friction->value), interval(*friction, 2),
+                    "N.m", deciding(*friction)});
   }
   return text + table(rows, "lrrll");
 }

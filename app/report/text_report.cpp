@@ -21,6 +21,7 @@ std::string to_text(const Report& report) {
   std::string text =
       fmt::format("Boresight {} {}: {} ({} axis)\ncase {}, seed {}\n", BORESIGHT_VERSION,
                   report.command, report.title, report.axis, report.case_path, report.seed);
+  if (report.interrupted) text += "INTERRUPTED: what follows is whole, the rest is missing.\n";
   if (report.identification) text += to_text(*report.identification);
   if (report.audit) text += "\n" + to_text(*report.audit);
   if (report.plant) text += to_text(*report.plant);

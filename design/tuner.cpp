@@ -94,11 +94,9 @@ class Search {
     try {
       double value = 0.0;
       optimiser.optimize(start, value);
-    } catch (const nlopt::roundoff_limited&) {
-      // The record below holds what it found.
-    } catch (const nlopt::forced_stop&) {
     } catch (const std::runtime_error&) {
-      // SLSQP reports a failed line search this way; the record stands all the same.
+      // A failed line search, rounding, or our own stop: the record stands all the same.
+      ++failures_;
     }
     optimiser_ = nullptr;
     if (failure_) std::rethrow_exception(failure_);
@@ -113,6 +111,7 @@ class Search {
   }
   const std::optional<Candidate>& nearest() const { return nearest_; }
   int evaluations() const { return evaluations_; }
+  int failures() const { return failures_; }
   const std::vector<control::GainDescription>& descriptions() const { return descriptions_; }
 
  private:
@@ -196,6 +195,7 @@ class Search {
   std::vector<double> point_;
   LoopEvaluation evaluation_;
   int evaluations_ = 0;
+  int failures_ = 0;
   double best_log_rms_ = std::numeric_limits<double>::infinity();
   double nearest_ratio_ = std::numeric_limits<double>::infinity();
   std::optional<Candidate> best_, nearest_;
@@ -314,10 +314,15 @@ TuningResult tune(const TrackingProblem& problem, control::LoopStructure structu
     }
   }
   result.evaluations = search.evaluations() + refine.evaluations();
+  result.optimiser_failures = search.failures() + refine.failures();
   std::stable_sort(refined.begin(), refined.end(), less);
-  const Candidate* chosen = refined.empty() ? nullptr : &refined.front();
-  result.status = chosen != nullptr ? TuningStatus::optimal : TuningStatus::infeasible;
-  if (chosen == nullptr) chosen = &*refine.nearest();
+  const std::optional<Candidate> chosen =
+      refined.empty() ? refine.nearest() : std::optional(refined.front());
+  if (!chosen) {
+    throw NumericalFailure(
+        "tune: a law that is stable on the search's frequency grid is not on the problem's own");
+  }
+  result.status = refined.empty() ? TuningStatus::infeasible : TuningStatus::optimal;
   result.law = chosen->law;
   result.evaluation = chosen->evaluation;
   result.worst_goal_ratio = worst_goal_ratio(result.evaluation, goals);

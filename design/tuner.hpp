@@ -43,6 +43,8 @@ struct TuningResult {
   /// Starts whose own best feasible rms is within 1 % of the best.
   int starts_at_optimum = 0;
   int evaluations = 0;
+  /// Searches the optimiser gave up with an error; their records count all the same.
+  int optimiser_failures = 0;
 };
 
 /// The largest of quantity/limit over the hard goals; infinity for an unstable loop.

@@ -55,7 +55,7 @@ Eigen::VectorXcd eigenvalues(const Eigen::MatrixXd& matrix) {
 
 EigenDecomposition eigen_decomposition(const Eigen::MatrixXd& matrix) {
   const auto solver = solve("eigen_decomposition", matrix, true);
-  const Eigen::VectorXcd values = solver.eigenvalues();
+  const Eigen::VectorXcd& values = solver.eigenvalues();
   const Eigen::MatrixXcd vectors = solver.eigenvectors();
   const auto order = order_of(values);
   const Eigen::Index n = values.size();

@@ -101,12 +101,11 @@ Eigen::ArrayXd frequency_grid(const AntennaPlant& plant, double lowest, double h
     points.push_back(two_pi * lowest * std::pow(10.0, decades * i / intervals));
   }
   const Eigen::VectorXcd poles = eigenvalues(to_state_space(plant).a);
-  for (Eigen::Index i = 0; i < poles.size(); ++i) {
-    const double natural = std::abs(poles[i]);
-    const double half_width = -poles[i].real();
-    if (poles[i].imag() <= 0.0 || half_width > 0.1 * natural) continue;
+  for (const std::complex<double> pole : poles) {
+    const double half_width = -pole.real();
+    if (pole.imag() <= 0.0 || half_width > 0.1 * std::abs(pole)) continue;
     for (int k = -12; k <= 12; ++k) {
-      const double w = poles[i].imag() + 4.0 * half_width * k / 12.0;
+      const double w = pole.imag() + 4.0 * half_width * k / 12.0;
       if (w > points.front() && w < two_pi * highest) points.push_back(w);
     }
   }

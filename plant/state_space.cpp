@@ -168,7 +168,7 @@ StateSpace connect(const std::vector<StateSpace>& systems,
   for (Eigen::Index i = 0; i < p; ++i) output_of[all.outputs[static_cast<std::size_t>(i)]] = i;
   for (Eigen::Index i = 0; i < outside; ++i) {
     const auto& name = external_inputs[static_cast<std::size_t>(i)];
-    if (output_of.count(name) != 0) {
+    if (output_of.contains(name)) {
       throw InvalidInput(
           fmt::format("connect: the external input '{}' is also an output of a system", name));
     }
@@ -192,7 +192,7 @@ StateSpace connect(const std::vector<StateSpace>& systems,
     }
   }
   for (const auto& name : external_inputs) {
-    if (used.count(name) == 0) {
+    if (!used.contains(name)) {
       throw InvalidInput(fmt::format("connect: no system has the external input '{}'", name));
     }
   }

@@ -50,9 +50,9 @@ class GraphBuilder {
             band.frequency);
     }
     for (const StatedEntry& stated : case_.stated) {
-      const auto node =
-          std::find_if(nodes_.begin(), nodes_.end(),
-                       [&](const AuditNode& known) { return known.id == stated.quantity; });
+      const auto node = std::find_if(nodes_.begin(), nodes_.end(), [&](const AuditNode& known) {
+        return known.id == stated.quantity;
+      });
       // A quantity the case states but gives too little to recompute is left out.
       if (node != nodes_.end()) node->statements.push_back(statement_of(stated.value));
     }
@@ -61,8 +61,13 @@ class GraphBuilder {
 
  private:
   void input(const std::string& id, const std::string& description, const Quantity& quantity) {
-    nodes_.push_back({id, description, std::string(describe(quantity.kind).si_unit), {}, {},
-                      {statement_of(quantity)}, false});
+    nodes_.push_back({id,
+                      description,
+                      std::string(describe(quantity.kind).si_unit),
+                      {},
+                      {},
+                      {statement_of(quantity)},
+                      false});
   }
 
   void exact_input(const std::string& id, const std::string& description,
@@ -74,14 +79,17 @@ class GraphBuilder {
   AuditNode& derived(const std::string& id, const std::string& description, Kind kind,
                      std::vector<std::string> parents, std::function<double(Arguments)> formula,
                      bool headline = false) {
-    nodes_.push_back({id, description, std::string(describe(kind).si_unit), std::move(parents),
-                      std::move(formula), {}, headline});
+    nodes_.push_back({id,
+                      description,
+                      std::string(describe(kind).si_unit),
+                      std::move(parents),
+                      std::move(formula),
+                      {},
+                      headline});
     return nodes_.back();
   }
 
-  static double sum(Arguments values) {
-    return std::accumulate(values.begin(), values.end(), 0.0);
-  }
+  static double sum(Arguments values) { return std::accumulate(values.begin(), values.end(), 0.0); }
 
   void add_parts_and_assemblies() {
     if (case_.gear_train.density) {
@@ -113,10 +121,10 @@ class GraphBuilder {
     }
     input(name + ".radius", "radius of " + what, *part.radius);
     input(name + ".length", "length of " + what, *part.length);
-    AuditNode& node = derived(
-        name + ".inertia", "inertia of " + what + ", a solid disk", Kind::inertia,
-        {name + ".radius", name + ".length", "gear_train.density"},
-        [](Arguments disk) { return plant::disk_inertia(disk[0], disk[1], disk[2]); });
+    AuditNode& node =
+        derived(name + ".inertia", "inertia of " + what + ", a solid disk", Kind::inertia,
+                {name + ".radius", name + ".length", "gear_train.density"},
+                [](Arguments disk) { return plant::disk_inertia(disk[0], disk[1], disk[2]); });
     if (part.inertia) node.statements.push_back(statement_of(*part.inertia));
     return name + ".inertia";
   }
@@ -175,12 +183,13 @@ class GraphBuilder {
             [motors](Arguments motor) { return motors * motor[0]; });
     derived("reflected_inertia", "inertia felt at the motor", Kind::inertia,
             {"motor_inertia", "load_inertia"}, sum, true);
-    derived("motor_to_load_ratio", "motor-to-load inertia ratio", Kind::number,
-            {"motor_inertia", "load_inertia"},
-            [](Arguments inertia) {
-              return plant::motor_to_load_ratio(inertia[0], inertia[0] + inertia[1]);
-            },
-            true);
+    derived(
+        "motor_to_load_ratio", "motor-to-load inertia ratio", Kind::number,
+        {"motor_inertia", "load_inertia"},
+        [](Arguments inertia) {
+          return plant::motor_to_load_ratio(inertia[0], inertia[0] + inertia[1]);
+        },
+        true);
     one_train.emplace_back("load_inertia.antenna");
     shares.push_back(1.0);
     derived("reflected_inertia.one_train", "inertia of one motor, one gear train and the antenna",
@@ -200,18 +209,16 @@ class GraphBuilder {
             line.slosh_frequency);
       moduli.push_back(name + ".bulk_modulus");
       derived(moduli.back(), "bulk modulus from the " + line.name + " line", Kind::pressure,
-              {name + ".length", name + ".slosh_frequency", "oil.density"},
-              [](Arguments wave) {
+              {name + ".length", name + ".slosh_frequency", "oil.density"}, [](Arguments wave) {
                 return plant::bulk_modulus_from_slosh(wave[0], wave[1], wave[2]);
               });
     }
     if (moduli.empty()) {
       input("bulk_modulus", "bulk modulus of the oil", *oil.bulk_modulus);
     } else {
-      AuditNode& node = derived("bulk_modulus", "bulk modulus, mean of the lines", Kind::pressure,
-                                moduli, [](Arguments values) {
-                                  return sum(values) / static_cast<double>(values.size());
-                                });
+      AuditNode& node = derived(
+          "bulk_modulus", "bulk modulus, mean of the lines", Kind::pressure, moduli,
+          [](Arguments values) { return sum(values) / static_cast<double>(values.size()); });
       if (oil.bulk_modulus) node.statements.push_back(statement_of(*oil.bulk_modulus));
     }
     input("motor.displacement", "displacement of one motor", case_.motor.displacement);
@@ -225,40 +232,38 @@ class GraphBuilder {
     drive.efficiency_in_stiffness = oil.efficiency_in_stiffness
                                         ? plant::EfficiencyInStiffness::both
                                         : plant::EfficiencyInStiffness::none;
-    derived("oil_stiffness", "oil spring at the motor", Kind::stiffness,
-            {"motor.displacement", "motor.torque_efficiency", "motor.volumetric_efficiency",
-             "bulk_modulus", "oil.volume_1", "oil.volume_2"},
-            [drive](Arguments values) {
-              plant::HydraulicDrive filled = drive;
-              filled.displacement = values[0];
-              filled.torque_efficiency = values[1];
-              filled.volumetric_efficiency = values[2];
-              filled.bulk_modulus = values[3];
-              filled.volume_1 = values[4];
-              filled.volume_2 = values[5];
-              return plant::oil_stiffness(filled);
-            },
-            true);
+    derived(
+        "oil_stiffness", "oil spring at the motor", Kind::stiffness,
+        {"motor.displacement", "motor.torque_efficiency", "motor.volumetric_efficiency",
+         "bulk_modulus", "oil.volume_1", "oil.volume_2"},
+        [drive](Arguments values) {
+          plant::HydraulicDrive filled = drive;
+          filled.displacement = values[0];
+          filled.torque_efficiency = values[1];
+          filled.volumetric_efficiency = values[2];
+          filled.bulk_modulus = values[3];
+          filled.volume_1 = values[4];
+          filled.volume_2 = values[5];
+          return plant::oil_stiffness(filled);
+        },
+        true);
   }
 
   void add_ratio_to_motors(const std::string& method) {
-    derived(method + ".motor_to_load_ratio", "motor-to-load inertia ratio by " + method,
-            Kind::number, {"motor_inertia", method + ".reflected_inertia"},
-            [](Arguments inertia) {
-              return plant::motor_to_load_ratio(inertia[0], inertia[1]);
-            },
-            true);
+    derived(
+        method + ".motor_to_load_ratio", "motor-to-load inertia ratio by " + method, Kind::number,
+        {"motor_inertia", method + ".reflected_inertia"},
+        [](Arguments inertia) { return plant::motor_to_load_ratio(inertia[0], inertia[1]); }, true);
   }
 
   void add_tests() {
     if (case_.resonance_frequency) {
       input("resonance.frequency", "hydraulic resonance", *case_.resonance_frequency);
-      derived("resonance.reflected_inertia", "inertia from the hydraulic resonance",
-              Kind::inertia, {"oil_stiffness", "resonance.frequency"},
-              [](Arguments spring) {
-                return plant::inertia_from_resonance(spring[0], spring[1]);
-              },
-              true);
+      derived(
+          "resonance.reflected_inertia", "inertia from the hydraulic resonance", Kind::inertia,
+          {"oil_stiffness", "resonance.frequency"},
+          [](Arguments spring) { return plant::inertia_from_resonance(spring[0], spring[1]); },
+          true);
       add_ratio_to_motors("resonance");
     }
     for (const ImpulseResult& result : case_.impulse_results) {
@@ -297,8 +302,8 @@ class GraphBuilder {
 }  // namespace
 
 UnitColumn column_of(const std::string& text, Kind kind) {
-  static constexpr std::array names{"in", "ft", "yd", "mile", "lbf", "lbm", "slug",
-                                    "psi", "ksi", "kip", "hp", "ozf", "ozm"};
+  static constexpr std::array names{"in",  "ft",  "yd",  "mile", "lbf", "lbm", "slug",
+                                    "psi", "ksi", "kip", "hp",   "ozf", "ozm"};
   std::string name;
   for (const char character : text + " ") {
     if (std::isalpha(static_cast<unsigned char>(character)) != 0 || character == '_') {
@@ -311,9 +316,9 @@ UnitColumn column_of(const std::string& text, Kind kind) {
     }
     name.clear();
   }
-  static constexpr std::array shared{Kind::number,       Kind::time,          Kind::angle,
-                                     Kind::frequency,    Kind::angular_rate,  Kind::voltage,
-                                     Kind::rate_constant, Kind::tachometer_scale};
+  static constexpr std::array shared{
+      Kind::number,       Kind::time,    Kind::angle,         Kind::frequency,
+      Kind::angular_rate, Kind::voltage, Kind::rate_constant, Kind::tachometer_scale};
   return std::find(shared.begin(), shared.end(), kind) != shared.end() ? UnitColumn::either
                                                                        : UnitColumn::metric;
 }

@@ -1,0 +1,33 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include <boresight/app/audit/plausibility.hpp>
+#include <boresight/app/io/case_file.hpp>
+#include <boresight/identification/misprint_search.hpp>
+
+namespace boresight::app {
+
+/// What an audit of a case found.
+struct AuditReport {
+  std::string title;
+  std::vector<identification::Finding> findings;
+  std::vector<Implausibility> implausible;
+  /// The case writer's own, what no recomputation can find.
+  std::vector<RemarkEntry> remarks;
+  /// Printed numbers that were compared with something.
+  std::size_t checked = 0;
+};
+
+/// Recomputes every derived number the case prints and checks its inputs for plausibility. A case
+/// that [[stated]] ids name quantities it has no means to recompute is not refused: they are left
+/// out.
+/// @throws InvalidInput if two parts of the case bear the same name.
+AuditReport audit(const Case& antenna);
+
+/// The report as text of about 100 columns, grouped by kind, ending in a paragraph on the findings
+/// that move a headline result by more than 0.1 %.
+std::string to_text(const AuditReport& report);
+
+}  // namespace boresight::app

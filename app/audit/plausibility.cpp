@@ -1,0 +1,55 @@
+#include <numbers>
+
+#include <boresight/app/audit/plausibility_checks.hpp>
+#include <boresight/identification/source_reading.hpp>
+#include <boresight/plant/gear_train.hpp>
+#include <boresight/plant/hydraulics.hpp>
+
+namespace boresight::app {
+namespace {
+
+double from_nearest_prints(const identification::AuditGraph& graph, const std::string& id) {
+  const std::size_t node = graph.index(id);
+  if (graph.is_input(node)) return graph.value(node, {});
+  return graph.derive(
+      node, identification::values_of(graph, identification::reading_in_column(graph, node, 0)));
+}
+
+}  // namespace
+
+CaseNumbers case_numbers(const Case& antenna, const identification::AuditGraph& graph) {
+  CaseNumbers numbers{antenna, graph};
+  numbers.motors = from_nearest_prints(graph, "motor_inertia");
+  for (const RotatingAssembly& assembly : antenna.gear_train.assemblies) {
+    numbers.gear_train += from_nearest_prints(graph, "load_inertia." + assembly.name);
+  }
+  numbers.antenna_at_motor = from_nearest_prints(graph, "load_inertia.antenna");
+  numbers.oil_stiffness = from_nearest_prints(graph, "oil_stiffness");
+  plant::HydraulicDrive drive;
+  drive.motor_count = static_cast<double>(antenna.motor.count);
+  drive.displacement = antenna.motor.displacement.value;
+  drive.torque_efficiency = antenna.motor.torque_efficiency.value;
+  numbers.supply_torque = plant::torque_per_pressure(drive) * antenna.drive.supply_pressure.value;
+  numbers.slew_rate_at_motor =
+      antenna.drive.slew_rate.value * from_nearest_prints(graph, "gear_ratio");
+  return numbers;
+}
+
+std::vector<Implausibility> implausibilities(const Case& antenna,
+                                             const identification::AuditGraph& graph) {
+  const CaseNumbers numbers = case_numbers(antenna, graph);
+  Implausibilities found;
+  check_inertia_remainders(numbers, found);
+  check_expected_resonance(numbers, found);
+  check_impulse_order(numbers, found);
+  check_coincidences(numbers, found);
+  check_friction_slope(numbers, found);
+  check_coulomb_levels(numbers, found);
+  check_recorder_limit(numbers, found);
+  check_wave_speeds(numbers, found);
+  check_structural_bound(numbers, found);
+  check_carrier_frequencies(numbers, found);
+  return found;
+}
+
+}  // namespace boresight::app

@@ -1,0 +1,49 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include <boresight/app/io/case_file.hpp>
+#include <boresight/identification/audit_graph.hpp>
+
+namespace boresight::app {
+
+/// A number that a reason rests on, SI (Hz, deg where the unit says so).
+struct NamedNumber {
+  std::string name;
+  double value = 0.0;
+  std::string unit;
+};
+
+/// An input or result that contradicts physics or the rest of the case.
+struct Implausibility {
+  /// What the check looks at, closed: "inertia remainder", "friction slope", "wave speed",
+  /// "structural bound", "impulse order", "resonance expected", "recorder limit", "Coulomb levels",
+  /// "coincidence", "carrier frequency".
+  std::string check;
+  /// The quantity, by id.
+  std::string id;
+  /// One sentence with the numbers in it.
+  std::string reasoning;
+  std::vector<NamedNumber> numbers;
+};
+
+/// Physical checks of a case. A check whose inputs the case does not have says nothing.
+/// - inertia remainder: what motors and gear train leave of a measured inertia is negative, or
+///   less than half of what the antenna needs;
+/// - friction slope: as viscous friction it damps a mode that was seen to ring (damping ratio over
+///   1), or takes more than the supply's torque at slew rate;
+/// - wave speed: two lines' sound speeds differ by more than two standard uncertainties, or a slosh
+///   frequency printed elsewhere does from its own line's;
+/// - structural bound of another axis than the case's;
+/// - impulse order: of two inertias from an accelerating window, the one with more friction
+///   subtracted is the larger;
+/// - resonance expected from masses and oil spring, more than three standard uncertainties away;
+/// - recorder limit below the tachometer's voltage at slew rate;
+/// - Coulomb levels of two tests more than 1.5 apart;
+/// - coincidence: two methods print the same inertia to the last digit;
+/// - carrier frequency: a beam wider than 5 deg.
+std::vector<Implausibility> implausibilities(const Case& antenna,
+                                             const identification::AuditGraph& graph);
+
+}  // namespace boresight::app

@@ -1,0 +1,167 @@
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include <boresight/app/audit/plausibility_checks.hpp>
+#include <boresight/identification/source_reading.hpp>
+#include <boresight/plant/gear_train.hpp>
+#include <boresight/plant/hydraulics.hpp>
+
+namespace boresight::app {
+namespace {
+
+/// An inertia that a test gave, as printed or recomputed.
+struct MeasuredInertia {
+  std::string id;
+  std::string how;
+  double value = 0.0;
+};
+
+std::vector<MeasuredInertia> measured_inertias(const CaseNumbers& numbers) {
+  std::vector<MeasuredInertia> inertias;
+  if (numbers.antenna.resonance_frequency) {
+    const std::string id = "resonance.reflected_inertia";
+    inertias.push_back({id, "recomputed",
+                        plant::inertia_from_resonance(numbers.oil_stiffness,
+                                                      numbers.antenna.resonance_frequency->value)});
+    for (const StatedEntry& stated : numbers.antenna.stated) {
+      if (stated.quantity == id) inertias.push_back({id, "as printed", stated.value.value});
+    }
+  }
+  for (const ImpulseResult& result : numbers.antenna.impulse_results) {
+    inertias.push_back({"impulse." + result.name + ".reflected_inertia", "as printed",
+                        result.reflected_inertia.value});
+  }
+  return inertias;
+}
+
+double relative(const Quantity& quantity) {
+  return quantity.standard_uncertainty / std::abs(quantity.value);
+}
+
+}  // namespace
+
+void check_inertia_remainders(const CaseNumbers& numbers, Implausibilities& found) {
+  const double rotating = numbers.motors + numbers.gear_train;
+  for (const MeasuredInertia& inertia : measured_inertias(numbers)) {
+    const double remainder = inertia.value - rotating;
+    if (remainder >= 0.5 * numbers.antenna_at_motor) continue;
+    found.push_back(
+        {"inertia remainder",
+         inertia.id,
+         fmt::format(
+             "{:.4g} kg.m2 {} less {:.4g} of the motors and {:.4g} of the gear train leaves {:.3g} "
+             "kg.m2 for the antenna, which needs {:.3g}{}.",
+             inertia.value, inertia.how, numbers.motors, numbers.gear_train, remainder,
+             numbers.antenna_at_motor,
+             remainder < 0.0
+                 ? ": no antenna has a negative inertia"
+                 : fmt::format(": {:.0f} %", 100.0 * remainder / numbers.antenna_at_motor)),
+         {{"inertia", inertia.value, "kg.m2"},
+          {"motors", numbers.motors, "kg.m2"},
+          {"gear train", numbers.gear_train, "kg.m2"},
+          {"remainder", remainder, "kg.m2"},
+          {"antenna", numbers.antenna_at_motor, "kg.m2"}}});
+  }
+}
+
+void check_expected_resonance(const CaseNumbers& numbers, Implausibilities& found) {
+  if (!numbers.antenna.resonance_frequency) return;
+  const Quantity& measured = *numbers.antenna.resonance_frequency;
+  const double rotating = numbers.motors + numbers.gear_train;
+  const auto frequency = [&](double load) {
+    return plant::hydraulic_frequency(numbers.oil_stiffness, rotating + load);
+  };
+  const double expected = frequency(numbers.antenna_at_motor);
+  const double inertia_share = numbers.antenna_at_motor / (rotating + numbers.antenna_at_motor);
+  double variance = std::pow(relative(measured), 2) +
+                    std::pow(0.5 * inertia_share * relative(numbers.antenna.antenna.inertia), 2);
+  if (numbers.antenna.oil.bulk_modulus) {
+    variance += std::pow(0.5 * relative(*numbers.antenna.oil.bulk_modulus), 2);
+  }
+  const double away = std::abs(measured.value / expected - 1.0) / std::sqrt(variance);
+  if (away <= 3.0) return;
+  Implausibility implausible{"resonance expected",
+                             "resonance.frequency",
+                             "",
+                             {{"measured", measured.value, "Hz"},
+                              {"expected", expected, "Hz"},
+                              {"without the antenna", frequency(0.0), "Hz"},
+                              {"standard uncertainties", away, "1"}}};
+  std::string others;
+  const double ratio = numbers.graph.value(numbers.graph.index("gear_ratio"), {});
+  for (const AntennaAlternative& alternative : numbers.antenna.antenna.alternatives) {
+    const double load = alternative.reflected_inertia
+                            ? alternative.reflected_inertia->value
+                            : plant::reflected_inertia(alternative.inertia->value, ratio);
+    others += fmt::format(", {:.3f} Hz with the antenna of {}", frequency(load), alternative.name);
+    implausible.numbers.push_back({alternative.name, frequency(load), "Hz"});
+  }
+  implausible.reasoning = fmt::format(
+      "Masses and oil spring put the hydraulic mode at {:.3f} Hz{}, {:.3f} Hz with no antenna at "
+      "all; measured are {:.3g} Hz, {:.0f} standard uncertainties away: stiffness, masses or the "
+      "reading of the spectrum is wrong.",
+      expected, others, frequency(0.0), measured.value, away);
+  found.push_back(std::move(implausible));
+}
+
+void check_coincidences(const CaseNumbers& numbers, Implausibilities& found) {
+  struct Print {
+    std::string id, text;
+  };
+  std::vector<Print> prints;
+  for (const StatedEntry& stated : numbers.antenna.stated) {
+    if (stated.quantity == "resonance.reflected_inertia" ||
+        stated.quantity == "reflected_inertia") {
+      prints.push_back({stated.quantity, stated.value.text});
+    }
+  }
+  for (const ImpulseResult& result : numbers.antenna.impulse_results) {
+    prints.push_back(
+        {"impulse." + result.name + ".reflected_inertia", result.reflected_inertia.text});
+  }
+  for (std::size_t i = 0; i < prints.size(); ++i) {
+    for (std::size_t k = 0; k < i; ++k) {
+      if (prints[i].text != prints[k].text || prints[i].id == prints[k].id) continue;
+      found.push_back({"coincidence",
+                       prints[i].id,
+                       fmt::format("'{}' is printed for {} and for {}: two methods that agree to "
+                                   "the last digit, which chance rarely makes; they are no "
+                                   "independent confirmation before that is explained.",
+                                   prints[i].text, prints[k].id, prints[i].id),
+                       {}});
+    }
+  }
+}
+
+void check_impulse_order(const CaseNumbers& numbers, Implausibilities& found) {
+  const FrictionTestsEntry& tests = numbers.antenna.friction_tests;
+  if (!tests.constant_speed_coulomb || !tests.slow_ramp_up || !tests.slow_ramp_down) return;
+  const double constant_speed = tests.constant_speed_coulomb->value;
+  const double slow_ramp = 0.5 * (tests.slow_ramp_up->value + tests.slow_ramp_down->value);
+  const auto subtracted = [&](const ImpulseResult& result) {
+    return result.friction == "constant_speed" ? constant_speed : slow_ramp;
+  };
+  for (const ImpulseResult& more : numbers.antenna.impulse_results) {
+    for (const ImpulseResult& less : numbers.antenna.impulse_results) {
+      const double torque = subtracted(more) - subtracted(less);
+      const double inertia = more.reflected_inertia.value - less.reflected_inertia.value;
+      if (torque <= 0.0 || inertia <= 0.0) continue;
+      const double acceleration = torque / inertia;
+      found.push_back(
+          {"impulse order",
+           "impulse." + more.name + ".reflected_inertia",
+           fmt::format("With {:.3g} N.m more friction subtracted ({} against {}) an accelerating "
+                       "window must give less inertia, J falls by dT dt/dw; printed is {:.3g} "
+                       "kg.m2 more. Either the two are exchanged, or the windows slowed down, by "
+                       "{:.3g} rad/s2, which takes {:.3g} N.m (the supply gives {:.3g}).",
+                       torque, more.name, less.name, inertia, acceleration,
+                       acceleration * more.reflected_inertia.value, numbers.supply_torque),
+           {{"friction difference", torque, "N.m"},
+            {"inertia difference", inertia, "kg.m2"},
+            {"deceleration it would take", acceleration, "rad/s2"}}});
+    }
+  }
+}
+
+}  // namespace boresight::app

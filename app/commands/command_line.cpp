@@ -26,6 +26,8 @@ enum ExitCode {
   interrupted = 130
 };
 
+// A signal handler can reach nothing else.
+// NOLINTNEXTLINE(cppcoreguidelines-avoid-non-const-global-variables)
 volatile std::sig_atomic_t interrupt_requested = 0;
 
 void request_interrupt(int /*signal*/) {

@@ -29,10 +29,6 @@ void read_stated(TableReader& file, Case& antenna) {
   }
 }
 
-bool starts_with(const std::string& text, std::string_view prefix) {
-  return text.compare(0, prefix.size(), prefix) == 0;
-}
-
 // "line.longest.slosh_frequency" is a line's name between prefix and suffix.
 template <typename Entries>
 bool names_one_of(const std::string& id, std::string_view prefix, std::string_view suffix,
@@ -76,14 +72,14 @@ std::optional<Kind> stated_kind(const std::string& id, const Case& antenna) {
                                               "motor_inertia"};
   static const std::set<std::string> numbers{"motor_to_load_ratio", "resonance.motor_to_load_ratio",
                                              "gear_ratio"};
-  if (inertias.count(id) != 0) return Kind::inertia;
-  if (numbers.count(id) != 0) return Kind::number;
+  if (inertias.contains(id)) return Kind::inertia;
+  if (numbers.contains(id)) return Kind::number;
   if (id == "oil_stiffness") return Kind::stiffness;
   if (id == "bulk_modulus") return Kind::pressure;
   if (id == "resonance.frequency") return Kind::frequency;
   if (id == "tachometer.scale") return Kind::tachometer_scale;
   if (id == "friction.slow_ramp.coulomb" || id == "friction.slow_ramp.offset") return Kind::torque;
-  if (starts_with(id, "load_inertia.") &&
+  if (id.starts_with("load_inertia.") &&
       names_one_of(id, "load_inertia.", "", antenna.gear_train.assemblies)) {
     return Kind::inertia;
   }

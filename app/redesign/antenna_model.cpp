@@ -1,6 +1,8 @@
 #include <cmath>
 #include <numbers>
 
+#include <fmt/format.h>
+
 #include <boresight/app/redesign/antenna_model.hpp>
 
 namespace boresight::app {
@@ -10,6 +12,7 @@ constexpr double two_pi = 2.0 * std::numbers::pi;
 
 std::vector<plant::GearStage> gear_stages(const Case& antenna) {
   std::vector<plant::GearStage> stages;
+  stages.reserve(antenna.gear_train.stages.size());
   for (const auto& stage : antenna.gear_train.stages) {
     stages.push_back({stage.driven_teeth.value, stage.driving_teeth.value});
   }
@@ -20,26 +23,46 @@ identification::Uncertain uncertain(const Quantity& quantity) {
   return {quantity.value, quantity.standard_uncertainty};
 }
 
+// An inertia about the antenna axis, at the motor shaft.
+identification::Uncertain reflected(const Case& antenna, const Quantity& inertia) {
+  const double square = std::pow(gear_ratio(antenna), 2);
+  return {inertia.value / square, inertia.standard_uncertainty / square};
+}
+
+identification::Uncertain part_inertia(const Case& antenna, const AssemblyPart& part) {
+  if (part.inertia) return uncertain(*part.inertia);
+  const std::optional<Quantity>& density = antenna.gear_train.density;
+  if (!part.radius || !part.length || !density) {
+    throw InvalidInput(
+        fmt::format("part_inertia: '{}' has neither inertia nor dimensions", part.name));
+  }
+  const double inertia =
+      plant::disk_inertia(part.radius->value, part.length->value, density->value);
+  // J goes with R^4, H and rho.
+  const double relative = std::hypot(4.0 * part.radius->standard_uncertainty / part.radius->value,
+                                     part.length->standard_uncertainty / part.length->value,
+                                     density->standard_uncertainty / density->value);
+  return {inertia, inertia * relative};
+}
+
+// Of an alternative, at the motor shaft.
+identification::Uncertain reflected(const Case& antenna, const AntennaAlternative& alternative) {
+  if (alternative.reflected_inertia) return uncertain(*alternative.reflected_inertia);
+  if (!alternative.inertia) {
+    throw InvalidInput(fmt::format("antenna alternative '{}' has no inertia", alternative.name));
+  }
+  return reflected(antenna, *alternative.inertia);
+}
+
 // A composite inertia if the case gives one, else the sum of its parts' inertias or disks.
 identification::Uncertain assembly_inertia(const Case& antenna, const RotatingAssembly& assembly) {
   if (assembly.inertia) return uncertain(*assembly.inertia);
   identification::Uncertain sum;
   double variance = 0.0;
   for (const auto& part : assembly.parts) {
-    if (part.inertia) {
-      sum.value += part.inertia->value;
-      variance += std::pow(part.inertia->standard_uncertainty, 2);
-      continue;
-    }
-    const Quantity& density = *antenna.gear_train.density;
-    const double inertia =
-        plant::disk_inertia(part.radius->value, part.length->value, density.value);
-    sum.value += inertia;
-    // J goes with R^4, H and rho.
-    const double relative = std::hypot(4.0 * part.radius->standard_uncertainty / part.radius->value,
-                                       part.length->standard_uncertainty / part.length->value,
-                                       density.standard_uncertainty / density.value);
-    variance += std::pow(inertia * relative, 2);
+    const auto inertia = part_inertia(antenna, part);
+    sum.value += inertia.value;
+    variance += std::pow(inertia.standard_uncertainty, 2);
   }
   sum.standard_uncertainty = std::sqrt(variance);
   return sum;
@@ -98,13 +121,11 @@ double motor_inertia(const Case& antenna, double disks) {
 }
 
 double antenna_inertia(const Case& antenna) {
-  return plant::reflected_inertia(antenna.antenna.inertia.value, gear_ratio(antenna));
+  return reflected(antenna, antenna.antenna.inertia).value;
 }
 
 double antenna_inertia(const Case& antenna, const AntennaAlternative& alternative) {
-  return alternative.reflected_inertia
-             ? alternative.reflected_inertia->value
-             : plant::reflected_inertia(alternative.inertia->value, gear_ratio(antenna));
+  return reflected(antenna, alternative).value;
 }
 
 double oil_stiffness(const Case& antenna, plant::EfficiencyInStiffness efficiency) {
@@ -196,17 +217,11 @@ identification::DriveEvidence make_evidence(const Case& antenna) {
     evidence.assemblies.push_back({assembly.name, assembly_inertia(antenna, assembly),
                                    static_cast<double>(assembly.count), assembly.stages});
   }
-  const double ratio = gear_ratio(antenna);
-  const auto reflected = [ratio](const Quantity& inertia) {
-    return identification::Uncertain{inertia.value / (ratio * ratio),
-                                     inertia.standard_uncertainty / (ratio * ratio)};
-  };
   const Quantity& own = antenna.antenna.inertia;
-  evidence.antenna.push_back({own.source.empty() ? "the case" : own.source, reflected(own)});
+  evidence.antenna.push_back(
+      {own.source.empty() ? "the case" : own.source, reflected(antenna, own)});
   for (const auto& alternative : antenna.antenna.alternatives) {
-    evidence.antenna.push_back({alternative.name, alternative.reflected_inertia
-                                                      ? uncertain(*alternative.reflected_inertia)
-                                                      : reflected(*alternative.inertia)});
+    evidence.antenna.push_back({alternative.name, reflected(antenna, alternative)});
   }
   const MotorEntry& motor = antenna.motor;
   evidence.motor_count = static_cast<double>(motor.count);
@@ -236,6 +251,7 @@ identification::DriveEvidence make_evidence(const Case& antenna) {
 
 std::vector<PointingBand> make_bands(const Case& antenna) {
   std::vector<PointingBand> bands;
+  bands.reserve(antenna.bands.size());
   for (const auto& band : antenna.bands) {
     bands.push_back({band.name, band.frequency.value,
                      design::half_power_beamwidth(band.beamwidth_factor.value, band.frequency.value,
@@ -257,7 +273,7 @@ std::vector<PointingBudget> make_budgets(const Case& antenna) {
     if (entry.rms) {
       budget.rms = entry.rms->value;
       budget.convention = "rms error an axis";
-    } else {
+    } else if (entry.loss) {
       const auto convention = convention_of(entry.convention);
       budget.rms = design::rms_for_loss(entry.loss->value, budget.beamwidth, convention);
       budget.convention = design::to_string(convention);

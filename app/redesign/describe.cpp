@@ -144,8 +144,7 @@ PlantSection describe_plant(const Case& antenna) {
 std::vector<Quantity> assumed_inputs(const Case& antenna) {
   std::vector<Quantity> assumed;
   for (const auto& quantity : antenna.quantities) {
-    if (quantity.basis == Basis::assumed ||
-        quantity.uncertainty_source.compare(0, 7, "assumed") == 0) {
+    if (quantity.basis == Basis::assumed || quantity.uncertainty_source.starts_with("assumed")) {
       assumed.push_back(quantity);
     }
   }

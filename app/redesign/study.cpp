@@ -106,6 +106,7 @@ MatchingPlan plan_matching(const Case& antenna, const StudyOptions& options) {
   if (std::find(disks.begin(), disks.end(), as_built) == disks.end()) disks.push_back(as_built);
   const double load = gear_train_inertia(antenna) + antenna_inertia(antenna);
   std::vector<std::pair<double, std::string>> points;
+  points.reserve(disks.size() + 1 + antenna.antenna.alternatives.size());
   for (const double count : disks) points.emplace_back(count, fmt::format("{:g} disks", count));
   if (const auto unit = disks_at_unit_ratio(antenna, load)) {
     points.emplace_back(*unit, "ratio 1");

@@ -3,6 +3,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include <boresight/app/report/json_audit.hpp>
 #include <boresight/app/report/json_report.hpp>
 #include <boresight/app/report/sky_units.hpp>
 
@@ -276,7 +277,7 @@ std::string to_json(const Report& report) {
             {"seed", report.seed},
             {"interrupted", report.interrupted}};
   if (report.identification) json["identification"] = identification_json(*report.identification);
-  if (report.audit) json["audit"] = Json::parse(to_json(*report.audit));
+  if (report.audit) json["audit"] = audit_json(*report.audit);
   if (report.plant) json["plant"] = plant_json(*report.plant);
   if (report.tuning) json["tuning"] = tuning_json(*report.tuning);
   if (!report.choices.empty()) json["choices"] = choices_json(report.choices);

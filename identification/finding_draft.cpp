@@ -21,6 +21,7 @@ class Explanation {
   void run() {
     std::vector<Departure> all;
     std::vector<std::size_t> owners;
+    std::vector<std::vector<std::string>> needs;
     for (std::size_t d = 0; d < drafts_.size(); ++d) {
       FindingDraft& found = drafts_[d];
       set_sound_forms(found);
@@ -44,9 +45,13 @@ class Explanation {
         texts.resize(std::min(most_explanations, texts.size()));
         for (const std::string& text : texts) explanations.push_back(prefix + text);
       }
-      if (explanations.empty()) explanations = needed;
+      needs.push_back(needed);
     }
     add_common_causes(all, owners);
+    for (std::size_t d = 0; d < drafts_.size(); ++d) {
+      auto& explanations = drafts_[d].finding.explanations;
+      if (explanations.empty()) explanations = needs[d];
+    }
     add_evidence();
   }
 

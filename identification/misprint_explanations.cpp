@@ -15,18 +15,34 @@ namespace {
 constexpr double decimal_slack = 1e-9;
 // An edit counts as an explanation only if it moves the number by this many tolerances, a changed
 // digit only if one unit of it is this many: with a wide tolerance some edit always fits.
-constexpr double edit_over_tolerance = 4.0;
-constexpr double digit_over_tolerance = 10.0;
+constexpr double edit_over_tolerance = 10.0;
 
 bool within(double difference, double tolerance) {
   return std::abs(difference) <= tolerance * (1.0 + decimal_slack);
 }
 
+/// What a form may have been meant to be.
+struct Target {
+  double value;
+  double tolerance;
+};
+
+// What would follow, and what the other columns of the same statement say that do follow.
+std::vector<Target> targets(const AuditGraph& graph, const Departure& departure) {
+  std::vector<Target> all{{departure.would_be, departure.tolerance}};
+  const auto& forms = graph.node(departure.node).statements[departure.print.statement].forms;
+  for (const std::size_t sound : departure.sound_forms) {
+    const double half_units = forms[sound].half_unit + forms[departure.print.form].half_unit;
+    all.push_back({forms[sound].value, half_units});
+  }
+  return all;
+}
+
 std::optional<std::string> edited_text(const std::vector<PrintedForm>& variants,
-                                       const PrintedForm& form, const Departure& departure) {
+                                       const PrintedForm& form, const Target& target) {
   for (const PrintedForm& variant : variants) {
-    if (within(variant.value - departure.would_be, departure.tolerance) &&
-        std::abs(variant.value - form.value) >= edit_over_tolerance * departure.tolerance) {
+    if (within(variant.value - target.value, target.tolerance) &&
+        std::abs(variant.value - form.value) >= edit_over_tolerance * target.tolerance) {
       return variant.text;
     }
   }
@@ -34,27 +50,27 @@ std::optional<std::string> edited_text(const std::vector<PrintedForm>& variants,
 }
 
 // Changing a digit moves the number by one to nine of its units, and the nine lie evenly.
-std::optional<std::string> changed_text(const PrintedForm& form, const Departure& departure) {
+std::optional<std::string> changed_text(const PrintedForm& form, const Target& target) {
   for (const PrintedForm& variant : changed_digits(form)) {
     const double change = std::abs(variant.value - form.value) / std::abs(unit_factor(form));
     const double unit = std::pow(10.0, std::floor(std::log10(change) + decimal_slack));
-    if (within(variant.value - departure.would_be, departure.tolerance) &&
+    if (within(variant.value - target.value, target.tolerance) &&
         unit * std::abs(unit_factor(form)) >=
-            digit_over_tolerance * departure.tolerance * (1.0 - decimal_slack)) {
+            edit_over_tolerance * target.tolerance * (1.0 - decimal_slack)) {
       return variant.text;
     }
   }
   return std::nullopt;
 }
 
-std::optional<std::string> power_of_ten(const PrintedForm& form, const Departure& departure) {
+std::optional<std::string> power_of_ten(const PrintedForm& form, const Target& target) {
   for (int size = 1; size <= 9; ++size) {
     for (const int exponent : {size, -size}) {
       const double scale = std::pow(10.0, exponent);
-      const double tolerance = departure.tolerance + form.half_unit * std::max(0.0, scale - 1.0);
-      if (within(form.value * scale - departure.would_be, tolerance) &&
-          std::abs(departure.would_be - form.value) >= edit_over_tolerance * tolerance) {
-        return fmt::format("with a factor of 1e{}", exponent);
+      const double tolerance = target.tolerance + form.half_unit * std::max(0.0, scale - 1.0);
+      if (within(form.value * scale - target.value, tolerance) &&
+          std::abs(target.value - form.value) >= edit_over_tolerance * tolerance) {
+        return fmt::format("with a factor of {:g}", scale);
       }
     }
   }
@@ -200,8 +216,17 @@ std::vector<std::string> explain_as_misprint(const AuditGraph& graph, const Depa
   const auto add = [&](const std::optional<std::string>& text, std::string_view wording) {
     if (text) found.push_back(fmt::format(fmt::runtime(wording), *text));
   };
-  add(power_of_ten(form, departure), "{}");
-  add(edited_text(transposed_digits(form), form, departure), "as '{}', two digits swapped");
+  const std::vector<Target> meant = targets(graph, departure);
+  const auto first = [&](auto edit) {
+    for (const Target& target : meant) {
+      if (const auto text = edit(target)) return text;
+    }
+    return std::optional<std::string>();
+  };
+  add(first([&](const Target& target) { return power_of_ten(form, target); }), "{}");
+  add(first(
+          [&](const Target& target) { return edited_text(transposed_digits(form), form, target); }),
+      "as '{}', two digits swapped");
   const auto& forms = graph.node(departure.node).statements[departure.print.statement].forms;
   for (const std::size_t sound : departure.sound_forms) {
     if (sound == departure.print.form) continue;
@@ -217,7 +242,8 @@ std::vector<std::string> explain_as_misprint(const AuditGraph& graph, const Depa
       within(cut_like(form, departure.would_be) - form.value, 0.01 * form.half_unit)) {
     found.emplace_back("with its digits cut off instead of rounded");
   }
-  add(changed_text(form, departure), "as '{}', one digit different");
+  add(first([&](const Target& target) { return changed_text(form, target); }),
+      "as '{}', one digit different");
   // The formula is not known to have pi in it: only where nothing else fits.
   if (found.empty() && !departure.reading.empty()) add(short_pi(form, departure), "{}");
   return found;

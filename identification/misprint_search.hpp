@@ -49,7 +49,8 @@ struct Finding {
   /// The number departs by more than its own rounding, but the rounding of what it is computed
   /// from could hide it.
   bool within_parents_rounding = false;
-  /// What would make the number follow, likeliest first; sentences that go on after "would follow".
+  /// What would make the number follow, each going on after "would follow": "with ...", "as ...",
+  /// "if ...". Where several forms depart it begins with the one it is about, "'1.31 kg.m2' as ...".
   std::vector<std::string> explanations;
   /// What speaks for one column where two conflict.
   std::vector<std::string> evidence;

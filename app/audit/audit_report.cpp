@@ -1,7 +1,7 @@
 #include <algorithm>
 #include <cmath>
-#include <iterator>
-#include <map>
+#include <set>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -18,6 +18,7 @@ using identification::FindingKind;
 
 constexpr std::size_t width = 100;
 constexpr double change_that_matters = 1e-3;
+constexpr double change_worth_telling = 1e-5;
 
 /// Appends text broken at blanks; the first line starts at `first`, the others at `rest` columns.
 void append_wrapped(std::string& page, const std::string& text, std::size_t first,
@@ -52,6 +53,13 @@ std::string percent(double relative) {
   return fmt::format("{:+.3g} %", 100.0 * relative);
 }
 
+// "'1.31 kg.m2' as ..." names the form it is about; otherwise there is only one.
+std::string followed_by(const std::string& explanation) {
+  const std::size_t end = explanation[0] == '\'' ? explanation.find("' ") : std::string::npos;
+  if (end == std::string::npos) return "would follow " + explanation;
+  return explanation.substr(0, end + 1) + " would follow" + explanation.substr(end + 1);
+}
+
 void append_finding(std::string& page, const Finding& finding, std::size_t number) {
   append_wrapped(page, fmt::format("{:2}. {}: {}", number, finding.id, finding.description), 0, 4);
   append_wrapped(page, finding.source, 4, 6);
@@ -62,16 +70,16 @@ void append_finding(std::string& page, const Finding& finding, std::size_t numbe
                    4, 6);
   }
   for (const std::string& explanation : finding.explanations) {
-    append_wrapped(page, "would follow: " + explanation, 4, 6);
+    append_wrapped(page, followed_by(explanation), 4, 6);
   }
   for (const std::string& evidence : finding.evidence) append_wrapped(page, evidence, 4, 6);
-  if (finding.consequences.empty()) return;
   std::vector<std::string> moved;
   for (const Consequence& consequence : finding.consequences) {
+    if (std::abs(consequence.relative_change()) < change_worth_telling) continue;
     moved.push_back(fmt::format("{} {:.4g} for {:.4g} ({})", consequence.id, consequence.as_printed,
                                 consequence.as_corrected, percent(consequence.relative_change())));
   }
-  append_wrapped(page, fmt::format("moves {}", fmt::join(moved, ", ")), 4, 6);
+  if (!moved.empty()) append_wrapped(page, fmt::format("moves {}", fmt::join(moved, ", ")), 4, 6);
 }
 
 void append_group(std::string& page, const AuditReport& report, std::string_view title,
@@ -79,7 +87,11 @@ void append_group(std::string& page, const AuditReport& report, std::string_view
   bool first = true;
   for (const Finding& finding : report.findings) {
     if (finding.kind != kind || finding.within_parents_rounding != within_rounding) continue;
-    if (first) page += fmt::format("\n{}\n\n", title);
+    if (first) {
+      page += '\n';
+      append_wrapped(page, std::string(title), 0, 0);
+      page += '\n';
+    }
     first = false;
     append_finding(page, finding, ++number);
   }
@@ -109,10 +121,13 @@ std::string summary(const AuditReport& report) {
       report.checked, report.findings.size(), report.implausible.size());
   if (matter.empty()) return text + " None of them moves a headline result by more than 0.1 %.";
   std::vector<std::string> moved;
+  std::set<std::pair<std::string, std::string>> named;  // a number may fail several comparisons
   for (const Finding* finding : matter) {
+    const std::string& number = finding->forms.front().text;
+    if (!named.emplace(finding->id, number).second) continue;
     const Consequence& most = finding->consequences.front();
-    moved.push_back(fmt::format("{} '{}' ({} {})", finding->id, finding->forms.front().text,
-                                most.id, percent(most.relative_change())));
+    moved.push_back(fmt::format("{} '{}' ({} {})", finding->id, number, most.id,
+                                percent(most.relative_change())));
   }
   return text + fmt::format(
                     " Those that move a headline result by more than 0.1 % are {}; the "

@@ -197,7 +197,7 @@ class Search {
     }
     for (const auto& [f, variant] : inexact) {
       const bool converted = std::any_of(exact.begin(), exact.end(), [&](std::size_t other) {
-        return !columns_conflict(forms[f], forms[other]);
+        return follows(forms[f].value, forms[other].value, forms[f].half_unit);
       });
       if (converted) continue;
       add_departure_of(hidden, f, variant, forms[f].half_unit);

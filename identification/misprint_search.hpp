@@ -50,7 +50,7 @@ struct Finding {
   /// from could hide it.
   bool within_parents_rounding = false;
   /// What would make the number follow, each going on after "would follow": "with ...", "as ...",
-  /// "if ...". Where several forms depart it begins with the one it is about, "'1.31 kg.m2' as ...".
+  /// "if ...". Where several forms depart it begins with the one it is about: "'1.31 kg.m2' as".
   std::vector<std::string> explanations;
   /// What speaks for one column where two conflict.
   std::vector<std::string> evidence;

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -25,7 +26,11 @@ std::vector<MeasuredInertia> measured_inertias(const CaseNumbers& numbers) {
                         plant::inertia_from_resonance(numbers.oil_stiffness,
                                                       numbers.antenna.resonance_frequency->value)});
     for (const StatedEntry& stated : numbers.antenna.stated) {
-      if (stated.quantity == id) inertias.push_back({id, "as printed", stated.value.value});
+      // The summary prints it again.
+      const bool again = inertias.back().value == stated.value.value;
+      if (stated.quantity == id && !again) {
+        inertias.push_back({id, "as printed", stated.value.value});
+      }
     }
   }
   for (const ImpulseResult& result : numbers.antenna.impulse_results) {
@@ -113,7 +118,10 @@ void check_coincidences(const CaseNumbers& numbers, Implausibilities& found) {
   for (const StatedEntry& stated : numbers.antenna.stated) {
     if (stated.quantity == "resonance.reflected_inertia" ||
         stated.quantity == "reflected_inertia") {
-      prints.push_back({stated.quantity, stated.value.text});
+      const bool again = std::any_of(prints.begin(), prints.end(), [&](const Print& print) {
+        return print.id == stated.quantity && print.text == stated.value.text;
+      });
+      if (!again) prints.push_back({stated.quantity, stated.value.text});
     }
   }
   for (const ImpulseResult& result : numbers.antenna.impulse_results) {

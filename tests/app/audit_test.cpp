@@ -175,6 +175,7 @@ TEST(Audit, FindsTheResultsOfTheTestsThatDoNotFollow) {
           {derivation, "impulse.slow-ramp.motor_to_load_ratio", "4.63", motors / (1.45 - motors)},
           {derivation, "impulse.constant-speed.motor_to_load_ratio", "2.51",
            motors / (1.668 - motors)},
+          {derivation, "reflected_inertia", "1.7759 kg.m2", motors + 0.57324},
           {derivation, "tachometer.scale", "2.261 rad/(s.V)",
            600.0 / 157.0 / 60.0 * 2.0 * pi * 130.0 / 23.0},
           {restatement, "line.longest.slosh_frequency", "33.3 Hz", 38.3},
@@ -200,12 +201,9 @@ TEST(Audit, LeavesAloneWhatFollows) {
   for (const Finding& finding : big_report().findings) {
     EXPECT_NE(finding.id, "part.J11.inertia");
     EXPECT_NE(finding.id, "assembly.J1.inertia");
-    EXPECT_NE(finding.id, "assembly.J3.inertia");
-    EXPECT_NE(finding.id, "load_inertia.J1");
     EXPECT_NE(finding.id, "load_inertia.J2");
     EXPECT_NE(finding.id, "bulk_modulus");
     EXPECT_NE(finding.id, "friction.slow_ramp.coulomb");
-    EXPECT_NE(finding.id, "reflected_inertia");
     EXPECT_NE(finding.id, "oil.density");
     EXPECT_NE(finding.id, "motor.inertia");
   }
@@ -289,8 +287,9 @@ TEST(Audit, FindsWhatIsPhysicallyImplausible) {
   EXPECT_NEAR(number("structural bound", "structure.lowest_predicted", "lowest predicted"), 1.75,
               1e-12);
   EXPECT_GT(number("resonance expected", "resonance.frequency", "standard uncertainties"), 3.0);
+  // Printed in sections III.D and V, but one coincidence.
   EXPECT_THAT(big_report().implausible,
-              Contains(testing::Field(&Implausibility::check, "coincidence")));
+              Contains(testing::Field(&Implausibility::check, "coincidence")).Times(1));
   EXPECT_THAT(small_report().implausible, IsEmpty());
 }
 

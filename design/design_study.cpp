@@ -2,6 +2,7 @@
 #include <atomic>
 #include <cmath>
 #include <exception>
+#include <limits>
 #include <mutex>
 #include <thread>
 
@@ -41,9 +42,14 @@ Design solve(const DesignTask& task) {
   Design design;
   design.name = task.name;
   design.tuning = tune(problem, task.structure, task.goals, task.options);
-  design.verification = verify(problem, design.tuning.law, task.goals);
   design.hydraulic_mode = plant::hydraulic_mode(plant::plant_modes(problem.plant));
   design.reflected_inertia = plant::reflected_inertia(problem.plant);
+  if (design.tuning.status == TuningStatus::unstable) {
+    design.beam_rms = design.wind_rms = design.noise_rms = design.valve_effort =
+        std::numeric_limits<double>::quiet_NaN();
+    return design;
+  }
+  design.verification = verify(problem, design.tuning.law, task.goals);
   const auto& evaluation = design.tuning.evaluation;
   design.beam_rms = std::sqrt(evaluation.beam_variance()) / problem.gear_ratio;
   design.wind_rms = std::sqrt(evaluation.wind_variance) / problem.gear_ratio;

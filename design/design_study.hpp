@@ -33,7 +33,8 @@ struct DesignTask {
   TuningOptions options;
 };
 
-/// One tuned, verified design. Rms at the sky in rad, one axis.
+/// One tuned, verified design. Rms at the sky in rad, one axis. Where no stable law was found
+/// (tuning.status unstable) rms and effort are NaN, verification and margins empty.
 struct Design {
   std::string name;
   TuningResult tuning;

@@ -277,10 +277,14 @@ TuningResult tune(const TrackingProblem& problem, control::LoopStructure structu
     const auto point = search.random_point(generator);
     if (search.evaluate(point).stable()) anchor = point;
   }
+  TuningResult result;
+  result.starts = options.starts;
   if (anchor.empty()) {
-    throw InfeasibleRequirement(
-        fmt::format("tune: no stable control law found for {} in {} evaluations",
-                    control::to_string(structure), search.evaluations()));
+    result.status = TuningStatus::unstable;
+    result.law.structure = structure;
+    result.evaluations = search.evaluations();
+    result.worst_goal_ratio = std::numeric_limits<double>::infinity();
+    return result;
   }
   std::vector<Candidate> found;
   for (int start = 0; start < options.starts; ++start) {
@@ -293,8 +297,6 @@ TuningResult tune(const TrackingProblem& problem, control::LoopStructure structu
   };
   std::stable_sort(found.begin(), found.end(), less);
 
-  TuningResult result;
-  result.starts = options.starts;
   for (const auto& candidate : found) {
     if (candidate.evaluation.beam_variance() < 1.01 * 1.01 * found[0].evaluation.beam_variance()) {
       ++result.starts_at_optimum;

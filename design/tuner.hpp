@@ -26,6 +26,7 @@ struct TuningOptions {
 enum class TuningStatus {
   optimal,     // the best feasible law seen
   infeasible,  // no feasible law seen: the stable one nearest to the goals
+  unstable,    // no stable law seen
 };
 
 /// The best feasible control law seen over all starts.
@@ -56,7 +57,8 @@ double worst_goal_ratio(const control::LoopEvaluation& evaluation, const HardGoa
 /// problem's own. The highest three local maxima of |S| at each break are separate constraints with
 /// analytic gradients. The optimiser's own word is not used: every evaluation is recorded here, and
 /// only feasible ones whose eigenvalues are stable can win. Deterministic by seed.
-/// @throws InvalidInput for options below 1; InfeasibleRequirement if no stable law is found.
+/// A plant that no law of the search stabilises is a stated result, not an error.
+/// @throws InvalidInput for options below 1.
 TuningResult tune(const TrackingProblem& problem, control::LoopStructure structure,
                   const HardGoals& goals, const TuningOptions& options);
 

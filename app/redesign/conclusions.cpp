@@ -17,6 +17,15 @@ std::string ratio_text(double ratio) {
 void conclude_identification(const IdentificationSection& section, const PlantSection& plant,
                              std::vector<std::string>& sentences) {
   const auto& methods = section.inertia.methods;
+  if (methods.size() == 1) {
+    const auto& only = methods.front();
+    sentences.push_back(fmt::format(
+        "Only mass properties speak for the inertia: {:.3f} kg.m2, motor-to-load ratio {} (95 % "
+        "interval {:.2f} to {:.2f}); no test confirms it.",
+        only.reflected_inertia.value, ratio_text(only.motor_to_load_ratio.value),
+        only.motor_to_load_ratio.lower, only.motor_to_load_ratio.upper));
+    return;
+  }
   const auto by_inertia = [](const identification::InertiaMethod& x,
                              const identification::InertiaMethod& y) {
     return x.reflected_inertia.value < y.reflected_inertia.value;
@@ -41,6 +50,11 @@ void conclude_identification(const IdentificationSection& section, const PlantSe
 
 void conclude_tuning(const TuningSection& section, std::vector<std::string>& sentences) {
   const auto& design = section.design;
+  if (design.tuning.status == design::TuningStatus::unstable) {
+    sentences.push_back(fmt::format("No {} law of the search stabilises this antenna.",
+                                    control::to_string(section.structure)));
+    return;
+  }
   if (design.tuning.status != design::TuningStatus::optimal) {
     sentences.push_back(fmt::format(
         "No {} law meets the hard goals; the nearest exceeds one by {:.1f} %.",
@@ -78,7 +92,12 @@ double change(const MatchingSeries& series) {
 }
 
 void conclude_matching(const MatchingSection& section, std::vector<std::string>& sentences) {
-  if (section.rows.size() < 2) return;
+  const auto finite = [](const design::Design& design) { return std::isfinite(design.beam_rms); };
+  const bool whole =
+      std::all_of(section.series.begin(), section.series.end(), [&](const MatchingSeries& series) {
+        return std::all_of(series.designs.begin(), series.designs.end(), finite);
+      });
+  if (section.rows.size() < 2 || !whole) return;
   std::string text = fmt::format(
       "Going from {} to {} (R from {:.2f} to {:.2f}), re-tuned at each point, changes the beam rms "
       "by",

@@ -38,26 +38,9 @@ std::vector<design::DesignTask> tuning_tasks(const Case& antenna, const StudyOpt
   return tasks;
 }
 
-TuningSection tuning_section(const Case& antenna, const StudyOptions& options,
-                             const std::vector<design::Design>& designs) {
-  TuningSection section;
-  const auto better = [](const design::Design& x, const design::Design& y) {
-    const bool x_good = x.verification.passed, y_good = y.verification.passed;
-    return x_good != y_good ? x_good : x.beam_rms < y.beam_rms;
-  };
-  section.design = *std::min_element(designs.begin(), designs.end(), better);
-  section.goals = make_goals(antenna);
-  for (std::size_t i = 0; i < designs.size(); ++i) {
-    section.seeds.push_back(
-        {options.seed + i, designs[i].beam_rms, designs[i].verification.passed});
-    if (designs[i].verification.passed && designs[i].beam_rms < 1.01 * section.design.beam_rms) {
-      ++section.seeds_within_1_percent;
-    }
-  }
-
-  const design::TrackingProblem problem = make_problem(antenna);
-  section.design_speed = problem.wind.mean_speed;
-  section.wind_model = problem.wind.model;
+// What the tuned law means at the sky: other winds, bending, bands and budgets.
+void judge_in_wind(const Case& antenna, const design::TrackingProblem& problem,
+                   TuningSection& section) {
   control::LoopEvaluator evaluator = design::make_evaluator(problem);
   const control::ControlLaw& law = section.design.tuning.law;
   const double noise = section.design.tuning.evaluation.noise_variance;
@@ -89,6 +72,31 @@ TuningSection tuning_section(const Case& antenna, const StudyOptions& options,
   for (const auto& budget : make_budgets(antenna)) {
     section.budgets.push_back(
         {budget, design::wind_speed_limit(problem, evaluator, law, noise, budget.rms)});
+  }
+}
+
+TuningSection tuning_section(const Case& antenna, const StudyOptions& options,
+                             const std::vector<design::Design>& designs) {
+  TuningSection section;
+  const auto better = [](const design::Design& x, const design::Design& y) {
+    const bool x_good = x.verification.passed, y_good = y.verification.passed;
+    return x_good != y_good ? x_good : x.beam_rms < y.beam_rms;
+  };
+  section.design = *std::min_element(designs.begin(), designs.end(), better);
+  section.goals = make_goals(antenna);
+  for (std::size_t i = 0; i < designs.size(); ++i) {
+    section.seeds.push_back(
+        {options.seed + i, designs[i].beam_rms, designs[i].verification.passed});
+    if (designs[i].verification.passed && designs[i].beam_rms < 1.01 * section.design.beam_rms) {
+      ++section.seeds_within_1_percent;
+    }
+  }
+
+  const design::TrackingProblem problem = make_problem(antenna);
+  section.design_speed = problem.wind.mean_speed;
+  section.wind_model = problem.wind.model;
+  if (section.design.tuning.status != design::TuningStatus::unstable) {
+    judge_in_wind(antenna, problem, section);
   }
   return section;
 }

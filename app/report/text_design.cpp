@@ -18,7 +18,7 @@ constexpr double two_pi = 2.0 * std::numbers::pi;
 constexpr std::size_t position = 2;  // of control::loop_breaks
 
 std::string mdeg(double angle) {
-  return fmt::format("{:.4f}", angle / millidegree);
+  return std::isfinite(angle) ? fmt::format("{:.4f}", angle / millidegree) : "-";
 }
 
 std::string decibel(double factor) {
@@ -27,7 +27,8 @@ std::string decibel(double factor) {
 }
 
 std::string verdict(const Design& design) {
-  if (design.tuning.status != design::TuningStatus::optimal) return "infeasible";
+  if (design.tuning.status == design::TuningStatus::unstable) return "no stable law";
+  if (design.tuning.status == design::TuningStatus::infeasible) return "infeasible";
   return design.verification.passed ? "ok" : "NOT VERIFIED";
 }
 
@@ -70,6 +71,10 @@ std::string to_text(const TuningSection& section) {
   std::string text = heading(fmt::format(
       "Tuned loops: {}, as built, {:g} m/s, wind model {}", control::to_string(section.structure),
       section.design_speed, plant::to_string(section.wind_model)));
+  if (design.tuning.status == design::TuningStatus::unstable) {
+    return text +
+           wrapped(fmt::format("No stable law among {} tried.", design.tuning.evaluations), "  ");
+  }
   text += gains_text(section) + "\n" + breaks_text(section) + "\n";
   text += wrapped(
       fmt::format("Beam rms {} mdeg at the sky (wind {}, sensor noise {}); noise-driven valve "

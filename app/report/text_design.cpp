@@ -75,6 +75,13 @@ std::string to_text(const TuningSection& section) {
     return text +
            wrapped(fmt::format("No stable law among {} tried.", design.tuning.evaluations), "  ");
   }
+  if (design.tuning.status == design::TuningStatus::infeasible) {
+    text +=
+        wrapped(fmt::format("INFEASIBLE: no law of the search meets every hard goal. Shown is the "
+                            "nearest; it exceeds its worst goal by {:.3g} %.",
+                            100.0 * (design.tuning.worst_goal_ratio - 1.0)),
+                "  ");
+  }
   text += gains_text(section) + "\n" + breaks_text(section) + "\n";
   text += wrapped(
       fmt::format("Beam rms {} mdeg at the sky (wind {}, sensor noise {}); noise-driven valve "

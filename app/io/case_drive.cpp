@@ -16,21 +16,18 @@ void read_oil(TableReader& file, Case& antenna) {
   std::set<std::string> names;
   for (auto& entry : table.tables("line")) {
     OilLine line;
-    line.name = entry.text("name");
+    line.name = read_name(entry, names);
     line.length = entry.quantity("length", Kind::length, Range::positive(1000.0));
     line.slosh_frequency =
         entry.quantity("slosh_frequency", Kind::frequency, Range::positive(10000.0));
-    if (!names.insert(line.name).second) {
-      entry.refuse("name", "expected a name of its own, found '" + line.name + "' again");
-    }
     entry.finish();
     oil.lines.push_back(std::move(line));
   }
+  table.finish();
   if (!oil.bulk_modulus && oil.lines.empty()) {
     table.refuse("bulk_modulus",
                  "expected a bulk modulus, or lines with slosh frequencies, found neither");
   }
-  table.finish();
 }
 
 void read_tests(TableReader& file, Case& antenna) {
@@ -61,9 +58,10 @@ void read_tests(TableReader& file, Case& antenna) {
     tests.slow_ramp_down = table->optional_quantity("slow_ramp_down", Kind::torque, torque);
     table->finish();
   }
+  std::set<std::string> names;
   for (auto& entry : file.tables("impulse")) {
     ImpulseResult result;
-    result.name = entry.text("name");
+    result.name = read_name(entry, names);
     result.friction = entry.choice("friction", {"constant_speed", "slow_ramp"});
     result.reflected_inertia =
         entry.quantity("reflected_inertia", Kind::inertia, Range::positive());

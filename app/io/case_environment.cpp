@@ -1,7 +1,7 @@
-#include <algorithm>
 #include <set>
 
 #include <boresight/app/io/case_sections.hpp>
+#include <boresight/app/io/wording.hpp>
 
 namespace boresight::app {
 
@@ -22,34 +22,34 @@ void read_wind(TableReader& file, Case& antenna) {
 
 void read_pointing(TableReader& file, Case& antenna) {
   TableReader table = file.table("pointing");
-  std::vector<std::string> names;
+  std::set<std::string> names;
   for (auto& entry : table.tables("band", true)) {
     BandEntry band;
-    band.name = entry.text("name");
+    band.name = read_name(entry, names);
     band.frequency = entry.quantity("frequency", Kind::frequency, Range::between(1e8, 1e13));
     band.beamwidth_factor =
         entry.quantity("beamwidth_factor", Kind::angle, Range::between(0.5, 2.0));
     entry.finish();
-    if (std::find(names.begin(), names.end(), band.name) != names.end()) {
-      entry.refuse("name", "expected a name of its own, found '" + band.name + "' again");
-    }
-    names.push_back(band.name);
     antenna.bands.push_back(std::move(band));
   }
   for (auto& entry : table.tables("budget", true)) {
     BudgetEntry budget;
     budget.name = entry.text("name");
-    budget.band = entry.choice("band", names);
+    budget.band = entry.choice("band", {names.begin(), names.end()});
     budget.loss = entry.optional_quantity("loss", Kind::level, Range::positive(3.0));
     budget.rms = entry.optional_quantity("rms", Kind::angle, Range::positive(1.0));
-    if (budget.loss.has_value() == budget.rms.has_value()) {
-      entry.refuse("loss", "expected either loss (dB) or rms (angle), found both or neither");
+    if (budget.loss && budget.rms) {
+      entry.refuse("rms", "expected either loss (dB) or rms (angle), found both");
     }
-    if (budget.loss) {
+    // Beside a misspelt loss it is no unknown key: the misspelt one is what to name.
+    if (budget.loss || (!budget.rms && entry.has("convention"))) {
       budget.convention = entry.choice(
           "convention", {"mean_loss_two_axes", "mean_loss_one_axis", "loss_at_mean_radial_error"});
     }
     entry.finish();
+    if (!budget.loss && !budget.rms) {
+      entry.refuse("loss", "expected either loss (dB) or rms (angle), found neither");
+    }
     antenna.budgets.push_back(std::move(budget));
   }
   table.finish();
@@ -66,6 +66,10 @@ void read_goals(TableReader& file, Case& antenna) {
   goals.highest_frequency =
       table.quantity("highest_frequency", Kind::frequency, Range::between(1.0, 1e4));
   table.finish();
+  if (goals.highest_frequency.value <= goals.lowest_frequency.value) {
+    table.refuse("highest_frequency", "expected a frequency above lowest_frequency, found " +
+                                          quoted(goals.highest_frequency.text));
+  }
 
   TableReader matching = file.table("matching");
   const long most = matching.integer("most_disks", 1, 10000);

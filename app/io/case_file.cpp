@@ -4,6 +4,7 @@
 #include <boresight/app/io/case_file.hpp>
 #include <boresight/app/io/case_sections.hpp>
 #include <boresight/app/io/table_reader.hpp>
+#include <boresight/app/io/wording.hpp>
 
 namespace boresight::app {
 namespace {
@@ -16,8 +17,8 @@ void read_stated(TableReader& file, Case& antenna) {
     if (!kind) {
       entry.refuse("quantity",
                    "expected the id of a derived quantity or input (docs/case-file.md "
-                   "lists them), found '" +
-                       stated.quantity + "'");
+                   "lists them), found " +
+                       quoted(stated.quantity));
     }
     stated.value = entry.quantity("value", *kind);
     entry.finish();
@@ -39,6 +40,15 @@ bool names_one_of(const std::string& id, std::string_view prefix, std::string_vi
 }
 
 }  // namespace
+
+std::string read_name(TableReader& entry, std::set<std::string>& names) {
+  std::string name = entry.text("name");
+  if (name.empty()) entry.refuse("name", "expected a name, found an empty text");
+  if (!names.insert(name).second) {
+    entry.refuse("name", "expected a name of its own, found " + quoted(name) + " again");
+  }
+  return name;
+}
 
 Case read_case(const std::string& path) {
   TableReader file = TableReader::open(path);

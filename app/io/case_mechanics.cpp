@@ -1,41 +1,51 @@
 #include <cmath>
 #include <set>
 
+#include <fmt/format.h>
+
 #include <boresight/app/io/case_sections.hpp>
+#include <boresight/app/io/wording.hpp>
 
 namespace boresight::app {
 namespace {
 
-AssemblyPart read_part(TableReader& entry) {
+AssemblyPart read_part(TableReader& entry, std::set<std::string>& names) {
   AssemblyPart part;
-  part.name = entry.text("name");
+  part.name = read_name(entry, names);
   part.description = entry.optional_text("description").value_or("");
   part.radius = entry.optional_quantity("radius", Kind::length, Range::positive(100.0));
   part.length = entry.optional_quantity("length", Kind::length, Range::positive(100.0));
   part.inertia = entry.optional_quantity("inertia", Kind::inertia, Range::positive());
+  // First, so that a misspelt key is named and not its absence.
+  entry.finish();
   if (part.radius.has_value() != part.length.has_value()) {
     entry.refuse(part.radius ? "length" : "radius",
-                 "expected radius and length together, found one of them");
+                 std::string("expected radius and length together, found the ") +
+                     (part.radius ? "radius" : "length") + " alone");
   }
   if (!part.radius && !part.inertia) {
     entry.refuse("inertia", "expected an inertia, or radius and length of a disk, found neither");
   }
-  entry.finish();
   return part;
 }
 
-RotatingAssembly read_assembly(TableReader& entry, long stages) {
+/// Names that must differ: those of assemblies, and those of parts whatever assembly they are in.
+struct NamesInUse {
+  std::set<std::string> assemblies, parts;
+};
+
+RotatingAssembly read_assembly(TableReader& entry, long stages, NamesInUse& names) {
   RotatingAssembly assembly;
-  assembly.name = entry.text("name");
+  assembly.name = read_name(entry, names.assemblies);
   assembly.description = entry.optional_text("description").value_or("");
   assembly.count = entry.integer("count", 1, 1000);
   assembly.stages = static_cast<std::size_t>(entry.integer("stages", 0, stages));
   assembly.inertia = entry.optional_quantity("inertia", Kind::inertia, Range::positive());
-  for (auto& part : entry.tables("part")) assembly.parts.push_back(read_part(part));
+  for (auto& part : entry.tables("part")) assembly.parts.push_back(read_part(part, names.parts));
+  entry.finish();
   if (!assembly.inertia && assembly.parts.empty()) {
     entry.refuse("inertia", "expected an inertia or parts to sum, found neither");
   }
-  entry.finish();
   return assembly;
 }
 
@@ -46,17 +56,19 @@ void read_antenna(TableReader& file, Case& antenna) {
   antenna.antenna.dish_diameter =
       table.quantity("dish_diameter", Kind::length, Range::between(0.5, 1000.0));
   antenna.antenna.inertia = table.quantity("inertia", Kind::inertia, Range::positive());
+  std::set<std::string> names;
   for (auto& entry : table.tables("alternative")) {
     AntennaAlternative alternative;
-    alternative.name = entry.text("name");
+    alternative.name = read_name(entry, names);
     alternative.inertia = entry.optional_quantity("inertia", Kind::inertia, Range::positive());
     alternative.reflected_inertia =
         entry.optional_quantity("reflected_inertia", Kind::inertia, Range::positive());
-    if (alternative.inertia.has_value() == alternative.reflected_inertia.has_value()) {
-      entry.refuse("inertia",
-                   "expected either inertia or reflected_inertia, found both or neither");
-    }
     entry.finish();
+    if (alternative.inertia.has_value() == alternative.reflected_inertia.has_value()) {
+      entry.refuse("inertia", std::string("expected either inertia (about the antenna axis) or "
+                                          "reflected_inertia (at the motor shaft), found ") +
+                                  (alternative.inertia ? "both" : "neither"));
+    }
     antenna.antenna.alternatives.push_back(std::move(alternative));
   }
   table.finish();
@@ -73,20 +85,18 @@ void read_gear_train(TableReader& file, Case& antenna) {
     entry.finish();
     train.stages.push_back(std::move(stage));
   }
-  std::set<std::string> names;
+  NamesInUse names;
   for (auto& entry : table.tables("assembly")) {
-    train.assemblies.push_back(read_assembly(entry, static_cast<long>(train.stages.size())));
-    const RotatingAssembly& assembly = train.assemblies.back();
-    if (!names.insert(assembly.name).second) {
-      entry.refuse("name", "expected a name of its own, found '" + assembly.name + "' again");
-    }
+    train.assemblies.push_back(read_assembly(entry, static_cast<long>(train.stages.size()), names));
+  }
+  table.finish();
+  for (const auto& assembly : train.assemblies) {
     for (const auto& part : assembly.parts) {
       if (part.radius && !train.density) {
         table.refuse("density", "expected a density for the disks' dimensions, found none");
       }
     }
   }
-  table.finish();
 }
 
 void read_motor(TableReader& file, Case& antenna) {
@@ -101,14 +111,14 @@ void read_motor(TableReader& file, Case& antenna) {
   motor.torque_efficiency = table.quantity("torque_efficiency", Kind::number, Range::positive(1.0));
   motor.volumetric_efficiency =
       table.quantity("volumetric_efficiency", Kind::number, Range::positive(1.0));
+  table.finish();
   const double built = motor.rotor_inertia.value + motor.flywheel_disks * motor.disk_inertia.value;
   if (std::abs(built - motor.inertia.value) > 0.05 * motor.inertia.value) {
     table.refuse("disk_inertia",
-                 "expected rotor_inertia + flywheel_disks x disk_inertia within 5 % of inertia (" +
-                     std::to_string(motor.inertia.value) + " kg.m2), found " +
-                     std::to_string(built) + " kg.m2");
+                 fmt::format("expected rotor_inertia + flywheel_disks x disk_inertia within 5 % of "
+                             "inertia ({:.6g} kg.m2), found {:.6g} kg.m2",
+                             motor.inertia.value, built));
   }
-  table.finish();
 }
 
 void read_structure(TableReader& file, Case& antenna) {
@@ -140,10 +150,11 @@ void read_structure(TableReader& file, Case& antenna) {
     mode.wind_fraction = entry.quantity("wind_fraction", Kind::number, Range::between(-1.0, 1.0));
     mode.beam_weight = entry.quantity("beam_weight", Kind::number, Range::between(-10.0, 10.0));
     if (mode.frequency.value <= structure.locked_rotor_frequency.value) {
-      entry.refuse("frequency",
-                   "expected a frequency above locked_rotor_frequency (the gear spring can only "
-                   "lower it), found '" +
-                       mode.frequency.text + "'");
+      entry.refuse(
+          "frequency",
+          fmt::format("expected a frequency above locked_rotor_frequency, {:.6g} Hz (the "
+                      "gear spring can only lower a mode), found {}",
+                      structure.locked_rotor_frequency.value, quoted(mode.frequency.text)));
     }
     entry.finish();
     fraction += mode.inertia_fraction.value;
@@ -151,21 +162,25 @@ void read_structure(TableReader& file, Case& antenna) {
     beam += mode.beam_weight.value;
     structure.modes.push_back(std::move(mode));
   }
+  table.finish();
   if (fraction >= 1.0) {
-    table.refuse("mode",
-                 "expected inertia_fraction to sum to less than 1 (the rest sits at the "
-                 "bull gear), found " +
-                     std::to_string(fraction));
+    table.refuse(
+        "mode", fmt::format("expected inertia_fraction to sum to less than 1 (the rest sits at the "
+                            "bull gear), found {:.6g}",
+                            fraction));
   }
   if (std::abs(wind - 1.0) > 1e-6) {
-    table.refuse("mode", "expected wind fractions (bull gear and modes) to sum to 1, found " +
-                             std::to_string(wind));
+    table.refuse("mode",
+                 fmt::format("expected bull_gear_wind_fraction and the modes' wind_fraction to sum "
+                             "to 1, found {:.6g}",
+                             wind));
   }
   if (std::abs(beam - 1.0) > 1e-6) {
-    table.refuse("mode", "expected beam weights (bull gear and modes) to sum to 1, found " +
-                             std::to_string(beam));
+    table.refuse("mode",
+                 fmt::format("expected bull_gear_beam_weight and the modes' beam_weight to sum to "
+                             "1, found {:.6g}",
+                             beam));
   }
-  table.finish();
 }
 
 }  // namespace boresight::app

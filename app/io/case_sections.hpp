@@ -1,9 +1,16 @@
 #pragma once
 
+#include <set>
+#include <string>
+
 #include <boresight/app/io/case_file.hpp>
 #include <boresight/app/io/table_reader.hpp>
 
 namespace boresight::app {
+
+/// The key `name`, which must differ from those read before: ids and reports tell by it.
+/// @throws InvalidInput as TableReader does
+std::string read_name(TableReader& entry, std::set<std::string>& names);
 
 /// One function a part of the case file: reads its tables into the case and refuses what does not
 /// belong there. Each @throws InvalidInput as TableReader does.

@@ -127,6 +127,19 @@ class TreeBuilder {
   std::vector<std::string_view> lines_;
 };
 
+/// The library's words, but for its commonest error, a text that runs into the end of its line:
+/// those speak of control characters.
+std::string reason(const toml::parse_error& error, std::string_view text) {
+  const std::string_view said = error.description();
+  const toml::source_position& at = error.source().begin;
+  const std::vector<std::string_view> lines = lines_of(text);
+  const std::string_view line = at.line <= lines.size() ? lines[at.line - 1] : "";
+  const std::string_view rest = line.substr(byte_of(line, at.column - 1));
+  return (rest.empty() || rest == "\r") && said.starts_with("Error while parsing string")
+             ? "the text has no closing quotation mark on its line"
+             : std::string(said);
+}
+
 }  // namespace
 
 const TomlNode* TomlNode::find(std::string_view key) const {
@@ -142,7 +155,7 @@ TomlNode parse_toml(std::string_view text, const std::string& name) {
   } catch (const toml::parse_error& error) {
     const toml::source_position& at = error.source().begin;
     throw InvalidInput(fmt::format("{}:{}:{}: expected valid TOML, found a syntax error ({})", name,
-                                   at.line, at.column, error.description()));
+                                   at.line, at.column, reason(error, text)));
   }
 }
 

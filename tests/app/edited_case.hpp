@@ -1,0 +1,61 @@
+#pragma once
+
+#include <algorithm>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+
+#include "program_run.hpp"
+
+namespace boresight::app {
+
+inline std::string case_path(const std::string& antenna) {
+  return std::string(BORESIGHT_SOURCE_DIR) + "/cases/" + antenna + "/case.toml";
+}
+
+/// A good case file's text with edits. Each edit names what it replaces, so that a test fails
+/// loudly when the case has changed under it.
+class EditedCase {
+ public:
+  explicit EditedCase(const std::string& antenna = "dss14-70m")
+      : text_(content_of(case_path(antenna))) {
+    if (text_.empty()) throw std::runtime_error("cannot read " + case_path(antenna));
+  }
+
+  /// Replaces a text that stands in the file once. A '^' in the replacement is left out and marks
+  /// the place that line() and column() then give.
+  EditedCase& replace(const std::string& old, std::string replacement) {
+    const std::size_t at = text_.find(old);
+    if (at == std::string::npos || text_.find(old, at + 1) != std::string::npos) {
+      throw std::runtime_error("not in the case, or not once: " + old);
+    }
+    const std::size_t mark = replacement.find('^');
+    if (mark != std::string::npos) replacement.erase(mark, 1);
+    text_.replace(at, old.size(), replacement);
+    if (mark != std::string::npos) place(at + mark);
+    return *this;
+  }
+
+  /// Marks the first occurrence of a text.
+  EditedCase& mark(const std::string& text) {
+    place(text_.find(text));
+    return *this;
+  }
+
+  const std::string& text() const { return text_; }
+  int line() const { return line_; }
+  int column() const { return column_; }
+
+ private:
+  void place(std::size_t at) {
+    const std::string_view before = std::string_view(text_).substr(0, at);
+    line_ = 1 + static_cast<int>(std::count(before.begin(), before.end(), '\n'));
+    column_ = static_cast<int>(before.size() - (before.rfind('\n') + 1)) + 1;
+  }
+
+  std::string text_;
+  int line_ = 0;
+  int column_ = 0;
+};
+
+}  // namespace boresight::app

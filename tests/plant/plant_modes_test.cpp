@@ -1,0 +1,100 @@
+#include <cmath>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "../reference_antenna.hpp"
+#include <boresight/plant/antenna_plant.hpp>
+#include <boresight/plant/eigenvalues.hpp>
+#include <boresight/plant/error.hpp>
+#include <boresight/plant/hydraulics.hpp>
+
+namespace boresight::plant {
+namespace {
+
+using testing::HasSubstr;
+using testing::ThrowsMessage;
+
+// The mode whose frequency is nearest, among the oscillating ones.
+PlantMode nearest(const std::vector<PlantMode>& modes, double frequency) {
+  PlantMode best;
+  for (const auto& mode : modes) {
+    if (mode.pole.imag() == 0.0) continue;
+    if (std::abs(mode.frequency - frequency) < std::abs(best.frequency - frequency)) best = mode;
+  }
+  return best;
+}
+
+TEST(PlantModes, AreThoseOfTheReferenceAntenna) {
+  const auto modes = plant_modes(reference::antenna());
+  EXPECT_NEAR(nearest(modes, 0.848).frequency, 0.848, 5e-4);
+  EXPECT_NEAR(nearest(modes, 0.848).damping_ratio, 0.152, 5e-4);
+  for (const double frequency : {2.26, 3.26, 4.41, 5.93}) {
+    const PlantMode mode = nearest(modes, frequency);
+    EXPECT_NEAR(mode.frequency, frequency, 5e-3);
+    EXPECT_THAT(mode.description, HasSubstr("structure: mode"));
+    EXPECT_LT(mode.damping_ratio, 0.03);
+  }
+  EXPECT_NEAR(nearest(modes, 12.0).frequency, 12.0, 1e-9);
+  EXPECT_NEAR(nearest(modes, 12.0).damping_ratio, 0.7, 1e-9);
+  EXPECT_EQ(nearest(modes, 12.0).description, "valve");
+  EXPECT_NEAR(nearest(modes, 12.2).frequency, 12.2, 0.05);
+  EXPECT_EQ(modes.front().description, "free rotation of the antenna");
+}
+
+TEST(PlantModes, AreThePolesInOrder) {
+  reference::RandomNumbers random(61);
+  for (int trial = 0; trial < 10; ++trial) {
+    const AntennaPlant plant = reference::random_antenna(random);
+    const auto modes = plant_modes(plant);
+    Eigen::Index poles = 0;
+    for (std::size_t i = 0; i < modes.size(); ++i) {
+      poles += modes[i].pole.imag() > 0.0 ? 2 : 1;
+      EXPECT_GT(modes[i].participation, 0.0);
+      EXPECT_LE(modes[i].participation, 1.0 + 1e-12);
+      if (i == 0) continue;
+      EXPECT_GE(modes[i].frequency, modes[i - 1].frequency);
+    }
+    EXPECT_EQ(poles, to_state_space(plant).a.rows());
+  }
+}
+
+TEST(HydraulicMode, FollowsFlywheelsAsTheOilSpringSays) {
+  // Fewer disks: higher frequency, and with leakage less damping.
+  const auto with = hydraulic_mode(plant_modes(reference::antenna(24.0)));
+  const auto without = hydraulic_mode(plant_modes(reference::antenna(0.0)));
+  EXPECT_THAT(with.description, HasSubstr("hydraulic"));
+  EXPECT_GT(without.frequency, 1.3 * with.frequency);
+  // A flexible structure lowers the mode below the rigid formula.
+  const AntennaPlant plant = reference::antenna();
+  EXPECT_LT(with.frequency,
+            hydraulic_frequency(plant.drive.oil_stiffness, reflected_inertia(plant)));
+}
+
+TEST(HydraulicMode, OfARigidAntennaIsTheClosedForm) {
+  AntennaPlant plant = reference::antenna();
+  StructureSpecification specification = reference::structure();
+  specification.locked_rotor_frequency *= 1e3;
+  for (auto& mode : specification.modes) mode.frequency *= 1e3;
+  plant.structure = make_structure(specification);
+  const double j = reflected_inertia(plant);
+  for (const double friction : {0.0, 3.0, 60.0}) {  // the last one overdamped
+    plant.drive.viscous_friction = friction;
+    const auto mode = hydraulic_mode(plant_modes(plant));
+    const double zeta =
+        hydraulic_damping(plant.drive.oil_stiffness, j, plant.drive.leakage_rate, friction);
+    const double natural =
+        std::sqrt((plant.drive.oil_stiffness + friction * plant.drive.leakage_rate) / j);
+    EXPECT_NEAR(mode.damping_ratio, zeta, 1e-4 * zeta);
+    EXPECT_NEAR(mode.frequency * reference::two_pi, natural, 1e-4 * natural);
+    EXPECT_EQ(zeta > 1.0, mode.description.ends_with("overdamped"));
+  }
+}
+
+TEST(HydraulicMode, NeedsAModeThatMovesTheOil) {
+  EXPECT_THAT([] { hydraulic_mode({}); },
+              ThrowsMessage<NumericalFailure>(HasSubstr("no mode of the plant")));
+}
+
+}  // namespace
+}  // namespace boresight::plant

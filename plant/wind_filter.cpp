@@ -56,7 +56,8 @@ Fit levenberg_marquardt(const Eigen::ArrayXd& w, const Eigen::VectorXd& target, 
       const bool converged = fit.cost - cost < 1e-13 * fit.cost;
       fit = {trial, residual, cost};
       jacobian = trial_jacobian;
-      damping *= 0.3;
+      // Not so small that a pole and a zero on one another make the equations singular.
+      damping = std::max(0.3 * damping, 1e-10);
       if (converged) break;
     } else {
       damping *= 4.0;

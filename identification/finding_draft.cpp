@@ -106,7 +106,7 @@ class Explanation {
   std::string every_column(std::size_t node, double value) const {
     std::vector<std::string> texts;
     for (const PrintedForm& form : graph_.node(node).statements.front().forms) {
-      texts.push_back("'" + reprint(form, value, 1) + "'");
+      texts.push_back(fmt::format("'{}'", reprint(form, value, 1)));
     }
     return fmt::format("{}", fmt::join(texts, " = "));
   }

@@ -26,8 +26,4 @@ struct AuditReport {
 /// @throws InvalidInput if two parts of the case bear the same name.
 AuditReport audit(const Case& antenna);
 
-/// The report as text of about 100 columns, grouped by kind, ending in a paragraph on the findings
-/// that move a headline result by more than 0.1 %.
-std::string to_text(const AuditReport& report);
-
 }  // namespace boresight::app

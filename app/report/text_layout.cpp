@@ -20,26 +20,26 @@ std::string heading(std::string_view title) {
   return fmt::format("\n{}\n{:-<{}}\n", title, "", columns_of(title));
 }
 
-std::string wrapped(std::string_view paragraph, std::string_view indent, std::size_t width) {
+std::string wrapped(std::string_view paragraph, std::string_view indent, std::string_view hanging) {
+  constexpr std::size_t width = 108;
   std::string text;
-  std::string line;
-  const auto flush = [&] {
-    if (!line.empty()) text += fmt::format("{}{}\n", indent, line);
-    line.clear();
-  };
+  std::string line(indent);
+  bool empty = true;
   while (!paragraph.empty()) {
     const std::size_t end = std::min(paragraph.find(' '), paragraph.size());
     const std::string_view word = paragraph.substr(0, end);
     paragraph.remove_prefix(std::min(end + 1, paragraph.size()));
     if (word.empty()) continue;
-    if (!line.empty() && columns_of(indent) + columns_of(line) + 1 + columns_of(word) > width) {
-      flush();
+    if (!empty && columns_of(line) + 1 + columns_of(word) > width) {
+      text += line + "\n";
+      line = fmt::format("{}{}", indent, hanging);
+      empty = true;
     }
-    if (!line.empty()) line += ' ';
+    if (!empty) line += ' ';
     line += word;
+    empty = false;
   }
-  flush();
-  return text;
+  return empty ? text : text + line + "\n";
 }
 
 std::string table(const std::vector<std::vector<std::string>>& rows, std::string_view alignment) {

@@ -23,7 +23,13 @@ std::string to_text(const Report& report) {
                   report.command, report.title, report.axis, report.case_path, report.seed);
   if (report.interrupted) text += "INTERRUPTED: what follows is whole, the rest is missing.\n";
   if (report.identification) text += to_text(*report.identification);
-  if (report.audit) text += fmt::format("\n{}", to_text(*report.audit));
+  if (report.audit && report.command == "audit") text += to_text(*report.audit);
+  if (report.audit && report.command != "audit") {
+    text += heading("Audit of the case's own numbers");
+    text += wrapped(fmt::format("{} `boresight audit {}` lists each.", audit_summary(*report.audit),
+                                report.case_path),
+                    "  ");
+  }
   if (report.plant) text += to_text(*report.plant);
   if (report.tuning) text += to_text(*report.tuning);
   if (!report.choices.empty()) text += choices_text(report.choices);

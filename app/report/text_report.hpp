@@ -11,6 +11,10 @@ std::string to_text(const Report& report);
 
 // One function a section; each begins with its heading.
 std::string to_text(const IdentificationSection& section);
+/// Every finding by kind, numbered, then the summary.
+std::string to_text(const AuditReport& report);
+/// How many places do not follow, and which of them move a headline result by more than 0.1 %.
+std::string audit_summary(const AuditReport& report);
 std::string to_text(const PlantSection& section);
 std::string to_text(const TuningSection& section);
 std::string choices_text(const std::vector<ChoiceResult>& choices);

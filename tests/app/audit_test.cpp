@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include <boresight/app/audit/audit_report.hpp>
+#include <boresight/app/report/text_report.hpp>
 #include <boresight/app/audit/case_graph.hpp>
 
 namespace boresight::app {

@@ -1,0 +1,140 @@
+#include <algorithm>
+#include <cmath>
+#include <set>
+#include <utility>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <boresight/app/report/text_layout.hpp>
+#include <boresight/app/report/text_report.hpp>
+
+namespace boresight::app {
+namespace {
+
+using identification::Consequence;
+using identification::DepartingForm;
+using identification::Finding;
+using identification::FindingKind;
+
+constexpr double change_that_matters = 1e-3;
+constexpr double change_worth_telling = 1e-5;
+
+std::string percent(double relative) {
+  if (std::abs(relative) > 10.0) return fmt::format("{:.3g} times", relative + 1.0);
+  return fmt::format("{:+.3g} %", 100.0 * relative);
+}
+
+// "'1.31 kg.m2' as ..." names the form it is about; otherwise there is only one.
+std::string followed_by(const std::string& explanation) {
+  const std::size_t end = explanation[0] == '\'' ? explanation.find("' ") : std::string::npos;
+  if (end == std::string::npos) return "would follow " + explanation;
+  return explanation.substr(0, end + 1) + " would follow" + explanation.substr(end + 1);
+}
+
+void append_finding(std::string& page, const Finding& finding, std::size_t number) {
+  page += wrapped(fmt::format("{:2}. {}: {}", number, finding.id, finding.description), "", "    ");
+  page += wrapped(finding.source, "    ", "  ");
+  for (const DepartingForm& form : finding.forms) {
+    page += wrapped(fmt::format("'{}' would be '{}' ({})", form.text, form.would_be_text,
+                                percent(form.relative_error())),
+                    "    ", "  ");
+  }
+  for (const std::string& explanation : finding.explanations) {
+    page += wrapped(followed_by(explanation), "    ", "  ");
+  }
+  for (const std::string& evidence : finding.evidence) page += wrapped(evidence, "    ", "  ");
+  std::vector<std::string> moved;
+  for (const Consequence& consequence : finding.consequences) {
+    if (std::abs(consequence.relative_change()) < change_worth_telling) continue;
+    moved.push_back(fmt::format("{} {:.4g} for {:.4g} ({})", consequence.id, consequence.as_printed,
+                                consequence.as_corrected, percent(consequence.relative_change())));
+  }
+  if (!moved.empty())
+    page += wrapped(fmt::format("moves {}", fmt::join(moved, ", ")), "    ", "  ");
+}
+
+void append_group(std::string& page, const AuditReport& report, std::string_view title,
+                  FindingKind kind, bool within_rounding, std::size_t& number) {
+  bool first = true;
+  for (const Finding& finding : report.findings) {
+    if (finding.kind != kind || finding.within_parents_rounding != within_rounding) continue;
+    if (first) {
+      page += '\n';
+      page += wrapped(title, "");
+      page += '\n';
+    }
+    first = false;
+    append_finding(page, finding, ++number);
+  }
+}
+
+double largest_change(const Finding& finding) {
+  return finding.consequences.empty() ? 0.0
+                                      : std::abs(finding.consequences.front().relative_change());
+}
+
+}  // namespace
+
+std::string audit_summary(const AuditReport& report) {
+  std::vector<const Finding*> matter;
+  for (const Finding& finding : report.findings) {
+    if (largest_change(finding) > change_that_matters) matter.push_back(&finding);
+  }
+  std::stable_sort(matter.begin(), matter.end(), [](const Finding* a, const Finding* b) {
+    return largest_change(*a) > largest_change(*b);
+  });
+  if (report.findings.empty() && report.implausible.empty()) {
+    return fmt::format(
+        "All {} printed numbers follow from each other, and nothing in them is "
+        "physically implausible.",
+        report.checked);
+  }
+  std::string text = fmt::format(
+      "Of {} printed numbers compared, {} places do not follow; {} physical checks fail.",
+      report.checked, report.findings.size(), report.implausible.size());
+  if (matter.empty()) return text + " None of them moves a headline result by more than 0.1 %.";
+  std::vector<std::string> moved;
+  std::set<std::pair<std::string, std::string>> named;  // a number may fail several comparisons
+  for (const Finding* finding : matter) {
+    const std::string& number = finding->forms.front().text;
+    if (!named.emplace(finding->id, number).second) continue;
+    const Consequence& most = finding->consequences.front();
+    moved.push_back(fmt::format("{} '{}' ({} {})", finding->id, number, most.id,
+                                percent(most.relative_change())));
+  }
+  return text + fmt::format(
+                    " Those that move a headline result by more than 0.1 % are {}; the "
+                    "others can stand without harm.",
+                    fmt::join(moved, "; "));
+}
+
+std::string to_text(const AuditReport& report) {
+  std::string page = heading(fmt::format("Audit of {}", report.title));
+  std::size_t number = 0;
+  append_group(page, report, "Columns that disagree beyond their rounding", FindingKind::conversion,
+               false, number);
+  append_group(page, report, "Derived numbers that do not follow beyond all printed rounding",
+               FindingKind::derivation, false, number);
+  append_group(page, report,
+               "Derived numbers whose own digits do not follow, though the rounding of what they "
+               "come from could hide it",
+               FindingKind::derivation, true, number);
+  append_group(page, report, "Inputs printed again with another value", FindingKind::restatement,
+               false, number);
+  if (!report.implausible.empty()) page += "\nPhysically implausible\n\n";
+  for (const Implausibility& implausible : report.implausible) {
+    page += wrapped(fmt::format("{:2}. {}, {}: {}", ++number, implausible.check, implausible.id,
+                                implausible.reasoning),
+                    "", "    ");
+  }
+  if (!report.remarks.empty()) page += "\nRemarks by the case's writer\n\n";
+  for (const RemarkEntry& remark : report.remarks) {
+    page += wrapped(fmt::format("{:2}. {}: {}", ++number, remark.place, remark.text), "", "    ");
+  }
+  page += "\nSummary\n\n";
+  page += wrapped(audit_summary(report), "");
+  return page;
+}
+
+}  // namespace boresight::app

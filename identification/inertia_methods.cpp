@@ -79,8 +79,8 @@ InertiaIdentification identify_inertia(const DriveEvidence& evidence,
   std::vector<Formula> gear_rows;
   for (const auto& assembly : evidence.assemblies) {
     const double ratio = plant::gear_ratio(evidence.stages, assembly.stages);
-    gear_rows.push_back([own = inputs.add(assembly.name, assembly.inertia), ratio,
-                         count = assembly.count](Point point) {
+    gear_rows.emplace_back([own = inputs.add(assembly.name, assembly.inertia), ratio,
+                            count = assembly.count](Point point) {
       return plant::reflected_inertia(own(point), ratio, count);
     });
     row_targets.push_back(targets.add(assembly.name, gear_rows.back()));
@@ -115,12 +115,13 @@ InertiaIdentification identify_inertia(const DriveEvidence& evidence,
   std::vector<Formula> line_moduli;
   std::vector<std::size_t> line_targets;
   for (const auto& line : evidence.lines) {
-    line_moduli.push_back([length = inputs.add("length of the " + line.name + " line", line.length),
-                           frequency = inputs.add("slosh frequency of the " + line.name + " line",
-                                                  line.slosh_frequency),
-                           density](Point point) {
-      return plant::bulk_modulus_from_slosh(length(point), frequency(point), density(point));
-    });
+    line_moduli.emplace_back(
+        [length = inputs.add("length of the " + line.name + " line", line.length),
+         frequency =
+             inputs.add("slosh frequency of the " + line.name + " line", line.slosh_frequency),
+         density](Point point) {
+          return plant::bulk_modulus_from_slosh(length(point), frequency(point), density(point));
+        });
     line_targets.push_back(targets.add("bulk modulus, " + line.name + " line", line_moduli.back()));
   }
   const Formula bulk_modulus = evidence.bulk_modulus

@@ -219,7 +219,7 @@ std::vector<std::string> explain_as_misprint(const AuditGraph& graph, const Depa
   const std::vector<Target> meant = targets(graph, departure);
   const auto first = [&](auto edit) {
     for (const Target& target : meant) {
-      if (const auto text = edit(target)) return text;
+      if (auto text = edit(target)) return text;
     }
     return std::optional<std::string>();
   };

@@ -144,7 +144,7 @@ class Search {
         variant.reading[ancestor] = {s, f};
         all.push_back(std::move(variant));
       }
-      if (conflicts_.count({ancestor, taken.statement}) == 0) continue;
+      if (!conflicts_.contains({ancestor, taken.statement})) continue;
       for (std::size_t f = 0; f < statements[taken.statement].forms.size(); ++f) {
         if (f == taken.form) continue;
         Variant variant{base, {}, {ancestor}, false};
@@ -189,9 +189,9 @@ class Search {
       }
       if (reproduced) {
         exact.push_back(f);
-      } else if (covered) {
+      } else if (covered && surest) {
         inexact.emplace_back(f, *surest);
-      } else {
+      } else if (surest && nearest) {
         add_departure(beyond, f, *surest, *nearest);
       }
     }
@@ -240,7 +240,7 @@ class Search {
     }
     add_departure_of(beyond, f, shown, form.half_unit + shown.result.rounding);
     for (const auto& [ancestor, taken] : nearest.reading) {
-      if (conflicts_.count({ancestor, taken.statement}) == 0) continue;
+      if (!conflicts_.contains({ancestor, taken.statement})) continue;
       evidence_[{ancestor, taken.statement}].push_back(
           {taken.form, graph_.node(beyond.node).id, conflict_solves});
     }

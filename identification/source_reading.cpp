@@ -88,7 +88,7 @@ std::optional<double> ancestor_needed(const AuditGraph& graph, std::size_t node,
       if (gradient == 0.0) return std::nullopt;
       values[ancestor] += miss / gradient;
       const double ratio = values[ancestor] / printed;
-      if (!(ratio > 0.5 && ratio < 2.0)) return std::nullopt;
+      if (ratio <= 0.5 || ratio >= 2.0 || std::isnan(ratio)) return std::nullopt;
     }
   } catch (const InvalidInput&) {
     return std::nullopt;  // the search left the formula's domain

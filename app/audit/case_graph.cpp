@@ -103,7 +103,7 @@ class GraphBuilder {
       const std::string id = "assembly." + assembly.name + ".inertia";
       const std::string description = "inertia of " + assembly.name;
       if (parts.empty()) {
-        input(id, description, *assembly.inertia);
+        if (assembly.inertia) input(id, description, *assembly.inertia);
         continue;
       }
       AuditNode& node = derived(id, description + ", sum of its parts", Kind::inertia, parts, sum);
@@ -115,8 +115,8 @@ class GraphBuilder {
     const std::string name = "part." + part.name;
     const std::string what = part.name + " (" + assembly.name +
                              (part.description.empty() ? "" : ", " + part.description) + ")";
-    if (!part.radius) {
-      input(name + ".inertia", "inertia of " + what, *part.inertia);
+    if (!part.radius || !part.length) {
+      if (part.inertia) input(name + ".inertia", "inertia of " + what, *part.inertia);
       return name + ".inertia";
     }
     input(name + ".radius", "radius of " + what, *part.radius);
@@ -214,7 +214,7 @@ class GraphBuilder {
               });
     }
     if (moduli.empty()) {
-      input("bulk_modulus", "bulk modulus of the oil", *oil.bulk_modulus);
+      if (oil.bulk_modulus) input("bulk_modulus", "bulk modulus of the oil", *oil.bulk_modulus);
     } else {
       AuditNode& node = derived(
           "bulk_modulus", "bulk modulus, mean of the lines", Kind::pressure, moduli,
@@ -310,8 +310,7 @@ UnitColumn column_of(const std::string& text, Kind kind) {
       name += character;
       continue;
     }
-    if (std::find(names.begin(), names.end(), name) != names.end() ||
-        name.compare(0, 3, "US_") == 0) {
+    if (std::find(names.begin(), names.end(), name) != names.end() || name.starts_with("US_")) {
       return UnitColumn::inch_pound;
     }
     name.clear();

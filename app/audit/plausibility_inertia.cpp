@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <boresight/app/audit/plausibility_checks.hpp>
+#include <boresight/app/redesign/antenna_model.hpp>
 #include <boresight/identification/source_reading.hpp>
 #include <boresight/plant/gear_train.hpp>
 #include <boresight/plant/hydraulics.hpp>
@@ -94,11 +95,8 @@ void check_expected_resonance(const CaseNumbers& numbers, Implausibilities& foun
                               {"without the antenna", frequency(0.0), "Hz"},
                               {"standard uncertainties", away, "1"}}};
   std::string others;
-  const double ratio = numbers.graph.value(numbers.graph.index("gear_ratio"), {});
   for (const AntennaAlternative& alternative : numbers.antenna.antenna.alternatives) {
-    const double load = alternative.reflected_inertia
-                            ? alternative.reflected_inertia->value
-                            : plant::reflected_inertia(alternative.inertia->value, ratio);
+    const double load = antenna_inertia(numbers.antenna, alternative);
     others += fmt::format(", {:.3f} Hz with the antenna of {}", frequency(load), alternative.name);
     implausible.numbers.push_back({alternative.name, frequency(load), "Hz"});
   }

@@ -48,7 +48,8 @@ void check_friction_slope(const CaseNumbers& numbers, Implausibilities& found) {
   const double coulomb = tests.constant_speed_coulomb ? tests.constant_speed_coulomb->value : 0.0;
   std::vector<SlopeEffect> effects{effect_of(numbers, "at the motor's shaft", slope, coulomb)};
   const bool rings = numbers.antenna.resonance_frequency.has_value();
-  if (!(rings && effects[0].damping > 1.0) && effects[0].torque <= numbers.supply_torque) return;
+  const bool overdamped = rings && effects[0].damping > 1.0;
+  if (!overdamped && effects[0].torque <= numbers.supply_torque) return;
   if (numbers.antenna.tachometer) {
     const TachometerEntry& tachometer = *numbers.antenna.tachometer;
     const double motor_per_tachometer =

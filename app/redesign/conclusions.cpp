@@ -31,13 +31,20 @@ void conclude_identification(const IdentificationSection& section, const PlantSe
     return x.reflected_inertia.value < y.reflected_inertia.value;
   };
   const auto [least, most] = std::minmax_element(methods.begin(), methods.end(), by_inertia);
+  const double ratio = least->motor_to_load_ratio.value;
   std::string text = fmt::format(
       "The methods put the reflected inertia between {:.3f} kg.m2 ({}) and {:.3f} ({}), and the "
-      "motor-to-load ratio between {} and {}: near R = 5, 1 % of inertia moves R by 6 %, so the "
-      "ratio is "
-      "the wrong number to argue over.",
+      "motor-to-load ratio between {} and {}.",
       least->reflected_inertia.value, least->name, most->reflected_inertia.value, most->name,
-      ratio_text(most->motor_to_load_ratio.value), ratio_text(least->motor_to_load_ratio.value));
+      ratio_text(most->motor_to_load_ratio.value), ratio_text(ratio));
+  if (ratio > 2.0 && std::isfinite(ratio)) {
+    // dR/R = -(1 + R) dJ/J
+    text += fmt::format(
+        " At R = {:.1f}, 1 % of inertia moves R by {:.1f} %: the ratio is the wrong number to "
+        "argue "
+        "over.",
+        ratio, 1.0 + ratio);
+  }
   if (const auto& left = least->antenna_remainder;
       left.value < 0.5 * plant::antenna_inertia(plant.plant.structure)) {
     text += fmt::format(
@@ -121,17 +128,23 @@ void conclude_matching(const MatchingSection& section, std::vector<std::string>&
     const auto best = std::min_element(
         series.designs.begin(), series.designs.end(),
         [](const design::Design& x, const design::Design& y) { return x.beam_rms < y.beam_rms; });
-    const std::size_t at = static_cast<std::size_t>(best - series.designs.begin());
-    sentences.push_back(fmt::format(
-        "Nothing happens at ratio 1 ({:.1f} disks): {:.4f} mdeg there, least {:.4f} at {} (R = "
-        "{:.2f}) with {}. The one-to-one rule is not what limits pointing in wind here; {}.",
-        section.rows[i].disks, series.designs[i].beam_rms / millidegree,
-        best->beam_rms / millidegree, section.rows[at].label, section.rows[at].motor_to_load_ratio,
-        control::to_string(series.structure),
-        least < 2.0 && most > 5.0
-            ? "with the friction slope of the tracking rate the motors' inertia hardly matters at "
-              "all, so measure that slope before touching a flywheel"
-            : "the friction slope at the tracking rate decides how much inertia matters"));
+    const auto at = static_cast<std::size_t>(best - series.designs.begin());
+    const double best_ratio = section.rows[at].motor_to_load_ratio;
+    const bool near_unit = best_ratio > 0.7 && best_ratio < 1.4;
+    text = fmt::format(
+        "With {}, ratio 1 ({:.1f} disks) gives {:.4f} mdeg; the least is {:.4f} at {} (R = "
+        "{:.2f}). "
+        "The one-to-one rule {} here.",
+        control::to_string(series.structure), section.rows[i].disks,
+        series.designs[i].beam_rms / millidegree, best->beam_rms / millidegree,
+        section.rows[at].label, best_ratio, near_unit ? "happens to fit" : "marks nothing special");
+    if (least < 2.0 && most > 5.0) {
+      text +=
+          " With the friction slope of the tracking rate the motors' inertia hardly matters at "
+          "all: "
+          "measure that slope before touching a flywheel.";
+    }
+    sentences.push_back(std::move(text));
   }
 }
 
@@ -144,12 +157,12 @@ std::vector<std::string> conclude(const Report& report) {
   }
   if (report.tuning) conclude_tuning(*report.tuning, sentences);
   if (report.matching) conclude_matching(*report.matching, sentences);
-  if (report.plant && report.tuning) {
-    sentences.push_back(fmt::format(
-        "{} inputs of this case are assumed, in value or in uncertainty (listed above): leakage, "
-        "structure, wind coefficients and sensor noise set the scale of every rms here and need "
-        "measuring before a decision.",
-        report.assumed.size()));
+  if (report.tuning && !report.assumed.empty()) {
+    sentences.push_back(
+        fmt::format("{} inputs of this case are assumed, in value or in uncertainty (listed "
+                    "above). Every rms here "
+                    "stands on them until they are measured.",
+                    report.assumed.size()));
   }
   return sentences;
 }

@@ -1,0 +1,271 @@
+"""Holds the JSON reports of every command against docs/report.schema.json and against what they
+must mean.
+
+usage: json_schema_test.py PROGRAM SOURCE_FOLDER
+"""
+
+import functools
+import json
+import math
+import pathlib
+import re
+import subprocess
+import sys
+import tempfile
+import unittest
+
+import jsonschema
+
+PROGRAM, SOURCE = sys.argv[1], pathlib.Path(sys.argv[2])
+SCHEMA = json.loads((SOURCE / "docs/report.schema.json").read_text(encoding="utf-8"))
+VALIDATOR = jsonschema.Draft202012Validator(SCHEMA)
+
+BIG, SMALL = "dss14-70m", "dss14-64m"
+CHEAP = ("audit", "identify", "model")
+SECTIONS = {"audit": "audit", "identify": "identification", "model": "plant", "tune": "tuning",
+            "match": "matching"}
+
+# A number's key ends in one of these; only whole counts have none.
+UNITS = ("1", "kg_m2", "Pa", "N_m", "N_m_per_rad", "N_m_s_per_rad", "Hz", "s", "per_s", "rad_per_s",
+         "rad_per_s_V", "m_per_s", "deg", "mdeg", "dB", "si")
+COUNTS = {"seed", "degrees_of_freedom", "starts", "starts_at_optimum", "evaluations",
+          "seeds_within_1_percent", "checked_numbers"}
+
+
+def refuse_constant(name):
+    raise ValueError(f"{name} is no JSON")
+
+
+@functools.lru_cache(maxsize=None)
+def run(command, case, threads=2, seed=1):
+    """Bytes of the JSON report, and the text report."""
+    with tempfile.TemporaryDirectory() as folder:
+        path = pathlib.Path(folder) / "report.json"
+        process = subprocess.run(
+            [PROGRAM, command, f"cases/{case}/case.toml", "--json", str(path), "--threads",
+             str(threads), "--seed", str(seed)],
+            cwd=SOURCE, capture_output=True, text=True, check=True)
+        assert process.stderr == "", process.stderr
+        return path.read_bytes(), process.stdout
+
+
+def report(command, case=BIG, threads=2, seed=1):
+    return json.loads(run(command, case, threads, seed)[0], parse_constant=refuse_constant)
+
+
+def every_report():
+    for command in (*CHEAP, "tune", "redesign"):
+        yield command, BIG, report(command)
+    yield "match", BIG, report("match", threads=1)
+    for command in (*CHEAP, "tune"):
+        yield command, SMALL, report(command, SMALL)
+
+
+def numbers(value, key=""):
+    if isinstance(value, dict):
+        for name, inner in value.items():
+            yield from numbers(inner, name)
+    elif isinstance(value, list):
+        for inner in value:
+            yield from numbers(inner, key)
+    elif isinstance(value, (int, float)) and not isinstance(value, bool):
+        yield key, value
+
+
+def designs(value):
+    if isinstance(value, dict):
+        if "gains" in value:
+            yield value
+        for inner in value.values():
+            yield from designs(inner)
+    elif isinstance(value, list):
+        for inner in value:
+            yield from designs(inner)
+
+
+class Schema(unittest.TestCase):
+    def test_is_a_schema(self):
+        jsonschema.Draft202012Validator.check_schema(SCHEMA)
+
+    def test_allows_no_key_it_does_not_describe(self):
+        def walk(node):
+            if isinstance(node, dict):
+                if node.get("type") == "object":
+                    self.assertIs(node.get("additionalProperties"), False, node)
+                    for key, inner in node["properties"].items():
+                        self.assertTrue({"description", "const", "$ref"} & inner.keys(), key)
+                for inner in node.values():
+                    walk(inner)
+            elif isinstance(node, list):
+                for inner in node:
+                    walk(inner)
+
+        walk(SCHEMA)
+
+    def test_fits_every_report(self):
+        for command, case, found in every_report():
+            with self.subTest(command=command, case=case):
+                errors = [f"{list(e.absolute_path)}: {e.message[:200]}"
+                          for e in VALIDATOR.iter_errors(found)]
+                self.assertEqual(errors, [])
+
+    def test_notices_what_does_not_fit(self):
+        def check(edit):
+            spoilt = report("tune")
+            edit(spoilt)
+            self.assertFalse(VALIDATOR.is_valid(spoilt))
+
+        check(lambda r: r.update(extra=1))
+        check(lambda r: r["tuning"]["design"].update(extra_1=1.0))
+        check(lambda r: r["tuning"]["design"].pop("beam_rms_mdeg"))
+        check(lambda r: r["tuning"]["design"].update(beam_rms_mdeg="0.5"))
+        check(lambda r: r.pop("tuning"))
+        check(lambda r: r.update(plant=report("model")["plant"]))
+        check(lambda r: r.update(command="guess"))
+
+    def test_asks_for_no_section_of_interrupted_work(self):
+        stopped = report("redesign")
+        for section in ("tuning", "choices", "matching"):
+            del stopped[section]
+        self.assertFalse(VALIDATOR.is_valid(stopped))
+        stopped["interrupted"] = True
+        self.assertTrue(VALIDATOR.is_valid(stopped))
+
+
+class Numbers(unittest.TestCase):
+    def test_carry_their_unit_in_the_key(self):
+        suffix = re.compile(rf".+_({'|'.join(UNITS)})")
+        for command, case, found in every_report():
+            for key, value in numbers(found):
+                with self.subTest(command=command, case=case, key=key):
+                    self.assertTrue(math.isfinite(value))
+                    if key in COUNTS:
+                        self.assertIsInstance(value, int)
+                    else:
+                        self.assertRegex(key, suffix)
+
+    def test_do_not_depend_on_threads(self):
+        self.assertEqual(run("tune", BIG, 1)[0], run("tune", BIG, 2)[0])
+
+    def test_repeat_with_the_seed_and_agree_without(self):
+        first, other = report("tune"), report("tune", seed=1001)
+        self.assertNotEqual(first["tuning"]["design"]["gains"], other["tuning"]["design"]["gains"])
+        rms = [found["tuning"]["design"]["beam_rms_mdeg"] for found in (first, other)]
+        self.assertAlmostEqual(rms[0] / rms[1], 1.0, delta=0.01)
+
+    def test_of_a_section_are_the_same_alone_and_in_the_whole(self):
+        whole = report("redesign")
+        for command, section in SECTIONS.items():
+            with self.subTest(section=section):
+                # The matching study on one thread, the whole on two.
+                alone = report(command, threads=1 if command == "match" else 2)
+                self.assertEqual(alone[section], whole[section])
+
+    def test_agree_with_the_text(self):
+        found, text = report("redesign"), run("redesign", BIG)[1]
+        design, plant = found["tuning"]["design"], found["plant"]
+        self.assertIn(f"Beam rms {design['beam_rms_mdeg']:.4f} mdeg", text)
+        self.assertRegex(text, rf"reflected inertia +{plant['reflected_inertia_kg_m2']:.6g} +kg\.m2")
+        self.assertRegex(text, rf"gear ratio +{plant['gear_ratio_1']:.6g} +1\n")
+        self.assertIn(f"J = {found['identification']['reconciled']['reflected_inertia_kg_m2']:.3f}",
+                      text)
+        for budget in found["tuning"]["budgets"]:
+            limit = budget["wind_speed_limit_m_per_s"]
+            self.assertIsNotNone(re.search(
+                rf"{re.escape(budget['name'])} +{budget['band']} .* {limit:.2f} +{3.6 * limit:.1f}\n",
+                text))
+        for assumed in found["assumed_inputs"]:
+            self.assertRegex(text, rf"{re.escape(assumed['key'])} +{re.escape(assumed['value'])} ")
+
+    def test_go_to_standard_output_alone_on_request(self):
+        shown = subprocess.run([PROGRAM, "model", f"cases/{BIG}/case.toml", "--json", "-"],
+                               cwd=SOURCE, capture_output=True, check=True)
+        self.assertEqual(shown.stdout, run("model", BIG)[0])
+        self.assertEqual(shown.stderr, b"")
+
+
+class Redesign(unittest.TestCase):
+    def test_tells_inertia_and_ratio_consistently(self):
+        for case in (BIG, SMALL):
+            found = report("identify", case)["identification"]
+            plant = report("model", case)["plant"]
+            side = plant["motor_side_inertia_kg_m2"]
+            motors = plant["reflected_inertia_kg_m2"] / (1 + 1 / plant["motor_to_load_ratio_1"])
+            for method in found["methods"]:
+                inertia = method["reflected_inertia"]
+                value = inertia["value_kg_m2"]
+                self.assertLess(inertia["lower_95_kg_m2"], value)
+                self.assertLess(value, inertia["upper_95_kg_m2"])
+                self.assertAlmostEqual(method["antenna_remainder"]["value_kg_m2"], value - side)
+                self.assertAlmostEqual(method["motor_to_load_ratio"]["value_1"],
+                                       motors / (value - motors), delta=1e-6)
+                shares = [c["variance_share_1"] for c in inertia["contributions"]]
+                # Inputs below 1 % of the variance are left out.
+                self.assertTrue(0.9 < sum(shares) < 1 + 1e-9)
+                self.assertEqual(shares, sorted(shares, reverse=True))
+            self.assertAlmostEqual(found["methods"][0]["reflected_inertia"]["value_kg_m2"],
+                                   plant["reflected_inertia_kg_m2"])
+
+    def test_claims_only_designs_that_keep_their_goals(self):
+        for found in (report("redesign"), report("tune", SMALL)):
+            goals = [goal["sensitivity_peak_1"] for goal in found["tuning"]["sensitivity_goals"]]
+            effort = found["tuning"]["valve_effort_goal_rad_per_s"]
+            for design in designs(found):
+                self.assertTrue(design["feasible"])
+                self.assertTrue(design["verified"])
+                self.assertEqual("rate_lag_corner_rad_per_s" in design["gains"],
+                                 design["structure"] == "PI with lag")
+                for cut, goal in zip(design["loop_breaks"], goals):
+                    self.assertLessEqual(cut["sensitivity_peak_1"], goal * (1 + 1e-6))
+                    # A peak of S bounds the phase margin from below.
+                    self.assertGreaterEqual(
+                        cut["margins"]["phase_margin_deg"],
+                        math.degrees(2 * math.asin(0.5 / cut["sensitivity_peak_1"])) - 1e-3)
+                self.assertLessEqual(design["valve_effort_rad_per_s"], effort * (1 + 1e-6))
+                self.assertLess(design["verification"]["closed_loop_abscissa_per_s"], 0)
+                self.assertAlmostEqual(
+                    math.hypot(design["wind_rms_mdeg"], design["noise_rms_mdeg"]),
+                    design["beam_rms_mdeg"], delta=1e-9)
+
+    def test_takes_the_best_seed(self):
+        tuning = report("redesign")["tuning"]
+        self.assertEqual([seed["seed"] for seed in tuning["seeds"]], list(range(1, 9)))
+        best = min(seed["beam_rms_mdeg"] for seed in tuning["seeds"] if seed["verified"])
+        self.assertEqual(tuning["design"]["beam_rms_mdeg"], best)
+        held = {model["model"]: model["beam_rms_mdeg"] for model in tuning["wind_models"]}
+        self.assertAlmostEqual(held[tuning["wind_model"]], best, delta=1e-6)
+        self.assertGreater(best, tuning["bending_floor_mdeg"])
+        for budget in tuning["budgets"]:
+            met = budget["wind_speed_limit_m_per_s"] >= tuning["design_wind_speed_m_per_s"]
+            self.assertEqual(met, best <= budget["rms_mdeg"], budget["name"])
+
+    def test_says_of_each_choice_what_it_would_do_or_why_not(self):
+        found = report("redesign")
+        choices = found["choices"]
+        self.assertEqual(choices[0]["name"], "reference")
+        for choice in choices:
+            self.assertNotEqual(choice["design"] is None, choice["impossible_because"] is None)
+        reference = choices[0]["design"]["beam_rms_mdeg"]
+        self.assertAlmostEqual(reference / found["tuning"]["design"]["beam_rms_mdeg"], 1, delta=0.01)
+
+    def test_matches_over_all_disks_and_at_ratio_one(self):
+        matching = report("redesign")["matching"]
+        self.assertEqual(len({(s["structure"], s["friction"]) for s in matching}), 4)
+        for series in matching:
+            points = series["points"]
+            disks = [point["flywheel_disks_1"] for point in points]
+            self.assertEqual(disks, sorted(disks))
+            self.assertEqual(disks[0], 0)
+            self.assertIn(24, disks)
+            at_one = [p for p in points if p["label"] == "ratio 1"]
+            self.assertEqual(len(at_one), 1)
+            self.assertAlmostEqual(at_one[0]["motor_to_load_ratio_1"], 1.0)
+            for point in points:
+                self.assertEqual(point["design"]["structure"], series["structure"])
+                load = point["reflected_inertia_kg_m2"] - point["motor_inertia_kg_m2"]
+                self.assertAlmostEqual(point["motor_inertia_kg_m2"] / load,
+                                       point["motor_to_load_ratio_1"])
+
+
+if __name__ == "__main__":
+    unittest.main(argv=sys.argv[:1])

@@ -29,7 +29,7 @@ plant::ShapingFilter fit_wind_filter(const WindCondition& wind, double gear_rati
   const Eigen::ArrayXd frequency =
       Eigen::ArrayXd::LinSpaced(points, std::log(5e-4), std::log(5.0)).exp();
   return plant::fit_shaping_filter(frequency,
-                                   motor_wind_spectrum(wind, gear_ratio, two_pi * frequency), 4);
+                                   motor_wind_spectrum(wind, gear_ratio, two_pi * frequency), 6);
 }
 
 double beam_rms_at_speed(const TrackingProblem& problem, const control::LoopEvaluator& evaluator,

@@ -1,0 +1,61 @@
+#pragma once
+
+#include <numbers>
+
+#include "../reference_antenna.hpp"
+#include <boresight/control/loop_evaluator.hpp>
+#include <boresight/plant/wind.hpp>
+#include <boresight/plant/wind_filter.hpp>
+
+/// The loops around the reference antenna: noise, dead time, wind of 10 m/s at the motor shaft.
+namespace boresight::reference {
+
+inline constexpr double delay = 0.03;
+
+inline control::SensorNoise sensor_noise() {
+  return {0.1 * mdeg * gear_ratio(), 0.02, 25.0};
+}
+
+inline double motor_wind_spectrum(double frequency) {
+  const double ratio = gear_ratio();
+  return plant::wind_torque_spectrum(wind_site(), plant::WindModel::coherence, 10.0, frequency) /
+         (ratio * ratio);
+}
+
+inline control::LoopEvaluator loop_evaluator(const plant::AntennaPlant& plant,
+                                             int points_per_decade = 300) {
+  const Eigen::ArrayXd w = plant::frequency_grid(plant, 1e-4, 25.0, points_per_decade);
+  return {plant, w, delay, sensor_noise(),
+          (w / two_pi).unaryExpr([](double f) { return motor_wind_spectrum(f); })};
+}
+
+inline plant::ShapingFilter wind_filter(int order) {
+  const Eigen::ArrayXd f = Eigen::ArrayXd::LinSpaced(200, std::log(5e-4), std::log(5.0)).exp();
+  return plant::fit_shaping_filter(f, f.unaryExpr([](double x) { return motor_wind_spectrum(x); }),
+                                   order);
+}
+
+/// A law anywhere within the bounds of the search.
+inline control::ControlLaw random_law(RandomNumbers& random, control::LoopStructure structure) {
+  control::ControlLaw law{structure, {}};
+  for (const auto& description : control::gain_descriptions(structure)) {
+    law.gains.push_back(random.log_uniform(description.lower, description.upper));
+  }
+  return law;
+}
+
+/// A law drawn from the whole bounds until it is stable with every sensitivity peak within a limit.
+inline control::ControlLaw sound_law(RandomNumbers& random, control::LoopEvaluator& evaluator,
+                                     control::LoopStructure structure, double highest_peak) {
+  while (true) {
+    const control::ControlLaw law = random_law(random, structure);
+    const auto evaluation = evaluator.evaluate(law, false);
+    bool sound = evaluation.stable();
+    for (const auto loop_break : control::loop_breaks) {
+      sound = sound && evaluation.highest_peak(loop_break) <= highest_peak;
+    }
+    if (sound) return law;
+  }
+}
+
+}  // namespace boresight::reference

@@ -107,9 +107,9 @@ long read_integer(const Field& field, long minimum, long maximum) {
   if (field.node.type == TomlType::integer && value >= minimum && value <= maximum) {
     return static_cast<long>(value);
   }
-  constexpr std::numeric_limits<long> all;
-  const std::string range = bounds(minimum > all.min() ? fmt::format("{}", minimum) : "", false,
-                                   maximum < all.max() ? fmt::format("{}", maximum) : "");
+  using Limits = std::numeric_limits<long>;
+  const std::string range = bounds(minimum > Limits::min() ? fmt::format("{}", minimum) : "", false,
+                                   maximum < Limits::max() ? fmt::format("{}", maximum) : "");
   refuse_field(field, range.empty() ? "an integer" : "an integer " + range);
 }
 

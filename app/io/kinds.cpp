@@ -12,7 +12,7 @@ namespace boresight::app {
 namespace {
 
 struct KindEntry {
-  Kind kind;
+  Kind kind = Kind::number;
   Dimension dimension;
   KindDescription description;
 };

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <numbers>
 #include <set>
 #include <system_error>
 #include <utility>
@@ -87,7 +88,7 @@ struct TableReader::Content {
   }
 
   TableReader nested(const TomlNode& inner, const std::string& inner_path) const {
-    return TableReader(std::unique_ptr<Content>(new Content{document, inner, inner_path, {}}));
+    return TableReader(std::make_unique<Content>(Content{document, inner, inner_path, {}}));
   }
 
   TableReader nested_table(const Field& found) const {
@@ -112,7 +113,7 @@ struct TableReader::Content {
     result.value = number.value;
     result.half_unit = number.half_unit;
     // A rounding error is spread evenly over one unit of the last digit.
-    result.standard_uncertainty = number.half_unit / std::sqrt(3.0);
+    result.standard_uncertainty = number.half_unit / std::numbers::sqrt3;
     result.text = number.text;
     result.kind = kind;
     result.key = found.path;
@@ -170,7 +171,7 @@ TableReader TableReader::open(const std::string& path) {
 TableReader TableReader::parse(std::string_view text, const std::string& name) {
   const auto document =
       std::make_shared<const Document>(Document{name, parse_toml(text, name), {}});
-  return TableReader(std::unique_ptr<Content>(new Content{document, document->root, "", {}}));
+  return TableReader(std::make_unique<Content>(Content{document, document->root, "", {}}));
 }
 
 bool TableReader::has(std::string_view key) const {

@@ -36,6 +36,8 @@ class TableReader {
 
   TableReader(TableReader&&) noexcept;
   TableReader& operator=(TableReader&&) noexcept;
+  TableReader(const TableReader&) = delete;
+  TableReader& operator=(const TableReader&) = delete;
   ~TableReader();
 
   /// Whether the table holds the key; does not count as reading it.

@@ -175,7 +175,8 @@ class UnitReader {
     const std::size_t begin = at_;
     const std::string_view digits = take_digits();
     skip_blanks();
-    if (digits != "1" || !first || !(at_end() || text_[at_] == '/' || text_[at_] == ')')) {
+    const bool complete = at_end() || text_[at_] == '/' || text_[at_] == ')';
+    if (digits != "1" || !first || !complete) {
       refuse(begin, digits,
              "a unit holds no number but the 1 of '1/s'; an exponent follows its name directly, "
              "and a number is written without gaps");

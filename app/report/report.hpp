@@ -57,7 +57,7 @@ struct TuningSection {
   std::vector<SeedResult> seeds;
   int seeds_within_1_percent = 0;
   struct WindAlternative {
-    plant::WindModel model;
+    plant::WindModel model = plant::WindModel::coherence;
     double beam_rms = 0.0;  // rad, same gains
   };
   std::vector<WindAlternative> wind_alternatives;

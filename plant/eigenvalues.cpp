@@ -54,6 +54,7 @@ Eigen::VectorXcd eigenvalues(const Eigen::MatrixXd& matrix) {
 }
 
 EigenDecomposition eigen_decomposition(const Eigen::MatrixXd& matrix) {
+  if (matrix.size() == 0) return {};
   const auto solver = solve("eigen_decomposition", matrix, true);
   const Eigen::VectorXcd& values = solver.eigenvalues();
   const Eigen::MatrixXcd vectors = solver.eigenvectors();

@@ -103,6 +103,7 @@ TEST(Eigenvalues, RefuseWhatIsNotASquareFiniteMatrix) {
 
 TEST(Eigenvalues, OfNothingAreNone) {
   EXPECT_EQ(eigenvalues(Eigen::MatrixXd(0, 0)).size(), 0);
+  EXPECT_EQ(eigen_decomposition(Eigen::MatrixXd(0, 0)).values.size(), 0);
   EXPECT_THROW(spectral_abscissa(Eigen::MatrixXd(0, 0)), InvalidInput);
 }
 

@@ -23,7 +23,7 @@ constexpr unsigned constraint_count = 3 * peaks_per_break + 1;
 constexpr double unstable_penalty = 5.0;
 // Peaks are read off a parabola through grid points; what it can miss is kept in hand, so that the
 // exact peak meets the goal.
-constexpr double peak_reserve = 2e-5;
+constexpr double peak_reserve = 5e-5;
 
 struct Candidate {
   control::ControlLaw law;

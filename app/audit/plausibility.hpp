@@ -8,7 +8,7 @@
 
 namespace boresight::app {
 
-/// A number that a reason rests on, SI (Hz, deg where the unit says so).
+/// A number that a reason rests on, SI (Hz where the unit says so).
 struct NamedNumber {
   std::string name;
   double value = 0.0;

@@ -191,7 +191,7 @@ void check_carrier_frequencies(const CaseNumbers& numbers, Implausibilities& fou
          fmt::format("At '{}' the wave is {:.3g} m long against a dish of {:.3g} m: its beam would "
                      "be {:.2g} deg wide and need no pointing.",
                      frequency.text, wavelength, dish, beam),
-         {{"wavelength", wavelength, "m"}, {"beam width", beam, "deg"}}});
+         {{"wavelength", wavelength, "m"}, {"beam width", beam * degree, "rad"}}});
   };
   for (const BandEntry& band : numbers.antenna.bands) {
     check(band, band.frequency);

@@ -3,6 +3,7 @@
 #include <exception>
 #include <functional>
 #include <string>
+#include <system_error>
 #include <thread>
 
 #include <CLI/CLI.hpp>
@@ -33,6 +34,8 @@ volatile std::sig_atomic_t interrupt_requested = 0;
 void request_interrupt(int /*signal*/) {
   interrupt_requested = 1;
 }
+
+constexpr const char* unwritable_output = "standard output: cannot be written to";
 
 struct Arguments {
   std::string case_path;
@@ -88,6 +91,9 @@ const std::vector<Command>& commands() {
 
 int run(const Command& command, const Arguments& arguments) {
   const Case antenna = read_case(arguments.case_path);
+  // Before the work, not after it.
+  const bool json_file = !arguments.json_path.empty() && arguments.json_path != "-";
+  if (json_file) require_writable(arguments.json_path);
   StudyOptions options;
   options.seed = arguments.seed;
   options.threads = arguments.threads != 0 ? arguments.threads
@@ -115,10 +121,10 @@ int run(const Command& command, const Arguments& arguments) {
   if (arguments.json_path == "-") {
     fmt::print("{}", to_json(report));
   } else {
-    if (!arguments.json_path.empty()) write_atomically(arguments.json_path, to_json(report));
+    if (json_file) write_atomically(arguments.json_path, to_json(report));
     fmt::print("{}", to_text(report));
   }
-  if (std::fflush(stdout) != 0) throw InvalidInput("standard output: cannot be written to");
+  if (std::fflush(stdout) != 0) throw InvalidInput(unwritable_output);
   if (report.interrupted) return interrupted;
   if (report.tuning && report.tuning->design.tuning.status != design::TuningStatus::optimal) {
     fmt::print(stderr, "boresight: no control law meets the hard goals of {}\n",
@@ -147,6 +153,7 @@ int run_command_line(int argc, char** argv) {
                     "also write the report as JSON to this file; '-' writes JSON only, to standard "
                     "output");
     sub->add_option("--seed", arguments.seed, "first seed of the searches and draws")
+        ->check(CLI::Range(0.0, 1e15))
         ->capture_default_str();
     sub->add_option("--threads", arguments.threads,
                     "threads to work on; results do not depend on it (default: all)");
@@ -169,6 +176,10 @@ int run_command_line(int argc, char** argv) {
   } catch (const NumericalFailure& error) {
     fmt::print(stderr, "boresight: {}\n", error.what());
     return numerical;
+  } catch (const std::system_error&) {
+    // The formatting library's word for a full or closed standard output.
+    fmt::print(stderr, "boresight: {}\n", unwritable_output);
+    return bad_input;
   } catch (const std::exception& error) {
     fmt::print(stderr, "boresight: internal error: {}\n", error.what());
   }

@@ -37,6 +37,11 @@ struct NamesInUse {
 RotatingAssembly read_assembly(TableReader& entry, long stages, NamesInUse& names) {
   RotatingAssembly assembly;
   assembly.name = read_name(entry, names.assemblies);
+  if (assembly.name == "antenna") {
+    entry.refuse("name",
+                 "expected another name than 'antenna', which load_inertia.antenna bears, "
+                 "found 'antenna'");
+  }
   assembly.description = entry.optional_text("description").value_or("");
   assembly.count = entry.integer("count", 1, 1000);
   assembly.stages = static_cast<std::size_t>(entry.integer("stages", 0, stages));

@@ -137,6 +137,7 @@ const Dimension& dimension_of(Kind kind) {
 }
 
 std::string measured_by(const Dimension& dimension) {
+  if (dimension == dimension_of(Kind::frequency)) return "a frequency or angular rate";
   for (const KindEntry& known : kinds) {
     if (known.dimension == dimension) {
       return with_article(known.description.name);

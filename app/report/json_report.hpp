@@ -14,4 +14,7 @@ std::string to_json(const Report& report);
 /// @throws InvalidInput if that is not possible.
 void write_atomically(const std::string& path, const std::string& content);
 
+/// @throws InvalidInput if write_atomically could not write there now. Leaves nothing behind.
+void require_writable(const std::string& path);
+
 }  // namespace boresight::app

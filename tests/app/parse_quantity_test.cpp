@@ -107,7 +107,7 @@ TEST(ParseQuantity, GivesFrequenciesInCyclesAndBandwidthsInRadians) {
 
 TEST(ParseQuantity, TellsKindsWithAngleFromThoseWithout) {
   const std::vector<std::tuple<std::string_view, Kind, std::string_view>> refused{
-      {"5 Hz", Kind::rate_constant, "an angular rate (the two differ by an angle"},
+      {"5 Hz", Kind::rate_constant, "a frequency or angular rate (the two differ by an angle"},
       {"5 Hz", Kind::proportional_gain, "differ by an angle"},
       {"5 N.m/rad", Kind::torque, "a stiffness (the two differ by an angle"},
       {"5 N.m", Kind::stiffness, "a torque (the two differ by an angle"},

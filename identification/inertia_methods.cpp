@@ -54,6 +54,7 @@ Formula mean_of(const std::vector<Formula>& terms) {
 }
 
 struct MethodTargets {
+  MethodKind kind;
   std::string name;
   std::string assumes;
   std::size_t inertia, ratio, remainder;
@@ -88,14 +89,15 @@ InertiaIdentification identify_inertia(const DriveEvidence& evidence,
   const Formula gear_train = sum(gear_rows);
 
   std::vector<MethodTargets> methods;
-  const auto add_method = [&](std::string name, std::string assumes, const Formula& inertia) {
+  const auto add_method = [&](MethodKind kind, std::string name, std::string assumes,
+                              const Formula& inertia) {
     const Formula load_to_motor = [inertia, motors](Point point) {
       return plant::load_to_motor_ratio(motors(point), inertia(point));
     };
     const Formula remainder = [inertia, motors, gear_train](Point point) {
       return inertia(point) - motors(point) - gear_train(point);
     };
-    methods.push_back({std::move(name), std::move(assumes),
+    methods.push_back({kind, std::move(name), std::move(assumes),
                        targets.add("reflected inertia", inertia),
                        targets.add("motor-to-load ratio", load_to_motor, true),
                        targets.add("left for the antenna", remainder)});
@@ -107,8 +109,16 @@ InertiaIdentification identify_inertia(const DriveEvidence& evidence,
     row_targets.push_back(targets.add("antenna, " + antenna.name, row));
     const Formula total = sum({motors, gear_train, row});
     if (!first_total) first_total = total;
-    add_method("mass properties, antenna from " + antenna.name,
+    add_method(MethodKind::mass_properties, "mass properties, antenna from " + antenna.name,
                "solid disks, structural group's antenna inertia", total);
+  }
+
+  if (evidence.printed_load) {
+    const Formula load = inputs.add("load inertia, " + evidence.printed_load->name,
+                                    evidence.printed_load->reflected);
+    add_method(MethodKind::mass_properties,
+               "mass properties, load inertia as printed in " + evidence.printed_load->name,
+               "the source's own sum of the load", sum({motors, load}));
   }
 
   const Formula density = inputs.add("oil density", evidence.oil_density);
@@ -146,13 +156,14 @@ InertiaIdentification identify_inertia(const DriveEvidence& evidence,
       });
   if (evidence.resonance_frequency) {
     const Formula frequency = inputs.add("resonance frequency", *evidence.resonance_frequency);
-    add_method("hydraulic resonance", "rigid, loss-free antenna on the oil spring",
-               [stiffness, frequency](Point point) {
+    add_method(MethodKind::resonance, "hydraulic resonance",
+               "rigid, loss-free antenna on the oil spring", [stiffness, frequency](Point point) {
                  return plant::inertia_from_resonance(stiffness(point), frequency(point));
                });
   }
   for (const auto& impulse : evidence.impulse) {
-    add_method("impulse-momentum, " + impulse.name, "straight-line friction, rigid antenna",
+    add_method(MethodKind::impulse, "impulse-momentum, " + impulse.name,
+               "straight-line friction, rigid antenna",
                inputs.add("impulse-momentum, " + impulse.name, impulse.reflected_inertia));
   }
 
@@ -163,7 +174,7 @@ InertiaIdentification identify_inertia(const DriveEvidence& evidence,
   result.oil_stiffness = propagated[stiffness_target];
   result.expected_frequency = propagated[frequency_target];
   for (const auto& method : methods) {
-    result.methods.push_back({method.name, method.assumes, propagated[method.inertia],
+    result.methods.push_back({method.kind, method.name, method.assumes, propagated[method.inertia],
                               propagated[method.ratio], propagated[method.remainder]});
   }
   return result;

@@ -40,6 +40,8 @@ struct DriveEvidence {
   std::vector<plant::GearStage> stages;
   std::vector<Assembly> assemblies;
   std::vector<AntennaInertia> antenna;  // at least one; the first is the one used
+  /// A whole load inertia that the source prints: gear train and antenna at the motor shaft.
+  std::optional<AntennaInertia> printed_load;
   double motor_count = 1.0;
   Uncertain motor_inertia;  // one motor with flywheel
   Uncertain displacement;   // one motor, m3/rad
@@ -55,8 +57,11 @@ struct DriveEvidence {
   std::vector<Impulse> impulse;
 };
 
+enum class MethodKind { mass_properties, resonance, impulse };
+
 /// One method's answer.
 struct InertiaMethod {
+  MethodKind kind = MethodKind::mass_properties;
   std::string name;
   std::string assumes;
   PropagatedResult reflected_inertia;    // kg m2
@@ -73,7 +78,7 @@ struct InertiaIdentification {
   PropagatedResult oil_stiffness;                   // N m/rad, eq. 17
   /// Rigid hydraulic frequency that mass properties and oil stiffness give (Hz), eq. 18.
   PropagatedResult expected_frequency;
-  std::vector<InertiaMethod> methods;  // mass properties (each antenna), resonance, impulses
+  std::vector<InertiaMethod> methods;  // by kind, in the evidence's order
 };
 
 /// Reflected inertia and ratio by mass properties (eqs. 3-6), hydraulic resonance (eqs. 7-26) and

@@ -223,6 +223,18 @@ identification::DriveEvidence make_evidence(const Case& antenna) {
   for (const auto& alternative : antenna.antenna.alternatives) {
     evidence.antenna.push_back({alternative.name, reflected(antenna, alternative)});
   }
+  for (const auto& stated : antenna.stated) {
+    if (stated.quantity != "load_inertia" || evidence.printed_load) continue;
+    // A sum is as uncertain as what it sums, however many digits it is printed with.
+    double variance = std::pow(evidence.antenna.front().reflected.standard_uncertainty, 2);
+    for (const auto& assembly : evidence.assemblies) {
+      variance += std::pow(plant::reflected_inertia(
+                               assembly.inertia.standard_uncertainty,
+                               plant::gear_ratio(evidence.stages, assembly.stages), assembly.count),
+                           2);
+    }
+    evidence.printed_load = {stated.value.source, {stated.value.value, std::sqrt(variance)}};
+  }
   const MotorEntry& motor = antenna.motor;
   evidence.motor_count = static_cast<double>(motor.count);
   evidence.motor_inertia = uncertain(motor.inertia);

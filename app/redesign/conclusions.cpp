@@ -17,7 +17,11 @@ std::string ratio_text(double ratio) {
 void conclude_identification(const IdentificationSection& section, const PlantSection& plant,
                              std::vector<std::string>& sentences) {
   const auto& methods = section.inertia.methods;
-  if (methods.size() == 1) {
+  const bool tested =
+      std::any_of(methods.begin(), methods.end(), [](const identification::InertiaMethod& method) {
+        return method.kind != identification::MethodKind::mass_properties;
+      });
+  if (!tested) {
     const auto& only = methods.front();
     sentences.push_back(fmt::format(
         "Only mass properties speak for the inertia: {:.3f} kg.m2, motor-to-load ratio {} (95 % "

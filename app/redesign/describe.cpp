@@ -52,66 +52,71 @@ void identify_sensors(const Case& antenna, const StudyOptions& options,
   }
 }
 
+// What the case prints for each method. A printed total belongs to the printed load it sums, or to
+// the first mass properties.
+std::vector<IdentificationSection::Printed> printed_beside(
+    const Case& antenna, const std::vector<identification::InertiaMethod>& methods) {
+  using identification::MethodKind;
+  std::vector<IdentificationSection::Printed> beside(methods.size());
+  const bool load = !printed(antenna, "load_inertia").empty();
+  std::size_t mass = 0;
+  auto impulse = antenna.impulse_results.begin();
+  for (std::size_t i = 0; i < methods.size(); ++i) {
+    switch (methods[i].kind) {
+      case MethodKind::mass_properties:
+        if (load) mass = i;
+        break;
+      case MethodKind::resonance:
+        beside[i] = {printed(antenna, "resonance.reflected_inertia"),
+                     printed(antenna, "resonance.motor_to_load_ratio")};
+        break;
+      case MethodKind::impulse:
+        beside[i] = {impulse->reflected_inertia.text,
+                     printed(antenna, "impulse." + impulse->name + ".motor_to_load_ratio")};
+        ++impulse;
+        break;
+    }
+  }
+  beside[mass] = {printed(antenna, "reflected_inertia"), printed(antenna, "motor_to_load_ratio")};
+  return beside;
+}
+
+// One estimate a kind: the first mass properties, the resonance, the impulses' mean.
+std::vector<identification::Uncertain> independent_estimates(
+    const std::vector<identification::InertiaMethod>& methods) {
+  using identification::MethodKind;
+  std::vector<identification::Uncertain> estimates;
+  std::vector<identification::Uncertain> impulses;
+  for (const auto& method : methods) {
+    const identification::Uncertain estimate{method.reflected_inertia.value,
+                                             method.reflected_inertia.standard_uncertainty};
+    if (method.kind == MethodKind::impulse) {
+      impulses.push_back(estimate);
+    } else if (method.kind == MethodKind::resonance || estimates.empty()) {
+      estimates.push_back(estimate);
+    }
+  }
+  if (impulses.empty()) return estimates;
+  double mean = 0.0, own = 0.0, spread = 0.0;
+  for (const auto& impulse : impulses) {
+    mean += impulse.value / static_cast<double>(impulses.size());
+    own += impulse.standard_uncertainty / static_cast<double>(impulses.size());
+  }
+  for (const auto& impulse : impulses) spread = std::max(spread, std::abs(impulse.value - mean));
+  // One record with several friction values: their spread is a systematic error.
+  estimates.push_back({mean, std::hypot(own, spread)});
+  return estimates;
+}
+
 }  // namespace
 
 IdentificationSection identify(const Case& antenna, const StudyOptions& options) {
   IdentificationSection section;
   section.inertia = identification::identify_inertia(make_evidence(antenna), {20000, options.seed});
 
-  // In the order in which identify_inertia lists the methods.
-  section.printed.push_back(
-      {printed(antenna, "reflected_inertia"), printed(antenna, "motor_to_load_ratio")});
-  for (std::size_t i = 0; i < antenna.antenna.alternatives.size(); ++i) {
-    section.printed.push_back(section.printed.front());
-  }
-  // The printed total rests on the antenna inertia that reproduces it.
   const auto& methods = section.inertia.methods;
-  const auto stated =
-      std::find_if(antenna.stated.begin(), antenna.stated.end(),
-                   [](const StatedEntry& entry) { return entry.quantity == "reflected_inertia"; });
-  if (stated != antenna.stated.end()) {
-    std::size_t nearest = 0;
-    const auto distance = [&](std::size_t i) {
-      return std::abs(methods[i].reflected_inertia.value - stated->value.value);
-    };
-    for (std::size_t i = 1; i < section.printed.size(); ++i) {
-      if (distance(i) < distance(nearest)) nearest = i;
-    }
-    for (std::size_t i = 0; i < section.printed.size(); ++i) {
-      if (i != nearest) section.printed[i] = {};
-    }
-  }
-  if (antenna.resonance_frequency) {
-    section.printed.push_back({printed(antenna, "resonance.reflected_inertia"),
-                               printed(antenna, "resonance.motor_to_load_ratio")});
-  }
-  for (const auto& impulse : antenna.impulse_results) {
-    section.printed.push_back(
-        {impulse.reflected_inertia.text,
-         printed(antenna, "impulse." + impulse.name + ".motor_to_load_ratio")});
-  }
-
-  // One estimate a method: the first mass properties, the resonance, the impulses' mean.
-  std::vector<identification::Uncertain> estimates;
-  const auto estimate = [](const identification::PropagatedResult& result) {
-    return identification::Uncertain{result.value, result.standard_uncertainty};
-  };
-  estimates.push_back(estimate(methods.front().reflected_inertia));
-  std::size_t next = 1 + antenna.antenna.alternatives.size();
-  if (antenna.resonance_frequency) estimates.push_back(estimate(methods[next++].reflected_inertia));
-  if (next < methods.size()) {
-    const auto count = static_cast<double>(methods.size() - next);
-    double mean = 0.0, own = 0.0, spread = 0.0;
-    for (std::size_t i = next; i < methods.size(); ++i) {
-      mean += methods[i].reflected_inertia.value / count;
-      own += methods[i].reflected_inertia.standard_uncertainty / count;
-    }
-    for (std::size_t i = next; i < methods.size(); ++i) {
-      spread = std::max(spread, std::abs(methods[i].reflected_inertia.value - mean));
-    }
-    // One record with several friction values: their spread is a systematic error.
-    estimates.push_back({mean, std::hypot(own, spread)});
-  }
+  section.printed = printed_beside(antenna, methods);
+  const auto estimates = independent_estimates(methods);
   if (estimates.size() > 1) {
     section.reconciled =
         identification::reconcile(estimates, motor_inertia(antenna, antenna.motor.flywheel_disks));

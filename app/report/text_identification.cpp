@@ -33,6 +33,17 @@ std::string deciding(const PropagatedResult& result) {
   return text;
 }
 
+// The table's first column: the whole name stands below it.
+std::string shortened(const std::string& name) {
+  constexpr std::string_view mass = "mass properties, antenna from ";
+  constexpr std::string_view printed = "mass properties, ";
+  constexpr std::string_view impulse = "impulse-momentum, ";
+  if (name.starts_with(mass)) return fmt::format("masses, {}", name.substr(mass.size()));
+  if (name.starts_with(printed)) return fmt::format("masses, {}", name.substr(printed.size()));
+  if (name.starts_with(impulse)) return fmt::format("impulse, {}", name.substr(impulse.size()));
+  return name;
+}
+
 std::string either(const std::string& text) {
   return text.empty() ? "-" : text;
 }
@@ -42,21 +53,20 @@ std::string either(const std::string& text) {
 std::string to_text(const IdentificationSection& section) {
   const auto& inertia = section.inertia;
   std::string text = heading("Inertia at the motor shaft, by method (95 % intervals)");
-  std::vector<std::vector<std::string>> rows{{"method", "J kg.m2", "interval", "lbf.ft.s2",
-                                              "printed J", "R = Jm/(J - Jm)", "interval",
-                                              "printed R"}};
+  std::vector<std::vector<std::string>> rows{
+      {"method", "J kg.m2", "interval", "lbf.ft.s2", "printed J", "R", "interval", "printed R"}};
   for (std::size_t i = 0; i < inertia.methods.size(); ++i) {
     const auto& method = inertia.methods[i];
     const auto& printed = section.printed[i];
     rows.push_back(
-        {method.name, fmt::format("{:.4f}", method.reflected_inertia.value),
+        {shortened(method.name), fmt::format("{:.4f}", method.reflected_inertia.value),
          interval(method.reflected_inertia, 3),
          fmt::format("{:.4f}", method.reflected_inertia.value / pound_foot_second_squared),
          either(printed.inertia), ratio_value(method.motor_to_load_ratio),
          interval(method.motor_to_load_ratio, 2), either(printed.ratio)});
   }
   text += table(rows);
-  text += "\n";
+  text += "  R = Jm/(J - Jm), all motors against everything else (eq. 27)\n\n";
   for (const auto& method : inertia.methods) {
     const auto& left = method.antenna_remainder;
     text += wrapped(
@@ -65,7 +75,7 @@ std::string to_text(const IdentificationSection& section) {
                     deciding(method.reflected_inertia)),
         "  ");
     if (method.motor_to_load_ratio.beyond_pole > 0.0) {
-      text += wrapped(fmt::format("In {:.0f} % of the draws its J is below the motors' own "
+      text += wrapped(fmt::format("In {:.2g} % of the draws its J is below the motors' own "
                                   "inertia: no load at all, R without meaning.",
                                   100.0 * method.motor_to_load_ratio.beyond_pole),
                       "    ");

@@ -7,7 +7,8 @@
 
 namespace boresight::control {
 
-/// Order of the rational dead time in the state-space routes; see dead_time_certificate.
+/// Order of the rational dead time in the state-space routes; see
+/// StabilityVerdict::dead_time_residue.
 inline constexpr int delay_order = 8;
 
 /// Plant, control law and rational dead time as one state space. Inputs wind_torque (N m),

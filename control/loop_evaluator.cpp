@@ -79,6 +79,29 @@ class Winding {
   bool first_ = true;
 };
 
+// Trapezoid weights in ln f, per Hz, of the intervals that lie within the band.
+Eigen::ArrayXd integration_weights(const Eigen::ArrayXd& frequency, const FrequencyBand& band) {
+  if (frequency.size() < 3) {
+    throw InvalidInput(
+        fmt::format("LoopEvaluator: expected at least 3 frequencies, found {}", frequency.size()));
+  }
+  constexpr double rounding = 1e-9;
+  Eigen::ArrayXd weight = Eigen::ArrayXd::Zero(frequency.size());
+  for (Eigen::Index i = 0; i + 1 < frequency.size(); ++i) {
+    if (!(frequency[i] > 0.0) || !(frequency[i + 1] > frequency[i])) {
+      throw InvalidInput("LoopEvaluator: expected positive, rising frequencies");
+    }
+    if (frequency[i] < two_pi * band.lowest * (1.0 - rounding) ||
+        frequency[i + 1] > two_pi * band.highest * (1.0 + rounding)) {
+      continue;
+    }
+    const double half_step = 0.5 * std::log(frequency[i + 1] / frequency[i]);
+    weight[i] += half_step * frequency[i] / two_pi;
+    weight[i + 1] += half_step * frequency[i + 1] / two_pi;
+  }
+  return weight;
+}
+
 void accumulate(std::array<double, most_gains>& sum, double weight, std::size_t k, Complex value,
                 Complex change) {
   // d|value|^2 = 2 Re(conj(value) d value)
@@ -120,29 +143,23 @@ double LoopEvaluation::highest_peak(LoopBreak loop_break) const {
 }
 
 LoopEvaluator::LoopEvaluator(plant::AntennaPlant plant, const Eigen::ArrayXd& frequency,
-                             double delay, SensorNoise noise, const Eigen::ArrayXd& wind_spectrum)
+                             double delay, SensorNoise noise, const Eigen::ArrayXd& wind_spectrum,
+                             FrequencyBand band)
     : plant_(std::move(plant)),
       response_(plant::plant_response(plant_, frequency)),
       delay_(delay),
-      noise_(noise) {
+      noise_(noise),
+      weight_(integration_weights(frequency, band)),
+      wind_weight_(weight_),
+      noise_weight_(
+          integration_weights(frequency, {band.lowest, std::min(band.highest, noise.bandwidth)})) {
   const Eigen::Index count = frequency.size();
-  if (count < 3 || wind_spectrum.size() != count) {
-    throw InvalidInput(fmt::format(
-        "LoopEvaluator: expected as many wind values as frequencies (at least 3), found {} and {}",
-        wind_spectrum.size(), count));
+  if (wind_spectrum.size() != count) {
+    throw InvalidInput(
+        fmt::format("LoopEvaluator: expected as many wind values as frequencies, found {} and {}",
+                    wind_spectrum.size(), count));
   }
-  weight_ = Eigen::ArrayXd::Zero(count);
-  for (Eigen::Index i = 0; i + 1 < count; ++i) {
-    if (!(frequency[i] > 0.0) || !(frequency[i + 1] > frequency[i])) {
-      throw InvalidInput("LoopEvaluator: expected positive, rising frequencies");
-    }
-    const double half_step = 0.5 * std::log(frequency[i + 1] / frequency[i]);
-    weight_[i] += half_step * frequency[i] / two_pi;
-    weight_[i + 1] += half_step * frequency[i + 1] / two_pi;
-  }
-  wind_weight_ = weight_ * wind_spectrum;
-  noise_weight_ =
-      (frequency <= two_pi * noise.bandwidth * (1.0 + 1e-12)).select(weight_, 0.0).eval();
+  wind_weight_ *= wind_spectrum;
   dead_time_.resize(count);
   for (Eigen::Index i = 0; i < count; ++i) dead_time_[i] = std::polar(1.0, -frequency[i] * delay);
   for (auto& array : sensitivity_square_) array.resize(count);

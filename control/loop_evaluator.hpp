@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <limits>
 #include <vector>
 
 #include <Eigen/Core>
@@ -15,6 +16,12 @@ struct SensorNoise {
   double encoder_rms = 0.0;     // rad of motor
   double tachometer_rms = 0.0;  // rad/s of motor
   double bandwidth = 25.0;      // Hz
+};
+
+/// Frequencies (Hz) over which variances are integrated; all of the grid by default.
+struct FrequencyBand {
+  double lowest = 0.0;
+  double highest = std::numeric_limits<double>::infinity();
 };
 
 /// Where the loop is cut to look at its sensitivity.
@@ -68,10 +75,12 @@ struct LoopEvaluation {
 class LoopEvaluator {
  public:
   /// `wind_spectrum`: one-sided spectrum of the wind torque at the motor shaft, (N m)^2/Hz, at the
-  /// response's frequencies. Integrals run over the whole grid by the trapezoid rule in ln f.
+  /// response's frequencies. Integrals run over the part of the grid within `band` (noise: within
+  /// its bandwidth too) by the trapezoid rule in ln f; put the edges among the frequencies. Peaks
+  /// and stability are taken over the whole grid.
   /// @throws InvalidInput for sizes that differ or a grid that does not rise.
   LoopEvaluator(plant::AntennaPlant plant, const Eigen::ArrayXd& frequency, double delay,
-                SensorNoise noise, const Eigen::ArrayXd& wind_spectrum);
+                SensorNoise noise, const Eigen::ArrayXd& wind_spectrum, FrequencyBand band = {});
 
   /// @throws InvalidInput as validate(law).
   LoopEvaluation evaluate(const ControlLaw& law, bool with_gradients);

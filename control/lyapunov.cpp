@@ -25,10 +25,11 @@ LyapunovSolution solve_lyapunov(const Eigen::MatrixXd& a, const Eigen::MatrixXd&
   LyapunovSolution solution;
   solution.stability_margin = -t.diagonal().real().maxCoeff();
   if (!(solution.stability_margin > 1e-12 * a.norm())) {
-    throw NumericalFailure(fmt::format(
-        "solve_lyapunov: A is not stable (largest real part of its eigenvalues {:.3g} 1/s); remove "
-        "integrators and free angles that nothing uses",
-        -solution.stability_margin));
+    throw NumericalFailure(
+        fmt::format("solve_lyapunov: expected the eigenvalues of A left of {:.1g} 1/s (1e-12 of "
+                    "its norm), found "
+                    "one at {:.3g}; remove integrators and free angles that nothing uses",
+                    -1e-12 * a.norm(), -solution.stability_margin));
   }
   // T X + X T^H + U^H Q U = 0, column by column from the last.
   Eigen::MatrixXcd x = -(u.adjoint() * q * u);
@@ -44,8 +45,8 @@ LyapunovSolution solve_lyapunov(const Eigen::MatrixXd& a, const Eigen::MatrixXd&
   solution.covariance = 0.5 * (p + p.transpose());
   const Eigen::MatrixXd residual =
       a * solution.covariance + solution.covariance * a.transpose() + q;
-  solution.relative_residual =
-      residual.norm() / (2.0 * a.norm() * solution.covariance.norm() + q.norm());
+  const double scale = 2.0 * a.norm() * solution.covariance.norm() + q.norm();
+  solution.relative_residual = scale > 0.0 ? residual.norm() / scale : 0.0;
   if (!(solution.relative_residual < 1e-9)) {
     throw NumericalFailure(fmt::format("solve_lyapunov: relative residual {:.1e} exceeds 1e-9",
                                        solution.relative_residual));

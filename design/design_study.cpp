@@ -1,47 +1,78 @@
 #include <algorithm>
-#include <atomic>
 #include <cmath>
-#include <exception>
 #include <limits>
 #include <mutex>
-#include <thread>
+
+#include <fmt/format.h>
 
 #include <boresight/control/state_space_peaks.hpp>
 #include <boresight/design/design_study.hpp>
+#include <boresight/design/parallel_loop.hpp>
+#include <boresight/plant/error.hpp>
 #include <boresight/plant/plant_response.hpp>
 
 namespace boresight::design {
 
+namespace {
+
+// The same problem judged over the whole analysis band with noise white throughout: what a Lyapunov
+// equation can be compared with.
+TrackingProblem without_band_limits(TrackingProblem problem) {
+  problem.rms_band = analysis_band(problem);
+  problem.noise.encoder_rms *= std::sqrt(problem.rms_band.highest / problem.noise.bandwidth);
+  problem.noise.tachometer_rms *= std::sqrt(problem.rms_band.highest / problem.noise.bandwidth);
+  problem.noise.bandwidth = problem.rms_band.highest;
+  return problem;
+}
+
+}  // namespace
+
 Verification verify(const TrackingProblem& problem, const control::ControlLaw& law,
                     const HardGoals& goals) {
   Verification verification;
-  control::LoopEvaluator evaluator = make_evaluator(problem);
+  const TrackingProblem whole = without_band_limits(problem);
+  control::LoopEvaluator evaluator = make_evaluator(whole);
   verification.spectral_rms = std::sqrt(evaluator.evaluate(law, false).beam_variance());
-  verification.stability =
-      control::stability(problem.plant, law, problem.delay, evaluator.response().frequency);
-  verification.peaks = control::state_space_peaks(
-      problem.plant, law, problem.delay, problem.lowest_frequency, problem.highest_frequency);
-  bool passed = verification.stability.stable();
-  for (std::size_t b = 0; b < verification.peaks.size(); ++b) {
-    passed = passed && verification.peaks[b].magnitude <= goals.sensitivity_peak[b] * (1.0 + 1e-6);
-  }
-  if (verification.stability.stable()) {
+  try {
+    verification.stability =
+        control::stability(problem.plant, law, problem.delay, evaluator.response().frequency);
+    verification.peaks = control::state_space_peaks(problem.plant, law, problem.delay,
+                                                    whole.rms_band.lowest, whole.rms_band.highest);
+    if (!verification.stability.stable()) {
+      verification.failure = "the closed loop is not stable";
+      return verification;
+    }
     verification.lyapunov =
         control::lyapunov_rms(problem.plant, law, problem.delay,
-                              fit_wind_filter(problem.wind, problem.gear_ratio), problem.noise);
-    verification.rms_disagreement =
-        std::abs(verification.lyapunov.total / verification.spectral_rms - 1.0);
-    passed = passed && verification.rms_disagreement < 0.005;
+                              fit_wind_filter(problem.wind, problem.gear_ratio), whole.noise);
+  } catch (const NumericalFailure& error) {
+    verification.failure = error.what();
+    return verification;
   }
-  verification.passed = passed;
+  verification.rms_disagreement =
+      std::abs(verification.lyapunov.total / verification.spectral_rms - 1.0);
+  for (std::size_t b = 0; b < verification.peaks.size(); ++b) {
+    if (verification.peaks[b].magnitude > goals.sensitivity_peak[b] * (1.0 + 1e-6)) {
+      verification.failure = fmt::format(
+          "peak of S at {}: {:.6f} above {:g}", control::to_string(control::loop_breaks[b]),
+          verification.peaks[b].magnitude, goals.sensitivity_peak[b]);
+    }
+  }
+  if (!(verification.rms_disagreement < 0.005)) {
+    verification.failure = fmt::format("Lyapunov and spectral rms are {:.2g} % apart",
+                                       100.0 * verification.rms_disagreement);
+  }
+  verification.passed = verification.failure.empty();
   return verification;
 }
 
-Design solve(const DesignTask& task) {
+namespace {
+
+Design finish(const DesignTask& task, TuningResult tuning) {
   const TrackingProblem& problem = task.problem;
   Design design;
   design.name = task.name;
-  design.tuning = tune(problem, task.structure, task.goals, task.options);
+  design.tuning = std::move(tuning);
   design.hydraulic_mode = plant::hydraulic_mode(plant::plant_modes(problem.plant));
   design.reflected_inertia = plant::reflected_inertia(problem.plant);
   if (design.tuning.status == TuningStatus::unstable) {
@@ -55,8 +86,9 @@ Design solve(const DesignTask& task) {
   design.wind_rms = std::sqrt(evaluation.wind_variance) / problem.gear_ratio;
   design.noise_rms = std::sqrt(evaluation.noise_variance) / problem.gear_ratio;
   design.valve_effort = std::sqrt(evaluation.effort_variance);
-  const Eigen::ArrayXd grid = plant::frequency_grid(problem.plant, problem.lowest_frequency,
-                                                    problem.highest_frequency, 100);
+  TrackingProblem coarse = problem;
+  coarse.points_per_decade = 100;
+  const Eigen::ArrayXd grid = analysis_grid(coarse);
   for (std::size_t b = 0; b < control::loop_breaks.size(); ++b) {
     design.margins[b] = control::margins(
         [&](double w) {
@@ -70,36 +102,51 @@ Design solve(const DesignTask& task) {
   return design;
 }
 
+}  // namespace
+
+Design solve(const DesignTask& task) {
+  return finish(task, tune(task.problem, task.structure, task.goals, task.options));
+}
+
+void improve_along(const std::vector<DesignTask>& tasks, std::vector<Design>& designs) {
+  if (tasks.size() != designs.size()) {
+    throw InvalidInput(
+        fmt::format("improve_along: expected as many designs as tasks, found {} and {}",
+                    designs.size(), tasks.size()));
+  }
+  const auto improve = [&](std::size_t i, std::size_t neighbour) {
+    if (designs[neighbour].tuning.status != TuningStatus::optimal) return;
+    TuningOptions options = tasks[i].options;
+    options.starts = 0;
+    options.warm_starts = {designs[neighbour].tuning.law.gains};
+    TuningResult tuning = tune(tasks[i].problem, tasks[i].structure, tasks[i].goals, options);
+    const auto& now = designs[i].tuning;
+    const bool better =
+        tuning.status == TuningStatus::optimal &&
+        (now.status != TuningStatus::optimal ||
+         tuning.evaluation.beam_variance() < (1.0 - 1e-4) * now.evaluation.beam_variance());
+    if (!better) return;
+    tuning.starts = now.starts;
+    tuning.starts_at_optimum = 0;
+    tuning.evaluations += now.evaluations;
+    Design design = finish(tasks[i], std::move(tuning));
+    if (design.verification.passed) designs[i] = std::move(design);
+  };
+  for (std::size_t i = 1; i < tasks.size(); ++i) improve(i, i - 1);
+  for (std::size_t i = tasks.size(); i-- > 1;) improve(i - 1, i);
+}
+
 std::vector<Design> solve_all(const std::vector<DesignTask>& tasks, unsigned threads,
                               const std::function<void(std::size_t, std::size_t)>& progress) {
   std::vector<Design> designs(tasks.size());
-  std::atomic<std::size_t> next{0};
   std::size_t done = 0;
   std::mutex mutex;
-  std::exception_ptr failure;
-  const auto work = [&] {
-    for (std::size_t i = next++; i < tasks.size(); i = next++) {
-      try {
-        designs[i] = solve(tasks[i]);
-        const std::lock_guard lock(mutex);
-        ++done;
-        if (progress) progress(done, tasks.size());
-      } catch (...) {
-        const std::lock_guard lock(mutex);
-        if (!failure) failure = std::current_exception();
-        next = tasks.size();
-        return;
-      }
-    }
-  };
-  {
-    std::vector<std::jthread> workers;
-    const std::size_t count =
-        std::clamp<std::size_t>(threads, 1, std::max<std::size_t>(1, tasks.size()));
-    for (std::size_t t = 1; t < count; ++t) workers.emplace_back(work);
-    work();
-  }
-  if (failure) std::rethrow_exception(failure);
+  for_each_index(tasks.size(), threads, [&](std::size_t i) {
+    designs[i] = solve(tasks[i]);
+    const std::lock_guard lock(mutex);
+    ++done;
+    if (progress) progress(done, tasks.size());
+  });
   return designs;
 }
 

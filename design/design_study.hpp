@@ -9,16 +9,21 @@
 
 namespace boresight::design {
 
-/// A tuned law looked at again by code that shares nothing with the tuner.
+/// A tuned law looked at again: eigenvalues of the state space, peaks by poles and residues, rms by
+/// Lyapunov equations. None uses the tuner's frequency response; only `spectral_rms`, which the
+/// Lyapunov rms is held against, and the dead-time residue of `stability` do.
 struct Verification {
   control::StabilityVerdict stability;
   std::array<control::SensitivityPeak, 3> peaks;  // order of control::loop_breaks
   control::LyapunovRms lyapunov;                  // rad of motor
-  double spectral_rms = 0.0;                      // rad of motor, on the problem's grid
+  /// By the spectrum, over the whole analysis band with noise white throughout, as Lyapunov has it.
+  double spectral_rms = 0.0;  // rad of motor
   /// |lyapunov - spectral|/spectral of the total rms.
   double rms_disagreement = 0.0;
   /// Eigenvalues stable, every peak within its goal (1e-6), the two rms within 0.5 %.
   bool passed = false;
+  /// Why not; empty if passed.
+  std::string failure;
 };
 
 Verification verify(const TrackingProblem& problem, const control::ControlLaw& law,
@@ -51,6 +56,11 @@ struct Design {
 
 /// Tunes and verifies one task. @throws as tune.
 Design solve(const DesignTask& task);
+
+/// Warm-starts each design of a series (one plant changing step by step) from its neighbour's
+/// gains, forwards, then backwards, and keeps what is better and verified: an optimum that random
+/// starts missed at one point is found from the next. @throws InvalidInput for sizes that differ.
+void improve_along(const std::vector<DesignTask>& tasks, std::vector<Design>& designs);
 
 /// Solves every task on `threads` threads; results in the order of the tasks, the same for any
 /// thread count. `progress(done, all)` is called under a lock after each; what

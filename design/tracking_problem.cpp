@@ -1,4 +1,6 @@
+#include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include <boresight/design/tracking_problem.hpp>
@@ -16,12 +18,35 @@ Eigen::ArrayXd motor_wind_spectrum(const WindCondition& wind, double gear_ratio,
   });
 }
 
+control::FrequencyBand analysis_band(const TrackingProblem& problem) {
+  const double valve = problem.plant.drive.valve_corner / two_pi;
+  return {std::min(problem.rms_band.lowest, 1e-4),
+          std::max({problem.rms_band.highest, 25.0, 2.0 * valve})};
+}
+
+Eigen::ArrayXd analysis_grid(const TrackingProblem& problem) {
+  const control::FrequencyBand band = analysis_band(problem);
+  const Eigen::ArrayXd grid =
+      plant::frequency_grid(problem.plant, band.lowest, band.highest, problem.points_per_decade);
+  std::vector<double> points(grid.begin(), grid.end());
+  for (const double edge :
+       {problem.rms_band.lowest, problem.rms_band.highest, problem.noise.bandwidth}) {
+    const double w = two_pi * edge;
+    const auto next = std::lower_bound(points.begin(), points.end(), w * (1.0 - 1e-9));
+    if (next == points.begin() || next == points.end() || *next < w * (1.0 + 1e-9)) continue;
+    points.insert(next, w);
+  }
+  return Eigen::Map<Eigen::ArrayXd>(points.data(), static_cast<Eigen::Index>(points.size()));
+}
+
 control::LoopEvaluator make_evaluator(const TrackingProblem& problem) {
-  const Eigen::ArrayXd frequency =
-      plant::frequency_grid(problem.plant, problem.lowest_frequency, problem.highest_frequency,
-                            problem.points_per_decade);
-  return {problem.plant, frequency, problem.delay, problem.noise,
-          motor_wind_spectrum(problem.wind, problem.gear_ratio, frequency)};
+  const Eigen::ArrayXd frequency = analysis_grid(problem);
+  return {problem.plant,
+          frequency,
+          problem.delay,
+          problem.noise,
+          motor_wind_spectrum(problem.wind, problem.gear_ratio, frequency),
+          problem.rms_band};
 }
 
 plant::ShapingFilter fit_wind_filter(const WindCondition& wind, double gear_ratio) {
@@ -52,7 +77,7 @@ double wind_speed_limit(const TrackingProblem& problem, const control::LoopEvalu
   };
   double low = 0.1, high = 60.0;
   if (rms(low) >= rms_budget) return 0.0;
-  if (rms(high) <= rms_budget) return high;
+  if (rms(high) <= rms_budget) return std::numeric_limits<double>::infinity();
   // The rms rises with speed nearly as its square: regula falsi in logarithms, safeguarded.
   double log_low = std::log(rms(low) / rms_budget), log_high = std::log(rms(high) / rms_budget);
   while (std::log(high / low) > 1e-5) {

@@ -21,14 +21,20 @@ struct TrackingProblem {
   double delay = 0.0;       // s, on the valve command
   control::SensorNoise noise;
   WindCondition wind;
-  double lowest_frequency = 1e-4;  // Hz, band of the rms
-  double highest_frequency = 25.0;
+  control::FrequencyBand rms_band{1e-4, 25.0};  // Hz
   int points_per_decade = 300;
 };
 
 /// One-sided wind torque spectrum at the motor shaft, (N m)^2/Hz, at frequencies in rad/s.
 Eigen::ArrayXd motor_wind_spectrum(const WindCondition& wind, double gear_ratio,
                                    const Eigen::ArrayXd& frequency);
+
+/// Frequencies (Hz) over which stability, peaks and margins are judged, whatever band the rms is
+/// taken over: at least 1e-4 to 25 Hz, and up to twice the valve's corner.
+control::FrequencyBand analysis_band(const TrackingProblem& problem);
+
+/// Grid (rad/s) over the analysis band, with the edges of rms band and noise among its points.
+Eigen::ArrayXd analysis_grid(const TrackingProblem& problem);
 
 /// The problem's frequency response and spectra, ready to evaluate control laws.
 control::LoopEvaluator make_evaluator(const TrackingProblem& problem);
@@ -43,7 +49,8 @@ double beam_rms_at_speed(const TrackingProblem& problem, const control::LoopEval
                          double mean_speed);
 
 /// Mean wind speed (m/s) at which the beam rms with the gains held reaches `rms_budget` (rad at the
-/// sky), by bisection in [0.1, 60] m/s; 0 if noise alone exceeds it, 60 if it is never reached.
+/// sky), by safeguarded regula falsi
+/// within [0.1, 60] m/s; 0 if noise alone exceeds it, infinity if it is not reached by 60 m/s.
 double wind_speed_limit(const TrackingProblem& problem, const control::LoopEvaluator& evaluator,
                         const control::ControlLaw& law, double noise_variance, double rms_budget);
 

@@ -118,7 +118,8 @@ class Search {
   void consider() {
     const double ratio = worst_goal_ratio(evaluation_, goals_);
     const double log_rms = 0.5 * std::log(evaluation_.beam_variance());
-    if (ratio <= 1.0 + 1e-9 && log_rms < best_log_rms_) {
+    // The reserve is the constraints' too: what is recorded must hold on the exact response.
+    if (ratio <= std::exp(-peak_reserve) * (1.0 + 1e-7) && log_rms < best_log_rms_) {
       best_log_rms_ = log_rms;
       best_ = Candidate{law_, evaluation_};
     }
@@ -177,7 +178,7 @@ class Search {
       const unsigned row = constraint_count - 1;
       const double limit = self.goals_.valve_effort;
       if (evaluation.effort_variance > 0.0) {
-        values[row] = 0.5 * std::log(evaluation.effort_variance / (limit * limit));
+        values[row] = 0.5 * std::log(evaluation.effort_variance / (limit * limit)) + peak_reserve;
         for (unsigned k = 0; gradients != nullptr && k < size; ++k) {
           gradients[row * size + k] =
               0.5 * evaluation.effort_log_gradient[k] / evaluation.effort_variance;
@@ -225,6 +226,42 @@ std::vector<Candidate> distinct(const std::vector<Candidate>& sorted,
   return chosen;
 }
 
+bool less(const Candidate& x, const Candidate& y) {
+  return x.evaluation.beam_variance() < y.evaluation.beam_variance();
+}
+
+// Random starts on the coarse grid: the best three laws, the nearest to the goals where none is
+// feasible, nothing where none is stable.
+std::vector<Candidate> global_search(const TrackingProblem& problem,
+                                     control::LoopStructure structure, const HardGoals& goals,
+                                     const TuningOptions& options, TuningResult& result) {
+  TrackingProblem coarse_problem = problem;
+  coarse_problem.points_per_decade = options.search_points_per_decade;
+  control::LoopEvaluator coarse = make_evaluator(coarse_problem);
+  Search search(coarse, structure, goals);
+  std::mt19937_64 generator(options.seed);
+  std::vector<double> anchor;
+  for (int trial = 0; trial < 2000 && anchor.empty(); ++trial) {
+    const auto point = search.random_point(generator);
+    if (search.evaluate(point).stable()) anchor = point;
+  }
+  std::vector<Candidate> found;
+  for (int start = 0; start < options.starts && !anchor.empty(); ++start) {
+    search.minimise(search.pull_back(search.random_point(generator), anchor),
+                    options.evaluations_per_start);
+    if (auto best = search.take_best()) found.push_back(std::move(*best));
+  }
+  std::stable_sort(found.begin(), found.end(), less);
+  result.starts_at_optimum =
+      static_cast<int>(std::count_if(found.begin(), found.end(), [&](const Candidate& candidate) {
+        return candidate.evaluation.beam_variance() <
+               1.01 * 1.01 * found.front().evaluation.beam_variance();
+      }));
+  result.evaluations += search.evaluations();
+  result.optimiser_failures += search.failures();
+  return distinct(found, search.nearest(), 3);
+}
+
 void describe_limits(TuningResult& result, const HardGoals& goals,
                      const std::vector<control::GainDescription>& descriptions) {
   for (std::size_t b = 0; b < control::loop_breaks.size(); ++b) {
@@ -261,74 +298,52 @@ double worst_goal_ratio(const control::LoopEvaluation& evaluation, const HardGoa
 
 TuningResult tune(const TrackingProblem& problem, control::LoopStructure structure,
                   const HardGoals& goals, const TuningOptions& options) {
-  if (options.starts < 1 || options.evaluations_per_start < 1 ||
+  const int least_starts = options.warm_starts.empty() ? 1 : 0;
+  if (options.starts < least_starts || options.evaluations_per_start < 1 ||
       options.search_points_per_decade < 1) {
     throw InvalidInput(fmt::format(
-        "tune: expected at least 1 start, evaluation and point a decade, found {}, {}, {}",
-        options.starts, options.evaluations_per_start, options.search_points_per_decade));
-  }
-  TrackingProblem coarse_problem = problem;
-  coarse_problem.points_per_decade = options.search_points_per_decade;
-  control::LoopEvaluator coarse = make_evaluator(coarse_problem);
-  Search search(coarse, structure, goals);
-  std::mt19937_64 generator(options.seed);
-  std::vector<double> anchor;
-  for (int trial = 0; trial < 2000 && anchor.empty(); ++trial) {
-    const auto point = search.random_point(generator);
-    if (search.evaluate(point).stable()) anchor = point;
+        "tune: expected at least {} starts, 1 evaluation and 1 point a decade, found {}, {}, {}",
+        least_starts, options.starts, options.evaluations_per_start,
+        options.search_points_per_decade));
   }
   TuningResult result;
   result.starts = options.starts;
-  if (anchor.empty()) {
+  result.law.structure = structure;
+  std::vector<std::vector<double>> promising = options.warm_starts;
+  if (options.starts > 0) {
+    for (auto& candidate : global_search(problem, structure, goals, options, result)) {
+      promising.push_back(std::move(candidate.law.gains));
+    }
+  }
+  if (promising.empty()) {
     result.status = TuningStatus::unstable;
-    result.law.structure = structure;
-    result.evaluations = search.evaluations();
     result.worst_goal_ratio = std::numeric_limits<double>::infinity();
     return result;
   }
-  std::vector<Candidate> found;
-  for (int start = 0; start < options.starts; ++start) {
-    search.minimise(search.pull_back(search.random_point(generator), anchor),
-                    options.evaluations_per_start);
-    if (auto best = search.take_best()) found.push_back(std::move(*best));
-  }
-  const auto less = [](const Candidate& x, const Candidate& y) {
-    return x.evaluation.beam_variance() < y.evaluation.beam_variance();
-  };
-  std::stable_sort(found.begin(), found.end(), less);
-
-  for (const auto& candidate : found) {
-    if (candidate.evaluation.beam_variance() < 1.01 * 1.01 * found[0].evaluation.beam_variance()) {
-      ++result.starts_at_optimum;
-    }
-  }
   control::LoopEvaluator fine = make_evaluator(problem);
   Search refine(fine, structure, goals);
-  const std::vector<Candidate> from = distinct(found, search.nearest(), 3);
-  std::vector<Candidate> refined;
-  for (const auto& candidate : from) {
-    refine.minimise(logarithms(candidate.law.gains), options.evaluations_per_start);
+  std::optional<Candidate> chosen;
+  for (const auto& gains : promising) {
+    refine.minimise(logarithms(gains), options.evaluations_per_start);
     auto best = refine.take_best();
-    if (best &&
+    if (best && (!chosen || less(*best, *chosen)) &&
         control::stability(problem.plant, best->law, problem.delay, fine.response().frequency)
             .stable()) {
-      refined.push_back(std::move(*best));
+      chosen = std::move(best);
     }
   }
-  result.evaluations = search.evaluations() + refine.evaluations();
-  result.optimiser_failures = search.failures() + refine.failures();
-  std::stable_sort(refined.begin(), refined.end(), less);
-  const std::optional<Candidate> chosen =
-      refined.empty() ? refine.nearest() : std::optional(refined.front());
+  result.evaluations += refine.evaluations();
+  result.optimiser_failures += refine.failures();
+  result.status = chosen ? TuningStatus::optimal : TuningStatus::infeasible;
+  if (!chosen) chosen = refine.nearest();
   if (!chosen) {
     throw NumericalFailure(
         "tune: a law that is stable on the search's frequency grid is not on the problem's own");
   }
-  result.status = refined.empty() ? TuningStatus::infeasible : TuningStatus::optimal;
   result.law = chosen->law;
   result.evaluation = chosen->evaluation;
   result.worst_goal_ratio = worst_goal_ratio(result.evaluation, goals);
-  describe_limits(result, goals, search.descriptions());
+  describe_limits(result, goals, refine.descriptions());
   return result;
 }
 

@@ -21,6 +21,9 @@ struct TuningOptions {
   int evaluations_per_start = 150;
   /// Frequency grid of the search; its best laws are then tuned again on the problem's own grid.
   int search_points_per_decade = 100;
+  /// Gains to start from besides, straight on the problem's own grid: a neighbour's optimum. With
+  /// these, `starts` may be 0.
+  std::vector<std::vector<double>> warm_starts;
 };
 
 enum class TuningStatus {
@@ -58,7 +61,7 @@ double worst_goal_ratio(const control::LoopEvaluation& evaluation, const HardGoa
 /// analytic gradients. The optimiser's own word is not used: every evaluation is recorded here, and
 /// only feasible ones whose eigenvalues are stable can win. Deterministic by seed.
 /// A plant that no law of the search stabilises is a stated result, not an error.
-/// @throws InvalidInput for options below 1.
+/// @throws InvalidInput for options below 1 (starts: below 0, or 0 without warm starts).
 TuningResult tune(const TrackingProblem& problem, control::LoopStructure structure,
                   const HardGoals& goals, const TuningOptions& options);
 

@@ -103,22 +103,33 @@ InertiaIdentification identify_inertia(const DriveEvidence& evidence,
                        targets.add("left for the antenna", remainder)});
   };
 
-  Formula first_total;
+  Formula first_total, first_row;
   for (const auto& antenna : evidence.antenna) {
     const Formula row = inputs.add("antenna inertia, " + antenna.name, antenna.reflected);
     row_targets.push_back(targets.add("antenna, " + antenna.name, row));
     const Formula total = sum({motors, gear_train, row});
-    if (!first_total) first_total = total;
+    if (!first_total) {
+      first_total = total;
+      first_row = row;
+    }
     add_method(MethodKind::mass_properties, "mass properties, antenna from " + antenna.name,
                "solid disks, structural group's antenna inertia", total);
   }
 
   if (evidence.printed_load) {
-    const Formula load = inputs.add("load inertia, " + evidence.printed_load->name,
-                                    evidence.printed_load->reflected);
+    // A printed sum is as uncertain as what it sums: it moves with the same draws.
+    const Formula parts = sum({gear_train, first_row});
+    double nominal = evidence.antenna.front().reflected.value;
+    for (const auto& assembly : evidence.assemblies) {
+      nominal += plant::reflected_inertia(assembly.inertia.value,
+                                          plant::gear_ratio(evidence.stages, assembly.stages),
+                                          assembly.count);
+    }
+    const double printed = evidence.printed_load->value;
     add_method(MethodKind::mass_properties,
-               "mass properties, load inertia as printed in " + evidence.printed_load->name,
-               "the source's own sum of the load", sum({motors, load}));
+               "mass properties, load inertia as printed in " + evidence.printed_load->source,
+               "the source's own sum of the load",
+               [=](Point point) { return motors(point) + printed * parts(point) / nominal; });
   }
 
   const Formula density = inputs.add("oil density", evidence.oil_density);
@@ -213,13 +224,22 @@ ReconciledInertia reconcile(const std::vector<Uncertain>& estimates, double moto
   }
   result.value = weighted / weights;
   result.standard_uncertainty = 1.0 / std::sqrt(weights);
-  // Student's t, 97.5 %, for 1 to 10 degrees of freedom; the normal's beyond.
-  constexpr std::array student{12.706, 4.303, 3.182, 2.776, 2.571,
-                               2.447,  2.365, 2.306, 2.262, 2.228};
-  const auto index = static_cast<std::size_t>(result.degrees_of_freedom - 1);
-  const double factor = index < student.size() ? student[index] : 1.96;
-  result.lower = result.value - factor * result.standard_uncertainty;
-  result.upper = result.value + factor * result.standard_uncertainty;
+  if (estimates.size() == 2) {
+    // Two methods say nothing useful of the scatter between methods: the hull of their own.
+    result.lower = std::numeric_limits<double>::infinity();
+    result.upper = -result.lower;
+    for (const auto& estimate : estimates) {
+      result.lower = std::min(result.lower, estimate.value - 1.96 * estimate.standard_uncertainty);
+      result.upper = std::max(result.upper, estimate.value + 1.96 * estimate.standard_uncertainty);
+    }
+  } else {
+    // Student's t, 97.5 %, for 2 to 10 degrees of freedom; the normal's beyond.
+    constexpr std::array student{4.303, 3.182, 2.776, 2.571, 2.447, 2.365, 2.306, 2.262, 2.228};
+    const auto index = static_cast<std::size_t>(result.degrees_of_freedom - 2);
+    const double factor = index < student.size() ? student[index] : 1.96;
+    result.lower = result.value - factor * result.standard_uncertainty;
+    result.upper = result.value + factor * result.standard_uncertainty;
+  }
   const auto ratio = [&](double inertia) {
     return inertia > motor_inertia ? plant::motor_to_load_ratio(motor_inertia, inertia)
                                    : std::numeric_limits<double>::infinity();

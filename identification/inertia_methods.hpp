@@ -41,7 +41,11 @@ struct DriveEvidence {
   std::vector<Assembly> assemblies;
   std::vector<AntennaInertia> antenna;  // at least one; the first is the one used
   /// A whole load inertia that the source prints: gear train and antenna at the motor shaft.
-  std::optional<AntennaInertia> printed_load;
+  struct PrintedLoad {
+    std::string source;
+    double value = 0.0;
+  };
+  std::optional<PrintedLoad> printed_load;
   double motor_count = 1.0;
   Uncertain motor_inertia;  // one motor with flywheel
   Uncertain displacement;   // one motor, m3/rad
@@ -106,8 +110,8 @@ struct ReconciledInertia {
 
 /// Random-effects mean (DerSimonian and Laird, Controlled Clinical Trials 7, 1986): each method's
 /// own variance plus one between-method variance estimated from their scatter. Interval by
-/// Student's t with methods - 1 degrees of freedom. Results of one record count as one method: pass
-/// their mean. `motor_inertia`: all motors.
+/// Student's t with methods - 1 degrees of freedom; of two methods, the hull of their own. Results
+/// of one record count as one method: pass their mean. `motor_inertia`: all motors.
 /// @throws InvalidInput for fewer than two estimates or an uncertainty that is not positive.
 ReconciledInertia reconcile(const std::vector<Uncertain>& estimates, double motor_inertia);
 

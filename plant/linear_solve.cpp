@@ -14,7 +14,7 @@ Eigen::MatrixXd linear_solve(const Eigen::MatrixXd& matrix, const Eigen::MatrixX
                     "found {} x {} and {} rows",
                     what, matrix.rows(), matrix.cols(), right_hand_side.rows()));
   }
-  if (matrix.size() == 0) return right_hand_side;
+  if (matrix.size() == 0 || right_hand_side.size() == 0) return right_hand_side;
   const Eigen::PartialPivLU<Eigen::MatrixXd> lu(matrix);
   if (!(lu.rcond() > 1e-15)) {
     throw NumericalFailure(

@@ -79,13 +79,13 @@ void check_expected_resonance(const CaseNumbers& numbers, Implausibilities& foun
     return plant::hydraulic_frequency(numbers.oil_stiffness, rotating + load);
   };
   const double expected = frequency(numbers.antenna_at_motor);
-  const double inertia_share = numbers.antenna_at_motor / (rotating + numbers.antenna_at_motor);
-  double variance = std::pow(relative(measured), 2) +
-                    std::pow(0.5 * inertia_share * relative(numbers.antenna.antenna.inertia), 2);
-  if (numbers.antenna.oil.bulk_modulus) {
-    variance += std::pow(0.5 * relative(*numbers.antenna.oil.bulk_modulus), 2);
-  }
-  const double away = std::abs(measured.value / expected - 1.0) / std::sqrt(variance);
+  // The relative uncertainty of the propagated frequency, about the value from the nearest prints.
+  const auto propagated =
+      identification::identify_inertia(make_evidence(numbers.antenna), {1000, 1})
+          .expected_frequency;
+  const double away =
+      std::abs(measured.value / expected - 1.0) /
+      std::hypot(relative(measured), propagated.standard_uncertainty / propagated.value);
   if (away <= 3.0) return;
   Implausibility implausible{"resonance expected",
                              "resonance.frequency",
@@ -160,9 +160,10 @@ void check_impulse_order(const CaseNumbers& numbers, Implausibilities& found) {
            fmt::format("With {:.3g} N.m more friction subtracted ({} against {}) an accelerating "
                        "window must give less inertia, J falls by dT dt/dw; printed is {:.3g} "
                        "kg.m2 more. Either the two are exchanged, or the windows slowed down, by "
-                       "{:.3g} rad/s2, which takes {:.3g} N.m (the supply gives {:.3g}).",
+                       "{:.3g} rad/s2: {:.3g} N.m of braking, all but the friction's {:.3g} N.m "
+                       "from the motors.",
                        torque, more.name, less.name, inertia, acceleration,
-                       acceleration * more.reflected_inertia.value, numbers.supply_torque),
+                       acceleration * more.reflected_inertia.value, subtracted(more)),
            {{"friction difference", torque, "N.m"},
             {"inertia difference", inertia, "kg.m2"},
             {"deceleration it would take", acceleration, "rad/s2"}}});

@@ -131,6 +131,11 @@ int run(const Command& command, const Arguments& arguments) {
                arguments.case_path);
     return infeasible;
   }
+  if (report.tuning && !report.tuning->design.verification.passed) {
+    fmt::print(stderr, "boresight: the best law found fails its verification: {}\n",
+               report.tuning->design.verification.failure);
+    return numerical;
+  }
   return done;
 }
 

@@ -49,7 +49,7 @@ void read_tests(TableReader& file, Case& antenna) {
   }
   if (auto table = file.optional_table("friction_tests")) {
     FrictionTestsEntry& tests = antenna.friction_tests;
-    const Range torque = Range::not_negative();
+    const Range torque = Range::positive();
     tests.constant_speed_coulomb =
         table->optional_quantity("constant_speed_coulomb", Kind::torque, torque);
     tests.constant_speed_slope =

@@ -17,6 +17,11 @@ void read_wind(TableReader& file, Case& antenna) {
   wind.gradient_coefficient =
       table.quantity("gradient_coefficient", Kind::number, Range::not_negative(10.0));
   wind.coherence_decay = table.quantity("coherence_decay", Kind::number, Range::positive(1000.0));
+  const bool gradient = wind.model == "coherence" && wind.gradient_coefficient.value > 0.0;
+  if (wind.torque_coefficient.value == 0.0 && !gradient) {
+    table.refuse("torque_coefficient",
+                 "expected a wind model and coefficients that give some torque, found none");
+  }
   table.finish();
 }
 

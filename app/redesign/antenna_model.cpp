@@ -152,6 +152,12 @@ double oil_stiffness(const Case& antenna) {
                                     : plant::EfficiencyInStiffness::none);
 }
 
+double supply_torque(const Case& antenna) {
+  const MotorEntry& motor = antenna.motor;
+  return antenna.drive.supply_pressure.value * motor.torque_efficiency.value *
+         static_cast<double>(motor.count) * motor.displacement.value;
+}
+
 plant::AntennaPlant make_plant(const Case& antenna, const PlantVariant& variant) {
   plant::AntennaPlant plant;
   const double disks = variant.flywheel_disks.value_or(antenna.motor.flywheel_disks);
@@ -198,8 +204,7 @@ design::TrackingProblem make_problem(const Case& antenna, const PlantVariant& va
                    antenna.antenna.dish_diameter.value},
                   wind_model(wind.model),
                   wind.design_speed.value};
-  problem.lowest_frequency = antenna.goals.lowest_frequency.value;
-  problem.highest_frequency = antenna.goals.highest_frequency.value;
+  problem.rms_band = {antenna.goals.lowest_frequency.value, antenna.goals.highest_frequency.value};
   return problem;
 }
 
@@ -225,15 +230,7 @@ identification::DriveEvidence make_evidence(const Case& antenna) {
   }
   for (const auto& stated : antenna.stated) {
     if (stated.quantity != "load_inertia" || evidence.printed_load) continue;
-    // A sum is as uncertain as what it sums, however many digits it is printed with.
-    double variance = std::pow(evidence.antenna.front().reflected.standard_uncertainty, 2);
-    for (const auto& assembly : evidence.assemblies) {
-      variance += std::pow(plant::reflected_inertia(
-                               assembly.inertia.standard_uncertainty,
-                               plant::gear_ratio(evidence.stages, assembly.stages), assembly.count),
-                           2);
-    }
-    evidence.printed_load = {stated.value.source, {stated.value.value, std::sqrt(variance)}};
+    evidence.printed_load = {stated.value.source, stated.value.value};
   }
   const MotorEntry& motor = antenna.motor;
   evidence.motor_count = static_cast<double>(motor.count);

@@ -35,6 +35,9 @@ double antenna_inertia(const Case& antenna, const AntennaAlternative& alternativ
 double oil_stiffness(const Case& antenna, plant::EfficiencyInStiffness efficiency);
 double oil_stiffness(const Case& antenna);
 
+/// Torque of all motors at the supply pressure (N m).
+double supply_torque(const Case& antenna);
+
 plant::AntennaPlant make_plant(const Case& antenna, const PlantVariant& variant = {});
 plant::FrictionCurve friction_curve(const Case& antenna);
 /// Slope of the friction curve at the tracking rate (N m s/rad of motor).

@@ -14,20 +14,30 @@ std::string ratio_text(double ratio) {
   return ratio > 0.0 && std::isfinite(ratio) ? fmt::format("{:.2f}", ratio) : "without meaning";
 }
 
-void conclude_identification(const IdentificationSection& section, const PlantSection& plant,
+void conclude_masses(const IdentificationSection& section, std::vector<std::string>& sentences) {
+  std::string text = "Mass properties give";
+  bool first = true;
+  for (const auto& method : section.inertia.methods) {
+    if (method.kind != identification::MethodKind::mass_properties) continue;
+    text += fmt::format("{} {:.3f} kg.m2 ({:.3f} lbf.ft.s2) and R = {} ({})", first ? "" : ";",
+                        method.reflected_inertia.value,
+                        method.reflected_inertia.value / pound_foot_second_squared,
+                        ratio_text(method.motor_to_load_ratio.value), method.name);
+    first = false;
+  }
+  sentences.push_back(text + ".");
+}
+
+void conclude_identification(const IdentificationSection& section,
                              std::vector<std::string>& sentences) {
   const auto& methods = section.inertia.methods;
   const bool tested =
       std::any_of(methods.begin(), methods.end(), [](const identification::InertiaMethod& method) {
         return method.kind != identification::MethodKind::mass_properties;
       });
+  conclude_masses(section, sentences);
   if (!tested) {
-    const auto& only = methods.front();
-    sentences.push_back(fmt::format(
-        "Only mass properties speak for the inertia: {:.3f} kg.m2, motor-to-load ratio {} (95 % "
-        "interval {:.2f} to {:.2f}); no test confirms it.",
-        only.reflected_inertia.value, ratio_text(only.motor_to_load_ratio.value),
-        only.motor_to_load_ratio.lower, only.motor_to_load_ratio.upper));
+    sentences.emplace_back("Only mass properties speak for the inertia; no test confirms it.");
     return;
   }
   const auto by_inertia = [](const identification::InertiaMethod& x,
@@ -49,14 +59,20 @@ void conclude_identification(const IdentificationSection& section, const PlantSe
         "over.",
         ratio, 1.0 + ratio);
   }
-  if (const auto& left = least->antenna_remainder;
-      left.value < 0.5 * plant::antenna_inertia(plant.plant.structure)) {
-    text += fmt::format(
-        " The smallest leaves {:.3f} kg.m2 for an antenna that needs {:.3f}: it cannot be the "
-        "inertia, so the oil is stiffer than computed or the frequency read is not the rigid mode.",
-        left.value, plant::antenna_inertia(plant.plant.structure));
-  }
   sentences.push_back(std::move(text));
+  for (const auto& method : methods) {
+    const auto& left = method.antenna_remainder;
+    const auto& needs = methods.front().antenna_remainder;
+    if (method.kind != identification::MethodKind::resonance || left.upper >= needs.lower) continue;
+    sentences.push_back(fmt::format(
+        "The resonance leaves {:.3f} to {:.3f} kg.m2 for an antenna that the mass properties put "
+        "at "
+        "{:.3f} to {:.3f}: within their input uncertainties the two contradict each other. Oil "
+        "stiffness (bulk modulus, volumes, the efficiencies in it), the masses, or the reading of "
+        "the "
+        "resonance must give way.",
+        left.lower, left.upper, needs.lower, needs.upper));
+  }
 }
 
 void conclude_tuning(const TuningSection& section, std::vector<std::string>& sentences) {
@@ -72,9 +88,18 @@ void conclude_tuning(const TuningSection& section, std::vector<std::string>& sen
         control::to_string(section.structure), 100.0 * (design.tuning.worst_goal_ratio - 1.0)));
     return;
   }
+  if (!design.verification.passed) {
+    sentences.push_back(fmt::format(
+        "The best {} law found fails its verification ({}): nothing is concluded from it.",
+        control::to_string(section.structure), design.verification.failure));
+    return;
+  }
+  const bool repeated = 2 * section.seeds_within_1_percent > static_cast<int>(section.seeds.size());
   std::string text = fmt::format(
-      "As built, the best {} law points within {:.3f} mdeg rms an axis in {:g} m/s of wind",
-      control::to_string(section.structure), design.beam_rms / millidegree, section.design_speed);
+      "As built, the best {} law found{} points within {:.3f} mdeg rms an axis in {:g} m/s of wind",
+      control::to_string(section.structure),
+      repeated ? "" : " (not repeated by most seeds: look further)", design.beam_rms / millidegree,
+      section.design_speed);
   for (const auto& budget : section.budgets) {
     text +=
         fmt::format("; {} ({}: {:.3f} mdeg) is met up to {:.1f} m/s", budget.budget.name,
@@ -91,10 +116,16 @@ void conclude_tuning(const TuningSection& section, std::vector<std::string>& sen
   sentences.push_back(fmt::format(
       "These rms values stand on the wind model {}: the same gains give {:.3f} mdeg by the {} "
       "model "
-      "and {:.3f} by the {} model. Bending that no encoder sees sets a floor of {:.3f} mdeg.",
+      "and {:.3f} by the {} model. With the encoder held perfectly still, bending that it cannot "
+      "see "
+      "would leave {:.3f} mdeg.",
       plant::to_string(section.wind_model), least->beam_rms / millidegree,
       plant::to_string(least->model), most->beam_rms / millidegree, plant::to_string(most->model),
-      section.bending_floor / millidegree));
+      section.encoder_held_rms / millidegree));
+}
+
+bool usable(const design::Design& design) {
+  return design.tuning.status == design::TuningStatus::optimal && design.verification.passed;
 }
 
 // Change of rms from the last row (most disks) to the first, in percent.
@@ -103,32 +134,36 @@ double change(const MatchingSeries& series) {
 }
 
 void conclude_matching(const MatchingSection& section, std::vector<std::string>& sentences) {
-  const auto finite = [](const design::Design& design) { return std::isfinite(design.beam_rms); };
-  const bool whole =
-      std::all_of(section.series.begin(), section.series.end(), [&](const MatchingSeries& series) {
-        return std::all_of(series.designs.begin(), series.designs.end(), finite);
-      });
-  if (section.rows.size() < 2 || !whole) return;
+  if (section.rows.size() < 2) return;
+  std::size_t unusable = 0;
+  for (const auto& series : section.series) {
+    unusable += static_cast<std::size_t>(
+        std::count_if(series.designs.begin(), series.designs.end(),
+                      [](const design::Design& design) { return !usable(design); }));
+  }
+  if (unusable > 0) {
+    sentences.push_back(
+        fmt::format("{} of {} points of the matching study are infeasible or not verified: nothing "
+                    "is concluded "
+                    "from the study.",
+                    unusable, section.series.size() * section.rows.size()));
+    return;
+  }
   std::string text = fmt::format(
       "Going from {} to {} (R from {:.2f} to {:.2f}), re-tuned at each point, changes the beam rms "
       "by",
       section.rows.back().label, section.rows.front().label,
       section.rows.back().motor_to_load_ratio, section.rows.front().motor_to_load_ratio);
-  double least = std::numeric_limits<double>::infinity(), most = 0.0;
   for (std::size_t i = 0; i < section.series.size(); ++i) {
     const MatchingSeries& series = section.series[i];
-    const double percent = change(series);
-    least = std::min(least, std::abs(percent));
-    most = std::max(most, std::abs(percent));
-    text += fmt::format("{} {:+.1f} % ({}, {})", i == 0 ? "" : ",", percent,
+    text += fmt::format("{} {:+.1f} % ({}, {})", i == 0 ? "" : ",", change(series),
                         control::to_string(series.structure), series.friction);
   }
-  text += ".";
-  sentences.push_back(std::move(text));
+  sentences.push_back(text + ".");
 
+  const MatchingSeries& series = section.series.front();
   for (std::size_t i = 0; i < section.rows.size(); ++i) {
     if (section.rows[i].label != "ratio 1") continue;
-    const MatchingSeries& series = section.series.front();
     const auto best = std::min_element(
         series.designs.begin(), series.designs.end(),
         [](const design::Design& x, const design::Design& y) { return x.beam_rms < y.beam_rms; });
@@ -142,23 +177,23 @@ void conclude_matching(const MatchingSection& section, std::vector<std::string>&
         control::to_string(series.structure), section.rows[i].disks,
         series.designs[i].beam_rms / millidegree, best->beam_rms / millidegree,
         section.rows[at].label, best_ratio, near_unit ? "happens to fit" : "marks nothing special");
-    if (least < 2.0 && most > 5.0) {
-      text +=
-          " With the friction slope of the tracking rate the motors' inertia hardly matters at "
-          "all: "
-          "measure that slope before touching a flywheel.";
-    }
-    sentences.push_back(std::move(text));
   }
+  // The first series is the linear plant's, the last has the friction slope of the tracking rate.
+  if (std::abs(change(series)) > 5.0 && std::abs(change(section.series.back())) < 2.0) {
+    text += fmt::format(
+        " With the friction {}, {:.1f} N.m.s/rad, the motors' inertia hardly matters at all: "
+        "measure "
+        "that slope before touching a flywheel.",
+        section.series.back().friction, section.series.back().viscous_friction);
+  }
+  sentences.push_back(std::move(text));
 }
 
 }  // namespace
 
 std::vector<std::string> conclude(const Report& report) {
   std::vector<std::string> sentences;
-  if (report.identification && report.plant) {
-    conclude_identification(*report.identification, *report.plant, sentences);
-  }
+  if (report.identification) conclude_identification(*report.identification, sentences);
   if (report.tuning) conclude_tuning(*report.tuning, sentences);
   if (report.matching) conclude_matching(*report.matching, sentences);
   if (report.tuning && !report.assumed.empty()) {

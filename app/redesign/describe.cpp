@@ -137,9 +137,7 @@ PlantSection describe_plant(const Case& antenna) {
   section.tracking_friction = tracking_friction(antenna);
   section.modes = plant::plant_modes(section.plant);
   section.hydraulic = plant::hydraulic_mode(section.modes);
-  const MotorEntry& motor = antenna.motor;
-  section.supply_torque = antenna.drive.supply_pressure.value * motor.torque_efficiency.value *
-                          static_cast<double>(motor.count) * motor.displacement.value;
+  section.supply_torque = supply_torque(antenna);
   const auto problem = make_problem(antenna);
   section.mean_wind_torque =
       plant::mean_wind_torque(problem.wind.site, problem.wind.mean_speed) / section.gear_ratio;

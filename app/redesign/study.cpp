@@ -1,10 +1,12 @@
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <numbers>
 
 #include <fmt/format.h>
 
 #include <boresight/app/redesign/sections.hpp>
+#include <boresight/design/parallel_loop.hpp>
 #include <boresight/plant/plant_response.hpp>
 
 namespace boresight::app {
@@ -55,8 +57,12 @@ void judge_in_wind(const Case& antenna, const design::TrackingProblem& problem,
   }
   const auto structure =
       plant::structure_response(problem.plant.structure, evaluator.response().frequency);
-  section.bending_floor = design::beam_rms_at_speed(
+  section.encoder_held_rms = design::beam_rms_at_speed(
       problem, evaluator, structure.beam_per_wind.abs2(), 0.0, problem.wind.mean_speed);
+  section.supply_wind_speed =
+      problem.wind.mean_speed *
+      std::sqrt(supply_torque(antenna) * problem.gear_ratio /
+                plant::mean_wind_torque(problem.wind.site, problem.wind.mean_speed));
   double compliance = 0.0;
   for (const auto& mode : problem.plant.structure.modes) {
     compliance += mode.wind_fraction * mode.beam_weight / mode.stiffness;
@@ -153,12 +159,19 @@ MatchingPlan plan_matching(const Case& antenna, const StudyOptions& options) {
   return plan;
 }
 
-MatchingSection finish_matching(MatchingPlan plan, std::vector<design::Design>::iterator design) {
+MatchingSection finish_matching(MatchingPlan plan, std::vector<design::Design>::iterator design,
+                                unsigned threads) {
+  const std::size_t rows = plan.section.rows.size();
   for (auto& series : plan.section.series) {
-    for (std::size_t i = 0; i < plan.section.rows.size(); ++i) {
-      series.designs.push_back(std::move(*design++));
-    }
+    series.designs.assign(std::make_move_iterator(design),
+                          std::make_move_iterator(design + static_cast<std::ptrdiff_t>(rows)));
+    design += static_cast<std::ptrdiff_t>(rows);
   }
+  design::for_each_index(plan.section.series.size(), threads, [&](std::size_t s) {
+    const auto first = plan.tasks.begin() + static_cast<std::ptrdiff_t>(s * rows);
+    design::improve_along({first, first + static_cast<std::ptrdiff_t>(rows)},
+                          plan.section.series[s].designs);
+  });
   return std::move(plan.section);
 }
 
@@ -253,7 +266,7 @@ TuningSection tune_loops(const Case& antenna, const StudyOptions& options) {
 MatchingSection match_inertia(const Case& antenna, const StudyOptions& options) {
   MatchingPlan plan = plan_matching(antenna, options);
   auto designs = design::solve_all(plan.tasks, options.threads, options.progress);
-  return finish_matching(std::move(plan), designs.begin());
+  return finish_matching(std::move(plan), designs.begin(), options.threads);
 }
 
 void redesign(const Case& antenna, const StudyOptions& options, Report& report) {
@@ -275,7 +288,7 @@ void redesign(const Case& antenna, const StudyOptions& options, Report& report) 
     if (choice.task) choice.result.design = std::move(*design++);
     report.choices.push_back(std::move(choice.result));
   }
-  report.matching = finish_matching(std::move(matching), first_match);
+  report.matching = finish_matching(std::move(matching), first_match, options.threads);
 }
 
 }  // namespace boresight::app

@@ -157,6 +157,7 @@ Json design_json(const design::Design& design) {
   return {{"structure", control::to_string(law.structure)},
           {"feasible", design.tuning.status == design::TuningStatus::optimal},
           {"verified", check.passed},
+          {"verification_failure", text_or_null(check.failure)},
           {"gains", std::move(gains)},
           {"beam_rms_mdeg", number(design.beam_rms / millidegree)},
           {"wind_rms_mdeg", number(design.wind_rms / millidegree)},
@@ -182,7 +183,8 @@ Json tuning_json(const TuningSection& section) {
             {"wind_model", plant::to_string(section.wind_model)},
             {"design", design_json(section.design)},
             {"seeds_within_1_percent", section.seeds_within_1_percent},
-            {"bending_floor_mdeg", number(section.bending_floor / millidegree)},
+            {"encoder_held_rms_mdeg", number(section.encoder_held_rms / millidegree)},
+            {"supply_wind_speed_m_per_s", number(section.supply_wind_speed)},
             {"static_bending_mdeg", number(section.static_bending / millidegree)}};
   Json goals = Json::array();
   for (std::size_t b = 0; b < control::loop_breaks.size(); ++b) {

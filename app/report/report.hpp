@@ -61,9 +61,11 @@ struct TuningSection {
     double beam_rms = 0.0;  // rad, same gains
   };
   std::vector<WindAlternative> wind_alternatives;
-  /// Bending between bull gear and beam that no encoder sees, with the encoder held still (rad
-  /// rms).
-  double bending_floor = 0.0;
+  /// Rms of the bending between bull gear and beam that no encoder sees, with the encoder held
+  /// perfectly still (rad). Not a bound: a loop can move the encoder against the bending.
+  double encoder_held_rms = 0.0;
+  /// Mean wind speed (m/s) whose mean torque is the supply's; infinite without mean torque.
+  double supply_wind_speed = 0.0;
   double static_bending = 0.0;  // rad under the mean wind: calibration's job, not the servo's
   struct BandLoss {
     PointingBand band;

@@ -74,12 +74,22 @@ double largest_change(const Finding& finding) {
                                       : std::abs(finding.consequences.front().relative_change());
 }
 
+bool follows_from_other_column(const Finding& finding) {
+  return std::any_of(finding.explanations.begin(), finding.explanations.end(),
+                     [](const std::string& explanation) {
+                       return explanation.ends_with("from the other column");
+                     });
+}
+
 }  // namespace
 
 std::string audit_summary(const AuditReport& report) {
   std::vector<const Finding*> matter;
   for (const Finding& finding : report.findings) {
-    if (largest_change(finding) > change_that_matters) matter.push_back(&finding);
+    // Right in itself where it follows from another column: the finding there is the one to mend.
+    if (largest_change(finding) > change_that_matters && !follows_from_other_column(finding)) {
+      matter.push_back(&finding);
+    }
   }
   std::stable_sort(matter.begin(), matter.end(), [](const Finding* a, const Finding* b) {
     return largest_change(*a) > largest_change(*b);
@@ -133,6 +143,7 @@ std::string to_text(const AuditReport& report) {
     page += wrapped(fmt::format("{:2}. {}: {}", ++number, remark.place, remark.text), "", "    ");
   }
   page += "\nSummary\n\n";
+  page += wrapped("What a number 'moves' is computed from the numbers as first printed.", "");
   page += wrapped(audit_summary(report), "");
   return page;
 }

@@ -15,7 +15,8 @@ namespace {
 
 using design::Design;
 constexpr double two_pi = 2.0 * std::numbers::pi;
-constexpr std::size_t position = 2;  // of control::loop_breaks
+constexpr std::size_t valve = 1;  // of control::loop_breaks
+constexpr std::size_t position = 2;
 
 std::string mdeg(double angle) {
   return std::isfinite(angle) ? fmt::format("{:.4f}", angle / millidegree) : "-";
@@ -30,6 +31,16 @@ std::string verdict(const Design& design) {
   if (design.tuning.status == design::TuningStatus::unstable) return "no stable law";
   if (design.tuning.status == design::TuningStatus::infeasible) return "infeasible";
   return design.verification.passed ? "ok" : "NOT VERIFIED";
+}
+
+// A wind speed limit beyond the search is infinite.
+std::string speed(double limit, double unit) {
+  return std::isfinite(limit) ? fmt::format("{:.{}f}", unit * limit, unit == 1.0 ? 2 : 1)
+                              : fmt::format("> {:g}", 60.0 * unit);
+}
+
+std::string finite(double value, int decimals) {
+  return std::isfinite(value) ? fmt::format("{:.{}f}", value, decimals) : "none";
 }
 
 std::string gains_text(const TuningSection& section) {
@@ -52,13 +63,13 @@ std::string breaks_text(const TuningSection& section) {
   for (std::size_t b = 0; b < control::loop_breaks.size(); ++b) {
     const auto& peak = section.design.verification.peaks[b];
     const auto& margins = section.design.margins[b];
-    rows.push_back(
-        {std::string(control::to_string(control::loop_breaks[b])),
-         fmt::format("{:.4f}", peak.magnitude),
-         fmt::format("{:g}", section.goals.sensitivity_peak[b]),
-         fmt::format("{:.3f}", peak.frequency / two_pi),
-         fmt::format("{:.1f}", margins.phase_margin_deg), decibel(margins.increasing_gain_margin),
-         decibel(margins.decreasing_gain_margin), fmt::format("{:.4f}", margins.delay_margin)});
+    rows.push_back({std::string(control::to_string(control::loop_breaks[b])),
+                    fmt::format("{:.4f}", peak.magnitude),
+                    fmt::format("{:g}", section.goals.sensitivity_peak[b]),
+                    fmt::format("{:.3f}", peak.frequency / two_pi),
+                    fmt::format("{:.1f}", margins.phase_margin_deg),
+                    decibel(margins.increasing_gain_margin),
+                    decibel(margins.decreasing_gain_margin), finite(margins.delay_margin, 4)});
   }
   return table(rows);
 }
@@ -97,15 +108,14 @@ std::string to_text(const TuningSection& section) {
                                     fmt::join(design.tuning.gains_at_bound, ", "))),
       "  ");
   text += wrapped(
-      fmt::format("Verified {}: largest real part of the eigenvalues {:.4f} 1/s (position loop "
-                  "open) and {:.4f} 1/s (closed); what the rational dead time leaves out is {:.1e} "
-                  "of the return difference; Lyapunov rms {} mdeg against {} by the spectrum, "
-                  "{:.3f} % apart.",
-                  check.passed ? "by independent code" : "WITHOUT SUCCESS",
-                  check.stability.rate_loop_abscissa, check.stability.closed_loop_abscissa,
-                  check.stability.dead_time_residue,
-                  mdeg(design.beam_rms * check.lyapunov.total / check.spectral_rms),
-                  mdeg(design.beam_rms), 100.0 * check.rms_disagreement),
+      fmt::format(
+          "{}: largest real part of the eigenvalues {:.4f} 1/s (position loop open) and "
+          "{:.4f} 1/s (closed); what the rational dead time leaves out is {:.1e} of the "
+          "return difference; rms by Lyapunov equations and by the spectrum {:.3f} % apart.",
+          check.passed ? "Verified by independent code"
+                       : fmt::format("NOT VERIFIED ({})", check.failure),
+          check.stability.rate_loop_abscissa, check.stability.closed_loop_abscissa,
+          check.stability.dead_time_residue, 100.0 * check.rms_disagreement),
       "  ");
   std::string seeds;
   for (const auto& seed : section.seeds) {
@@ -120,7 +130,8 @@ std::string to_text(const TuningSection& section) {
   for (const auto& alternative : section.wind_alternatives) {
     rows.push_back({std::string(plant::to_string(alternative.model)), mdeg(alternative.beam_rms)});
   }
-  rows.push_back({"bending the encoder cannot see, encoder held", mdeg(section.bending_floor)});
+  rows.push_back(
+      {"encoder held perfectly still: bending it cannot see", mdeg(section.encoder_held_rms)});
   rows.push_back({"static bending by the mean wind (calibration's job, not in the rms)",
                   mdeg(section.static_bending)});
   text += table(rows) + "\n";
@@ -134,10 +145,15 @@ std::string to_text(const TuningSection& section) {
   rows = {{"budget", "band", "convention", "rms mdeg", "met up to m/s", "km/h"}};
   for (const auto& result : section.budgets) {
     rows.push_back({result.budget.name, result.budget.band, result.budget.convention,
-                    mdeg(result.budget.rms), fmt::format("{:.2f}", result.wind_speed_limit),
-                    fmt::format("{:.1f}", 3.6 * result.wind_speed_limit)});
+                    mdeg(result.budget.rms), speed(result.wind_speed_limit, 1.0),
+                    speed(result.wind_speed_limit, 3.6)});
   }
-  return text + table(rows, "lllrrr");
+  text += table(rows, "lllrrr");
+  text += wrapped(fmt::format("Gains held, supply torque not counted: the mean wind torque alone "
+                              "reaches the supply's at {:.1f} m/s.",
+                              section.supply_wind_speed),
+                  "  ");
+  return text;
 }
 
 std::string choices_text(const std::vector<ChoiceResult>& choices) {
@@ -182,31 +198,39 @@ std::string to_text(const MatchingSection& section) {
     text +=
         fmt::format("\n  {}; friction: {}, {:.3g} N.m.s/rad\n",
                     control::to_string(series.structure), series.friction, series.viscous_friction);
-    std::vector<std::vector<std::string>> rows{{"motors", "disks", "R", "J kg.m2", "hydr. Hz",
-                                                "damping", "S rate", "S valve", "S pos.",
-                                                "phase m. deg", "gain m. dB", "rms mdeg", "check"}};
+    std::vector<std::vector<std::string>> rows{
+        {"motors", "disks", "R", "J kg.m2", "hydr. Hz", "damping", "S rate", "S valve", "S pos.",
+         "PM valve", "GM valve", "PM pos.", "GM pos.", "rms mdeg", "check"}};
     for (std::size_t i = 0; i < section.rows.size(); ++i) {
       const MatchingRow& row = section.rows[i];
       const Design& design = series.designs[i];
-      const auto& peaks = design.verification.peaks;
-      const auto& margins = design.margins[position];
-      rows.push_back(
-          {row.label, fmt::format("{:.2f}", row.disks),
-           fmt::format("{:.3f}", row.motor_to_load_ratio),
-           fmt::format("{:.3f}", row.reflected_inertia),
-           fmt::format("{:.3f}", design.hydraulic_mode.frequency),
-           fmt::format("{:.3f}", design.hydraulic_mode.damping_ratio),
-           fmt::format("{:.3f}", peaks[0].magnitude), fmt::format("{:.3f}", peaks[1].magnitude),
-           fmt::format("{:.3f}", peaks[2].magnitude),
-           fmt::format("{:.1f}", margins.phase_margin_deg), decibel(margins.increasing_gain_margin),
-           mdeg(design.beam_rms), verdict(design)});
+      std::vector<std::string> cells{row.label,
+                                     fmt::format("{:.2f}", row.disks),
+                                     fmt::format("{:.3f}", row.motor_to_load_ratio),
+                                     fmt::format("{:.3f}", row.reflected_inertia),
+                                     fmt::format("{:.3f}", design.hydraulic_mode.frequency),
+                                     fmt::format("{:.3f}", design.hydraulic_mode.damping_ratio)};
+      if (design.tuning.status == design::TuningStatus::unstable) {
+        cells.insert(cells.end(), 8, "-");
+      } else {
+        for (const auto& peak : design.verification.peaks) {
+          cells.push_back(fmt::format("{:.3f}", peak.magnitude));
+        }
+        for (const std::size_t loop : {valve, position}) {
+          cells.push_back(fmt::format("{:.1f}", design.margins[loop].phase_margin_deg));
+          cells.push_back(decibel(design.margins[loop].increasing_gain_margin));
+        }
+        cells.push_back(mdeg(design.beam_rms));
+      }
+      cells.push_back(verdict(design));
+      rows.push_back(std::move(cells));
     }
     text += table(rows);
   }
   text += "\n";
   text += wrapped(
-      "Phase and gain margins at the position loop; S: peak of the sensitivity "
-      "with the loop cut at rate loop alone, valve command, position loop.",
+      "S: peak of the sensitivity with the loop cut at rate loop alone, valve command, position "
+      "loop; PM, GM: phase margin in degrees, gain margin in dB.",
       "  ");
   return text;
 }

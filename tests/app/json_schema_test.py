@@ -234,7 +234,7 @@ class Redesign(unittest.TestCase):
         self.assertEqual(tuning["design"]["beam_rms_mdeg"], best)
         held = {model["model"]: model["beam_rms_mdeg"] for model in tuning["wind_models"]}
         self.assertAlmostEqual(held[tuning["wind_model"]], best, delta=1e-6)
-        self.assertGreater(best, tuning["bending_floor_mdeg"])
+        self.assertGreater(tuning["encoder_held_rms_mdeg"], 0.0)
         for budget in tuning["budgets"]:
             met = budget["wind_speed_limit_m_per_s"] >= tuning["design_wind_speed_m_per_s"]
             self.assertEqual(met, best <= budget["rms_mdeg"], budget["name"])

@@ -151,7 +151,7 @@ TEST(IdentifyInertia, BoundsTheRatioOfAnInertiaNearTheMotorsFromBelowOnly) {
   // Motors 1.2028, inertia 1.25 +- 0.06: a fifth of the draws lie below the motors' own.
   DriveEvidence near = evidence();
   near.impulse = {{"near", {1.25, 0.06}}};
-  const auto& ratio = identify_inertia(near).methods.back().motor_to_load_ratio;
+  const auto ratio = identify_inertia(near).methods.back().motor_to_load_ratio;
   EXPECT_EQ(ratio.upper, std::numeric_limits<double>::infinity());
   EXPECT_GT(ratio.lower, 0.0);
   EXPECT_GT(ratio.beyond_pole, 0.15);

@@ -1,0 +1,38 @@
+#include <algorithm>
+#include <atomic>
+#include <exception>
+#include <mutex>
+#include <thread>
+#include <vector>
+
+#include <boresight/design/parallel_loop.hpp>
+
+namespace boresight::design {
+
+void for_each_index(std::size_t count, unsigned threads,
+                    const std::function<void(std::size_t)>& work) {
+  std::atomic<std::size_t> next{0};
+  std::mutex mutex;
+  std::exception_ptr failure;
+  const auto take_turns = [&] {
+    for (std::size_t i = next++; i < count; i = next++) {
+      try {
+        work(i);
+      } catch (...) {
+        const std::lock_guard lock(mutex);
+        if (!failure) failure = std::current_exception();
+        next = count;
+        return;
+      }
+    }
+  };
+  {
+    std::vector<std::jthread> workers;
+    const std::size_t helping = std::min<std::size_t>(std::max(threads, 1U), count);
+    for (std::size_t t = 1; t < helping; ++t) workers.emplace_back(take_turns);
+    take_turns();
+  }
+  if (failure) std::rethrow_exception(failure);
+}
+
+}  // namespace boresight::design

@@ -117,19 +117,19 @@ void read_motor(TableReader& file, Case& antenna) {
   motor.volumetric_efficiency =
       table.quantity("volumetric_efficiency", Kind::number, Range::positive(1.0));
   table.finish();
-  const double bare = motor.inertia.value - motor.flywheel_disks * motor.disk_inertia.value;
-  if (bare <= 0.0) {
-    table.refuse("disk_inertia",
-                 fmt::format("expected flywheel_disks x disk_inertia below inertia, found {:.6g} "
-                             "kg.m2 left of it without them",
-                             bare));
-  }
   const double built = motor.rotor_inertia.value + motor.flywheel_disks * motor.disk_inertia.value;
   if (std::abs(built - motor.inertia.value) > 0.05 * motor.inertia.value) {
     table.refuse("disk_inertia",
                  fmt::format("expected rotor_inertia + flywheel_disks x disk_inertia within 5 % of "
                              "inertia ({:.6g} kg.m2), found {:.6g} kg.m2",
                              motor.inertia.value, built));
+  }
+  const double bare = motor.inertia.value - motor.flywheel_disks * motor.disk_inertia.value;
+  if (bare <= 0.0) {
+    table.refuse("disk_inertia",
+                 fmt::format("expected flywheel_disks x disk_inertia below inertia, found {:.6g} "
+                             "kg.m2 left of it without them",
+                             bare));
   }
 }
 

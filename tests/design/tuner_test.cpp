@@ -207,7 +207,7 @@ TEST(Tune, RefusesOptionsBelowOne) {
     TuningOptions options;
     options.*member = 0;
     EXPECT_THAT([&] { tune(coarse_problem(), LoopStructure::pi, {}, options); },
-                ThrowsMessage<InvalidInput>(HasSubstr("at least 1 start, evaluation and point")));
+                ThrowsMessage<InvalidInput>(HasSubstr("at least 1 starts, 1 evaluation and 1 point")));
   }
 }
 

@@ -211,16 +211,16 @@ std::vector<Choice> plan_choices(const Case& antenna, const StudyOptions& option
                                           : "stiffness with efficiencies",
       "the other convention for the oil spring", {.oil_stiffness = oil_stiffness(antenna, other)});
   // The inertia a test found, with motors and gear train kept and the antenna taking the rest.
-  const auto add_test = [&](const std::string& name, double found) {
+  const auto add_test = [&](const std::string& name, double found, double stiffness) {
     if (found - fixed > 0.05 * antenna_inertia(antenna)) {
       add(name, "motors and gear train kept, the antenna takes the rest",
-          {.antenna_inertia = found - fixed});
+          {.antenna_inertia = found - fixed, .oil_stiffness = stiffness});
       return;
     }
     Choice choice;
     choice.result = {name,
                      "motors and gear train kept, the antenna takes the rest",
-                     oil_stiffness(antenna),
+                     stiffness,
                      found,
                      plant::motor_to_load_ratio(motors, found),
                      std::nullopt,
@@ -235,14 +235,18 @@ std::vector<Choice> plan_choices(const Case& antenna, const StudyOptions& option
     add("masses right, stiffness from resonance",
         fmt::format("oil spring raised so that the rigid masses ring at {:g} Hz", frequency),
         {.oil_stiffness = inertia * angular * angular});
-    add_test("stiffness right, inertia from resonance", found);
+    add_test("stiffness right, inertia from resonance", found, oil_stiffness(antenna));
+    const double stiffness = oil_stiffness(antenna, other);
+    add_test(antenna.oil.efficiency_in_stiffness ? "the same, stiffness without efficiencies"
+                                                 : "the same, stiffness with efficiencies",
+             plant::inertia_from_resonance(stiffness, frequency), stiffness);
     add("stiffness right, all masses scaled",
         fmt::format("every inertia times {:.3f}", found / inertia),
         {.inertia_scale = found / inertia});
   }
   for (const auto& impulse : antenna.impulse_results) {
-    add_test("inertia from impulse, " + impulse.name + " friction",
-             impulse.reflected_inertia.value);
+    add_test("inertia from impulse, " + impulse.name + " friction", impulse.reflected_inertia.value,
+             oil_stiffness(antenna));
   }
   return choices;
 }
@@ -283,7 +287,9 @@ void redesign(const Case& antenna, const StudyOptions& options, Report& report) 
   const auto first_choice = designs.begin() + static_cast<std::ptrdiff_t>(tuning.size());
   const auto first_match = first_choice + static_cast<std::ptrdiff_t>(choice_tasks.size());
   report.tuning = tuning_section(antenna, options, {designs.begin(), first_choice});
-  auto design = first_choice;
+  std::vector<design::Design> chosen(first_choice, first_match);
+  design::improve_along(choice_tasks, chosen);
+  auto design = chosen.begin();
   for (auto& choice : choices) {
     if (choice.task) choice.result.design = std::move(*design++);
     report.choices.push_back(std::move(choice.result));

@@ -52,7 +52,8 @@ std::string either(const std::string& text) {
 
 std::string to_text(const IdentificationSection& section) {
   const auto& inertia = section.inertia;
-  std::string text = heading("Inertia at the motor shaft, by method (95 % intervals)");
+  std::string text = heading(
+      "Inertia at the motor shaft, by method (95 % intervals from the inputs' uncertainties)");
   std::vector<std::vector<std::string>> rows{
       {"method", "J kg.m2", "interval", "lbf.ft.s2", "printed J", "R", "interval", "printed R"}};
   for (std::size_t i = 0; i < inertia.methods.size(); ++i) {
@@ -66,7 +67,13 @@ std::string to_text(const IdentificationSection& section) {
          interval(method.motor_to_load_ratio, 2), either(printed.ratio)});
   }
   text += table(rows);
-  text += "  R = Jm/(J - Jm), all motors against everything else (eq. 27)\n\n";
+  text += wrapped(
+      "R = Jm/(J - Jm), all motors against everything else (eq. 27). What a method leaves out of "
+      "its "
+      "model (flexible antenna, efficiencies in the oil spring, friction law) is not in its "
+      "interval.",
+      "  ");
+  text += "\n";
   for (const auto& method : inertia.methods) {
     const auto& left = method.antenna_remainder;
     text += wrapped(
@@ -84,20 +91,23 @@ std::string to_text(const IdentificationSection& section) {
   if (section.reconciled) {
     const auto& one = *section.reconciled;
     text += "\n";
-    text += wrapped(
-        fmt::format(
-            "Reconciled: J = {:.3f} kg.m2, 95 % interval {:.2f} .. {:.2f}; R = {:.2f}, interval {} "
-            ".. "
-            "{}. Random-effects mean of {} methods (the impulse results count as one); standard "
-            "deviation between methods {:.3f} kg.m2; Cochran's Q {:.1f} on {} degrees of "
-            "freedom{}.",
-            one.value, one.lower, one.upper, one.motor_to_load_ratio, bound(one.ratio_lower, 2),
-            bound(one.ratio_upper, 2), one.degrees_of_freedom + 1, one.between_methods,
-            one.heterogeneity, one.degrees_of_freedom,
-            one.heterogeneity > 2.0 * one.degrees_of_freedom
-                ? ": the methods contradict one another"
-                : ""),
-        "  ");
+    text += wrapped(fmt::format("Reconciled: J = {:.3f} kg.m2, 95 % interval {:.2f} .. {:.2f} "
+                                "(motors and gear train alone "
+                                "are {:.3f}); R = {:.2f}, interval {} .. {}. Random-effects mean "
+                                "of {} methods (the impulse "
+                                "results count as one); standard deviation between methods {:.3f} "
+                                "kg.m2; Cochran's Q {:.1f} "
+                                "on {} degrees of freedom{}.",
+                                one.value, one.lower, one.upper,
+                                inertia.methods.front().reflected_inertia.value -
+                                    inertia.methods.front().antenna_remainder.value,
+                                one.motor_to_load_ratio, bound(one.ratio_lower, 2),
+                                bound(one.ratio_upper, 2), one.degrees_of_freedom + 1,
+                                one.between_methods, one.heterogeneity, one.degrees_of_freedom,
+                                one.heterogeneity > 2.0 * one.degrees_of_freedom
+                                    ? ": the methods contradict one another"
+                                    : ""),
+                    "  ");
   }
   text += heading("What the methods rest on");
   rows = {{"quantity", "value", "interval", "unit", "decided by"}};

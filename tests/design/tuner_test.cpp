@@ -206,8 +206,9 @@ TEST(Tune, RefusesOptionsBelowOne) {
                             &TuningOptions::search_points_per_decade}) {
     TuningOptions options;
     options.*member = 0;
-    EXPECT_THAT([&] { tune(coarse_problem(), LoopStructure::pi, {}, options); },
-                ThrowsMessage<InvalidInput>(HasSubstr("at least 1 starts, 1 evaluation and 1 point")));
+    EXPECT_THAT(
+        [&] { tune(coarse_problem(), LoopStructure::pi, {}, options); },
+        ThrowsMessage<InvalidInput>(HasSubstr("at least 1 starts, 1 evaluation and 1 point")));
   }
 }
 

@@ -30,6 +30,10 @@ struct Candidate {
   LoopEvaluation evaluation;
 };
 
+// A search is started again from where it stopped, at most so often and while it gains so much.
+constexpr int most_restarts = 4;
+constexpr double worthwhile = 0.998;
+
 // Keeps the record of one tuning and answers the optimiser's callbacks.
 class Search {
  public:
@@ -247,9 +251,20 @@ std::vector<Candidate> global_search(const TrackingProblem& problem,
   }
   std::vector<Candidate> found;
   for (int start = 0; start < options.starts && !anchor.empty(); ++start) {
-    search.minimise(search.pull_back(search.random_point(generator), anchor),
-                    options.evaluations_per_start);
-    if (auto best = search.take_best()) found.push_back(std::move(*best));
+    auto point = search.pull_back(search.random_point(generator), anchor);
+    std::optional<Candidate> best;
+    // SLSQP stops where two peaks change places; from there it often goes on with the new pair.
+    for (int restart = 0; restart < most_restarts; ++restart) {
+      search.minimise(point, options.evaluations_per_start);
+      auto next = search.take_best();
+      if (!next || (best && next->evaluation.beam_variance() >
+                                worthwhile * best->evaluation.beam_variance())) {
+        break;
+      }
+      best = std::move(next);
+      point = logarithms(best->law.gains);
+    }
+    if (best) found.push_back(std::move(*best));
   }
   std::stable_sort(found.begin(), found.end(), less);
   result.starts_at_optimum =

@@ -16,7 +16,7 @@ struct HardGoals {
 };
 
 struct TuningOptions {
-  int starts = 24;
+  int starts = 20;
   std::uint64_t seed = 1;
   int evaluations_per_start = 150;
   /// Frequency grid of the search; its best laws are then tuned again on the problem's own grid.

@@ -105,6 +105,28 @@ TEST(LoopEvaluation, HasTheVariancesOfLyapunovEquations) {
   }
 }
 
+TEST(LoopEvaluation, IntegratesOverItsBandOnlyAndBandsAdd) {
+  const auto plant = reference::antenna();
+  const Eigen::ArrayXd w = plant::frequency_grid(plant, 1e-3, 25.0, 60);
+  const Eigen::ArrayXd wind = 1.0 / w;
+  const ControlLaw law{LoopStructure::pi, {0.25, 1.0, 0.4, 0.06}};
+  const double middle = w[w.size() / 2] / reference::two_pi;
+  const auto over = [&](FrequencyBand band) {
+    LoopEvaluator evaluator(plant, w, reference::delay, reference::sensor_noise(), wind, band);
+    return evaluator.evaluate(law, false);
+  };
+  const auto all = over({}), low = over({0.0, middle}), high = over({middle, 25.0});
+  EXPECT_LT(relative_error(low.wind_variance + high.wind_variance, all.wind_variance), 1e-12);
+  EXPECT_LT(relative_error(low.noise_variance + high.noise_variance, all.noise_variance), 1e-12);
+  EXPECT_GT(low.wind_variance, 0.0);
+  EXPECT_GT(high.wind_variance, 0.0);
+  // Peaks and stability are the loop's, not the band's.
+  for (std::size_t b = 0; b < 3; ++b) {
+    EXPECT_EQ(low.highest_peak(loop_breaks[b]), all.highest_peak(loop_breaks[b]));
+  }
+  EXPECT_EQ(low.unstable_closed_loop, all.unstable_closed_loop);
+}
+
 TEST(LoopEvaluation, ScalesWithNoiseAndWind) {
   const auto plant = reference::antenna();
   const Eigen::ArrayXd w = plant::frequency_grid(plant, 1e-3, 25.0, 60);

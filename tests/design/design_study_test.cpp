@@ -109,5 +109,52 @@ TEST(SolveAll, HandsOnTheErrorOfATask) {
   EXPECT_TRUE(solve_all({}, 2, {}).empty());
 }
 
+TEST(Verify, SaysWhyItFails) {
+  const TrackingProblem problem = reference::tracking_problem();
+  HardGoals narrow;
+  narrow.sensitivity_peak = {1.01, 1.01, 1.01};
+  const auto strict = verify(problem, reference::cautious_law(), narrow);
+  EXPECT_FALSE(strict.passed);
+  EXPECT_THAT(strict.failure, testing::HasSubstr("peak of S at"));
+  const auto wild = verify(problem, {LoopStructure::pi, {20.0, 1.0, 0.05, 1e-3}}, {});
+  EXPECT_THAT(wild.failure, testing::HasSubstr("not stable"));
+}
+
+TEST(Verify, DoesNotDependOnTheBandOfTheRms) {
+  TrackingProblem problem = reference::tracking_problem();
+  const auto whole = verify(problem, reference::cautious_law(), {});
+  problem.rms_band = {0.01, 2.0};
+  const auto part = verify(problem, reference::cautious_law(), {});
+  EXPECT_TRUE(part.passed);
+  EXPECT_LT(relative_error(part.spectral_rms, whole.spectral_rms), 1e-4);
+  for (std::size_t b = 0; b < 3; ++b) {
+    EXPECT_LT(relative_error(part.peaks[b].magnitude, whole.peaks[b].magnitude), 1e-9);
+  }
+}
+
+TEST(ImproveAlong, BringsANeighboursOptimumWhereRandomStartsMissedIt) {
+  std::vector<DesignTask> tasks;
+  for (const double disks : {24.0, 21.0, 18.0}) {
+    tasks.push_back(task("", LoopStructure::pi_with_lag, disks));
+  }
+  auto designs = solve_all(tasks, 1, {});
+  // A cautious law in place of the middle's optimum.
+  designs[1].tuning.law = reference::cautious_law();
+  designs[1].tuning.evaluation =
+      make_evaluator(tasks[1].problem).evaluate(designs[1].tuning.law, false);
+  designs[1].tuning.status = TuningStatus::optimal;
+  const auto before = designs;
+  improve_along(tasks, designs);
+  // Fewer disks point better than more (the neighbour's law, re-tuned).
+  EXPECT_LT(designs[1].beam_rms, designs[0].beam_rms);
+  EXPECT_TRUE(designs[1].verification.passed);
+  for (std::size_t i = 0; i < designs.size(); ++i) {
+    EXPECT_LE(designs[i].tuning.evaluation.beam_variance(),
+              before[i].tuning.evaluation.beam_variance());
+  }
+  designs.pop_back();
+  EXPECT_THROW(improve_along(tasks, designs), InvalidInput);
+}
+
 }  // namespace
 }  // namespace boresight::design

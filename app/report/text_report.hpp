@@ -6,7 +6,8 @@
 
 namespace boresight::app {
 
-/// The report as text for a terminal, about 110 columns; angles at the sky in mdeg.
+/// The report as text for a terminal: paragraphs of 108 columns, tables as wide as they need;
+/// angles at the sky in mdeg.
 std::string to_text(const Report& report);
 
 // One function a section; each begins with its heading.

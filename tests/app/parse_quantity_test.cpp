@@ -15,6 +15,7 @@
 #include <gtest/gtest.h>
 
 #include "every_kind.hpp"
+#include "unit_refusal.hpp"
 #include <boresight/app/io/units.hpp>
 
 namespace boresight::app {
@@ -23,21 +24,6 @@ namespace {
 using testing::HasSubstr;
 
 constexpr double pi = std::numbers::pi;
-
-struct Refusal {
-  std::string message;
-  int column = 0;
-};
-
-template <typename Read>
-Refusal refusal_of(Read read) {
-  try {
-    read();
-  } catch (const UnitError& error) {
-    return {error.what(), error.column};
-  }
-  return {"accepted", 0};
-}
 
 Refusal refused_quantity(std::string_view text, Kind kind) {
   return refusal_of([text, kind] { parse_quantity(text, kind); });

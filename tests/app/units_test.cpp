@@ -12,6 +12,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "unit_refusal.hpp"
 #include <boresight/app/io/units.hpp>
 
 namespace boresight::app {
@@ -20,21 +21,6 @@ namespace {
 using testing::HasSubstr;
 
 constexpr double pi = std::numbers::pi;
-
-struct Refusal {
-  std::string message;
-  int column = 0;
-};
-
-template <typename Read>
-Refusal refusal_of(Read read) {
-  try {
-    read();
-  } catch (const UnitError& error) {
-    return {error.what(), error.column};
-  }
-  return {"accepted", 0};
-}
 
 Refusal refused_unit(std::string_view text) {
   return refusal_of([text] { parse_unit(text); });

@@ -1,0 +1,25 @@
+#pragma once
+
+#include <string>
+
+#include <boresight/app/io/units.hpp>
+
+namespace boresight::app {
+
+/// What a unit text was refused with, and where.
+struct Refusal {
+  std::string message;
+  int column = 0;
+};
+
+template <typename Read>
+Refusal refusal_of(Read read) {
+  try {
+    read();
+  } catch (const UnitError& error) {
+    return {error.what(), error.column};
+  }
+  return {"accepted", 0};
+}
+
+}  // namespace boresight::app

@@ -55,8 +55,7 @@ void conclude_identification(const IdentificationSection& section,
     // dR/R = -(1 + R) dJ/J
     text += fmt::format(
         " At R = {:.1f}, 1 % of inertia moves R by {:.1f} %: the ratio is the wrong number to "
-        "argue "
-        "over.",
+        "argue over.",
         ratio, 1.0 + ratio);
   }
   sentences.push_back(std::move(text));
@@ -65,12 +64,10 @@ void conclude_identification(const IdentificationSection& section,
     const auto& needs = methods.front().antenna_remainder;
     if (method.kind != identification::MethodKind::resonance || left.upper >= needs.lower) continue;
     sentences.push_back(fmt::format(
-        "The resonance leaves {:.3f} to {:.3f} kg.m2 for an antenna that the mass properties put "
-        "at "
-        "{:.3f} to {:.3f}: within their input uncertainties the two contradict each other. Oil "
-        "stiffness (bulk modulus, volumes, the efficiencies in it), the masses, or the reading of "
-        "the "
-        "resonance must give way.",
+        "The resonance leaves {:.3f} to {:.3f} kg.m2 for an antenna that the mass properties "
+        "put at {:.3f} to {:.3f}: within their input uncertainties the two contradict each "
+        "other. Oil stiffness (bulk modulus, volumes, the efficiencies in it), the masses, or "
+        "the reading of the resonance must give way.",
         left.lower, left.upper, needs.lower, needs.upper));
   }
 }
@@ -115,10 +112,8 @@ void conclude_tuning(const TuningSection& section, std::vector<std::string>& sen
                                                  section.wind_alternatives.end(), by_rms);
   sentences.push_back(fmt::format(
       "These rms values stand on the wind model {}: the same gains give {:.3f} mdeg by the {} "
-      "model "
-      "and {:.3f} by the {} model. With the encoder held perfectly still, bending that it cannot "
-      "see "
-      "would leave {:.3f} mdeg.",
+      "model and {:.3f} by the {} model. With the encoder held perfectly still, bending that it "
+      "cannot see would leave {:.3f} mdeg.",
       plant::to_string(section.wind_model), least->beam_rms / millidegree,
       plant::to_string(least->model), most->beam_rms / millidegree, plant::to_string(most->model),
       section.encoder_held_rms / millidegree));
@@ -144,14 +139,13 @@ void conclude_matching(const MatchingSection& section, std::vector<std::string>&
   if (unusable > 0) {
     sentences.push_back(
         fmt::format("{} of {} points of the matching study are infeasible or not verified: nothing "
-                    "is concluded "
-                    "from the study.",
+                    "is concluded from the study.",
                     unusable, section.series.size() * section.rows.size()));
     return;
   }
   std::string text = fmt::format(
-      "Going from {} to {} (R from {:.2f} to {:.2f}), re-tuned at each point, changes the beam rms "
-      "by",
+      "Going from {} to {} (R from {:.2f} to {:.2f}), re-tuned at each point, changes the beam "
+      "rms by",
       section.rows.back().label, section.rows.front().label,
       section.rows.back().motor_to_load_ratio, section.rows.front().motor_to_load_ratio);
   for (std::size_t i = 0; i < section.series.size(); ++i) {
@@ -172,8 +166,7 @@ void conclude_matching(const MatchingSection& section, std::vector<std::string>&
     const bool near_unit = best_ratio > 0.7 && best_ratio < 1.4;
     text = fmt::format(
         "With {}, ratio 1 ({:.1f} disks) gives {:.4f} mdeg; the least is {:.4f} at {} (R = "
-        "{:.2f}). "
-        "The one-to-one rule {} here.",
+        "{:.2f}). The one-to-one rule {} here.",
         control::to_string(series.structure), section.rows[i].disks,
         series.designs[i].beam_rms / millidegree, best->beam_rms / millidegree,
         section.rows[at].label, best_ratio, near_unit ? "happens to fit" : "marks nothing special");
@@ -182,8 +175,7 @@ void conclude_matching(const MatchingSection& section, std::vector<std::string>&
   if (std::abs(change(series)) > 5.0 && std::abs(change(section.series.back())) < 2.0) {
     text += fmt::format(
         " With the friction {}, {:.1f} N.m.s/rad, the motors' inertia hardly matters at all: "
-        "measure "
-        "that slope before touching a flywheel.",
+        "measure that slope before touching a flywheel.",
         section.series.back().friction, section.series.back().viscous_friction);
   }
   sentences.push_back(std::move(text));
@@ -199,8 +191,7 @@ std::vector<std::string> conclude(const Report& report) {
   if (report.tuning && !report.assumed.empty()) {
     sentences.push_back(
         fmt::format("{} inputs of this case are assumed, in value or in uncertainty (listed "
-                    "above). Every rms here "
-                    "stands on them until they are measured.",
+                    "above). Every rms here stands on them until they are measured.",
                     report.assumed.size()));
   }
   return sentences;

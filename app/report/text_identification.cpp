@@ -68,10 +68,9 @@ std::string to_text(const IdentificationSection& section) {
   }
   text += table(rows);
   text += wrapped(
-      "R = Jm/(J - Jm), all motors against everything else (eq. 27). What a method leaves out of "
-      "its "
-      "model (flexible antenna, efficiencies in the oil spring, friction law) is not in its "
-      "interval.",
+      "R = Jm/(J - Jm), all motors against everything else (eq. 27). What a method leaves out "
+      "of its model (flexible antenna, efficiencies in the oil spring, friction law) is not in "
+      "its interval.",
       "  ");
   text += "\n";
   for (const auto& method : inertia.methods) {
@@ -92,12 +91,10 @@ std::string to_text(const IdentificationSection& section) {
     const auto& one = *section.reconciled;
     text += "\n";
     text += wrapped(fmt::format("Reconciled: J = {:.3f} kg.m2, 95 % interval {:.2f} .. {:.2f} "
-                                "(motors and gear train alone "
-                                "are {:.3f}); R = {:.2f}, interval {} .. {}. Random-effects mean "
-                                "of {} methods (the impulse "
-                                "results count as one); standard deviation between methods {:.3f} "
-                                "kg.m2; Cochran's Q {:.1f} "
-                                "on {} degrees of freedom{}.",
+                                "(motors and gear train alone are {:.3f}); R = {:.2f}, interval "
+                                "{} .. {}. Random-effects mean of {} methods (the impulse "
+                                "results count as one); standard deviation between methods "
+                                "{:.3f} kg.m2; Cochran's Q {:.1f} on {} degrees of freedom{}.",
                                 one.value, one.lower, one.upper,
                                 inertia.methods.front().reflected_inertia.value -
                                     inertia.methods.front().antenna_remainder.value,

@@ -58,6 +58,11 @@ Verification verify(const TrackingProblem& problem, const control::ControlLaw& l
           verification.peaks[b].magnitude, goals.sensitivity_peak[b]);
     }
   }
+  const double effort = std::sqrt(make_evaluator(problem).evaluate(law, false).effort_variance);
+  if (effort > goals.valve_effort * (1.0 + 1e-6)) {
+    verification.failure = fmt::format("noise-driven valve effort {:.6f} rad/s above {:g}", effort,
+                                       goals.valve_effort);
+  }
   if (!(verification.rms_disagreement < 0.005)) {
     verification.failure = fmt::format("Lyapunov and spectral rms are {:.2g} % apart",
                                        100.0 * verification.rms_disagreement);

@@ -118,6 +118,10 @@ TEST(Verify, SaysWhyItFails) {
   EXPECT_THAT(strict.failure, testing::HasSubstr("peak of S at"));
   const auto wild = verify(problem, {LoopStructure::pi, {20.0, 1.0, 0.05, 1e-3}}, {});
   EXPECT_THAT(wild.failure, testing::HasSubstr("not stable"));
+  HardGoals quiet;
+  quiet.valve_effort = 1e-6;
+  EXPECT_THAT(verify(problem, reference::cautious_law(), quiet).failure,
+              testing::HasSubstr("valve effort"));
 }
 
 TEST(Verify, DoesNotDependOnTheBandOfTheRms) {

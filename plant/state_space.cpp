@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <set>
 
@@ -34,6 +35,23 @@ Eigen::Index index_of(const char* what, const std::vector<std::string>& names,
 
 void append(std::vector<std::string>& names, const std::vector<std::string>& more) {
   names.insert(names.end(), more.begin(), more.end());
+}
+
+// The sample time that all systems with states share.
+double common_sample_time(const std::vector<StateSpace>& systems) {
+  const StateSpace* first = nullptr;
+  for (const auto& system : systems) {
+    if (system.states.empty()) continue;
+    if (first == nullptr) first = &system;
+    if (system.sample_time != first->sample_time) {
+      throw InvalidInput(fmt::format(
+          "connect: expected one sample time, found {} s (with state '{}') and {} s (with state "
+          "'{}'); sample the continuous part first",
+          first->sample_time, first->states.front(), system.sample_time, system.states.front()));
+    }
+  }
+  if (first != nullptr) return first->sample_time;
+  return systems.empty() ? 0.0 : systems.front().sample_time;
 }
 
 // All systems side by side, not connected.
@@ -91,6 +109,11 @@ void validate(const StateSpace& system) {
   refuse_duplicates("input", system.inputs);
   refuse_duplicates("output", system.outputs);
   refuse_duplicates("state", system.states);
+  if (!(system.sample_time >= 0.0 && std::isfinite(system.sample_time))) {
+    throw InvalidInput(
+        fmt::format("state space: expected a sample time of 0 (continuous) or more, found {} s",
+                    system.sample_time));
+  }
 }
 
 Eigen::Index input_index(const StateSpace& system, std::string_view name) {
@@ -217,11 +240,15 @@ StateSpace connect(const std::vector<StateSpace>& systems,
   result.inputs = external_inputs;
   result.outputs = external_outputs;
   result.states = all.states;
+  result.sample_time = common_sample_time(systems);
   return result;
 }
 
 Eigen::MatrixXcd frequency_response(const StateSpace& system, double angular_frequency) {
-  return transfer_matrix(system.a, system.b, system.c, system.d, {0.0, angular_frequency});
+  const std::complex<double> s = system.sample_time > 0.0
+                                     ? std::polar(1.0, angular_frequency * system.sample_time)
+                                     : std::complex<double>{0.0, angular_frequency};
+  return transfer_matrix(system.a, system.b, system.c, system.d, s);
 }
 
 }  // namespace boresight::plant

@@ -9,17 +9,20 @@
 
 namespace boresight::plant {
 
-/// dx/dt = A x + B u, y = C x + D u with a name for every input, output and state.
+/// dx/dt = A x + B u, y = C x + D u with a name for every input, output and state; or, with a
+/// sample time T > 0, x[k+1] = A x[k] + B u[k], y[k] = C x[k] + D u[k] at t = k T.
 /// A: n x n, B: n x inputs, C: outputs x n, D: outputs x inputs.
 struct StateSpace {
   Eigen::MatrixXd a, b, c, d;
   std::vector<std::string> inputs;
   std::vector<std::string> outputs;
   std::vector<std::string> states;
+  double sample_time = 0.0;  // s; 0 for continuous time
 };
 
-/// Refuses shapes that do not fit the names, duplicate names within inputs, outputs or states, and
-/// elements that are not finite. @throws InvalidInput naming the first defect.
+/// Refuses shapes that do not fit the names, duplicate names within inputs, outputs or states,
+/// elements that are not finite and a sample time below 0. @throws InvalidInput naming the first
+/// defect.
 void validate(const StateSpace& system);
 
 /// Position of a name; @throws InvalidInput listing the names there are.
@@ -43,13 +46,15 @@ StateSpace rational(const std::vector<double>& numerator, const std::vector<doub
 /// `external_outputs`, and all states.
 /// @throws InvalidInput for an output name given twice, a state name given twice, an input that
 /// nothing feeds, an external name that does not exist, or one that is also an output (loop to
-/// outside); NumericalFailure for an algebraic loop without solution.
+/// outside), or systems of different sample times (a static gain goes with any); NumericalFailure
+/// for an algebraic loop without solution.
 StateSpace connect(const std::vector<StateSpace>& systems,
                    const std::vector<std::string>& external_inputs,
                    const std::vector<std::string>& external_outputs);
 
-/// C (j w I - A)^-1 B + D, outputs x inputs, at one angular frequency w (rad/s). O(n^3): the
-/// independent check of the O(modes) responses, not for inner loops.
+/// C (s I - A)^-1 B + D, outputs x inputs, at one angular frequency w (rad/s): s = j w, or
+/// z = e^(j w T) in its place where the system is sampled. O(n^3): the independent check of the
+/// faster responses, not for inner loops.
 Eigen::MatrixXcd frequency_response(const StateSpace& system, double angular_frequency);
 
 }  // namespace boresight::plant

@@ -60,14 +60,15 @@ EigenDecomposition eigen_decomposition(const Eigen::MatrixXd& matrix) {
   const Eigen::MatrixXcd vectors = solver.eigenvectors();
   const auto order = order_of(values);
   const Eigen::Index n = values.size();
-  EigenDecomposition result{Eigen::VectorXcd(n), Eigen::MatrixXcd(n, n), {}};
+  EigenDecomposition result{Eigen::VectorXcd(n), Eigen::MatrixXcd(n, n), {}, 1.0};
   for (Eigen::Index i = 0; i < n; ++i) {
     const Eigen::Index from = order[static_cast<std::size_t>(i)];
     result.values[i] = values[from];
     result.right.col(i) = vectors.col(from);
   }
   const Eigen::PartialPivLU<Eigen::MatrixXcd> lu(result.right);
-  if (!(lu.rcond() > 1e-15)) {
+  result.reciprocal_condition = lu.rcond();
+  if (!(result.reciprocal_condition > 1e-15)) {
     throw NumericalFailure(
         "eigen_decomposition: the eigenvectors are dependent to working precision (a defective "
         "matrix)");

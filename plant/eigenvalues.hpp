@@ -14,6 +14,8 @@ struct EigenDecomposition {
   Eigen::VectorXcd values;
   Eigen::MatrixXcd right;
   Eigen::MatrixXcd left;
+  /// Estimate of 1/(|right| |right^-1|), 1-norm: how far from defective.
+  double reciprocal_condition = 1.0;
 };
 
 /// @throws as eigenvalues, and NumericalFailure if the eigenvectors are not independent to

@@ -57,8 +57,10 @@ TEST(EigenDecomposition, HasVectorsOnBothSidesThatAreBiorthogonal) {
   reference::RandomNumbers random(22);
   for (const Eigen::Index n : {1, 2, 7, 16}) {
     const Eigen::MatrixXd matrix = random.matrix(n, n);
-    const auto [values, right, left] = eigen_decomposition(matrix);
+    const auto [values, right, left, reciprocal_condition] = eigen_decomposition(matrix);
     const double size = matrix.norm() * right.norm() * left.norm();
+    EXPECT_GT(reciprocal_condition, 0.01 / size);
+    EXPECT_LE(reciprocal_condition, 1.0);
     EXPECT_LT((matrix * right - right * values.asDiagonal()).norm(), 1e-13 * size);
     EXPECT_LT((left.adjoint() * matrix - values.asDiagonal() * left.adjoint()).norm(),
               1e-13 * size);

@@ -1,0 +1,247 @@
+#include <algorithm>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <boresight/plant/error.hpp>
+#include <boresight/plant/modal_reduction.hpp>
+
+namespace boresight::plant {
+namespace {
+
+using Marks = std::vector<bool>;
+
+// A signal graph: the nodes are the core's inputs, states and outputs, one after another.
+class SignalGraph {
+ public:
+  explicit SignalGraph(const StateSpace& core)
+      : inputs_(core.b.cols()),
+        states_(core.a.rows()),
+        outputs_(core.c.rows()),
+        successors_(static_cast<std::size_t>(inputs_ + states_ + outputs_)),
+        predecessors_(successors_.size()) {
+    add_block(core.b, state(0), input(0));
+    add_block(core.a, state(0), state(0));
+    add_block(core.c, output(0), state(0));
+    add_block(core.d, output(0), input(0));
+  }
+  Eigen::Index input(Eigen::Index i) const { return i; }
+  Eigen::Index state(Eigen::Index i) const { return inputs_ + i; }
+  Eigen::Index output(Eigen::Index i) const { return inputs_ + states_ + i; }
+
+  void add(Eigen::Index from, Eigen::Index to) {
+    successors_[static_cast<std::size_t>(from)].push_back(to);
+    predecessors_[static_cast<std::size_t>(to)].push_back(from);
+  }
+  Marks reached_from(Eigen::Index node) const { return walk(node, successors_); }
+  Marks leading_to(Eigen::Index node) const { return walk(node, predecessors_); }
+
+ private:
+  using Neighbours = std::vector<std::vector<Eigen::Index>>;
+
+  void add_block(const Eigen::MatrixXd& matrix, Eigen::Index to, Eigen::Index from) {
+    for (Eigen::Index i = 0; i < matrix.rows(); ++i) {
+      for (Eigen::Index j = 0; j < matrix.cols(); ++j) {
+        if (matrix(i, j) != 0.0) add(from + j, to + i);
+      }
+    }
+  }
+  static Marks walk(Eigen::Index start, const Neighbours& neighbours) {
+    Marks seen(neighbours.size(), false);
+    std::vector<Eigen::Index> waiting{start};
+    seen[static_cast<std::size_t>(start)] = true;
+    while (!waiting.empty()) {
+      const auto node = static_cast<std::size_t>(waiting.back());
+      waiting.pop_back();
+      for (const Eigen::Index next : neighbours[node]) {
+        if (seen[static_cast<std::size_t>(next)]) continue;
+        seen[static_cast<std::size_t>(next)] = true;
+        waiting.push_back(next);
+      }
+    }
+    return seen;
+  }
+
+  Eigen::Index inputs_, states_, outputs_;
+  Neighbours successors_, predecessors_;
+};
+
+void check_name(const char* what, const std::vector<std::string>& names, std::string_view name) {
+  if (std::find(names.begin(), names.end(), name) == names.end()) {
+    throw InvalidInput(fmt::format("modal system: expected one of the {}s {}, found '{}'", what,
+                                   fmt::join(names, ", "), name));
+  }
+}
+
+// A force, or the signal before a dead time, with all it may move.
+struct Drive {
+  Eigen::Index row;       // of the core's outputs
+  Eigen::Index force;     // -1 for a dead time
+  std::size_t dead_time;  // of a dead time
+};
+
+// A displacement with its rate, or the signal after a dead time.
+struct Back {
+  Eigen::Index column;        // of the core's inputs, -1 for none
+  Eigen::Index rate_column;   // likewise
+  Eigen::Index displacement;  // -1 for a dead time
+  std::size_t dead_time;
+};
+
+Eigen::Index optional_input(const StateSpace& core, const std::string& name) {
+  return name.empty() ? -1 : input_index(core, name);
+}
+
+std::vector<Drive> all_drives(const ModalSystem& system) {
+  std::vector<Drive> drives;
+  for (std::size_t k = 0; k < system.modes.forces.size(); ++k) {
+    drives.push_back(
+        {output_index(system.core, system.modes.forces[k]), static_cast<Eigen::Index>(k), 0});
+  }
+  for (std::size_t k = 0; k < system.dead_times.size(); ++k) {
+    drives.push_back({output_index(system.core, system.dead_times[k].from), -1, k});
+  }
+  return drives;
+}
+
+std::vector<Back> all_returns(const ModalSystem& system) {
+  std::vector<Back> returns;
+  for (std::size_t j = 0; j < system.modes.displacements.size(); ++j) {
+    returns.push_back({optional_input(system.core, system.modes.displacements[j]),
+                       optional_input(system.core, system.modes.rates[j]),
+                       static_cast<Eigen::Index>(j), 0});
+  }
+  for (std::size_t j = 0; j < system.dead_times.size(); ++j) {
+    returns.push_back({input_index(system.core, system.dead_times[j].to), -1, -1, j});
+  }
+  return returns;
+}
+
+bool moves(const ModalSystem& system, const Drive& drive, const Back& back) {
+  if (drive.force < 0 || back.displacement < 0) {
+    return drive.force < 0 && back.displacement < 0 && drive.dead_time == back.dead_time;
+  }
+  return (system.modes.force_shape.col(drive.force).array() *
+              system.modes.displacement_shape.row(back.displacement).transpose().array() !=
+          0.0)
+      .any();
+}
+
+}  // namespace
+
+ModalReduction reduce(const ModalSystem& system, std::string_view input, std::string_view output) {
+  validate(system);
+  check_name("input", system.inputs, input);
+  check_name("output", system.outputs, output);
+  const StateSpace& core = system.core;
+  const auto drives = all_drives(system);
+  const auto returns = all_returns(system);
+
+  SignalGraph graph(core);
+  for (const auto& drive : drives) {
+    for (const auto& back : returns) {
+      if (!moves(system, drive, back)) continue;
+      if (back.column >= 0) graph.add(graph.output(drive.row), graph.input(back.column));
+      if (back.rate_column >= 0) graph.add(graph.output(drive.row), graph.input(back.rate_column));
+    }
+  }
+  const Marks after = graph.reached_from(graph.input(input_index(core, input)));
+  const Marks before = graph.leading_to(graph.output(output_index(core, output)));
+  const auto on_path = [&](Eigen::Index node) {
+    return after[static_cast<std::size_t>(node)] && before[static_cast<std::size_t>(node)];
+  };
+
+  std::vector<Eigen::Index> states, columns{input_index(core, input)},
+      rows{output_index(core, output)};
+  for (Eigen::Index i = 0; i < core.a.rows(); ++i) {
+    if (on_path(graph.state(i))) states.push_back(i);
+  }
+  ModalReduction result;
+  std::vector<const Drive*> kept_drives;
+  for (const auto& drive : drives) {
+    if (!on_path(graph.output(drive.row))) continue;
+    rows.push_back(drive.row);
+    kept_drives.push_back(&drive);
+  }
+  if (kept_drives.size() > most_drives) {
+    throw InvalidInput(fmt::format(
+        "modal system: expected at most {} forces and dead times between '{}' and '{}', found {}",
+        most_drives, input, output, kept_drives.size()));
+  }
+  std::vector<const Back*> kept_returns;
+  for (const auto& back : returns) {
+    const bool direct = back.column >= 0 && on_path(graph.input(back.column));
+    const bool rate = back.rate_column >= 0 && on_path(graph.input(back.rate_column));
+    if (!direct && !rate) continue;
+    kept_returns.push_back(&back);
+    auto& kept = result.returns.emplace_back();
+    const auto column = [&](Eigen::Index from) {
+      columns.push_back(from);
+      return static_cast<Eigen::Index>(columns.size()) - 1;
+    };
+    if (direct) kept.column = column(back.column);
+    if (rate) kept.rate_column = column(back.rate_column);
+    kept.is_dead_time = back.displacement < 0;
+    if (kept.is_dead_time) kept.delay = system.dead_times[back.dead_time].delay;
+  }
+
+  result.core.a = core.a(states, states);
+  result.core.b = core.b(states, columns);
+  result.core.c = core.c(rows, states);
+  result.core.d = core.d(rows, columns);
+  for (const Eigen::Index i : states) {
+    result.core.states.push_back(core.states[static_cast<std::size_t>(i)]);
+  }
+  for (std::size_t i = 0; i < columns.size(); ++i) {
+    result.core.inputs.push_back(fmt::format("column {}", i));
+  }
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    result.core.outputs.push_back(fmt::format("row {}", i));
+  }
+
+  const SignalGraph inner(result.core);
+  result.entry.resize(result.core.d.rows(), result.core.d.cols());
+  for (Eigen::Index c = 0; c < result.core.d.cols(); ++c) {
+    const Marks reached = inner.reached_from(inner.input(c));
+    for (Eigen::Index r = 0; r < result.core.d.rows(); ++r) {
+      result.entry(r, c) = reached[static_cast<std::size_t>(inner.output(r))];
+    }
+  }
+  for (std::size_t k = 0; k < kept_drives.size(); ++k) {
+    result.in_loop.push_back(
+        result.entry.row(static_cast<Eigen::Index>(k) + 1).tail(result.entry.cols() - 1).any());
+  }
+
+  std::vector<Eigen::Index> used_modes;
+  for (Eigen::Index i = 0; i < system.modes.frequency.size(); ++i) {
+    bool used = false;
+    for (const auto* drive : kept_drives) {
+      for (const auto* back : kept_returns) {
+        used = used || (drive->force >= 0 && back->displacement >= 0 &&
+                        system.modes.force_shape(i, drive->force) *
+                                system.modes.displacement_shape(back->displacement, i) !=
+                            0.0);
+      }
+    }
+    if (used) used_modes.push_back(i);
+  }
+  result.mode_frequency = system.modes.frequency(used_modes);
+  result.mode_damping_ratio = system.modes.damping_ratio(used_modes);
+  for (std::size_t k = 0; k < kept_drives.size(); ++k) {
+    for (std::size_t j = 0; j < kept_returns.size(); ++j) {
+      const Drive& drive = *kept_drives[k];
+      const Back& back = *kept_returns[j];
+      if (!moves(system, drive, back)) continue;
+      Eigen::VectorXd gain;
+      if (drive.force >= 0) {
+        gain = system.modes.force_shape(used_modes, drive.force)
+                   .cwiseProduct(
+                       system.modes.displacement_shape(back.displacement, used_modes).transpose());
+      }
+      result.paths.push_back({j, k, std::move(gain)});
+    }
+  }
+  return result;
+}
+
+}  // namespace boresight::plant

@@ -184,6 +184,9 @@ inline Eigen::ArrayXd peer_frequencies() {
   });
 }
 
+/// Sample time of the discrete Riccati equation, s.
+inline constexpr double peer_regulator_period = 0.02;
+
 /// The peers' noise record: splitmix64 from 1, uniform, of variance 1.
 inline Eigen::VectorXd peer_noise(Eigen::Index samples) {
   std::uint64_t state = 1;

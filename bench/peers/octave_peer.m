@@ -1,0 +1,103 @@
+% Octave's control package on the peers' antenna family: octave_peer.m FOLDER MODES ITEM, FOLDER
+% being what write_systems wrote. One JSON line a function: CPU time of one thread (s) and the
+% values found.
+1;
+pkg load control
+warning("off", "all");
+
+function report(item, peer, modes, work)
+  times = [];
+  try
+    while isempty(times) || (sum(times) < 0.3 && numel(times) < 1001)
+      start = cputime();
+      values = work();
+      times(end + 1) = cputime() - start;
+    end
+  catch failure
+    text = strrep(strrep(failure.message, '"', "'"), "\n", " ");
+    printf('{"item": "%s", "peer": "Octave %s", "m": %d, "error": "%s"}\n', item, peer, modes, text);
+    return
+  end
+  printf('{"item": "%s", "peer": "Octave %s", "m": %d, ', item, peer, modes);
+  printf('"min": %.9g, "med": %.9g, "val": [', min(times), median(times));
+  text = sprintf("%.17g, ", values);
+  printf("%s]}\n", strrep(strrep(text(1:end - 2), "Inf", "Infinity"), "NaN", "NaN"));
+end
+
+function system = read_system(folder, name)
+  part = @(letter) load("-ascii", [folder "/" name "_" letter]);
+  system = ss(part("a"), part("b"), part("c"), part("d"));
+end
+
+function values = summary(response)
+  response = response(:);
+  values = [max(abs(response)), sum(real(response)), sum(imag(response))];
+end
+
+function values = rms(a, b, c)
+  values = sqrt(c * lyap(a, b * b') * c');
+end
+
+function values = peak(system)
+  [gain, frequency] = norm(system, inf);
+  values = [gain, frequency];
+end
+
+function values = margins_of(loop)
+  [gain, phase, w_phase, w_gain] = margin(loop);
+  values = [gain, w_phase, NaN, NaN, phase, w_gain];
+end
+
+function values = simulation(system, noise)
+  step = 1e-3;
+  y = lsim(system, noise / sqrt(step), step * (0:numel(noise) - 1)');
+  values = [sqrt(mean(y .^ 2)), y(end), max(abs(y))];
+end
+
+function values = sampling(system)
+  held = c2d(system, 1e-3, "zoh");
+  values = [norm(held.a, "fro"), norm(held.b, "fro")];
+end
+
+arguments = argv();
+folder = arguments{end - 2};
+modes = str2double(arguments{end - 1});
+item = arguments{end};
+place = [folder "/" arguments{end - 1}];
+switch item
+  case "response"
+    system = read_system(place, "wind");
+    frequencies = load("-ascii", [folder "/frequencies"]);
+    report(item, "freqresp", modes, @() summary(freqresp(system, frequencies)));
+  case "rms"
+    system = read_system(place, "rms");
+    report(item, "norm(sys, 2)", modes, @() norm(system, 2));
+    [a, b, c] = ssdata(system);
+    report(item, "lyap", modes, @() rms(a, b, c));
+  case {"sensitivity_peak", "wind_peak"}
+    if strcmp(item, "wind_peak")
+      system = read_system(place, "wind");
+    else
+      system = read_system(place, "sensitivity");
+    end
+    report(item, "norm(sys, inf)", modes, @() peak(system));
+  case "margins"
+    loop = read_system(place, "loop");
+    report(item, "margin", modes, @() margins_of(loop));
+  case "simulation"
+    system = read_system(place, "rms");
+    noise = load("-ascii", [folder "/noise"]);
+    report(item, "lsim", modes, @() simulation(system, noise));
+  case "sampling"
+    system = read_system(place, "rms");
+    report(item, "c2d", modes, @() sampling(system));
+  case "lyapunov"
+    [a, b] = ssdata(read_system(place, "rms"));
+    report(item, "lyap", modes, @() trace(lyap(a, b * b')));
+  case "riccati"
+    [a, b, c] = ssdata(read_system(place, "regulator"));
+    report(item, "care", modes, @() trace(care(a, b, c' * c, 1)));
+  case "discrete_riccati"
+    [a, b, c] = ssdata(read_system(place, "sampled"));
+    report(item, "dare", modes, @() trace(dare(a, b, c' * c, 1)));
+end

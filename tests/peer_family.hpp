@@ -8,6 +8,7 @@
 
 #include <Eigen/Core>
 
+#include <boresight/plant/modal_system.hpp>
 #include <boresight/plant/state_space.hpp>
 
 /// The antenna servo that other programs were measured on (tests/data/reference/peers.json):
@@ -140,6 +141,68 @@ inline plant::StateSpace peer_closed_loop(Eigen::Index modes, const PeerGains& g
   system.c.row(1) = command;
   system.d = Eigen::MatrixXd::Zero(2, 3);
   system.d(1, 2) = 1.0;
+  return system;
+}
+
+/// The same closed loop as modes around a core of ten states, written down on its own: the modes
+/// are driven by the motor's torque and the wind, and bend the motor and the beam.
+inline plant::ModalSystem peer_modal_system(Eigen::Index modes, const PeerGains& gains = {}) {
+  const PeerDrive drive;
+  const PeerModes shape = peer_modes(modes);
+  plant::ModalSystem system;
+  plant::StateSpace& core = system.core;
+  core.states = {"xv", "vv", "T", "om", "th", "omt", "zr", "zp", "w1", "w2"};
+  core.inputs = {"n", "t", "d", "motor bend", "motor bend rate", "beam bend"};
+  core.outputs = {"y", "u", "motor force", "wind force"};
+  enum : Eigen::Index { xv, vv, torque, om, th, omt, zr, zp, w1, w2, states };
+  enum : Eigen::Index { n, t, d, motor, motor_rate, beam, inputs };
+  core.a = Eigen::MatrixXd::Zero(states, states);
+  core.b = Eigen::MatrixXd::Zero(states, inputs);
+  core.c = Eigen::MatrixXd::Zero(4, states);
+  core.d = Eigen::MatrixXd::Zero(4, inputs);
+  const double krp = gains.rate_gain, kpp = gains.position_gain, kpi = gains.position_integral;
+  // u = krp (-kpp (th + motor bend) + kpi zp - omt) + kri zr + d
+  core.c.row(1) << 0.0, 0.0, 0.0, 0.0, -krp * kpp, -krp, gains.rate_integral, krp * kpi, 0.0, 0.0;
+  core.d(1, motor) = -krp * kpp;
+  core.d(1, d) = 1.0;
+  core.c(0, th) = core.d(0, beam) = -drive.arcseconds / drive.gear_ratio;
+  core.c(2, torque) = 1.0;
+  core.c(2, om) = core.d(2, motor_rate) = -drive.friction;
+  core.c(3, w2) = drive.wind_amplitude;
+  core.d(3, t) = 1.0;
+  const double wv = drive.valve_frequency;
+  core.a(xv, vv) = 1.0;
+  core.a.row(vv) = wv * wv * core.c.row(1);
+  core.b.row(vv) = wv * wv * core.d.row(1);
+  core.a(vv, xv) -= wv * wv;
+  core.a(vv, vv) -= 2.0 * drive.valve_damping * wv;
+  core.a(torque, xv) = drive.stiffness;
+  core.a(torque, om) = core.b(torque, motor_rate) = -drive.stiffness;
+  core.a(torque, torque) = -drive.leakage;
+  core.a.row(om) = (core.c.row(2) + core.c.row(3)) / drive.inertia;
+  core.b.row(om) = (core.d.row(2) + core.d.row(3)) / drive.inertia;
+  core.a(th, om) = 1.0;
+  core.a(omt, om) = core.b(omt, motor_rate) = drive.tachometer_corner;
+  core.a(omt, omt) = -drive.tachometer_corner;
+  core.a(zr, th) = core.b(zr, motor) = -kpp;
+  core.a(zr, zp) = kpi;
+  core.a(zr, omt) = -1.0;
+  core.a(zp, th) = core.b(zp, motor) = -1.0;
+  core.a(w1, w1) = -drive.slow_wind_corner;
+  core.b(w1, n) = drive.slow_wind_corner;
+  core.a(w2, w1) = drive.fast_wind_corner;
+  core.a(w2, w2) = -drive.fast_wind_corner;
+  system.modes.frequency = shape.frequency;
+  system.modes.damping_ratio = shape.damping_ratio;
+  system.modes.force_shape.resize(modes, 2);
+  system.modes.force_shape << shape.motor, shape.wind;
+  system.modes.displacement_shape.resize(2, modes);
+  system.modes.displacement_shape << shape.motor.transpose(), shape.beam.transpose();
+  system.modes.forces = {"motor force", "wind force"};
+  system.modes.displacements = {"motor bend", "beam bend"};
+  system.modes.rates = {"motor bend rate", ""};
+  system.inputs = {"n", "t", "d"};
+  system.outputs = {"y", "u"};
   return system;
 }
 

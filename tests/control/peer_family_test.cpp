@@ -6,6 +6,7 @@
 #include "../reference_values.hpp"
 #include <boresight/control/lyapunov.hpp>
 #include <boresight/plant/eigenvalues.hpp>
+#include <boresight/plant/modal_response.hpp>
 
 namespace boresight::control {
 namespace {
@@ -48,6 +49,27 @@ TEST(PeerFamily, OpensAndClosesAtTheValveCommand) {
     const auto sensitivity = plant::frequency_response(closed, w)(0, 0);
     const auto loop = plant::frequency_response(open, w)(0, 0);
     EXPECT_LT(relative_error(sensitivity, 1.0 / (1.0 + loop)), 1e-9) << w;
+  }
+}
+
+TEST(PeerFamily, IsTheSameAsModesAroundACore) {
+  const auto dense = reference::peer_closed_loop(5);
+  const auto modal = reference::peer_modal_system(5);
+  const auto assembled = plant::to_state_space(modal);
+  for (const auto& input : dense.inputs) {
+    for (const auto& output : dense.outputs) {
+      const plant::ModalResponse by_modes(modal, input, output);
+      for (const double w : {0.02, 1.3, 6.3, 11.0, 44.0, 300.0}) {
+        const auto expected =
+            plant::frequency_response(reference::channel(dense, input, output), w)(0, 0);
+        EXPECT_LT(std::abs(by_modes.at(w) - expected), 1e-10 * std::abs(expected) + 1e-12)
+            << input << " to " << output << " at " << w;
+        const auto whole =
+            plant::frequency_response(reference::channel(assembled, input, output), w)(0, 0);
+        EXPECT_LT(std::abs(whole - expected), 1e-10 * std::abs(expected) + 1e-12)
+            << input << " to " << output << " at " << w;
+      }
+    }
   }
 }
 

@@ -1,57 +1,127 @@
-#include <Eigen/Eigenvalues>
+#include <limits>
+#include <utility>
+
 #include <fmt/format.h>
 
 #include <boresight/control/lyapunov.hpp>
+#include <boresight/control/schur_lyapunov.hpp>
+#include <boresight/plant/balance.hpp>
 #include <boresight/plant/error.hpp>
+#include <boresight/plant/real_schur.hpp>
 
 namespace boresight::control {
+namespace {
 
-LyapunovSolution solve_lyapunov(const Eigen::MatrixXd& a, const Eigen::MatrixXd& q) {
+using Eigen::MatrixXd;
+
+constexpr double epsilon = std::numeric_limits<double>::epsilon();
+
+struct Equation {
+  const char* function;
+  TimeDomain domain;
+  bool continuous() const { return domain == TimeDomain::continuous; }
+};
+
+void check_arguments(const Equation& equation, const MatrixXd& a, const MatrixXd& q) {
   const Eigen::Index n = a.rows();
   if (n == 0 || a.cols() != n || q.rows() != n || q.cols() != n) {
-    throw InvalidInput(fmt::format(
-        "solve_lyapunov: expected square A and Q of one size, found {} x {} and {} x {}", a.rows(),
-        a.cols(), q.rows(), q.cols()));
+    throw InvalidInput(
+        fmt::format("{}: expected square A and Q of one size, found {} x {} and {} x {}",
+                    equation.function, a.rows(), a.cols(), q.rows(), q.cols()));
   }
   if (!a.allFinite() || !q.allFinite()) {
-    throw InvalidInput("solve_lyapunov: A or Q has elements that are not finite");
+    throw InvalidInput(
+        fmt::format("{}: A or Q has elements that are not finite", equation.function));
   }
-  const Eigen::ComplexSchur<Eigen::MatrixXd> schur(a);
-  if (schur.info() != Eigen::Success) {
-    throw NumericalFailure("solve_lyapunov: the Schur iteration did not converge");
-  }
-  const Eigen::MatrixXcd& t = schur.matrixT();
-  const Eigen::MatrixXcd& u = schur.matrixU();
-  LyapunovSolution solution;
-  solution.stability_margin = -t.diagonal().real().maxCoeff();
-  if (!(solution.stability_margin > 1e-12 * a.norm())) {
-    throw NumericalFailure(
-        fmt::format("solve_lyapunov: expected the eigenvalues of A left of {:.1g} 1/s (1e-12 of "
-                    "its norm), found "
-                    "one at {:.3g}; remove integrators and free angles that nothing uses",
-                    -1e-12 * a.norm(), -solution.stability_margin));
-  }
-  // T X + X T^H + U^H Q U = 0, column by column from the last.
-  Eigen::MatrixXcd x = -(u.adjoint() * q * u);
-  for (Eigen::Index j = n - 1; j >= 0; --j) {
-    for (Eigen::Index k = j + 1; k < n; ++k) x.col(j) -= std::conj(t(j, k)) * x.col(k);
-    for (Eigen::Index i = n - 1; i >= 0; --i) {
-      std::complex<double> sum = x(i, j);
-      for (Eigen::Index k = i + 1; k < n; ++k) sum -= t(i, k) * x(k, j);
-      x(i, j) = sum / (t(i, i) + std::conj(t(j, j)));
+}
+
+double margin_of(const Equation& equation, const MatrixXd& t, double norm) {
+  const Eigen::VectorXcd values = plant::schur_eigenvalues(t);
+  const double rounding = epsilon * static_cast<double>(t.rows());
+  if (equation.continuous()) {
+    const double margin = -values.real().maxCoeff();
+    if (!(margin > rounding * norm)) {
+      throw NumericalFailure(
+          fmt::format("{}: expected the eigenvalues of A left of {:.1g} 1/s (rounding of its "
+                      "norm), found one at {:.3g}; remove integrators and free angles that "
+                      "nothing uses",
+                      equation.function, -rounding * norm, -margin));
     }
+    return margin;
   }
-  const Eigen::MatrixXd p = (u * x * u.adjoint()).real();
-  solution.covariance = 0.5 * (p + p.transpose());
-  const Eigen::MatrixXd residual =
-      a * solution.covariance + solution.covariance * a.transpose() + q;
-  const double scale = 2.0 * a.norm() * solution.covariance.norm() + q.norm();
-  solution.relative_residual = scale > 0.0 ? residual.norm() / scale : 0.0;
+  const double margin = 1.0 - values.cwiseAbs().maxCoeff();
+  if (!(margin > rounding)) {
+    throw NumericalFailure(
+        fmt::format("{}: expected the eigenvalues of A within the unit circle, found one of "
+                    "magnitude 1 + {:.3g}; remove integrators and free angles that nothing uses",
+                    equation.function, -margin));
+  }
+  return margin;
+}
+
+MatrixXd residual_of(const Equation& equation, const MatrixXd& a, const MatrixXd& p,
+                     const MatrixXd& q) {
+  const MatrixXd ap = a * p;
+  if (equation.continuous()) return ap + ap.transpose() + q;
+  MatrixXd residual = q - p;
+  residual.noalias() += ap * a.transpose();
+  return residual;
+}
+
+LyapunovSolution solve(const Equation& equation, const MatrixXd& a, const MatrixXd& q,
+                       const LyapunovOptions& options) {
+  check_arguments(equation, a, q);
+  const Eigen::VectorXd scale = plant::balancing_scale(a);
+  const Eigen::VectorXd inverse = scale.cwiseInverse();
+  const MatrixXd balanced = inverse.asDiagonal() * a * scale.asDiagonal();
+  const MatrixXd symmetric =
+      inverse.asDiagonal() * (0.5 * (q + q.transpose())) * inverse.asDiagonal();
+  const double norm_a = balanced.norm();
+  const double norm_q = symmetric.norm();
+
+  const plant::RealSchur schur = plant::real_schur(balanced);
+  LyapunovSolution solution;
+  solution.stability_margin = margin_of(equation, schur.t, norm_a);
+  SchurLyapunov equations(schur.t, equation.domain);
+  MatrixXd work = symmetric * schur.u;
+  MatrixXd x = -(schur.u.transpose() * work);
+  equations.solve(x);
+  work.noalias() = schur.u * x;
+  MatrixXd p = work * schur.u.transpose();
+  p = 0.5 * (p + p.transpose()).eval();
+
+  const double norm_p = p.norm();
+  const double norm_residual = residual_of(equation, balanced, p, symmetric).norm();
+  const double size =
+      (equation.continuous() ? 2.0 * norm_a : norm_a * norm_a + 1.0) * norm_p + norm_q;
+  solution.relative_residual = size > 0.0 ? norm_residual / size : 0.0;
   if (!(solution.relative_residual < 1e-9)) {
-    throw NumericalFailure(fmt::format("solve_lyapunov: relative residual {:.1e} exceeds 1e-9",
-                                       solution.relative_residual));
+    throw NumericalFailure(fmt::format("{}: relative residual {:.1e} exceeds 1e-9",
+                                       equation.function, solution.relative_residual));
   }
+  if (options.estimate_condition && norm_p > 0.0) {
+    MatrixXd unit = -MatrixXd::Identity(a.rows(), a.rows());
+    equations.solve(unit);
+    const double inverse_separation = symmetric_norm(unit);
+    const double spectral_p = symmetric_norm(p);
+    const double factor = equation.continuous() ? 2.0 * norm_a : 2.0 * norm_a * norm_a;
+    solution.condition = inverse_separation * (factor + norm_q / spectral_p);
+    solution.error_bound = inverse_separation * (norm_residual + epsilon * size) / spectral_p;
+  }
+  solution.covariance = scale.asDiagonal() * p * scale.asDiagonal();
   return solution;
+}
+
+}  // namespace
+
+LyapunovSolution solve_lyapunov(const MatrixXd& a, const MatrixXd& q,
+                                const LyapunovOptions& options) {
+  return solve({"solve_lyapunov", TimeDomain::continuous}, a, q, options);
+}
+
+LyapunovSolution solve_discrete_lyapunov(const MatrixXd& a, const MatrixXd& q,
+                                         const LyapunovOptions& options) {
+  return solve({"solve_discrete_lyapunov", TimeDomain::sampled}, a, q, options);
 }
 
 }  // namespace boresight::control

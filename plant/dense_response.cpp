@@ -1,0 +1,323 @@
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <type_traits>
+
+#include <Eigen/Eigenvalues>
+#include <fmt/format.h>
+
+#include <boresight/plant/balance.hpp>
+#include <boresight/plant/dense_response.hpp>
+#include <boresight/plant/error.hpp>
+#include <boresight/plant/vector_clones.hpp>
+
+namespace boresight::plant {
+namespace {
+
+using Complex = std::complex<double>;
+
+constexpr double epsilon = std::numeric_limits<double>::epsilon();
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+// As many frequencies as are worked on at a time.
+constexpr int lane_count = 8;
+// NOLINTNEXTLINE(modernize-use-using): the attribute does not stand on an alias.
+typedef double Lanes __attribute__((vector_size(lane_count * sizeof(double))));
+
+// Numbers in the work arrays, one Lane after the other, of any alignment.
+template <typename Lane>
+struct Work {
+  static constexpr Eigen::Index width = std::is_same_v<Lane, double> ? 1 : lane_count;
+
+  [[gnu::always_inline]] static inline void load(Lane& lane, const double* work, Eigen::Index i) {
+    std::memcpy(&lane, work + i * width, sizeof(Lane));
+  }
+  [[gnu::always_inline]] static inline void store(const Lane& lane, double* work, Eigen::Index i) {
+    std::memcpy(work + i * width, &lane, sizeof(Lane));
+  }
+};
+
+template <typename Lane>
+[[gnu::always_inline]] inline void set_magnitude(Lane& out, const Lane& value) {
+  out = value < 0.0 ? -value : value;
+}
+
+// Where x outgrows this, all of it is scaled down: a common factor of x does not matter.
+constexpr double growth_limit = 0x1p+200;
+constexpr double growth_scale = 0x1p-400;
+
+[[gnu::always_inline]] inline bool any_above(double magnitude, double limit) {
+  return magnitude > limit;
+}
+[[gnu::always_inline]] inline bool any_above(const Lanes& magnitude, double limit) {
+  double largest = magnitude[0];
+  for (int l = 1; l < lane_count; ++l) largest = std::max(largest, magnitude[l]);
+  return largest > limit;
+}
+
+// What a substitution leaves: the element of the first row, the size of the terms it is the sum
+// of, and the output that goes with x.
+template <typename Lane>
+struct Substitution {
+  Lane pivot_re, pivot_im, size, output_re, output_im;
+};
+
+// output entry/pivot, the pivot scaled against overflow; infinite where the pivot is rounding.
+Complex quotient(Eigen::Index order, double entry, Complex output, Complex pivot, double size) {
+  const double largest = std::max(std::abs(pivot.real()), std::abs(pivot.imag()));
+  if (!(largest > static_cast<double>(order) * epsilon * size)) return {infinity, 0.0};
+  return output / largest * entry / (pivot / largest);
+}
+
+}  // namespace
+
+struct HymanSubstitution {
+  // x of (s I - H) x = pivot e_1 with the last element 1, into `work`: last element first, real
+  // and imaginary parts alternating.
+  template <typename Lane>
+  [[gnu::always_inline]] static inline void states(const DenseResponse::Reach& reach,
+                                                   const Lane& s_re, const Lane& s_im, double* work,
+                                                   Substitution<Lane>& result) {
+    using X = Work<Lane>;
+    const double* h = reach.elements.data();
+    const Eigen::Index last = reach.order - 1;
+    const Lane zero = s_re * 0.0;
+    Lane x_re = zero + 1.0, x_im = zero;
+    X::store(x_re, work, 0);
+    X::store(x_im, work, 1);
+    for (Eigen::Index i = 0; i < last; ++i) {
+      Lane sum_re = zero, sum_im = zero, other;
+      for (Eigen::Index j = 0; j < i; ++j, ++h) {
+        X::load(other, work, 2 * j);
+        sum_re += *h * other;
+        X::load(other, work, 2 * j + 1);
+        sum_im += *h * other;
+      }
+      const Lane shift = s_re - *h++;
+      const double inverse = *h++;
+      const Lane next_re = (shift * x_re - s_im * x_im - sum_re) * inverse;
+      x_im = (shift * x_im + s_im * x_re - sum_im) * inverse;
+      x_re = next_re;
+      X::store(x_re, work, 2 * i + 2);
+      X::store(x_im, work, 2 * i + 3);
+      Lane magnitude, magnitude_im;
+      set_magnitude(magnitude, x_re);
+      set_magnitude(magnitude_im, x_im);
+      magnitude += magnitude_im;
+      if (any_above(magnitude, growth_limit)) {
+        const Lane one = zero + 1.0;
+        const Lane scale = magnitude > growth_limit ? one * growth_scale : one;
+        for (Eigen::Index j = 0; j < 2 * i + 4; ++j) {
+          X::load(other, work, j);
+          X::store(other * scale, work, j);
+        }
+        x_re *= scale;
+        x_im *= scale;
+      }
+    }
+    Lane sum_re = zero, sum_im = zero, size = zero, other, magnitude;
+    for (Eigen::Index j = 0; j < last; ++j, ++h) {
+      X::load(other, work, 2 * j);
+      other *= *h;
+      sum_re += other;
+      set_magnitude(magnitude, other);
+      size += magnitude;
+      X::load(other, work, 2 * j + 1);
+      other *= *h;
+      sum_im += other;
+      set_magnitude(magnitude, other);
+      size += magnitude;
+    }
+    const Lane shift = s_re - *h;
+    result.pivot_re = shift * x_re - s_im * x_im - sum_re;
+    result.pivot_im = shift * x_im + s_im * x_re - sum_im;
+    Lane s_size, x_size;
+    set_magnitude(s_size, s_re);
+    set_magnitude(magnitude, s_im);
+    s_size += magnitude + std::abs(*h);
+    set_magnitude(x_size, x_re);
+    set_magnitude(magnitude, x_im);
+    x_size += magnitude;
+    result.size = size + s_size * x_size;
+  }
+
+  template <typename Lane>
+  [[gnu::always_inline]] static inline void output(const DenseResponse::Reach& reach,
+                                                   Eigen::Index row, const double* work,
+                                                   Substitution<Lane>& result) {
+    const double* c = reach.output.data() + row * reach.order;
+    Lane re, im, other;
+    Work<Lane>::load(re, work, 0);
+    Work<Lane>::load(im, work, 1);
+    re *= c[0];
+    im *= c[0];
+    for (Eigen::Index j = 1; j < reach.order; ++j) {
+      Work<Lane>::load(other, work, 2 * j);
+      re += c[j] * other;
+      Work<Lane>::load(other, work, 2 * j + 1);
+      im += c[j] * other;
+    }
+    result.output_re = re;
+    result.output_im = im;
+  }
+
+  // `s`: real parts of lane_count points, then the imaginary ones; `result`: a Substitution.
+  BORESIGHT_VECTOR_CLONES static void lanes(const DenseResponse::Reach& reach, const double* s,
+                                            Eigen::Index row, double* work, double* result) {
+    Lanes s_re, s_im;
+    Work<Lanes>::load(s_re, s, 0);
+    Work<Lanes>::load(s_im, s, 1);
+    Substitution<Lanes> sums{};
+    states(reach, s_re, s_im, work, sums);
+    output(reach, row, work, sums);
+    std::memcpy(result, &sums, sizeof(sums));
+  }
+};
+
+DenseResponse::DenseResponse(const StateSpace& system)
+    : order_(system.a.rows()), sample_time_(system.sample_time), feedthrough_(system.d) {
+  validate(system);
+  StateSpace scaled = balanced(system);
+  if (sample_time_ > 0.0) scaled.a.diagonal().array() -= 1.0;
+  if (order_ > 0) balanced_norm_ = scaled.a.cwiseAbs().colwise().sum().maxCoeff();
+  const Eigen::Index n = order_;
+  Eigen::MatrixXd bordered = Eigen::MatrixXd::Zero(n + 1, n + 1);
+  for (Eigen::Index input = 0; input < scaled.b.cols(); ++input) {
+    Reach reach;
+    const Eigen::VectorXd b = scaled.b.col(input);
+    if (n > 0 && b.cwiseAbs().maxCoeff() > 0.0) {
+      // Hessenberg form of [0 0; b A]: the first reflection turns b onto the first unit vector.
+      const double size = b.stableNorm();
+      bordered.setZero();
+      bordered.bottomLeftCorner(n, 1) = b / size;
+      bordered.bottomRightCorner(n, n) = scaled.a;
+      const Eigen::HessenbergDecomposition<Eigen::MatrixXd> reduction(bordered);
+      const Eigen::MatrixXd reduced = reduction.matrixH();
+      const auto h = reduced.bottomRightCorner(n, n);
+      reach.entry = reduced(1, 0) * size;
+      Eigen::MatrixXd rows = Eigen::MatrixXd::Zero(scaled.c.rows(), n + 1);
+      rows.rightCols(n) = scaled.c;
+      rows = rows * reduction.matrixQ();
+      Eigen::Index reached = 1;
+      while (reached < n && std::abs(h(reached, reached - 1)) >
+                                epsilon * (std::abs(h(reached, reached)) +
+                                           std::abs(h(reached - 1, reached - 1)))) {
+        ++reached;
+      }
+      reach.order = reached;
+      for (Eigen::Index i = reached - 1; i >= 0; --i) {
+        for (Eigen::Index j = reached - 1; j >= i; --j) reach.elements.push_back(h(i, j));
+        if (i > 0) reach.elements.push_back(1.0 / h(i, i - 1));
+      }
+      // In the order of x: last state first.
+      reach.output = rows.middleCols(1, reached).rowwise().reverse().transpose();
+    }
+    reach_.push_back(std::move(reach));
+  }
+  work_.resize(static_cast<std::size_t>(2 * n * lane_count));
+}
+
+bool DenseResponse::evaluate(Complex s, Eigen::MatrixXcd& response) {
+  if (!std::isfinite(s.real()) || !std::isfinite(s.imag())) {
+    throw InvalidInput(
+        fmt::format("DenseResponse: expected a finite s, found {} + {}j", s.real(), s.imag()));
+  }
+  if (sample_time_ > 0.0) s -= 1.0;
+  response.resize(outputs(), inputs());
+  bool regular = true;
+  for (Eigen::Index input = 0; input < inputs(); ++input) {
+    const Reach& reach = reach_[static_cast<std::size_t>(input)];
+    if (reach.order == 0) {
+      response.col(input) = feedthrough_.col(input).cast<Complex>();
+      continue;
+    }
+    Substitution<double> sums{};
+    HymanSubstitution::states(reach, s.real(), s.imag(), work_.data(), sums);
+    for (Eigen::Index row = 0; row < outputs(); ++row) {
+      HymanSubstitution::output(reach, row, work_.data(), sums);
+      const Complex value = quotient(reach.order, reach.entry, {sums.output_re, sums.output_im},
+                                     {sums.pivot_re, sums.pivot_im}, sums.size);
+      if (std::isinf(value.real())) regular = false;
+      response(row, input) = feedthrough_(row, input) + value;
+    }
+  }
+  return regular;
+}
+
+Eigen::MatrixXcd DenseResponse::at(Complex s) {
+  Eigen::MatrixXcd response;
+  if (!evaluate(s, response)) {
+    throw NumericalFailure(fmt::format(
+        "DenseResponse: {} = {} + {}j is a pole of the system to working precision; move off it",
+        sample_time_ > 0.0 ? "z" : "s", s.real(), s.imag()));
+  }
+  return response;
+}
+
+// s, or z - 1 without cancellation.
+Complex DenseResponse::point(double angular_frequency) const {
+  if (!std::isfinite(angular_frequency)) {
+    throw InvalidInput(fmt::format("DenseResponse: expected a finite angular frequency, found {}",
+                                   angular_frequency));
+  }
+  if (sample_time_ == 0.0) return {0.0, angular_frequency};
+  const double half = std::sin(0.5 * angular_frequency * sample_time_);
+  return {-2.0 * half * half, std::sin(angular_frequency * sample_time_)};
+}
+
+void DenseResponse::check_channel(Eigen::Index output, Eigen::Index input) const {
+  if (output < 0 || output >= outputs() || input < 0 || input >= inputs()) {
+    throw InvalidInput(fmt::format(
+        "DenseResponse: expected an output below {} and an input below {}, found {} and {}",
+        outputs(), inputs(), output, input));
+  }
+}
+
+Complex DenseResponse::channel(double angular_frequency, Eigen::Index output, Eigen::Index input) {
+  check_channel(output, input);
+  const Reach& reach = reach_[static_cast<std::size_t>(input)];
+  if (reach.order == 0) return feedthrough_(output, input);
+  const Complex s = point(angular_frequency);
+  Substitution<double> sums{};
+  HymanSubstitution::states(reach, s.real(), s.imag(), work_.data(), sums);
+  HymanSubstitution::output(reach, output, work_.data(), sums);
+  return feedthrough_(output, input) + quotient(reach.order, reach.entry,
+                                                {sums.output_re, sums.output_im},
+                                                {sums.pivot_re, sums.pivot_im}, sums.size);
+}
+
+void DenseResponse::evaluate(const Eigen::ArrayXd& angular_frequency, Eigen::ArrayXcd& response,
+                             Eigen::Index output, Eigen::Index input) {
+  check_channel(output, input);
+  const Eigen::Index count = angular_frequency.size();
+  response.resize(count);
+  const Reach& reach = reach_[static_cast<std::size_t>(input)];
+  const double direct = feedthrough_(output, input);
+  if (reach.order == 0) {
+    response.setConstant(direct);
+    return;
+  }
+  constexpr auto width = static_cast<std::size_t>(lane_count);
+  std::array<double, 2 * width> s{};
+  std::array<double, sizeof(Substitution<Lanes>) / sizeof(double)> sums{};
+  for (Eigen::Index first = 0; first < count; first += lane_count) {
+    const Eigen::Index filled = std::min<Eigen::Index>(lane_count, count - first);
+    for (std::size_t l = 0; l < width; ++l) {
+      const auto offset = std::min(static_cast<Eigen::Index>(l), filled - 1);
+      const Complex at = point(angular_frequency[first + offset]);
+      s[l] = at.real();
+      s[width + l] = at.imag();
+    }
+    HymanSubstitution::lanes(reach, s.data(), output, work_.data(), sums.data());
+    for (Eigen::Index l = 0; l < filled; ++l) {
+      const double* sum = sums.data() + l;
+      response[first + l] =
+          direct + quotient(reach.order, reach.entry, {sum[3 * width], sum[4 * width]},
+                            {sum[0], sum[width]}, sum[2 * width]);
+    }
+  }
+}
+
+}  // namespace boresight::plant

@@ -47,7 +47,7 @@ void check(const StateSpace& system, double sample_time, SamplingMethod method,
     if (method != SamplingMethod::tustin) {
       throw InvalidInput("sample: prewarp_frequency goes with Tustin's method only");
     }
-    if (!(options.prewarp_frequency > 0.0 && options.prewarp_frequency < nyquist)) {
+    if (!(options.prewarp_frequency > 0.0) || !(options.prewarp_frequency < nyquist)) {
       throw InvalidInput(
           fmt::format("sample: expected a prewarp_frequency between 0 and pi/T = {:.6g} rad/s, "
                       "found {} rad/s",

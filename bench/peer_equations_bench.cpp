@@ -1,0 +1,35 @@
+// Matrix equations of the peers' family: 20 states with 5 modes.
+#include <benchmark/benchmark.h>
+
+#include "../tests/peer_family.hpp"
+#include <boresight/control/lyapunov.hpp>
+
+namespace {
+
+using namespace boresight;
+
+plant::StateSpace noise_to_pointing(const benchmark::State& state) {
+  return reference::channel(reference::peer_closed_loop(state.range(0)), "n", "y");
+}
+
+void lyapunov(benchmark::State& state, bool estimate_condition) {
+  const auto system = noise_to_pointing(state);
+  const Eigen::MatrixXd intensity = system.b * system.b.transpose();
+  double trace = 0.0;
+  for (auto _ : state) {
+    trace = control::solve_lyapunov(system.a, intensity, {estimate_condition}).covariance.trace();
+  }
+  state.counters["value0"] = trace;
+}
+
+void peer_lyapunov_with_condition(benchmark::State& state) {
+  lyapunov(state, true);
+}
+BENCHMARK(peer_lyapunov_with_condition)->Arg(5)->Arg(20)->Arg(50)->Arg(150);
+
+void peer_lyapunov_alone(benchmark::State& state) {
+  lyapunov(state, false);
+}
+BENCHMARK(peer_lyapunov_alone)->Arg(5)->Arg(20)->Arg(50)->Arg(150);
+
+}  // namespace

@@ -5,6 +5,7 @@
 
 #include <boresight/control/lyapunov.hpp>
 #include <boresight/control/schur_lyapunov.hpp>
+#include <boresight/control/stability_margin.hpp>
 #include <boresight/plant/balance.hpp>
 #include <boresight/plant/error.hpp>
 #include <boresight/plant/real_schur.hpp>
@@ -35,30 +36,6 @@ void check_arguments(const Equation& equation, const MatrixXd& a, const MatrixXd
   }
 }
 
-double margin_of(const Equation& equation, const MatrixXd& t, double norm) {
-  const Eigen::VectorXcd values = plant::schur_eigenvalues(t);
-  const double rounding = epsilon * static_cast<double>(t.rows());
-  if (equation.continuous()) {
-    const double margin = -values.real().maxCoeff();
-    if (!(margin > rounding * norm)) {
-      throw NumericalFailure(
-          fmt::format("{}: expected the eigenvalues of A left of {:.1g} 1/s (rounding of its "
-                      "norm), found one at {:.3g}; remove integrators and free angles that "
-                      "nothing uses",
-                      equation.function, -rounding * norm, -margin));
-    }
-    return margin;
-  }
-  const double margin = 1.0 - values.cwiseAbs().maxCoeff();
-  if (!(margin > rounding)) {
-    throw NumericalFailure(
-        fmt::format("{}: expected the eigenvalues of A within the unit circle, found one of "
-                    "magnitude 1 + {:.3g}; remove integrators and free angles that nothing uses",
-                    equation.function, -margin));
-  }
-  return margin;
-}
-
 MatrixXd residual_of(const Equation& equation, const MatrixXd& a, const MatrixXd& p,
                      const MatrixXd& q) {
   const MatrixXd ap = a * p;
@@ -81,7 +58,8 @@ LyapunovSolution solve(const Equation& equation, const MatrixXd& a, const Matrix
 
   const plant::RealSchur schur = plant::real_schur(balanced);
   LyapunovSolution solution;
-  solution.stability_margin = margin_of(equation, schur.t, norm_a);
+  solution.stability_margin = require_stable(
+      equation.function, stability_margin(schur.t, norm_a, equation.domain), equation.domain);
   SchurLyapunov equations(schur.t, equation.domain);
   MatrixXd work = symmetric * schur.u;
   MatrixXd x = -(schur.u.transpose() * work);

@@ -10,6 +10,11 @@ namespace boresight::plant {
 Eigen::MatrixXd linear_solve(const Eigen::MatrixXd& matrix, const Eigen::MatrixXd& right_hand_side,
                              const char* what);
 
+/// Solves a complex system by LU with partial pivoting; the result is not finite where the matrix
+/// is singular. @throws InvalidInput for shapes that do not fit.
+Eigen::MatrixXcd complex_solve(const Eigen::MatrixXcd& matrix,
+                               const Eigen::MatrixXcd& right_hand_side);
+
 /// C (s I - A)^-1 B + D at one complex s.
 Eigen::MatrixXcd transfer_matrix(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b,
                                  const Eigen::MatrixXd& c, const Eigen::MatrixXd& d,

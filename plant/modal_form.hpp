@@ -18,6 +18,13 @@ struct ModalForm {
   Eigen::MatrixXcd input;   // k x inputs
   Eigen::MatrixXcd output;  // outputs x k
   Eigen::MatrixXd feedthrough;
+  /// What brings each pole nearer to that of the system given: the poles above belong, as rounding
+  /// left them, with these inputs and outputs. By the two-sided Rayleigh quotient in long double.
+  Eigen::VectorXcd pole_correction;
+  /// What rounding leaves uncertain of each corrected pole, in magnitude (an estimate).
+  Eigen::VectorXd pole_error;
+  /// The same of its input and output, relative to the largest elements.
+  Eigen::VectorXd vector_error;
   /// Condition of the eigenvectors of the balanced system, 1-norm: rounding errors of a response
   /// by modes are some 1e-16 times this, relative to the largest of its terms.
   double condition = 1.0;

@@ -3,7 +3,10 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <boresight/plant/balance.hpp>
+#include <boresight/plant/eigenvalues.hpp>
 #include <boresight/plant/error.hpp>
+#include <boresight/plant/linear_solve.hpp>
 #include <boresight/plant/modal_reduction.hpp>
 
 namespace boresight::plant {
@@ -127,6 +130,83 @@ bool moves(const ModalSystem& system, const Drive& drive, const Back& back) {
       .any();
 }
 
+// Which entries of the core there are, and which drives depend on a return.
+void find_loops(ModalReduction& reduction) {
+  const SignalGraph inner(reduction.core);
+  reduction.entry.resize(reduction.core.d.rows(), reduction.core.d.cols());
+  for (Eigen::Index c = 0; c < reduction.core.d.cols(); ++c) {
+    const Marks reached = inner.reached_from(inner.input(c));
+    for (Eigen::Index r = 0; r < reduction.core.d.rows(); ++r) {
+      reduction.entry(r, c) = reached[static_cast<std::size_t>(inner.output(r))];
+    }
+  }
+  const Eigen::Index returns = reduction.entry.cols() - 1;
+  for (Eigen::Index row = 1; row < reduction.entry.rows(); ++row) {
+    reduction.in_loop.push_back(reduction.entry.row(row).tail(returns).any());
+  }
+}
+
+bool has_pole_on_axis(const StateSpace& core) {
+  if (core.a.size() == 0) return false;
+  const Eigen::VectorXcd poles = eigenvalues(balanced(core).a);
+  const double highest = poles.cwiseAbs().maxCoeff();
+  return (poles.real().array().abs() <= 1e-9 * highest).any();
+}
+
+// Integrators of the core that only a loop through modes or dead times holds: the loop is closed
+// with its gain at frequency 0, and what is left of it vanishes there.
+void close_statically(ModalReduction& reduction) {
+  if (reduction.paths.empty() || !has_pole_on_axis(reduction.core)) return;
+  StateSpace& core = reduction.core;
+  // Only the displacement has a gain at frequency 0: its rate becomes a return of its own.
+  for (std::size_t j = 0, count = reduction.returns.size(); j < count; ++j) {
+    if (reduction.returns[j].column < 0 || reduction.returns[j].rate_column < 0) continue;
+    ModalReduction::Return rate;
+    std::swap(rate.rate_column, reduction.returns[j].rate_column);
+    for (std::size_t p = 0, paths = reduction.paths.size(); p < paths; ++p) {
+      if (reduction.paths[p].to_return != j) continue;
+      auto copy = reduction.paths[p];
+      copy.to_return = reduction.returns.size();
+      reduction.paths.push_back(std::move(copy));
+    }
+    reduction.returns.push_back(rate);
+  }
+  Eigen::MatrixXd back = Eigen::MatrixXd::Zero(core.b.cols(), core.c.rows());
+  std::vector<double> within(reduction.paths.size(), 0.0);
+  for (std::size_t p = 0; p < reduction.paths.size(); ++p) {
+    const auto& path = reduction.paths[p];
+    const Eigen::Index column = reduction.returns[path.to_return].column;
+    if (column < 0) continue;
+    double gain = 1.0;
+    if (path.gain.size() > 0) {
+      gain = 0.0;
+      for (Eigen::Index i = 0; i < path.gain.size(); ++i) {
+        const double w = reduction.mode_frequency[i];
+        if (w > 0.0) gain += path.gain[i] / (w * w);
+      }
+    }
+    within[p] = gain;
+    back(column, static_cast<Eigen::Index>(path.from_drive) + 1) = gain;
+  }
+  const Eigen::Index columns = core.b.cols();
+  const Eigen::MatrixXd loop = Eigen::MatrixXd::Identity(columns, columns) - back * core.d;
+  Eigen::MatrixXd right(columns, core.a.cols() + columns);
+  right << back * core.c, Eigen::MatrixXd::Identity(columns, columns);
+  Eigen::MatrixXd solved;
+  try {
+    solved = linear_solve(loop, right, "the loops at frequency 0");
+  } catch (const NumericalFailure&) {
+    return;
+  }
+  const Eigen::MatrixXd from_states = solved.leftCols(core.a.cols());
+  const Eigen::MatrixXd from_inputs = solved.rightCols(columns);
+  core.a += core.b * from_states;
+  core.c += core.d * from_states;
+  core.b = (core.b * from_inputs).eval();
+  core.d = (core.d * from_inputs).eval();
+  for (std::size_t p = 0; p < within.size(); ++p) reduction.paths[p].within_core = within[p];
+}
+
 }  // namespace
 
 ModalReduction reduce(const ModalSystem& system, std::string_view input, std::string_view output) {
@@ -199,19 +279,6 @@ ModalReduction reduce(const ModalSystem& system, std::string_view input, std::st
     result.core.outputs.push_back(fmt::format("row {}", i));
   }
 
-  const SignalGraph inner(result.core);
-  result.entry.resize(result.core.d.rows(), result.core.d.cols());
-  for (Eigen::Index c = 0; c < result.core.d.cols(); ++c) {
-    const Marks reached = inner.reached_from(inner.input(c));
-    for (Eigen::Index r = 0; r < result.core.d.rows(); ++r) {
-      result.entry(r, c) = reached[static_cast<std::size_t>(inner.output(r))];
-    }
-  }
-  for (std::size_t k = 0; k < kept_drives.size(); ++k) {
-    result.in_loop.push_back(
-        result.entry.row(static_cast<Eigen::Index>(k) + 1).tail(result.entry.cols() - 1).any());
-  }
-
   std::vector<Eigen::Index> used_modes;
   for (Eigen::Index i = 0; i < system.modes.frequency.size(); ++i) {
     bool used = false;
@@ -241,6 +308,8 @@ ModalReduction reduce(const ModalSystem& system, std::string_view input, std::st
       result.paths.push_back({j, k, std::move(gain)});
     }
   }
+  close_statically(result);
+  find_loops(result);
   return result;
 }
 

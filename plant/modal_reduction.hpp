@@ -30,6 +30,9 @@ struct ModalReduction {
     std::size_t to_return = 0;
     std::size_t from_drive = 0;
     Eigen::VectorXd gain;  // of each mode; empty for a dead time
+    /// What of the path is in the core already: its value at frequency 0 where the core alone has
+    /// poles on the axis (integrators) that the whole has not, else 0. To be taken off.
+    double within_core = 0.0;
   };
   std::vector<Path> paths;
 

@@ -321,6 +321,11 @@ void ModalResponse::evaluate_block(const double* w, int n, Complex* result) cons
       transfer[p]->im[i] = -std::sin(w[i] * delay);
     }
   }
+  for (std::size_t p = 0; p < reduction_.paths.size(); ++p) {
+    const double within = reduction_.paths[p].within_core;
+    if (within == 0.0) continue;
+    for (int i = 0; i < n; ++i) transfer[p]->re[i] -= within;
+  }
   const auto path = [&](std::size_t to, std::size_t from) -> Lanes* {
     const int number = path_number_[to][from];
     return number < 0 ? nullptr : transfer[number];

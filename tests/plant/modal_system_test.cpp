@@ -3,7 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "../peer_modal_family.hpp"
+#include "../peer_family.hpp"
 #include "../random_numbers.hpp"
 #include <boresight/plant/error.hpp>
 #include <boresight/plant/modal_system.hpp>
@@ -59,11 +59,11 @@ TEST(ModalSystem, NamesEachDefect) {
          "expected the rates' names as 2 x 1, found 1 x 1");
   refuse([](ModalSystem& s) { s.modes.forces[0] = "torque"; }, "found 'torque'");
   refuse([](ModalSystem& s) { s.modes.displacements[1] = ""; },
-         "expected the core's input 'beam angle' to be fed once, found nothing feeding it");
-  refuse([](ModalSystem& s) { s.modes.displacements[1] = "motor angle"; },
-         "expected the core's input 'beam angle' to be fed once");
-  refuse([](ModalSystem& s) { s.inputs.push_back("motor rate"); },
-         "expected the core's input 'motor rate' to be fed once, found 2 things feeding it");
+         "expected the core's input 'beam bend' to be fed once, found nothing feeding it");
+  refuse([](ModalSystem& s) { s.modes.displacements[1] = "motor bend"; },
+         "expected the core's input 'beam bend' to be fed once");
+  refuse([](ModalSystem& s) { s.inputs.push_back("motor bend rate"); },
+         "expected the core's input 'motor bend rate' to be fed once, found 2 things feeding it");
   refuse([](ModalSystem& s) { s.core.sample_time = 0.02; }, "expected a continuous core");
   refuse(
       [](ModalSystem& s) {

@@ -3,6 +3,7 @@
 
 #include "../tests/peer_family.hpp"
 #include <boresight/plant/sampling.hpp>
+#include <boresight/plant/time_response.hpp>
 
 namespace {
 
@@ -18,5 +19,32 @@ void peer_sampling_zero_order_hold(benchmark::State& state) {
   state.counters["value1"] = sampled.b.norm();
 }
 BENCHMARK(peer_sampling_zero_order_hold)->Arg(5)->Arg(20)->Arg(50)->Arg(150);
+
+void simulation(benchmark::State& state, plant::Interpolation interpolation) {
+  const auto system = reference::channel(reference::peer_closed_loop(state.range(0)), "n", "y");
+  const Eigen::MatrixXd noise = reference::peer_noise(600'000) / std::sqrt(step);
+  Eigen::MatrixXd output(noise.rows(), 1);
+  for (auto _ : state) {
+    plant::LinearSimulation(system, step, {.interpolation = interpolation}).simulate(noise, output);
+  }
+  state.counters["value0"] = std::sqrt(output.squaredNorm() / static_cast<double>(output.rows()));
+  state.counters["value1"] = output(output.rows() - 1, 0);
+  state.counters["value2"] = output.cwiseAbs().maxCoeff();
+}
+
+void peer_simulation_zero_order_hold(benchmark::State& state) {
+  simulation(state, plant::Interpolation::zero_order_hold);
+}
+BENCHMARK(peer_simulation_zero_order_hold)
+    ->Arg(5)
+    ->Arg(20)
+    ->Arg(50)
+    ->Arg(150)
+    ->Unit(benchmark::kMillisecond);
+
+void straight_simulation(benchmark::State& state) {
+  simulation(state, plant::Interpolation::first_order_hold);
+}
+BENCHMARK(straight_simulation)->Arg(5)->Arg(50)->Unit(benchmark::kMillisecond);
 
 }  // namespace

@@ -9,6 +9,7 @@
 #include "allocation_count.hpp"
 #include <boresight/plant/dense_response.hpp>
 #include <boresight/plant/modal_response.hpp>
+#include <boresight/plant/time_response.hpp>
 
 // What is prepared once and then called many times asks for no memory at all when it is called.
 namespace boresight {
@@ -54,6 +55,21 @@ TEST(Allocations, NoneInTheResponseOfADenseSystem) {
             }),
             0);
   EXPECT_TRUE(finite);
+}
+
+TEST(Allocations, NoneInTheStepsOfASimulation) {
+  const Eigen::MatrixXd input = reference::peer_noise(5000);
+  Eigen::MatrixXd output(input.rows(), 1);
+  const auto system = reference::channel(reference::peer_closed_loop(20), "n", "y");
+  for (const double largest_condition : {1e12, 0.0}) {
+    for (const auto interpolation :
+         {plant::Interpolation::zero_order_hold, plant::Interpolation::first_order_hold}) {
+      plant::LinearSimulation simulation(system, 1e-3, {interpolation, largest_condition});
+      EXPECT_EQ(simulation.by_modes(), largest_condition > 0.0);
+      simulation.simulate(input, output);  // the first sample of a record may take some
+      EXPECT_EQ(allocations_of([&] { simulation.simulate(input, output); }), 0);
+    }
+  }
 }
 
 // Polishing the peaks and returning them takes memory; nothing is asked for frequency by frequency.

@@ -4,8 +4,8 @@
 #include <cstring>
 #include <limits>
 #include <type_traits>
+#include <utility>
 
-#include <Eigen/Eigenvalues>
 #include <fmt/format.h>
 
 #include <boresight/plant/balance.hpp>
@@ -55,6 +55,38 @@ constexpr double growth_scale = 0x1p-400;
   double largest = magnitude[0];
   for (int l = 1; l < lane_count; ++l) largest = std::max(largest, magnitude[l]);
   return largest > limit;
+}
+
+// Turns A into Hessenberg form and b into a multiple of the first unit vector by elementary
+// transformations with pivoting, and takes C along; returns how many states b reaches.
+Eigen::Index reduce(Eigen::MatrixXd& a, Eigen::VectorXd& b, Eigen::MatrixXd& c) {
+  const Eigen::Index n = a.rows();
+  Eigen::VectorXd multipliers(n);
+  for (Eigen::Index k = 0; k < n; ++k) {
+    // The column whose elements below k are to vanish; `before` is the column of A that it is.
+    const Eigen::Index before = k - 1;
+    Eigen::Map<Eigen::VectorXd> column(k == 0 ? b.data() : a.col(before).data(), n);
+    Eigen::Index pivot = 0;
+    const double largest = column.tail(n - k).cwiseAbs().maxCoeff(&pivot);
+    pivot += k;
+    const double neighbours =
+        k == 0 ? 0.0 : std::abs(a(before, before)) + std::abs(a(pivot, pivot));
+    if (!(largest > epsilon * neighbours)) return k;
+    if (pivot != k) {
+      std::swap(column[pivot], column[k]);
+      a.row(pivot).tail(n - k).swap(a.row(k).tail(n - k));
+      a.col(pivot).swap(a.col(k));
+      c.col(pivot).swap(c.col(k));
+    }
+    const Eigen::Index below = n - k - 1;
+    auto multiplier = multipliers.head(below);
+    multiplier = column.tail(below) / column[k];
+    column.tail(below).setZero();
+    a.bottomRightCorner(below, n - k).noalias() -= multiplier * a.row(k).tail(n - k);
+    a.col(k).noalias() += a.rightCols(below) * multiplier;
+    c.col(k).noalias() += c.rightCols(below) * multiplier;
+  }
+  return n;
 }
 
 // What a substitution leaves: the element of the first row, the size of the terms it is the sum
@@ -183,37 +215,18 @@ DenseResponse::DenseResponse(const StateSpace& system)
   if (sample_time_ > 0.0) scaled.a.diagonal().array() -= 1.0;
   if (order_ > 0) balanced_norm_ = scaled.a.cwiseAbs().colwise().sum().maxCoeff();
   const Eigen::Index n = order_;
-  Eigen::MatrixXd bordered = Eigen::MatrixXd::Zero(n + 1, n + 1);
   for (Eigen::Index input = 0; input < scaled.b.cols(); ++input) {
+    Eigen::MatrixXd h = scaled.a, c = scaled.c;
+    Eigen::VectorXd b = scaled.b.col(input);
     Reach reach;
-    const Eigen::VectorXd b = scaled.b.col(input);
-    if (n > 0 && b.cwiseAbs().maxCoeff() > 0.0) {
-      // Hessenberg form of [0 0; b A]: the first reflection turns b onto the first unit vector.
-      const double size = b.stableNorm();
-      bordered.setZero();
-      bordered.bottomLeftCorner(n, 1) = b / size;
-      bordered.bottomRightCorner(n, n) = scaled.a;
-      const Eigen::HessenbergDecomposition<Eigen::MatrixXd> reduction(bordered);
-      const Eigen::MatrixXd reduced = reduction.matrixH();
-      const auto h = reduced.bottomRightCorner(n, n);
-      reach.entry = reduced(1, 0) * size;
-      Eigen::MatrixXd rows = Eigen::MatrixXd::Zero(scaled.c.rows(), n + 1);
-      rows.rightCols(n) = scaled.c;
-      rows = rows * reduction.matrixQ();
-      Eigen::Index reached = 1;
-      while (reached < n && std::abs(h(reached, reached - 1)) >
-                                epsilon * (std::abs(h(reached, reached)) +
-                                           std::abs(h(reached - 1, reached - 1)))) {
-        ++reached;
-      }
-      reach.order = reached;
-      for (Eigen::Index i = reached - 1; i >= 0; --i) {
-        for (Eigen::Index j = reached - 1; j >= i; --j) reach.elements.push_back(h(i, j));
-        if (i > 0) reach.elements.push_back(1.0 / h(i, i - 1));
-      }
-      // In the order of x: last state first.
-      reach.output = rows.middleCols(1, reached).rowwise().reverse().transpose();
+    reach.order = reduce(h, b, c);
+    reach.entry = n > 0 ? b[0] : 0.0;
+    for (Eigen::Index i = reach.order - 1; i >= 0; --i) {
+      for (Eigen::Index j = reach.order - 1; j >= i; --j) reach.elements.push_back(h(i, j));
+      if (i > 0) reach.elements.push_back(1.0 / h(i, i - 1));
     }
+    // In the order of x: last state first.
+    reach.output = c.leftCols(reach.order).rowwise().reverse().transpose();
     reach_.push_back(std::move(reach));
   }
   work_.resize(static_cast<std::size_t>(2 * n * lane_count));

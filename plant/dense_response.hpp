@@ -12,16 +12,18 @@ namespace boresight::plant {
 /// The response C (s I - A)^-1 B + D of a dense state space, prepared once in O(n^3) for each input
 /// and then O(n^2) a frequency and input. For a sampled system z stands for s.
 ///
-/// The states are balanced and then turned, for each input b, so that A is upper Hessenberg and b a
-/// multiple of the first unit vector (what that input cannot reach is dropped). All rows of
-/// (s I - H) x = b but the first then give x from the last element upwards up to a factor, which
-/// the first row settles: a substitution without elimination, fill-in or pivoting, stable row by
-/// row (Hyman's method; J. H. Wilkinson, The Algebraic Eigenvalue Problem, 1965, ch. 7; for
-/// frequency responses P. Misra, R. V. Patel, IEEE Trans. Automatic Control 33, 1988). A sampled
-/// system is taken in z - 1, so that slow poles next to z = 1 keep their digits.
+/// The states are balanced and then transformed, for each input b, so that A is upper Hessenberg
+/// and b a multiple of the first unit vector (what that input cannot reach is dropped), by
+/// elementary transformations with pivoting: they keep the digits of slow states beside fast ones,
+/// which orthogonal ones mix (J. H. Wilkinson, The Algebraic Eigenvalue Problem, 1965, ch. 6). All
+/// rows of (s I - H) x = b but the first then give x from the last element upwards up to a factor,
+/// which the first row settles: a substitution without elimination, fill-in or pivoting, stable row
+/// by row (Hyman's method, ibid., ch. 7; for frequency responses P. Misra, R. V. Patel, IEEE Trans.
+/// Automatic Control 33, 1988). A sampled system is taken in z - 1, so that slow poles next to
+/// z = 1 keep their digits.
 ///
-/// Errors are some n 1e-16 of the norm of the balanced A, as those of Gaussian elimination. Keeps
-/// its work arrays: one object a thread.
+/// Errors are some 1e-16 of the norm of the balanced A, less where A is graded. Keeps its work
+/// arrays: one object a thread.
 class DenseResponse {
  public:
   /// @throws InvalidInput as validate(system).

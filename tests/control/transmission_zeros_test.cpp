@@ -32,7 +32,8 @@ void expect_zeros(const Eigen::VectorXcd& found, std::vector<Complex> expected, 
 }
 
 TEST(TransmissionZeros, OfTheReferenceCases) {
-  for (const auto& entry : reference::reference_values("transmission_zeros").at("cases")) {
+  const auto file = reference::reference_values("transmission_zeros");
+  for (const auto& entry : file.at("cases")) {
     const std::string id = entry.at("id");
     // The double zero of ex8 is known to the root of the precision only.
     expect_zeros(transmission_zeros(reference::matrices_of(entry)),

@@ -29,6 +29,7 @@ struct Transient {
   Eigen::MatrixXd a;
   Eigen::RowVectorXd c;
   Eigen::VectorXd start;
+  double initial = 0.0;  // at t = 0
   double final = 0.0;
   double sign = 1.0;
   double sample_time = 0.0;
@@ -144,8 +145,10 @@ Transient transient_of(const plant::StateSpace& system, const plant::StateSpace&
   } catch (const NumericalFailure&) {
     result.final = final_value(minimal, false);  // a pole at the origin that has been cancelled
   }
+  result.initial = system.d(0, 0);
   if (result.final < 0.0) {
     result.sign = -1.0;
+    result.initial = -result.initial;
     result.final = -result.final;
     result.c = -result.c;
   }
@@ -165,9 +168,11 @@ Findings search(const Transient& transient, const StepOptions& options) {
   if (size == 0.0) size = transient.c.norm() * transient.start.norm();
   const auto highest = response.extreme(start, 1.0, over * size);
   const auto lowest = response.extreme(start, -1.0, over * size);
-  found.highest = highest.value;
+  // At the start the response is known without rounding.
+  const double first = transient.initial - final;
+  found.highest = highest.time > 0.0 ? highest.value : first;
   found.highest_time = highest.time;
-  found.lowest = lowest.value;
+  found.lowest = lowest.time > 0.0 ? lowest.value : first;
   found.lowest_time = lowest.time;
   if (!(final > equal * std::max(highest.value, -lowest.value))) return found;
 

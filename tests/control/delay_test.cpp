@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "../random_numbers.hpp"
+#include "../reference_values.hpp"
 #include <boresight/control/delay.hpp>
 #include <boresight/plant/eigenvalues.hpp>
 #include <boresight/plant/error.hpp>
@@ -106,6 +107,85 @@ TEST(DelayApproximant, RefusesDelaysAndOrdersWithoutMeaning) {
   }
   EXPECT_THROW(delay_approximant(0.03, 0, "in", "out"), InvalidInput);
   EXPECT_THROW(delay_approximant(0.03, 17, "in", "out"), InvalidInput);
+}
+
+TEST(PadeCoefficients, AreThoseOfTheReferenceTable) {
+  const auto file = reference::reference_values("pade");
+  for (const auto& row : file.at("rows")) {
+    const auto found = pade_coefficients(1.0, row.at(1), row.at(0));
+    const auto denominator = reference::ascending(row.at(2));
+    const auto numerator = reference::ascending(row.at(3));
+    ASSERT_EQ(found.denominator.size(), denominator.size());
+    ASSERT_EQ(found.numerator.size(), numerator.size());
+    for (std::size_t i = 0; i < denominator.size(); ++i) {
+      EXPECT_NEAR(found.denominator[i] * denominator[0], denominator[i], 1e-13 * denominator[i]);
+    }
+    for (std::size_t i = 0; i < numerator.size(); ++i) {
+      EXPECT_NEAR(found.numerator[i] * numerator[0], numerator[i], 1e-13 * std::abs(numerator[i]));
+    }
+  }
+}
+
+TEST(PadeCoefficients, ScaleWithPowersOfTheDelay) {
+  const auto one = pade_coefficients(1.0, 3, 4), other = pade_coefficients(0.02, 3, 4);
+  for (int i = 0; i <= 4; ++i) {
+    const auto k = static_cast<std::size_t>(i);
+    const double power = std::pow(0.02, i);
+    EXPECT_NEAR(other.denominator[k], power * one.denominator[k], 1e-15 * power);
+    if (i == 4) continue;
+    EXPECT_NEAR(other.numerator[k], power * one.numerator[k], 1e-15 * power);
+  }
+  // Taylor's series where there is no denominator.
+  EXPECT_DOUBLE_EQ(pade_coefficients(2.0, 3, 0).numerator[3], -8.0 / 6.0);
+}
+
+TEST(PadeApproximant, HasTheResponseOfPadesClosedForm) {
+  for (const double delay : {1e-30, 0.03, 1e20}) {
+    for (int n = 1; n <= 16; ++n) {
+      for (int m = n > 10 ? n - 1 : 0; m <= n; ++m) {
+        const auto system = pade_approximant(delay, m, n, "in", "out");
+        ASSERT_EQ(system.a.rows(), n);
+        for (const double turn : {0.01, 0.5, 2.0, 5.0, 20.0}) {
+          const Complex found = response(system, turn / delay);
+          EXPECT_LT(std::abs(found - pade(m, n, Complex{0.0, -turn})), 1e-12)
+              << m << "/" << n << ", " << turn;
+        }
+      }
+    }
+  }
+}
+
+TEST(PadeApproximant, OfEqualDegreesPassesEveryFrequencyUnchanged) {
+  for (const int n : {1, 2, 5, 8}) {
+    const auto system = pade_approximant(1.0, n, n, "in", "out");
+    for (double w = 0.01; w < 1e4; w *= 3.0) {
+      EXPECT_NEAR(std::abs(response(system, w)), 1.0, 1e-12);
+    }
+    EXPECT_NEAR(system.d(0, 0), n % 2 == 0 ? 1.0 : -1.0, 1e-12);
+    EXPECT_EQ(system.states.back(), "out_delay_" + std::to_string(n));
+  }
+}
+
+TEST(PadeApproximant, MeetsTheLegendreRealisation) {
+  for (const int order : {1, 3, 6, 8}) {
+    const auto one = delay_approximant(0.5, order, "in", "out");
+    const auto other = pade_approximant(0.5, order - 1, order, "in", "out");
+    for (const double w : {0.3, 4.0, 30.0}) {
+      EXPECT_LT(std::abs(response(one, w) - response(other, w)), 1e-10) << order;
+    }
+  }
+}
+
+TEST(PadeApproximant, RefusesDelaysAndDegreesWithoutMeaning) {
+  const auto refused = [](double delay, int m, int n, const char* message) {
+    EXPECT_THAT([&] { pade_approximant(delay, m, n, "in", "out"); },
+                ThrowsMessage<InvalidInput>(HasSubstr(message)));
+  };
+  refused(0.1, 3, 2, "found 3 over 2");
+  refused(0.1, -1, 2, "-1 and 2");
+  refused(0.1, 2, 17, "2 and 17");
+  refused(0.1, 0, 0, "not both 0");
+  for (const double bad : {0.0, -0.1, std::nan(""), HUGE_VAL}) refused(bad, 1, 1, "positive delay");
 }
 
 }  // namespace

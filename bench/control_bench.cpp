@@ -2,7 +2,7 @@
 
 #include "plant_family.hpp"
 #include <boresight/control/closed_loop.hpp>
-#include <boresight/control/state_space_peaks.hpp>
+#include <boresight/control/sensitivity_bounds.hpp>
 
 namespace {
 

@@ -5,22 +5,23 @@
 
 #include <boresight/control/closed_loop.hpp>
 #include <boresight/control/margins.hpp>
+#include <boresight/control/sensitivity_bounds.hpp>
 #include <boresight/design/tuner.hpp>
 
 namespace boresight::design {
 
-/// A tuned law looked at again: eigenvalues of the state space, peaks by poles and residues, rms by
-/// Lyapunov equations. None uses the tuner's frequency response; only `spectral_rms`, which the
+/// A tuned law looked at again: eigenvalues of the state space, peaks bracketed over all
+/// frequencies, rms by Lyapunov equations. None uses the tuner's frequency response; only `spectral_rms`, which the
 /// Lyapunov rms is held against, and the dead-time residue of `stability` do.
 struct Verification {
   control::StabilityVerdict stability;
-  std::array<control::SensitivityPeak, 3> peaks;  // order of control::loop_breaks
+  std::array<control::PeakGain, 3> peaks;  // of |S|, order of control::loop_breaks
   control::LyapunovRms lyapunov;                  // rad of motor
   /// By the spectrum, over the whole analysis band with noise white throughout, as Lyapunov has it.
   double spectral_rms = 0.0;  // rad of motor
   /// |lyapunov - spectral|/spectral of the total rms.
   double rms_disagreement = 0.0;
-  /// Eigenvalues stable, every peak and the valve effort (by the spectrum) within its goal (1e-6),
+  /// Eigenvalues stable, every peak's upper bound and the valve effort (by the spectrum) within its goal (1e-6),
   /// the two rms within 0.5 %.
   bool passed = false;
   /// Why not; empty if passed.

@@ -1,10 +1,9 @@
 #include <algorithm>
+#include <limits>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <boresight/plant/balance.hpp>
-#include <boresight/plant/eigenvalues.hpp>
 #include <boresight/plant/error.hpp>
 #include <boresight/plant/linear_solve.hpp>
 #include <boresight/plant/modal_reduction.hpp>
@@ -146,17 +145,32 @@ void find_loops(ModalReduction& reduction) {
   }
 }
 
-bool has_pole_on_axis(const StateSpace& core) {
-  if (core.a.size() == 0) return false;
-  const Eigen::VectorXcd poles = eigenvalues(balanced(core).a);
-  const double highest = poles.cwiseAbs().maxCoeff();
-  return (poles.real().array().abs() <= 1e-9 * highest).any();
+struct CoreQuality {
+  double distance;   // of its poles from the axis, relative to the largest
+  double condition;  // of its eigenvectors
+};
+
+CoreQuality quality(const StateSpace& core) {
+  if (core.a.size() == 0) return {1.0, 1.0};
+  try {
+    const ModalForm form = modal_form(core);
+    const double highest = form.poles.cwiseAbs().maxCoeff();
+    return {highest > 0.0 ? form.poles.real().cwiseAbs().minCoeff() / highest : 0.0,
+            form.condition};
+  } catch (const NumericalFailure&) {
+    return {0.0, std::numeric_limits<double>::infinity()};
+  }
 }
 
 // Integrators of the core that only a loop through modes or dead times holds: the loop is closed
 // with its gain at frequency 0, and what is left of it vanishes there.
 void close_statically(ModalReduction& reduction) {
-  if (reduction.paths.empty() || !has_pole_on_axis(reduction.core)) return;
+  // Rounding scatters a chain of k integrators by epsilon^(1/k): four come to lie within 1e-4.
+  constexpr double near = 1e-4;
+  if (reduction.paths.empty()) return;
+  const CoreQuality before = quality(reduction.core);
+  if (before.distance > near) return;
+  const ModalReduction open = reduction;
   StateSpace& core = reduction.core;
   // Only the displacement has a gain at frequency 0: its rate becomes a return of its own.
   for (std::size_t j = 0, count = reduction.returns.size(); j < count; ++j) {
@@ -196,6 +210,7 @@ void close_statically(ModalReduction& reduction) {
   try {
     solved = linear_solve(loop, right, "the loops at frequency 0");
   } catch (const NumericalFailure&) {
+    reduction = open;
     return;
   }
   const Eigen::MatrixXd from_states = solved.leftCols(core.a.cols());
@@ -205,6 +220,11 @@ void close_statically(ModalReduction& reduction) {
   core.b = (core.b * from_inputs).eval();
   core.d = (core.d * from_inputs).eval();
   for (std::size_t p = 0; p < within.size(); ++p) reduction.paths[p].within_core = within[p];
+  const CoreQuality after = quality(core);
+  // A chain of integrators is told by its eigenvectors, one alone by its place.
+  if (after.distance <= before.distance && !(after.condition < 0.01 * before.condition)) {
+    reduction = open;
+  }
 }
 
 }  // namespace

@@ -21,7 +21,7 @@ struct FrequencyInterval {
 ///   |f(x) - (value + slope x + curvature x^2)| <= rest   for |x| <= half_width
 /// (K. Makino, M. Berz, Taylor models and other validated functional inclusion methods,
 /// International Journal of Pure and Applied Mathematics 4, 2003; truncation is enclosed, rounding
-/// estimated). An infinite rest says that nothing is known.
+/// estimated). A rest that is infinite or not a number says that nothing is known.
 struct TaylorModel {
   std::complex<double> value;
   std::complex<double> slope;
@@ -57,8 +57,9 @@ inline TaylorModel product(const TaylorModel& a, const TaylorModel& b, double ha
   TaylorModel result{a.value * b.value, a.value * b.slope + a.slope * b.value,
                      a.value * b.curvature + a.slope * b.slope + a.curvature * b.value,
                      h * h * h * (cubic + h * quartic)};
-  if (a.rest > 0.0) result.rest += a.rest * magnitude_bound(b, h);
-  if (b.rest > 0.0) result.rest += b.rest * (magnitude_bound(a, h) + a.rest);
+  // A rest that is not a number (nothing known times 0) stays so.
+  if (a.rest != 0.0) result.rest += a.rest * magnitude_bound(b, h);
+  if (b.rest != 0.0) result.rest += b.rest * (magnitude_bound(a, h) + a.rest);
   return result;
 }
 
@@ -77,7 +78,7 @@ inline TaylorModel inverse(const TaylorModel& a, double half_width, double least
   const double defect = h * h * h *
                             (magnitude(a.slope * result.curvature + a.curvature * result.slope) +
                              h * magnitude(a.curvature * result.curvature)) +
-                        (a.rest > 0.0 ? a.rest * magnitude_bound(result, h) : 0.0);
+                        (a.rest != 0.0 ? a.rest * magnitude_bound(result, h) : 0.0);
   result.rest = defect / floor;
   return result;
 }

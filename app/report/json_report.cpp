@@ -149,7 +149,8 @@ Json design_json(const design::Design& design) {
   for (std::size_t b = 0; b < control::loop_breaks.size(); ++b) {
     const auto& peak = design.verification.peaks[b];
     breaks.push_back({{"loop_break", control::to_string(control::loop_breaks[b])},
-                      {"sensitivity_peak_1", number(peak.magnitude)},
+                      {"sensitivity_peak_1", number(peak.upper)},
+                      {"sensitivity_peak_lower_bound_1", number(peak.lower)},
                       {"sensitivity_peak_frequency_Hz", number(peak.frequency / two_pi)},
                       {"margins", margins_json(design.margins[b])}});
   }

@@ -64,9 +64,9 @@ std::string breaks_text(const TuningSection& section) {
     const auto& peak = section.design.verification.peaks[b];
     const auto& margins = section.design.margins[b];
     rows.push_back({std::string(control::to_string(control::loop_breaks[b])),
-                    fmt::format("{:.4f}", peak.magnitude),
+                    fmt::format("{:.4f}", peak.upper),
                     fmt::format("{:g}", section.goals.sensitivity_peak[b]),
-                    fmt::format("{:.3f}", peak.frequency / two_pi),
+                    finite(peak.frequency / two_pi, 3),
                     fmt::format("{:.1f}", margins.phase_margin_deg),
                     decibel(margins.increasing_gain_margin),
                     decibel(margins.decreasing_gain_margin), finite(margins.delay_margin, 4)});
@@ -214,7 +214,7 @@ std::string to_text(const MatchingSection& section) {
         cells.insert(cells.end(), 8, "-");
       } else {
         for (const auto& peak : design.verification.peaks) {
-          cells.push_back(fmt::format("{:.3f}", peak.magnitude));
+          cells.push_back(fmt::format("{:.3f}", peak.upper));
         }
         for (const std::size_t loop : {valve, position}) {
           cells.push_back(fmt::format("{:.1f}", design.margins[loop].phase_margin_deg));

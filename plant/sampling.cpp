@@ -15,19 +15,8 @@ namespace {
 // The most states that dead times may add: more is a wrong unit, not a plant.
 constexpr double most_held_states = 10000.0;
 
-// A dead time as whole samples and the rest, 0 <= rest < T.
-struct Lateness {
-  Eigen::Index samples = 0;
-  double rest = 0.0;
-  Eigen::Index held_states() const { return samples + (rest > 0.0 ? 1 : 0); }
-};
-
-Lateness lateness(double dead_time, double sample_time) {
-  const double samples = dead_time / sample_time;
-  const double nearest = std::round(samples);
-  if (std::abs(samples - nearest) <= 1e-9) return {static_cast<Eigen::Index>(nearest), 0.0};
-  const double whole = std::floor(samples);
-  return {static_cast<Eigen::Index>(whole), (samples - whole) * sample_time};
+Eigen::Index held_states(const DeadTimeInSamples& late) {
+  return late.samples + (late.rest > 0.0 ? 1 : 0);
 }
 
 void check(const StateSpace& system, double sample_time, SamplingMethod method,
@@ -85,11 +74,11 @@ StateSpace zero_order_hold(const StateSpace& system, double sample_time,
   result.sample_time = sample_time;
   if (dead_times.empty()) return result;
 
-  std::vector<Lateness> late;
+  std::vector<DeadTimeInSamples> late;
   Eigen::Index states = system.a.rows();
   for (const double dead_time : dead_times) {
-    late.push_back(lateness(dead_time, sample_time));
-    states += late.back().held_states();
+    late.push_back(dead_time_in_samples(dead_time, sample_time));
+    states += held_states(late.back());
   }
   const Eigen::Index n = system.a.rows(), m = system.b.cols(), p = system.c.rows();
   result.a = Eigen::MatrixXd::Zero(states, states);
@@ -101,7 +90,7 @@ StateSpace zero_order_hold(const StateSpace& system, double sample_time,
   Eigen::Index first = n;
   for (Eigen::Index j = 0; j < m; ++j) {
     const auto& [samples, rest] = late[static_cast<std::size_t>(j)];
-    const Eigen::Index held = late[static_cast<std::size_t>(j)].held_states();
+    const Eigen::Index held = held_states(late[static_cast<std::size_t>(j)]);
     // Where the input of i samples ago is read: a column of [A B].
     const auto column_of = [&](auto& from_states, auto& from_inputs, Eigen::Index i) {
       return i == 0 ? from_inputs.col(j) : from_states.col(first + i - 1);
@@ -172,6 +161,14 @@ StateSpace tustin(const StateSpace& system, double sample_time, double prewarp_f
 }
 
 }  // namespace
+
+DeadTimeInSamples dead_time_in_samples(double dead_time, double sample_time) {
+  const double samples = dead_time / sample_time;
+  const double nearest = std::round(samples);
+  if (std::abs(samples - nearest) <= 1e-9) return {static_cast<Eigen::Index>(nearest), 0.0};
+  const double whole = std::floor(samples);
+  return {static_cast<Eigen::Index>(whole), (samples - whole) * sample_time};
+}
 
 StateSpace sample(const StateSpace& system, double sample_time, SamplingMethod method,
                   const SamplingOptions& options) {

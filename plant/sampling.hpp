@@ -23,10 +23,18 @@ struct SamplingOptions {
   double prewarp_frequency = 0.0;
   /// s, one for each input in their order, or empty for none. With the zero-order hold: dead times
   /// by which the held inputs arrive late, any multiple or fraction of T, exact. Each becomes
-  /// states `input`_held_1, `input`_held_2, ... (the input one, two, ... samples ago). Within 1e-9
-  /// of a sample a dead time counts as a whole number of samples.
+  /// states `input`_held_1, `input`_held_2, ... (the input one, two, ... samples ago).
   std::vector<double> dead_times;
 };
+
+/// A dead time as whole samples and a rest, 0 <= rest < T: an input held from sample to sample acts
+/// `samples` samples late, and until `rest` after each sample the one before it still does. A rest
+/// within 1e-9 T of 0 or T counts as none.
+struct DeadTimeInSamples {
+  Eigen::Index samples = 0;
+  double rest = 0.0;  // s
+};
+DeadTimeInSamples dead_time_in_samples(double dead_time, double sample_time);
 
 /// The sampled system y[k] = y(k T) of a continuous one, T in s. Zero-order and first-order hold
 /// and Tustin's method keep the names and order of the states (held inputs follow them).

@@ -2,8 +2,9 @@
 #include <benchmark/benchmark.h>
 
 #include "../tests/peer_family.hpp"
-#include <boresight/control/lyapunov.hpp>
+#include <boresight/control/h2_norm.hpp>
 #include <boresight/control/peak_gain.hpp>
+#include <boresight/control/spectral_rms.hpp>
 
 namespace {
 
@@ -12,14 +13,19 @@ using namespace boresight;
 void peer_rms_by_lyapunov(benchmark::State& state) {
   const auto system = reference::channel(reference::peer_closed_loop(state.range(0)), "n", "y");
   double rms = 0.0;
-  for (auto _ : state) {
-    const Eigen::MatrixXd covariance =
-        control::solve_lyapunov(system.a, system.b * system.b.transpose(), {false}).covariance;
-    rms = std::sqrt((system.c * covariance * system.c.transpose())(0, 0));
-  }
+  for (auto _ : state) rms = control::h2_norm(system).value;
   state.counters["value0"] = rms;
 }
 BENCHMARK(peer_rms_by_lyapunov)->Arg(5)->Arg(20)->Arg(50)->Arg(150);
+
+void peer_rms_by_spectrum(benchmark::State& state) {
+  const auto system = reference::peer_modal_system(state.range(0));
+  control::SpectralRms result;
+  for (auto _ : state) result = control::spectral_rms(plant::ModalResponse(system, "n", "y"));
+  state.counters["value0"] = result.rms;
+  state.counters["evaluations"] = static_cast<double>(result.evaluations);
+}
+BENCHMARK(peer_rms_by_spectrum)->Arg(5)->Arg(20)->Arg(50)->Arg(150)->Arg(500);
 
 void report(benchmark::State& state, const control::PeakGain& peak) {
   state.counters["value0"] = peak.lower;

@@ -2,6 +2,7 @@
 #include <benchmark/benchmark.h>
 
 #include "../tests/peer_family.hpp"
+#include <boresight/control/step_characteristics.hpp>
 #include <boresight/plant/sampling.hpp>
 #include <boresight/plant/time_response.hpp>
 
@@ -46,5 +47,13 @@ void straight_simulation(benchmark::State& state) {
   simulation(state, plant::Interpolation::first_order_hold);
 }
 BENCHMARK(straight_simulation)->Arg(5)->Arg(50)->Unit(benchmark::kMillisecond);
+
+void step_characteristics(benchmark::State& state) {
+  // The complementary sensitivity: from d to what comes back, without the wind's states.
+  auto system = reference::peer_open_loop(state.range(0));
+  system.a -= system.b * system.c;
+  for (auto _ : state) benchmark::DoNotOptimize(control::step_characteristics(system));
+}
+BENCHMARK(step_characteristics)->Arg(5)->Arg(20)->Arg(50)->Unit(benchmark::kMillisecond);
 
 }  // namespace

@@ -106,18 +106,20 @@ ModeDistance::Mode ModeDistance::test(Complex s) {
   VectorXcd image(n);
   double distance = std::numeric_limits<double>::infinity();
   VectorXcd best = w;
-  constexpr int steps = 5;
-  for (int step = 0; step < steps; ++step) {
+  constexpr int most_steps = 8;
+  for (int step = 0; step < most_steps; ++step) {
     substitute(triangle_, w);
     w /= w.stableNorm();
     substitute_adjoint(triangle_, w);
     w /= w.stableNorm();
     image.noalias() = triangle_.adjoint().triangularView<Eigen::Lower>() * w;
     const double length = image.stableNorm();
+    const bool settled = length > 0.99 * distance;
     if (length < distance) {
       distance = length;
       best = w;
     }
+    if (settled) break;
   }
   return {s, distance / norm_, schur_.u * best};
 }

@@ -331,6 +331,10 @@ RealSchur real_schur(const Eigen::MatrixXd& a) {
   return schur;
 }
 
+RealSchur transposed(const RealSchur& schur) {
+  return {schur.t.transpose().reverse(), schur.u.rowwise().reverse()};
+}
+
 Eigen::VectorXcd schur_eigenvalues(const Eigen::MatrixXd& t) {
   Eigen::VectorXcd values(t.rows());
   for (Index k = 0; k < t.rows(); ++k) {

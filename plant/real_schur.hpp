@@ -21,6 +21,9 @@ struct RealSchur {
 /// within 30 max(10, n) sweeps.
 RealSchur real_schur(const Eigen::MatrixXd& a);
 
+/// The Schur form of A' from that of A, by reversing the order: nothing is computed.
+RealSchur transposed(const RealSchur& schur);
+
 /// The eigenvalues in the order of the diagonal of `t`, of each pair the one with positive
 /// imaginary part first. `t`: RealSchur::t.
 Eigen::VectorXcd schur_eigenvalues(const Eigen::MatrixXd& t);

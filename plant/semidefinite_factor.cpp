@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <boresight/plant/error.hpp>
+#include <boresight/plant/linear_solve.hpp>
 #include <boresight/plant/semidefinite_factor.hpp>
 
 namespace boresight::plant {
@@ -73,6 +74,25 @@ MatrixXd semidefinite_factor(const MatrixXd& q, const char* what) {
     if (left > 1e-10) refuse(what, row, -left);
   }
   return scale.asDiagonal() * factor.leftCols(rank);
+}
+
+MatrixXd positive_definite_solve(const MatrixXd& p, const MatrixXd& right_hand_side,
+                                 const char* what) {
+  if (p.rows() != p.cols() || p.rows() != right_hand_side.rows()) {
+    throw InvalidInput(
+        fmt::format("{}: expected a square matrix and as many rows on the right, found {} x {} and "
+                    "{} rows",
+                    what, p.rows(), p.cols(), right_hand_side.rows()));
+  }
+  if (p.size() == 0) return right_hand_side;
+  if (!(p.diagonal().minCoeff() > 0.0)) {
+    throw NumericalFailure(
+        fmt::format("{}: expected a positive definite matrix, found {:.3g} on its diagonal", what,
+                    p.diagonal().minCoeff()));
+  }
+  const Eigen::VectorXd scale = p.diagonal().cwiseSqrt().cwiseInverse();
+  const MatrixXd scaled = scale.asDiagonal() * p * scale.asDiagonal();
+  return scale.asDiagonal() * linear_solve(scaled, scale.asDiagonal() * right_hand_side, what);
 }
 
 }  // namespace boresight::plant

@@ -12,4 +12,10 @@ namespace boresight::plant {
 /// semidefinite to rounding, saying by how much.
 Eigen::MatrixXd semidefinite_factor(const Eigen::MatrixXd& q, const char* what);
 
+/// P^-1 B for a symmetric positive definite P, scaled to a unit diagonal first: rows in units of
+/// any size. @throws InvalidInput for shapes that do not fit; NumericalFailure, naming `what`, if P
+/// has a diagonal element that is not positive or is singular to working precision then.
+Eigen::MatrixXd positive_definite_solve(const Eigen::MatrixXd& p,
+                                        const Eigen::MatrixXd& right_hand_side, const char* what);
+
 }  // namespace boresight::plant

@@ -37,6 +37,13 @@ void expect_schur_form(const MatrixXd& a) {
       EXPECT_EQ(schur.t(j + 2, j + 1), 0.0);
     }
   }
+  const RealSchur other = transposed(schur);
+  EXPECT_LE((other.u * other.t * other.u.transpose() - a.transpose()).norm(), tolerance * a.norm());
+  for (Index j = 0; j + 1 < n; ++j) {
+    if (other.t(j + 1, j) != 0.0) {
+      EXPECT_EQ(other.t(j, j), other.t(j + 1, j + 1));
+    }
+  }
   const ComplexSchur split = complex_schur(schur);
   EXPECT_LE((split.u * split.t * split.u.adjoint() - a).norm(), 2.0 * tolerance * a.norm());
   EXPECT_EQ(split.t.triangularView<Eigen::StrictlyLower>().toDenseMatrix().norm(), 0.0);

@@ -60,5 +60,30 @@ TEST(SemidefiniteFactor, RefusesWhatIsNotSemidefinite) {
   EXPECT_THROW(semidefinite_factor(saddle * std::nan(""), "Q"), InvalidInput);
 }
 
+TEST(PositiveDefiniteSolve, SolvesInAnyUnits) {
+  reference::RandomNumbers random(82);
+  for (int trial = 0; trial < 30; ++trial) {
+    const Index n = random.integer(1, 8);
+    const MatrixXd root = random.matrix(n, n + 3);
+    const MatrixXd p = root * root.transpose();
+    const MatrixXd x = random.matrix(n, 2);
+    Eigen::VectorXd unit(n);
+    for (Index i = 0; i < n; ++i) unit[i] = random.log_uniform(1e-20, 1e20);
+    const MatrixXd found = positive_definite_solve(unit.asDiagonal() * p * unit.asDiagonal(),
+                                                   unit.asDiagonal() * (p * x), "test");
+    EXPECT_LT((unit.asDiagonal() * found - x).norm(), 1e-9 * x.norm());
+  }
+  EXPECT_EQ(positive_definite_solve(MatrixXd(0, 0), MatrixXd(0, 2), "test").cols(), 2);
+}
+
+TEST(PositiveDefiniteSolve, RefusesWhatIsNotPositiveDefinite) {
+  EXPECT_THAT([] { positive_definite_solve(MatrixXd::Ones(2, 2), MatrixXd::Ones(2, 1), "R"); },
+              ThrowsMessage<NumericalFailure>(HasSubstr("R: the matrix is singular")));
+  EXPECT_THAT([] { positive_definite_solve(MatrixXd::Zero(2, 2), MatrixXd::Ones(2, 1), "R"); },
+              ThrowsMessage<NumericalFailure>(HasSubstr("found 0 on its diagonal")));
+  EXPECT_THAT([] { positive_definite_solve(MatrixXd::Ones(2, 2), MatrixXd::Ones(3, 1), "R"); },
+              ThrowsMessage<InvalidInput>(HasSubstr("2 x 2 and 3 rows")));
+}
+
 }  // namespace
 }  // namespace boresight::plant

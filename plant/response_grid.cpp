@@ -48,11 +48,11 @@ Limits choose_limits(const Eigen::VectorXcd& features, double nyquist,
   for (const auto feature : features) {
     if (std::isfinite(feature.real())) fastest = std::max(fastest, std::abs(feature));
   }
-  // What is slower by sixteen decades is an integrator with rounding errors.
+  // What is slower by fourteen decades is an integrator with rounding errors.
   double slowest = fastest;
   for (const auto feature : features) {
     const double magnitude = std::abs(feature);
-    if (magnitude > 1e-16 * fastest) slowest = std::min(slowest, magnitude);
+    if (magnitude > 1e-14 * fastest) slowest = std::min(slowest, magnitude);
   }
   if (fastest == 0.0) slowest = fastest = std::isfinite(nyquist) ? 0.1 * nyquist : 1.0;
   const double beyond = std::pow(10.0, options.decades_beyond);

@@ -81,11 +81,11 @@ TEST(Margins, TurnADelayTheLongWayRoundFromBehindTheAxis) {
   };
   // Phase -210: margin -30, the delay must turn it by 330.
   const Margins behind = margins(with_phase(-210.0), grid());
-  EXPECT_NEAR(behind.gain_crossovers.at(0).margin, -30.0, 1e-9);
+  EXPECT_NEAR(behind.gain_crossovers.at(0).phase_margin_deg, -30.0, 1e-9);
   EXPECT_NEAR(behind.phase_margin_deg, 30.0, 1e-9);
   EXPECT_NEAR(behind.delay_margin, 330.0 / degrees, 1e-9);
   const Margins ahead = margins(with_phase(-150.0), grid());
-  EXPECT_NEAR(ahead.gain_crossovers.at(0).margin, 30.0, 1e-9);
+  EXPECT_NEAR(ahead.gain_crossovers.at(0).phase_margin_deg, 30.0, 1e-9);
   EXPECT_NEAR(ahead.delay_margin, 30.0 / degrees, 1e-9);
 }
 

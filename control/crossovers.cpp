@@ -1,0 +1,188 @@
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+
+#include <fmt/format.h>
+
+#include <boresight/control/crossovers.hpp>
+#include <boresight/control/crossovers_on_grid.hpp>
+#include <boresight/control/loop_response.hpp>
+#include <boresight/control/transmission_zeros.hpp>
+#include <boresight/plant/balance.hpp>
+#include <boresight/plant/error.hpp>
+#include <boresight/plant/linear_solve.hpp>
+
+namespace boresight::control {
+namespace {
+
+using Complex = std::complex<double>;
+
+// The loop closed by the gain f, L/(1 + f L).
+plant::StateSpace with_feedback(const plant::StateSpace& loop, double f) {
+  const double inverse = 1.0 / (1.0 + f * loop.d(0, 0));
+  plant::StateSpace result = loop;
+  result.a -= f * inverse * loop.b * loop.c;
+  result.b *= inverse;
+  result.c *= inverse;
+  result.d *= inverse;
+  return result;
+}
+
+// @throws NumericalFailure if the matrix is singular.
+Eigen::MatrixXd solved(const Eigen::MatrixXd& matrix, const Eigen::MatrixXd& right) {
+  Eigen::MatrixXd result = plant::linear_solve(matrix, right, "crossovers");
+  // The condition estimate of an exactly singular matrix can be finite.
+  if (!result.allFinite()) throw NumericalFailure("crossovers: the matrix is singular");
+  return result;
+}
+
+// A sampled loop as a function of v = (z - 1)/(z + 1), which takes the unit circle to the imaginary
+// axis: v = j tan(w T/2). @throws NumericalFailure for a pole at z = -1.
+plant::StateSpace bilinear(const plant::StateSpace& loop) {
+  const Eigen::Index n = loop.a.rows();
+  const Eigen::MatrixXd identity = Eigen::MatrixXd::Identity(n, n);
+  Eigen::MatrixXd right(n, n + 1);
+  right << loop.a - identity, loop.b;
+  const Eigen::MatrixXd quotient = solved(loop.a + identity, right);
+  plant::StateSpace result = loop;
+  result.a = quotient.leftCols(n);
+  result.b = quotient.rightCols(1);
+  result.c = loop.c * (identity - result.a);
+  result.d = loop.d - loop.c * result.b;
+  result.sample_time = 0.0;
+  return result;
+}
+
+// L(1/s). @throws NumericalFailure for a pole at 0.
+plant::StateSpace reversed(const plant::StateSpace& loop) {
+  const Eigen::Index n = loop.a.rows();
+  Eigen::MatrixXd right(n, n + 1);
+  right << Eigen::MatrixXd::Identity(n, n), loop.b;
+  const Eigen::MatrixXd quotient = solved(loop.a, right);
+  plant::StateSpace result = loop;
+  result.a = quotient.leftCols(n);
+  result.b = quotient.rightCols(1);
+  result.c = -loop.c * result.a;
+  result.d = loop.d - loop.c * result.b;
+  return result;
+}
+
+// M = L/(1 + f L), of a continuous loop or mapped to continuous time.
+struct FedBackLoop {
+  plant::StateSpace system;
+  double f = 0.0;
+};
+
+// `map` of the loop, closed by an f that moves away the poles it cannot map; without a value if
+// none does.
+std::optional<FedBackLoop> mapped(const plant::StateSpace& loop,
+                                  plant::StateSpace (*map)(const plant::StateSpace&)) {
+  for (const double f : {0.0, 0.37, -0.41}) {
+    try {
+      return FedBackLoop{map(plant::balanced(with_feedback(loop, f))), f};
+    } catch (const NumericalFailure&) {
+      continue;
+    }
+  }
+  return std::nullopt;
+}
+
+// M(s) = L/(1 + f L) and its mirror image M(-s), with the response of
+//   gain: (1 - f M(s)) (1 - f M(-s)) - M(s) M(-s), zero where |L| = 1;
+//   phase: M(s) - M(-s), zero where L is real.
+plant::StateSpace with_mirror_image(const FedBackLoop& loop, CrossoverKind kind) {
+  const auto& [a, b, c, d, inputs, outputs, states, sample_time] = loop.system;
+  const Eigen::Index n = a.rows();
+  const double direct = d(0, 0), f = loop.f;
+  // The mirror image, x' = -A' x' - C' v, w = B' x' + D v, is driven by v = drive y + own u, and
+  // u + from_output y + w (gain) or y - w (phase) goes out.
+  const bool gain = kind == CrossoverKind::gain;
+  const double drive = gain ? f * f - 1.0 : 0.0, own = gain ? -f : -1.0;
+  const double from_output = gain ? -f : 1.0, from_input = gain ? 1.0 : 0.0;
+  plant::StateSpace result;
+  result.a = Eigen::MatrixXd::Zero(2 * n, 2 * n);
+  result.a.topLeftCorner(n, n) = a;
+  result.a.bottomLeftCorner(n, n) = -drive * c.transpose() * c;
+  result.a.bottomRightCorner(n, n) = -a.transpose();
+  result.b.resize(2 * n, 1);
+  result.b << b, -(drive * direct + own) * c.transpose();
+  result.c.resize(1, 2 * n);
+  result.c << (from_output + drive * direct) * c, b.transpose();
+  result.d = Eigen::MatrixXd::Constant(
+      1, 1, from_input + from_output * direct + direct * (drive * direct + own));
+  result.inputs = inputs;
+  result.outputs = outputs;
+  for (Eigen::Index i = 1; i <= 2 * n; ++i) result.states.push_back(fmt::format("x{}", i));
+  return result;
+}
+
+// Zeros near the imaginary axis of both kinds; of L(1/s) those of 1/s.
+void add_candidates(const FedBackLoop& loop, bool is_reversed, std::vector<Complex>& candidates) {
+  // Damping ratio below which a zero may stand for a crossover or a tangency.
+  constexpr double lightly_damped = 0.3;
+  for (const auto kind : {CrossoverKind::gain, CrossoverKind::phase}) {
+    for (const Complex s : transmission_zeros(with_mirror_image(loop, kind))) {
+      if (!(s.imag() > 0.0) || !(std::abs(s.real()) < lightly_damped * std::abs(s))) continue;
+      candidates.push_back(is_reversed ? 1.0 / std::conj(s) : s);
+    }
+  }
+}
+
+// The frequencies at which to look: zeros near the boundary, points beyond what rounding or
+// near-tangency moved them off it, and points between neighbours.
+Eigen::ArrayXd dividing_grid(std::vector<Complex> candidates, double nyquist) {
+  std::sort(candidates.begin(), candidates.end(),
+            [](Complex p, Complex q) { return p.imag() < q.imag(); });
+  std::vector<double> points;
+  double last = 0.0;
+  for (const Complex s : candidates) {
+    const double w = s.imag();
+    if (!(w > last * (1.0 + 1e-10))) continue;
+    const double off = std::max(3.0 * std::abs(s.real()), 1e-10 * w);
+    points.push_back(last > 0.0 ? std::sqrt(last * w) : w / 3.0);
+    points.push_back(w);
+    points.push_back(w + off);
+    if (off < w) points.push_back(w - off);
+    last = w;
+  }
+  if (last > 0.0) points.push_back(std::isfinite(nyquist) ? 0.5 * (last + nyquist) : 3.0 * last);
+  std::sort(points.begin(), points.end());
+  std::vector<double> rising;
+  for (const double w : points) {
+    if (w < nyquist && (rising.empty() || w > rising.back())) rising.push_back(w);
+  }
+  return Eigen::Map<Eigen::ArrayXd>(rising.data(), static_cast<Eigen::Index>(rising.size()));
+}
+
+}  // namespace
+
+Crossovers crossovers(const plant::StateSpace& loop, const CrossoverOptions& options) {
+  LoopResponse response("crossovers", loop);
+  const double time = loop.sample_time;
+  const auto keep = [](const plant::StateSpace& system) { return system; };
+  std::vector<Complex> candidates;
+  const auto direct = mapped(loop, time > 0.0 ? bilinear : keep);
+  if (!direct) {
+    throw NumericalFailure(
+        "crossovers: A has an eigenvalue of -1 that no feedback moves, out of reach of input or "
+        "output; take plant::minimal_realisation first");
+  }
+  add_candidates(*direct, false, candidates);
+  // Rounding spoils the smallest of zeros that are many decades apart: those of L(1/s) besides.
+  const auto inverse = mapped(with_feedback(direct->system, -direct->f), reversed);
+  if (inverse) add_candidates(*inverse, true, candidates);
+  if (time > 0.0) {
+    for (Complex& s : candidates) {
+      const double w = 2.0 * std::atan(s.imag()) / time;
+      s = {s.real() / s.imag() * w, w};
+    }
+  }
+  Crossovers result = crossovers_on_grid(
+      response.on_grid(dividing_grid(std::move(candidates), response.nyquist_frequency())),
+      options);
+  response.add_real_ends(result.phase);
+  return result;
+}
+
+}  // namespace boresight::control

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <queue>
 #include <vector>
 
@@ -20,7 +21,7 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double epsilon = std::numeric_limits<double>::epsilon();
 
 void check(const PeakGainOptions& options) {
-  if (!(options.relative_tolerance >= 1e-14 && options.relative_tolerance < infinity)) {
+  if (!(options.relative_tolerance >= 1e-14) || options.relative_tolerance == infinity) {
     throw InvalidInput(
         fmt::format("peak_gain: expected a relative tolerance of 1e-14 or more, found {}",
                     options.relative_tolerance));
@@ -105,7 +106,7 @@ PeakGain search(Enclose enclose, double highest_pole, const PeakGainOptions& opt
 }
 
 double highest_pole(const plant::StateSpaceEnclosure& core, const plant::StateSpace& system) {
-  if (!core.by_modes()) return system.a.norm();
+  if (core.form() == nullptr) return system.a.norm();
   const auto& poles = core.form()->poles;
   return poles.size() > 0 ? poles.cwiseAbs().maxCoeff() : 0.0;
 }
@@ -136,7 +137,7 @@ plant::StateSpace bilinear(const plant::StateSpace& sampled) {
       sampled.a + identity, right, "peak_gain: a sampled system with a pole at -1");
   plant::StateSpace result = sampled;
   result.a = solved.leftCols(n);
-  result.b = std::sqrt(2.0) * solved.rightCols(sampled.b.cols());
+  result.b = std::numbers::sqrt2 * solved.rightCols(sampled.b.cols());
   // C (A + I)^-1 = (C - C (A + I)^-1 (A - I))/2
   result.c = std::sqrt(0.5) * (sampled.c - sampled.c * result.a);
   result.d = sampled.d - sampled.c * solved.rightCols(sampled.b.cols());
@@ -162,7 +163,7 @@ PeakGain peak_gain(const plant::StateSpace& system, const PeakGainOptions& optio
   plant::validate(system);
   const plant::StateSpace continuous = system.sample_time > 0.0 ? bilinear(system) : system;
   const plant::StateSpaceEnclosure enclosure(continuous);
-  if (enclosure.by_modes() && has_pole_on_axis(*enclosure.form())) {
+  if (enclosure.form() != nullptr && has_pole_on_axis(*enclosure.form())) {
     PeakGain result;
     result.lower = result.upper = infinity;
     result.closed = true;

@@ -154,7 +154,7 @@ std::pair<double, double> pole_range(const plant::ModalResponse& response) {
 }  // namespace
 
 SpectralRms spectral_rms(const plant::ModalResponse& response, const SpectralRmsOptions& options) {
-  if (!(options.relative_tolerance >= 1e-13 && options.relative_tolerance <= 0.1)) {
+  if (!(options.relative_tolerance >= 1e-13) || options.relative_tolerance > 0.1) {
     throw InvalidInput(
         fmt::format("spectral_rms: expected a relative tolerance of 1e-13 to 0.1, found {}",
                     options.relative_tolerance));

@@ -52,9 +52,10 @@ ModalEnclosure::ModalEnclosure(const ModalSystem& system, std::string_view input
 }
 
 double ModalEnclosure::highest_pole() const {
-  double highest = core_.by_modes() ? 0.0 : reduction_.core.a.norm();
-  if (core_.by_modes()) {
-    for (const auto& pole : core_.form()->poles) highest = std::max(highest, std::abs(pole));
+  const ModalForm* form = core_.form();
+  double highest = form != nullptr ? 0.0 : reduction_.core.a.norm();
+  if (form != nullptr) {
+    for (const auto& pole : form->poles) highest = std::max(highest, std::abs(pole));
   }
   for (const double frequency : reduction_.mode_frequency) highest = std::max(highest, frequency);
   for (const auto& back : reduction_.returns) {

@@ -6,6 +6,7 @@
 
 #include <Eigen/Core>
 
+#include <boresight/plant/frequency_kernels.hpp>
 #include <boresight/plant/modal_reduction.hpp>
 
 namespace boresight::plant {
@@ -31,26 +32,19 @@ class ModalResponse {
   bool core_by_modes() const { return by_modes_; }
 
  private:
-  friend struct ModalBlock;
-
   struct Entry {
     Eigen::Index row, column;
   };
-  // One real pole, or one pair with s^2 - 2 Re(p) s + |p|^2, of the core: entry e has the
-  // numerator slope[e] s + level[e].
-  struct Section {
-    std::complex<double> pole;
-    std::vector<double> level, slope;
-  };
-
-  void evaluate_block(const double* angular_frequency, int count,
+  void evaluate_block(const double* angular_frequency, std::size_t count,
                       std::complex<double>* result) const;
+  void dense_entries(const double* angular_frequency, std::size_t count,
+                     FrequencyLanes* entries) const;
 
   ModalReduction reduction_;
   bool by_modes_ = true;
   ModalForm core_;
   std::vector<Entry> entries_;
-  std::vector<Section> sections_;
+  std::vector<PoleSection> sections_;
   std::vector<double> feedthrough_;             // of each entry
   std::vector<std::vector<int>> entry_number_;  // [row][column], -1 where there is none
   std::vector<std::vector<int>> path_number_;   // [return][drive], -1 where there is none

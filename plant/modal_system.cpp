@@ -31,11 +31,11 @@ void check_modes(const VibrationModes& modes) {
   for (Eigen::Index i = 0; i < count; ++i) {
     const double frequency = modes.frequency[i];
     const double damping = modes.damping_ratio[i];
-    if (!(std::isfinite(frequency) && frequency >= 0.0)) {
+    if (!std::isfinite(frequency) || frequency < 0.0) {
       throw InvalidInput(fmt::format(
           "modal system: expected mode {} at 0 rad/s or above, found {} rad/s", i + 1, frequency));
     }
-    if (!(std::isfinite(damping) && damping >= 0.0)) {
+    if (!std::isfinite(damping) || damping < 0.0) {
       throw InvalidInput(
           fmt::format("modal system: expected mode {} with a damping ratio of 0 or above, found {}",
                       i + 1, damping));
@@ -71,7 +71,7 @@ void validate(const ModalSystem& system) {
   for (const auto& dead_time : system.dead_times) {
     output_index(system.core, dead_time.from);
     feed(dead_time.to);
-    if (!(std::isfinite(dead_time.delay) && dead_time.delay >= 0.0)) {
+    if (!std::isfinite(dead_time.delay) || dead_time.delay < 0.0) {
       throw InvalidInput(
           fmt::format("modal system: expected a dead time from '{}' to '{}' of 0 s or more, "
                       "found {} s",

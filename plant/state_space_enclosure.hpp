@@ -22,7 +22,8 @@ class StateSpaceEnclosure {
   Eigen::Index rows() const { return system_.d.rows(); }
   Eigen::Index columns() const { return system_.d.cols(); }
   bool by_modes() const { return form_.has_value(); }
-  const std::optional<ModalForm>& form() const { return form_; }
+  /// Null where it is not taken by its modes.
+  const ModalForm* form() const { return form_ ? &*form_ : nullptr; }
 
   /// Every element of the response, row by row; allocates nothing if `elements` has their number
   /// and the system is taken by its modes.

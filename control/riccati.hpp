@@ -23,11 +23,13 @@ struct RiccatiOptions {
 /// The stabilising solution X. Norms are taken in scaled states, in which the terms of the equation
 /// are of one size.
 struct RiccatiSolution {
-  Eigen::MatrixXd x;               // n x n, symmetric positive semidefinite
-  Eigen::MatrixXd gain;            // K, inputs x n: u = -K x is optimal
-  Eigen::VectorXcd eigenvalues;    // of A - B K, sorted as plant::eigenvalues
-  double stability_margin = 0.0;   // of A - B K: -max Re, 1/s; sampled 1 - max magnitude
-  double relative_residual = 0.0;  // Frobenius norm over the sum of those of the terms
+  Eigen::MatrixXd x;              // n x n, symmetric positive semidefinite
+  Eigen::MatrixXd gain;           // K, inputs x n: u = -K x is optimal
+  Eigen::VectorXcd eigenvalues;   // of A - B K, sorted as plant::eigenvalues
+  double stability_margin = 0.0;  // of A - B K: -max Re, 1/s; sampled 1 - max magnitude
+  /// Frobenius norm of the residual over the sum of those of the terms of the equation with every
+  /// factor's elements taken positive: rounding leaves some 1e-16 of it.
+  double relative_residual = 0.0;
   /// Relative change of X for relative changes of A, B R^-1 B' and Q by one, to first order,
   /// 2-norm: the bound of C. Kenney, G. Hewer, SIAM J. Control Optim. 28, 1990 (after R. Byers), by
   /// the Lyapunov equations of the closed loop. 0 if not asked for.

@@ -25,8 +25,7 @@ Linearisation linearise(const RiccatiMatrices& matrices, const MatrixXd& input, 
                         TimeDomain domain) {
   const MatrixXd& a = matrices.a;
   const MatrixXd xf = x * input;
-  const double norm_a = a.norm();
-  const double norm_x = x.norm();
+  const MatrixXd positive_x = x.cwiseAbs();
   Linearisation result;
   result.closed_loop = a;
   if (domain == TimeDomain::continuous) {
@@ -35,7 +34,10 @@ Linearisation linearise(const RiccatiMatrices& matrices, const MatrixXd& input, 
     const MatrixXd xa = x * a;
     result.residual = xa + xa.transpose() + matrices.q;
     result.residual.noalias() -= xf * xf.transpose();
-    result.terms = 2.0 * norm_x * (norm_a + xf.norm() * input.norm()) + matrices.q.norm();
+    const MatrixXd xa_terms = positive_x * a.cwiseAbs();
+    const MatrixXd xf_terms = positive_x * input.cwiseAbs();
+    result.terms = 2.0 * xa_terms.norm() + 2.0 * (xf_terms * xf.cwiseAbs().transpose()).norm() +
+                   matrices.q.norm();
     return result;
   }
   // (1 + F F'X)^-1 A without the inverse, whose condition grows with the gain.
@@ -48,7 +50,8 @@ Linearisation linearise(const RiccatiMatrices& matrices, const MatrixXd& input, 
   result.image = x * result.closed_loop;
   const MatrixXd axa = a.transpose() * result.image;
   result.residual = 0.5 * (axa + axa.transpose()) - x + matrices.q;
-  result.terms = norm_x * (1.0 + norm_a * result.closed_loop.norm()) + matrices.q.norm();
+  const MatrixXd image_terms = positive_x * result.closed_loop.cwiseAbs();
+  result.terms = (a.cwiseAbs().transpose() * image_terms).norm() + x.norm() + matrices.q.norm();
   return result;
 }
 

@@ -14,7 +14,7 @@ struct RiccatiRefinement {
   Eigen::VectorXcd eigenvalues;  // of the closed loop, unsorted
   StabilityMargin margin;        // of the closed loop
   double residual = 0.0;         // Frobenius norm
-  double terms = 0.0;            // what a relative change of the data by one would leave of it
+  double terms = 0.0;            // norm of its terms with every element taken positive
   double condition = 0.0;        // as RiccatiSolution
   double error_bound = 0.0;
   int steps = 0;

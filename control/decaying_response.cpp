@@ -76,28 +76,40 @@ DecayingResponse::DecayingResponse(const Eigen::VectorXcd& poles,
     : DecayingResponse(block_diagonal(poles, poles), modal_output(poles, amplitudes)) {
   poles_ = poles;
   modal_start_ = modal_states(poles);
+  const Eigen::ArrayXd size = poles.cwiseAbs();
+  amplitudes_.resize(poles.size(), 3);
+  amplitudes_.col(0) = amplitudes.cwiseAbs();
+  amplitudes_.col(1) = amplitudes_.col(0).array() * size.square();
+  amplitudes_.col(2) = amplitudes_.col(1).array() * size;
 }
 
 DecayingResponse::Point DecayingResponse::start(const Eigen::VectorXd& state) const {
   return {0.0, state, derivatives_.row(0).dot(state)};
 }
 
-double DecayingResponse::bound(const Eigen::VectorXd& state) const {
-  return (weights_.topRows(a_.rows()) * state).norm();
-}
-
-DecayingResponse::Node DecayingResponse::node(double time, Eigen::VectorXd state) const {
+DecayingResponse::Node DecayingResponse::node(double time, Eigen::VectorXd state) {
   const Eigen::Index n = a_.rows();
+  constexpr double most_work = 1e10;  // multiplications
+  if (++nodes_ * static_cast<double>(n * n) > most_work) {
+    throw NumericalFailure(
+        "step_characteristics: time constants and frequencies are too many decades apart to follow "
+        "the response; leave out what is too fast or too slow to matter");
+  }
   const Eigen::Vector3d f = derivatives_ * state;
   const Eigen::VectorXd weighed = weights_ * state;
-  return {time,
-          std::move(state),
-          f[0],
-          f[1],
-          f[2],
-          weighed.head(n).norm(),
-          weighed.segment(n, n).norm(),
-          weighed.tail(n).norm()};
+  Eigen::Vector3d bounds(weighed.head(n).norm(), weighed.segment(n, n).norm(),
+                         weighed.tail(n).norm());
+  if (poles_.size() > 0) {
+    Eigen::Vector3d by_modes = Eigen::Vector3d::Zero();
+    for (Eigen::Index i = 0, at = 0; i < poles_.size(); ++i) {
+      const bool pair = poles_[i].imag() > 0.0;
+      const double size = pair ? std::hypot(state[at], state[at + 1]) : std::abs(state[at]);
+      by_modes += size * amplitudes_.row(i).transpose();
+      at += pair ? 2 : 1;
+    }
+    bounds = bounds.cwiseMin(by_modes);
+  }
+  return {time, std::move(state), f[0], f[1], f[2], bounds[0], bounds[1], bounds[2]};
 }
 
 const Eigen::MatrixXd& DecayingResponse::transition(int exponent) {
@@ -126,7 +138,7 @@ int DecayingResponse::horizon(const Point& from, double negligible) {
   int exponent = -static_cast<int>(std::floor(std::log2(fastest_)));
   // Beyond the range of time constants that a stable A of this precision can have.
   const int last = exponent + 80;
-  while (bound(transition(exponent) * from.state) > negligible) {
+  while (node(from.time, transition(exponent) * from.state).tail > negligible) {
     if (++exponent > last) {
       throw NumericalFailure(
           fmt::format("step_characteristics: the response has not settled after {:.3g} s, {:.0e} "

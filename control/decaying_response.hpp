@@ -12,7 +12,9 @@ namespace boresight::control {
 /// observability Gramian W, C W^-1 C' = -2 trace(A) (the trace of A W^-1 + W^-1 A' + W^-1 C'C W^-1
 /// = 0), so that |f(s)| <= sqrt(-2 trace(A)) |x(t)|_W for all s >= t, and the same with A^k x for
 /// the k-th derivative: no fast pole is stepped over and no slow one is cut off, whatever the
-/// eigenvectors. exp(A h) is formed once for each length h = 2^k of an interval.
+/// eigenvectors. Where the modes are known, the sum of their magnitudes is a second bound, and the
+/// smaller of the two counts. exp(A h) is formed once for each length h = 2^k of an interval.
+/// @throws NumericalFailure by a search that would take more than some 10 s.
 class DecayingResponse {
  public:
   /// A: n x n, n >= 1; C: 1 x n, not 0. @throws NumericalFailure if A is not stable.
@@ -42,9 +44,8 @@ class DecayingResponse {
 
  private:
   struct Node;
-  Node node(double time, Eigen::VectorXd state) const;
+  Node node(double time, Eigen::VectorXd state);
   Node middle(const Node& left, int exponent);
-  double bound(const Eigen::VectorXd& state) const;
   int horizon(const Point& from, double negligible);
   Node end_of(const Node& left, int exponent);
   bool short_enough(const Node& right, double length) const;
@@ -58,10 +59,12 @@ class DecayingResponse {
 
   Eigen::MatrixXd a_;
   Eigen::VectorXcd poles_;  // of the blocks on the diagonal of A; none if A is not made of modes
+  Eigen::MatrixXd amplitudes_;  // a row a mode: |amplitude| |pole|^k for k = 0, 2, 3
   Eigen::VectorXd modal_start_;
   Eigen::MatrixXd derivatives_;  // rows C, C A, C A^2
   Eigen::MatrixXd weights_;      // factors of W for x, A^2 x and A^3 x, times sqrt(-2 trace(A))
   double fastest_ = 0.0;         // 1/s
+  double nodes_ = 0.0;           // looked at so far
   std::map<int, Eigen::MatrixXd> transitions_;  // exp(A 2^exponent)
 };
 

@@ -201,7 +201,9 @@ Findings search_samples(const Transient& transient, const StepOptions& options) 
   if (size == 0.0) size = (bound * x).norm();
   found.highest = found.lowest = first;
   found.settled = 0.0;
-  constexpr Eigen::Index most_samples = 20'000'000;
+  constexpr double most_work = 1e10;  // multiplications
+  const auto most_samples =
+      static_cast<Eigen::Index>(most_work / static_cast<double>(transient.a.size() + 1));
   for (Eigen::Index k = 0; (bound * x).norm() > over * size; ++k) {
     if (k == most_samples) {
       throw NumericalFailure(fmt::format(

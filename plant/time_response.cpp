@@ -5,7 +5,6 @@
 
 #include <boresight/plant/error.hpp>
 #include <boresight/plant/matrix_exponential.hpp>
-#include <boresight/plant/modal_form.hpp>
 #include <boresight/plant/sampling.hpp>
 #include <boresight/plant/time_response.hpp>
 

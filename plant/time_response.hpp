@@ -4,6 +4,7 @@
 
 #include <Eigen/Core>
 
+#include <boresight/plant/modal_form.hpp>
 #include <boresight/plant/modal_recursion.hpp>
 #include <boresight/plant/state_space.hpp>
 
@@ -15,9 +16,9 @@ enum class Interpolation { zero_order_hold, first_order_hold };
 struct SimulationOptions {
   /// First-order hold: straight from each sample to the next. Only for continuous systems.
   Interpolation interpolation = Interpolation::zero_order_hold;
-  /// Above this condition of the eigenvectors (modal_form.hpp) the dense route is taken: 1e8 leaves
-  /// errors of some 1e-8 of the largest mode.
-  double largest_condition = 1e8;
+  /// Above this condition of the eigenvectors the dense route is taken: the default leaves errors
+  /// of some 1e-8 of the largest mode.
+  double largest_condition = highest_modal_condition;
 };
 
 /// The exact response of a linear system to a sampled input, prepared once: by modes, O(n) a

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <tuple>
 #include <utility>
 
 #include <fmt/format.h>
@@ -198,7 +199,9 @@ StateSpace zeros_poles_gain(const Roots& zeros, const Roots& poles, double gain,
   double sum = 0.0, count = 0.0;
   for (const Complex pole : poles) {
     const double size = std::abs(place(pole, sample_time));
-    if (size > 1e-200) sum += std::log(size), count += 1.0;
+    if (!(size > 1e-200)) continue;
+    sum += std::log(size);
+    count += 1.0;
   }
   const double usual = count > 0.0 ? std::exp(sum / count) : 1.0;
 

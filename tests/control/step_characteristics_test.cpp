@@ -203,6 +203,19 @@ TEST(StepCharacteristics, MissNeitherAFastNorASlowPole) {
   }
 }
 
+TEST(StepCharacteristics, FollowAFaintlyDampedModeBehindAFastPole) {
+  // 1e5 periods until it settles; the pole at 1e5 rad/s adds 1e-5 s of delay.
+  const double w = 60.0, z = 1e-5, fast = 1e5;
+  const auto mode = rational({w * w}, {w * w, 2.0 * z * w, 1.0}, "v", "y", "mode");
+  const auto lag = rational({fast}, {fast, 1.0}, "u", "v", "lag");
+  const auto found = step_characteristics(plant::connect({lag, mode}, {"u"}, {"y"}));
+  expect_near(found.peak_time, std::numbers::pi / w + 1.0 / fast, 1e-6);
+  expect_near(found.overshoot, std::exp(-std::numbers::pi * z), 1e-6);
+  // The amplitude there is within the fall of one period of the band.
+  const double period = 2.0 * std::numbers::pi / w;
+  EXPECT_NEAR(found.settling_time, std::log(50.0) / (z * w), period);
+}
+
 // Against a fine grid of the exact response, which can only miss.
 TEST(StepCharacteristics, AreMetByEverySampleOfRandomResponses) {
   reference::RandomNumbers random(81);

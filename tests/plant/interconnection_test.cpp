@@ -3,33 +3,18 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "../random_numbers.hpp"
+#include "../random_systems.hpp"
 #include <boresight/plant/error.hpp>
 #include <boresight/plant/interconnection.hpp>
 
 namespace boresight::plant {
 namespace {
 
+using reference::random_system;
 using testing::AllOf;
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::ThrowsMessage;
-
-StateSpace random_system(reference::RandomNumbers& random, Eigen::Index n,
-                         std::vector<std::string> inputs, std::vector<std::string> outputs,
-                         const std::string& name) {
-  const auto m = static_cast<Eigen::Index>(inputs.size());
-  const auto p = static_cast<Eigen::Index>(outputs.size());
-  StateSpace system{random.matrix(n, n),
-                    random.matrix(n, m),
-                    random.matrix(p, n),
-                    0.3 * random.matrix(p, m),
-                    std::move(inputs),
-                    std::move(outputs),
-                    {}};
-  for (Eigen::Index i = 0; i < n; ++i) system.states.push_back(name + std::to_string(i));
-  return system;
-}
 
 StateSpace gain(double value, const char* input, const char* output) {
   return static_gain(Eigen::MatrixXd::Constant(1, 1, value), {input}, {output});
@@ -81,10 +66,10 @@ TEST(Subsystem, PicksAndReordersSignalsByName) {
 TEST(Renamed, ChangesNamesOnly) {
   reference::RandomNumbers random(2);
   const auto before = random_system(random, 2, {"u"}, {"y"}, "x");
-  const auto after = renamed(before, {{"u", "torque"}, {"x1", "rate"}});
+  const auto after = renamed(before, {{"u", "torque"}, {"x2", "rate"}});
   EXPECT_THAT(after.inputs, ElementsAre("torque"));
   EXPECT_THAT(after.outputs, ElementsAre("y"));
-  EXPECT_THAT(after.states, ElementsAre("x0", "rate"));
+  EXPECT_THAT(after.states, ElementsAre("x1", "rate"));
   EXPECT_EQ(after.a, before.a);
   EXPECT_THAT(
       [&] {
@@ -93,9 +78,9 @@ TEST(Renamed, ChangesNamesOnly) {
       ThrowsMessage<InvalidInput>(HasSubstr("found 'v'")));
   EXPECT_THAT(
       [&] {
-        renamed(before, {{"x0", "x1"}});
+        renamed(before, {{"x1", "x2"}});
       },
-      ThrowsMessage<InvalidInput>(HasSubstr("found 'x1' twice")));
+      ThrowsMessage<InvalidInput>(HasSubstr("found 'x2' twice")));
 }
 
 TEST(Series, MultipliesResponsesWhateverTheOrderOfTheSignals) {
@@ -108,7 +93,7 @@ TEST(Series, MultipliesResponsesWhateverTheOrderOfTheSignals) {
     middle << at(first, w)(1, 0), at(first, w)(0, 0);
     expect_equal(at(both, w), at(second, w) * middle);
   }
-  EXPECT_THAT(both.states, ElementsAre("f0", "f1", "f2", "s0", "s1"));
+  EXPECT_THAT(both.states, ElementsAre("f1", "f2", "f3", "s1", "s2"));
   EXPECT_THAT(
       [&] { series(second, first); },
       ThrowsMessage<InvalidInput>(HasSubstr("input of the second systems among y, z, found 'u'")));

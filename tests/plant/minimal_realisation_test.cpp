@@ -3,8 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "../random_numbers.hpp"
-#include "../reference_values.hpp"
+#include "../random_systems.hpp"
 #include <boresight/plant/eigenvalues.hpp>
 #include <boresight/plant/error.hpp>
 #include <boresight/plant/minimal_realisation.hpp>
@@ -13,15 +12,10 @@ namespace boresight::plant {
 namespace {
 
 using Complex = std::complex<double>;
+using reference::random_system;
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::ThrowsMessage;
-
-StateSpace random_system(reference::RandomNumbers& random, Eigen::Index n, Eigen::Index inputs,
-                         Eigen::Index outputs) {
-  return reference::state_space(random.matrix(n, n), random.matrix(n, inputs),
-                                random.matrix(outputs, n), random.matrix(outputs, inputs));
-}
 
 void expect_same_response(const StateSpace& found, const StateSpace& expected, double tolerance) {
   for (const double w : {0.03, 0.4, 2.0, 30.0}) {

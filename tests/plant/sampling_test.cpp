@@ -5,8 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "../peer_family.hpp"
-#include "../random_numbers.hpp"
-#include "../reference_values.hpp"
+#include "../random_systems.hpp"
 #include <boresight/plant/eigenvalues.hpp>
 #include <boresight/plant/error.hpp>
 #include <boresight/plant/sampling.hpp>
@@ -15,15 +14,10 @@ namespace boresight::plant {
 namespace {
 
 using Complex = std::complex<double>;
+using reference::random_system;
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::ThrowsMessage;
-
-StateSpace random_system(reference::RandomNumbers& random, Eigen::Index n, Eigen::Index inputs,
-                         Eigen::Index outputs) {
-  return reference::state_space(random.matrix(n, n), random.matrix(n, inputs),
-                                random.matrix(outputs, n), random.matrix(outputs, inputs));
-}
 
 Complex response(const StateSpace& system, double w) {
   return frequency_response(system, w)(0, 0);

@@ -4,8 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "../peer_family.hpp"
-#include "../random_numbers.hpp"
-#include "../reference_values.hpp"
+#include "../random_systems.hpp"
 #include <boresight/plant/eigenvalues.hpp>
 #include <boresight/plant/error.hpp>
 #include <boresight/plant/sampling.hpp>
@@ -22,12 +21,11 @@ constexpr auto foh = Interpolation::first_order_hold;
 // No eigenvectors are that good: the dense route.
 constexpr double none = 0.0;
 
-StateSpace random_system(reference::RandomNumbers& random, Eigen::Index n, Eigen::Index inputs,
+StateSpace stable_system(reference::RandomNumbers& random, Eigen::Index n, Eigen::Index inputs,
                          Eigen::Index outputs) {
-  Eigen::MatrixXd a = random.matrix(n, n);
-  if (n > 0) a.diagonal().array() -= spectral_abscissa(a) + 0.2;
-  return reference::state_space(a, random.matrix(n, inputs), random.matrix(outputs, n),
-                                random.matrix(outputs, inputs));
+  StateSpace system = reference::random_system(random, n, inputs, outputs);
+  if (n > 0) system.a.diagonal().array() -= spectral_abscissa(system.a) + 0.2;
+  return system;
 }
 
 TEST(ModalRecursion, GivesTheSameBitsWhateverTheWidth) {
@@ -97,7 +95,7 @@ TEST(LinearSimulation, AgreesByModesAndDensely) {
   for (int trial = 0; trial < 40; ++trial) {
     const Eigen::Index n = random.integer(0, 12), m = random.integer(1, 3),
                        p = random.integer(1, 3);
-    const auto system = random_system(random, n, m, p);
+    const auto system = stable_system(random, n, m, p);
     const double step = random.log_uniform(1e-3, 3.0);
     const Eigen::MatrixXd u = random.matrix(600, m);
     const Eigen::VectorXd start = random.matrix(n, 1);
@@ -118,7 +116,7 @@ TEST(LinearSimulation, AgreesByModesAndDensely) {
 
 TEST(LinearSimulation, GoesOnWhereThePieceBeforeEnded) {
   reference::RandomNumbers random(33);
-  const auto system = random_system(random, 7, 2, 2);
+  const auto system = stable_system(random, 7, 2, 2);
   const Eigen::MatrixXd u = random.matrix(1000, 2);
   for (const auto interpolation : {zoh, foh}) {
     for (const double largest_condition : {1e8, none}) {
@@ -142,7 +140,7 @@ TEST(LinearSimulation, GoesOnWhereThePieceBeforeEnded) {
 TEST(LinearSimulation, WithAFirstOrderHoldStartsFromTheStateItself) {
   // y = x must begin with the start whatever the first input.
   reference::RandomNumbers random(34);
-  auto system = random_system(random, 4, 1, 4);
+  auto system = stable_system(random, 4, 1, 4);
   system.c.setIdentity();
   system.d.setZero();
   const Eigen::VectorXd start = random.matrix(4, 1);
@@ -176,7 +174,7 @@ TEST(LinearSimulation, OfAChainOfEqualPolesTakesTheDenseRouteAndIsExact) {
 
 TEST(LinearSimulation, OfASampledSystemIsItsOwnRecursion) {
   reference::RandomNumbers random(35);
-  const auto continuous = random_system(random, 5, 1, 2);
+  const auto continuous = stable_system(random, 5, 1, 2);
   const Eigen::MatrixXd u = random.matrix(300, 1);
   const Eigen::MatrixXd expected = LinearSimulation(continuous, 0.2).simulate(u);
   EXPECT_LT((LinearSimulation(sample(continuous, 0.2), 0.2).simulate(u) - expected).norm(), 1e-11);

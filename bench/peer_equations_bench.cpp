@@ -3,6 +3,8 @@
 
 #include "../tests/peer_family.hpp"
 #include <boresight/control/lyapunov.hpp>
+#include <boresight/control/riccati.hpp>
+#include <boresight/plant/sampling.hpp>
 
 namespace {
 
@@ -31,5 +33,28 @@ void peer_lyapunov_alone(benchmark::State& state) {
   lyapunov(state, false);
 }
 BENCHMARK(peer_lyapunov_alone)->Arg(5)->Arg(20)->Arg(50)->Arg(150);
+
+/// Weight 1 on the pointing error and on the valve command.
+control::RiccatiProblem regulator(const plant::StateSpace& system) {
+  return {system.a, system.b, system.c.transpose() * system.c, Eigen::MatrixXd::Identity(1, 1), {}};
+}
+
+void peer_riccati_continuous(benchmark::State& state) {
+  const auto problem =
+      regulator(reference::channel(reference::peer_closed_loop(state.range(0)), "d", "y"));
+  double trace = 0.0;
+  for (auto _ : state) trace = control::solve_riccati(problem).x.trace();
+  state.counters["value0"] = trace;
+}
+BENCHMARK(peer_riccati_continuous)->Arg(5)->Arg(20)->Arg(50);
+
+void peer_discrete_riccati_sampled(benchmark::State& state) {
+  const auto system = reference::channel(reference::peer_closed_loop(state.range(0)), "d", "y");
+  const auto problem = regulator(plant::sample(system, reference::peer_regulator_period));
+  double trace = 0.0;
+  for (auto _ : state) trace = control::solve_discrete_riccati(problem).x.trace();
+  state.counters["value0"] = trace;
+}
+BENCHMARK(peer_discrete_riccati_sampled)->Arg(5)->Arg(20)->Arg(50);
 
 }  // namespace

@@ -1,0 +1,38 @@
+// All crossovers, margins and peaks of the peers' loop, cut at the valve command.
+#include <benchmark/benchmark.h>
+
+#include "../tests/peer_family.hpp"
+#include <boresight/control/crossovers.hpp>
+#include <boresight/control/margins.hpp>
+
+namespace {
+
+using namespace boresight;
+
+void peer_margins_by_scan(benchmark::State& state) {
+  const auto loop = reference::peer_open_loop(state.range(0));
+  control::Margins margins;
+  for (auto _ : state) margins = control::margins(loop);
+  state.counters["value0"] = margins.increasing_gain_margin;
+  state.counters["value1"] = 0.0;
+  for (const auto& crossover : margins.phase_crossovers) {
+    if (crossover.gain_margin == margins.increasing_gain_margin) {
+      state.counters["value1"] = crossover.frequency;
+    }
+    if (crossover.gain_margin == margins.decreasing_gain_margin) {
+      state.counters["value3"] = crossover.frequency;
+    }
+  }
+  state.counters["value2"] = margins.decreasing_gain_margin;
+  state.counters["value4"] = margins.phase_margin_deg;
+  state.counters["value5"] = margins.gain_crossovers.front().frequency;
+}
+BENCHMARK(peer_margins_by_scan)->Arg(5)->Arg(20)->Arg(50)->Arg(150);
+
+void crossovers_by_eigenvalues(benchmark::State& state) {
+  const auto loop = reference::peer_open_loop(state.range(0));
+  for (auto _ : state) benchmark::DoNotOptimize(control::crossovers(loop));
+}
+BENCHMARK(crossovers_by_eigenvalues)->Arg(5)->Arg(20)->Arg(50)->Unit(benchmark::kMillisecond);
+
+}  // namespace

@@ -45,10 +45,24 @@ MatrixXd residual_of(const Equation& equation, const MatrixXd& a, const MatrixXd
   return residual;
 }
 
-LyapunovSolution solve(const Equation& equation, const MatrixXd& a, const MatrixXd& q,
-                       const LyapunovOptions& options) {
-  check_arguments(equation, a, q);
-  const Eigen::VectorXd scale = plant::balancing_scale(a);
+// Largest element of the residual relative to what its own terms add up to: the same in any scale
+// of the states.
+double elementwise_residual(const Equation& equation, const MatrixXd& a, const MatrixXd& q,
+                            const MatrixXd& p) {
+  const MatrixXd magnitude = p.cwiseAbs();
+  const MatrixXd product = a.cwiseAbs() * magnitude;
+  MatrixXd size = q.cwiseAbs();
+  if (equation.continuous()) {
+    size += product + product.transpose();
+  } else {
+    size += product * a.cwiseAbs().transpose() + magnitude;
+  }
+  const MatrixXd residual = residual_of(equation, a, p, 0.5 * (q + q.transpose())).cwiseAbs();
+  return (size.array() > 0.0).select(residual.array() / size.array(), 0.0).maxCoeff();
+}
+
+LyapunovSolution solve_scaled(const Equation& equation, const MatrixXd& a, const MatrixXd& q,
+                              const LyapunovOptions& options, const Eigen::VectorXd& scale) {
   const Eigen::VectorXd inverse = scale.cwiseInverse();
   const MatrixXd balanced = inverse.asDiagonal() * a * scale.asDiagonal();
   const MatrixXd symmetric =
@@ -88,6 +102,27 @@ LyapunovSolution solve(const Equation& equation, const MatrixXd& a, const Matrix
   }
   solution.covariance = scale.asDiagonal() * p * scale.asDiagonal();
   return solution;
+}
+
+LyapunovSolution solve(const Equation& equation, const MatrixXd& a, const MatrixXd& q,
+                       const LyapunovOptions& options) {
+  check_arguments(equation, a, q);
+  const Eigen::VectorXd scale = plant::balancing_scale(a);
+  LyapunovSolution balanced = solve_scaled(equation, a, q, options, scale);
+  // Couplings that are rounding errors draw the scales of balancing apart: the states as given may
+  // then be the better ones. No residual in norms tells.
+  constexpr double usual_spread = 0x1p40;
+  if (scale.maxCoeff() < usual_spread * scale.minCoeff()) return balanced;
+  LyapunovSolution plain;
+  try {
+    plain = solve_scaled(equation, a, q, options, Eigen::VectorXd::Ones(scale.size()));
+  } catch (const NumericalFailure&) {
+    return balanced;
+  }
+  return elementwise_residual(equation, a, q, plain.covariance) <
+                 elementwise_residual(equation, a, q, balanced.covariance)
+             ? plain
+             : balanced;
 }
 
 }  // namespace

@@ -86,6 +86,27 @@ StateSpace stack(const std::vector<StateSpace>& systems) {
   return all;
 }
 
+// The inverse of a matrix with ones on its diagonal, zero where no chain of its elements leads:
+// what rounding would leave there are couplings that do not exist, and balancing would enlarge
+// them.
+Eigen::MatrixXd structural_inverse(const Eigen::MatrixXd& matrix) {
+  const Eigen::Index n = matrix.rows();
+  Eigen::Matrix<bool, Eigen::Dynamic, Eigen::Dynamic> leads = matrix.array() != 0.0;
+  for (Eigen::Index k = 0; k < n; ++k) {
+    for (Eigen::Index i = 0; i < n; ++i) {
+      if (!leads(i, k)) continue;
+      for (Eigen::Index j = 0; j < n; ++j) leads(i, j) = leads(i, j) || leads(k, j);
+    }
+  }
+  Eigen::MatrixXd inverse = linear_solve(matrix, Eigen::MatrixXd::Identity(n, n), "connect");
+  for (Eigen::Index i = 0; i < n; ++i) {
+    for (Eigen::Index j = 0; j < n; ++j) {
+      if (i != j && !leads(i, j)) inverse(i, j) = 0.0;
+    }
+  }
+  return inverse;
+}
+
 }  // namespace
 
 void validate(const StateSpace& system) {
@@ -221,8 +242,9 @@ StateSpace connect(const std::vector<StateSpace>& systems,
   }
   // y = C x + D u, u = F y + E r  =>  u = (I - F D)^-1 (F C x + E r)
   const Eigen::MatrixXd loop = Eigen::MatrixXd::Identity(m, m) - feedback * all.d;
-  const Eigen::MatrixXd from_states = linear_solve(loop, feedback * all.c, "connect");
-  const Eigen::MatrixXd from_outside = linear_solve(loop, selection, "connect");
+  const Eigen::MatrixXd through = structural_inverse(loop);
+  const Eigen::MatrixXd from_states = through * (feedback * all.c);
+  const Eigen::MatrixXd from_outside = through * selection;
   const Eigen::MatrixXd c = all.c + all.d * from_states;
   const Eigen::MatrixXd d = all.d * from_outside;
 

@@ -313,5 +313,27 @@ TEST(Lyapunov, RefusesShapesAndNumbersThatDoNotFit) {
   EXPECT_THROW(solve_lyapunov(stable, stable * HUGE_VAL), InvalidInput);
 }
 
+TEST(Lyapunov, IsNotLedAstrayByACouplingThatIsARoundingError) {
+  // A filter in front of an oscillator, and a rounding error back within the filter that balancing
+  // takes for a coupling: scales run apart by 10^50 and more with enough stages.
+  constexpr Eigen::Index stages = 6, n = stages + 2;
+  Eigen::MatrixXd a = Eigen::MatrixXd::Zero(n, n);
+  for (Eigen::Index i = 0; i < stages; ++i) {
+    a(i, i) = -0.01 * std::pow(5.0, static_cast<double>(i));
+    for (Eigen::Index j = 0; j < i; ++j)
+      a(i, j) = -0.2 * a(i, i) / (1.0 + static_cast<double>(i - j));
+  }
+  a(stages, stages - 1) = 70.0;
+  a(stages, stages) = a(stages + 1, stages + 1) = -0.5;
+  a(stages, stages + 1) = 3.0;
+  a(stages + 1, stages) = -3.0;
+  Eigen::VectorXd b = Eigen::VectorXd::Zero(n);
+  b[0] = 1.0;
+  const Eigen::MatrixXd clean = solve_lyapunov(a, b * b.transpose()).covariance;
+  a(0, 1) = 1e-18;
+  const Eigen::MatrixXd found = solve_lyapunov(a, b * b.transpose()).covariance;
+  for (Eigen::Index i = 0; i < n; ++i) EXPECT_NEAR(found(i, i) / clean(i, i), 1.0, 1e-9) << i;
+}
+
 }  // namespace
 }  // namespace boresight::control

@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "../peer_family.hpp"
-#include "../random_systems.hpp"
+#include "../random_stable_system.hpp"
 #include "../reference_values.hpp"
 #include <boresight/control/peak_gain.hpp>
 #include <boresight/plant/eigenvalues.hpp>

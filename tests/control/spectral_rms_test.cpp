@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "../peer_family.hpp"
-#include "../random_systems.hpp"
+#include "../random_stable_system.hpp"
 #include <boresight/control/lyapunov.hpp>
 #include <boresight/control/spectral_rms.hpp>
 #include <boresight/plant/error.hpp>
@@ -116,7 +116,8 @@ TEST(SpectralRms, OfWhatHasNoneIsRefused) {
       ThrowsMessage<NumericalFailure>(HasSubstr("a response that falls off")));
   EXPECT_THAT(
       [] {
-        spectral_rms(response_of(plant::rational({1.0}, {1.0, 1.0}, "n", "y", "x")), {1e-20});
+        spectral_rms(response_of(plant::rational({1.0}, {1.0, 1.0}, "n", "y", "x")),
+                     SpectralRmsOptions{1e-20, 100, {}});
       },
       ThrowsMessage<InvalidInput>(HasSubstr("found 1e-20")));
   // Nothing at all has an rms of 0.

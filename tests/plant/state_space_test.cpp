@@ -204,5 +204,26 @@ TEST(SignalIndex, FindsANameOrListsWhatThereIs) {
               ThrowsMessage<InvalidInput>(HasSubstr("outputs y, z, found 'w'")));
 }
 
+TEST(Connect, LeavesNoCouplingWhereNothingLeads) {
+  // First-order sections with feedthrough in cascade, given in any order: strictly triangular.
+  std::vector<StateSpace> sections;
+  for (int i = 0; i < 6; ++i) {
+    const auto name = [](int k) { return "s" + std::to_string(k); };
+    const double pole = 0.01 * std::pow(4.3, i), zero = 0.0035 * std::pow(5.1, i);
+    sections.push_back(rational({1.0 / 3.0, 1.0 / (3.0 * zero)}, {1.0, 1.0 / pole}, name(i),
+                                name(i + 1), "section" + std::to_string(i)));
+  }
+  std::swap(sections[1], sections[4]);
+  std::swap(sections[0], sections[2]);
+  const auto whole = connect(sections, {"s0"}, {"s6"});
+  for (Eigen::Index i = 0; i < 6; ++i) {
+    for (Eigen::Index j = 0; j < 6; ++j) {
+      const char to = whole.states[static_cast<std::size_t>(i)][7];
+      const char from = whole.states[static_cast<std::size_t>(j)][7];
+      EXPECT_EQ(whole.a(i, j) != 0.0, from <= to) << from << " to " << to;
+    }
+  }
+}
+
 }  // namespace
 }  // namespace boresight::plant

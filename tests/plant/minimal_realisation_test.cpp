@@ -57,7 +57,7 @@ TEST(MinimalRealisation, FindsTheCoreInAKalmanDecomposition) {
     const Eigen::VectorXcd unreached_poles =
         eigenvalues(all.a.bottomRightCorner(unreached, unreached));
     const Eigen::VectorXcd unseen_poles = eigenvalues(all.a.block(core, core, unseen, unseen));
-    for (int i = 0; i < 3; ++i) {  // reflections: orthogonal and exactly inverted
+    for (int i = 0; i < 3 && n > 0; ++i) {  // reflections: orthogonal and exactly inverted
       const Eigen::VectorXd v = random.matrix(n, 1).stableNormalized();
       const Eigen::MatrixXd q = Eigen::MatrixXd::Identity(n, n) - 2.0 * v * v.transpose();
       all.a = (q * all.a * q).eval();

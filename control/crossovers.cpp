@@ -18,9 +18,10 @@ namespace {
 
 using Complex = std::complex<double>;
 
-// The loop closed by the gain f, L/(1 + f L).
+// The loop closed by the gain f, L/(1 + f L). @throws NumericalFailure if it has no solution.
 plant::StateSpace with_feedback(const plant::StateSpace& loop, double f) {
   const double inverse = 1.0 / (1.0 + f * loop.d(0, 0));
+  if (!(std::abs(inverse) < 1e6)) throw NumericalFailure("crossovers: no solution at infinity");
   plant::StateSpace result = loop;
   result.a -= f * inverse * loop.b * loop.c;
   result.b *= inverse;
@@ -74,13 +75,13 @@ struct FedBackLoop {
   double f = 0.0;
 };
 
-// `map` of the loop, closed by an f that moves away the poles it cannot map; without a value if
-// none does.
-std::optional<FedBackLoop> mapped(const plant::StateSpace& loop,
+// `map` of the loop, closed by more feedback where that moves away poles that it cannot map;
+// without a value if none does.
+std::optional<FedBackLoop> mapped(const FedBackLoop& loop,
                                   plant::StateSpace (*map)(const plant::StateSpace&)) {
-  for (const double f : {0.0, 0.37, -0.41}) {
+  for (const double more : {0.0, 0.37, -0.41}) {
     try {
-      return FedBackLoop{map(plant::balanced(with_feedback(loop, f))), f};
+      return FedBackLoop{map(plant::balanced(with_feedback(loop.system, more))), loop.f + more};
     } catch (const NumericalFailure&) {
       continue;
     }
@@ -162,7 +163,7 @@ Crossovers crossovers(const plant::StateSpace& loop, const CrossoverOptions& opt
   const double time = loop.sample_time;
   const auto keep = [](const plant::StateSpace& system) { return system; };
   std::vector<Complex> candidates;
-  const auto direct = mapped(loop, time > 0.0 ? bilinear : keep);
+  const auto direct = mapped({loop, 0.0}, time > 0.0 ? bilinear : keep);
   if (!direct) {
     throw NumericalFailure(
         "crossovers: A has an eigenvalue of -1 that no feedback moves, out of reach of input or "
@@ -170,7 +171,7 @@ Crossovers crossovers(const plant::StateSpace& loop, const CrossoverOptions& opt
   }
   add_candidates(*direct, false, candidates);
   // Rounding spoils the smallest of zeros that are many decades apart: those of L(1/s) besides.
-  const auto inverse = mapped(with_feedback(direct->system, -direct->f), reversed);
+  const auto inverse = mapped(*direct, reversed);
   if (inverse) add_candidates(*inverse, true, candidates);
   if (time > 0.0) {
     for (Complex& s : candidates) {

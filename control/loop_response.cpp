@@ -58,16 +58,17 @@ Eigen::VectorXcd joined(const Eigen::VectorXcd& a, const Eigen::VectorXcd& b) {
   return result;
 }
 
-plant::StateSpace transpose(const plant::StateSpace& system) {
-  return {system.a.transpose(), system.c.transpose(), system.b.transpose(), system.d.transpose(),
-          system.outputs,       system.inputs,        system.states,        system.sample_time};
+// The reduction that `response` has not taken.
+plant::DenseResponse::Start opposite(const plant::DenseResponse& response) {
+  using Start = plant::DenseResponse::Start;
+  return response.start() == Start::inputs ? Start::outputs : Start::inputs;
 }
 
 }  // namespace
 
 LoopResponse::LoopResponse(const char* function, const plant::StateSpace& loop, double dead_time)
     : response_(checked(function, loop, dead_time)),
-      transposed_(transpose(loop)),
+      other_(loop, opposite(response_)),
       dead_time_(dead_time) {
   plant::StateSpace scaled = plant::balanced(loop);
   const bool sampled = loop.sample_time > 0.0;
@@ -130,7 +131,7 @@ LoopOnGrid LoopResponse::on_grid(Eigen::ArrayXd angular_frequency) {
   result.gain = [this](double w) { return at(w); };
   result.value = at(angular_frequency);
   Eigen::ArrayXcd other;
-  transposed_.evaluate(angular_frequency, other);
+  other_.evaluate(angular_frequency, other);
   Eigen::ArrayXd raw(count);
   for (Eigen::Index i = 0; i < count; ++i) {
     if (dead_time_ > 0.0) other[i] *= std::polar(1.0, -angular_frequency[i] * dead_time_);

@@ -26,7 +26,7 @@ class LoopResponse {
   Eigen::ArrayXcd at(const Eigen::ArrayXd& angular_frequency);
 
   /// L at a grid of frequencies, and its relative errors as estimated from the difference between
-  /// this response and that of the transposed system, which rounds differently: where L is lost in
+  /// reductions from the input and from the output, which round differently: where L is lost in
   /// rounding (below the poles that ought to be 0) it says so.
   LoopOnGrid on_grid(Eigen::ArrayXd angular_frequency);
 
@@ -53,7 +53,7 @@ class LoopResponse {
  private:
   std::complex<double> real_end(const plant::StateSpace& scaled, double s);
 
-  plant::DenseResponse response_, transposed_;
+  plant::DenseResponse response_, other_;
   double dead_time_;
   Eigen::VectorXcd features_;
   std::optional<bool> closed_loop_stable_;

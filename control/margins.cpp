@@ -62,23 +62,6 @@ ResponsePeak peak_on_grid(const LoopOnGrid& loop, ClosedLoop what) {
   return peak;
 }
 
-void summarise(Margins& margins) {
-  margins.increasing_gain_margin = margins.delay_margin = infinity;
-  margins.decreasing_gain_margin = 0.0;
-  margins.phase_margin_deg = 180.0;
-  for (const auto& crossover : margins.gain_crossovers) {
-    margins.phase_margin_deg =
-        std::min(margins.phase_margin_deg, std::abs(crossover.phase_margin_deg));
-    margins.delay_margin = std::min(margins.delay_margin, crossover.delay_margin);
-  }
-  for (const auto& crossover : margins.phase_crossovers) {
-    double& margin = crossover.gain_margin > 1.0 ? margins.increasing_gain_margin
-                                                 : margins.decreasing_gain_margin;
-    margin = crossover.gain_margin > 1.0 ? std::min(margin, crossover.gain_margin)
-                                         : std::max(margin, crossover.gain_margin);
-  }
-}
-
 void check_grid(const LoopOnGrid& loop) {
   const Eigen::ArrayXd& w = loop.frequency;
   const Eigen::Index count = w.size();
@@ -108,6 +91,23 @@ double end_of_search(LoopResponse& response, const plant::ResponseGridOptions& g
 
 }  // namespace
 
+void update_smallest(Margins& margins) {
+  margins.increasing_gain_margin = margins.delay_margin = infinity;
+  margins.decreasing_gain_margin = 0.0;
+  margins.phase_margin_deg = 180.0;
+  for (const auto& crossover : margins.gain_crossovers) {
+    margins.phase_margin_deg =
+        std::min(margins.phase_margin_deg, std::abs(crossover.phase_margin_deg));
+    margins.delay_margin = std::min(margins.delay_margin, crossover.delay_margin);
+  }
+  for (const auto& crossover : margins.phase_crossovers) {
+    double& margin = crossover.gain_margin > 1.0 ? margins.increasing_gain_margin
+                                                 : margins.decreasing_gain_margin;
+    margin = crossover.gain_margin > 1.0 ? std::min(margin, crossover.gain_margin)
+                                         : std::max(margin, crossover.gain_margin);
+  }
+}
+
 Margins margins(const LoopOnGrid& loop, const CrossoverOptions& options) {
   check_grid(loop);
   Margins result;
@@ -115,7 +115,7 @@ Margins margins(const LoopOnGrid& loop, const CrossoverOptions& options) {
   result.gain_crossovers = std::move(found.gain);
   result.phase_crossovers = std::move(found.phase);
   result.tangencies = std::move(found.tangencies);
-  summarise(result);
+  update_smallest(result);
   result.sensitivity = peak_on_grid(loop, ClosedLoop::sensitivity);
   result.complementary = peak_on_grid(loop, ClosedLoop::complementary);
   const ResponsePeak disk = peak_on_grid(loop, ClosedLoop::disk);
@@ -155,7 +155,7 @@ Margins margins(const plant::StateSpace& loop, const MarginOptions& options) {
   Margins result = margins(on_grid, options.crossovers);
 
   response.add_real_ends(result.phase_crossovers);
-  summarise(result);
+  update_smallest(result);
   Complex last = response.at_highest();
   if (!sampled && options.dead_time > 0.0) last = -std::abs(last);
   const auto include_end = [&](double frequency, Complex gain) {

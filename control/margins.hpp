@@ -47,6 +47,9 @@ struct Margins {
   double distance_to_minus_one() const { return 1.0 / sensitivity.magnitude; }
 };
 
+/// Sets the smallest gain, phase and delay margins from the crossovers listed.
+void update_smallest(Margins& margins);
+
 /// Margins from values on a grid, each crossover and each peak refined on the loop gain itself.
 /// @throws InvalidInput for a grid that is empty, not positive or not rising, or a loop gain that
 /// is not a number.
@@ -58,7 +61,7 @@ Margins margins(const std::function<std::complex<double>(double)>& loop_gain,
                 const Eigen::ArrayXd& frequency, const CrossoverOptions& options = {});
 
 struct MarginOptions {
-  CrossoverOptions crossovers;
+  CrossoverOptions crossovers = {};
   /// s; an extra exact dead time in the loop.
   double dead_time = 0.0;
   /// Of the grid, which has more around each lightly damped pole and zero of L and pole of the

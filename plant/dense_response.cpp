@@ -3,6 +3,7 @@
 #include <cmath>
 #include <cstring>
 #include <limits>
+#include <numbers>
 #include <type_traits>
 #include <utility>
 
@@ -11,6 +12,7 @@
 #include <boresight/plant/balance.hpp>
 #include <boresight/plant/dense_response.hpp>
 #include <boresight/plant/error.hpp>
+#include <boresight/plant/linear_solve.hpp>
 #include <boresight/plant/vector_clones.hpp>
 
 namespace boresight::plant {
@@ -208,28 +210,81 @@ struct HymanSubstitution {
   }
 };
 
-DenseResponse::DenseResponse(const StateSpace& system)
+DenseResponse::DenseResponse(const StateSpace& system, Start start)
     : order_(system.a.rows()), sample_time_(system.sample_time), feedthrough_(system.d) {
   validate(system);
   StateSpace scaled = balanced(system);
   if (sample_time_ > 0.0) scaled.a.diagonal().array() -= 1.0;
-  if (order_ > 0) balanced_norm_ = scaled.a.cwiseAbs().colwise().sum().maxCoeff();
-  const Eigen::Index n = order_;
-  for (Eigen::Index input = 0; input < scaled.b.cols(); ++input) {
-    Eigen::MatrixXd h = scaled.a, c = scaled.c;
-    Eigen::VectorXd b = scaled.b.col(input);
+  work_.resize(static_cast<std::size_t>(2 * order_ * lane_count));
+  start_ = start == Start::outputs ? Start::outputs : Start::inputs;
+  reach_ = start_ == Start::inputs
+               ? reaches(scaled.a, scaled.b, scaled.c)
+               : reaches(scaled.a.transpose(), scaled.c.transpose(), scaled.b.transpose());
+  if (start == Start::better && order_ > 1) choose_start(scaled);
+}
+
+std::vector<DenseResponse::Reach> DenseResponse::reaches(const Eigen::MatrixXd& a,
+                                                         const Eigen::MatrixXd& b,
+                                                         const Eigen::MatrixXd& c) {
+  std::vector<Reach> result;
+  for (Eigen::Index input = 0; input < b.cols(); ++input) {
+    Eigen::MatrixXd h = a, rows = c;
+    Eigen::VectorXd column = b.col(input);
     Reach reach;
-    reach.order = reduce(h, b, c);
-    reach.entry = n > 0 ? b[0] : 0.0;
+    reach.order = reduce(h, column, rows);
+    reach.entry = reach.order > 0 ? column[0] : 0.0;
     for (Eigen::Index i = reach.order - 1; i >= 0; --i) {
       for (Eigen::Index j = reach.order - 1; j >= i; --j) reach.elements.push_back(h(i, j));
       if (i > 0) reach.elements.push_back(1.0 / h(i, i - 1));
     }
     // In the order of x: last state first.
-    reach.output = c.leftCols(reach.order).rowwise().reverse().transpose();
-    reach_.push_back(std::move(reach));
+    reach.output = rows.leftCols(reach.order).rowwise().reverse().transpose();
+    result.push_back(std::move(reach));
   }
-  work_.resize(static_cast<std::size_t>(2 * n * lane_count));
+  return result;
+}
+
+// Compares the reduction from the inputs, which is there, with that from the outputs at some
+// frequencies, and where they differ with linear solves.
+void DenseResponse::choose_start(const StateSpace& scaled) {
+  constexpr int probes = 25, probes_per_decade = 3;
+  constexpr double sound = 1e-8;  // relative error
+  const double fastest = sample_time_ > 0.0 ? std::numbers::pi / sample_time_
+                                            : scaled.a.cwiseAbs().colwise().sum().maxCoeff();
+  if (!(fastest > 0.0)) return;
+  const auto error = [](const Eigen::MatrixXcd& found, const Eigen::MatrixXcd& expected) {
+    const Eigen::ArrayXXd relative =
+        (found - expected).array().abs() / expected.array().abs().max(1e-300);
+    return relative.isFinite().all() ? relative.maxCoeff() : 1.0;
+  };
+  std::vector<Complex> s;
+  std::vector<Eigen::MatrixXcd> from_inputs(probes), from_outputs(probes);
+  for (std::size_t k = 0; k < probes; ++k) {
+    s.push_back(point(fastest * std::pow(10.0, -static_cast<double>(k) / probes_per_decade)));
+    static_cast<void>(evaluate_shifted(s[k], from_inputs[k]));
+  }
+  auto other = reaches(scaled.a.transpose(), scaled.c.transpose(), scaled.b.transpose());
+  std::swap(reach_, other);
+  start_ = Start::outputs;
+  std::vector<std::size_t> different;
+  for (std::size_t k = 0; k < probes; ++k) {
+    static_cast<void>(evaluate_shifted(s[k], from_outputs[k]));
+    if (error(from_inputs[k], from_outputs[k]) > sound) different.push_back(k);
+  }
+  // Where one is sound and the other is not; where neither is, below integrators, both are lost.
+  constexpr std::size_t most_solves = 9;
+  const std::size_t solves = std::min(most_solves, different.size());
+  int for_outputs = 0;
+  for (std::size_t i = 0; i < solves; ++i) {
+    const std::size_t k = different[i * different.size() / solves];
+    const Eigen::MatrixXcd solved = transfer_matrix(scaled.a, scaled.b, scaled.c, scaled.d, s[k]);
+    for_outputs += static_cast<int>(error(from_outputs[k], solved) < sound) -
+                   static_cast<int>(error(from_inputs[k], solved) < sound);
+  }
+  constexpr int majority = 2;
+  if (for_outputs >= majority) return;
+  std::swap(reach_, other);
+  start_ = Start::inputs;
 }
 
 bool DenseResponse::evaluate(Complex s, Eigen::MatrixXcd& response) {
@@ -237,23 +292,30 @@ bool DenseResponse::evaluate(Complex s, Eigen::MatrixXcd& response) {
     throw InvalidInput(
         fmt::format("DenseResponse: expected a finite s, found {} + {}j", s.real(), s.imag()));
   }
-  if (sample_time_ > 0.0) s -= 1.0;
+  return evaluate_shifted(sample_time_ > 0.0 ? s - 1.0 : s, response);
+}
+
+bool DenseResponse::evaluate_shifted(Complex s, Eigen::MatrixXcd& response) {
   response.resize(outputs(), inputs());
+  const bool transposed = start_ == Start::outputs;
   bool regular = true;
-  for (Eigen::Index input = 0; input < inputs(); ++input) {
-    const Reach& reach = reach_[static_cast<std::size_t>(input)];
-    if (reach.order == 0) {
-      response.col(input) = feedthrough_.col(input).cast<Complex>();
-      continue;
-    }
+  for (std::size_t k = 0; k < reach_.size(); ++k) {
+    const Reach& reach = reach_[k];
+    const auto first = static_cast<Eigen::Index>(k);
     Substitution<double> sums{};
-    HymanSubstitution::states(reach, s.real(), s.imag(), work_.data(), sums);
-    for (Eigen::Index row = 0; row < outputs(); ++row) {
-      HymanSubstitution::output(reach, row, work_.data(), sums);
+    if (reach.order > 0) {
+      HymanSubstitution::states(reach, s.real(), s.imag(), work_.data(), sums);
+    }
+    for (Eigen::Index second = 0; second < (transposed ? inputs() : outputs()); ++second) {
+      const Eigen::Index row = transposed ? first : second, column = transposed ? second : first;
+      Complex& element = response(row, column);
+      element = feedthrough_(row, column);
+      if (reach.order == 0) continue;
+      HymanSubstitution::output(reach, second, work_.data(), sums);
       const Complex value = quotient(reach.order, reach.entry, {sums.output_re, sums.output_im},
                                      {sums.pivot_re, sums.pivot_im}, sums.size);
       if (std::isinf(value.real())) regular = false;
-      response(row, input) = feedthrough_(row, input) + value;
+      element += value;
     }
   }
   return regular;
@@ -280,22 +342,22 @@ Complex DenseResponse::point(double angular_frequency) const {
   return {-2.0 * half * half, std::sin(angular_frequency * sample_time_)};
 }
 
-void DenseResponse::check_channel(Eigen::Index output, Eigen::Index input) const {
+const DenseResponse::Reach& DenseResponse::reach_of(Eigen::Index output, Eigen::Index input) const {
   if (output < 0 || output >= outputs() || input < 0 || input >= inputs()) {
     throw InvalidInput(fmt::format(
         "DenseResponse: expected an output below {} and an input below {}, found {} and {}",
         outputs(), inputs(), output, input));
   }
+  return reach_[static_cast<std::size_t>(start_ == Start::outputs ? output : input)];
 }
 
 Complex DenseResponse::channel(double angular_frequency, Eigen::Index output, Eigen::Index input) {
-  check_channel(output, input);
-  const Reach& reach = reach_[static_cast<std::size_t>(input)];
-  if (reach.order == 0) return feedthrough_(output, input);
+  const Reach& reach = reach_of(output, input);
   const Complex s = point(angular_frequency);
+  if (reach.order == 0) return feedthrough_(output, input);
   Substitution<double> sums{};
   HymanSubstitution::states(reach, s.real(), s.imag(), work_.data(), sums);
-  HymanSubstitution::output(reach, output, work_.data(), sums);
+  HymanSubstitution::output(reach, start_ == Start::outputs ? input : output, work_.data(), sums);
   return feedthrough_(output, input) + quotient(reach.order, reach.entry,
                                                 {sums.output_re, sums.output_im},
                                                 {sums.pivot_re, sums.pivot_im}, sums.size);
@@ -303,15 +365,15 @@ Complex DenseResponse::channel(double angular_frequency, Eigen::Index output, Ei
 
 void DenseResponse::evaluate(const Eigen::ArrayXd& angular_frequency, Eigen::ArrayXcd& response,
                              Eigen::Index output, Eigen::Index input) {
-  check_channel(output, input);
+  const Reach& reach = reach_of(output, input);
   const Eigen::Index count = angular_frequency.size();
   response.resize(count);
-  const Reach& reach = reach_[static_cast<std::size_t>(input)];
   const double direct = feedthrough_(output, input);
   if (reach.order == 0) {
     response.setConstant(direct);
     return;
   }
+  const Eigen::Index row = start_ == Start::outputs ? input : output;
   constexpr auto width = static_cast<std::size_t>(lane_count);
   std::array<double, 2 * width> s{};
   std::array<double, sizeof(Substitution<Lanes>) / sizeof(double)> sums{};
@@ -323,7 +385,7 @@ void DenseResponse::evaluate(const Eigen::ArrayXd& angular_frequency, Eigen::Arr
       s[l] = at.real();
       s[width + l] = at.imag();
     }
-    HymanSubstitution::lanes(reach, s.data(), output, work_.data(), sums.data());
+    HymanSubstitution::lanes(reach, s.data(), row, work_.data(), sums.data());
     for (Eigen::Index l = 0; l < filled; ++l) {
       const double* sum = sums.data() + l;
       response[first + l] =

@@ -2,7 +2,11 @@
 #include <benchmark/benchmark.h>
 
 #include "../tests/peer_family.hpp"
+#include <boresight/control/balanced_truncation.hpp>
+#include <boresight/control/controllability.hpp>
+#include <boresight/control/gramians.hpp>
 #include <boresight/control/lyapunov.hpp>
+#include <boresight/control/modal_truncation.hpp>
 #include <boresight/control/riccati.hpp>
 #include <boresight/plant/sampling.hpp>
 
@@ -56,5 +60,31 @@ void peer_discrete_riccati_sampled(benchmark::State& state) {
   state.counters["value0"] = trace;
 }
 BENCHMARK(peer_discrete_riccati_sampled)->Arg(5)->Arg(20)->Arg(50);
+
+void hankel_singular_values(benchmark::State& state) {
+  const auto system = noise_to_pointing(state);
+  for (auto _ : state) benchmark::DoNotOptimize(control::hankel_singular_values(system));
+}
+BENCHMARK(hankel_singular_values)->Arg(5)->Arg(20)->Arg(50);
+
+void truncate_balanced(benchmark::State& state) {
+  const auto system = noise_to_pointing(state);
+  for (auto _ : state) benchmark::DoNotOptimize(control::truncate_balanced(system, {.order = 10}));
+}
+BENCHMARK(truncate_balanced)->Arg(5)->Arg(20)->Arg(50);
+
+void truncate_modes(benchmark::State& state) {
+  const auto system = noise_to_pointing(state);
+  for (auto _ : state) {
+    benchmark::DoNotOptimize(control::truncate_modes(system, {.error_bound = 0.1}));
+  }
+}
+BENCHMARK(truncate_modes)->Arg(5)->Arg(20)->Arg(50);
+
+void controllability(benchmark::State& state) {
+  const auto system = noise_to_pointing(state);
+  for (auto _ : state) benchmark::DoNotOptimize(control::controllability(system));
+}
+BENCHMARK(controllability)->Arg(5)->Arg(20)->Arg(50);
 
 }  // namespace

@@ -1,20 +1,18 @@
 // All crossovers, margins and peaks of the peers' loop, cut at the valve command.
 #include <benchmark/benchmark.h>
 
-#include "../tests/peer_family.hpp"
+#include "../tests/peer_modal_family.hpp"
 #include <boresight/control/crossovers.hpp>
 #include <boresight/control/margins.hpp>
+#include <boresight/plant/modal_response.hpp>
 
 namespace {
 
 using namespace boresight;
 
-void peer_margins_by_scan(benchmark::State& state) {
-  const auto loop = reference::peer_open_loop(state.range(0));
-  control::Margins margins;
-  for (auto _ : state) margins = control::margins(loop);
+void report(benchmark::State& state, const control::Margins& margins) {
   state.counters["value0"] = margins.increasing_gain_margin;
-  state.counters["value1"] = 0.0;
+  state.counters["value2"] = margins.decreasing_gain_margin;
   for (const auto& crossover : margins.phase_crossovers) {
     if (crossover.gain_margin == margins.increasing_gain_margin) {
       state.counters["value1"] = crossover.frequency;
@@ -23,11 +21,32 @@ void peer_margins_by_scan(benchmark::State& state) {
       state.counters["value3"] = crossover.frequency;
     }
   }
-  state.counters["value2"] = margins.decreasing_gain_margin;
   state.counters["value4"] = margins.phase_margin_deg;
   state.counters["value5"] = margins.gain_crossovers.front().frequency;
 }
+
+void peer_margins_by_scan(benchmark::State& state) {
+  const auto loop = reference::peer_open_loop(state.range(0));
+  control::Margins margins;
+  for (auto _ : state) margins = control::margins(loop);
+  report(state, margins);
+}
 BENCHMARK(peer_margins_by_scan)->Arg(5)->Arg(20)->Arg(50)->Arg(150);
+
+void peer_margins_by_modes_on_a_grid(benchmark::State& state) {
+  const auto system = reference::peer_modal_open_loop(state.range(0));
+  const Eigen::ArrayXd w = Eigen::ArrayXd::LinSpaced(5000, std::log(0.01), std::log(628.0)).exp();
+  control::Margins margins;
+  for (auto _ : state) {
+    const plant::ModalResponse loop(system, "d", "loop_gain");
+    Eigen::ArrayXcd value(w.size());
+    loop.evaluate(w, value);
+    const auto gain = [&](double frequency) { return loop.at(frequency); };
+    margins = control::margins({gain, w, value, Eigen::ArrayXd::Constant(w.size(), 1e-12)});
+  }
+  report(state, margins);
+}
+BENCHMARK(peer_margins_by_modes_on_a_grid)->Arg(5)->Arg(20)->Arg(50)->Arg(150)->Arg(500);
 
 void crossovers_by_eigenvalues(benchmark::State& state) {
   const auto loop = reference::peer_open_loop(state.range(0));

@@ -53,6 +53,20 @@ std::string text_of_error(double error, int digits) {
   return fmt::format("< {:.0e}", std::max(std::pow(10.0, std::ceil(std::log10(error))), 1e-15));
 }
 
+/// In lines of at most a hundred characters.
+std::string wrapped(const std::string& text) {
+  std::istringstream words(text);
+  std::string result, line;
+  for (std::string word; words >> word;) {
+    if (!line.empty() && line.size() + 1 + word.size() > 100) {
+      result += line + "\n";
+      line.clear();
+    }
+    line += (line.empty() ? "" : " ") + word;
+  }
+  return result + line;
+}
+
 int digits_of(const PrintedNumber& number) {
   if (number.value == 0.0) return 1;
   return 1 + static_cast<int>(std::floor(std::log10(std::abs(number.value)) -
@@ -106,6 +120,10 @@ void AccuracySection::numbers(const std::string& name, const std::string& quanti
                               const std::vector<double>& found,
                               const std::vector<double>& reference, int digits, double tolerance,
                               const std::string& remark) {
+  if (reference.empty()) {
+    stated(name, quantity, "none", found.empty(), remark);
+    return;
+  }
   const double error = error_of(found, reference);
   rows_.push_back({name, quantity, text_of(reference), digits, error,
                    fmt::format("{:.0e}", tolerance), error <= tolerance, remark});
@@ -151,7 +169,7 @@ bool AccuracySection::holds() const {
 }
 
 std::string AccuracySection::markdown() const {
-  std::string text = fmt::format("## {}\n\n{}\n\n", title_, text_);
+  std::string text = fmt::format("## {}\n\n{}\n\n", title_, wrapped(text_));
   text += "| case | quantity | reference | digits | error | asked | verdict |\n";
   text += "|---|---|---|---|---|---|---|\n";
   for (const AccuracyRow& row : rows_) {

@@ -85,7 +85,7 @@ class LoopRows {
   /// The closest approach to -1; where the file stopped at the end of its scan, the response there.
   void distance(double reference, double frequency) const {
     if (at_end_of_scan(frequency)) {
-      section_.number(name_, "|1 + L| at the end of the scan", std::abs(1.0 + at(frequency)),
+      section_.number(name_, "distance to -1 at the end of the scan", std::abs(1.0 + at(frequency)),
                       reference, 12, 1e-9, remark_);
       section_.stated(name_, "closest to -1", "beyond the scan",
                       at_end_of_axis(margins_.sensitivity.frequency));

@@ -1,6 +1,7 @@
 #include <cmath>
 
 #include "accuracy_table.hpp"
+#include <boresight/control/gramians.hpp>
 #include <boresight/control/h2_norm.hpp>
 #include <boresight/control/peak_gain.hpp>
 #include <boresight/plant/interconnection.hpp>
@@ -82,17 +83,26 @@ void covariance_rows(AccuracySection& section, const nlohmann::json& entry) {
                  matrix(entry.at("discrete_Ts1_D_I")), 15, 1e-9);
 }
 
+void hankel_rows(AccuracySection& section, const nlohmann::json& entry) {
+  std::vector<PrintedNumber> printed;
+  for (const auto& value : entry.at("hsv_verified")) printed.push_back(printed_number(value));
+  section.printed("hsv", "Hankel singular values",
+                  flattened(Eigen::MatrixXd(control::hankel_singular_values(system_of(entry)))),
+                  printed);
+}
+
 }  // namespace
 
 AccuracySection norm_accuracy() {
   AccuracySection section(
-      "Norms and covariances",
+      "Norms, covariances, Hankel singular values",
       "`values/norms_gramians.json`, from python-control, ControlSystems.jl, Octave and the "
       "literature. Its property of 10 000 random systems is a test of its own "
       "(tests/control/peak_gain_test.cpp), and SLICOT's AB13DD is among SLICOT's examples.");
   const auto file = reference_values("norms_gramians");
   peak_and_h2_rows(section, file.at("hinf_h2"));
   covariance_rows(section, file.at("covariance").at(0));
+  hankel_rows(section, file.at("hsv").at(0));
   return section;
 }
 

@@ -1,4 +1,5 @@
 #include "accuracy_table.hpp"
+#include <boresight/control/balanced_truncation.hpp>
 #include <boresight/control/h2_norm.hpp>
 #include <boresight/control/lyapunov.hpp>
 #include <boresight/control/peak_gain.hpp>
@@ -33,6 +34,21 @@ void lyapunov_rows(AccuracySection& section) {
   const Eigen::MatrixXd x = control::solve_lyapunov(a.transpose(), b.transpose() * b).covariance;
   section.printed("SB03OD", "X", flattened(x),
                   flattened(slicot_result("SB03OD.res", "X = op(U)'*op(U)")));
+}
+
+/// The reduced system is printed in states of its own: the Hankel singular values and how many of
+/// them are kept do not depend on these.
+void truncation_rows(AccuracySection& section) {
+  SlicotData data("AB09AD.dat");
+  const Eigen::MatrixXd a = data.next_matrix(7, 7), b = data.next_matrix(7, 2),
+                        c = data.next_matrix(3, 7);
+  const auto reduced = control::truncate_balanced(state_space(a, b, c, Eigen::MatrixXd::Zero(3, 2)),
+                                                  {.singular_value_above = data.scalar(4)});
+  section.printed("AB09AD", "Hankel singular values",
+                  flattened(Eigen::MatrixXd(reduced.hankel_singular_values)),
+                  flattened(slicot_result("AB09AD.res", "Hankel singular values HSV are")));
+  section.printed("AB09AD", "order", {static_cast<double>(reduced.system.a.rows())},
+                  flattened(slicot_result("AB09AD.res", "order of reduced model =")));
 }
 
 void riccati_rows(AccuracySection& section) {
@@ -115,6 +131,7 @@ AccuracySection slicot_accuracy() {
       "choice of states, what does not is compared.");
   matrix_exponential_rows(section);
   lyapunov_rows(section);
+  truncation_rows(section);
   riccati_rows(section);
   response_rows(section);
   norm_rows(section);

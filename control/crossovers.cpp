@@ -75,13 +75,46 @@ struct FedBackLoop {
   double f = 0.0;
 };
 
-// `map` of the loop, closed by more feedback where that moves away poles that it cannot map;
-// without a value if none does.
-std::optional<FedBackLoop> mapped(const FedBackLoop& loop,
-                                  plant::StateSpace (*map)(const plant::StateSpace&)) {
-  for (const double more : {0.0, 0.37, -0.41}) {
+// What the features of a loop say of its scales.
+struct Scales {
+  double slowest = 0.0;  // rad/s, of what is not an integrator; 0 without features
+  // Feedback gains that move poles: none, and some of the order of 1/|L| at middle and at slow
+  // frequencies.
+  std::vector<double> feedback{0.0};
+};
+
+Scales scales_of(LoopResponse& response) {
+  double fastest = 0.0;
+  for (const auto feature : response.continuous_features()) {
+    if (std::isfinite(std::abs(feature))) fastest = std::max(fastest, std::abs(feature));
+  }
+  Scales scales;
+  if (fastest == 0.0) return scales;
+  scales.slowest = fastest;
+  for (const auto feature : response.continuous_features()) {
+    const double magnitude = std::abs(feature);
+    if (magnitude > 1e-12 * fastest) scales.slowest = std::min(scales.slowest, magnitude);
+  }
+  for (const double w : {std::sqrt(scales.slowest * fastest), scales.slowest}) {
+    const double magnitude = std::abs(response.at(std::min(w, 0.9 * response.nyquist_frequency())));
+    if (magnitude == 0.0 || !std::isfinite(magnitude)) continue;
+    scales.feedback.push_back(0.37 / magnitude);
+    scales.feedback.push_back(-0.41 / magnitude);
+  }
+  return scales;
+}
+
+// `map` of the loop, closed by more feedback where that moves away poles that it sends to infinity,
+// or beyond `furthest`; without a value if none does.
+std::optional<FedBackLoop> mapped(const FedBackLoop& loop, const std::vector<double>& feedback,
+                                  plant::StateSpace (*map)(const plant::StateSpace&),
+                                  double furthest) {
+  for (const double more : feedback) {
     try {
-      return FedBackLoop{map(plant::balanced(with_feedback(loop.system, more))), loop.f + more};
+      const FedBackLoop result{map(plant::balanced(with_feedback(loop.system, more))),
+                               loop.f + more};
+      const Eigen::MatrixXd& a = result.system.a;
+      if (a.size() == 0 || a.cwiseAbs().maxCoeff() <= furthest) return result;
     } catch (const NumericalFailure&) {
       continue;
     }
@@ -161,9 +194,11 @@ Eigen::ArrayXd dividing_grid(std::vector<Complex> candidates, double nyquist) {
 Crossovers crossovers(const plant::StateSpace& loop, const CrossoverOptions& options) {
   LoopResponse response("crossovers", loop);
   const double time = loop.sample_time;
-  const auto keep = [](const plant::StateSpace& system) { return system; };
+  const Scales scales = scales_of(response);
   std::vector<Complex> candidates;
-  const auto direct = mapped({loop, 0.0}, time > 0.0 ? bilinear : keep);
+  constexpr double far = 1e6;
+  const std::optional<FedBackLoop> direct =
+      time > 0.0 ? mapped({loop, 0.0}, scales.feedback, bilinear, far) : FedBackLoop{loop, 0.0};
   if (!direct) {
     throw NumericalFailure(
         "crossovers: A has an eigenvalue of -1 that no feedback moves, out of reach of input or "
@@ -171,7 +206,8 @@ Crossovers crossovers(const plant::StateSpace& loop, const CrossoverOptions& opt
   }
   add_candidates(*direct, false, candidates);
   // Rounding spoils the smallest of zeros that are many decades apart: those of L(1/s) besides.
-  const auto inverse = mapped(*direct, reversed);
+  const double slowest = time > 0.0 ? 0.5 * time * scales.slowest : scales.slowest;
+  const auto inverse = mapped(*direct, scales.feedback, reversed, far / slowest);
   if (inverse) add_candidates(*inverse, true, candidates);
   if (time > 0.0) {
     for (Complex& s : candidates) {

@@ -109,6 +109,10 @@ Complex LoopResponse::real_end(const plant::StateSpace& scaled, double s) {
   return plant::transfer_matrix(scaled.a, scaled.b, scaled.c, scaled.d, s)(0, 0);
 }
 
+Eigen::VectorXcd LoopResponse::continuous_features() const {
+  return sample_time() > 0.0 ? plant::continuous_equivalent(features_, sample_time()) : features_;
+}
+
 Complex LoopResponse::at(double angular_frequency) {
   const Complex value = response_.channel(angular_frequency);
   return dead_time_ > 0.0 ? value * std::polar(1.0, -angular_frequency * dead_time_) : value;

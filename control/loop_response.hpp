@@ -32,6 +32,8 @@ class LoopResponse {
 
   /// Poles and zeros of L and poles of the closed loop, in s or z: where L and 1 + L turn.
   const Eigen::VectorXcd& features() const { return features_; }
+  /// The same in s, ln(z)/T where sampled.
+  Eigen::VectorXcd continuous_features() const;
   /// Whether all poles of the closed loop are inside the stability boundary; without a value for a
   /// loop without solution (1 + L(infinity) = 0), or with a dead time.
   std::optional<bool> closed_loop_stable() const { return closed_loop_stable_; }

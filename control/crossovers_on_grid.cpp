@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include <boresight/control/bracketed_search.hpp>
@@ -35,6 +36,12 @@ class Search {
       // Infinite or not a number: a pole, of no side.
       if (!(std::abs(offset_[i]) > loop.uncertainty[i])) offset_[i] = 0.0;
     }
+    const double twice = 2.0 * loop.largest_turn;
+    if (kind == CrossoverKind::gain) {
+      furthest_ = twice;
+    } else if (twice < 0.5 * std::numbers::pi) {
+      furthest_ = std::sin(twice);
+    }
     function_ = [this](double x) { return offset(kind_, loop_.gain(std::exp(x))); };
   }
 
@@ -57,6 +64,9 @@ class Search {
     }
     std::sort(places_.begin(), places_.end());
     merge_shallow_pairs();
+    std::erase_if(tangencies_, [this](const Tangency& miss) {
+      return miss.approach == Approach::misses && is_rounding(std::log(miss.frequency));
+    });
     std::sort(tangencies_.begin(), tangencies_.end(),
               [](const Tangency& a, const Tangency& b) { return a.frequency < b.frequency; });
     tangencies.insert(tangencies.end(), tangencies_.begin(), tangencies_.end());
@@ -71,6 +81,7 @@ class Search {
   // Same side at all three, the middle one nearest to zero by more than rounding.
   bool is_nearest(Eigen::Index i, Eigen::Index j, Eigen::Index k) const {
     if ((offset_[i] > 0.0) != (offset_[j] > 0.0)) return false;
+    if (std::abs(offset_[j]) > furthest_) return false;
     const double left = std::abs(offset_[i]), middle = std::abs(offset_[j]),
                  right = std::abs(offset_[k]);
     return middle <= left && middle <= right &&
@@ -123,6 +134,13 @@ class Search {
     }
   }
 
+  // Whether an extremum is so near to a crossover that it is one of its rounding errors.
+  bool is_rounding(double x) const {
+    constexpr double nearby = 1e-7;
+    return std::any_of(places_.begin(), places_.end(),
+                       [&](double place) { return std::abs(place - x) < nearby; });
+  }
+
   // Neighbouring crossovers between which L leaves zero by little, with grid points between them.
   void merge_shallow_pairs() {
     for (std::size_t i = 0; i + 1 < places_.size(); ++i) {
@@ -152,6 +170,7 @@ class Search {
   const CrossoverOptions& options_;
   CrossoverKind kind_;
   Eigen::ArrayXd x_, offset_;
+  double furthest_ = std::numeric_limits<double>::infinity();  // an extremum beyond is no concern
   std::function<double(double)> function_;
   std::vector<double> places_;
   std::vector<Tangency> tangencies_;

@@ -2,10 +2,10 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 #include <memory_resource>
 
 #include <boresight/plant/error.hpp>
-#include <boresight/plant/linear_solve.hpp>
 #include <boresight/plant/modal_response.hpp>
 
 namespace boresight::plant {
@@ -85,7 +85,10 @@ ModalResponse::ModalResponse(const ModalSystem& system, std::string_view input,
   } catch (const NumericalFailure&) {
     by_modes_ = false;
   }
-  if (!by_modes_) core_ = {};
+  if (!by_modes_) {
+    core_ = {};
+    dense_.emplace(core);
+  }
   for (Eigen::Index i = 0; i < core_.poles.size(); ++i) {
     PoleSection section{core_.poles[i], {}, {}};
     for (const auto& entry : entries_) {
@@ -109,13 +112,14 @@ ModalResponse::ModalResponse(const ModalSystem& system, std::string_view input,
   }
 }
 
-// The core's entries where its eigenvectors do not serve.
+// The core's entries where its eigenvectors do not serve; infinite at a pole.
 void ModalResponse::dense_entries(const double* w, std::size_t n, FrequencyLanes* entries) const {
-  const StateSpace& core = reduction_.core;
   for (std::size_t i = 0; i < n; ++i) {
-    const Eigen::MatrixXcd at = transfer_matrix(core.a, core.b, core.c, core.d, {0.0, w[i]});
+    if (!dense_.value().evaluate({0.0, w[i]}, dense_values_)) {
+      dense_values_.fill(std::numeric_limits<double>::infinity());
+    }
     for (std::size_t e = 0; e < entries_.size(); ++e) {
-      const Complex value = at(entries_[e].row, entries_[e].column);
+      const Complex value = dense_values_(entries_[e].row, entries_[e].column);
       entries[e].re[i] = value.real();
       entries[e].im[i] = value.imag();
     }

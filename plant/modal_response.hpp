@@ -1,20 +1,22 @@
 #pragma once
 
 #include <complex>
+#include <optional>
 #include <string_view>
 #include <vector>
 
 #include <Eigen/Core>
 
+#include <boresight/plant/dense_response.hpp>
 #include <boresight/plant/frequency_kernels.hpp>
 #include <boresight/plant/modal_reduction.hpp>
 
 namespace boresight::plant {
 
 /// The response H(j w) of a modal system from one input to one output, dead times exact, prepared
-/// once and then O(modes) a frequency. The core enters through its poles and residues (through a
-/// linear solve a frequency where its eigenvectors are too dependent for that), the modes through
-/// their sums, and only the few forces that feed back are solved for.
+/// once and then O(modes) a frequency. The core enters through its poles and residues (through its
+/// Hessenberg form where its eigenvectors are too dependent for that: one object a thread then),
+/// the modes through their sums, and only the few forces that feed back are solved for.
 class ModalResponse {
  public:
   /// @throws as reduce().
@@ -42,6 +44,8 @@ class ModalResponse {
 
   ModalReduction reduction_;
   bool by_modes_ = true;
+  mutable std::optional<DenseResponse> dense_;  // of the core, where it is not taken by its modes
+  mutable Eigen::MatrixXcd dense_values_;
   ModalForm core_;
   std::vector<Entry> entries_;
   std::vector<PoleSection> sections_;

@@ -25,6 +25,8 @@ class ModeDistance {
     Eigen::VectorXcd combination;  // unit vector of balanced states
   };
 
+  /// The rank of [A - s, B] at one number, eigenvalue or not.
+  Mode test(std::complex<double> s);
   /// Every distinct eigenvalue with Im >= 0, in the order of the Schur form. Where the mean of a
   /// cluster of eigenvalues is out of reach to `tolerance` it stands for the cluster.
   std::vector<Mode> modes(double tolerance);
@@ -37,7 +39,6 @@ class ModeDistance {
   Eigen::VectorXd by_port(const Eigen::VectorXcd& combination) const;
 
  private:
-  Mode test(std::complex<double> s);
   Mode test_with_neighbours(std::complex<double> s, double tolerance);
   void triangularise(std::complex<double> s);
 

@@ -3,8 +3,7 @@
 
 #include "../tests/peer_modal_family.hpp"
 #include <boresight/control/crossovers.hpp>
-#include <boresight/control/margins.hpp>
-#include <boresight/plant/modal_response.hpp>
+#include <boresight/control/modal_margins.hpp>
 
 namespace {
 
@@ -33,20 +32,15 @@ void peer_margins_by_scan(benchmark::State& state) {
 }
 BENCHMARK(peer_margins_by_scan)->Arg(5)->Arg(20)->Arg(50)->Arg(150);
 
-void peer_margins_by_modes_on_a_grid(benchmark::State& state) {
+void peer_margins_by_modes(benchmark::State& state) {
   const auto system = reference::peer_modal_open_loop(state.range(0));
-  const Eigen::ArrayXd w = Eigen::ArrayXd::LinSpaced(5000, std::log(0.01), std::log(628.0)).exp();
   control::Margins margins;
   for (auto _ : state) {
-    const plant::ModalResponse loop(system, "d", "loop_gain");
-    Eigen::ArrayXcd value(w.size());
-    loop.evaluate(w, value);
-    const auto gain = [&](double frequency) { return loop.at(frequency); };
-    margins = control::margins({gain, w, value, Eigen::ArrayXd::Constant(w.size(), 1e-12)});
+    margins = control::margins(plant::ModalResponse(system, "d", "loop_gain"));
   }
   report(state, margins);
 }
-BENCHMARK(peer_margins_by_modes_on_a_grid)->Arg(5)->Arg(20)->Arg(50)->Arg(150)->Arg(500);
+BENCHMARK(peer_margins_by_modes)->Arg(5)->Arg(20)->Arg(50)->Arg(150)->Arg(500);
 
 void crossovers_by_eigenvalues(benchmark::State& state) {
   const auto loop = reference::peer_open_loop(state.range(0));

@@ -87,7 +87,7 @@ switch item
   case "simulation"
     system = read_system(place, "rms");
     noise = load("-ascii", [folder "/noise"]);
-    report(item, "lsim", modes, @() simulation(system, noise));
+    report(item, "lsim (straight between samples)", modes, @() simulation(system, noise));
   case "sampling"
     system = read_system(place, "rms");
     report(item, "c2d", modes, @() sampling(system));

@@ -2,6 +2,7 @@
 #include <functional>
 
 #include "accuracy_table.hpp"
+#include <boresight/control/pole_placement.hpp>
 #include <boresight/control/riccati.hpp>
 #include <boresight/plant/dense_response.hpp>
 #include <boresight/plant/error.hpp>
@@ -58,6 +59,16 @@ void riccati_rows(AccuracySection& section, const nlohmann::json& cases) {
   }
 }
 
+void placement_rows(AccuracySection& section, const nlohmann::json& cases) {
+  for (const auto& entry : cases) {
+    const Eigen::MatrixXd a = matrix(entry.at("A")), b = matrix(entry.at("B"));
+    const auto system = state_space(a, b, Eigen::MatrixXd::Identity(a.rows(), a.rows()),
+                                    Eigen::MatrixXd::Zero(a.rows(), b.cols()));
+    const auto placed = control::place_poles(system, complex_numbers(entry.at("poles")));
+    section.matrix("place", "K", placed.gain, matrix(entry.at("K")), 2, 1e-9);
+  }
+}
+
 void response_rows(AccuracySection& section, const nlohmann::json& file) {
   const auto& scaled = file.at("badly_scaled_frequency_response");
   plant::DenseResponse response(matrices_of(scaled));
@@ -88,6 +99,7 @@ AccuracySection matrix_equation_accuracy() {
       "response is known from rational arithmetic.");
   const auto file = reference_values("riccati_place_scaling");
   riccati_rows(section, file.at("care_dare"));
+  placement_rows(section, file.at("place"));
   response_rows(section, file);
   return section;
 }

@@ -3,7 +3,7 @@
 #include "../peer_modal_family.hpp"
 #include "accuracy_table.hpp"
 #include <boresight/control/h2_norm.hpp>
-#include <boresight/control/margins.hpp>
+#include <boresight/control/modal_margins.hpp>
 #include <boresight/control/peak_gain.hpp>
 #include <boresight/control/spectral_rms.hpp>
 #include <boresight/plant/dense_response.hpp>
@@ -103,10 +103,8 @@ std::vector<double> summary(const control::Margins& margins) {
 
 void margin_rows(const PeerRows& rows, int modes) {
   const plant::ModalResponse loop(peer_modal_open_loop(modes), "d", "loop_gain");
-  const Eigen::ArrayXd w =
-      Eigen::ArrayXd::LinSpaced(20000, std::log(0.01), std::log(PeerDrive::two_pi * 100.0)).exp();
   rows.compare("mar", "margins and numbers of crossovers, by modes",
-               summary(control::margins([&](double frequency) { return loop.at(frequency); }, w)));
+               summary(control::margins(loop)));
   if (modes > 50) return;  // minutes
   rows.compare("mar", "the same, dense", summary(control::margins(peer_open_loop(modes))));
 }

@@ -11,18 +11,19 @@
 namespace boresight::design {
 
 /// A tuned law looked at again: eigenvalues of the state space, peaks bracketed over all
-/// frequencies, rms by Lyapunov equations. None uses the tuner's frequency response; only `spectral_rms`, which the
-/// Lyapunov rms is held against, and the dead-time residue of `stability` do.
+/// frequencies, rms by Lyapunov equations. None uses the tuner's frequency response; only
+/// `spectral_rms`, which the Lyapunov rms is held against, and the dead-time residue of `stability`
+/// do.
 struct Verification {
   control::StabilityVerdict stability;
   std::array<control::PeakGain, 3> peaks;  // of |S|, order of control::loop_breaks
-  control::LyapunovRms lyapunov;                  // rad of motor
+  control::LyapunovRms lyapunov;           // rad of motor
   /// By the spectrum, over the whole analysis band with noise white throughout, as Lyapunov has it.
   double spectral_rms = 0.0;  // rad of motor
   /// |lyapunov - spectral|/spectral of the total rms.
   double rms_disagreement = 0.0;
-  /// Eigenvalues stable, every peak's upper bound and the valve effort (by the spectrum) within its goal (1e-6),
-  /// the two rms within 0.5 %.
+  /// Eigenvalues stable, every peak's upper bound and the valve effort (by the spectrum) within its
+  /// goal (1e-6), the two rms within 0.5 %.
   bool passed = false;
   /// Why not; empty if passed.
   std::string failure;

@@ -63,13 +63,12 @@ std::string breaks_text(const TuningSection& section) {
   for (std::size_t b = 0; b < control::loop_breaks.size(); ++b) {
     const auto& peak = section.design.verification.peaks[b];
     const auto& margins = section.design.margins[b];
-    rows.push_back({std::string(control::to_string(control::loop_breaks[b])),
-                    fmt::format("{:.4f}", peak.upper),
-                    fmt::format("{:g}", section.goals.sensitivity_peak[b]),
-                    finite(peak.frequency / two_pi, 3),
-                    fmt::format("{:.1f}", margins.phase_margin_deg),
-                    decibel(margins.increasing_gain_margin),
-                    decibel(margins.decreasing_gain_margin), finite(margins.delay_margin, 4)});
+    rows.push_back(
+        {std::string(control::to_string(control::loop_breaks[b])),
+         fmt::format("{:.4f}", peak.upper), fmt::format("{:g}", section.goals.sensitivity_peak[b]),
+         finite(peak.frequency / two_pi, 3), fmt::format("{:.1f}", margins.phase_margin_deg),
+         decibel(margins.increasing_gain_margin), decibel(margins.decreasing_gain_margin),
+         finite(margins.delay_margin, 4)});
   }
   return table(rows);
 }

@@ -181,7 +181,8 @@ TEST(MarginsReference, IsThatOfExtendedPrecision) {
     if (found.sensitivity.frequency > 0.0 && std::isfinite(found.sensitivity.frequency)) {
       const auto distance = [&](Long w) { return std::log(std::abs(1.0L + loop(w))); };
       const Long w = reference::extremum_near(distance, found.sensitivity.frequency);
-      EXPECT_NEAR(found.sensitivity.frequency / static_cast<double>(w), 1.0, 1e-9);
+      // The place of an extremum is flat: rounding of the loop gain leaves it open to sqrt(eps).
+      EXPECT_NEAR(found.sensitivity.frequency / static_cast<double>(w), 1.0, 1e-8);
       EXPECT_NEAR(found.distance_to_minus_one() / static_cast<double>(std::exp(distance(w))), 1.0,
                   tolerance);
     }

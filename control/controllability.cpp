@@ -51,10 +51,31 @@ Access access(const plant::StateSpace& system, const AccessOptions& options, con
   if (balanced.states.empty()) return result;
   const auto domain = system.sample_time > 0.0 ? TimeDomain::sampled : TimeDomain::continuous;
   ModeDistance distances(plant::real_schur(balanced.a), balanced.b, balanced.a.norm(), domain);
-  for (const auto& mode : distances.modes(options.tolerance)) {
-    result.modes.push_back({mode.eigenvalue, mode.distance, distances.stable(mode.eigenvalue),
+  const auto append = [&](const ModeDistance& from, const ModeDistance::Mode& mode) {
+    result.modes.push_back({mode.eigenvalue, mode.distance, from.stable(mode.eigenvalue),
                             main_states(mode.combination, system.states, options.most_states),
-                            distances.by_port(mode.combination)});
+                            from.by_port(mode.combination)});
+  };
+  std::vector<ModeDistance::Mode> doubtful;
+  for (auto& mode : distances.modes(options.tolerance)) {
+    if (mode.distance > options.tolerance) {
+      append(distances, mode);
+    } else {
+      doubtful.push_back(std::move(mode));
+    }
+  }
+  if (!doubtful.empty()) {
+    // Balancing takes a coupling that is a rounding error for one that counts and may then scale
+    // others out of sight: what is out of reach must be so in the states as given, too.
+    ModeDistance as_given(plant::real_schur(system.a), system.b, system.a.norm(), domain);
+    for (const auto& mode : doubtful) {
+      const ModeDistance::Mode other = as_given.test(mode.eigenvalue);
+      if (other.distance > options.tolerance) {
+        append(as_given, other);
+      } else {
+        append(distances, mode);
+      }
+    }
   }
   std::stable_sort(result.modes.begin(), result.modes.end(),
                    [](const auto& a, const auto& b) { return a.distance < b.distance; });

@@ -23,7 +23,8 @@ struct ModeAccess {
   std::complex<double> eigenvalue;
   /// Smallest singular value of [A - s I, B] over |A| (Frobenius), in balanced states and with
   /// every column of B scaled to |A|: how far, relative to A, the nearest system is in which the
-  /// mode is out of reach, whatever the units of states and inputs.
+  /// mode is out of reach, whatever the units of states and inputs. In the states as given where
+  /// only balancing puts the mode out of reach.
   double distance = 0.0;
   /// Whether it is stable by more than rounding.
   bool stable = false;

@@ -1,5 +1,6 @@
 #include <boresight/control/gramians.hpp>
 #include <boresight/control/lyapunov_factor.hpp>
+#include <boresight/plant/orthogonal_reduction.hpp>
 #include <boresight/plant/singular_values.hpp>
 
 namespace boresight::control {
@@ -11,12 +12,13 @@ MatrixXd factor(const char* function, const plant::StateSpace& system, bool obse
   plant::validate(system);
   if (system.states.empty()) return MatrixXd(0, 0);
   const TimeDomain domain = system.sample_time > 0.0 ? TimeDomain::sampled : TimeDomain::continuous;
+  const Eigen::VectorXd unit = plant::even_units(system).state_unit;
   if (!observability) {
-    return real_lyapunov_factor(lyapunov_factor(function, system.a, system.b, domain));
+    return real_lyapunov_factor(lyapunov_factor(function, system.a, system.b, unit, domain));
   }
   const MatrixXd a = system.a.transpose();
   const MatrixXd c = system.c.transpose();
-  return real_lyapunov_factor(lyapunov_factor(function, a, c, domain));
+  return real_lyapunov_factor(lyapunov_factor(function, a, c, unit.cwiseInverse(), domain));
 }
 
 MatrixXd square(const MatrixXd& factor) {

@@ -7,9 +7,9 @@
 #include <boresight/control/h2_norm.hpp>
 #include <boresight/control/lyapunov_factor.hpp>
 #include <boresight/control/stability_margin.hpp>
-#include <boresight/plant/balance.hpp>
 #include <boresight/plant/error.hpp>
 #include <boresight/plant/ordered_schur.hpp>
+#include <boresight/plant/orthogonal_reduction.hpp>
 #include <boresight/plant/semidefinite_factor.hpp>
 
 namespace boresight::control {
@@ -29,7 +29,7 @@ TimeDomain domain_of(const plant::StateSpace& system) {
   return system.sample_time > 0.0 ? TimeDomain::sampled : TimeDomain::continuous;
 }
 
-// A system in the coordinates of the complex Schur form of its balanced A.
+// A system in the coordinates of the complex Schur form of A, from states in even units.
 struct TriangularSystem {
   plant::ComplexSchur schur;
   MatrixXcd b, c;
@@ -38,14 +38,18 @@ struct TriangularSystem {
 };
 
 TriangularSystem triangular(const plant::StateSpace& system) {
-  const plant::StateSpace balanced = plant::balanced(system);
+  const Eigen::VectorXd unit = plant::even_units(system).state_unit;
+  const Eigen::VectorXd inverse = unit.cwiseInverse();
+  const MatrixXd a = inverse.asDiagonal() * system.a * unit.asDiagonal();
+  const MatrixXd b = inverse.asDiagonal() * system.b;
+  const MatrixXd c = system.c * unit.asDiagonal();
   TriangularSystem result;
   result.domain = domain_of(system);
-  const plant::RealSchur real = plant::real_schur(balanced.a);
-  result.margin = stability_margin(real.t, balanced.a.norm(), result.domain);
+  const plant::RealSchur real = plant::real_schur(a);
+  result.margin = stability_margin(real.t, a.norm(), result.domain);
   result.schur = plant::complex_schur(real);
-  result.b = result.schur.u.adjoint() * balanced.b;
-  result.c = balanced.c * result.schur.u;
+  result.b = result.schur.u.adjoint() * b;
+  result.c = c * result.schur.u;
   return result;
 }
 

@@ -77,16 +77,15 @@ MatrixXcd triangular_lyapunov_factor(const MatrixXcd& t, MatrixXcd b, TimeDomain
 }
 
 LyapunovFactor lyapunov_factor(const char* function, const MatrixXd& a, const MatrixXd& b,
-                               TimeDomain domain) {
-  if (a.rows() == 0 || a.cols() != a.rows() || b.rows() != a.rows()) {
-    throw InvalidInput(
-        fmt::format("{}: expected a square A and as many rows of B, found {} x {} and {} x {}",
-                    function, a.rows(), a.cols(), b.rows(), b.cols()));
+                               const Eigen::VectorXd& scale, TimeDomain domain) {
+  if (a.rows() == 0 || a.cols() != a.rows() || b.rows() != a.rows() || scale.size() != a.rows()) {
+    throw InvalidInput(fmt::format(
+        "{}: expected a square A and as many rows of B and scales, found {} x {}, {} x {} and {}",
+        function, a.rows(), a.cols(), b.rows(), b.cols(), scale.size()));
   }
   if (!a.allFinite() || !b.allFinite()) {
     throw InvalidInput(fmt::format("{}: A or B has elements that are not finite", function));
   }
-  const Eigen::VectorXd scale = plant::balancing_scale(a);
   const MatrixXd balanced = scale.cwiseInverse().asDiagonal() * a * scale.asDiagonal();
   const plant::RealSchur real = plant::real_schur(balanced);
   LyapunovFactor result;
@@ -97,6 +96,11 @@ LyapunovFactor lyapunov_factor(const char* function, const MatrixXd& a, const Ma
   const MatrixXcd factor = triangular_lyapunov_factor(schur.t, schur.u.adjoint() * scaled, domain);
   result.factor = scale.asDiagonal() * (schur.u * factor.triangularView<Eigen::Upper>());
   return result;
+}
+
+LyapunovFactor lyapunov_factor(const char* function, const MatrixXd& a, const MatrixXd& b,
+                               TimeDomain domain) {
+  return lyapunov_factor(function, a, b, plant::balancing_scale(a), domain);
 }
 
 MatrixXd real_lyapunov_factor(const LyapunovFactor& complex) {

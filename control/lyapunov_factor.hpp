@@ -17,16 +17,22 @@ namespace boresight::control {
 Eigen::MatrixXcd triangular_lyapunov_factor(const Eigen::MatrixXcd& t, Eigen::MatrixXcd b,
                                             TimeDomain domain);
 
-/// F, n x n complex, with F F^H = P (a real matrix), from balanced states.
+/// F, n x n complex, with F F^H = P (a real matrix).
 struct LyapunovFactor {
   Eigen::MatrixXcd factor;
   /// -max Re(eigenvalue of A), 1/s; for a sampled system 1 - max |eigenvalue|.
   double stability_margin = 0.0;
 };
 
-/// A: n x n, stable; B: n x any. `function` is named in errors.
+/// A: n x n, stable; B: n x any. `scale`: units of the states, powers of two, in which the work is
+/// done: plant::EvenUnits::state_unit, or ones. `function` is named in errors.
 /// @throws InvalidInput for shapes or elements that are not finite; NumericalFailure if A is not
 /// stable by more than rounding.
+LyapunovFactor lyapunov_factor(const char* function, const Eigen::MatrixXd& a,
+                               const Eigen::MatrixXd& b, const Eigen::VectorXd& scale,
+                               TimeDomain domain);
+
+/// The same in balanced states (plant::balancing_scale), for callers without a C.
 LyapunovFactor lyapunov_factor(const char* function, const Eigen::MatrixXd& a,
                                const Eigen::MatrixXd& b, TimeDomain domain);
 

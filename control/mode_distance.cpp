@@ -169,6 +169,18 @@ std::vector<ModeDistance::Mode> ModeDistance::unreached_unstable(double toleranc
   return found;
 }
 
+std::vector<ModeDistance::Mode> confirm_unreached(std::vector<ModeDistance::Mode> modes,
+                                                  const Eigen::MatrixXd& a,
+                                                  const Eigen::MatrixXd& b, TimeDomain domain,
+                                                  double tolerance) {
+  if (modes.empty()) return modes;
+  ModeDistance as_given(plant::real_schur(a), b, a.norm(), domain);
+  std::erase_if(modes, [&](const ModeDistance::Mode& mode) {
+    return as_given.test(mode.eigenvalue).distance > tolerance;
+  });
+  return modes;
+}
+
 std::string describe_eigenvalue(Complex eigenvalue) {
   if (eigenvalue.imag() == 0.0) return fmt::format("{:.6g}", eigenvalue.real());
   return fmt::format("{:.6g} +- {:.6g} j", eigenvalue.real(), std::abs(eigenvalue.imag()));

@@ -49,6 +49,13 @@ class ModeDistance {
   Eigen::MatrixXcd triangle_, rest_;  // [T - s, B] with B rotated away
 };
 
+/// Those of `modes` that are out of reach in the states as given too. Balancing takes a coupling
+/// that is a rounding error for one that counts and may then scale others out of sight.
+std::vector<ModeDistance::Mode> confirm_unreached(std::vector<ModeDistance::Mode> modes,
+                                                  const Eigen::MatrixXd& a,
+                                                  const Eigen::MatrixXd& b, TimeDomain domain,
+                                                  double tolerance);
+
 /// "2", "-0.1 +- 3 j"
 std::string describe_eigenvalue(std::complex<double> eigenvalue);
 

@@ -14,7 +14,6 @@
 #include <boresight/control/riccati.hpp>
 #include <boresight/control/riccati_doubling.hpp>
 #include <boresight/control/riccati_refinement.hpp>
-#include <boresight/plant/balance.hpp>
 #include <boresight/plant/error.hpp>
 #include <boresight/plant/linear_solve.hpp>
 #include <boresight/plant/real_schur.hpp>
@@ -110,28 +109,32 @@ Reduced reduce(const Equation& equation, const RiccatiProblem& problem) {
                                      list, remedy));
 }
 
-// Refuses what has no stabilising solution; returns the eigenvalues of A.
-Eigen::VectorXcd require_solvable(const Equation& equation, const Reduced& reduced) {
+// Refuses what has no stabilising solution; returns the eigenvalues of A. `scale`: the states'
+// units.
+Eigen::VectorXcd require_solvable(const Equation& equation, const Reduced& reduced,
+                                  const Eigen::VectorXd& scale) {
   constexpr double tolerance = 1e-12;
-  const MatrixXd& a = reduced.matrices.a;
-  const Eigen::VectorXd scale = plant::balancing_scale(a);
-  const MatrixXd balanced = scale.cwiseInverse().asDiagonal() * a * scale.asDiagonal();
-  const double norm = balanced.norm();
-  const plant::RealSchur schur = plant::real_schur(balanced);
+  const MatrixXd a = scale.cwiseInverse().asDiagonal() * reduced.matrices.a * scale.asDiagonal();
+  const double norm = a.norm();
+  const plant::RealSchur schur = plant::real_schur(a);
   Eigen::VectorXcd eigenvalues = plant::schur_eigenvalues(schur.t);
   const StabilityMargin margin = stability_margin(schur.t, norm, equation.domain);
   if (margin.value > 10.0 * margin.rounding) return eigenvalues;
 
   ModeDistance from_inputs(schur, scale.cwiseInverse().asDiagonal() * reduced.input, norm,
                            equation.domain);
-  const auto unreached = from_inputs.unreached_unstable(tolerance);
+  const auto unreached =
+      confirm_unreached(from_inputs.unreached_unstable(tolerance), reduced.matrices.a,
+                        reduced.input, equation.domain, tolerance);
   if (!unreached.empty()) {
     refuse(equation, "stabilisable", "(A, B)", unreached,
            "no input reaches what is not stable: remove those states or add an input");
   }
   ModeDistance from_weight(plant::transposed(schur), scale.asDiagonal() * reduced.weight, norm,
                            equation.domain);
-  const auto unseen = from_weight.unreached_unstable(tolerance);
+  const auto unseen =
+      confirm_unreached(from_weight.unreached_unstable(tolerance), reduced.matrices.a.transpose(),
+                        reduced.weight, equation.domain, tolerance);
   if (!unseen.empty()) {
     refuse(equation, "detectable",
            reduced.cross.size() > 0 ? "(A - B R^-1 S', Q - S R^-1 S')" : "(A, Q)", unseen,
@@ -239,8 +242,8 @@ void sort(Eigen::VectorXcd& eigenvalues) {
 RiccatiSolution solve(const Equation& equation, const RiccatiProblem& problem,
                       const RiccatiOptions& options) {
   const Reduced reduced = reduce(equation, problem);
-  const Eigen::VectorXcd open_loop = require_solvable(equation, reduced);
   const Eigen::VectorXd scale = riccati_scale(reduced.matrices);
+  const Eigen::VectorXcd open_loop = require_solvable(equation, reduced, scale);
   const Eigen::VectorXd inverse = scale.cwiseInverse();
   const RiccatiMatrices scaled{inverse.asDiagonal() * reduced.matrices.a * scale.asDiagonal(),
                                inverse.asDiagonal() * reduced.matrices.g * inverse.asDiagonal(),

@@ -178,6 +178,36 @@ TEST(Controllability, OfTheAntennaNamesTheWindThatNoCommandReaches) {
   EXPECT_TRUE(observability(reference::channel(loop, "n", "y")).complete());
 }
 
+// A chain of lags into an oscillator with a rounding error back within the chain, which balancing
+// takes for a coupling.
+plant::StateSpace chain_with_rounding_error() {
+  constexpr Index stages = 6, n = stages + 2;
+  MatrixXd a = MatrixXd::Zero(n, n), b = MatrixXd::Zero(n, 1);
+  for (Index i = 0; i < stages; ++i) {
+    a(i, i) = -0.01 * std::pow(5.0, static_cast<double>(i));
+    for (Index j = 0; j < i; ++j) {
+      a(i, j) = -0.2 * a(i, i) / (1.0 + static_cast<double>(i - j));
+    }
+  }
+  a(0, 1) = 1e-18;
+  a(stages, stages - 1) = 70.0;
+  a(stages, stages) = a(stages + 1, stages + 1) = -0.5;
+  a(stages, stages + 1) = 3.0;
+  a(stages + 1, stages) = -3.0;
+  b(0, 0) = 1.0;
+  return system_of(a, b);
+}
+
+TEST(Controllability, IsNotLedAstrayByACouplingThatIsARoundingError) {
+  auto system = chain_with_rounding_error();
+  EXPECT_TRUE(controllability(system).complete()) << controllability(system).description;
+  system.c = MatrixXd::Zero(1, 8);
+  system.c(0, 7) = 1.0;
+  system.d = MatrixXd::Zero(1, 1);
+  system.outputs = {"y"};
+  EXPECT_TRUE(observability(system).complete()) << observability(system).description;
+}
+
 TEST(Observability, IsTheControllabilityOfTheTransposedSystem) {
   // Two masses of which one is seen apart from the other.
   MatrixXd a(3, 3), c(1, 3);

@@ -177,6 +177,36 @@ TEST(H2Norm, KeepsTheDigitsOfAnOutputThatSeesLittle) {
   EXPECT_LT(relative_error(h2_norm(system).value, expected), 1e-9);
 }
 
+TEST(H2Norm, IsNotLedAstrayByACouplingThatIsARoundingError) {
+  // A chain of lags into an oscillator, and a rounding error back within the chain, which balancing
+  // A alone takes for a coupling: scales then run apart by 10^56 and the chain is lost.
+  constexpr Index stages = 6, n = stages + 2;
+  MatrixXd a = MatrixXd::Zero(n, n);
+  for (Index i = 0; i < stages; ++i) {
+    a(i, i) = -0.01 * std::pow(5.0, static_cast<double>(i));
+    for (Index j = 0; j < i; ++j) {
+      a(i, j) = -0.2 * a(i, i) / (1.0 + static_cast<double>(i - j));
+    }
+  }
+  a(stages, stages - 1) = 70.0;
+  a(stages, stages) = a(stages + 1, stages + 1) = -0.5;
+  a(stages, stages + 1) = 3.0;
+  a(stages + 1, stages) = -3.0;
+  MatrixXd b = MatrixXd::Zero(n, 1);
+  b(0, 0) = 1.0;
+  const MatrixXd clean = solve_lyapunov(a, b * b.transpose()).covariance;
+  a(0, 1) = 1e-18;
+  for (Index i = 0; i < n; ++i) {
+    MatrixXd c = MatrixXd::Zero(1, n);
+    c(0, i) = 1.0;
+    const auto system = reference::state_space(a, b, c, MatrixXd::Zero(1, 1));
+    EXPECT_LT(relative_error(h2_norm(system).value, std::sqrt(clean(i, i))), 1e-10);
+    EXPECT_LT(relative_error(l2_norm(system).value, std::sqrt(clean(i, i))), 1e-10);
+    const auto covariance = output_covariance(system, MatrixXd::Ones(1, 1)).covariance;
+    EXPECT_LT(relative_error(covariance(0, 0), clean(i, i)), 1e-10);
+  }
+}
+
 TEST(H2Norm, OfSystemsWithoutStates) {
   const auto gain = plant::static_gain(MatrixXd::Constant(1, 2, 3.0), {"a", "b"}, {"y"});
   EXPECT_EQ(h2_norm(gain).value, infinity);

@@ -89,6 +89,23 @@ TEST(LyapunovFactor, KeepsSmallSingularValuesThatTheProductLoses) {
   }
 }
 
+TEST(LyapunovFactor, IsTheSameInAnyUnits) {
+  reference::RandomNumbers random(72);
+  MatrixXd a = random.matrix(5, 5);
+  a.diagonal().array() -= plant::spectral_abscissa(a) + 0.2;
+  const MatrixXd b = random.matrix(5, 2);
+  Eigen::VectorXd unit(5);
+  unit << 0x1p-30, 0x1p20, 1.0, 0x1p7, 0x1p33;
+  const MatrixXd plain =
+      lyapunov_factor("test", a, b, Eigen::VectorXd::Ones(5), TimeDomain::continuous)
+          .factor.cwiseAbs();
+  const MatrixXd scaled =
+      lyapunov_factor("test", unit.asDiagonal() * a * unit.cwiseInverse().asDiagonal(),
+                      unit.asDiagonal() * b, unit, TimeDomain::continuous)
+          .factor.cwiseAbs();
+  EXPECT_EQ((unit.cwiseInverse().asDiagonal() * scaled - plain).norm(), 0.0);
+}
+
 TEST(LyapunovFactor, OfAnUndrivenSystemIsZero) {
   const MatrixXd a = -MatrixXd::Identity(3, 3);
   const auto none = lyapunov_factor("test", a, MatrixXd(3, 0), TimeDomain::continuous);
@@ -103,6 +120,8 @@ TEST(LyapunovFactor, RefusesShapesNumbersAndInstability) {
   const MatrixXd a = -MatrixXd::Identity(2, 2);
   EXPECT_THAT([&] { lyapunov_factor("caller", a, MatrixXd::Ones(3, 1), TimeDomain::continuous); },
               ThrowsMessage<InvalidInput>(HasSubstr("caller: expected a square A")));
+  EXPECT_THROW(lyapunov_factor("caller", a, a, Eigen::VectorXd::Ones(3), TimeDomain::continuous),
+               InvalidInput);
   EXPECT_THROW(lyapunov_factor("caller", MatrixXd(0, 0), MatrixXd(0, 1), TimeDomain::sampled),
                InvalidInput);
   EXPECT_THROW(lyapunov_factor("caller", a * std::nan(""), a, TimeDomain::sampled), InvalidInput);

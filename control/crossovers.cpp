@@ -1,7 +1,9 @@
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -151,36 +153,47 @@ plant::StateSpace with_mirror_image(const FedBackLoop& loop, CrossoverKind kind)
   return result;
 }
 
-// Zeros near the imaginary axis of both kinds; of L(1/s) those of 1/s.
-void add_candidates(const FedBackLoop& loop, bool is_reversed, std::vector<Complex>& candidates) {
+// Zeros near the imaginary axis, of gain and of phase crossovers.
+using Candidates = std::array<std::vector<Complex>, 2>;
+
+// Those of the loop; of L(1/s) those of 1/s.
+void add_candidates(const FedBackLoop& loop, bool is_reversed, Candidates& candidates) {
   // Damping ratio below which a zero may stand for a crossover or a tangency.
-  constexpr double lightly_damped = 0.3;
+  constexpr double lightly_damped = 0.5;
   for (const auto kind : {CrossoverKind::gain, CrossoverKind::phase}) {
     for (const Complex s : transmission_zeros(with_mirror_image(loop, kind))) {
       if (!(s.imag() > 0.0) || !(std::abs(s.real()) < lightly_damped * std::abs(s))) continue;
-      candidates.push_back(is_reversed ? 1.0 / std::conj(s) : s);
+      candidates[kind == CrossoverKind::gain ? 0 : 1].push_back(is_reversed ? 1.0 / std::conj(s)
+                                                                            : s);
     }
   }
 }
 
-// The frequencies at which to look: zeros near the boundary, points beyond what rounding or
-// near-tangency moved them off it, and points between neighbours.
-Eigen::ArrayXd dividing_grid(std::vector<Complex> candidates, double nyquist) {
+// Adds the frequencies at which to look for one kind of crossover: zeros near the boundary, points
+// beyond what rounding or near-tangency moved them off it, and points between neighbours.
+void add_dividing_points(std::vector<Complex>& candidates, double nyquist,
+                         std::vector<double>& points) {
   std::sort(candidates.begin(), candidates.end(),
             [](Complex p, Complex q) { return p.imag() < q.imag(); });
-  std::vector<double> points;
-  double last = 0.0;
+  double last = 0.0, last_off = 0.0;
   for (const Complex s : candidates) {
-    const double w = s.imag();
-    if (!(w > last * (1.0 + 1e-10))) continue;
-    const double off = std::max(3.0 * std::abs(s.real()), 1e-10 * w);
+    const double w = s.imag(), off = std::abs(s.real());
+    // One zero found twice, or mirror images.
+    if (w - last < std::max(std::min(off, last_off), 1e-10 * w)) continue;
     points.push_back(last > 0.0 ? std::sqrt(last * w) : w / 3.0);
     points.push_back(w);
-    points.push_back(w + off);
-    if (off < w) points.push_back(w - off);
+    const double around = std::max(3.0 * off, 1e-4 * w);
+    points.push_back(w + around);
+    if (around < w) points.push_back(w - around);
     last = w;
+    last_off = off;
   }
   if (last > 0.0) points.push_back(std::isfinite(nyquist) ? 0.5 * (last + nyquist) : 3.0 * last);
+}
+
+Eigen::ArrayXd dividing_grid(Candidates candidates, double nyquist) {
+  std::vector<double> points;
+  for (auto& of_kind : candidates) add_dividing_points(of_kind, nyquist, points);
   std::sort(points.begin(), points.end());
   std::vector<double> rising;
   for (const double w : points) {
@@ -195,10 +208,12 @@ Crossovers crossovers(const plant::StateSpace& loop, const CrossoverOptions& opt
   LoopResponse response("crossovers", loop);
   const double time = loop.sample_time;
   const Scales scales = scales_of(response);
-  std::vector<Complex> candidates;
-  constexpr double far = 1e6;
+  Candidates candidates;
+  // How far poles may go, beside the loop's own scale, for the rest to keep its digits.
+  constexpr double far_sampled = 1e6, far_reversed = 1e9;
   const std::optional<FedBackLoop> direct =
-      time > 0.0 ? mapped({loop, 0.0}, scales.feedback, bilinear, far) : FedBackLoop{loop, 0.0};
+      time > 0.0 ? mapped({loop, 0.0}, scales.feedback, bilinear, far_sampled)
+                 : FedBackLoop{loop, 0.0};
   if (!direct) {
     throw NumericalFailure(
         "crossovers: A has an eigenvalue of -1 that no feedback moves, out of reach of input or "
@@ -207,12 +222,14 @@ Crossovers crossovers(const plant::StateSpace& loop, const CrossoverOptions& opt
   add_candidates(*direct, false, candidates);
   // Rounding spoils the smallest of zeros that are many decades apart: those of L(1/s) besides.
   const double slowest = time > 0.0 ? 0.5 * time * scales.slowest : scales.slowest;
-  const auto inverse = mapped(*direct, scales.feedback, reversed, far / slowest);
+  const auto inverse = mapped(*direct, scales.feedback, reversed, far_reversed / slowest);
   if (inverse) add_candidates(*inverse, true, candidates);
   if (time > 0.0) {
-    for (Complex& s : candidates) {
-      const double w = 2.0 * std::atan(s.imag()) / time;
-      s = {s.real() / s.imag() * w, w};
+    for (auto& of_kind : candidates) {
+      for (Complex& s : of_kind) {
+        const double w = 2.0 * std::atan(s.imag()) / time;
+        s = {s.real() / s.imag() * w, w};
+      }
     }
   }
   Crossovers result = crossovers_on_grid(

@@ -118,20 +118,42 @@ class Search {
   void turn_back(Eigen::Index first, Eigen::Index last) {
     const double side = offset_[first] > 0.0 ? 1.0 : -1.0;
     const double x = extremum(x_[first], x_[last], -side);
+    // Found from a neighbouring point before, where points are closer than rounding separates.
+    constexpr double same = 0.05;
+    if (std::abs(x - last_turn_) < same * (x_[last] - x_[first])) return;
+    last_turn_ = x;
     const double value = side * function_(x);
-    if (value < -options_.touch) {
+    // What is not clearly nearer than both ends is a rounding error of something that only comes
+    // or goes.
+    constexpr double clearly = 10.0;
+    const double dip = std::min(height_beside(first, -1), height_beside(last, 1)) - value;
+    double noise = loop_.uncertainty.segment(first, last - first + 1).maxCoeff();
+    if (std::min(std::abs(value), dip / clearly) <= noise && loop_.error) {
+      noise = std::min(noise, loop_.error(std::exp(x)));
+    }
+    if (!(dip > clearly * noise) || !counts(x)) return;
+    const double touch = std::max(options_.touch, noise);
+    if (value < -touch) {
       add_root(x_[first], x, offset_[first], side * value);
       add_root(x, x_[last], side * value, offset_[last]);
-      if (counts(x)) add_tangency(x, Approach::crosses, -value);
-    } else if (counts(x)) {
-      if (value <= options_.touch) {
-        if (!is_smooth(x)) return;
-        places_.push_back(x);
-        add_tangency(x, Approach::touches, std::abs(value));
-      } else {
-        add_tangency(x, Approach::misses, value);
-      }
+      add_tangency(x, Approach::crosses, -value);
+    } else if (value > touch) {
+      add_tangency(x, Approach::misses, value);
+    } else if (is_smooth(x)) {
+      places_.push_back(x);
+      add_tangency(x, Approach::touches, std::abs(value));
     }
+  }
+
+  // How far from zero L gets from that point on before it turns.
+  double height_beside(Eigen::Index i, Eigen::Index step) const {
+    double height = std::abs(offset_[i]);
+    for (Eigen::Index next = i + step; next >= 0 && next < x_.size(); next += step) {
+      const double further = offset_[next];
+      if ((further > 0.0) != (offset_[i] > 0.0) || !(std::abs(further) > height)) break;
+      height = std::abs(further);
+    }
+    return height;
   }
 
   // Whether an extremum is so near to a crossover that it is one of its rounding errors.
@@ -170,6 +192,7 @@ class Search {
   const CrossoverOptions& options_;
   CrossoverKind kind_;
   Eigen::ArrayXd x_, offset_;
+  double last_turn_ = std::numeric_limits<double>::infinity();
   double furthest_ = std::numeric_limits<double>::infinity();  // an extremum beyond is no concern
   std::function<double(double)> function_;
   std::vector<double> places_;

@@ -18,6 +18,9 @@ struct LoopOnGrid {
   /// Relative error that each value may have: what is nearer to the unit circle or the axis has no
   /// certain side there.
   Eigen::ArrayXd uncertainty;
+  /// A sharper estimate of it at one frequency, asked for where a tangency hangs on it; may be
+  /// empty.
+  std::function<double(double)> error = {};
   /// L turns by no more than this from point to point (rad) and changes by no more in ln|L|, where
   /// that is known: an extremum twice as far from the circle or the axis hides no crossover.
   double largest_turn = std::numeric_limits<double>::infinity();

@@ -67,16 +67,16 @@ plant::DenseResponse::Start opposite(const plant::DenseResponse& response) {
 }  // namespace
 
 LoopResponse::LoopResponse(const char* function, const plant::StateSpace& loop, double dead_time)
-    : response_(checked(function, loop, dead_time)),
+    : scaled_(plant::balanced(checked(function, loop, dead_time))),
+      response_(loop),
       other_(loop, opposite(response_)),
       dead_time_(dead_time) {
-  plant::StateSpace scaled = plant::balanced(loop);
   const bool sampled = loop.sample_time > 0.0;
-  if (sampled) scaled.a.diagonal().array() -= 1.0;
-  features_ = plant::eigenvalues(scaled.a);
+  if (sampled) scaled_.a.diagonal().array() -= 1.0;
+  features_ = plant::eigenvalues(scaled_.a);
   const double feedthrough = loop.d(0, 0);
   if (std::abs(1.0 + feedthrough) > 1e-12 * (1.0 + std::abs(feedthrough))) {
-    const Eigen::MatrixXd closed = scaled.a - scaled.b * scaled.c / (1.0 + feedthrough);
+    const Eigen::MatrixXd closed = scaled_.a - scaled_.b * scaled_.c / (1.0 + feedthrough);
     const Eigen::VectorXcd poles = plant::eigenvalues(closed);
     if (dead_time == 0.0) {
       closed_loop_stable_ = std::all_of(poles.begin(), poles.end(), [&](Complex pole) {
@@ -89,7 +89,7 @@ LoopResponse::LoopResponse(const char* function, const plant::StateSpace& loop, 
   if (sampled) features_.array() += 1.0;
   features_ = joined(features_, transmission_zeros(loop));
 
-  at_zero_ = real_end(scaled, 0.0);
+  at_zero_ = real_end(0.0);
   // An integrator with rounding errors can come out as a finite number.
   const double near_zero =
       1e-3 * (sampled ? std::min(range.slowest, 1.0) / loop.sample_time : range.slowest);
@@ -99,14 +99,35 @@ LoopResponse::LoopResponse(const char* function, const plant::StateSpace& loop, 
       at_zero_ = infinity;
     }
   }
-  at_highest_ = sampled ? real_end(scaled, -2.0) : feedthrough;
+  at_highest_ = sampled ? real_end(-2.0) : feedthrough;
 }
 
-// L at a real s, or z - 1, by elimination: no digits of slow poles are lost beside fast ones.
-Complex LoopResponse::real_end(const plant::StateSpace& scaled, double s) {
+// L at s, or z - 1, by elimination: O(n^3), but no digits of slow poles are lost beside fast ones.
+Complex LoopResponse::solved(Complex s) const {
+  return plant::transfer_matrix(scaled_.a, scaled_.b, scaled_.c, scaled_.d, s)(0, 0);
+}
+
+Complex LoopResponse::real_end(double s) {
   Eigen::MatrixXcd value;
   if (!response_.evaluate(sample_time() > 0.0 ? 1.0 + s : s, value)) return infinity;
-  return plant::transfer_matrix(scaled.a, scaled.b, scaled.c, scaled.d, s)(0, 0);
+  return solved(s);
+}
+
+// Relative error of the response against elimination, largest of some points close together.
+double LoopResponse::error_at(double angular_frequency) {
+  constexpr double apart = 1e-7, caution = 8.0;
+  double largest = 0.0;
+  for (const double w :
+       {angular_frequency * (1.0 - apart), angular_frequency, angular_frequency * (1.0 + apart)}) {
+    Complex s{0.0, w};
+    if (sample_time() > 0.0) {
+      const double half = std::sin(0.5 * w * sample_time());
+      s = {-2.0 * half * half, std::sin(w * sample_time())};
+    }
+    const Complex value = response_.channel(w);
+    largest = std::max(largest, std::abs(value - solved(s)) / std::abs(value));
+  }
+  return std::isfinite(largest) ? caution * largest : 1.0;
 }
 
 Eigen::VectorXcd LoopResponse::continuous_features() const {
@@ -133,6 +154,7 @@ LoopOnGrid LoopResponse::on_grid(Eigen::ArrayXd angular_frequency) {
   const Eigen::Index count = angular_frequency.size();
   LoopOnGrid result;
   result.gain = [this](double w) { return at(w); };
+  result.error = [this](double w) { return error_at(w); };
   result.value = at(angular_frequency);
   Eigen::ArrayXcd other;
   other_.evaluate(angular_frequency, other);
@@ -144,12 +166,19 @@ LoopOnGrid LoopResponse::on_grid(Eigen::ArrayXd angular_frequency) {
   }
   // Two roundings can agree by chance at one point, hardly at seven in a row.
   constexpr Eigen::Index reach = 3;
-  constexpr double least = 1e-13, caution = 8.0;
+  constexpr double neighbourhood = 1.3, least = 1e-13, caution = 32.0;
   result.uncertainty.resize(count);
   for (Eigen::Index i = 0; i < count; ++i) {
-    const Eigen::Index first = std::max<Eigen::Index>(0, i - reach);
-    const Eigen::Index last = std::min(count - 1, i + reach);
-    result.uncertainty[i] = least + caution * raw.segment(first, last - first + 1).maxCoeff();
+    const double w = angular_frequency[i];
+    double largest = raw[i];
+    for (Eigen::Index k = std::max<Eigen::Index>(0, i - reach); k <= std::min(count - 1, i + reach);
+         ++k) {
+      const double other_w = angular_frequency[k];
+      if (std::max(w, other_w) < neighbourhood * std::min(w, other_w)) {
+        largest = std::max(largest, raw[k]);
+      }
+    }
+    result.uncertainty[i] = least + caution * largest;
   }
   result.frequency = std::move(angular_frequency);
   return result;

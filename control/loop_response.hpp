@@ -53,8 +53,11 @@ class LoopResponse {
   void add_real_ends(std::vector<PhaseCrossover>& crossovers) const;
 
  private:
-  std::complex<double> real_end(const plant::StateSpace& scaled, double s);
+  std::complex<double> solved(std::complex<double> s) const;
+  std::complex<double> real_end(double s);
+  double error_at(double angular_frequency);
 
+  plant::StateSpace scaled_;  // balanced; A - I in place of A where sampled
   plant::DenseResponse response_, other_;
   double dead_time_;
   Eigen::VectorXcd features_;

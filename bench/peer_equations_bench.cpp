@@ -50,7 +50,7 @@ void peer_riccati_continuous(benchmark::State& state) {
   for (auto _ : state) trace = control::solve_riccati(problem).x.trace();
   state.counters["value0"] = trace;
 }
-BENCHMARK(peer_riccati_continuous)->Arg(5)->Arg(20)->Arg(50);
+BENCHMARK(peer_riccati_continuous)->Arg(5)->Arg(20)->Arg(50)->Arg(150);
 
 void peer_discrete_riccati_sampled(benchmark::State& state) {
   const auto system = reference::channel(reference::peer_closed_loop(state.range(0)), "d", "y");
@@ -71,7 +71,7 @@ void truncate_balanced(benchmark::State& state) {
   const auto system = noise_to_pointing(state);
   for (auto _ : state) benchmark::DoNotOptimize(control::truncate_balanced(system, {.order = 10}));
 }
-BENCHMARK(truncate_balanced)->Arg(5)->Arg(20)->Arg(50);
+BENCHMARK(truncate_balanced)->Arg(5)->Arg(20)->Arg(50)->Arg(150);
 
 void truncate_modes(benchmark::State& state) {
   const auto system = noise_to_pointing(state);

@@ -19,7 +19,7 @@ void peer_sampling_zero_order_hold(benchmark::State& state) {
   state.counters["value0"] = sampled.a.norm();
   state.counters["value1"] = sampled.b.norm();
 }
-BENCHMARK(peer_sampling_zero_order_hold)->Arg(5)->Arg(20)->Arg(50)->Arg(150);
+BENCHMARK(peer_sampling_zero_order_hold)->Arg(5)->Arg(20)->Arg(50)->Arg(150)->Arg(500);
 
 void simulation(benchmark::State& state, plant::Interpolation interpolation) {
   const auto system = reference::channel(reference::peer_closed_loop(state.range(0)), "n", "y");

@@ -113,8 +113,7 @@ std::optional<FedBackLoop> mapped(const FedBackLoop& loop, const std::vector<dou
                                   double furthest) {
   for (const double more : feedback) {
     try {
-      const FedBackLoop result{map(plant::balanced(with_feedback(loop.system, more))),
-                               loop.f + more};
+      FedBackLoop result{map(plant::balanced(with_feedback(loop.system, more))), loop.f + more};
       const Eigen::MatrixXd& a = result.system.a;
       if (a.size() == 0 || a.cwiseAbs().maxCoeff() <= furthest) return result;
     } catch (const NumericalFailure&) {

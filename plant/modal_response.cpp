@@ -79,13 +79,14 @@ ModalResponse::ModalResponse(const ModalSystem& system, std::string_view input,
       feedthrough_.push_back(core.d(r, c));
     }
   }
+  bool by_modes = true;
   try {
     core_ = modal_form(core);
-    by_modes_ = core_.condition <= highest_modal_condition;
+    by_modes = core_.condition <= highest_modal_condition;
   } catch (const NumericalFailure&) {
-    by_modes_ = false;
+    by_modes = false;
   }
-  if (!by_modes_) {
+  if (!by_modes) {
     core_ = {};
     dense_.emplace(core);
   }
@@ -113,9 +114,10 @@ ModalResponse::ModalResponse(const ModalSystem& system, std::string_view input,
 }
 
 // The core's entries where its eigenvectors do not serve; infinite at a pole.
-void ModalResponse::dense_entries(const double* w, std::size_t n, FrequencyLanes* entries) const {
+void ModalResponse::dense_entries(DenseResponse& dense, const double* w, std::size_t n,
+                                  FrequencyLanes* entries) const {
   for (std::size_t i = 0; i < n; ++i) {
-    if (!dense_.value().evaluate({0.0, w[i]}, dense_values_)) {
+    if (!dense.evaluate({0.0, w[i]}, dense_values_)) {
       dense_values_.fill(std::numeric_limits<double>::infinity());
     }
     for (std::size_t e = 0; e < entries_.size(); ++e) {
@@ -132,10 +134,10 @@ void ModalResponse::evaluate_block(const double* w, std::size_t n, Complex* resu
   const std::size_t returns = reduction_.returns.size();
 
   FrequencyLanes* entries = workspace.take(entries_.size());
-  if (by_modes_) {
-    frequency_kernels::sum_sections(sections_, feedthrough_, w, n, entries);
+  if (dense_) {
+    dense_entries(*dense_, w, n, entries);
   } else {
-    dense_entries(w, n, entries);
+    frequency_kernels::sum_sections(sections_, feedthrough_, w, n, entries);
   }
   const auto entry = [&](std::size_t row, Eigen::Index column) -> FrequencyLanes* {
     const int number = column < 0 ? -1 : entry_number_[row][static_cast<std::size_t>(column)];

@@ -31,7 +31,7 @@ class ModalResponse {
   const ModalReduction& reduction() const { return reduction_; }
   /// Poles and residues of the reduced core; without poles where it is not taken by them.
   const ModalForm& core() const { return core_; }
-  bool core_by_modes() const { return by_modes_; }
+  bool core_by_modes() const { return !dense_.has_value(); }
 
  private:
   struct Entry {
@@ -39,11 +39,10 @@ class ModalResponse {
   };
   void evaluate_block(const double* angular_frequency, std::size_t count,
                       std::complex<double>* result) const;
-  void dense_entries(const double* angular_frequency, std::size_t count,
+  void dense_entries(DenseResponse& dense, const double* angular_frequency, std::size_t count,
                      FrequencyLanes* entries) const;
 
   ModalReduction reduction_;
-  bool by_modes_ = true;
   mutable std::optional<DenseResponse> dense_;  // of the core, where it is not taken by its modes
   mutable Eigen::MatrixXcd dense_values_;
   ModalForm core_;

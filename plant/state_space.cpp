@@ -130,7 +130,7 @@ void validate(const StateSpace& system) {
   refuse_duplicates("input", system.inputs);
   refuse_duplicates("output", system.outputs);
   refuse_duplicates("state", system.states);
-  if (!(system.sample_time >= 0.0 && std::isfinite(system.sample_time))) {
+  if (!std::isfinite(system.sample_time) || system.sample_time < 0.0) {
     throw InvalidInput(
         fmt::format("state space: expected a sample time of 0 (continuous) or more, found {} s",
                     system.sample_time));

@@ -188,6 +188,8 @@ def main():
         parser.error(f"no item '{unknown[0]}'; there are {', '.join(ITEMS)}")
     sizes = [int(number) for number in options.modes.split(",")]
 
+    print(f"CPU time of one thread, median of {options.rounds} rounds; in brackets as a multiple of")
+    print("Boresight's fastest route. `differs`: from that route's values by more than the item allows.")
     agree = True
     with tempfile.TemporaryDirectory() as folder:
         subprocess.run([options.systems, folder, *map(str, sizes)], check=True)

@@ -1,0 +1,46 @@
+#pragma once
+
+#include <Eigen/Core>
+
+namespace boresight::plant {
+
+/// x' = f(t, x), with all that an implicit integrator wants to know of it. t in s.
+///
+/// What the functions fill comes in the right shape. They may be asked for states a little off the
+/// solution, in any order, and at a t that an event or the end of an interval lies just before: a
+/// system that changes its law at a time or an event keeps the law of the present piece for all
+/// arguments, and is switched by the owner of the integrator, who then restarts it. A value that is
+/// not finite makes the integrator try a smaller step; exceptions come out of its advance()
+/// unchanged.
+class OdeSystem {
+ public:
+  virtual ~OdeSystem() = default;
+
+  /// Length of x.
+  virtual Eigen::Index states() const = 0;
+
+  /// dx = f(t, x).
+  virtual void rate(double t, const Eigen::Ref<const Eigen::VectorXd>& x,
+                    Eigen::Ref<Eigen::VectorXd> dx) const = 0;
+
+  /// j = df/dx, states x states; comes zeroed. An error in it costs steps, not accuracy, except
+  /// where sensitivities are asked for: they are wrong then.
+  virtual void jacobian(double t, const Eigen::Ref<const Eigen::VectorXd>& x,
+                        Eigen::Ref<Eigen::MatrixXd> j) const = 0;
+
+  /// How many functions g(t, x) stop the integrator where they change their sign.
+  virtual Eigen::Index events() const { return 0; }
+
+  /// g(t, x), of length events().
+  virtual void event_values(double /*t*/, const Eigen::Ref<const Eigen::VectorXd>& /*x*/,
+                            Eigen::Ref<Eigen::VectorXd> /*g*/) const {}
+
+  /// How many parameters p the sensitivities dx/dp are taken for.
+  virtual Eigen::Index parameters() const { return 0; }
+
+  /// df_dp = df/dp at fixed x, states x parameters; comes zeroed.
+  virtual void rate_by_parameters(double /*t*/, const Eigen::Ref<const Eigen::VectorXd>& /*x*/,
+                                  Eigen::Ref<Eigen::MatrixXd> /*df_dp*/) const {}
+};
+
+}  // namespace boresight::plant

@@ -1,0 +1,77 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include <boresight/plant/feedback_system.hpp>
+#include <boresight/plant/modal_form.hpp>
+#include <boresight/plant/time_response.hpp>
+
+namespace boresight::plant {
+
+struct FastIntegratorOptions {
+  /// Between the samples of the inputs and outputs (s). Steps are this, 1/2, 1/4, ... of it.
+  double interval = 0.0;
+  /// The shortest step is interval/2^finest_rung. 0..30.
+  int finest_rung = 20;
+  /// Largest error of a step in the channels' inputs z: absolute + relative |z|.
+  double relative_tolerance = 1e-6;
+  /// One for each channel input, in its unit, or one for all.
+  Eigen::VectorXd absolute_tolerance = Eigen::VectorXd::Constant(1, 1e-8);
+  /// As in SimulationOptions: above it a dense transition matrix takes the place of the modes.
+  double largest_condition = highest_modal_condition;
+};
+
+struct FastIntegratorStatistics {
+  long long steps = 0;     // accepted
+  long long rejected = 0;  // for their error or because Newton's method did not converge
+  long long newton_iterations = 0;
+  int finest_rung = 0;  // the shortest step taken was interval/2^finest_rung
+};
+
+/// Integrates a linear system with nonlinear channels: the linear part (modes, oil lines, filters)
+/// exactly, whatever the step, the channels implicitly by exponential collocation at the three
+/// Radau IIA points (order 5, stiffly accurate; M. Hochbruck, A. Ostermann, Exponential
+/// Runge-Kutta methods for parabolic problems, Appl. Numer. Math. 53, 2005; E. Hairer, G. Wanner,
+/// Solving Ordinary Differential Equations II, IV.5). Steps are as long as the channels allow, not
+/// the modes. Inputs are straight within an interval and may jump between intervals.
+class FastIntegrator {
+ public:
+  /// At rest at t = 0. O(n^3) once; then O(n) a step by modes or O(n^2) by the dense route.
+  /// @throws InvalidInput as feedback_matrices and for options out of range; NumericalFailure if
+  /// the linear part overflows within one interval.
+  FastIntegrator(const FeedbackSystem& system, FastIntegratorOptions options);
+
+  /// Everything before is forgotten. @throws InvalidInput for a wrong length or elements that are
+  /// not finite.
+  void start_from(const Eigen::VectorXd& state, double time = 0.0);
+
+  /// One interval, the inputs straight from `u_start` to `u_end`. Allocates nothing once it has
+  /// taken steps of the length it takes. @throws InvalidInput for inputs that do not fit or are not
+  /// finite; NumericalFailure, with time and channel, for a channel that is not finite and where
+  /// the shortest step is still too long; after it, the state is that at the last step completed
+  /// and only start_from leads on.
+  void advance(const Eigen::Ref<const Eigen::VectorXd>& u_start,
+               const Eigen::Ref<const Eigen::VectorXd>& u_end);
+
+  /// A record: y at the end of each interval, intervals x outputs. Zero-order hold: row k of
+  /// `input` (intervals x inputs) is held throughout interval k, and y is that just before the
+  /// input changes. First-order hold: straight from row k to row k + 1 (intervals + 1 rows).
+  /// @throws as advance, and InvalidInput for shapes that do not fit.
+  void simulate(const Eigen::Ref<const Eigen::MatrixXd>& input, Eigen::Ref<Eigen::MatrixXd> output,
+                Interpolation interpolation = Interpolation::zero_order_hold);
+
+  double time() const;                             // s, at the end of the last interval
+  Eigen::VectorXd state() const;                   // x
+  const Eigen::VectorXd& outputs() const;          // y there, before the inputs jump
+  const Eigen::VectorXd& channel_inputs() const;   // z there
+  const Eigen::VectorXd& channel_outputs() const;  // n there
+  const FastIntegratorStatistics& statistics() const;
+  /// Whether the linear part is integrated by modes.
+  bool by_modes() const;
+};
+
+}  // namespace boresight::plant

@@ -8,11 +8,6 @@ namespace boresight::plant {
 /// the deflection of a bristle stand in the linear part, as integrators that a channel drives.
 class NonlinearChannels {
  public:
-  NonlinearChannels() = default;
-  NonlinearChannels(const NonlinearChannels&) = default;
-  NonlinearChannels& operator=(const NonlinearChannels&) = default;
-  NonlinearChannels(NonlinearChannels&&) = default;
-  NonlinearChannels& operator=(NonlinearChannels&&) = default;
   virtual ~NonlinearChannels() = default;
 
   virtual Eigen::Index inputs() const = 0;   // p

@@ -1,45 +1,18 @@
 #pragma once
 
-#include <limits>
 #include <memory>
 
 #include <Eigen/Core>
 
+#include <boresight/plant/ode_options.hpp>
 #include <boresight/plant/ode_system.hpp>
 
 namespace boresight::plant {
-
-/// bdf: backward differentiation of order 1 to 5, for stiff systems. adams: Adams-Moulton of order
-/// 1 to 12, for smooth ones whose fastest time constants are all of interest. Both are implicit and
-/// solved by Newton's method with the system's Jacobian.
-enum class OdeMethod { bdf, adams };
 
 /// What advance(t) does with the step that would go past t: take it and interpolate back, which is
 /// cheapest, or shorten it to end at t, which is needed where the system must not be asked for
 /// times behind t because an input jumps there.
 enum class Approach { interpolate, stop_exactly };
-
-struct OdeOptions {
-  /// The local error of each step is held below relative_tolerance |x_i| + absolute_tolerance_i in
-  /// the root mean square over the states; the error of the solution is usually some ten times
-  /// larger, more over many oscillations.
-  double relative_tolerance = 1e-6;
-  /// One for each state, in its unit, or a single one for all.
-  Eigen::VectorXd absolute_tolerance = Eigen::VectorXd::Constant(1, 1e-9);
-  OdeMethod method = OdeMethod::bdf;
-  /// s. Shorter than twice the shortest excursion of an event function that must not be missed:
-  /// events are seen by the signs at the ends of a step only.
-  double longest_step = std::numeric_limits<double>::infinity();
-  /// Cap on the steps of each advance().
-  long most_steps = 10'000'000;
-  /// Also integrate s = dx/dp by s' = (df/dx) s + df/dp, under error control like the states.
-  bool sensitivities = false;
-  /// states x parameters, of the initial state; empty: zero.
-  Eigen::MatrixXd initial_sensitivities;
-  /// Typical size of each parameter, above 0: the absolute tolerance of dx_i/dp_k is that of x_i
-  /// divided by it. Empty: 1 for all.
-  Eigen::VectorXd parameter_scale;
-};
 
 /// Where advance() stopped.
 struct OdeStop {
@@ -55,7 +28,6 @@ struct OdeStatistics {
   long rate_evaluations = 0;
   long jacobians = 0;  // for the Newton iteration
   long sensitivity_evaluations = 0;
-  long error_test_failures = 0;
 };
 
 /// An initial value problem, integrated forward with variable order and step by CVODES (A. C.
@@ -65,10 +37,8 @@ class OdeIntegrator {
  public:
   /// At t0 with x0. Keeps a reference to `system`, which must outlive it; what the system does may
   /// change between calls if restart() follows, its sizes may not.
-  /// @throws InvalidInput for an x0 of other length than system.states() or not finite, tolerances
-  /// that are not finite, negative or all zero for a state, absolute tolerances neither 1 nor
-  /// states() in number, a longest_step or most_steps not above 0, sensitivities without
-  /// parameters, initial sensitivities or parameter scales of a wrong size or value.
+  /// @throws InvalidInput for a t0 or x0 that is not finite, an x0 of other length than
+  /// system.states(), and as validate(options, system).
   OdeIntegrator(const OdeSystem& system, double t0, const Eigen::VectorXd& x0,
                 const OdeOptions& options = {});
   ~OdeIntegrator();
@@ -106,7 +76,7 @@ class OdeIntegrator {
   OdeStatistics statistics() const;
 
  private:
-  class Solver;
+  struct Solver;
   std::unique_ptr<Solver> solver_;
 };
 

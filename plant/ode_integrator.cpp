@@ -1,0 +1,413 @@
+#include <algorithm>
+#include <cmath>
+#include <exception>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <cvodes/cvodes.h>
+#include <fmt/format.h>
+#include <nvector/nvector_serial.h>
+#include <sundials/sundials_context.hpp>
+#include <sunlinsol/sunlinsol_dense.h>
+#include <sunmatrix/sunmatrix_dense.h>
+
+#include <boresight/plant/error.hpp>
+#include <boresight/plant/ode_integrator.hpp>
+
+namespace boresight::plant {
+namespace {
+
+// Owners of what SUNDIALS makes.
+struct Destroy {
+  void operator()(N_Vector vector) const { N_VDestroy(vector); }
+  void operator()(SUNMatrix matrix) const { SUNMatDestroy(matrix); }
+  void operator()(SUNLinearSolver solver) const { SUNLinSolFree(solver); }
+  void operator()(void* memory) const { CVodeFree(&memory); }
+};
+template <class Handle>
+using Owned = std::unique_ptr<std::remove_pointer_t<Handle>, Destroy>;
+
+using ConstVector = Eigen::Map<const Eigen::VectorXd>;
+using Vector = Eigen::Map<Eigen::VectorXd>;
+
+ConstVector elements(N_Vector vector) {
+  return {N_VGetArrayPointer(vector), N_VGetLength(vector)};
+}
+Vector writable(N_Vector vector) {
+  return {N_VGetArrayPointer(vector), N_VGetLength(vector)};
+}
+
+// The first value of a function that is not finite.
+struct Flaw {
+  const char* function;
+  std::string place;  // counted from 0
+  double value;
+  double time;
+};
+
+std::optional<Flaw> flaw_in(const char* function, double t,
+                            const Eigen::Ref<const Eigen::MatrixXd>& values) {
+  if (values.allFinite()) return std::nullopt;
+  Eigen::Index row = 0, column = 0;
+  while (std::isfinite(values(row, column))) {
+    if (++row < values.rows()) continue;
+    row = 0;
+    ++column;
+  }
+  const std::string place =
+      values.cols() > 1 ? fmt::format("({}, {})", row, column) : fmt::format("({})", row);
+  return Flaw{function, place, values(row, column), t};
+}
+
+// What to do about a reason for which CVODES gives up.
+const char* remedy(int flag) {
+  switch (flag) {
+    case CV_TOO_MUCH_WORK:
+      return "raise most_steps or the tolerances, or make a jump of the rate an event";
+    case CV_TOO_MUCH_ACC:
+      return "raise relative_tolerance or absolute_tolerance: rounding is above them";
+    case CV_ERR_FAILURE:
+    case CV_CONV_FAILURE:
+      return "look for a singularity of the rate, a jump that is not an event, or a Jacobian that "
+             "is not its derivative";
+    case CV_LSETUP_FAIL:
+    case CV_LSOLVE_FAIL:
+      return "compare the Jacobian with differences of the rate";
+    default:
+      return "look at the system at this time, and whether two of its events stand within rounding";
+  }
+}
+
+// One Newton iteration for states and sensitivities together: half the rate evaluations of the
+// staggered corrector for the same steps and errors.
+constexpr int corrector = CV_SIMULTANEOUS;
+
+void check_state(const char* function, const Eigen::VectorXd& x, Eigen::Index states) {
+  if (x.size() != states) {
+    throw InvalidInput(
+        fmt::format("{}: expected a state of length {}, found {}", function, states, x.size()));
+  }
+  if (!x.allFinite()) {
+    throw InvalidInput(fmt::format("{}: the state has elements that are not finite", function));
+  }
+}
+
+}  // namespace
+
+// The C library calls back with a pointer to this, so it stays where it is.
+struct OdeIntegrator::Solver {
+  Solver(const OdeSystem& ode, double t0, const Eigen::VectorXd& x0, const OdeOptions& options);
+
+  static int rate(double t, N_Vector x, N_Vector dx, void* self);
+  static int jacobian(double t, N_Vector x, N_Vector dx, SUNMatrix j, void* self, N_Vector,
+                      N_Vector, N_Vector);
+  static int event_values(double t, N_Vector x, double* g, void* self);
+  static int sensitivity_rate(int count, double t, N_Vector x, N_Vector dx, N_Vector* s,
+                              N_Vector* ds, void* self, N_Vector, N_Vector);
+  static void note(int flag, const char* module, const char* function, char* text, void* self);
+  template <class Evaluate>
+  static int guarded(void* self, const Evaluate& evaluate);
+  int judge(const char* function, double t, const Eigen::Ref<const Eigen::MatrixXd>& values);
+
+  void configure(const OdeOptions& options);
+  void configure_sensitivities(const OdeOptions& options);
+  void start();
+  void limit(double t, Approach approach);
+  void expect(int flag) const;
+  [[noreturn]] void fail(int flag, double t);
+  long steps_since_start() const;
+
+  const OdeSystem& system;
+  double time;
+  Eigen::VectorXd state;
+  Eigen::MatrixXd sensitivities;
+  // Where CVODES reads a start and writes its result, which is taken over when it is a good one.
+  Eigen::VectorXd exchange;
+  Eigen::MatrixXd sensitivity_exchange;
+  bool fresh = false;    // to start anew from `state` before the next step
+  bool limited = false;  // CVODES has a stop time
+  // df/dx and df/dp where the sensitivities are being solved for.
+  Eigen::MatrixXd by_state;
+  Eigen::MatrixXd by_parameters;
+  std::exception_ptr thrown;
+  std::optional<Flaw> flaw;  // of the last evaluation
+  std::string message;
+  OdeStatistics done;  // steps: those before the last start
+
+  sundials::Context context;
+  Owned<N_Vector> vector;
+  std::vector<Owned<N_Vector>> sensitivity_vectors;
+  std::vector<N_Vector> sensitivity_handles;
+  Owned<SUNMatrix> matrix;
+  Owned<SUNLinearSolver> linear_solver;
+  Owned<void*> memory;
+};
+
+OdeIntegrator::Solver::Solver(const OdeSystem& ode, double t0, const Eigen::VectorXd& x0,
+                              const OdeOptions& options)
+    : system(ode), time(t0), state(x0), exchange(x0) {
+  validate(options, system);
+  if (!std::isfinite(t0)) {
+    throw InvalidInput(fmt::format("OdeIntegrator: expected a finite start time, found {} s", t0));
+  }
+  check_state("OdeIntegrator", x0, system.states());
+  configure(options);
+  if (options.sensitivities) configure_sensitivities(options);
+}
+
+void OdeIntegrator::Solver::configure(const OdeOptions& options) {
+  vector.reset(N_VMake_Serial(state.size(), exchange.data(), context));
+  const bool bdf = options.method == OdeMethod::bdf;
+  memory.reset(CVodeCreate(bdf ? CV_BDF : CV_ADAMS, context));
+  expect(CVodeSetErrHandlerFn(memory.get(), note, this));
+  expect(CVodeInit(memory.get(), rate, time, vector.get()));
+  expect(CVodeSetUserData(memory.get(), this));
+  const Eigen::VectorXd& absolute = options.absolute_tolerance;
+  if (absolute.size() == 1) {
+    expect(CVodeSStolerances(memory.get(), options.relative_tolerance, absolute(0)));
+  } else {
+    const Owned<N_Vector> tolerances(N_VClone(vector.get()));
+    writable(tolerances.get()) = absolute;
+    expect(CVodeSVtolerances(memory.get(), options.relative_tolerance, tolerances.get()));
+  }
+  expect(CVodeSetMaxOrd(memory.get(), std::min(options.highest_order, bdf ? 5 : 12)));
+  expect(CVodeSetMaxNumSteps(memory.get(), options.most_steps));
+  if (std::isfinite(options.longest_step)) {
+    expect(CVodeSetMaxStep(memory.get(), options.longest_step));
+  }
+  if (system.events() > 0) {
+    expect(CVodeRootInit(memory.get(), static_cast<int>(system.events()), event_values));
+  }
+  matrix.reset(SUNDenseMatrix(state.size(), state.size(), context));
+  linear_solver.reset(SUNLinSol_Dense(vector.get(), matrix.get(), context));
+  expect(CVodeSetLinearSolver(memory.get(), linear_solver.get(), matrix.get()));
+  expect(CVodeSetJacFn(memory.get(), jacobian));
+}
+
+void OdeIntegrator::Solver::configure_sensitivities(const OdeOptions& options) {
+  const Eigen::Index n = state.size(), count = system.parameters();
+  const Eigen::MatrixXd& initial = options.initial_sensitivities;
+  Eigen::VectorXd scale = options.parameter_scale;
+  if (scale.size() == 0) scale = Eigen::VectorXd::Ones(count);
+
+  sensitivities = initial.size() == 0 ? Eigen::MatrixXd::Zero(n, count) : initial;
+  sensitivity_exchange = sensitivities;
+  by_state.resize(n, n);
+  by_parameters.resize(n, count);
+  for (Eigen::Index k = 0; k < count; ++k) {
+    sensitivity_vectors.emplace_back(
+        N_VMake_Serial(n, sensitivity_exchange.col(k).data(), context));
+    sensitivity_handles.push_back(sensitivity_vectors.back().get());
+  }
+  expect(CVodeSensInit(memory.get(), static_cast<int>(count), corrector, sensitivity_rate,
+                       sensitivity_handles.data()));
+  expect(CVodeSetSensParams(memory.get(), nullptr, scale.data(), nullptr));
+  expect(CVodeSensEEtolerances(memory.get()));
+  expect(CVodeSetSensErrCon(memory.get(), SUNTRUE));
+}
+
+// An exception must not pass through C: it waits until CVODES has come back.
+template <class Evaluate>
+int OdeIntegrator::Solver::guarded(void* self, const Evaluate& evaluate) {
+  Solver& solver = *static_cast<Solver*>(self);
+  try {
+    return evaluate(solver);
+  } catch (...) {
+    solver.thrown = std::current_exception();
+    return -1;
+  }
+}
+
+// 1 asks CVODES for a smaller step.
+int OdeIntegrator::Solver::judge(const char* function, double t,
+                                 const Eigen::Ref<const Eigen::MatrixXd>& values) {
+  flaw = flaw_in(function, t, values);
+  return flaw ? 1 : 0;
+}
+
+int OdeIntegrator::Solver::rate(double t, N_Vector x, N_Vector dx, void* self) {
+  return guarded(self, [&](Solver& solver) {
+    Vector result = writable(dx);
+    ++solver.done.rate_evaluations;
+    solver.system.rate(t, elements(x), result);
+    return solver.judge("rate", t, result);
+  });
+}
+
+int OdeIntegrator::Solver::jacobian(double t, N_Vector x, N_Vector /*dx*/, SUNMatrix j, void* self,
+                                    N_Vector, N_Vector, N_Vector) {
+  return guarded(self, [&](Solver& solver) {
+    // Column after column, and zero: CVODES sees to that.
+    Eigen::Map<Eigen::MatrixXd> result(SUNDenseMatrix_Data(j), SUNDenseMatrix_Rows(j),
+                                       SUNDenseMatrix_Columns(j));
+    ++solver.done.jacobians;
+    solver.system.jacobian(t, elements(x), result);
+    return solver.judge("jacobian", t, result);
+  });
+}
+
+int OdeIntegrator::Solver::event_values(double t, N_Vector x, double* g, void* self) {
+  return guarded(self, [&](Solver& solver) {
+    Vector result(g, solver.system.events());
+    solver.system.event_values(t, elements(x), result);
+    return solver.judge("event_values", t, result);
+  });
+}
+
+int OdeIntegrator::Solver::sensitivity_rate(int count, double t, N_Vector x, N_Vector /*dx*/,
+                                            N_Vector* s, N_Vector* ds, void* self, N_Vector,
+                                            N_Vector) {
+  return guarded(self, [&](Solver& solver) {
+    ++solver.done.sensitivity_evaluations;
+    solver.by_state.setZero();
+    solver.system.jacobian(t, elements(x), solver.by_state);
+    if (solver.judge("jacobian", t, solver.by_state) != 0) return 1;
+    solver.by_parameters.setZero();
+    solver.system.rate_by_parameters(t, elements(x), solver.by_parameters);
+    if (solver.judge("rate_by_parameters", t, solver.by_parameters) != 0) return 1;
+    for (int k = 0; k < count; ++k) {
+      Vector result = writable(ds[k]);
+      result = solver.by_parameters.col(k);
+      result.noalias() += solver.by_state * elements(s[k]);
+    }
+    return 0;
+  });
+}
+
+// In place of printing to the terminal.
+void OdeIntegrator::Solver::note(int flag, const char* /*module*/, const char* function, char* text,
+                                 void* self) {
+  if (flag < 0) static_cast<Solver*>(self)->message = fmt::format("{}: {}", function, text);
+}
+
+// Starts CVODES where it has to be, and tells it how far its steps may go.
+void OdeIntegrator::Solver::limit(double t, Approach approach) {
+  const bool exactly = approach == Approach::stop_exactly;
+  double reached = 0.0;
+  expect(CVodeGetCurrentTime(memory.get(), &reached));
+  // A step past t taken before for interpolation does not count any more.
+  if (fresh || (exactly && reached > t)) start();
+  if (exactly || limited) {
+    // There is no call to take a stop time back.
+    const double stop = exactly ? t : std::numeric_limits<double>::max();
+    expect(CVodeSetStopTime(memory.get(), stop));
+  }
+  limited = exactly;
+}
+
+void OdeIntegrator::Solver::start() {
+  done.steps += steps_since_start();
+  exchange = state;
+  expect(CVodeReInit(memory.get(), time, vector.get()));
+  if (!sensitivity_handles.empty()) {
+    sensitivity_exchange = sensitivities;
+    expect(CVodeSensReInit(memory.get(), corrector, sensitivity_handles.data()));
+  }
+  fresh = false;
+}
+
+void OdeIntegrator::Solver::fail(int flag, double t) {
+  fresh = true;
+  if (thrown) std::rethrow_exception(std::exchange(thrown, nullptr));
+  double reached = time;
+  CVodeGetCurrentTime(memory.get(), &reached);
+  const std::string way =
+      fmt::format("OdeIntegrator: no way from {} s to {} s, given up at {} s", time, t, reached);
+  if (!flaw) throw NumericalFailure(fmt::format("{}: {} {}", way, message, remedy(flag)));
+  throw NumericalFailure(
+      fmt::format("{}: {}{} is {} at t = {} s{}; keep it finite around the "
+                  "solution",
+                  way, flaw->function, flaw->place, flaw->value, flaw->time,
+                  flag == CV_RTFUNC_FAIL ? "" : ", however small the step"));
+}
+
+void OdeIntegrator::Solver::expect(int flag) const {
+  if (flag < 0) throw NumericalFailure(fmt::format("OdeIntegrator: {} ({})", message, flag));
+}
+
+long OdeIntegrator::Solver::steps_since_start() const {
+  long steps = 0;
+  expect(CVodeGetNumSteps(memory.get(), &steps));
+  return steps;
+}
+
+OdeIntegrator::OdeIntegrator(const OdeSystem& system, double t0, const Eigen::VectorXd& x0,
+                             const OdeOptions& options)
+    : solver_(std::make_unique<Solver>(system, t0, x0, options)) {}
+OdeIntegrator::~OdeIntegrator() = default;
+OdeIntegrator::OdeIntegrator(OdeIntegrator&&) noexcept = default;
+OdeIntegrator& OdeIntegrator::operator=(OdeIntegrator&&) noexcept = default;
+
+OdeStop OdeIntegrator::advance(double t, Approach approach) {
+  Solver& solver = *solver_;
+  if (!std::isfinite(t) || t < solver.time) {
+    throw InvalidInput(
+        fmt::format("OdeIntegrator::advance: expected a time from the present {} s on, found {} s",
+                    solver.time, t));
+  }
+  OdeStop stop{t, false, Eigen::VectorXi::Zero(solver.system.events())};
+  // CVODES cannot start for less than two roundings.
+  constexpr double rounding = std::numeric_limits<double>::epsilon();
+  if (t - solver.time <= 4.0 * rounding * std::max(std::abs(t), std::abs(solver.time))) {
+    solver.time = t;
+    return stop;
+  }
+  solver.limit(t, approach);
+  void* const memory = solver.memory.get();
+  const int flag = CVode(memory, t, solver.vector.get(), &stop.time, CV_NORMAL);
+  if (flag < 0) solver.fail(flag, t);
+  if (!solver.sensitivity_handles.empty()) {
+    double found = 0.0;
+    solver.expect(CVodeGetSens(memory, &found, solver.sensitivity_handles.data()));
+    solver.sensitivities = solver.sensitivity_exchange;
+  }
+  if (flag == CV_ROOT_RETURN) {
+    stop.event = true;
+    solver.expect(CVodeGetRootInfo(memory, stop.directions.data()));
+  }
+  solver.time = stop.time;
+  solver.state = solver.exchange;
+  return stop;
+}
+
+double OdeIntegrator::time() const {
+  return solver_->time;
+}
+const Eigen::VectorXd& OdeIntegrator::state() const {
+  return solver_->state;
+}
+const Eigen::MatrixXd& OdeIntegrator::sensitivities() const {
+  return solver_->sensitivities;
+}
+
+void OdeIntegrator::restart() {
+  solver_->fresh = true;
+}
+
+void OdeIntegrator::restart(const Eigen::VectorXd& x) {
+  check_state("OdeIntegrator::restart", x, state().size());
+  solver_->state = x;
+  restart();
+}
+
+void OdeIntegrator::restart(const Eigen::VectorXd& x, const Eigen::MatrixXd& sensitivities) {
+  Eigen::MatrixXd& present = solver_->sensitivities;
+  if (sensitivities.rows() != present.rows() || sensitivities.cols() != present.cols() ||
+      !sensitivities.allFinite()) {
+    throw InvalidInput(fmt::format(
+        "OdeIntegrator::restart: expected finite sensitivities of {} x {}, found {} x {}",
+        present.rows(), present.cols(), sensitivities.rows(), sensitivities.cols()));
+  }
+  restart(x);
+  present = sensitivities;
+}
+
+OdeStatistics OdeIntegrator::statistics() const {
+  OdeStatistics all = solver_->done;
+  all.steps += solver_->steps_since_start();
+  return all;
+}
+
+}  // namespace boresight::plant

@@ -1,13 +1,16 @@
 #pragma once
 
+#include <array>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include <Eigen/Core>
 
+#include <boresight/plant/exponential_collocation.hpp>
 #include <boresight/plant/feedback_system.hpp>
 #include <boresight/plant/modal_form.hpp>
+#include <boresight/plant/stage_solver.hpp>
 #include <boresight/plant/time_response.hpp>
 
 namespace boresight::plant {
@@ -64,14 +67,50 @@ class FastIntegrator {
   void simulate(const Eigen::Ref<const Eigen::MatrixXd>& input, Eigen::Ref<Eigen::MatrixXd> output,
                 Interpolation interpolation = Interpolation::zero_order_hold);
 
-  double time() const;                             // s, at the end of the last interval
-  Eigen::VectorXd state() const;                   // x
-  const Eigen::VectorXd& outputs() const;          // y there, before the inputs jump
-  const Eigen::VectorXd& channel_inputs() const;   // z there
-  const Eigen::VectorXd& channel_outputs() const;  // n there
-  const FastIntegratorStatistics& statistics() const;
+  double time() const { return time_; }                  // s, at the end of the last interval
+  Eigen::VectorXd state() const;                         // x
+  const Eigen::VectorXd& outputs() const { return y_; }  // y there, before the inputs jump
+  const Eigen::VectorXd& channel_inputs() const { return now_.z; }   // z there
+  const Eigen::VectorXd& channel_outputs() const { return now_.n; }  // n there
+  const FastIntegratorStatistics& statistics() const { return statistics_; }
   /// Whether the linear part is integrated by modes.
-  bool by_modes() const;
+  bool by_modes() const { return collocation_.by_modes(); }
+
+ private:
+  enum class Refusal { none, error, divergence, not_finite };
+
+  const CollocationStep& rung(int index);
+  void begin_interval(const Eigen::Ref<const Eigen::VectorXd>& u_start);
+  Refusal attempt(const CollocationStep& step);
+  void accept(const CollocationStep& step);
+  void extrapolate(double length);
+  double error_of(const CollocationStep& step);
+  [[noreturn]] void give_up(Refusal refusal, double time);
+
+  ExponentialCollocation collocation_;
+  StageSolver solver_;
+  FastIntegratorOptions options_;
+  std::vector<std::string> channel_names_, channel_input_names_;
+  std::vector<std::optional<CollocationStep>> rungs_;
+  FastIntegratorStatistics statistics_;
+  double time_ = 0.0;
+  double interval_start_ = 0.0;
+  long long intervals_ = 0;  // since interval_start_
+  int rung_ = 0;
+  int jump_rung_ = 0;             // that of the first step after the last jump
+  int hold_off_ = 0;              // steps before a longer one is tried again
+  double error_ = 0.0;            // of the last step, 1 is allowed
+  Eigen::Index worst_input_ = 0;  // of which that is
+  bool known_ = false;            // whether now_ belongs to the present state
+  bool failed_ = false;
+  double past_length_ = 0.0;  // of the step whose values past_ holds; 0: none
+  std::array<std::array<double, collocation_stages>, collocation_stages> extrapolation_{};
+  double extrapolation_ratio_ = 0.0;  // of the new step to the last, for those weights
+  Eigen::VectorXd start_;             // [v; u at the start of the step; at its end]
+  Eigen::VectorXd drive_;             // [both u; n at the stages]
+  Eigen::VectorXd scratch_, free_, stages_, past_, defect_, scale_;
+  StageValues now_;
+  Eigen::VectorXd y_, u_end_, u_from_, u_to_;
 };
 
 }  // namespace boresight::plant

@@ -57,6 +57,32 @@ double lens_mean_square(double t) {
   return (about_disc - 4.0 / 3.0 * t * height * height * height) / area + t * t;
 }
 
+double disc_area(const WindSite& site) {
+  return pi / 4.0 * site.dish_diameter * site.dish_diameter;
+}
+
+double torque(const WindSite& site, double mean_speed) {
+  return 0.5 * site.air_density * mean_speed * mean_speed * disc_area(site) * site.dish_diameter *
+         site.torque_coefficient;
+}
+
+double vickery_admittance(const WindSite& site, double mean_speed, double frequency) {
+  const double x = 2.0 * frequency * std::sqrt(disc_area(site)) / mean_speed;
+  return 1.0 / (1.0 + std::pow(x, 4.0 / 3.0));
+}
+
+CoherenceAverages averages_over_dish(const WindSite& site, double mean_speed, double frequency) {
+  const double radius = 0.5 * site.dish_diameter;
+  return coherence_averages(site.coherence_decay * frequency * radius / mean_speed);
+}
+
+void check_speed(const char* function, const WindSite& site, double mean_speed) {
+  validate(site, function);
+  if (mean_speed >= 0.0 && std::isfinite(mean_speed)) return;
+  throw InvalidInput(
+      fmt::format("{}: expected a mean speed of at least 0, found {} m/s", function, mean_speed));
+}
+
 }  // namespace
 
 std::string_view to_string(WindModel model) {
@@ -71,19 +97,46 @@ std::string_view to_string(WindModel model) {
   throw InvalidInput("to_string: not a wind model");
 }
 
-double davenport_spectrum(double surface_drag, double mean_speed, double frequency) {
-  const double x = 1200.0 * frequency / mean_speed;
-  return 4.0 * surface_drag * mean_speed * mean_speed * x * x /
-         (frequency * std::pow(1.0 + x * x, 4.0 / 3.0));
+void validate(const WindSite& site, std::string_view function) {
+  const auto refuse = [&](const char* name, double value, const char* expected) {
+    throw InvalidInput(
+        fmt::format("{}: expected {} that is {}, found {}", function, name, expected, value));
+  };
+  for (const auto& [name, value] : {std::pair{"an air_density", site.air_density},
+                                    std::pair{"a surface_drag", site.surface_drag},
+                                    std::pair{"a coherence_decay", site.coherence_decay},
+                                    std::pair{"a dish_diameter", site.dish_diameter}}) {
+    if (!(value >= 0.0) || !std::isfinite(value)) refuse(name, value, "at least 0");
+  }
+  for (const auto& [name, value] :
+       {std::pair{"a torque_coefficient", site.torque_coefficient},
+        std::pair{"a gradient_coefficient", site.gradient_coefficient}}) {
+    if (!std::isfinite(value)) refuse(name, value, "finite");
+  }
+  if (site.gusts) validate(*site.gusts, function);
+}
+
+GustSpectrum site_gusts(const WindSite& site) {
+  return site.gusts ? *site.gusts : davenport_gusts(site.surface_drag);
 }
 
 double mean_wind_torque(const WindSite& site, double mean_speed) {
-  const double area = pi / 4.0 * site.dish_diameter * site.dish_diameter;
-  return 0.5 * site.air_density * mean_speed * mean_speed * area * site.dish_diameter *
+  check_speed("mean_wind_torque", site, mean_speed);
+  return torque(site, mean_speed);
+}
+
+double wind_torque_sensitivity(const WindSite& site, double mean_speed) {
+  check_speed("wind_torque_sensitivity", site, mean_speed);
+  return site.air_density * mean_speed * disc_area(site) * site.dish_diameter *
          site.torque_coefficient;
 }
 
 CoherenceAverages coherence_averages(double decay_per_radius) {
+  if (!(decay_per_radius >= 0.0) || !std::isfinite(decay_per_radius)) {
+    throw InvalidInput(
+        fmt::format("coherence_averages: expected a decay_per_radius of at least 0, found {}",
+                    decay_per_radius));
+  }
   static const Quadrature rule = gauss_legendre();
   const double exponent = 2.0 * decay_per_radius;
   // Beyond 45 decay lengths the integrand is below rounding. t = end sin^2 softens the ends.
@@ -101,31 +154,51 @@ CoherenceAverages coherence_averages(double decay_per_radius) {
   return averages;
 }
 
+double wind_admittance(const WindSite& site, WindModel model, double mean_speed, double frequency) {
+  validate(site, "wind_admittance");
+  if (!(mean_speed > 0.0) || !(frequency >= 0.0) || !std::isfinite(mean_speed) ||
+      !std::isfinite(frequency)) {
+    throw InvalidInput(
+        fmt::format("wind_admittance: expected a mean speed above 0 and a frequency of at least 0, "
+                    "found {} m/s, {} Hz",
+                    mean_speed, frequency));
+  }
+  switch (model) {
+    case WindModel::uniform:
+      return 1.0;
+    case WindModel::vickery:
+      return vickery_admittance(site, mean_speed, frequency);
+    case WindModel::coherence:
+      return std::sqrt(averages_over_dish(site, mean_speed, frequency).uniform);
+  }
+  throw InvalidInput("wind_admittance: not a wind model");
+}
+
 double wind_torque_spectrum(const WindSite& site, WindModel model, double mean_speed,
-                            double frequency) {
+                            double frequency, WindTorquePart part) {
   if (!(mean_speed > 0.0) || !(frequency > 0.0) || !std::isfinite(mean_speed * frequency)) {
     throw InvalidInput(
         fmt::format("wind_torque_spectrum: expected positive finite mean speed and frequency, "
                     "found {} m/s, {} Hz",
                     mean_speed, frequency));
   }
-  const double gust = davenport_spectrum(site.surface_drag, mean_speed, frequency);
-  const double per_gust = 2.0 * mean_wind_torque(site, mean_speed) / mean_speed;
-  const double area = pi / 4.0 * site.dish_diameter * site.dish_diameter;
+  validate(site, "wind_torque_spectrum");
+  const double gust = gust_spectrum(site_gusts(site), mean_speed, frequency);
+  const double per_gust =
+      part == WindTorquePart::gradient ? 0.0 : 2.0 * torque(site, mean_speed) / mean_speed;
   switch (model) {
     case WindModel::uniform:
       return per_gust * per_gust * gust;
     case WindModel::vickery: {
-      const double x = 2.0 * frequency * std::sqrt(area) / mean_speed;
-      const double admittance = 1.0 / (1.0 + std::pow(x, 4.0 / 3.0));
+      const double admittance = vickery_admittance(site, mean_speed, frequency);
       return per_gust * per_gust * gust * admittance * admittance;
     }
     case WindModel::coherence: {
-      const double radius = 0.5 * site.dish_diameter;
-      const auto [uniform, gradient] =
-          coherence_averages(site.coherence_decay * frequency * radius / mean_speed);
-      const double lever =
-          site.air_density * mean_speed * site.gradient_coefficient * area * radius;
+      const auto [uniform, gradient] = averages_over_dish(site, mean_speed, frequency);
+      const double lever = part == WindTorquePart::uniform
+                               ? 0.0
+                               : site.air_density * mean_speed * site.gradient_coefficient *
+                                     disc_area(site) * (0.5 * site.dish_diameter);
       return gust * (per_gust * per_gust * uniform + lever * lever * gradient);
     }
   }

@@ -1,9 +1,6 @@
 #include <algorithm>
 #include <cmath>
-#include <exception>
-#include <optional>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include <cvodes/cvodes.h>
@@ -14,6 +11,7 @@
 #include <sunmatrix/sunmatrix_dense.h>
 
 #include <boresight/plant/error.hpp>
+#include <boresight/plant/guarded_ode.hpp>
 #include <boresight/plant/ode_integrator.hpp>
 
 namespace boresight::plant {
@@ -37,28 +35,6 @@ ConstVector elements(N_Vector vector) {
 }
 Vector writable(N_Vector vector) {
   return {N_VGetArrayPointer(vector), N_VGetLength(vector)};
-}
-
-// The first value of a function that is not finite.
-struct Flaw {
-  const char* function;
-  std::string place;  // counted from 0
-  double value;
-  double time;
-};
-
-std::optional<Flaw> flaw_in(const char* function, double t,
-                            const Eigen::Ref<const Eigen::MatrixXd>& values) {
-  if (values.allFinite()) return std::nullopt;
-  Eigen::Index row = 0, column = 0;
-  while (std::isfinite(values(row, column))) {
-    if (++row < values.rows()) continue;
-    row = 0;
-    ++column;
-  }
-  const std::string place =
-      values.cols() > 1 ? fmt::format("({}, {})", row, column) : fmt::format("({})", row);
-  return Flaw{function, place, values(row, column), t};
 }
 
 // What to do about a reason for which CVODES gives up.
@@ -98,7 +74,7 @@ void check_state(const char* function, const Eigen::VectorXd& x, Eigen::Index st
 
 // The C library calls back with a pointer to this, so it stays where it is.
 struct OdeIntegrator::Solver {
-  Solver(const OdeSystem& ode, double t0, const Eigen::VectorXd& x0, const OdeOptions& options);
+  Solver(const OdeSystem& system, double t0, const Eigen::VectorXd& x0, const OdeOptions& options);
 
   static int rate(double t, N_Vector x, N_Vector dx, void* self);
   static int jacobian(double t, N_Vector x, N_Vector dx, SUNMatrix j, void* self, N_Vector,
@@ -107,9 +83,6 @@ struct OdeIntegrator::Solver {
   static int sensitivity_rate(int count, double t, N_Vector x, N_Vector dx, N_Vector* s,
                               N_Vector* ds, void* self, N_Vector, N_Vector);
   static void note(int flag, const char* module, const char* function, char* text, void* self);
-  template <class Evaluate>
-  static int guarded(void* self, const Evaluate& evaluate);
-  int judge(const char* function, double t, const Eigen::Ref<const Eigen::MatrixXd>& values);
 
   void configure(const OdeOptions& options);
   void configure_sensitivities(const OdeOptions& options);
@@ -119,7 +92,7 @@ struct OdeIntegrator::Solver {
   [[noreturn]] void fail(int flag, double t);
   long steps_since_start() const;
 
-  const OdeSystem& system;
+  GuardedOde ode;
   double time;
   Eigen::VectorXd state;
   Eigen::MatrixXd sensitivities;
@@ -131,10 +104,8 @@ struct OdeIntegrator::Solver {
   // df/dx and df/dp where the sensitivities are being solved for.
   Eigen::MatrixXd by_state;
   Eigen::MatrixXd by_parameters;
-  std::exception_ptr thrown;
-  std::optional<Flaw> flaw;  // of the last evaluation
-  std::string message;
-  OdeStatistics done;  // steps: those before the last start
+  std::string message;  // of CVODES
+  OdeStatistics done;   // steps: those before the last start
 
   sundials::Context context;
   Owned<N_Vector> vector;
@@ -145,14 +116,15 @@ struct OdeIntegrator::Solver {
   Owned<void*> memory;
 };
 
-OdeIntegrator::Solver::Solver(const OdeSystem& ode, double t0, const Eigen::VectorXd& x0,
+OdeIntegrator::Solver::Solver(const OdeSystem& system, double t0, const Eigen::VectorXd& x0,
                               const OdeOptions& options)
-    : system(ode), time(t0), state(x0), exchange(x0) {
+    : ode(system), time(t0), state(x0), exchange(x0) {
   validate(options, system);
   if (!std::isfinite(t0)) {
     throw InvalidInput(fmt::format("OdeIntegrator: expected a finite start time, found {} s", t0));
   }
   check_state("OdeIntegrator", x0, system.states());
+  ode.start(t0);
   configure(options);
   if (options.sensitivities) configure_sensitivities(options);
 }
@@ -177,8 +149,8 @@ void OdeIntegrator::Solver::configure(const OdeOptions& options) {
   if (std::isfinite(options.longest_step)) {
     expect(CVodeSetMaxStep(memory.get(), options.longest_step));
   }
-  if (system.events() > 0) {
-    expect(CVodeRootInit(memory.get(), static_cast<int>(system.events()), event_values));
+  if (const auto events = static_cast<int>(ode.system().events()); events > 0) {
+    expect(CVodeRootInit(memory.get(), events, event_values));
   }
   matrix.reset(SUNDenseMatrix(state.size(), state.size(), context));
   linear_solver.reset(SUNLinSol_Dense(vector.get(), matrix.get(), context));
@@ -187,7 +159,7 @@ void OdeIntegrator::Solver::configure(const OdeOptions& options) {
 }
 
 void OdeIntegrator::Solver::configure_sensitivities(const OdeOptions& options) {
-  const Eigen::Index n = state.size(), count = system.parameters();
+  const Eigen::Index n = state.size(), count = ode.system().parameters();
   const Eigen::MatrixXd& initial = options.initial_sensitivities;
   Eigen::VectorXd scale = options.parameter_scale;
   if (scale.size() == 0) scale = Eigen::VectorXd::Ones(count);
@@ -208,72 +180,44 @@ void OdeIntegrator::Solver::configure_sensitivities(const OdeOptions& options) {
   expect(CVodeSetSensErrCon(memory.get(), SUNTRUE));
 }
 
-// An exception must not pass through C: it waits until CVODES has come back.
-template <class Evaluate>
-int OdeIntegrator::Solver::guarded(void* self, const Evaluate& evaluate) {
-  Solver& solver = *static_cast<Solver*>(self);
-  try {
-    return evaluate(solver);
-  } catch (...) {
-    solver.thrown = std::current_exception();
-    return -1;
-  }
-}
-
-// 1 asks CVODES for a smaller step.
-int OdeIntegrator::Solver::judge(const char* function, double t,
-                                 const Eigen::Ref<const Eigen::MatrixXd>& values) {
-  flaw = flaw_in(function, t, values);
-  return flaw ? 1 : 0;
-}
-
 int OdeIntegrator::Solver::rate(double t, N_Vector x, N_Vector dx, void* self) {
-  return guarded(self, [&](Solver& solver) {
-    Vector result = writable(dx);
-    ++solver.done.rate_evaluations;
-    solver.system.rate(t, elements(x), result);
-    return solver.judge("rate", t, result);
-  });
+  Solver& solver = *static_cast<Solver*>(self);
+  ++solver.done.rate_evaluations;
+  return solver.ode.rate(t, elements(x), writable(dx), solver.steps_since_start());
 }
 
 int OdeIntegrator::Solver::jacobian(double t, N_Vector x, N_Vector /*dx*/, SUNMatrix j, void* self,
                                     N_Vector, N_Vector, N_Vector) {
-  return guarded(self, [&](Solver& solver) {
-    // Column after column, and zero: CVODES sees to that.
-    Eigen::Map<Eigen::MatrixXd> result(SUNDenseMatrix_Data(j), SUNDenseMatrix_Rows(j),
-                                       SUNDenseMatrix_Columns(j));
-    ++solver.done.jacobians;
-    solver.system.jacobian(t, elements(x), result);
-    return solver.judge("jacobian", t, result);
-  });
+  Solver& solver = *static_cast<Solver*>(self);
+  ++solver.done.jacobians;
+  // Column after column, and zero: CVODES sees to that.
+  Eigen::Map<Eigen::MatrixXd> result(SUNDenseMatrix_Data(j), SUNDenseMatrix_Rows(j),
+                                     SUNDenseMatrix_Columns(j));
+  return solver.ode.jacobian(t, elements(x), result);
 }
 
 int OdeIntegrator::Solver::event_values(double t, N_Vector x, double* g, void* self) {
-  return guarded(self, [&](Solver& solver) {
-    Vector result(g, solver.system.events());
-    solver.system.event_values(t, elements(x), result);
-    return solver.judge("event_values", t, result);
-  });
+  GuardedOde& ode = static_cast<Solver*>(self)->ode;
+  return ode.event_values(t, elements(x), Vector(g, ode.system().events()));
 }
 
 int OdeIntegrator::Solver::sensitivity_rate(int count, double t, N_Vector x, N_Vector /*dx*/,
                                             N_Vector* s, N_Vector* ds, void* self, N_Vector,
                                             N_Vector) {
-  return guarded(self, [&](Solver& solver) {
-    ++solver.done.sensitivity_evaluations;
-    solver.by_state.setZero();
-    solver.system.jacobian(t, elements(x), solver.by_state);
-    if (solver.judge("jacobian", t, solver.by_state) != 0) return 1;
-    solver.by_parameters.setZero();
-    solver.system.rate_by_parameters(t, elements(x), solver.by_parameters);
-    if (solver.judge("rate_by_parameters", t, solver.by_parameters) != 0) return 1;
-    for (int k = 0; k < count; ++k) {
-      Vector result = writable(ds[k]);
-      result = solver.by_parameters.col(k);
-      result.noalias() += solver.by_state * elements(s[k]);
-    }
-    return 0;
-  });
+  Solver& solver = *static_cast<Solver*>(self);
+  ++solver.done.sensitivity_evaluations;
+  solver.by_state.setZero();
+  int verdict = solver.ode.jacobian(t, elements(x), solver.by_state);
+  if (verdict != 0) return verdict;
+  solver.by_parameters.setZero();
+  verdict = solver.ode.rate_by_parameters(t, elements(x), solver.by_parameters);
+  if (verdict != 0) return verdict;
+  for (int k = 0; k < count; ++k) {
+    Vector result = writable(ds[k]);
+    result = solver.by_parameters.col(k);
+    result.noalias() += solver.by_state * elements(s[k]);
+  }
+  return 0;
 }
 
 // In place of printing to the terminal.
@@ -299,6 +243,7 @@ void OdeIntegrator::Solver::limit(double t, Approach approach) {
 
 void OdeIntegrator::Solver::start() {
   done.steps += steps_since_start();
+  ode.start(time);
   exchange = state;
   expect(CVodeReInit(memory.get(), time, vector.get()));
   if (!sensitivity_handles.empty()) {
@@ -310,17 +255,16 @@ void OdeIntegrator::Solver::start() {
 
 void OdeIntegrator::Solver::fail(int flag, double t) {
   fresh = true;
-  if (thrown) std::rethrow_exception(std::exchange(thrown, nullptr));
+  ode.rethrow();
   double reached = time;
   CVodeGetCurrentTime(memory.get(), &reached);
-  const std::string way =
-      fmt::format("OdeIntegrator: no way from {} s to {} s, given up at {} s", time, t, reached);
-  if (!flaw) throw NumericalFailure(fmt::format("{}: {} {}", way, message, remedy(flag)));
-  throw NumericalFailure(
-      fmt::format("{}: {}{} is {} at t = {} s{}; keep it finite around the "
-                  "solution",
-                  way, flaw->function, flaw->place, flaw->value, flaw->time,
-                  flag == CV_RTFUNC_FAIL ? "" : ", however small the step"));
+  const std::string& complaint = ode.complaint();
+  throw NumericalFailure(fmt::format(
+      "OdeIntegrator: no way from {} s to {} s, given up at {} s: {} ({})", time, t, reached,
+      complaint.empty() ? message : complaint,
+      complaint.empty()
+          ? remedy(flag)
+          : "look there for a singularity, or make the edge of what is defined an event"));
 }
 
 void OdeIntegrator::Solver::expect(int flag) const {
@@ -329,7 +273,7 @@ void OdeIntegrator::Solver::expect(int flag) const {
 
 long OdeIntegrator::Solver::steps_since_start() const {
   long steps = 0;
-  expect(CVodeGetNumSteps(memory.get(), &steps));
+  CVodeGetNumSteps(memory.get(), &steps);
   return steps;
 }
 
@@ -347,7 +291,7 @@ OdeStop OdeIntegrator::advance(double t, Approach approach) {
         fmt::format("OdeIntegrator::advance: expected a time from the present {} s on, found {} s",
                     solver.time, t));
   }
-  OdeStop stop{t, false, Eigen::VectorXi::Zero(solver.system.events())};
+  OdeStop stop{t, false, Eigen::VectorXi::Zero(solver.ode.system().events())};
   // CVODES cannot start for less than two roundings.
   constexpr double rounding = std::numeric_limits<double>::epsilon();
   if (t - solver.time <= 4.0 * rounding * std::max(std::abs(t), std::abs(solver.time))) {

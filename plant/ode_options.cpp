@@ -1,4 +1,4 @@
-#include <limits>
+#include <cmath>
 #include <string>
 
 #include <fmt/format.h>
@@ -27,7 +27,7 @@ void validate_sensitivities(const OdeOptions& options, const OdeSystem& system) 
     refuse(fmt::format("a parameter_scale of length {}, found {}", count, scale.size()));
   }
   for (const double size : scale) {
-    if (!(size > 0.0 && size < std::numeric_limits<double>::infinity())) {
+    if (!std::isfinite(size) || size <= 0.0) {
       refuse(fmt::format("every parameter_scale finite and above 0, found {}", size));
     }
   }
@@ -38,7 +38,7 @@ void validate_sensitivities(const OdeOptions& options, const OdeSystem& system) 
 void validate(const OdeOptions& options, const OdeSystem& system) {
   const Eigen::Index n = system.states();
   if (n <= 0) refuse(fmt::format("a system with states, found {}", n));
-  if (!(options.relative_tolerance >= 0.0 && options.relative_tolerance < 1.0)) {
+  if (!(options.relative_tolerance >= 0.0) || options.relative_tolerance >= 1.0) {
     refuse(fmt::format("a relative_tolerance in [0, 1), found {}", options.relative_tolerance));
   }
   const Eigen::VectorXd& absolute = options.absolute_tolerance;
@@ -46,7 +46,7 @@ void validate(const OdeOptions& options, const OdeSystem& system) {
     refuse(fmt::format("one absolute_tolerance or {}, found {}", n, absolute.size()));
   }
   for (const double tolerance : absolute) {
-    if (!(tolerance > 0.0 && tolerance < std::numeric_limits<double>::infinity())) {
+    if (!std::isfinite(tolerance) || tolerance <= 0.0) {
       refuse(fmt::format("every absolute_tolerance finite and above 0, found {}", tolerance));
     }
   }

@@ -33,14 +33,18 @@ class OdeSystem {
 
   /// g(t, x), of length events().
   virtual void event_values(double /*t*/, const Eigen::Ref<const Eigen::VectorXd>& /*x*/,
-                            Eigen::Ref<Eigen::VectorXd> /*g*/) const {}
+                            Eigen::Ref<Eigen::VectorXd> g) const {
+    g.setZero();
+  }
 
   /// How many parameters p the sensitivities dx/dp are taken for.
   virtual Eigen::Index parameters() const { return 0; }
 
   /// df_dp = df/dp at fixed x, states x parameters; comes zeroed.
   virtual void rate_by_parameters(double /*t*/, const Eigen::Ref<const Eigen::VectorXd>& /*x*/,
-                                  Eigen::Ref<Eigen::MatrixXd> /*df_dp*/) const {}
+                                  Eigen::Ref<Eigen::MatrixXd> df_dp) const {
+    df_dp.setZero();
+  }
 };
 
 }  // namespace boresight::plant

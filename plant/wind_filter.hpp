@@ -21,7 +21,10 @@ struct ShapingFilter {
 
 /// Fits a filter of `order` poles to spectrum values (per Hz, one-sided, all > 0) at frequencies
 /// (Hz), least squares in the logarithm of the spectrum by Levenberg-Marquardt over the logarithms
-/// of gain, zeros and poles, from staggered starts. Points are best spaced evenly in log f.
+/// of gain, zeros and poles, from staggered starts. Points are best spaced evenly in log f. Of the
+/// wind torques' spectra (wind.hpp, 5e-4 .. 5 Hz) order 4 keeps the rms of a loop's error within
+/// 0.5 % in the uniform and coherence models and 3 % in Vickery's, whose steep corner needs order
+/// 6; that keeps all within 0.2 %.
 /// @throws InvalidInput for fewer points than unknowns or values that are not positive.
 ShapingFilter fit_shaping_filter(const Eigen::ArrayXd& frequency, const Eigen::ArrayXd& spectrum,
                                  int order);

@@ -62,6 +62,22 @@ TEST(FitShapingFilter, StatesItsWorstError) {
   }
 }
 
+TEST(FitShapingFilter, FitsTheTorqueOfEverySpectrum) {
+  WindSite site = reference::wind_site();
+  for (const auto& gusts :
+       {von_karman_gusts(0.16, 111.0), kaimal_gusts(0.16, 37.0), eurocode_gusts(37.0, 0.05, 2.0)}) {
+    site.gusts = gusts;
+    for (const auto model : {WindModel::uniform, WindModel::coherence}) {
+      const Eigen::ArrayXd target = frequencies().unaryExpr(
+          [&](double f) { return wind_torque_spectrum(site, model, 10.0, f); });
+      const auto fit = fit_shaping_filter(frequencies(), target, 4);
+      EXPECT_LT(fit.worst_log_error, 0.11) << to_string(gusts.kind) << " " << to_string(model);
+      EXPECT_NEAR(fit.worst_log_error,
+                  (spectrum_of(fit, frequencies()) / target).log().abs().maxCoeff(), 1e-12);
+    }
+  }
+}
+
 TEST(FitShapingFilter, FitsBetterWithEveryOrder) {
   const Eigen::ArrayXd target = wind_spectrum(WindModel::coherence, frequencies());
   double previous = HUGE_VAL;

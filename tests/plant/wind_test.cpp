@@ -191,6 +191,103 @@ TEST(WindTorqueSpectrum, ModelsAgreeWhereGustsAreMuchLargerThanTheDish) {
   EXPECT_NEAR(wind_torque_spectrum(site, WindModel::coherence, 10.0, f) / uniform, 1.0, 1e-3);
 }
 
+TEST(WindTorqueSpectrum, ByDefaultIsDavenportsOfTheSurfaceDrag) {
+  const WindSite plain = reference::wind_site();
+  WindSite named = plain;
+  named.surface_drag = 0.123;
+  named.gusts = davenport_gusts(plain.surface_drag);
+  EXPECT_EQ(site_gusts(plain), *named.gusts);
+  for (const auto model : {WindModel::uniform, WindModel::vickery, WindModel::coherence}) {
+    for (const double f : {1e-3, 0.1, 3.0}) {
+      EXPECT_EQ(wind_torque_spectrum(plain, model, 10.0, f),
+                wind_torque_spectrum(named, model, 10.0, f));
+    }
+  }
+}
+
+TEST(WindTorqueSpectrum, FollowsTheGustsOfTheSite) {
+  const WindSite plain = reference::wind_site();
+  for (const auto& gusts :
+       {von_karman_gusts(0.16, 111.0), kaimal_gusts(0.16, 37.0), eurocode_gusts(37.0, 0.05, 2.0)}) {
+    WindSite site = plain;
+    site.gusts = gusts;
+    for (const auto model : {WindModel::uniform, WindModel::vickery, WindModel::coherence}) {
+      for (const double f : {1e-3, 0.1, 3.0}) {
+        const double expected = wind_torque_spectrum(plain, model, 10.0, f) *
+                                gust_spectrum(gusts, 10.0, f) / davenport_spectrum(0.005, 10.0, f);
+        EXPECT_NEAR(wind_torque_spectrum(site, model, 10.0, f) / expected, 1.0, 1e-14);
+      }
+    }
+  }
+}
+
+TEST(WindTorqueSpectrum, HasPartsThatAddUp) {
+  const WindSite site = reference::wind_site();
+  for (const auto model : {WindModel::uniform, WindModel::vickery, WindModel::coherence}) {
+    for (const double f : {1e-3, 0.1, 3.0}) {
+      const auto part = [&](WindTorquePart which) {
+        return wind_torque_spectrum(site, model, 10.0, f, which);
+      };
+      const double both = part(WindTorquePart::both);
+      EXPECT_NEAR(part(WindTorquePart::uniform) + part(WindTorquePart::gradient), both,
+                  1e-14 * both);
+      EXPECT_EQ(part(WindTorquePart::gradient) > 0.0, model == WindModel::coherence);
+      // The uniform part is the gust through sensitivity and admittance.
+      const double gain =
+          wind_torque_sensitivity(site, 10.0) * wind_admittance(site, model, 10.0, f);
+      EXPECT_NEAR(
+          part(WindTorquePart::uniform) / (gain * gain * davenport_spectrum(0.005, 10.0, f)), 1.0,
+          1e-13);
+    }
+  }
+}
+
+TEST(WindAdmittance, FallsFromOneAsGustsShrink) {
+  const WindSite site = reference::wind_site();
+  for (const auto model : {WindModel::uniform, WindModel::vickery, WindModel::coherence}) {
+    EXPECT_NEAR(wind_admittance(site, model, 10.0, 0.0), 1.0, 1e-10);
+    EXPECT_LE(wind_admittance(site, model, 10.0, 0.3), wind_admittance(site, model, 10.0, 0.1));
+  }
+  // Vickery's is 1/2 where a wave is as long as twice the side of the square of the dish's area.
+  const double side = 35.0 * std::sqrt(std::numbers::pi);
+  EXPECT_NEAR(wind_admittance(site, WindModel::vickery, 10.0, 10.0 / (2.0 * side)), 0.5, 1e-12);
+}
+
+TEST(WindSite, RefusesElementsWithoutMeaning) {
+  const auto refused = [](double WindSite::*element, double value, const char* words) {
+    WindSite site = reference::wind_site();
+    site.*element = value;
+    EXPECT_THAT([&] { wind_torque_spectrum(site, WindModel::coherence, 10.0, 1.0); },
+                ThrowsMessage<InvalidInput>(HasSubstr(words)));
+    EXPECT_THROW(mean_wind_torque(site, 10.0), InvalidInput);
+    EXPECT_THROW(wind_torque_sensitivity(site, 10.0), InvalidInput);
+    EXPECT_THROW(wind_admittance(site, WindModel::uniform, 10.0, 1.0), InvalidInput);
+  };
+  const double infinity = std::numeric_limits<double>::infinity();
+  for (const double bad : {-1.0, std::nan(""), infinity}) {
+    refused(&WindSite::air_density, bad,
+            "wind_torque_spectrum: expected an air_density that is at");
+    refused(&WindSite::surface_drag, bad, "a surface_drag that is at least 0");
+    refused(&WindSite::coherence_decay, bad, "a coherence_decay that is at least 0");
+    refused(&WindSite::dish_diameter, bad, "a dish_diameter that is at least 0");
+    EXPECT_THROW(mean_wind_torque(reference::wind_site(), bad), InvalidInput);
+    EXPECT_THROW(wind_torque_sensitivity(reference::wind_site(), bad), InvalidInput);
+    EXPECT_THROW(wind_admittance(reference::wind_site(), WindModel::uniform, bad, 1.0),
+                 InvalidInput);
+    EXPECT_THROW(wind_admittance(reference::wind_site(), WindModel::uniform, 10.0, bad),
+                 InvalidInput);
+    EXPECT_THROW(coherence_averages(bad), InvalidInput);
+  }
+  refused(&WindSite::torque_coefficient, infinity, "a torque_coefficient that is finite");
+  refused(&WindSite::gradient_coefficient, infinity, "a gradient_coefficient that is finite");
+  WindSite site = reference::wind_site();
+  site.gusts = GustSpectrum{GustSpectrumKind::kaimal, 0.0, 0.1, 0.0};
+  EXPECT_THAT([&] { validate(site, "here"); },
+              ThrowsMessage<InvalidInput>(HasSubstr("here: expected a length_scale above 0")));
+  EXPECT_THROW(wind_admittance(reference::wind_site(), static_cast<WindModel>(9), 10.0, 1.0),
+               InvalidInput);
+}
+
 TEST(WindTorqueSpectrum, RefusesFrequenciesAndSpeedsWithoutMeaning) {
   const WindSite site = reference::wind_site();
   for (const double bad : {0.0, -1.0, std::nan(""), std::numeric_limits<double>::infinity()}) {

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <boresight/plant/slope.hpp>
+
 namespace boresight::plant {
 
 /// Steady friction torque against motor rate, the sum of a Stribeck bump, a part that rises
@@ -21,5 +23,9 @@ double friction_torque(const FrictionCurve& curve, double rate);
 
 /// dT/dw at |rate| (N m s/rad): the viscous friction a linear model of motion about that rate has.
 double friction_slope(const FrictionCurve& curve, double rate);
+
+/// T(w) - Bv w at |rate|, and its derivative by |rate|: the dry part, which at rest is what breaks
+/// away.
+Slope dry_friction(const FrictionCurve& curve, double rate);
 
 }  // namespace boresight::plant

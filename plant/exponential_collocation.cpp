@@ -54,34 +54,6 @@ Eigen::MatrixXd real_input(const Eigen::MatrixXcd& input, Eigen::Index pairs) {
   return result;
 }
 
-// Writes what follows at one stage from the integrals over u, n times powers of s = t/h.
-// integrals[k]: coordinates x (inputs, then channels).
-void write_stage(CollocationStep& step, int stage, const Eigen::MatrixXd& channel_output,
-                 const std::array<Eigen::MatrixXd, powers>& integrals, Eigen::Index m,
-                 Eigen::Index q) {
-  static const Eigen::Matrix4d polynomials = collocation_polynomials();
-  const Eigen::Index p = channel_output.rows(), n = channel_output.cols();
-  const Eigen::MatrixXd ramp = integrals[1].leftCols(m);
-  const Eigen::MatrixXd fall = integrals[0].leftCols(m) - ramp;
-  auto from_start = step.start_to_stages.middleRows(stage * p, p);
-  from_start.middleCols(n, m) = channel_output * fall;
-  from_start.rightCols(m) = channel_output * ramp;
-  const bool end = stage == collocation_stages - 1;
-  if (end) step.drive_to_end.leftCols(2 * m) << fall, ramp;
-  for (int k = 0; k <= collocation_stages; ++k) {
-    Eigen::MatrixXd driven = Eigen::MatrixXd::Zero(n, q);
-    for (std::size_t power = 0; power < powers; ++power) {
-      driven += polynomials(k, static_cast<Eigen::Index>(power)) * integrals[power].rightCols(q);
-    }
-    if (k == collocation_stages) {
-      step.start_error_to_stages.middleRows(stage * p, p) = channel_output * driven;
-    } else {
-      step.channels_to_stages.block(stage * p, k * q, p, q) = channel_output * driven;
-      if (end) step.drive_to_end.middleCols(2 * m + k * q, q) = driven;
-    }
-  }
-}
-
 }  // namespace
 
 std::array<Complex, 5> phi_functions(Complex z) {
@@ -139,31 +111,53 @@ void CollocationStep::propagate(Eigen::Ref<Eigen::VectorXd> v,
 }
 
 ExponentialCollocation::ExponentialCollocation(const FeedbackSystem& system,
-                                               double largest_condition)
+                                               double largest_condition, double horizon)
     : matrices_(feedback_matrices(system)),
       channel_output_(matrices_.channel_output),
       output_(matrices_.output) {
-  ModalForm form;
-  try {
-    form = modal_form(with_states_seen(system));
-  } catch (const NumericalFailure&) {
-    return;
+  if (!(horizon >= 0.0) || !std::isfinite(horizon)) {
+    throw InvalidInput(fmt::format(
+        "ExponentialCollocation: expected a horizon of 0 or more, found {} s", horizon));
   }
-  if (!(form.condition <= largest_condition)) return;
-  std::vector<Eigen::Index> order(static_cast<std::size_t>(form.poles.size()));
-  std::iota(order.begin(), order.end(), Eigen::Index{0});
-  const auto real_ones = std::stable_partition(
-      order.begin(), order.end(), [&](Eigen::Index i) { return form.poles[i].imag() > 0.0; });
-  pairs_ = real_ones - order.begin();
-  form.poles = form.poles(order).eval();
-  form.input = form.input(order, Eigen::all).eval();
-  form.output = form.output(Eigen::all, order).eval();
-  const Eigen::Index n = matrices_.a.rows();
-  to_coordinates_ = real_input(form.input.rightCols(n), pairs_);
-  to_state_ = real_output(form.output.bottomRows(n), pairs_);
-  channel_output_ = real_output(form.output.topRows(channel_output_.rows()), pairs_);
-  output_ = real_output(form.output.middleRows(channel_output_.rows(), output_.rows()), pairs_);
-  form_ = std::move(form);
+  try {
+    form_ = modal_form(with_states_seen(system));
+    if (!(form_->condition <= largest_condition)) form_.reset();
+  } catch (const NumericalFailure&) {
+    // Dependent eigenvectors: the dense route.
+  }
+  if (form_) {
+    std::vector<Eigen::Index> order(static_cast<std::size_t>(form_->poles.size()));
+    std::iota(order.begin(), order.end(), Eigen::Index{0});
+    const auto real_ones = std::stable_partition(
+        order.begin(), order.end(), [&](Eigen::Index i) { return form_->poles[i].imag() > 0.0; });
+    pairs_ = real_ones - order.begin();
+    form_->poles = form_->poles(order).eval();
+    form_->input = form_->input(order, Eigen::all).eval();
+    form_->output = form_->output(Eigen::all, order).eval();
+    const Eigen::Index n = matrices_.a.rows();
+    to_coordinates_ = real_input(form_->input.rightCols(n), pairs_);
+    to_state_ = real_output(form_->output.bottomRows(n), pairs_);
+    channel_output_ = real_output(form_->output.topRows(channel_output_.rows()), pairs_);
+    output_ = real_output(form_->output.middleRows(channel_output_.rows(), output_.rows()), pairs_);
+  }
+  look_later(horizon);
+}
+
+void ExponentialCollocation::look_later(double horizon) {
+  const Eigen::Index p = channel_output_.rows();
+  later_output_.resize(2 * p, channel_output_.cols());
+  for (Eigen::Index i = 0; i < 2; ++i) {
+    const double time = i == 0 ? horizon / 3.0 : horizon;
+    later_output_.middleRows(i * p, p) =
+        form_ ? real_output(form_->output.topRows(p) *
+                                (time * form_->poles).array().exp().matrix().asDiagonal(),
+                            pairs_)
+              : Eigen::MatrixXd(channel_output_ * matrix_exponential(time * matrices_.a));
+  }
+  if (!later_output_.allFinite()) {
+    throw NumericalFailure(fmt::format(
+        "ExponentialCollocation: an unstable linear part overflows within {} s", horizon));
+  }
 }
 
 Eigen::VectorXd ExponentialCollocation::to_coordinates(const Eigen::VectorXd& state) const {
@@ -186,7 +180,9 @@ CollocationStep ExponentialCollocation::step(double length) const {
   result.start_to_stages.setZero(collocation_stages * p, n + 2 * m);
   result.channels_to_stages.setZero(collocation_stages * p, collocation_stages * q);
   result.drive_to_end.setZero(n, 2 * m + collocation_stages * q);
-  result.start_error_to_stages.setZero(collocation_stages * p, q);
+  result.error_to_stages.setZero(collocation_stages * p, 2 * q);
+  result.channels_to_later.setZero(2 * p, collocation_stages * q);
+  result.error_to_later.setZero(2 * p, 2 * q);
   if (form_) {
     modal_step(result);
   } else {
@@ -206,6 +202,40 @@ CollocationStep ExponentialCollocation::step(double length) const {
         length));
   }
   return result;
+}
+
+// Writes what follows at one stage from the integrals over u, n times powers of s = t/h.
+// integrals[k]: coordinates x (inputs, then channels).
+void ExponentialCollocation::write_stage(
+    CollocationStep& step, int stage, const std::array<Eigen::MatrixXd, powers>& integrals) const {
+  static const Eigen::Matrix4d polynomials = collocation_polynomials();
+  const Eigen::Index n = matrices_.a.rows(), m = matrices_.input.cols(),
+                     q = matrices_.channel_input.cols(), p = channel_output_.rows();
+  const Eigen::MatrixXd ramp = integrals[1].leftCols(m);
+  const Eigen::MatrixXd fall = integrals[0].leftCols(m) - ramp;
+  auto from_start = step.start_to_stages.middleRows(stage * p, p);
+  from_start.middleCols(n, m) = channel_output_ * fall;
+  from_start.rightCols(m) = channel_output_ * ramp;
+  const bool end = stage == collocation_stages - 1;
+  if (end) step.drive_to_end.leftCols(2 * m) << fall, ramp;
+  for (int k = 0; k <= collocation_stages; ++k) {
+    Eigen::MatrixXd driven = Eigen::MatrixXd::Zero(n, q);
+    for (std::size_t power = 0; power < powers; ++power) {
+      driven += polynomials(k, static_cast<Eigen::Index>(power)) * integrals[power].rightCols(q);
+    }
+    if (k == collocation_stages) {
+      step.error_to_stages.block(stage * p, 0, p, q) = channel_output_ * driven;
+      if (end) step.error_to_later.leftCols(q) = later_output_ * driven;
+    } else {
+      step.channels_to_stages.block(stage * p, k * q, p, q) = channel_output_ * driven;
+      if (end) {
+        step.drive_to_end.middleCols(2 * m + k * q, q) = driven;
+        step.channels_to_later.middleCols(k * q, q) = later_output_ * driven;
+      }
+    }
+  }
+  step.error_to_stages.block(stage * p, q, p, q) = channel_output_ * integrals[0].rightCols(q);
+  if (end) step.error_to_later.rightCols(q) = later_output_ * integrals[0].rightCols(q);
 }
 
 void ExponentialCollocation::modal_step(CollocationStep& result) const {
@@ -232,7 +262,7 @@ void ExponentialCollocation::modal_step(CollocationStep& result) const {
     }
     result.start_to_stages.block(j * p, 0, p, n) =
         real_output(form_->output.topRows(p) * factor.asDiagonal(), pairs_);
-    write_stage(result, j, channel_output_, real_integrals, m, q);
+    write_stage(result, j, real_integrals);
     result.factor_real = factor.real();
     result.factor_imaginary = factor.head(pairs_).imag();
   }
@@ -275,7 +305,7 @@ void ExponentialCollocation::dense_step(CollocationStep& result) const {
     result.transition =
         scale.asDiagonal() * exponential.topLeftCorner(n, n) * scale.cwiseInverse().asDiagonal();
     result.start_to_stages.block(j * p, 0, p, n) = channel_output_ * result.transition;
-    write_stage(result, j, channel_output_, integrals, m, q);
+    write_stage(result, j, integrals);
   }
 }
 

@@ -36,9 +36,13 @@ struct CollocationStep {
   Eigen::MatrixXd start_to_stages;     // 3 p x (states + 2 inputs)
   Eigen::MatrixXd channels_to_stages;  // 3 p x 3 q
   Eigen::MatrixXd drive_to_end;        // states x (2 inputs + 3 q)
-  /// What the stages see of channels' outputs that are 1 at the start of the step and zero at the
-  /// collocation points: 3 p x q.
-  Eigen::MatrixXd start_error_to_stages;
+  /// What the stages see of errors in the channels' outputs: first of those that are 1 at the start
+  /// of the step and zero at the collocation points (the polynomial of degree three), then of those
+  /// that are 1 throughout: 3 p x 2 q.
+  Eigen::MatrixXd error_to_stages;
+  /// What n at the stages and such errors make of z one third of the horizon and one horizon behind
+  /// the end of the step, all else at rest: 2 p x 3 q and 2 p x 2 q.
+  Eigen::MatrixXd channels_to_later, error_to_later;
   /// By modes: real and imaginary parts of e^(pole h), the pairs first. Else without elements.
   Eigen::VectorXd factor_real, factor_imaginary;
   Eigen::MatrixXd transition;  // exp(A h), states x states; without elements by modes
@@ -52,8 +56,11 @@ struct CollocationStep {
 /// where the eigenvectors are too nearly dependent.
 class ExponentialCollocation {
  public:
-  /// @throws InvalidInput as feedback_matrices.
-  ExponentialCollocation(const FeedbackSystem& system, double largest_condition);
+  /// `horizon`: s, how long behind a step its errors are looked at; 0 or more.
+  /// @throws InvalidInput as feedback_matrices and for a bad horizon; NumericalFailure if the
+  /// linear part overflows within it.
+  ExponentialCollocation(const FeedbackSystem& system, double largest_condition,
+                         double horizon = 0.0);
 
   /// O(states) times p q by modes, else O((states + 4 q + 4 inputs)^3).
   /// @throws InvalidInput unless h > 0; NumericalFailure if the transition overflows.
@@ -67,7 +74,9 @@ class ExponentialCollocation {
   const Eigen::MatrixXd& output() const { return output_; }                  // v to y
 
  private:
-  // Integrals over 0..c_j h of exp(A (c_j h - t)) (t/h)^power dt for the poles; and for a matrix.
+  void look_later(double horizon);
+  void write_stage(CollocationStep& step, int stage,
+                   const std::array<Eigen::MatrixXd, collocation_stages + 1>& integrals) const;
   void modal_step(CollocationStep& result) const;
   void dense_step(CollocationStep& result) const;
 
@@ -75,6 +84,7 @@ class ExponentialCollocation {
   std::optional<ModalForm> form_;  // inputs: u, n, x; outputs: z, y, x; pairs first
   Eigen::Index pairs_ = 0;
   Eigen::MatrixXd to_coordinates_, to_state_, channel_output_, output_;
+  Eigen::MatrixXd later_output_;  // v to z at the two times later
 };
 
 }  // namespace boresight::plant

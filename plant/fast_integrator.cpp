@@ -51,7 +51,7 @@ void check(const FastIntegratorOptions& options, Eigen::Index channel_inputs) {
 }  // namespace
 
 FastIntegrator::FastIntegrator(const FeedbackSystem& system, FastIntegratorOptions options)
-    : collocation_(system, options.largest_condition),
+    : collocation_(system, options.largest_condition, options.interval),
       solver_(system.channels, system.channel_inputs, system.channel_outputs),
       options_(std::move(options)) {
   const Eigen::Index p = system.channel_inputs, q = system.channel_outputs;
@@ -69,7 +69,7 @@ FastIntegrator::FastIntegrator(const FeedbackSystem& system, FastIntegratorOptio
   scratch_.setZero(states);
   free_.setZero(stages * p);
   for (auto* values : {&stages_, &past_}) values->setZero(stages * q);
-  for (auto* values : {&defect_, &now_.n}) values->setZero(q);
+  now_.n.setZero(q);
   for (auto* values : {&scale_, &now_.z}) values->setZero(p);
   for (auto* values : {&u_end_, &u_from_, &u_to_}) values->setZero(inputs);
   now_.slope.setZero(q, p);
@@ -156,23 +156,17 @@ void FastIntegrator::extrapolate(double length) {
 double FastIntegrator::error_of(const CollocationStep& step) {
   const Eigen::Index p = now_.z.size(), q = now_.n.size();
   if (q == 0) return 0.0;
-  static const Eigen::Matrix4d polynomials = collocation_polynomials();
-  defect_ = now_.n;
-  for (Eigen::Index j = 0; j < stages; ++j) {
-    defect_ -= polynomials(j, 0) * stages_.segment(j * q, q);
-  }
-  solver_.add_kink(now_, stages_, defect_);
-  const Eigen::VectorXd& difference = solver_.difference_by_start(step, defect_);
-  if (!std::isfinite(difference.sum())) return std::numeric_limits<double>::infinity();
+  const Eigen::VectorXd& error = solver_.error(step, now_, stages_);
+  if (!std::isfinite(error.sum())) return std::numeric_limits<double>::infinity();
   double worst = 0.0;
-  for (Eigen::Index j = 0; j < stages; ++j) {
+  for (Eigen::Index j = 0; j < stages + 2; ++j) {
     const double weight = j + 1 < stages ? inner_weight : 1.0;
     for (Eigen::Index i = 0; i < p; ++i) {
       const double allowed =
           options_.absolute_tolerance[i] +
           options_.relative_tolerance *
               std::max(std::abs(now_.z[i]), std::abs(solver_.z()[(stages - 1) * p + i]));
-      const double share = weight * std::abs(difference[j * p + i]) / allowed;
+      const double share = weight * std::abs(error[j * p + i]) / allowed;
       if (share <= worst) continue;
       worst = share;
       worst_input_ = i;
@@ -183,6 +177,7 @@ double FastIntegrator::error_of(const CollocationStep& step) {
 
 FastIntegrator::Refusal FastIntegrator::attempt(const CollocationStep& step) {
   free_.noalias() = step.start_to_stages * start_;
+  if (!std::isfinite(free_.sum())) return Refusal::overflow;
   scale_ = options_.absolute_tolerance + options_.relative_tolerance * now_.z.cwiseAbs();
   extrapolate(step.length);
   const auto outcome = solver_.solve(step, free_, scale_, stages_);
@@ -266,11 +261,7 @@ void FastIntegrator::advance(const Eigen::Ref<const Eigen::VectorXd>& u_start,
   y_.noalias() = collocation_.output() * start_.head(states);
   y_.noalias() += matrices.input_to_output * u_end;
   y_.noalias() += matrices.channels_to_output * now_.n;
-  if (!y_.allFinite() || !start_.allFinite()) {
-    failed_ = true;
-    throw NumericalFailure(fmt::format(
-        "FastIntegrator: the state of this unstable system overflows before t = {:.9g} s", time_));
-  }
+  if (!y_.allFinite() || !start_.allFinite()) give_up(Refusal::overflow, time_);
 }
 
 void FastIntegrator::give_up(Refusal refusal, double time) {
@@ -288,6 +279,9 @@ void FastIntegrator::give_up(Refusal refusal, double time) {
           "{:.3g} "
           "s, worst at the channel '{}'; see whether it is continuous and its slopes are right",
           time, shortest, channel_names_[static_cast<std::size_t>(solver_.worst_channel())]));
+    case Refusal::overflow:
+      throw NumericalFailure(fmt::format(
+          "FastIntegrator: the state of this unstable system overflows near t = {:.9g} s", time));
     default:
       throw NumericalFailure(
           fmt::format("FastIntegrator: the error in '{}' is {:.3g} times its tolerance behind t = "

@@ -20,7 +20,8 @@ struct FastIntegratorOptions {
   double interval = 0.0;
   /// The shortest step is interval/2^finest_rung. 0..30.
   int finest_rung = 20;
-  /// Largest error of a step in the channels' inputs z: absolute + relative |z|.
+  /// Largest error that a step makes in the channels' inputs z, at its end or up to an interval
+  /// later: absolute + relative |z|.
   double relative_tolerance = 1e-6;
   /// One for each channel input, in its unit, or one for all.
   Eigen::VectorXd absolute_tolerance = Eigen::VectorXd::Constant(1, 1e-8);
@@ -55,8 +56,7 @@ class FastIntegrator {
   /// One interval, the inputs straight from `u_start` to `u_end`. Allocates nothing once it has
   /// taken steps of the length it takes. @throws InvalidInput for inputs that do not fit or are not
   /// finite; NumericalFailure, with time and channel, for a channel that is not finite and where
-  /// the shortest step is still too long; after it, the state is that at the last step completed
-  /// and only start_from leads on.
+  /// the shortest step is still too long, and for an overflow: only start_from leads on then.
   void advance(const Eigen::Ref<const Eigen::VectorXd>& u_start,
                const Eigen::Ref<const Eigen::VectorXd>& u_end);
 
@@ -77,7 +77,7 @@ class FastIntegrator {
   bool by_modes() const { return collocation_.by_modes(); }
 
  private:
-  enum class Refusal { none, error, divergence, not_finite };
+  enum class Refusal { none, error, divergence, not_finite, overflow };
 
   const CollocationStep& rung(int index);
   void begin_interval(const Eigen::Ref<const Eigen::VectorXd>& u_start);
@@ -108,7 +108,7 @@ class FastIntegrator {
   double extrapolation_ratio_ = 0.0;  // of the new step to the last, for those weights
   Eigen::VectorXd start_;             // [v; u at the start of the step; at its end]
   Eigen::VectorXd drive_;             // [both u; n at the stages]
-  Eigen::VectorXd scratch_, free_, stages_, past_, defect_, scale_;
+  Eigen::VectorXd scratch_, free_, stages_, past_, scale_;
   StageValues now_;
   Eigen::VectorXd y_, u_end_, u_from_, u_to_;
 };

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <utility>
 
@@ -11,6 +12,23 @@ constexpr Eigen::Index stages = collocation_stages;
 constexpr int most_iterations = 10;
 // What Newton's method may leave of the tolerance.
 constexpr double newton_share = 0.01;
+
+// A slope that jumps by 1 between two nodes has a third difference of 3.3 to 10; by where it jumps,
+// the rule errs by up to 0.024, 0.024 and 0.012 of the jump.
+constexpr double kink_share = 0.005;
+
+// The third divided difference of values at 0 and at the stages, as their weights.
+std::array<double, stages + 1> third_difference() {
+  std::array<double, stages + 1> nodes{0.0}, weights{};
+  std::copy(collocation_points.begin(), collocation_points.end(), nodes.begin() + 1);
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    weights[i] = 1.0;
+    for (std::size_t j = 0; j < nodes.size(); ++j) {
+      if (j != i) weights[i] /= nodes[i] - nodes[j];
+    }
+  }
+  return weights;
+}
 
 // Which channel is not finite, in value or slope, at any of the times that stand stacked; or -1.
 Eigen::Index not_finite(const Eigen::VectorXd& n, const Eigen::MatrixXd& slope) {
@@ -29,7 +47,9 @@ StageSolver::StageSolver(std::shared_ptr<const NonlinearChannels> channels,
       p_(channel_inputs),
       q_(channel_outputs),
       size_(stages * std::min(p_, q_)) {
-  for (auto* vector : {&z_, &change_, &difference_}) vector->setZero(stages * p_);
+  for (auto* vector : {&z_, &change_}) vector->setZero(stages * p_);
+  error_.setZero((stages + 2) * p_);
+  defects_.setZero(2 * q_);
   for (auto* vector : {&f_, &spread_}) vector->setZero(stages * q_);
   right_.setZero(size_);
   slope_.setZero(q_, stages * p_);
@@ -204,37 +224,53 @@ StageSolver::Outcome StageSolver::solve(const CollocationStep& step, const Eigen
   return Outcome::diverged;
 }
 
-void StageSolver::add_kink(const StageValues& start, const Eigen::VectorXd& n,
-                           Eigen::VectorXd& defect) const {
+// Of each channel, first how far n at the start is from the polynomial of the stages: the next term
+// of a smooth n. Then what a kink between the nodes may add on average over the step: the third
+// difference of the slopes at 0 and the stages, which none escapes, whereas the first defect and
+// the rule's own error vanish together for some places of a kink only.
+void StageSolver::find_defects(const StageValues& start, const Eigen::VectorXd& n) {
+  static const Eigen::Matrix4d polynomials = collocation_polynomials();
+  static const std::array<double, stages + 1> difference = third_difference();
+  const double* const z = z_.data();
   for (Eigen::Index i = 0; i < q_; ++i) {
-    double worst = 0.0;
+    double defect = start.n[i];
     for (Eigen::Index stage = 0; stage < stages; ++stage) {
-      const bool first = stage == 0;
-      const double* const z = z_.data() + stage * p_;
-      const double* const z_before = first ? start.z.data() : z - p_;
-      const double* const slope = slope_.data() + stage * p_ * q_;
-      const double* const slope_before = first ? start.slope.data() : slope - p_ * q_;
-      double change = n[stage * q_ + i] - (first ? start.n[i] : n[(stage - 1) * q_ + i]);
-      for (Eigen::Index j = 0; j < p_; ++j) {
-        change -= 0.5 * (slope[j * q_ + i] + slope_before[j * q_ + i]) * (z[j] - z_before[j]);
-      }
-      worst = std::max(worst, std::abs(change));
+      defect -= polynomials(stage, 0) * n[stage * q_ + i];
     }
-    defect[i] += std::copysign(worst, defect[i]);
+    double kink = 0.0;
+    for (Eigen::Index j = 0; j < p_; ++j) {
+      double third = difference[0] * start.slope.data()[j * q_ + i];
+      double path = std::abs(z[j] - start.z[j]);
+      for (Eigen::Index stage = 0; stage < stages; ++stage) {
+        const Eigen::Index place = stage * p_ + j;
+        third += difference[static_cast<std::size_t>(stage) + 1] * slope_.data()[place * q_ + i];
+        if (stage > 0) path += std::abs(z[place] - z[place - p_]);
+      }
+      kink += std::abs(third) * path;
+    }
+    defects_[i] = defect;
+    defects_[q_ + i] = std::copysign(kink_share * kink, defect);
   }
 }
 
-const Eigen::VectorXd& StageSolver::difference_by_start(const CollocationStep& step,
-                                                        const Eigen::VectorXd& start_defect) {
-  difference_.noalias() = step.start_error_to_stages * start_defect;
+const Eigen::VectorXd& StageSolver::error(const CollocationStep& step, const StageValues& start,
+                                          const Eigen::VectorXd& n) {
+  find_defects(start, n);
+  auto at_stages = error_.head(stages * p_), later = error_.tail(2 * p_);
+  change_.noalias() = step.error_to_stages * defects_;
   if (q_ > p_) {
-    back_substitute(difference_);
-    return difference_;
+    back_substitute(change_);
+    apply_slopes(change_, spread_);
+    at_stages = change_;
+  } else {
+    apply_slopes(change_, spread_);
+    back_substitute(spread_);
+    at_stages = change_;
+    at_stages.noalias() += step.channels_to_stages * spread_;
   }
-  apply_slopes(difference_, spread_);
-  back_substitute(spread_);
-  difference_.noalias() += step.channels_to_stages * spread_;
-  return difference_;
+  later.noalias() = step.error_to_later * defects_;
+  later.noalias() += step.channels_to_later * spread_;
+  return error_;
 }
 
 }  // namespace boresight::plant

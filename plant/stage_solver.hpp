@@ -33,15 +33,10 @@ class StageSolver {
   Outcome solve(const CollocationStep& step, const Eigen::VectorXd& free,
                 const Eigen::VectorXd& scale, Eigen::VectorXd& n);
 
-  /// After convergence: what the polynomial through n(0) = n(start) as well makes of z at the
-  /// stages, less the z found, to first order.
-  const Eigen::VectorXd& difference_by_start(const CollocationStep& step,
-                                             const Eigen::VectorXd& start_defect);
-
-  /// After convergence: adds to a defect of n (q) how far the values at the start and the stages
-  /// are from going with their slopes (trapezoidal rule between neighbours, the worst). As small as
-  /// the defect of a smooth channel, but seldom both miss a kink.
-  void add_kink(const StageValues& start, const Eigen::VectorXd& n, Eigen::VectorXd& defect) const;
+  /// After convergence: what the step may have got wrong of z at the stages and, in the linear part
+  /// alone, at the two times later, to first order (5 p).
+  const Eigen::VectorXd& error(const CollocationStep& step, const StageValues& start,
+                               const Eigen::VectorXd& n);
 
   /// n and slope at values.z, outside a step. Returns the first n that is not finite, or -1.
   Eigen::Index evaluate(StageValues& values) const;
@@ -61,11 +56,12 @@ class StageSolver {
   void form_matrix(const Eigen::MatrixXd& channels_to_stages);
   bool factorise();
   void back_substitute(Eigen::VectorXd& values) const;
+  void find_defects(const StageValues& start, const Eigen::VectorXd& n);
   void apply_slopes(const Eigen::VectorXd& z, Eigen::VectorXd& to) const;
 
   std::shared_ptr<const NonlinearChannels> channels_;
   Eigen::Index p_, q_, size_;
-  Eigen::VectorXd z_, change_, f_, right_, difference_, spread_;
+  Eigen::VectorXd z_, change_, f_, right_, defects_, error_, spread_;
   Eigen::MatrixXd slope_;  // q x 3 p: dn/dz of each stage
   Eigen::MatrixXd matrix_;
   std::vector<Eigen::Index> pivots_;

@@ -183,7 +183,7 @@ TEST(ExponentialCollocation, IsTheSameByModesAndDensely) {
         EXPECT_TRUE(near(modal.to_state(one.drive_to_end.col(i)), two.drive_to_end.col(i)));
       }
       // Tiny differences of large terms: relative to what the channels' outputs do themselves.
-      EXPECT_LT((one.start_error_to_stages - two.start_error_to_stages).norm(),
+      EXPECT_LT((one.error_to_stages - two.error_to_stages).norm(),
                 1e-10 * system.linear.c.norm() * two.drive_to_end.norm());
       // The last stage is the end of the step.
       const HeldTransition held = held_transition(system.linear.a, system.linear.b.leftCols(m), h);

@@ -99,8 +99,10 @@ struct OdeIntegrator::Solver {
   // Where CVODES reads a start and writes its result, which is taken over when it is a good one.
   Eigen::VectorXd exchange;
   Eigen::MatrixXd sensitivity_exchange;
-  bool fresh = false;    // to start anew from `state` before the next step
-  bool limited = false;  // CVODES has a stop time
+  bool fresh = false;       // to start anew from `state` before the next step
+  bool limited = false;     // CVODES has a stop time
+  Eigen::VectorXi crossed;  // directions of the last event
+  double crossing_time = std::numeric_limits<double>::quiet_NaN();
   // df/dx and df/dp where the sensitivities are being solved for.
   Eigen::MatrixXd by_state;
   Eigen::MatrixXd by_parameters;
@@ -196,9 +198,17 @@ int OdeIntegrator::Solver::jacobian(double t, N_Vector x, N_Vector /*dx*/, SUNMa
   return solver.ode.jacobian(t, elements(x), result);
 }
 
+// Where a function was found to cross zero it counts as across, also if it is zero to the last bit:
+// should it go back, it crosses again.
 int OdeIntegrator::Solver::event_values(double t, N_Vector x, double* g, void* self) {
-  GuardedOde& ode = static_cast<Solver*>(self)->ode;
-  return ode.event_values(t, elements(x), Vector(g, ode.system().events()));
+  Solver& solver = *static_cast<Solver*>(self);
+  Vector values(g, solver.ode.system().events());
+  const int verdict = solver.ode.event_values(t, elements(x), values);
+  if (t != solver.crossing_time) return verdict;
+  for (Eigen::Index i = 0; i < values.size(); ++i) {
+    if (values(i) == 0.0) values(i) = solver.crossed(i) * std::numeric_limits<double>::min();
+  }
+  return verdict;
 }
 
 int OdeIntegrator::Solver::sensitivity_rate(int count, double t, N_Vector x, N_Vector /*dx*/,
@@ -295,6 +305,7 @@ OdeStop OdeIntegrator::advance(double t, Approach approach) {
   // CVODES cannot start for less than two roundings.
   constexpr double rounding = std::numeric_limits<double>::epsilon();
   if (t - solver.time <= 4.0 * rounding * std::max(std::abs(t), std::abs(solver.time))) {
+    if (solver.crossing_time == solver.time) solver.crossing_time = t;
     solver.time = t;
     return stop;
   }
@@ -310,6 +321,8 @@ OdeStop OdeIntegrator::advance(double t, Approach approach) {
   if (flag == CV_ROOT_RETURN) {
     stop.event = true;
     solver.expect(CVodeGetRootInfo(memory, stop.directions.data()));
+    solver.crossed = stop.directions;
+    solver.crossing_time = stop.time;
   }
   solver.time = stop.time;
   solver.state = solver.exchange;
@@ -333,6 +346,7 @@ void OdeIntegrator::restart() {
 void OdeIntegrator::restart(const Eigen::VectorXd& x) {
   check_state("OdeIntegrator::restart", x, state().size());
   solver_->state = x;
+  solver_->crossing_time = std::numeric_limits<double>::quiet_NaN();
   restart();
 }
 

@@ -48,9 +48,9 @@ class OdeIntegrator {
   OdeIntegrator& operator=(const OdeIntegrator&) = delete;
 
   /// Integrates to t (s) exactly, or to the first event before or at it. An event is located to
-  /// some 100 roundings of t and reported on its far side or exactly at zero; one that is zero at
-  /// the start does not fire there. An advance that throws leaves time() and state() where they
-  /// were, and the next one starts anew from there.
+  /// some 100 roundings of t, and its function is on the far side there, or zero and counts as
+  /// such: going back is an event again. An advance that throws leaves time() and state() where
+  /// they were, and the next one starts anew from there.
   /// @throws InvalidInput for a t behind time() or not finite; whatever the system threw;
   /// NumericalFailure with the reason, the time and a remedy: too many steps, no convergence with
   /// the smallest step, tolerances beyond rounding, values that are not finite (names the function,
@@ -66,8 +66,8 @@ class OdeIntegrator {
   const Eigen::MatrixXd& sensitivities() const;
 
   /// Forgets the past of the solution: after a jump of the state, an input or the law of the
-  /// system. At time() with the present state, another one, or also other sensitivities. An event
-  /// just located is kept from firing again by a state for which it is exactly zero.
+  /// system. At time() with the present state, another one, or also other sensitivities. A function
+  /// of an event that is exactly zero for another state fires neither there nor as it leaves zero.
   /// @throws InvalidInput for wrong sizes or elements that are not finite.
   void restart();
   void restart(const Eigen::VectorXd& x);

@@ -211,6 +211,36 @@ TEST(OdeIntegrator, StopsAtAnEventThatFallsOnTheTimeAskedFor) {
   EXPECT_NE(stop.event, after.event);  // once
 }
 
+// x' = speed, with the event x = 0.
+class Drift : public OdeSystem {
+ public:
+  double speed = -1.0;
+  Eigen::Index states() const override { return 1; }
+  void rate(double, const StateRef&, VectorRef dx) const override { dx(0) = speed; }
+  void jacobian(double, const StateRef&, MatrixRef) const override {}
+  Eigen::Index events() const override { return 1; }
+  void event_values(double, const StateRef& x, VectorRef g) const override { g(0) = x(0); }
+};
+
+TEST(OdeIntegrator, CountsAZeroWhereItStoppedAsCrossed) {
+  // Found falling through zero, perhaps exactly at it. If the law then turns it back it rises
+  // through zero; from a zero that the caller sets it does not.
+  for (const double start : {1.0, 0.7, 0.3}) {
+    Drift system;
+    OdeIntegrator integrator(system, 0.0, vector({start}));
+    ASSERT_EQ(integrator.advance(2.0).directions(0), -1);
+    system.speed = 1.0;
+    integrator.restart();
+    const OdeStop back = integrator.advance(2.0);
+    EXPECT_TRUE(back.event);
+    EXPECT_EQ(back.directions(0), 1);
+    EXPECT_NEAR(back.time, start, 1e-9);
+    integrator.restart(vector({0.0}));
+    EXPECT_FALSE(integrator.advance(2.0).event);
+    EXPECT_NEAR(integrator.state()(0), 2.0 - start, 1e-9);
+  }
+}
+
 TEST(OdeIntegrator, TakesAStepOfRoundingForNoStep) {
   const Linear system = oscillator(1.0);
   OdeIntegrator integrator(system, 1.0, vector({1.0, 0.0}));

@@ -149,7 +149,7 @@ TEST(HydrostaticTransmission, HasTheJacobianOfItsDifferences) {
   Eigen::VectorXd h(system.states());
   h << 1e2, 1e2, 1e-3, 1e-3, 1e-10, 1e-10, 1e-6;
   follow(system, integrator, every_hundredth(), [&](double t) {
-    const Eigen::VectorXd x = integrator.state();
+    const Eigen::VectorXd& x = integrator.state();
     const Eigen::Index n = x.size();
     Eigen::MatrixXd j = Eigen::MatrixXd::Zero(n, n), differences(n, n);
     system.jacobian(t, x, j);

@@ -81,6 +81,7 @@ double two_sided_norm(const TriangularSystem& system, const MatrixXd& d) {
     other_t = -other_t;
     return std::hypot(forward, state_norm(other_t, other_b, c.rightCols(other), system.domain));
   }
+  if (other == 0) return std::hypot(forward, d.stableNorm());
   // C (z - A)^-1 B = -(C A^-1 B + z C A^-2 B + ...) outside: the first term joins D.
   other_t.triangularView<Eigen::Upper>().solveInPlace(other_b);
   const MatrixXcd direct = d - c.rightCols(other) * other_b;

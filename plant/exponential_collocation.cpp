@@ -54,6 +54,17 @@ Eigen::MatrixXd real_input(const Eigen::MatrixXcd& input, Eigen::Index pairs) {
   return result;
 }
 
+// None where the eigenvectors are too nearly dependent.
+std::optional<ModalForm> modes_of(const FeedbackSystem& system, double largest_condition) {
+  try {
+    ModalForm form = modal_form(with_states_seen(system));
+    if (form.condition <= largest_condition) return form;
+  } catch (const NumericalFailure&) {
+    return std::nullopt;
+  }
+  return std::nullopt;
+}
+
 }  // namespace
 
 std::array<Complex, 5> phi_functions(Complex z) {
@@ -119,12 +130,7 @@ ExponentialCollocation::ExponentialCollocation(const FeedbackSystem& system,
     throw InvalidInput(fmt::format(
         "ExponentialCollocation: expected a horizon of 0 or more, found {} s", horizon));
   }
-  try {
-    form_ = modal_form(with_states_seen(system));
-    if (!(form_->condition <= largest_condition)) form_.reset();
-  } catch (const NumericalFailure&) {
-    // Dependent eigenvectors: the dense route.
-  }
+  form_ = modes_of(system, largest_condition);
   if (form_) {
     std::vector<Eigen::Index> order(static_cast<std::size_t>(form_->poles.size()));
     std::iota(order.begin(), order.end(), Eigen::Index{0});
@@ -184,7 +190,7 @@ CollocationStep ExponentialCollocation::step(double length) const {
   result.channels_to_later.setZero(2 * p, collocation_stages * q);
   result.error_to_later.setZero(2 * p, 2 * q);
   if (form_) {
-    modal_step(result);
+    modal_step(*form_, result);
   } else {
     dense_step(result);
   }
@@ -238,17 +244,17 @@ void ExponentialCollocation::write_stage(
   if (end) step.error_to_later.rightCols(q) = later_output_ * integrals[0].rightCols(q);
 }
 
-void ExponentialCollocation::modal_step(CollocationStep& result) const {
+void ExponentialCollocation::modal_step(const ModalForm& form, CollocationStep& result) const {
   const Eigen::Index n = matrices_.a.rows(), m = matrices_.input.cols(),
                      q = matrices_.channel_input.cols(), p = channel_output_.rows();
-  const Eigen::Index modes = form_->poles.size();
+  const Eigen::Index modes = form.poles.size();
   for (int j = 0; j < collocation_stages; ++j) {
     const double time = collocation_points[static_cast<std::size_t>(j)] * result.length;
     Eigen::VectorXcd factor(modes);
     std::array<Eigen::MatrixXcd, powers> integrals;
-    integrals.fill(form_->input.leftCols(m + q));
+    integrals.fill(form.input.leftCols(m + q));
     for (Eigen::Index i = 0; i < modes; ++i) {
-      const auto phi = phi_functions(form_->poles[i] * time);
+      const auto phi = phi_functions(form.poles[i] * time);
       factor[i] = phi[0];
       double weight = time;
       for (std::size_t power = 0; power < powers; ++power) {
@@ -261,7 +267,7 @@ void ExponentialCollocation::modal_step(CollocationStep& result) const {
       real_integrals[power] = real_input(integrals[power], pairs_);
     }
     result.start_to_stages.block(j * p, 0, p, n) =
-        real_output(form_->output.topRows(p) * factor.asDiagonal(), pairs_);
+        real_output(form.output.topRows(p) * factor.asDiagonal(), pairs_);
     write_stage(result, j, real_integrals);
     result.factor_real = factor.real();
     result.factor_imaginary = factor.head(pairs_).imag();

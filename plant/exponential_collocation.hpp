@@ -77,7 +77,7 @@ class ExponentialCollocation {
   void look_later(double horizon);
   void write_stage(CollocationStep& step, int stage,
                    const std::array<Eigen::MatrixXd, collocation_stages + 1>& integrals) const;
-  void modal_step(CollocationStep& result) const;
+  void modal_step(const ModalForm& form, CollocationStep& result) const;
   void dense_step(CollocationStep& result) const;
 
   FeedbackMatrices matrices_;

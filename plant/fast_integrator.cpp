@@ -19,7 +19,7 @@ constexpr int patience = 6;  // steps after a refusal before a longer one is tri
 // What the inner stages may be off, relative to the end of the step.
 constexpr double inner_weight = 0.1;
 
-void check(const FastIntegratorOptions& options, Eigen::Index channel_inputs) {
+FastIntegratorOptions checked(FastIntegratorOptions options, Eigen::Index channel_inputs) {
   if (!(options.interval > 0.0) || !std::isfinite(options.interval)) {
     throw InvalidInput(
         fmt::format("FastIntegrator: expected an interval above 0, found {} s", options.interval));
@@ -46,16 +46,16 @@ void check(const FastIntegratorOptions& options, Eigen::Index channel_inputs) {
           fmt::format("FastIntegrator: expected absolute_tolerance above 0, found {}", tolerance));
     }
   }
+  return options;
 }
 
 }  // namespace
 
 FastIntegrator::FastIntegrator(const FeedbackSystem& system, FastIntegratorOptions options)
-    : collocation_(system, options.largest_condition, options.interval),
-      solver_(system.channels, system.channel_inputs, system.channel_outputs),
-      options_(std::move(options)) {
+    : options_(checked(std::move(options), system.channel_inputs)),
+      collocation_(system, options_.largest_condition, options_.interval),
+      solver_(system.channels, system.channel_inputs, system.channel_outputs) {
   const Eigen::Index p = system.channel_inputs, q = system.channel_outputs;
-  check(options_, p);
   if (options_.absolute_tolerance.size() == 1) {
     options_.absolute_tolerance = Eigen::VectorXd::Constant(p, options_.absolute_tolerance[0]);
   }

@@ -87,9 +87,9 @@ class FastIntegrator {
   double error_of(const CollocationStep& step);
   [[noreturn]] void give_up(Refusal refusal, double time);
 
+  FastIntegratorOptions options_;
   ExponentialCollocation collocation_;
   StageSolver solver_;
-  FastIntegratorOptions options_;
   std::vector<std::string> channel_names_, channel_input_names_;
   std::vector<std::optional<CollocationStep>> rungs_;
   FastIntegratorStatistics statistics_;

@@ -5,9 +5,11 @@
 #include <gtest/gtest.h>
 
 #include "../control/reference_loop.hpp"
+#include "../peer_drive.hpp"
 #include "../peer_family.hpp"
 #include "allocation_count.hpp"
 #include <boresight/plant/dense_response.hpp>
+#include <boresight/plant/fast_integrator.hpp>
 #include <boresight/plant/modal_response.hpp>
 #include <boresight/plant/time_response.hpp>
 
@@ -68,6 +70,30 @@ TEST(Allocations, NoneInTheStepsOfASimulation) {
       EXPECT_EQ(simulation.by_modes(), largest_condition > 0.0);
       simulation.simulate(input, output);  // the first sample of a record may take some
       EXPECT_EQ(allocations_of([&] { simulation.simulate(input, output); }), 0);
+    }
+  }
+}
+
+TEST(Allocations, NoneInTheStepsOfTheFastIntegrator) {
+  for (const auto friction : {reference::DriveFriction::none, reference::DriveFriction::tanh,
+                              reference::DriveFriction::lugre}) {
+    for (const double largest_condition : {1e8, 0.0}) {
+      const auto system = reference::peer_drive(friction);
+      plant::FastIntegratorOptions options;
+      options.interval = 0.01;
+      options.largest_condition = largest_condition;
+      plant::FastIntegrator integrator(system, options);
+      const Eigen::MatrixXd command = Eigen::VectorXd::NullaryExpr(1001, [](Eigen::Index k) {
+        return reference::peer_rate_command(0.01 * static_cast<double>(k));
+      });
+      Eigen::MatrixXd output(1000, 3);
+      const Eigen::VectorXd rest = Eigen::VectorXd::Zero(system.linear.a.rows());
+      const auto run = [&] {
+        integrator.simulate(command, output, plant::Interpolation::first_order_hold);
+      };
+      run();  // prepares the step lengths that it takes
+      integrator.start_from(rest);
+      EXPECT_EQ(allocations_of(run), 0);
     }
   }
 }

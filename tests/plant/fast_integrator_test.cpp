@@ -380,6 +380,7 @@ TEST(FastIntegrator, NamesWhatItRefuses) {
                 ThrowsMessage<InvalidInput>(HasSubstr(words)));
   };
   refused([](auto& o) { o.interval = 0.0; }, "an interval above 0, found 0 s");
+  refused([](auto& o) { o.interval = std::nan(""); }, "FastIntegrator: expected an interval");
   refused([](auto& o) { o.finest_rung = 31; }, "finest_rung of 0 to 30, found 31");
   refused([](auto& o) { o.relative_tolerance = -1.0; }, "relative_tolerance of 0 to 1, found -1");
   refused([](auto& o) { o.absolute_tolerance = Eigen::VectorXd::Ones(3); },

@@ -1,5 +1,6 @@
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -54,7 +55,7 @@ TEST(GustSpectrum, OfEachKindIsThePrintedFormula) {
 
 TEST(GustSpectrum, PeaksWhereTheDerivativeOfTheFormulaSays) {
   const double von_karman_peak = std::sqrt(1.5 / 70.7801);
-  const double peaks[] = {std::sqrt(3.0), von_karman_peak, 0.25, 1.0 / 6.8};
+  const double peaks[] = {std::numbers::sqrt3, von_karman_peak, 0.25, 1.0 / 6.8};
   // Largest f S/sigma^2: 2/3 * 3/4^(4/3), 4 x/2.5^(5/6), 2.5^(-5/3) twice.
   const double heights[] = {0.31498, 0.27135, 0.21715, 0.21715};
   for (std::size_t i = 0; i < 4; ++i) {

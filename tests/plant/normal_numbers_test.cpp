@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -52,7 +53,7 @@ TEST(NormalNumbers, AreDistributedNormally) {
   std::sort(numbers.begin(), numbers.end());
   double worst = 0.0;
   for (std::size_t i = 0; i < numbers.size(); ++i) {
-    const double expected = 0.5 * std::erfc(-numbers[i] / std::sqrt(2.0));
+    const double expected = 0.5 * std::erfc(-numbers[i] / std::numbers::sqrt2);
     worst = std::max(worst, std::abs((static_cast<double>(i) + 0.5) / draws - expected));
   }
   EXPECT_LT(std::sqrt(draws) * worst, 1.95);

@@ -1,5 +1,6 @@
+#include <bit>
 #include <cmath>
-#include <cstring>
+#include <cstdint>
 #include <limits>
 #include <numbers>
 
@@ -74,7 +75,9 @@ TEST(StationarySeries, IsTheSameForTheSameSeedOnly) {
     prepared.draw(99);
     const Eigen::VectorXd again = prepared.draw(7);
     ASSERT_EQ(one.size(), again.size());
-    EXPECT_EQ(std::memcmp(one.data(), again.data(), sizeof(double) * 1000), 0);
+    for (Eigen::Index i = 0; i < one.size(); ++i) {
+      ASSERT_EQ(std::bit_cast<std::uint64_t>(one[i]), std::bit_cast<std::uint64_t>(again[i]));
+    }
     for (const Eigen::VectorXd& other : {prepared.draw(8), prepared.draw(7, 1)}) {
       EXPECT_LT(std::abs(one.dot(other)) / (one.norm() * other.norm()), 0.5);
     }

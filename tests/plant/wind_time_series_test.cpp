@@ -1,6 +1,5 @@
 #include <cmath>
-#include <cstring>
-#include <numbers>
+#include <string>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -224,8 +224,11 @@ void FastIntegrator::advance(const Eigen::Ref<const Eigen::VectorXd>& u_start,
     const CollocationStep& step = rung(rung_);
     const double end = static_cast<double>(place + size) / static_cast<double>(whole);
     start_.segment(states, inputs) = start_.tail(inputs);
-    // Exactly u_end at the end.
-    start_.tail(inputs) = place + size == whole ? u_end : u_start + end * (u_end - u_start);
+    if (place + size == whole) {
+      start_.tail(inputs) = u_end;
+    } else {
+      start_.tail(inputs) = u_start + end * (u_end - u_start);
+    }
     const Refusal refusal = attempt(step);
     if (refusal != Refusal::none) {
       ++statistics_.rejected;

@@ -21,7 +21,8 @@ struct StationarySeriesOptions {
 /// phases are those of independent complex Gaussian coefficients, the power of each the integral of
 /// the spectrum over its cell (k - 1/2) df .. (k + 1/2) df, by adaptive quadrature (1e-4 of it),
 /// not the value at its middle: where the spectrum rises from one line to the next, bands of few
-/// lines are right too. Computed by the inverse Fourier transform.
+/// lines are right too. A peak far narrower than a cell may escape the quadrature, as it would any
+/// rule. Computed by the inverse Fourier transform.
 ///
 /// T' is the duration T of a periodic series. By default it is the first power of two of samples
 /// that is at least 2 T, of which the first T are kept: start and end are then unrelated, as in a

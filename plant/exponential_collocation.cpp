@@ -12,10 +12,6 @@
 
 namespace boresight::plant {
 
-// (4 -+ sqrt 6)/10, 1
-const std::array<double, collocation_stages> collocation_points{0.15505102572168219,
-                                                                0.64494897427831781, 1.0};
-
 namespace {
 
 using Complex = std::complex<double>;

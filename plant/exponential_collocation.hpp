@@ -12,14 +12,16 @@
 namespace boresight::plant {
 
 /// phi_0(z) = e^z and phi_k(z) = integral of e^(z (1 - s)) s^(k-1)/(k-1)! over 0..1, k = 1..4:
-/// to errors of some 1e-15 of the larger of phi_k and 1/(|z| k!) (M. Hochbruck, A. Ostermann, Acta
-/// Numerica 19, 2010, section 2.1). Not finite where e^z overflows.
+/// to errors of some 2e-15 (1 + |Im z|/10) of the larger of |phi_k| and 1/((k - 1)! max(|z|, 1))
+/// (M. Hochbruck, A. Ostermann, Acta Numerica 19, 2010, section 2.1). Not finite where e^z
+/// overflows.
 std::array<std::complex<double>, 5> phi_functions(std::complex<double> z);
 
 /// The Radau IIA points of order 5 in 0..1, the last of them 1 (E. Hairer, G. Wanner, Solving
 /// Ordinary Differential Equations II, IV.5).
 inline constexpr int collocation_stages = 3;
-extern const std::array<double, collocation_stages> collocation_points;
+inline constexpr std::array<double, collocation_stages> collocation_points{
+    0.15505102572168219, 0.64494897427831781, 1.0};  // (4 -+ sqrt 6)/10, 1
 
 /// The polynomial through values at the collocation points, and the one that is 1 at 0 and zero at
 /// all of them, as coefficients of ascending powers of s = t/h: rows 0..2 the Lagrange polynomials,

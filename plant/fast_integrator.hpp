@@ -23,12 +23,14 @@ struct FastIntegratorOptions {
   /// Largest error that a step makes in the channels' inputs z, at its end or up to an interval
   /// later: absolute + relative |z|.
   double relative_tolerance = 1e-6;
-  /// One for each channel input, in its unit, or one for all.
+  /// One for each channel input, in its unit, or one for all: far below the size at which that
+  /// input matters (a bristle deflects by micrometres).
   Eigen::VectorXd absolute_tolerance = Eigen::VectorXd::Constant(1, 1e-8);
   /// As in SimulationOptions: above it a dense transition matrix takes the place of the modes.
   double largest_condition = highest_modal_condition;
 };
 
+/// Work done since the construction.
 struct FastIntegratorStatistics {
   long long steps = 0;     // accepted
   long long rejected = 0;  // for their error or because Newton's method did not converge
@@ -42,6 +44,10 @@ struct FastIntegratorStatistics {
 /// Runge-Kutta methods for parabolic problems, Appl. Numer. Math. 53, 2005; E. Hairer, G. Wanner,
 /// Solving Ordinary Differential Equations II, IV.5). Steps are as long as the channels allow, not
 /// the modes. Inputs are straight within an interval and may jump between intervals.
+///
+/// Step sizes follow an estimate of each step's error: the next term of the channels' polynomial,
+/// from their values at the start of the step, and what a kink of a channel within the step may
+/// add, from the slopes dn/dz; wrong slopes therefore cost steps, not accuracy.
 class FastIntegrator {
  public:
   /// At rest at t = 0. O(n^3) once; then O(n) a step by modes or O(n^2) by the dense route.
@@ -67,11 +73,12 @@ class FastIntegrator {
   void simulate(const Eigen::Ref<const Eigen::MatrixXd>& input, Eigen::Ref<Eigen::MatrixXd> output,
                 Interpolation interpolation = Interpolation::zero_order_hold);
 
-  double time() const { return time_; }                  // s, at the end of the last interval
-  Eigen::VectorXd state() const;                         // x
-  const Eigen::VectorXd& outputs() const { return y_; }  // y there, before the inputs jump
-  const Eigen::VectorXd& channel_inputs() const { return now_.z; }   // z there
-  const Eigen::VectorXd& channel_outputs() const { return now_.n; }  // n there
+  // At the end of the last interval; outputs and channels are zero before the first one.
+  double time() const { return time_; }                              // s
+  Eigen::VectorXd state() const;                                     // x
+  const Eigen::VectorXd& outputs() const { return y_; }              // y, before the inputs jump
+  const Eigen::VectorXd& channel_inputs() const { return now_.z; }   // z
+  const Eigen::VectorXd& channel_outputs() const { return now_.n; }  // n
   const FastIntegratorStatistics& statistics() const { return statistics_; }
   /// Whether the linear part is integrated by modes.
   bool by_modes() const { return collocation_.by_modes(); }

@@ -51,7 +51,6 @@ StageSolver::StageSolver(std::shared_ptr<const NonlinearChannels> channels,
   error_.setZero((stages + 2) * p_);
   defects_.setZero(2 * q_);
   for (auto* vector : {&f_, &spread_}) vector->setZero(stages * q_);
-  right_.setZero(size_);
   slope_.setZero(q_, stages * p_);
   matrix_.setZero(size_, size_);
   pivots_.resize(static_cast<std::size_t>(size_));

@@ -61,7 +61,7 @@ class StageSolver {
 
   std::shared_ptr<const NonlinearChannels> channels_;
   Eigen::Index p_, q_, size_;
-  Eigen::VectorXd z_, change_, f_, right_, defects_, error_, spread_;
+  Eigen::VectorXd z_, change_, f_, defects_, error_, spread_;
   Eigen::MatrixXd slope_;  // q x 3 p: dn/dz of each stage
   Eigen::MatrixXd matrix_;
   std::vector<Eigen::Index> pivots_;

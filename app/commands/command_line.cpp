@@ -11,9 +11,11 @@
 
 #include <boresight/app/commands/command_line.hpp>
 #include <boresight/app/commands/progress_line.hpp>
+#include <boresight/app/commands/simulate_command.hpp>
 #include <boresight/app/redesign/sections.hpp>
 #include <boresight/app/report/json_report.hpp>
 #include <boresight/app/report/text_report.hpp>
+#include <boresight/app/simulate/antenna_tests.hpp>
 
 namespace boresight::app {
 namespace {
@@ -106,7 +108,7 @@ int run(const Command& command, const Arguments& arguments) {
   report.seed = arguments.seed;
   report.assumed = assumed_inputs(antenna);
   {
-    ProgressLine progress;
+    ProgressLine progress("tuning and verifying");
     options.progress = [&](std::size_t finished, std::size_t all) {
       progress.show(finished, all);
       if (interrupt_requested != 0) throw Interrupted("interrupted by the user");
@@ -139,6 +141,34 @@ int run(const Command& command, const Arguments& arguments) {
   return done;
 }
 
+int run(const SimulateArguments& arguments) {
+  std::signal(SIGINT, request_interrupt);
+  const auto outcome = simulate_tests(arguments, [] { return interrupt_requested != 0; });
+  fmt::print("{}", outcome.report);
+  if (std::fflush(stdout) != 0) throw InvalidInput(unwritable_output);
+  return outcome.complete ? done : interrupted;
+}
+
+void add_seed(CLI::App* sub, std::uint64_t& seed) {
+  sub->add_option("--seed", seed, "first seed of the searches and draws")
+      ->check(CLI::Range(0.0, 1e15))
+      ->capture_default_str();
+}
+
+CLI::App* add_simulate(CLI::App& program, SimulateArguments& arguments) {
+  CLI::App* sub = program.add_subcommand(
+      "simulate", "run tests on the nonlinear antenna and write what its recorder would");
+  sub->add_option("CASE", arguments.case_path, "case file (TOML), see docs/case-file.md")
+      ->required();
+  sub->add_option("TEST", arguments.tests,
+                  fmt::format("what to run: {}", fmt::join(simulated_test_names(), ", ")))
+      ->required();
+  sub->add_option("--folder", arguments.folder, "where records TEST.csv are written")
+      ->capture_default_str();
+  add_seed(sub, arguments.seed);
+  return sub;
+}
+
 }  // namespace
 
 int run_command_line(int argc, char** argv) {
@@ -157,18 +187,19 @@ int run_command_line(int argc, char** argv) {
     sub->add_option("--json", arguments.json_path,
                     "also write the report as JSON to this file; '-' writes JSON only, to standard "
                     "output");
-    sub->add_option("--seed", arguments.seed, "first seed of the searches and draws")
-        ->check(CLI::Range(0.0, 1e15))
-        ->capture_default_str();
+    add_seed(sub, arguments.seed);
     sub->add_option("--threads", arguments.threads,
                     "threads to work on; results do not depend on it (default: all)");
   }
+  SimulateArguments simulation;
+  const CLI::App* simulate = add_simulate(program, simulation);
   try {
     program.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
     return program.exit(error) == 0 ? done : bad_input;
   }
   try {
+    if (simulate->parsed()) return run(simulation);
     for (const auto& command : commands()) {
       if (program.got_subcommand(command.name)) return run(command, arguments);
     }

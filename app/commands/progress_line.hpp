@@ -2,6 +2,7 @@
 
 #include <chrono>
 #include <cstddef>
+#include <string>
 
 namespace boresight::app {
 
@@ -9,7 +10,8 @@ namespace boresight::app {
 /// unless standard error is a terminal.
 class ProgressLine {
  public:
-  ProgressLine();
+  /// What is being worked on, as the line begins.
+  explicit ProgressLine(std::string work);
   ~ProgressLine();
   ProgressLine(const ProgressLine&) = delete;
   ProgressLine& operator=(const ProgressLine&) = delete;
@@ -18,6 +20,7 @@ class ProgressLine {
   void show(std::size_t done, std::size_t all);
 
  private:
+  std::string work_;
   bool terminal_;
   bool shown_ = false;
   std::chrono::steady_clock::time_point start_;

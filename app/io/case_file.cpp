@@ -63,6 +63,7 @@ Case read_case(const std::string& path) {
   read_tests(file, antenna);
   read_drive(file, antenna);
   read_structure(file, antenna);
+  read_simulation(file, antenna);
   read_sensors(file, antenna);
   read_wind(file, antenna);
   read_pointing(file, antenna);

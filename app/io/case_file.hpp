@@ -113,6 +113,31 @@ struct FrictionCurveEntry {
   Quantity coulomb, breakaway, stribeck_rate, saturating, saturating_rate, viscous;
 };
 
+/// What the linear plant leaves out and `boresight simulate` needs, all motors at the motor shaft.
+struct SimulationEntry {
+  Quantity return_pressure;
+  Quantity null_leakage_share, case_leakage_share;
+  Quantity valve_stroke;       // no-load motor speed with the valve fully open
+  Quantity valve_stroke_time;  // from centre to fully open
+  Quantity valve_overlap;      // share of the stroke
+  Quantity bristle_stiffness, bristle_damping;
+  Quantity line_damping_ratio;
+  Quantity makeup_pressure;
+  Quantity air_fraction;
+  Quantity offset_torque;
+  Quantity elevation;
+  std::optional<Quantity> preload_torque;
+  std::optional<Quantity> backlash;  // of the motor; else none
+  Quantity rate_loop_gain, rate_loop_corner;  // the analog rate loop of the tests
+};
+
+/// How the antenna's recorder writes.
+struct RecorderEntry {
+  Quantity sample_rate;
+  Quantity pressure_gain, pressure_zero, pressure_noise, pressure_resolution, pressure_range;
+  Quantity tachometer_gain, tachometer_noise, tachometer_resolution;
+};
+
 struct StructureModeEntry {
   Quantity frequency, damping_ratio, inertia_fraction, wind_fraction, beam_weight;
 };
@@ -188,6 +213,8 @@ struct Case {
   DriveEntry drive;
   FrictionCurveEntry friction_curve;
   StructureEntry structure;
+  std::optional<SimulationEntry> simulation;
+  std::optional<RecorderEntry> recorder;
   SensorsEntry sensors;
   Quantity controller_delay;
   WindEntry wind;

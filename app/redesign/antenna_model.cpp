@@ -128,22 +128,25 @@ double antenna_inertia(const Case& antenna, const AntennaAlternative& alternativ
   return reflected(antenna, alternative).value;
 }
 
+double bulk_modulus(const Case& antenna) {
+  const OilEntry& oil = antenna.oil;
+  if (oil.bulk_modulus) return oil.bulk_modulus->value;
+  double mean = 0.0;
+  for (const auto& line : oil.lines) {
+    mean += plant::bulk_modulus_from_slosh(line.length.value, line.slosh_frequency.value,
+                                           oil.density.value) /
+            static_cast<double>(oil.lines.size());
+  }
+  return mean;
+}
+
 double oil_stiffness(const Case& antenna, plant::EfficiencyInStiffness efficiency) {
   const OilEntry& oil = antenna.oil;
-  double bulk_modulus = 0.0;
-  if (oil.bulk_modulus) {
-    bulk_modulus = oil.bulk_modulus->value;
-  } else {
-    for (const auto& line : oil.lines) {
-      bulk_modulus += plant::bulk_modulus_from_slosh(line.length.value, line.slosh_frequency.value,
-                                                     oil.density.value) /
-                      static_cast<double>(oil.lines.size());
-    }
-  }
   const MotorEntry& motor = antenna.motor;
   return plant::oil_stiffness({static_cast<double>(motor.count), motor.displacement.value,
                                motor.torque_efficiency.value, motor.volumetric_efficiency.value,
-                               bulk_modulus, oil.volume_1.value, oil.volume_2.value, efficiency});
+                               bulk_modulus(antenna), oil.volume_1.value, oil.volume_2.value,
+                               efficiency});
 }
 
 double oil_stiffness(const Case& antenna) {

@@ -31,6 +31,8 @@ double motor_inertia(const Case& antenna, double disks);
 /// The antenna inertia of the case, and of an alternative, at the motor shaft (kg m2).
 double antenna_inertia(const Case& antenna);
 double antenna_inertia(const Case& antenna, const AntennaAlternative& alternative);
+/// That of the case, or the mean over its lines (Pa).
+double bulk_modulus(const Case& antenna);
 /// Oil spring by the case's bulk modulus, or the mean of its lines (N m/rad).
 double oil_stiffness(const Case& antenna, plant::EfficiencyInStiffness efficiency);
 double oil_stiffness(const Case& antenna);

@@ -1,0 +1,71 @@
+#include <boresight/app/io/case_sections.hpp>
+
+namespace boresight::app {
+namespace {
+
+SimulationEntry read_drive_details(TableReader& table) {
+  SimulationEntry entry;
+  const Range share = Range::between(0.0, 1.0);
+  entry.return_pressure =
+      table.quantity("return_pressure", Kind::pressure, Range::not_negative(1e8));
+  entry.null_leakage_share = table.quantity("null_leakage_share", Kind::number, share);
+  entry.case_leakage_share = table.quantity("case_leakage_share", Kind::number, share);
+  entry.valve_stroke = table.quantity("valve_stroke", Kind::angular_rate, Range::positive(1e5));
+  entry.valve_stroke_time = table.quantity("valve_stroke_time", Kind::time, Range::positive(100.0));
+  entry.valve_overlap = table.quantity("valve_overlap", Kind::number, Range::between(0.0, 0.5));
+  entry.bristle_stiffness =
+      table.quantity("bristle_stiffness", Kind::stiffness, Range::positive(1e12));
+  entry.bristle_damping =
+      table.quantity("bristle_damping", Kind::viscous_friction, Range::not_negative(1e9));
+  entry.line_damping_ratio = table.quantity("line_damping_ratio", Kind::number, share);
+  entry.makeup_pressure =
+      table.quantity("makeup_pressure", Kind::pressure, Range::not_negative(1e8));
+  entry.air_fraction = table.quantity("air_fraction", Kind::number, Range::between(0.0, 0.2));
+  entry.offset_torque = table.quantity("offset_torque", Kind::torque);
+  entry.elevation = table.quantity("elevation", Kind::angle, Range::between(-0.2, 3.4));
+  entry.preload_torque =
+      table.optional_quantity("preload_torque", Kind::torque, Range::positive(1e9));
+  entry.backlash = table.optional_quantity("backlash", Kind::angle, Range::positive(1e3));
+  entry.rate_loop_gain = table.quantity("rate_loop_gain", Kind::number, Range::positive(1e4));
+  entry.rate_loop_corner =
+      table.quantity("rate_loop_corner", Kind::frequency, Range::positive(1e4));
+  if (entry.backlash && !entry.preload_torque) {
+    table.refuse("backlash",
+                 "expected a preload_torque beside the backlash, found none (counter-torque motors "
+                 "hold the flanks together)");
+  }
+  if (entry.null_leakage_share.value + entry.case_leakage_share.value > 1.0) {
+    table.refuse("case_leakage_share",
+                 "expected leakage shares that sum to at most 1, found more (the rest flows across "
+                 "the motors)");
+  }
+  table.finish();
+  return entry;
+}
+
+RecorderEntry read_recorder(TableReader& table) {
+  RecorderEntry entry;
+  const Range error = Range::not_negative(1e9);
+  entry.sample_rate = table.quantity("sample_rate", Kind::frequency, Range::between(1.0, 1e5));
+  entry.pressure_gain = table.quantity("pressure_gain", Kind::number, Range::not_negative(0.5));
+  entry.pressure_zero = table.quantity("pressure_zero", Kind::pressure, error);
+  entry.pressure_noise = table.quantity("pressure_noise", Kind::pressure, error);
+  entry.pressure_resolution = table.quantity("pressure_resolution", Kind::pressure, error);
+  entry.pressure_range = table.quantity("pressure_range", Kind::pressure, Range::positive(1e10));
+  entry.tachometer_gain = table.quantity("tachometer_gain", Kind::number, Range::not_negative(0.5));
+  entry.tachometer_noise = table.quantity("tachometer_noise", Kind::voltage, error);
+  entry.tachometer_resolution = table.quantity("tachometer_resolution", Kind::voltage, error);
+  table.finish();
+  return entry;
+}
+
+}  // namespace
+
+void read_simulation(TableReader& file, Case& antenna) {
+  if (auto table = file.optional_table("simulation")) {
+    antenna.simulation = read_drive_details(*table);
+  }
+  if (auto table = file.optional_table("recorder")) antenna.recorder = read_recorder(*table);
+}
+
+}  // namespace boresight::app

@@ -1,0 +1,123 @@
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include <boresight/app/redesign/antenna_model.hpp>
+#include <boresight/app/simulate/nonlinear_model.hpp>
+#include <boresight/plant/error.hpp>
+#include <boresight/plant/hydraulics.hpp>
+#include <boresight/plant/normal_numbers.hpp>
+
+namespace boresight::app {
+namespace {
+
+[[noreturn]] void refuse_missing(const Case& antenna, const char* table, const char* purpose) {
+  throw InvalidInput(
+      fmt::format("{}: expected a table [{}] with {}, found none (see "
+                  "docs/case-file.md)",
+                  antenna.path, table, purpose));
+}
+
+const SimulationEntry& simulation_of(const Case& antenna) {
+  if (!antenna.simulation) {
+    refuse_missing(antenna, "simulation", "what the linear plant leaves out of the drive");
+  }
+  return *antenna.simulation;
+}
+
+std::vector<double> line_lengths(const Case& antenna) {
+  std::vector<double> given;
+  for (const auto& line : antenna.oil.lines) given.push_back(line.length.value);
+  if (given.empty()) return {};
+  const auto motors = static_cast<std::size_t>(antenna.motor.count);
+  std::ranges::sort(given);
+  if (given.size() >= motors) return {given.begin(), given.begin() + antenna.motor.count};
+  if (motors == 1) return {given.front()};
+  std::vector<double> lengths;
+  for (std::size_t i = 0; i < motors; ++i) {
+    const double share = static_cast<double>(i) / static_cast<double>(motors - 1);
+    lengths.push_back(given.front() + share * (given.back() - given.front()));
+  }
+  return lengths;
+}
+
+}  // namespace
+
+plant::NonlinearAntenna make_nonlinear_antenna(const Case& antenna) {
+  const SimulationEntry& entry = simulation_of(antenna);
+  plant::DriveDetails details;
+  details.supply_pressure = antenna.drive.supply_pressure.value;
+  details.return_pressure = entry.return_pressure.value;
+  details.null_leakage_share = entry.null_leakage_share.value;
+  details.case_leakage_share = entry.case_leakage_share.value;
+  details.stroke_limit = entry.valve_stroke.value;
+  details.slew_limit = entry.valve_stroke.value / entry.valve_stroke_time.value;
+  details.overlap = entry.valve_overlap.value * entry.valve_stroke.value;
+  details.makeup_pressure = entry.makeup_pressure.value;
+  details.air_fraction = entry.air_fraction.value;
+  details.oil_density = antenna.oil.density.value;
+  details.line_lengths = line_lengths(antenna);
+  details.line_damping_ratio = entry.line_damping_ratio.value;
+  details.friction = {friction_curve(antenna), entry.bristle_stiffness.value,
+                      entry.bristle_damping.value, 0.0};
+  details.offset = {entry.offset_torque.value, 0.0, 0.0, entry.elevation.value,
+                    gear_ratio(antenna)};
+  if (entry.backlash) {
+    details.backlash = entry.backlash->value;
+    details.preload_torque = entry.preload_torque ? entry.preload_torque->value : 0.0;
+  }
+  const MotorEntry& motor = antenna.motor;
+  const OilEntry& oil = antenna.oil;
+  const plant::HydraulicDrive drive{static_cast<double>(motor.count),
+                                    motor.displacement.value,
+                                    motor.torque_efficiency.value,
+                                    motor.volumetric_efficiency.value,
+                                    bulk_modulus(antenna),
+                                    oil.volume_1.value,
+                                    oil.volume_2.value,
+                                    oil.efficiency_in_stiffness
+                                        ? plant::EfficiencyInStiffness::both
+                                        : plant::EfficiencyInStiffness::none};
+  return plant::make_nonlinear_antenna(make_plant(antenna), drive, details);
+}
+
+double tachometer_scale(const Case& antenna) {
+  if (!antenna.tachometer) {
+    refuse_missing(antenna, "tachometer", "the scale the recorder writes motor rates in");
+  }
+  const TachometerEntry& tachometer = *antenna.tachometer;
+  return tachometer.shaft_speed.value * tachometer.motor_teeth.value /
+         (tachometer.tachometer_teeth.value * tachometer.voltage.value);
+}
+
+RecorderSensors make_sensors(const Case& antenna, std::size_t motors, std::uint64_t seed) {
+  if (!antenna.recorder) refuse_missing(antenna, "recorder", "how records are written");
+  const RecorderEntry& recorder = *antenna.recorder;
+  const plant::NormalNumbers numbers(seed, 1000);
+  std::uint64_t drawn = 0;
+  const auto pressure = [&] {
+    const auto pair = numbers.pair(drawn++);
+    return plant::Sensor{1.0 + recorder.pressure_gain.value * pair.real(),
+                         recorder.pressure_zero.value * pair.imag(),
+                         recorder.pressure_noise.value,
+                         recorder.pressure_resolution.value,
+                         0.0,
+                         recorder.pressure_range.value};
+  };
+  RecorderSensors sensors;
+  for (std::size_t motor = 0; motor < motors; ++motor) {
+    sensors.inlet.push_back(pressure());
+    sensors.outlet.push_back(pressure());
+  }
+  const double scale = tachometer_scale(antenna);
+  const double limit = antenna.tachometer->recorder_limit.value;
+  sensors.tachometer = {1.0 + recorder.tachometer_gain.value * numbers.pair(drawn).real(),
+                        0.0,
+                        recorder.tachometer_noise.value * scale,
+                        recorder.tachometer_resolution.value * scale,
+                        -limit * scale,
+                        limit * scale};
+  return sensors;
+}
+
+}  // namespace boresight::app

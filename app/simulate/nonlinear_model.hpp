@@ -1,0 +1,29 @@
+#pragma once
+
+#include <vector>
+
+#include <boresight/app/io/case_file.hpp>
+#include <boresight/plant/nonlinear_antenna.hpp>
+#include <boresight/plant/sensor.hpp>
+
+namespace boresight::app {
+
+/// The nonlinear antenna of a case. Where the case names fewer lines than motors, those between
+/// have lengths evenly between the shortest and the longest.
+/// @throws InvalidInput naming the table that the case lacks.
+plant::NonlinearAntenna make_nonlinear_antenna(const Case& antenna);
+
+/// Transducers of one motor's ports (Pa) and the tachometer (rad/s of motor), each with the gain
+/// and zero that the seed draws for it.
+struct RecorderSensors {
+  std::vector<plant::Sensor> inlet;
+  std::vector<plant::Sensor> outlet;
+  plant::Sensor tachometer;
+};
+RecorderSensors make_sensors(const Case& antenna, std::size_t motors, std::uint64_t seed);
+
+/// Motor rate per tachometer volt (rad/(s V)), eq. 32 of Sommerville. @throws InvalidInput without
+/// a tachometer table.
+double tachometer_scale(const Case& antenna);
+
+}  // namespace boresight::app

@@ -1,0 +1,259 @@
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include <fmt/format.h>
+
+#include <boresight/app/redesign/antenna_model.hpp>
+#include <boresight/app/simulate/nonlinear_model.hpp>
+#include <boresight/app/simulate/position_run.hpp>
+#include <boresight/control/control_law.hpp>
+#include <boresight/design/tuner.hpp>
+#include <boresight/plant/error.hpp>
+#include <boresight/plant/interconnection.hpp>
+#include <boresight/plant/operating_point.hpp>
+#include <boresight/plant/sampling.hpp>
+#include <boresight/plant/simulation.hpp>
+#include <boresight/plant/wind_time_series.hpp>
+
+namespace boresight::app {
+namespace {
+
+using Eigen::Index;
+using Eigen::VectorXd;
+
+constexpr double degree = std::numbers::pi / 180.0;
+constexpr double millidegree_at_sky = 1e-3 * degree;
+constexpr Index intervals_per_sample = 4;
+
+// The law for a digital controller that is told where to point and how fast that moves.
+plant::StateSpace sampled_law(const control::ControlLaw& law, double sample_time) {
+  const auto continuous =
+      plant::renamed(control::to_state_space(law), {{"encoder", "encoder_error"},
+                                                    {"rate_disturbance", "reference_rate"},
+                                                    {"valve_demand", "valve_command"}});
+  Eigen::MatrixXd difference(1, 2);
+  difference << 1.0, -1.0;
+  const auto error = plant::static_gain(difference, {"encoder", "reference"}, {"encoder_error"});
+  return plant::sample(
+      plant::connect({continuous, error}, {"tachometer", "encoder", "reference", "reference_rate"},
+                     {"valve_command"}),
+      sample_time, plant::SamplingMethod::tustin);
+}
+
+// What moves where: at the samples of the run, in motor radians and N m at the motor.
+struct Course {
+  VectorXd reference;
+  VectorXd reference_rate;
+  VectorXd wind_torque;
+  plant::Trim start;
+};
+
+struct PositionRun {
+  plant::SimulationResult result;
+  double predicted_rms = 0.0;  // rad of motor
+  double interval = 0.0;       // s
+};
+
+double controller_sample_time(const Case& antenna) {
+  return antenna.controller_delay.value / 1.5;
+}
+
+double run_interval(const Case& antenna) {
+  return controller_sample_time(antenna) / static_cast<double>(intervals_per_sample);
+}
+
+PositionRun run_position_loop(const Case& antenna, const Course& course, std::uint64_t seed,
+                              const RunProgress& progress) {
+  const auto problem = make_problem(antenna);
+  const auto tuned =
+      design::tune(problem, control::LoopStructure::pi_with_lag, make_goals(antenna), {});
+  if (tuned.status != design::TuningStatus::optimal) {
+    throw InfeasibleRequirement(fmt::format(
+        "{}: no control law meets the hard goals, so there is none to simulate", antenna.path));
+  }
+  const auto model = make_nonlinear_antenna(antenna);
+  const double sample_time = controller_sample_time(antenna);
+  plant::LinearSampledController controller(
+      sampled_law(tuned.law, sample_time),
+      {VectorXd::Constant(1, model.valve.stroke_limit), Eigen::MatrixXd()});
+  plant::SimulationPlan plan;
+  plan.interval = run_interval(antenna);
+  plan.state = plant::trim(model, course.start).state;
+  plan.signals = {"reference", "reference_rate", "wind_torque"};
+  plan.values.resize(course.reference.size(), 3);
+  plan.values << course.reference, course.reference_rate, course.wind_torque;
+  plan.controller = &controller;
+  plan.computation_delay = sample_time;
+  plan.sensors = {{.noise = antenna.sensors.tachometer_noise.value},
+                  {.noise = antenna.sensors.encoder_noise.value * problem.gear_ratio}};
+  plan.seed = seed;
+  if (progress) {
+    plan.progress = [&](Index done, Index all) {
+      return progress(static_cast<double>(done) / static_cast<double>(all));
+    };
+  }
+  return {plant::simulate(plant::to_feedback_system(model), plan),
+          std::sqrt(tuned.evaluation.beam_variance()), plan.interval};
+}
+
+VectorXd column(const plant::SimulationResult& run, const char* name) {
+  return run.values.col(std::ranges::find(run.names, name) - run.names.begin());
+}
+
+double rms_about_mean(const VectorXd& values) {
+  return std::sqrt((values.array() - values.mean()).square().mean());
+}
+
+// The record, and errors at the sky from sample `settled` on.
+PositionRecord describe(const Case& antenna, const PositionRun& run, const Course& course,
+                        Index settled) {
+  const double gear = gear_ratio(antenna);
+  const Index samples = run.result.values.rows();
+  const VectorXd reference = course.reference.head(samples);
+  const VectorXd beam = (column(run.result, "beam") - reference) / gear;
+  const VectorXd encoder = (column(run.result, "encoder") - reference) / gear;
+  PositionRecord record;
+  record.complete = run.result.complete;
+  record.sample_time = run.interval;
+  record.duration = run.interval * static_cast<double>(samples - 1);
+  record.predicted_rms = run.predicted_rms / gear;
+  const Index rest = samples - std::min(settled, samples - 1);
+  record.beam_rms = rms_about_mean(beam.tail(rest));
+  record.beam_mean = beam.tail(rest).mean();
+  record.encoder_rms = rms_about_mean(encoder.tail(rest));
+  if (!record.complete) {
+    record.record.comments.push_back(
+        fmt::format("incomplete: interrupted after {:.3f} s of {:.3f} s", record.duration,
+                    run.interval * static_cast<double>(course.reference.size() - 1)));
+  }
+  record.record.columns = {{"time", "s", 3, VectorXd::LinSpaced(samples, 0.0, record.duration)},
+                           {"reference", "deg", 7, reference / (gear * degree)},
+                           {"encoder_error", "mdeg", 5, encoder / millidegree_at_sky},
+                           {"beam_error", "mdeg", 5, beam / millidegree_at_sky},
+                           {"motor_rate", "rad/s", 5, column(run.result, "motor_rate")},
+                           {"motor_torque", "N.m", 4, column(run.result, "motor_torque")},
+                           {"valve_command", "rad/s", 5, column(run.result, "valve_command")},
+                           {"wind_torque_at_motor", "N.m", 4, course.wind_torque.head(samples)}};
+  return record;
+}
+
+}  // namespace
+
+PositionRecord run_tracking(const Case& antenna, std::uint64_t seed, const RunProgress& progress) {
+  constexpr double settle = 60.0;
+  constexpr double measured = 600.0;
+  const auto wind = make_problem(antenna).wind;
+  const double gear = gear_ratio(antenna);
+  const double interval = run_interval(antenna);
+  const double rate = antenna.drive.tracking_rate.value * gear;
+  const auto gusts = plant::synthesise_wind_torque(wind.site, wind.model, wind.mean_speed,
+                                                   settle + measured, interval, seed);
+  const Index samples = gusts.uniform.size();
+  const double mean = plant::mean_wind_torque(wind.site, wind.mean_speed) / gear;
+  Course course;
+  course.wind_torque = ((gusts.uniform + gusts.gradient).array() / gear + mean).matrix();
+  course.reference =
+      VectorXd::LinSpaced(samples, 0.0, rate * interval * static_cast<double>(samples - 1));
+  course.reference_rate = VectorXd::Constant(samples, rate);
+  course.start = {rate, 0.0, VectorXd::Constant(1, mean)};
+  const auto run = run_position_loop(antenna, course, seed, progress);
+  PositionRecord record =
+      describe(antenna, run, course, static_cast<Index>(std::llround(settle / interval)));
+  record.test = "tracking";
+  record.description =
+      fmt::format("tracking at {:.3g} mdeg/s in wind of {:.3g} m/s",
+                  antenna.drive.tracking_rate.value / millidegree_at_sky, wind.mean_speed);
+  return record;
+}
+
+namespace {
+
+// The highest rate up to the case's slew rate (rad/s of motor) that the supply can hold against
+// friction and offset.
+double attainable_rate(const Case& antenna) {
+  const auto model = make_nonlinear_antenna(antenna);
+  const auto holds = [&](double rate) {
+    try {
+      plant::trim(model, {rate, 0.0, {}});
+      plant::trim(model, {-rate, 0.0, {}});
+      return true;
+    } catch (const NumericalFailure&) {
+      return false;
+    }
+  };
+  double highest = antenna.drive.slew_rate.value * gear_ratio(antenna);
+  if (holds(highest)) return highest;
+  double lowest = 0.0;
+  for (int i = 0; i < 20; ++i) {
+    const double middle = 0.5 * (lowest + highest);
+    (holds(middle) ? lowest : highest) = middle;
+  }
+  return lowest;
+}
+
+// What half the torque that the supply has left at a rate gives the whole antenna (rad/s2 of the
+// antenna).
+double attainable_acceleration(const Case& antenna, double rate) {
+  const auto model = make_nonlinear_antenna(antenna);
+  const double gear = gear_ratio(antenna);
+  const double share = rate * gear / model.valve.stroke_limit;
+  const double available =
+      (model.oil.supply_torque - model.oil.return_torque) * (1.0 - share * share);
+  const double needed =
+      plant::friction_torque(model.friction.curve, rate * gear) + std::abs(model.offset.constant);
+  return 0.5 * (available - needed) / (plant::reflected_inertia(make_plant(antenna)) * gear);
+}
+
+}  // namespace
+
+PositionRecord run_slew(const Case& antenna, std::uint64_t seed, const RunProgress& progress) {
+  constexpr double distance = 1.0 * degree;
+  constexpr double still = 5.0;  // s before
+  constexpr double hold = 60.0;  // s after
+  const double wanted = antenna.drive.slew_rate.value;
+  const double attainable = attainable_rate(antenna) / gear_ratio(antenna);
+  const double top = attainable < wanted ? 0.8 * attainable : wanted;
+  const double acceleration = std::min(0.2 * degree, attainable_acceleration(antenna, top));
+  const double ramp = std::min(top / acceleration, std::sqrt(distance / acceleration));
+  const double cruise = distance / (acceleration * ramp) - ramp;
+  const double interval = run_interval(antenna);
+  const double gear = gear_ratio(antenna);
+  const double moving = 2.0 * ramp + cruise;
+  const auto samples = static_cast<Index>(std::ceil((still + moving + hold) / interval)) + 1;
+  Course course;
+  course.wind_torque = VectorXd::Zero(samples);
+  course.reference = course.reference_rate = VectorXd::Zero(samples);
+  for (Index k = 0; k < samples; ++k) {
+    const double t = interval * static_cast<double>(k) - still;
+    const double up = std::clamp(t, 0.0, ramp);
+    const double level = std::clamp(t - ramp, 0.0, cruise);
+    const double down = std::clamp(t - ramp - cruise, 0.0, ramp);
+    course.reference[k] =
+        gear * acceleration * (0.5 * up * up + ramp * level + ramp * down - 0.5 * down * down);
+    course.reference_rate[k] = gear * acceleration * (up - down);
+  }
+  const auto run = run_position_loop(antenna, course, seed, progress);
+  const auto end = static_cast<Index>(std::ceil((still + moving) / interval));
+  PositionRecord record = describe(antenna, run, course, end);
+  record.test = "slew";
+  record.description =
+      fmt::format("{:.3g} deg at up to {:.3g} deg/s and {:.2g} deg/s2", distance / degree,
+                  acceleration * ramp / degree, acceleration / degree);
+  if (attainable < wanted) {
+    record.description += fmt::format(
+        "; the case's slew rate of {:.3g} deg/s is out of reach: against this friction the supply "
+        "holds at most {:.3g} deg/s",
+        wanted / degree, attainable / degree);
+  }
+  const VectorXd error = record.record.columns[2].values * millidegree_at_sky;
+  for (Index k = end; k < error.size(); ++k) {
+    record.overshoot = std::max(record.overshoot, std::abs(error[k]));
+    if (std::abs(error[k]) > millidegree_at_sky) {
+      record.settling_time = interval * static_cast<double>(k + 1 - end);
+    }
+  }
+  return record;
+}
+
+}  // namespace boresight::app

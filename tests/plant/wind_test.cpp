@@ -1,5 +1,6 @@
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -40,7 +41,7 @@ TEST(DavenportSpectrum, IntegratesToTheGustVariance) {
 
 TEST(DavenportSpectrum, PeaksAtOneWaveIn1200Metres) {
   // f S_v is largest at x = sqrt(3): d/dx x^2/(1+x^2)^(4/3) = 0.
-  const double speed = 10.0, peak = std::sqrt(3.0) * speed / 1200.0;
+  const double speed = 10.0, peak = std::numbers::sqrt3 * speed / 1200.0;
   const auto energy = [&](double f) { return f * davenport_spectrum(0.005, speed, f); };
   EXPECT_GT(energy(peak), energy(1.01 * peak));
   EXPECT_GT(energy(peak), energy(0.99 * peak));

@@ -32,16 +32,18 @@ AntennaChannels::AntennaChannels(const ServoValve& valve, const OilCircuit& oil,
     : valve_(valve), oil_(oil), friction_(friction), offset_(offset), gear_(gear) {
   oil_.lines.clear();  // the core's
   position_.fill(-1);
-  const auto activate = [&](Output channel) { position_[channel] = active_++; };
+  const auto activate = [&](Output channel) {
+    position_[static_cast<std::size_t>(channel)] = active_++;
+  };
   activate(flow_1);
   activate(flow_2);
-  activate(friction_torque);
+  activate(friction_and_offset);
   if (friction.bristle_stiffness > 0.0) activate(bristle_rate);
   if (oil.air_fraction > 0.0) {
     activate(softening_1);
     activate(softening_2);
   }
-  if (!std::isinf(gear.backlash)) activate(gear_torque);
+  if (!std::isinf(gear.backlash)) activate(gear_deviation);
   if (!std::isinf(valve.slew_limit)) activate(spool_slew);
 }
 
@@ -80,7 +82,7 @@ void AntennaChannels::flows(const Eigen::Ref<const Eigen::VectorXd>& z,
   dn_dz(flow_2, manifold_2) = into_2.by_drop;
   dn_dz(flow_2, side_2) = makeup_2.derivative;
 
-  if (position_[softening_1] < 0) return;
+  if (position(softening_1) < 0) return;
   const double leak = 2.0 * oil_.null_leakage + oil_.case_leakage;
   const double cross = oil_.cross_leakage;
   const auto soften = [&](Index row, Index flow, double sign, Input side, Input other) {
@@ -95,8 +97,8 @@ void AntennaChannels::flows(const Eigen::Ref<const Eigen::VectorXd>& z,
     dn_dz(row, side) += ratio.derivative * net - less * (cross + leak);
     dn_dz(row, other) += less * cross;
   };
-  soften(position_[softening_1], flow_1, 1.0, side_1, side_2);
-  soften(position_[softening_2], flow_2, -1.0, side_2, side_1);
+  soften(position(softening_1), flow_1, 1.0, side_1, side_2);
+  soften(position(softening_2), flow_2, -1.0, side_2, side_1);
 }
 
 void AntennaChannels::friction(const Eigen::Ref<const Eigen::VectorXd>& z,
@@ -108,13 +110,13 @@ void AntennaChannels::friction(const Eigen::Ref<const Eigen::VectorXd>& z,
   const Slope offset = offset_torque(offset_, z[motor_angle]);
   const double viscous = friction_.curve.viscous_friction;
   const double stiffness = friction_.bristle_stiffness;
-  n[friction_torque] = viscous * rate + offset.value;
-  dn_dz(friction_torque, motor_rate) = viscous;
-  dn_dz(friction_torque, motor_angle) = offset.derivative;
+  n[friction_and_offset] = viscous * rate + offset.value;
+  dn_dz(friction_and_offset, motor_rate) = viscous;
+  dn_dz(friction_and_offset, motor_angle) = offset.derivative;
   if (stiffness == 0.0) {
     const double step = std::tanh(rate / friction_.smoothing_rate);
-    n[friction_torque] += dry.value * step;
-    dn_dz(friction_torque, motor_rate) +=
+    n[friction_and_offset] += dry.value * step;
+    dn_dz(friction_and_offset, motor_rate) +=
         sign * dry.derivative * step + dry.value * (1.0 - step * step) / friction_.smoothing_rate;
     return;
   }
@@ -123,13 +125,13 @@ void AntennaChannels::friction(const Eigen::Ref<const Eigen::VectorXd>& z,
   const double bend = rate - share * load;
   const double by_rate = 1.0 - sign * load / dry.value * (1.0 - share * dry.derivative);
   const double by_bristle = -share * stiffness;
-  const Index row = position_[bristle_rate];
+  const Index row = position(bristle_rate);
   n[row] = bend;
   dn_dz(row, motor_rate) = by_rate;
   dn_dz(row, bristle) = by_bristle;
-  n[friction_torque] += load + friction_.bristle_damping * bend;
-  dn_dz(friction_torque, motor_rate) += friction_.bristle_damping * by_rate;
-  dn_dz(friction_torque, bristle) = stiffness + friction_.bristle_damping * by_bristle;
+  n[friction_and_offset] += load + friction_.bristle_damping * bend;
+  dn_dz(friction_and_offset, motor_rate) += friction_.bristle_damping * by_rate;
+  dn_dz(friction_and_offset, bristle) = stiffness + friction_.bristle_damping * by_bristle;
 }
 
 void AntennaChannels::evaluate(const Eigen::Ref<const Eigen::VectorXd>& z,
@@ -138,13 +140,13 @@ void AntennaChannels::evaluate(const Eigen::Ref<const Eigen::VectorXd>& z,
   dn_dz.setZero();
   flows(z, n, dn_dz);
   friction(z, n, dn_dz);
-  if (const Index row = position_[gear_torque]; row >= 0) {
-    const auto torque = plant::gear_torque(gear_, z[windup], z[windup_rate]);
+  if (const Index row = position(gear_deviation); row >= 0) {
+    const auto torque = gear_torque(gear_, z[windup], z[windup_rate]);
     n[row] = torque.value - gear_.stiffness * z[windup] - gear_.damping * z[windup_rate];
     dn_dz(row, windup) = torque.by_windup - gear_.stiffness;
     dn_dz(row, windup_rate) = torque.by_windup_rate - gear_.damping;
   }
-  if (const Index row = position_[spool_slew]; row >= 0) {
+  if (const Index row = position(spool_slew); row >= 0) {
     const double wanted = valve_.corner * z[spool_rate];
     const double beyond = std::abs(wanted) - valve_.slew_limit;
     n[row] = beyond > 0.0 ? -std::copysign(beyond, wanted) : 0.0;

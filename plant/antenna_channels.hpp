@@ -28,14 +28,14 @@ class AntennaChannels final : public NonlinearChannels {
     input_count
   };
   enum Output : Eigen::Index {
-    flow_1,           // rad/s into side 1, beyond the spool's
-    flow_2,           // rad/s into side 2, beyond minus the spool's
-    friction_torque,  // N m, offset included
-    bristle_rate,     // rad/s
-    softening_1,      // rad/s: what air takes from the flow into side 1
+    flow_1,               // rad/s into side 1, beyond the spool's
+    flow_2,               // rad/s into side 2, beyond minus the spool's
+    friction_and_offset,  // N m, offset included
+    bristle_rate,         // rad/s
+    softening_1,          // rad/s: what air takes from the flow into side 1
     softening_2,
-    gear_torque,  // N m, beyond the linear spring's
-    spool_slew,   // rad/s2, beyond the unlimited spool speed
+    gear_deviation,  // N m, beyond the linear spring's
+    spool_slew,      // rad/s2, beyond the unlimited spool speed
     output_count
   };
 
@@ -45,7 +45,9 @@ class AntennaChannels final : public NonlinearChannels {
   Eigen::Index inputs() const override { return input_count; }
   Eigen::Index outputs() const override { return active_; }
   /// Position of a channel among the outputs, -1 if it is left out.
-  Eigen::Index position(Output channel) const { return position_[channel]; }
+  Eigen::Index position(Output channel) const {
+    return position_[static_cast<std::size_t>(channel)];
+  }
 
   void evaluate(const Eigen::Ref<const Eigen::VectorXd>& z, Eigen::Ref<Eigen::VectorXd> n,
                 Eigen::Ref<Eigen::MatrixXd> dn_dz) const override;

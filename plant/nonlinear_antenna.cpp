@@ -181,7 +181,7 @@ void add_mechanics(Core& core) {
   a(States::motor_angle, States::motor_rate) = 1.0;
   a.row(States::motor_rate) = (motor_torque(core) - gear) / inertia;
   a(States::motor_rate, States::motor_rate) -= antenna.viscous_friction / inertia;
-  b(States::motor_rate, core.channel(Channel::friction_torque)) = -1.0 / inertia;
+  b(States::motor_rate, core.channel(Channel::friction_and_offset)) = -1.0 / inertia;
   a(States::tachometer, States::motor_rate) = antenna.tachometer_corner;
   a(States::tachometer, States::tachometer) = -antenna.tachometer_corner;
   if (core.channels.position(Channel::bristle_rate) >= 0) {
@@ -192,9 +192,9 @@ void add_mechanics(Core& core) {
   a.block(first, first, count, count) += core.structure.a;
   a.middleRows(first, count) += core.structure.b.col(0) * gear;
   b.block(first, 1, count, core.exogenous - 1) = core.structure.b.rightCols(core.exogenous - 1);
-  if (core.channels.position(Channel::gear_torque) >= 0) {
-    b(States::motor_rate, core.channel(Channel::gear_torque)) = -1.0 / inertia;
-    b.col(core.channel(Channel::gear_torque)).segment(first, count) += core.structure.b.col(0);
+  if (core.channels.position(Channel::gear_deviation) >= 0) {
+    b(States::motor_rate, core.channel(Channel::gear_deviation)) = -1.0 / inertia;
+    b.col(core.channel(Channel::gear_deviation)).segment(first, count) += core.structure.b.col(0);
   }
 }
 
@@ -232,11 +232,11 @@ void add_observed(Core& core) {
   c(row++, States::motor_rate) = 1.0;
   c(row++, States::motor_angle) = 1.0;
   c(row++, States::spool) = 1.0;
-  d(row++, core.channel(Channel::friction_torque)) = 1.0;
+  d(row++, core.channel(Channel::friction_and_offset)) = 1.0;
   c.row(row) = core.antenna.gear.stiffness * c.row(Channel::windup) +
                core.antenna.gear.damping * c.row(Channel::windup_rate);
-  if (core.channels.position(Channel::gear_torque) >= 0) {
-    d(row, core.channel(Channel::gear_torque)) = 1.0;
+  if (core.channels.position(Channel::gear_deviation) >= 0) {
+    d(row, core.channel(Channel::gear_deviation)) = 1.0;
   }
   ++row;
   const double pressure = 1.0 / core.antenna.oil.torque_per_pressure;

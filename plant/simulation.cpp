@@ -36,9 +36,10 @@ class ControllerClock {
  public:
   ControllerClock(const SimulationPlan& plan, const std::vector<std::string>& inputs,
                   const std::vector<std::string>& observed)
-      : plan_(plan), controller_(*plan.controller) {
-    period_ = multiple(controller_.sample_time(), plan.interval, "controller sample time");
-    delay_ = multiple(plan.computation_delay, plan.interval, "computation delay");
+      : plan_(plan),
+        controller_(*plan.controller),
+        period_(multiple(controller_.sample_time(), plan.interval, "controller sample time")),
+        delay_(multiple(plan.computation_delay, plan.interval, "computation delay")) {
     if (period_ == 0) throw InvalidInput("simulate: expected a controller sample time above 0");
     std::size_t measured = 0;
     for (const auto& name : controller_.inputs()) {
@@ -109,8 +110,8 @@ class ControllerClock {
 
   const SimulationPlan& plan_;
   SampledController& controller_;
-  Index period_ = 0;
-  Index delay_ = 0;
+  Index period_;
+  Index delay_;
   std::vector<Index> source_;     // observed output of each controller input, or -1
   std::vector<Index> reference_;  // else its signal, or -1
   std::vector<Index> target_;

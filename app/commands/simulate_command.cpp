@@ -149,7 +149,7 @@ class Campaign {
     text += heading("Records");
     for (const auto& path : written_) text += "  " + path + "\n";
     if (!complete_) text += "\nInterrupted: the last record ends where the run did.\n";
-    text += assumed_text(assumed_inputs(antenna_));
+    text += assumed_text(assumed_inputs(antenna_, true));
     return text;
   }
 

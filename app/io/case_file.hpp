@@ -126,7 +126,7 @@ struct SimulationEntry {
   Quantity air_fraction;
   Quantity offset_torque;
   Quantity elevation;
-  std::optional<Quantity> preload_torque;
+  Quantity preload_torque;
   std::optional<Quantity> backlash;  // of the motor; else none
   Quantity rate_loop_gain, rate_loop_corner;  // the analog rate loop of the tests
 };

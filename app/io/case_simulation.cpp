@@ -23,17 +23,11 @@ SimulationEntry read_drive_details(TableReader& table) {
   entry.air_fraction = table.quantity("air_fraction", Kind::number, Range::between(0.0, 0.2));
   entry.offset_torque = table.quantity("offset_torque", Kind::torque);
   entry.elevation = table.quantity("elevation", Kind::angle, Range::between(-0.2, 3.4));
-  entry.preload_torque =
-      table.optional_quantity("preload_torque", Kind::torque, Range::positive(1e9));
+  entry.preload_torque = table.quantity("preload_torque", Kind::torque, Range::positive(1e9));
   entry.backlash = table.optional_quantity("backlash", Kind::angle, Range::positive(1e3));
   entry.rate_loop_gain = table.quantity("rate_loop_gain", Kind::number, Range::positive(1e4));
   entry.rate_loop_corner =
       table.quantity("rate_loop_corner", Kind::frequency, Range::positive(1e4));
-  if (entry.backlash && !entry.preload_torque) {
-    table.refuse("backlash",
-                 "expected a preload_torque beside the backlash, found none (counter-torque motors "
-                 "hold the flanks together)");
-  }
   if (entry.null_leakage_share.value + entry.case_leakage_share.value > 1.0) {
     table.refuse("case_leakage_share",
                  "expected leakage shares that sum to at most 1, found more (the rest flows across "

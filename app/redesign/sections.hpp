@@ -23,8 +23,9 @@ MatchingSection match_inertia(const Case& antenna, const StudyOptions& options);
 /// Tuning, choices and matching in one pool of work; fills the report's sections.
 void redesign(const Case& antenna, const StudyOptions& options, Report& report);
 
-/// Quantities of basis `assumed`, and those whose uncertainty is.
-std::vector<Quantity> assumed_inputs(const Case& antenna);
+/// Quantities of basis `assumed`, and those whose uncertainty is; those that only simulated tests
+/// rest on if `simulated`.
+std::vector<Quantity> assumed_inputs(const Case& antenna, bool simulated = false);
 /// A few sentences that say what the numbers mean, from the numbers.
 std::vector<std::string> conclude(const Report& report);
 

@@ -139,11 +139,10 @@ std::vector<AntennaTest> drive_tests(const Case& antenna, const std::string& nam
   }
   if (name == "tracking" || name == "slew") return {};
   const auto model = make_nonlinear_antenna(antenna);
-  make_sensors(antenna, 0, 1);  // refuses what the recorder lacks
-  const double step = 1.0 / antenna.recorder->sample_rate.value;
+  const double step = 1.0 / recorder_of(antenna).sample_rate.value;
   const double stroke = model.valve.stroke_limit;
   const double scale = tachometer_scale(antenna);
-  const double limit = antenna.tachometer->recorder_limit.value * scale;
+  const double limit = tachometer_of(antenna).recorder_limit.value * scale;
   if (name == "slosh") return {slosh(stroke, std::min(step, 1e-3))};
   if (name == "fast-ramp") {
     return {ramp(name, "triangle to the valve, fast enough to leave the recorder's range", step,

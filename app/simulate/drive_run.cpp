@@ -58,7 +58,7 @@ DriveRecord run_drive_test(const Case& antenna, const AntennaTest& test, std::ui
   const std::size_t motors = model.oil.lines.size();
   const RecorderSensors sensors = make_sensors(antenna, motors, seed);
   const auto drive = plant::to_feedback_system(model);
-  const SimulationEntry& entry = *antenna.simulation;
+  const SimulationEntry& entry = simulation_of(antenna);
   const auto system =
       test.rate_loop_closed
           ? plant::closed(drive, rate_loop(entry.rate_loop_gain.value,

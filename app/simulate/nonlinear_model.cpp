@@ -18,13 +18,6 @@ namespace {
                   antenna.path, table, purpose));
 }
 
-const SimulationEntry& simulation_of(const Case& antenna) {
-  if (!antenna.simulation) {
-    refuse_missing(antenna, "simulation", "what the linear plant leaves out of the drive");
-  }
-  return *antenna.simulation;
-}
-
 std::vector<double> line_lengths(const Case& antenna) {
   std::vector<double> given;
   for (const auto& line : antenna.oil.lines) given.push_back(line.length.value);
@@ -42,6 +35,25 @@ std::vector<double> line_lengths(const Case& antenna) {
 }
 
 }  // namespace
+
+const SimulationEntry& simulation_of(const Case& antenna) {
+  if (!antenna.simulation) {
+    refuse_missing(antenna, "simulation", "what the linear plant leaves out of the drive");
+  }
+  return *antenna.simulation;
+}
+
+const RecorderEntry& recorder_of(const Case& antenna) {
+  if (!antenna.recorder) refuse_missing(antenna, "recorder", "how records are written");
+  return *antenna.recorder;
+}
+
+const TachometerEntry& tachometer_of(const Case& antenna) {
+  if (!antenna.tachometer) {
+    refuse_missing(antenna, "tachometer", "the scale the recorder writes motor rates in");
+  }
+  return *antenna.tachometer;
+}
 
 plant::NonlinearAntenna make_nonlinear_antenna(const Case& antenna) {
   const SimulationEntry& entry = simulation_of(antenna);
@@ -64,7 +76,7 @@ plant::NonlinearAntenna make_nonlinear_antenna(const Case& antenna) {
                     gear_ratio(antenna)};
   if (entry.backlash) {
     details.backlash = entry.backlash->value;
-    details.preload_torque = entry.preload_torque ? entry.preload_torque->value : 0.0;
+    details.preload_torque = entry.preload_torque.value;
   }
   const MotorEntry& motor = antenna.motor;
   const OilEntry& oil = antenna.oil;
@@ -82,17 +94,13 @@ plant::NonlinearAntenna make_nonlinear_antenna(const Case& antenna) {
 }
 
 double tachometer_scale(const Case& antenna) {
-  if (!antenna.tachometer) {
-    refuse_missing(antenna, "tachometer", "the scale the recorder writes motor rates in");
-  }
-  const TachometerEntry& tachometer = *antenna.tachometer;
+  const TachometerEntry& tachometer = tachometer_of(antenna);
   return tachometer.shaft_speed.value * tachometer.motor_teeth.value /
          (tachometer.tachometer_teeth.value * tachometer.voltage.value);
 }
 
 RecorderSensors make_sensors(const Case& antenna, std::size_t motors, std::uint64_t seed) {
-  if (!antenna.recorder) refuse_missing(antenna, "recorder", "how records are written");
-  const RecorderEntry& recorder = *antenna.recorder;
+  const RecorderEntry& recorder = recorder_of(antenna);
   const plant::NormalNumbers numbers(seed, 1000);
   std::uint64_t drawn = 0;
   const auto pressure = [&] {
@@ -110,7 +118,7 @@ RecorderSensors make_sensors(const Case& antenna, std::size_t motors, std::uint6
     sensors.outlet.push_back(pressure());
   }
   const double scale = tachometer_scale(antenna);
-  const double limit = antenna.tachometer->recorder_limit.value;
+  const double limit = tachometer_of(antenna).recorder_limit.value;
   sensors.tachometer = {1.0 + recorder.tachometer_gain.value * numbers.pair(drawn).real(),
                         0.0,
                         recorder.tachometer_noise.value * scale,

@@ -8,6 +8,12 @@
 
 namespace boresight::app {
 
+// Tables of a case that simulated tests need. @throws InvalidInput naming the table if there is
+// none.
+const SimulationEntry& simulation_of(const Case& antenna);
+const RecorderEntry& recorder_of(const Case& antenna);
+const TachometerEntry& tachometer_of(const Case& antenna);
+
 /// The nonlinear antenna of a case. Where the case names fewer lines than motors, those between
 /// have lengths evenly between the shortest and the longest.
 /// @throws InvalidInput naming the table that the case lacks.

@@ -34,6 +34,9 @@ void PrintTo(const Mistake& mistake, std::ostream* stream) {
 const std::vector<Mistake>& mistakes() {
   static const std::vector<Mistake> list{
       // Keys.
+      {"LeakageSharesBeyondOne", "case_leakage_share = { value = \"0.1\"",
+       "case_leakage_share = ^{ value = \"0.95\"", "simulation.case_leakage_share",
+       "leakage shares that sum to at most 1", "more"},
       {"MissingKey", "[oil]\ndensity", "^[oil]\n# density", "oil.density",
        "a density (such as kg/m3, lbm/ft3)", "nothing: key is missing"},
       {"MissingKeyForAMisspeltOne", "[motor]\ncount", "^[motor]\ncuont", "motor.count",

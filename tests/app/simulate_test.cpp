@@ -70,7 +70,7 @@ TEST(DriveRun, FastRampLeavesTheRecordersRange) {
   const auto& columns = run.record.columns;
   ASSERT_EQ(columns.size(), 12U);
   EXPECT_EQ(columns[9].name, "tach");
-  EXPECT_GT(run.at_limit, 0.05);
+  EXPECT_GT(run.at_limit, 0.02);
   EXPECT_NEAR(columns[9].values.maxCoeff(), 10.0, 5e-3);
   EXPECT_NEAR(columns[9].values.minCoeff(), -10.0, 5e-3);
   EXPECT_GT(run.largest_rate, 10.0 * tachometer_scale(antenna));

@@ -27,6 +27,18 @@ void peer_rms_by_spectrum(benchmark::State& state) {
 }
 BENCHMARK(peer_rms_by_spectrum)->Arg(5)->Arg(20)->Arg(50)->Arg(150)->Arg(500);
 
+void peer_rms_by_spectrum_to_a_millionth(benchmark::State& state) {
+  const auto system = reference::peer_modal_system(state.range(0));
+  control::SpectralRms result;
+  for (auto _ : state) {
+    result =
+        control::spectral_rms(plant::ModalResponse(system, "n", "y"), {.relative_tolerance = 1e-6});
+  }
+  state.counters["value0"] = result.rms;
+  state.counters["evaluations"] = static_cast<double>(result.evaluations);
+}
+BENCHMARK(peer_rms_by_spectrum_to_a_millionth)->Arg(5)->Arg(20)->Arg(50)->Arg(150)->Arg(500);
+
 void report(benchmark::State& state, const control::PeakGain& peak) {
   state.counters["value0"] = peak.lower;
   state.counters["value1"] = peak.frequency;

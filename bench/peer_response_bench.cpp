@@ -1,5 +1,5 @@
-// 1000-point frequency response from wind torque to pointing error, preparation included but where
-// the name says so.
+// 1000-point frequency response from wind torque to pointing error, preparation included but in
+// `prepared`, which is to be held against programs that set their formulas up beforehand.
 #include <benchmark/benchmark.h>
 
 #include "../tests/peer_family.hpp"
@@ -29,14 +29,14 @@ void peer_response_by_modes(benchmark::State& state) {
 }
 BENCHMARK(peer_response_by_modes)->Arg(5)->Arg(20)->Arg(50)->Arg(150)->Arg(500);
 
-void prepared_response(benchmark::State& state) {
+void peer_response_prepared(benchmark::State& state) {
   const plant::ModalResponse prepared(reference::peer_modal_system(state.range(0)), "t", "y");
   const Eigen::ArrayXd w = peer_frequencies();
   Eigen::ArrayXcd response(w.size());
   for (auto _ : state) prepared.evaluate(w, response);
   report(state, response);
 }
-BENCHMARK(prepared_response)->Arg(5)->Arg(20)->Arg(50)->Arg(150)->Arg(500);
+BENCHMARK(peer_response_prepared)->Arg(5)->Arg(20)->Arg(50)->Arg(150)->Arg(500);
 
 void peer_response_dense(benchmark::State& state) {
   const auto system = channel(peer_closed_loop(state.range(0)), "t", "y");

@@ -127,7 +127,7 @@ struct SimulationEntry {
   Quantity offset_torque;
   Quantity elevation;
   Quantity preload_torque;
-  std::optional<Quantity> backlash;  // of the motor; else none
+  std::optional<Quantity> backlash;           // of the motor; else none
   Quantity rate_loop_gain, rate_loop_corner;  // the analog rate loop of the tests
 };
 

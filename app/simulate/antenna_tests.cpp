@@ -53,8 +53,8 @@ AntennaTest slosh(double stroke, double sample_time) {
           false,
           true,
           sampled(10.0, sample_time, [=](double t) {
-            if (t >= 1.0 && t < 2.0) return 0.05 * stroke;
-            return t >= 6.0 && t < 7.0 ? -0.05 * stroke : 0.0;
+            if (t >= 1.0 && t < 2.0) return 0.3 * stroke;
+            return t >= 6.0 && t < 7.0 ? -0.3 * stroke : 0.0;
           })};
 }
 

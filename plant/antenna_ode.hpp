@@ -44,7 +44,8 @@ class AntennaOde final : public OdeSystem {
   void event_values(double t, const Eigen::Ref<const Eigen::VectorXd>& x,
                     Eigen::Ref<Eigen::VectorXd> g) const override;
   Eigen::Index parameters() const override { return static_cast<Eigen::Index>(varied_.size()); }
-  /// By central differences over a 1e-5th of each parameter: right to some 1e-9.
+  /// By central differences over a 1e-5th of each parameter: right to some 1e-9 of the largest
+  /// terms of the rate, which grow with the angle turned where a spring is the parameter.
   void rate_by_parameters(double t, const Eigen::Ref<const Eigen::VectorXd>& x,
                           Eigen::Ref<Eigen::MatrixXd> df_dp) const override;
 

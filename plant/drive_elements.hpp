@@ -50,7 +50,8 @@ struct OilCircuit {
   double case_leakage = 0.0;
   double supply_torque = 0.0;  // N m
   double return_torque = 0.0;  // N m
-  /// Fall of the supply with the flow taken from it (N m per rad/s).
+  /// Fall of the supply with the port's opening (N m per rad/s), which is the flow taken from it
+  /// where the load is small.
   double supply_droop = 0.0;
   /// Pressure difference (N m) below which the orifice's square root turns into a straight line.
   double laminar_torque = 0.0;

@@ -19,6 +19,11 @@ FeedbackSystem closed(const FeedbackSystem& system, const StateSpace& controller
   const auto& linear = system.linear;
   const auto channels_begin = linear.inputs.end() - system.channel_outputs;
   const auto observed_begin = linear.outputs.begin() + system.channel_inputs;
+  if (controller.sample_time != 0.0) {
+    throw InvalidInput(
+        fmt::format("closed: expected a continuous controller, found one sampled at {} s",
+                    controller.sample_time));
+  }
   for (const auto& output : controller.outputs) {
     if (std::find(linear.inputs.begin(), channels_begin, output) == channels_begin) {
       throw InvalidInput(

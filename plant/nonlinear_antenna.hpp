@@ -30,7 +30,7 @@ struct NonlinearAntenna {
 struct DriveDetails {
   double supply_pressure = 0.0;  // Pa
   double return_pressure = 0.0;  // Pa
-  double supply_droop = 0.0;     // Pa per rad/s of motor
+  double supply_droop = 0.0;     // Pa per rad/s of port opening
   /// Shares of the leakage rate that flow through the valve's centre, and from either side to the
   /// case; the rest flows across the motors. Without either the sides' mean pressure is left to
   /// drift.

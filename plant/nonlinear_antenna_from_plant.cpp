@@ -1,3 +1,5 @@
+#include <algorithm>
+
 #include <fmt/format.h>
 
 #include <boresight/plant/error.hpp>
@@ -17,7 +19,7 @@ OilCircuit make_oil(const Drive& linear, const HydraulicDrive& drive, const Driv
   // A flow between the sides works on both stiffnesses, one out of a side on that side's half.
   const double null = details.null_leakage_share;
   const double case_share = details.case_leakage_share;
-  oil.cross_leakage = linear.leakage_rate * (1.0 - null - case_share) / stiffness;
+  oil.cross_leakage = linear.leakage_rate * std::max(0.0, 1.0 - null - case_share) / stiffness;
   oil.null_leakage = linear.leakage_rate * null / stiffness;
   oil.case_leakage = 2.0 * linear.leakage_rate * case_share / stiffness;
   oil.supply_torque = details.supply_pressure * torque;
@@ -42,14 +44,14 @@ OilCircuit make_oil(const Drive& linear, const HydraulicDrive& drive, const Driv
 
 NonlinearAntenna make_nonlinear_antenna(const AntennaPlant& plant, const HydraulicDrive& drive,
                                         const DriveDetails& details) {
-  for (const double share : {details.null_leakage_share, details.case_leakage_share,
-                             1.0 - details.null_leakage_share - details.case_leakage_share}) {
-    if (!(share >= 0.0)) {
-      throw InvalidInput(fmt::format(
-          "make_nonlinear_antenna: expected leakage shares of at least 0 that sum to at most 1, "
-          "found {} through the valve and {} to the case",
-          details.null_leakage_share, details.case_leakage_share));
-    }
+  const double null = details.null_leakage_share;
+  const double case_share = details.case_leakage_share;
+  if (!(null >= 0.0 && case_share >= 0.0 && null + case_share <= 1.0)) {
+    throw InvalidInput(
+        fmt::format("make_nonlinear_antenna: expected leakage shares of at least 0 that sum to at "
+                    "most 1, found "
+                    "{} through the valve and {} to the case",
+                    null, case_share));
   }
   NonlinearAntenna antenna;
   antenna.valve = {plant.drive.valve_corner, plant.drive.valve_damping, details.stroke_limit,

@@ -61,8 +61,7 @@ class SteadyMotion {
       point_.input.tail(wind) = motion.wind;
     }
     point_.state = state_at_rest(antenna) + motor_angle_ * rigid_rotation(antenna);
-    point_.state[States::spool] = point_.state[States::motor_rate] =
-        point_.state[States::tachometer] = motion.motor_rate;
+    point_.state[States::motor_rate] = point_.state[States::tachometer] = motion.motor_rate;
     for (Index i = 0; i < rotation_.size(); ++i) {
       // A rate follows its angle.
       if (rotation_[i] != 0.0) point_.state[i + 1] = rotation_[i];
@@ -73,7 +72,20 @@ class SteadyMotion {
                         motion.motor_rate) /
           antenna.friction.bristle_stiffness;
     }
-    point_.input[0] = motion.motor_rate;
+    // Newton's method has no slope to follow from within the valve's overlap: start beyond it, on
+    // the side that motion or, at rest, the load asks for.
+    const auto& oil = antenna.oil;
+    const double load =
+        offset_torque(antenna.offset, motor_angle_).value +
+        (motion.motor_rate == 0.0 ? 0.0
+                                  : friction_torque(antenna.friction.curve, motion.motor_rate)) -
+        point_.input.tail(wind).sum();
+    const double leak =
+        (oil.cross_leakage + 0.5 * (2.0 * oil.null_leakage + oil.case_leakage)) * load;
+    const double flow = motion.motor_rate + leak;
+    double spool = flow - antenna.valve.null_offset;
+    if (flow != 0.0) spool += std::copysign(antenna.valve.overlap, flow);
+    point_.state[States::spool] = point_.input[0] = spool;
   }
 
   OperatingPoint solve() {
@@ -128,13 +140,14 @@ class SteadyMotion {
   }
 
   double relative_size(const Eigen::VectorXd& residual) const {
+    if (!residual.allFinite()) return std::numeric_limits<double>::infinity();
     const Index n = rotation_.size();
     double size = std::abs(residual[n]) / std::max(1.0, std::abs(motor_angle_));
     for (Index i = 0; i < n; ++i) {
       const double scale = std::max(scale_[i], 1e-6);
       size = std::max(size, std::abs(residual[i]) / scale);
     }
-    return std::isnan(size) ? std::numeric_limits<double>::infinity() : size;
+    return size;
   }
 
   Eigen::MatrixXd jacobian() const {

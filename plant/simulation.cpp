@@ -15,6 +15,8 @@ namespace {
 using Eigen::Index;
 
 constexpr Index progress_every = 1024;
+// Other streams of the seed are the wind's.
+constexpr std::uint64_t first_sensor_stream = 100;
 
 Index position(const std::vector<std::string>& names, const std::string& name) {
   const auto found = std::ranges::find(names, name);
@@ -23,7 +25,8 @@ Index position(const std::vector<std::string>& names, const std::string& name) {
 
 Index multiple(double time, double interval, const char* what) {
   const double count = time / interval;
-  if (!(count >= 0.0) || std::abs(count - std::round(count)) > 1e-9 * std::max(1.0, count)) {
+  if (!(count >= 0.0) || !std::isfinite(count) ||
+      std::abs(count - std::round(count)) > 1e-9 * std::max(1.0, count)) {
     throw InvalidInput(
         fmt::format("simulate: expected a {} that is a multiple of the interval {} s, found {} s",
                     what, interval, time));
@@ -46,6 +49,12 @@ class ControllerClock {
       const Index from = position(observed, name);
       source_.push_back(from);
       reference_.push_back(from < 0 ? position(plan.signals, name) : -1);
+      if (from < 0 && reference_.back() < 0) {
+        throw InvalidInput(fmt::format(
+            "simulate: expected inputs of the controller that the system observes or a signal "
+            "gives, found '{}'",
+            name));
+      }
       if (from >= 0) ++measured;
     }
     if (!plan.sensors.empty() && plan.sensors.size() != measured) {
@@ -94,12 +103,12 @@ class ControllerClock {
     for (std::size_t i = 0; i < source_.size(); ++i) {
       double& value = measured_[static_cast<Index>(i)];
       if (source_[i] < 0) {
-        value = reference_[i] < 0 ? 0.0 : plan_.values(k, reference_[i]);
+        value = plan_.values(k, reference_[i]);
         continue;
       }
       value = outputs[source_[i]];
       if (plan_.sensors.empty()) continue;
-      const NormalNumbers numbers(plan_.seed, sensor);
+      const NormalNumbers numbers(plan_.seed, first_sensor_stream + sensor);
       value = reading(plan_.sensors[sensor], value,
                       numbers.pair(static_cast<std::uint64_t>(number)).real());
       ++sensor;
@@ -120,7 +129,8 @@ class ControllerClock {
   Eigen::VectorXd acting_;
 };
 
-void check_signals(const SimulationPlan& plan, const std::vector<std::string>& inputs) {
+void check_signals(const SimulationPlan& plan, const std::vector<std::string>& inputs,
+                   const std::vector<std::string>& observed) {
   if (plan.values.cols() != static_cast<Index>(plan.signals.size()) || plan.values.rows() < 2) {
     throw InvalidInput(
         fmt::format("simulate: expected at least 2 samples of {} signals, found {} x {}",
@@ -134,9 +144,9 @@ void check_signals(const SimulationPlan& plan, const std::vector<std::string>& i
     const auto& name = plan.signals[i];
     const bool driven =
         plan.controller != nullptr && position(plan.controller->outputs(), name) >= 0;
-    const bool known =
-        position(inputs, name) >= 0 ||
-        (plan.controller != nullptr && position(plan.controller->inputs(), name) >= 0);
+    const bool known = position(inputs, name) >= 0 ||
+                       (plan.controller != nullptr && position(observed, name) < 0 &&
+                        position(plan.controller->inputs(), name) >= 0);
     if (driven || !known || position(plan.signals, name) != static_cast<Index>(i)) {
       throw InvalidInput(fmt::format(
           "simulate: expected each signal once, an input of the system that the controller does "
@@ -157,7 +167,7 @@ SimulationResult simulate(const FeedbackSystem& system, const SimulationPlan& pl
                                         linear.inputs.end() - system.channel_outputs);
   const std::vector<std::string> output_names(linear.outputs.begin() + system.channel_inputs,
                                               linear.outputs.end());
-  check_signals(plan, inputs);
+  check_signals(plan, inputs, output_names);
   std::optional<ControllerClock> clock;
   if (plan.controller != nullptr) clock.emplace(plan, inputs, output_names);
   if (plan.state.size() != 0) integrator.start_from(plan.state);

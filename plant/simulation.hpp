@@ -34,7 +34,7 @@ struct SimulationPlan {
   /// What the controller's measured inputs pass through, in the order of its inputs that the system
   /// observes; empty: read exactly.
   std::vector<Sensor> sensors;
-  std::uint64_t seed = 1;  // of the sensors' noise
+  std::uint64_t seed = 1;  // of the sensors' noise, streams 100 and up
   double relative_tolerance = 1e-6;
   Eigen::VectorXd absolute_tolerance = Eigen::VectorXd::Constant(1, 1e-8);
   /// Asked every so often with the intervals done; false ends the run there.
@@ -51,8 +51,9 @@ struct SimulationResult {
   FastIntegratorStatistics statistics;
 };
 
-/// Runs the plan by FastIntegrator. Signals that nothing names are 0.
-/// @throws InvalidInput for names that are unknown, given twice or driven by the controller, sizes
+/// Runs the plan by FastIntegrator. Inputs of the system that no signal names are 0.
+/// @throws InvalidInput for names that are unknown, given twice or driven by the controller, inputs
+/// of the controller that are neither observed nor given, sizes
 /// that do not fit, a sample time or delay that is no multiple of the interval; as FastIntegrator.
 SimulationResult simulate(const FeedbackSystem& system, const SimulationPlan& plan);
 

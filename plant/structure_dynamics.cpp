@@ -72,6 +72,20 @@ std::array<Index, places.size()> check(const VibrationModes& modes) {
     }
     rows[k] = found - modes.displacements.begin();
   }
+  // What a force does at a place and what the place sees are one shape: by Betti's law, and so that
+  // the gear gives no energy of its own.
+  const Eigen::VectorXd pushed = modes.force_shape.col(0);
+  const Eigen::VectorXd seen = modes.displacement_shape.row(rows[0]).transpose();
+  if ((pushed - seen).cwiseAbs().maxCoeff() > 1e-6 * seen.cwiseAbs().maxCoeff()) {
+    throw InvalidInput(
+        "structure: expected the force shape of gear_torque to be the displacement shape of "
+        "bull_gear_angle, found another");
+  }
+  Index turn = 0;
+  modes.frequency.minCoeff(&turn);
+  if (seen[turn] == 0.0) {
+    throw InvalidInput("structure: expected the bull gear to move in the mode of frequency 0");
+  }
   return rows;
 }
 

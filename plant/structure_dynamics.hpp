@@ -13,8 +13,8 @@ namespace boresight::plant {
 /// The flexible antenna behind the gear spring: bull gear, springs and masses; or vibration modes
 /// of the free antenna (pinions taken off) as a finite-element program exports them, reflected to
 /// the motor shaft: forces gear_torque (N m) first, then the wind's, one a patch of the dish;
-/// displacements bull_gear_angle, encoder, beam (rad of motor); one mode of frequency 0, the turn
-/// about the axis.
+/// displacements bull_gear_angle (the same shape as gear_torque's force), encoder, beam (rad of
+/// motor); one mode of frequency 0, the turn about the axis.
 using StructureModel = std::variant<Structure, VibrationModes>;
 
 /// The structure alone: inputs gear_torque, then wind_torque (or the wind forces of the modes);

@@ -1,6 +1,6 @@
 #include <algorithm>
 #include <filesystem>
-#include <numbers>
+#include <optional>
 #include <system_error>
 
 #include <fmt/format.h>
@@ -32,20 +32,25 @@ std::vector<std::string> drive_row(const DriveRecord& record) {
           fmt::format("{:.0f}", 1.0 / record.sample_time),
           fmt::format("{:.2f}", record.largest_rate),
           fmt::format("{:.1f}", record.largest_torque),
-          fmt::format("{:.1f}", record.breakaway_torque),
+          fmt::format("{:.1f}", record.static_friction),
           fmt::format("{:.1f} %", 100.0 * record.at_limit)};
+}
+
+std::string in_millidegrees(const std::optional<double>& angle) {
+  return angle ? fmt::format("{:.3f}", *angle / millidegree) : "-";
 }
 
 std::vector<std::string> position_row(const PositionRecord& record) {
   const bool slew = record.test == "slew";
   return {record.test,
           length_of(record.duration, record.complete),
-          fmt::format("{:.3f}", record.beam_rms / millidegree),
-          fmt::format("{:.3f}", record.predicted_rms / millidegree),
-          fmt::format("{:.3f}", record.encoder_rms / millidegree),
-          fmt::format("{:.3f}", record.beam_mean / millidegree),
-          slew ? fmt::format("{:.2f}", record.settling_time) : "-",
-          slew ? fmt::format("{:.2f}", record.overshoot / millidegree) : "-"};
+          in_millidegrees(record.beam_rms),
+          in_millidegrees(record.predicted_rms),
+          in_millidegrees(record.encoder_rms),
+          in_millidegrees(record.beam_mean),
+          record.settling_time ? fmt::format("{:.2f}", *record.settling_time)
+                               : std::string(slew && record.complete ? "never" : "-"),
+          in_millidegrees(record.overshoot)};
 }
 
 std::filesystem::path make_folder(const std::string& folder) {
@@ -79,7 +84,9 @@ class Campaign {
     check_tests(arguments.tests);
     folder_ = make_folder(arguments.folder);
     for (const auto& name : arguments.tests) {
-      require_writable((folder_ / (name + ".csv")).string());
+      const auto tests = drive_tests(antenna_, name);
+      if (tests.empty()) require_writable((folder_ / (name + ".csv")).string());
+      for (const auto& test : tests) require_writable((folder_ / (test.name + ".csv")).string());
     }
   }
 
@@ -158,8 +165,8 @@ class Campaign {
   Case antenna_;
   std::filesystem::path folder_;
   bool complete_ = true;
-  Rows drive_rows_{{"test", "s", "samples/s", "rate rad/s", "torque N.m",
-                    "friction below 0.2 rad/s N.m", "tach at limit"}};
+  Rows drive_rows_{{"test", "s", "samples/s", "rate rad/s", "torque N.m", "friction near rest N.m",
+                    "tach at limit"}};
   Rows position_rows_{
       {"test", "s", "beam rms", "linear", "encoder rms", "beam mean", "settled s", "overshoot"}};
   std::vector<std::string> descriptions_;

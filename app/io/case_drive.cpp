@@ -95,6 +95,9 @@ void read_drive(TableReader& file, Case& antenna) {
       curve.quantity("saturating_rate", Kind::angular_rate, Range::positive());
   friction.viscous = curve.quantity("viscous", Kind::viscous_friction, Range::not_negative());
   curve.finish();
+  if (friction.breakaway.value < friction.coulomb.value) {
+    curve.refuse("breakaway", "expected at least the Coulomb torque, found less");
+  }
 }
 
 void read_sensors(TableReader& file, Case& antenna) {

@@ -125,7 +125,6 @@ struct SimulationEntry {
   Quantity makeup_pressure;
   Quantity air_fraction;
   Quantity offset_torque;
-  Quantity elevation;
   Quantity preload_torque;
   std::optional<Quantity> backlash;           // of the motor; else none
   Quantity rate_loop_gain, rate_loop_corner;  // the analog rate loop of the tests

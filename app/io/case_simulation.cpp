@@ -3,7 +3,7 @@
 namespace boresight::app {
 namespace {
 
-SimulationEntry read_drive_details(TableReader& table) {
+SimulationEntry read_drive_details(TableReader& table, const Case& antenna) {
   SimulationEntry entry;
   const Range share = Range::between(0.0, 1.0);
   entry.return_pressure =
@@ -22,12 +22,19 @@ SimulationEntry read_drive_details(TableReader& table) {
       table.quantity("makeup_pressure", Kind::pressure, Range::not_negative(1e8));
   entry.air_fraction = table.quantity("air_fraction", Kind::number, Range::between(0.0, 0.2));
   entry.offset_torque = table.quantity("offset_torque", Kind::torque);
-  entry.elevation = table.quantity("elevation", Kind::angle, Range::between(-0.2, 3.4));
   entry.preload_torque = table.quantity("preload_torque", Kind::torque, Range::positive(1e9));
   entry.backlash = table.optional_quantity("backlash", Kind::angle, Range::positive(1e3));
   entry.rate_loop_gain = table.quantity("rate_loop_gain", Kind::number, Range::positive(1e4));
   entry.rate_loop_corner =
       table.quantity("rate_loop_corner", Kind::frequency, Range::positive(1e4));
+  if (entry.return_pressure.value >= antenna.drive.supply_pressure.value) {
+    table.refuse("return_pressure",
+                 "expected a pressure below drive.supply_pressure, found one that is not");
+  }
+  if (antenna.friction_curve.coulomb.value <= 0.0) {
+    table.refuse("bristle_stiffness",
+                 "expected a friction_curve.coulomb above 0 for the bristles to hold, found 0");
+  }
   if (entry.null_leakage_share.value + entry.case_leakage_share.value > 1.0) {
     table.refuse("case_leakage_share",
                  "expected leakage shares that sum to at most 1, found more (the rest flows across "
@@ -57,7 +64,7 @@ RecorderEntry read_recorder(TableReader& table) {
 
 void read_simulation(TableReader& file, Case& antenna) {
   if (auto table = file.optional_table("simulation")) {
-    antenna.simulation = read_drive_details(*table);
+    antenna.simulation = read_drive_details(*table, antenna);
   }
   if (auto table = file.optional_table("recorder")) antenna.recorder = read_recorder(*table);
 }

@@ -153,7 +153,8 @@ std::vector<AntennaTest> drive_tests(const Case& antenna, const std::string& nam
                  60.0, 2.0, true)};
   }
   if (name == "constant-speed") {
-    return {constant_speed(2.0, scale, step), constant_speed(8.0, scale, step)};
+    return {constant_speed(0.2 * limit / scale, scale, step),
+            constant_speed(0.8 * limit / scale, scale, step)};
   }
   if (name == "valve-steps") return {valve_steps(stroke, step)};
   return {valve_chirp(stroke, step)};

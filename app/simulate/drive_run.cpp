@@ -7,13 +7,17 @@
 #include <boresight/app/redesign/antenna_model.hpp>
 #include <boresight/app/simulate/drive_run.hpp>
 #include <boresight/app/simulate/nonlinear_model.hpp>
+#include <boresight/plant/error.hpp>
 #include <boresight/plant/feedback_interconnection.hpp>
+#include <boresight/plant/operating_point.hpp>
 #include <boresight/plant/simulation.hpp>
 
 namespace boresight::app {
 namespace {
 
 using Eigen::Index;
+
+constexpr double standstill = 0.02;  // rad/s of motor
 
 // u = kr (1 + wi/s) (rate_command - tachometer), in analog electronics.
 plant::StateSpace rate_loop(double gain, double corner) {
@@ -46,6 +50,18 @@ void add_pressures(CsvTable& record, const plant::SimulationResult& run,
   }
 }
 
+// At rest with the bristles bent by gravity's offset; or, where that would break them away, with
+// the offset carried by the pressures.
+Eigen::VectorXd held_by_friction(const plant::NonlinearAntenna& model) {
+  const double offset = plant::offset_torque(model.offset, 0.0).value;
+  if (std::abs(offset) >= model.friction.curve.breakaway_torque) {
+    return plant::trim(model, {}).state;
+  }
+  Eigen::VectorXd state = plant::state_at_rest(model);
+  state[plant::AntennaStates::bristle] = -offset / model.friction.bristle_stiffness;
+  return state;
+}
+
 double largest(const Eigen::VectorXd& values) {
   return values.cwiseAbs().maxCoeff();
 }
@@ -56,6 +72,12 @@ DriveRecord run_drive_test(const Case& antenna, const AntennaTest& test, std::ui
                            const RunProgress& progress) {
   const auto model = make_nonlinear_antenna(antenna);
   const std::size_t motors = model.oil.lines.size();
+  if (motors == 0) {
+    throw InvalidInput(
+        fmt::format("{}: expected [[oil.line]] entries, whose ends the recorder's transducers sit "
+                    "at, found none",
+                    antenna.path));
+  }
   const RecorderSensors sensors = make_sensors(antenna, motors, seed);
   const auto drive = plant::to_feedback_system(model);
   const SimulationEntry& entry = simulation_of(antenna);
@@ -67,7 +89,7 @@ DriveRecord run_drive_test(const Case& antenna, const AntennaTest& test, std::ui
   plant::SimulationPlan plan;
   plan.interval = test.sample_time;
   plan.state = Eigen::VectorXd::Zero(system.linear.a.rows());
-  const Eigen::VectorXd at_rest = plant::state_at_rest(model);
+  const Eigen::VectorXd at_rest = held_by_friction(model);
   plan.state.head(at_rest.size()) = at_rest;
   plan.signals = {test.rate_loop_closed ? "rate_command" : "valve_command"};
   plan.values = test.command;
@@ -90,9 +112,10 @@ DriveRecord run_drive_test(const Case& antenna, const AntennaTest& test, std::ui
   const Eigen::VectorXd friction = column(run, "friction_torque");
   result.largest_rate = largest(rate);
   result.largest_torque = largest(column(run, "motor_torque"));
+  const double offset = plant::offset_torque(model.offset, 0.0).value;
   for (Index k = 0; k < samples; ++k) {
-    if (std::abs(rate[k]) < 0.2) {
-      result.breakaway_torque = std::max(result.breakaway_torque, std::abs(friction[k]));
+    if (std::abs(rate[k]) < standstill) {
+      result.static_friction = std::max(result.static_friction, std::abs(friction[k] - offset));
     }
   }
 
@@ -103,8 +126,8 @@ DriveRecord run_drive_test(const Case& antenna, const AntennaTest& test, std::ui
                     test.sample_time * static_cast<double>(test.command.size() - 1)));
   }
   const double slew = antenna.drive.slew_rate.value * gear_ratio(antenna);
-  record.columns.push_back({"time", "s", test.sample_time < 1e-3 ? 6 : 3,
-                            Eigen::VectorXd::LinSpaced(samples, 0.0, result.duration)});
+  record.columns.push_back(
+      {"time", "s", 6, Eigen::VectorXd::LinSpaced(samples, 0.0, result.duration)});
   add_pressures(record, run, sensors, seed);
   const auto tachometer =
       plant::readings(sensors.tachometer, column(run, "tachometer"), seed, 2 * motors);

@@ -20,10 +20,11 @@ struct DriveRecord {
   bool complete = true;
   double duration = 0.0;  // s simulated
   double sample_time = 0.0;
-  double largest_rate = 0.0;      // rad/s of motor, true
-  double largest_torque = 0.0;    // N m, true
-  double at_limit = 0.0;          // share of tachometer samples at the recorder's limit
-  double breakaway_torque = 0.0;  // N m: largest friction torque below 0.2 rad/s of motor
+  double largest_rate = 0.0;    // rad/s of motor, true
+  double largest_torque = 0.0;  // N m, true
+  double at_limit = 0.0;        // share of tachometer samples at the recorder's limit
+  /// N m: largest friction, without gravity's offset, below 0.02 rad/s of motor, true.
+  double static_friction = 0.0;
 };
 
 /// Runs a drive test on the nonlinear antenna of the case, from rest, and writes what its recorder

@@ -72,8 +72,7 @@ plant::NonlinearAntenna make_nonlinear_antenna(const Case& antenna) {
   details.line_damping_ratio = entry.line_damping_ratio.value;
   details.friction = {friction_curve(antenna), entry.bristle_stiffness.value,
                       entry.bristle_damping.value, 0.0};
-  details.offset = {entry.offset_torque.value, 0.0, 0.0, entry.elevation.value,
-                    gear_ratio(antenna)};
+  details.offset = {entry.offset_torque.value, 0.0, 0.0, 0.0, gear_ratio(antenna)};
   if (entry.backlash) {
     details.backlash = entry.backlash->value;
     details.preload_torque = entry.preload_torque.value;

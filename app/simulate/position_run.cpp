@@ -85,8 +85,10 @@ PositionRun run_position_loop(const Case& antenna, const Course& course, std::ui
   plan.values << course.reference, course.reference_rate, course.wind_torque;
   plan.controller = &controller;
   plan.computation_delay = sample_time;
-  plan.sensors = {{.noise = antenna.sensors.tachometer_noise.value},
-                  {.noise = antenna.sensors.encoder_noise.value * problem.gear_ratio}};
+  // Noise of a density sampled: the rms belongs to half the sampling rate.
+  const double folded = std::sqrt(0.5 / (sample_time * antenna.sensors.noise_bandwidth.value));
+  plan.sensors = {{.noise = folded * antenna.sensors.tachometer_noise.value},
+                  {.noise = folded * antenna.sensors.encoder_noise.value * problem.gear_ratio}};
   plan.seed = seed;
   if (progress) {
     plan.progress = [&](Index done, Index all) {
@@ -105,9 +107,8 @@ double rms_about_mean(const VectorXd& values) {
   return std::sqrt((values.array() - values.mean()).square().mean());
 }
 
-// The record, and errors at the sky from sample `settled` on.
-PositionRecord describe(const Case& antenna, const PositionRun& run, const Course& course,
-                        Index settled) {
+// The record without its errors.
+PositionRecord describe(const Case& antenna, const PositionRun& run, const Course& course) {
   const double gear = gear_ratio(antenna);
   const Index samples = run.result.values.rows();
   const VectorXd reference = course.reference.head(samples);
@@ -117,17 +118,12 @@ PositionRecord describe(const Case& antenna, const PositionRun& run, const Cours
   record.complete = run.result.complete;
   record.sample_time = run.interval;
   record.duration = run.interval * static_cast<double>(samples - 1);
-  record.predicted_rms = run.predicted_rms / gear;
-  const Index rest = samples - std::min(settled, samples - 1);
-  record.beam_rms = rms_about_mean(beam.tail(rest));
-  record.beam_mean = beam.tail(rest).mean();
-  record.encoder_rms = rms_about_mean(encoder.tail(rest));
   if (!record.complete) {
     record.record.comments.push_back(
         fmt::format("incomplete: interrupted after {:.3f} s of {:.3f} s", record.duration,
                     run.interval * static_cast<double>(course.reference.size() - 1)));
   }
-  record.record.columns = {{"time", "s", 3, VectorXd::LinSpaced(samples, 0.0, record.duration)},
+  record.record.columns = {{"time", "s", 6, VectorXd::LinSpaced(samples, 0.0, record.duration)},
                            {"reference", "deg", 7, reference / (gear * degree)},
                            {"encoder_error", "mdeg", 5, encoder / millidegree_at_sky},
                            {"beam_error", "mdeg", 5, beam / millidegree_at_sky},
@@ -136,6 +132,18 @@ PositionRecord describe(const Case& antenna, const PositionRun& run, const Cours
                            {"valve_command", "rad/s", 5, column(run.result, "valve_command")},
                            {"wind_torque_at_motor", "N.m", 4, course.wind_torque.head(samples)}};
   return record;
+}
+
+// Errors at the sky from sample `settled` on; none without at least a second of them.
+void judge(PositionRecord& record, Index settled) {
+  const auto& columns = record.record.columns;
+  const Index rest = columns.front().values.size() - settled;
+  if (static_cast<double>(rest) * record.sample_time < 1.0) return;
+  const VectorXd encoder = columns[2].values.tail(rest) * millidegree_at_sky;
+  const VectorXd beam = columns[3].values.tail(rest) * millidegree_at_sky;
+  record.beam_rms = rms_about_mean(beam);
+  record.beam_mean = beam.mean();
+  record.encoder_rms = rms_about_mean(encoder);
 }
 
 }  // namespace
@@ -158,8 +166,9 @@ PositionRecord run_tracking(const Case& antenna, std::uint64_t seed, const RunPr
   course.reference_rate = VectorXd::Constant(samples, rate);
   course.start = {rate, 0.0, VectorXd::Constant(1, mean)};
   const auto run = run_position_loop(antenna, course, seed, progress);
-  PositionRecord record =
-      describe(antenna, run, course, static_cast<Index>(std::llround(settle / interval)));
+  PositionRecord record = describe(antenna, run, course);
+  judge(record, static_cast<Index>(std::llround(settle / interval)));
+  record.predicted_rms = run.predicted_rms / gear;
   record.test = "tracking";
   record.description =
       fmt::format("tracking at {:.3g} mdeg/s in wind of {:.3g} m/s",
@@ -197,7 +206,7 @@ double attainable_rate(const Case& antenna) {
 double attainable_acceleration(const Case& antenna, double rate) {
   const auto model = make_nonlinear_antenna(antenna);
   const double gear = gear_ratio(antenna);
-  const double share = rate * gear / model.valve.stroke_limit;
+  const double share = rate * gear / (model.valve.stroke_limit - model.valve.overlap);
   const double available =
       (model.oil.supply_torque - model.oil.return_torque) * (1.0 - share * share);
   const double needed =
@@ -215,6 +224,12 @@ PositionRecord run_slew(const Case& antenna, std::uint64_t seed, const RunProgre
   const double attainable = attainable_rate(antenna) / gear_ratio(antenna);
   const double top = attainable < wanted ? 0.8 * attainable : wanted;
   const double acceleration = std::min(0.2 * degree, attainable_acceleration(antenna, top));
+  constexpr double longest = 3600.0;  // s
+  if (!(top > 0.0 && acceleration > 0.0 && distance / top + top / acceleration < longest)) {
+    throw InfeasibleRequirement(fmt::format(
+        "{}: the supply cannot slew this antenna: against friction it holds {:.3g} deg/s",
+        antenna.path, attainable / degree));
+  }
   const double ramp = std::min(top / acceleration, std::sqrt(distance / acceleration));
   const double cruise = distance / (acceleration * ramp) - ramp;
   const double interval = run_interval(antenna);
@@ -235,7 +250,7 @@ PositionRecord run_slew(const Case& antenna, std::uint64_t seed, const RunProgre
   }
   const auto run = run_position_loop(antenna, course, seed, progress);
   const auto end = static_cast<Index>(std::ceil((still + moving) / interval));
-  PositionRecord record = describe(antenna, run, course, end);
+  PositionRecord record = describe(antenna, run, course);
   record.test = "slew";
   record.description =
       fmt::format("{:.3g} deg at up to {:.3g} deg/s and {:.2g} deg/s2", distance / degree,
@@ -247,11 +262,16 @@ PositionRecord run_slew(const Case& antenna, std::uint64_t seed, const RunProgre
         wanted / degree, attainable / degree);
   }
   const VectorXd error = record.record.columns[2].values * millidegree_at_sky;
+  if (end >= error.size()) return record;  // ended before the command did
+  Index settled = end;
   for (Index k = end; k < error.size(); ++k) {
-    record.overshoot = std::max(record.overshoot, std::abs(error[k]));
-    if (std::abs(error[k]) > millidegree_at_sky) {
-      record.settling_time = interval * static_cast<double>(k + 1 - end);
-    }
+    if (std::abs(error[k]) > millidegree_at_sky) settled = k + 1;
+  }
+  record.overshoot = error.tail(error.size() - end).cwiseAbs().maxCoeff();
+  constexpr double long_enough = 10.0;  // s within the bound
+  if (static_cast<double>(error.size() - settled) * interval >= long_enough) {
+    record.settling_time = interval * static_cast<double>(settled - end);
+    judge(record, settled);
   }
   return record;
 }

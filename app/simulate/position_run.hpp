@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 
 #include <boresight/app/simulate/drive_run.hpp>
@@ -16,22 +17,25 @@ struct PositionRecord {
   double duration = 0.0;     // s simulated
   double sample_time = 0.0;  // s of the record
   /// Of the beam's error about its mean, once settled (rad at the sky); the mean is the bending of
-  /// the structure under the mean wind, which calibration takes out.
-  double beam_rms = 0.0;
-  double beam_mean = 0.0;
-  double encoder_rms = 0.0;
-  /// Beam rms the linear design predicts for the same wind and noise (rad at the sky).
-  double predicted_rms = 0.0;
-  /// Slew: time from the end of the command until the encoder stays within a millidegree (s), and
-  /// its largest error after the command's end (rad at the sky).
-  double settling_time = 0.0;
-  double overshoot = 0.0;
+  /// the structure under the mean wind, which calibration takes out. None if the run did not get
+  /// that far, or never settled.
+  std::optional<double> beam_rms;
+  std::optional<double> beam_mean;
+  std::optional<double> encoder_rms;
+  /// Tracking: beam rms the linear design predicts for the same wind and noise (rad at the sky).
+  std::optional<double> predicted_rms;
+  /// Slew: time from the end of the command until the encoder stays within a millidegree (s), none
+  /// if it does not for the last 10 s, and its largest error after the command's end (rad at the
+  /// sky).
+  std::optional<double> settling_time;
+  std::optional<double> overshoot;
 };
 
 /// Tracks at the case's rate in wind of its design speed for 600 s after 60 s to settle: tuned PI
 /// with lag, sampled by Tustin's method, all noise, friction, orifices and lines. The controller's
 /// sample time is two thirds of the case's delay, which is one sample of computing and half of one
-/// of holding. @throws as run_drive_test, and InfeasibleRequirement if no law meets the goals.
+/// of holding. @throws as run_drive_test, and InfeasibleRequirement if no law meets the goals or,
+/// for a slew, if the supply cannot move the antenna.
 PositionRecord run_tracking(const Case& antenna, std::uint64_t seed, const RunProgress& progress);
 
 /// One degree at the case's slew rate, or at 0.8 times what the supply can hold against friction if

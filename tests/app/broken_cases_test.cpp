@@ -34,6 +34,12 @@ void PrintTo(const Mistake& mistake, std::ostream* stream) {
 const std::vector<Mistake>& mistakes() {
   static const std::vector<Mistake> list{
       // Keys.
+      {"ReturnAboveSupply", "return_pressure = { value = \"60 psi\"",
+       "return_pressure = ^{ value = \"3000 psi\"", "simulation.return_pressure",
+       "a pressure below drive.supply_pressure", "one that is not"},
+      {"BreakawayBelowCoulomb", "breakaway = { value = \"16.83 N.m\"",
+       "breakaway = ^{ value = \"6.83 N.m\"", "friction_curve.breakaway",
+       "at least the Coulomb torque", "less"},
       {"LeakageSharesBeyondOne", "case_leakage_share = { value = \"0.1\"",
        "case_leakage_share = ^{ value = \"0.95\"", "simulation.case_leakage_share",
        "leakage shares that sum to at most 1", "more"},

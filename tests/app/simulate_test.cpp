@@ -88,8 +88,9 @@ TEST(DriveRun, SlowMotionBreaksAwayAtTheStaticFriction) {
   // The first quarter of a period: at rest, breakaway, sliding upwards.
   test.command.conservativeResize(static_cast<Eigen::Index>(12.0 / test.sample_time));
   const auto run = run_drive_test(antenna, test, 1, {});
-  // Breakaway torque with the offset that resists upward motion.
-  EXPECT_NEAR(run.breakaway_torque, 16.83 + 5.65, 4.0);
+  // Between the Coulomb level and the breakaway's with what bends the bristles faster.
+  EXPECT_GT(run.static_friction, 10.33);
+  EXPECT_LT(run.static_friction, 1.2 * 16.83);
   EXPECT_GT(run.largest_rate, 0.2);
 }
 
@@ -115,7 +116,7 @@ TEST(SimulateCommand, WritesTheRecordAndRepeatsIt) {
   const std::string record = content_of(folder.file("a/slosh.csv"));
   EXPECT_THAT(record, StartsWith("time [s],p1_in [MPa],p1_out [MPa],p2_in [MPa],p2_out [MPa],"
                                  "p3_in [MPa],p3_out [MPa],p4_in [MPa],p4_out [MPa],tach [V],"
-                                 "rate_command [V],valve_command [V]\n0.000,"));
+                                 "rate_command [V],valve_command [V]\n0.000000,"));
   EXPECT_EQ(std::ranges::count(record, '\n'), 10002);
   run_program({"simulate", path, "slosh", "--folder", folder.file("b")});
   EXPECT_EQ(content_of(folder.file("b/slosh.csv")), record);

@@ -205,6 +205,26 @@ TEST(Trim, RestCarriesTheOffsetByPressure) {
   EXPECT_NEAR(point.state[AntennaStates::motor_angle], angle, 1e-9);
 }
 
+TEST(Trim, FindsTheSpoolBeyondTheOverlap) {
+  auto details = reference::drive_details();
+  details.overlap = 3.0;
+  details.null_offset = 0.5;
+  details.offset.constant = 4.0;
+  const auto antenna = reference::nonlinear_antenna(details);
+  const auto without = reference::nonlinear_antenna([&] {
+    auto plain = details;
+    plain.overlap = 0.0;
+    plain.null_offset = 0.0;
+    return plain;
+  }());
+  for (const double rate : {-2.09, 0.0, 1e-3, 20.0}) {
+    const auto point = trim(antenna, {rate, 0.0, {}});
+    const auto plain = trim(without, {rate, 0.0, {}});
+    const double expected = plain.input[0] + std::copysign(3.0, plain.input[0]) - 0.5;
+    EXPECT_NEAR(point.input[0], expected, 1e-9 * std::abs(expected)) << rate;
+  }
+}
+
 TEST(Trim, SaysWhatTheSupplyCannotGive) {
   try {
     trim(reference::nonlinear_antenna(), {200.0, 0.0, {}});

@@ -217,6 +217,15 @@ TEST(Simulation, RefusesWhatDoesNotFit) {
   refused([](auto& p) { p.computation_delay = 0.01; }, "computation delay");
   refused([](auto& p) { p.signals = {"u"}; }, "'u'");
   refused([](auto& p) { p.signals = {"elsewhere"}; }, "'elsewhere'");
+  refused([](auto& p) { p.signals = {"y"}; }, "'y'");
+  refused(
+      [](auto& p) {
+        p.signals.clear();
+        p.values.resize(11, 0);
+      },
+      "'reference'");
+  refused([](auto& p) { p.computation_delay = std::numeric_limits<double>::infinity(); },
+          "computation delay");
   refused([](auto& p) { p.values.resize(1, 1); }, "at least 2 samples");
   refused([](auto& p) { p.sensors.resize(2); }, "1 sensors");
   refused([](auto& p) { p.sensors = {Sensor{.gain = 0.0}}; }, "gain");

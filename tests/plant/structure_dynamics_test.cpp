@@ -125,6 +125,7 @@ TEST(StructureDynamics, RefusesModesThatDoNotFit) {
   refused([](auto& m) { m.forces[0] = "torque"; }, "gear_torque");
   refused([](auto& m) { m.damping_ratio.conservativeResize(2); }, "damping ratios");
   refused([](auto& m) { m.force_shape(0, 0) = std::nan(""); }, "finite mode shapes");
+  refused([](auto& m) { m.force_shape(2, 0) *= -1.0; }, "displacement shape");
   auto structure = reference::antenna().structure;
   structure.modes[0].inertia = -1.0;
   EXPECT_THROW(structure_dynamics(structure), InvalidInput);

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 
 #include <fmt/format.h>
 
@@ -46,7 +47,7 @@ NonlinearAntenna make_nonlinear_antenna(const AntennaPlant& plant, const Hydraul
                                         const DriveDetails& details) {
   const double null = details.null_leakage_share;
   const double case_share = details.case_leakage_share;
-  if (!(null >= 0.0 && case_share >= 0.0 && null + case_share <= 1.0)) {
+  if (std::isnan(null + case_share) || null < 0.0 || case_share < 0.0 || null + case_share > 1.0) {
     throw InvalidInput(
         fmt::format("make_nonlinear_antenna: expected leakage shares of at least 0 that sum to at "
                     "most 1, found "

@@ -225,7 +225,7 @@ PositionRecord run_slew(const Case& antenna, std::uint64_t seed, const RunProgre
   const double top = attainable < wanted ? 0.8 * attainable : wanted;
   const double acceleration = std::min(0.2 * degree, attainable_acceleration(antenna, top));
   constexpr double longest = 3600.0;  // s
-  if (!(top > 0.0 && acceleration > 0.0 && distance / top + top / acceleration < longest)) {
+  if (top <= 0.0 || acceleration <= 0.0 || distance / top + top / acceleration >= longest) {
     throw InfeasibleRequirement(fmt::format(
         "{}: the supply cannot slew this antenna: against friction it holds {:.3g} deg/s",
         antenna.path, attainable / degree));

@@ -9,6 +9,7 @@
 #include "../peer_family.hpp"
 #include "../random_numbers.hpp"
 #include "../reference_values.hpp"
+#include "chain_with_rounding_error.hpp"
 #include <boresight/control/pole_placement.hpp>
 #include <boresight/plant/eigenvalues.hpp>
 #include <boresight/plant/error.hpp>
@@ -188,28 +189,13 @@ TEST(PolePlacement, PlacesAnObserverOnTheTransposedSystem) {
   EXPECT_LT(error_of(system_of(a, l), c, poles), 1e-9);
 }
 
-// A chain of lags into an oscillator with a rounding error back within the chain, which balancing
-// takes for a coupling.
-plant::StateSpace chain_with_rounding_error() {
-  constexpr Index stages = 6, n = stages + 2;
-  MatrixXd a = MatrixXd::Zero(n, n), b = MatrixXd::Zero(n, 1);
-  for (Index i = 0; i < stages; ++i) {
-    a(i, i) = -0.01 * std::pow(5.0, static_cast<double>(i));
-    for (Index j = 0; j < i; ++j) {
-      a(i, j) = -0.2 * a(i, i) / (1.0 + static_cast<double>(i - j));
-    }
-  }
-  a(0, 1) = 1e-18;
-  a(stages, stages - 1) = 70.0;
-  a(stages, stages) = a(stages + 1, stages + 1) = -0.5;
-  a(stages, stages + 1) = 3.0;
-  a(stages + 1, stages) = -3.0;
-  b(0, 0) = 1.0;
+plant::StateSpace chain_system() {
+  const auto [a, b] = chain_with_rounding_error();
   return system_of(a, b);
 }
 
 TEST(PolePlacement, IsNotLedAstrayByACouplingThatIsARoundingError) {
-  const auto system = chain_with_rounding_error();
+  const auto system = chain_system();
   const std::vector<Complex> poles{-0.02, -0.1, -0.5, -1.0, -4.0, -30.0, {-1.0, 3.0}, {-1.0, -3.0}};
   const auto placed = place_poles(system, poles);
   EXPECT_LT(error_of(system, placed.gain, poles), 1e-9);

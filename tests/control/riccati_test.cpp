@@ -8,6 +8,7 @@
 #include "../peer_family.hpp"
 #include "../random_numbers.hpp"
 #include "../reference_values.hpp"
+#include "riccati_solution.hpp"
 #include <boresight/control/lyapunov.hpp>
 #include <boresight/control/riccati.hpp>
 #include <boresight/plant/balance.hpp>
@@ -26,43 +27,8 @@ using testing::AllOf;
 using testing::HasSubstr;
 using testing::ThrowsMessage;
 
-RiccatiSolution solve(const RiccatiProblem& problem, bool sampled,
-                      const RiccatiOptions& options = {}) {
-  return sampled ? solve_discrete_riccati(problem, options) : solve_riccati(problem, options);
-}
-
 MatrixXd inverse(const MatrixXd& matrix) {
   return plant::linear_solve(matrix, MatrixXd::Identity(matrix.rows(), matrix.rows()), "test");
-}
-
-// What any solution must be: symmetric, semidefinite, stabilising, and of small residual in the
-// problem's own units.
-void expect_solution(const RiccatiProblem& problem, bool sampled, const RiccatiSolution& solution,
-                     double tolerance = 1e-11) {
-  const auto& [a, b, q, r, s] = problem;
-  const MatrixXd cross = s.size() > 0 ? s : MatrixXd::Zero(b.rows(), b.cols());
-  const MatrixXd& x = solution.x;
-  EXPECT_EQ((x - x.transpose()).norm(), 0.0);
-  EXPECT_GE(plant::eigenvalues(x).real().minCoeff(), -1e-12 * x.norm());
-  const MatrixXd closed = a - b * solution.gain;
-  if (sampled) {
-    EXPECT_LT(plant::eigenvalues(closed).cwiseAbs().maxCoeff(), 1.0);
-  } else {
-    const Eigen::VectorXd scale = plant::balancing_scale(closed);
-    EXPECT_LT(
-        plant::spectral_abscissa(scale.cwiseInverse().asDiagonal() * closed * scale.asDiagonal()),
-        0.0);
-  }
-  EXPECT_GT(solution.stability_margin, 0.0);
-  const MatrixXd k = solution.gain;
-  // The cost of u = -K x is x'Xx (sum of terms of one sign: nothing cancels).
-  const MatrixXd cost = q - cross * k - k.transpose() * cross.transpose() + k.transpose() * r * k;
-  const MatrixXd lyapunov = sampled ? MatrixXd(closed.transpose() * x * closed - x + cost)
-                                    : MatrixXd(closed.transpose() * x + x * closed + cost);
-  const double size = sampled ? x.norm() * (1.0 + closed.squaredNorm()) + cost.norm()
-                              : 2.0 * (x * closed).norm() + cost.norm();
-  EXPECT_LT(lyapunov.norm(), tolerance * size);
-  EXPECT_LT(solution.relative_residual, 1e-13);
 }
 
 TEST(Riccati, OfTheReferenceCases) {
@@ -488,78 +454,6 @@ TEST(Riccati, ConditionCoversSmallChanges) {
     EXPECT_GT(solution.condition, 0.5);
     EXPECT_EQ(solve(problem, sampled, {.estimate_condition = false}).condition, 0.0);
   }
-}
-
-TEST(Riccati, RefusesModesOnTheBoundaryThatNoWeightSees) {
-  // An undamped oscillator beside a lag; only the lag is weighted.
-  RiccatiProblem problem{MatrixXd::Zero(3, 3),
-                         MatrixXd::Ones(3, 1),
-                         MatrixXd::Zero(3, 3),
-                         MatrixXd::Identity(1, 1),
-                         {}};
-  problem.a << 0.0, 3.0, 0.0, -3.0, 0.0, 0.0, 0.0, 0.0, -1.0;
-  problem.q(2, 2) = 1.0;
-  EXPECT_THAT([&] { solve_riccati(problem); },
-              ThrowsMessage<NumericalFailure>(
-                  AllOf(HasSubstr("(A, Q) is not detectable"), HasSubstr("+- 3 j"))));
-  problem.q.setIdentity();
-  expect_solution(problem, false, solve_riccati(problem));
-  problem.b.topRows(2).setZero();
-  EXPECT_THAT([&] { solve_riccati(problem); },
-              ThrowsMessage<NumericalFailure>(
-                  AllOf(HasSubstr("(A, B) is not stabilisable"), HasSubstr("+- 3 j"))));
-  // Sampled: the same on the unit circle.
-  problem.a << 0.6, 0.8, 0.0, -0.8, 0.6, 0.0, 0.0, 0.0, 0.3;
-  EXPECT_THAT([&] { solve_discrete_riccati(problem); },
-              ThrowsMessage<NumericalFailure>(
-                  AllOf(HasSubstr("solve_discrete_riccati: (A, B)"), HasSubstr("0.6 +- 0.8 j"))));
-  problem.b.setOnes();
-  problem.q.topLeftCorner(2, 2).setZero();
-  EXPECT_THAT([&] { solve_discrete_riccati(problem); },
-              ThrowsMessage<NumericalFailure>(HasSubstr("(A, Q) is not detectable")));
-}
-
-TEST(Riccati, RefusesShapesNumbersAndWeights) {
-  const RiccatiProblem good{-MatrixXd::Identity(2, 2),
-                            MatrixXd::Ones(2, 1),
-                            MatrixXd::Identity(2, 2),
-                            MatrixXd::Identity(1, 1),
-                            {}};
-  const auto expect_refusal = [](const RiccatiProblem& problem, const char* message) {
-    EXPECT_THAT([&] { solve_riccati(problem); }, ThrowsMessage<InvalidInput>(HasSubstr(message)));
-    EXPECT_THAT([&] { solve_discrete_riccati(problem); },
-                ThrowsMessage<InvalidInput>(HasSubstr(message)));
-  };
-  RiccatiProblem bad = good;
-  bad.a = MatrixXd::Ones(2, 3);
-  expect_refusal(bad, "expected A as 2 x 2, found 2 x 3");
-  bad = good;
-  bad.q = MatrixXd::Ones(1, 1);
-  expect_refusal(bad, "expected Q as 2 x 2");
-  bad = good;
-  bad.s = MatrixXd::Ones(1, 1);
-  expect_refusal(bad, "expected S as 2 x 1");
-  bad = good;
-  bad.b = MatrixXd(2, 0);
-  bad.r = MatrixXd(0, 0);
-  expect_refusal(bad, "at least one state and one input");
-  bad = good;
-  bad.b(1, 0) = std::nan("");
-  expect_refusal(bad, "B has elements that are not finite");
-  bad = good;
-  bad.r(0, 0) = 0.0;
-  expect_refusal(bad, "R positive definite");
-  bad.r(0, 0) = -1.0;
-  expect_refusal(bad, "R: expected a positive semidefinite");
-  bad = good;
-  bad.q(0, 0) = -1.0;
-  expect_refusal(bad, "Q: expected a positive semidefinite");
-  bad = good;
-  bad.q(0, 1) = 0.5;
-  expect_refusal(bad, "Q: expected a symmetric matrix");
-  bad = good;
-  bad.s = 2.0 * MatrixXd::Ones(2, 1);
-  expect_refusal(bad, "Q - S R^-1 S'");
 }
 
 }  // namespace

@@ -216,8 +216,8 @@ LeastSquaresResult least_squares(const ResidualFunction& model, const Eigen::Vec
         done = true;
       } else if (negligible || (flat && accepted)) {
         result.status = negligible ? LeastSquaresStatus::step_small : LeastSquaresStatus::cost_flat;
-        // So short a step, and still far from what the derivatives promise.
-        if (!accepted && expected > 1e-3 * length && expected > 1e-10) {
+        // So short a step, while the derivatives promise a descent.
+        if (!accepted && tangent.along.squaredNorm() > 1e-8 * cost) {
           result.status = LeastSquaresStatus::no_descent;
         }
         done = true;

@@ -5,26 +5,6 @@
 
 namespace boresight::app {
 
-void read_wind(TableReader& file, Case& antenna) {
-  TableReader table = file.table("wind");
-  WindEntry& wind = antenna.wind;
-  wind.model = table.choice("model", {"uniform", "vickery", "coherence"});
-  wind.design_speed = table.quantity("design_speed", Kind::speed, Range::between(0.1, 60.0));
-  wind.air_density = table.quantity("air_density", Kind::density, Range::between(0.1, 2.0));
-  wind.surface_drag = table.quantity("surface_drag", Kind::number, Range::positive(1.0));
-  wind.torque_coefficient =
-      table.quantity("torque_coefficient", Kind::number, Range::not_negative(10.0));
-  wind.gradient_coefficient =
-      table.quantity("gradient_coefficient", Kind::number, Range::not_negative(10.0));
-  wind.coherence_decay = table.quantity("coherence_decay", Kind::number, Range::positive(1000.0));
-  const bool gradient = wind.model == "coherence" && wind.gradient_coefficient.value > 0.0;
-  if (wind.torque_coefficient.value == 0.0 && !gradient) {
-    table.refuse("torque_coefficient",
-                 "expected a wind model and coefficients that give some torque, found none");
-  }
-  table.finish();
-}
-
 void read_pointing(TableReader& file, Case& antenna) {
   TableReader table = file.table("pointing");
   std::set<std::string> names;

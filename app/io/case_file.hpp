@@ -4,7 +4,11 @@
 #include <string>
 #include <vector>
 
+#include <boresight/app/io/case_campaign.hpp>
 #include <boresight/app/io/quantity.hpp>
+#include <boresight/plant/gust_spectrum.hpp>
+#include <boresight/plant/torque_coefficients.hpp>
+#include <boresight/plant/wind_record.hpp>
 
 namespace boresight::app {
 
@@ -48,6 +52,8 @@ struct AntennaAlternative {
 struct AntennaEntry {
   Quantity dish_diameter;
   Quantity inertia;  // about the antenna axis
+  /// Where the dish points in the design wind and at the start of simulated tests.
+  std::optional<Quantity> azimuth, elevation;
   std::vector<AntennaAlternative> alternatives;
 };
 
@@ -62,6 +68,7 @@ struct MotorEntry {
   Quantity volumetric_efficiency;
 };
 
+/// A line whose pressure wave was measured.
 struct OilLine {
   std::string name;
   Quantity length;
@@ -125,6 +132,7 @@ struct SimulationEntry {
   Quantity makeup_pressure;
   Quantity air_fraction;
   Quantity offset_torque;
+  std::optional<Quantity> offset_cosine, offset_sine;  // by the elevation; else 0
   Quantity preload_torque;
   std::optional<Quantity> backlash;           // of the motor; else none
   Quantity rate_loop_gain, rate_loop_corner;  // the analog rate loop of the tests
@@ -156,10 +164,24 @@ struct SensorsEntry {
   Quantity encoder_noise, tachometer_noise, noise_bandwidth, tachometer_frequency;
 };
 
+/// Where the wind comes from less where the dish points, and the dish's elevation, at which the
+/// torque coefficients were taken from their table (rad).
+struct WindAttitude {
+  double yaw = 0.0;
+  double elevation = 0.0;
+};
+
 struct WindEntry {
-  Quantity air_density, surface_drag, torque_coefficient, gradient_coefficient, coherence_decay;
+  Quantity air_density, torque_coefficient, gradient_coefficient, coherence_decay;
   Quantity design_speed;
   std::string model;
+  plant::GustSpectrum gusts;
+  /// Torque coefficients over yaw and elevation; torque_coefficient is then the table's.
+  std::optional<plant::TorqueCoefficientTable> torque_table;
+  std::optional<WindAttitude> attitude;
+  /// A measured wind, for simulated tracking.
+  std::optional<plant::WindRecord> record;
+  std::string record_path;
 };
 
 struct BandEntry {
@@ -206,6 +228,7 @@ struct Case {
   MotorEntry motor;
   OilEntry oil;
   std::optional<Quantity> resonance_frequency;
+  /// If it has a voltage and a recorder limit; see campaign for one of another kind.
   std::optional<TachometerEntry> tachometer;
   FrictionTestsEntry friction_tests;
   std::vector<ImpulseResult> impulse_results;
@@ -223,6 +246,8 @@ struct Case {
   std::vector<double> matching_disks;
   std::vector<StatedEntry> stated;
   std::vector<RemarkEntry> remarks;
+  /// What was recorded, and with what.
+  CampaignEntry campaign;
   /// Every quantity of the file, in file order, for the list of assumptions.
   std::vector<Quantity> quantities;
 };

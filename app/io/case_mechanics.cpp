@@ -1,4 +1,5 @@
 #include <cmath>
+#include <numbers>
 #include <set>
 
 #include <fmt/format.h>
@@ -61,6 +62,11 @@ void read_antenna(TableReader& file, Case& antenna) {
   antenna.antenna.dish_diameter =
       table.quantity("dish_diameter", Kind::length, Range::between(0.5, 1000.0));
   antenna.antenna.inertia = table.quantity("inertia", Kind::inertia, Range::positive());
+  constexpr double turn = 2.0 * std::numbers::pi;
+  antenna.antenna.azimuth =
+      table.optional_quantity("azimuth", Kind::angle, Range::between(-turn, turn));
+  antenna.antenna.elevation =
+      table.optional_quantity("elevation", Kind::angle, Range::between(0.0, 0.5 * turn));
   std::set<std::string> names;
   for (auto& entry : table.tables("alternative")) {
     AntennaAlternative alternative;
@@ -150,6 +156,14 @@ void read_structure(TableReader& file, Case& antenna) {
   if (structure.lowest_predicted) {
     structure.lowest_predicted_axis =
         table.choice("lowest_predicted_axis", {"elevation", "azimuth"});
+  }
+  for (auto& entry : table.tables("prediction")) {
+    auto& frequencies = antenna.campaign.locked_rotor_frequencies;
+    frequencies.push_back(entry.quantity("frequency", Kind::frequency, Range::positive(1000.0)));
+    entry.finish();
+    if (frequencies.size() > 1 && frequencies.back().value <= frequencies.rbegin()[1].value) {
+      entry.refuse("frequency", "expected frequencies that rise, found one not above the last");
+    }
   }
   double fraction = 0.0;
   double wind = structure.bull_gear_wind_fraction.value;

@@ -22,6 +22,16 @@ SimulationEntry read_drive_details(TableReader& table, const Case& antenna) {
       table.quantity("makeup_pressure", Kind::pressure, Range::not_negative(1e8));
   entry.air_fraction = table.quantity("air_fraction", Kind::number, Range::between(0.0, 0.2));
   entry.offset_torque = table.quantity("offset_torque", Kind::torque);
+  entry.offset_cosine = table.optional_quantity("offset_cosine", Kind::torque);
+  entry.offset_sine = table.optional_quantity("offset_sine", Kind::torque);
+  if ((entry.offset_cosine || entry.offset_sine) && !antenna.antenna.elevation) {
+    table.refuse(entry.offset_cosine ? "offset_cosine" : "offset_sine",
+                 "expected an antenna.elevation, at which tests begin, beside it, found none");
+  }
+  if ((entry.offset_cosine || entry.offset_sine) && antenna.axis != "elevation") {
+    table.refuse(entry.offset_cosine ? "offset_cosine" : "offset_sine",
+                 "expected it for the elevation axis only, found it for the azimuth axis");
+  }
   entry.preload_torque = table.quantity("preload_torque", Kind::torque, Range::positive(1e9));
   entry.backlash = table.optional_quantity("backlash", Kind::angle, Range::positive(1e3));
   entry.rate_loop_gain = table.quantity("rate_loop_gain", Kind::number, Range::positive(1e4));

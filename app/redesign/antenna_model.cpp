@@ -202,9 +202,9 @@ design::TrackingProblem make_problem(const Case& antenna, const PlantVariant& va
   problem.noise = {antenna.sensors.encoder_noise.value * problem.gear_ratio,
                    antenna.sensors.tachometer_noise.value, antenna.sensors.noise_bandwidth.value};
   const WindEntry& wind = antenna.wind;
-  problem.wind = {{wind.air_density.value, wind.surface_drag.value, wind.torque_coefficient.value,
+  problem.wind = {{wind.air_density.value, wind.gusts.surface_drag, wind.torque_coefficient.value,
                    wind.gradient_coefficient.value, wind.coherence_decay.value,
-                   antenna.antenna.dish_diameter.value},
+                   antenna.antenna.dish_diameter.value, wind.gusts},
                   wind_model(wind.model),
                   wind.design_speed.value};
   problem.rms_band = {antenna.goals.lowest_frequency.value, antenna.goals.highest_frequency.value};

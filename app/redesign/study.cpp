@@ -62,7 +62,7 @@ void judge_in_wind(const Case& antenna, const design::TrackingProblem& problem,
   section.supply_wind_speed =
       problem.wind.mean_speed *
       std::sqrt(supply_torque(antenna) * problem.gear_ratio /
-                plant::mean_wind_torque(problem.wind.site, problem.wind.mean_speed));
+                std::abs(plant::mean_wind_torque(problem.wind.site, problem.wind.mean_speed)));
   double compliance = 0.0;
   for (const auto& mode : problem.plant.structure.modes) {
     compliance += mode.wind_fraction * mode.beam_weight / mode.stiffness;
@@ -101,6 +101,8 @@ TuningSection tuning_section(const Case& antenna, const StudyOptions& options,
   const design::TrackingProblem problem = make_problem(antenna);
   section.design_speed = problem.wind.mean_speed;
   section.wind_model = problem.wind.model;
+  section.wind_site = problem.wind.site;
+  section.wind_attitude = antenna.wind.attitude;
   if (section.design.tuning.status != design::TuningStatus::unstable) {
     judge_in_wind(antenna, problem, section);
   }

@@ -180,8 +180,13 @@ Json design_json(const design::Design& design) {
 }
 
 Json tuning_json(const TuningSection& section) {
+  const auto gusts = plant::site_gusts(section.wind_site);
   Json json{{"design_wind_speed_m_per_s", section.design_speed},
             {"wind_model", plant::to_string(section.wind_model)},
+            {"gust_spectrum", plant::to_string(gusts.kind)},
+            {"turbulence_intensity_1",
+             std::sqrt(plant::gust_variance(gusts, section.design_speed)) / section.design_speed},
+            {"wind_torque_coefficient_1", section.wind_site.torque_coefficient},
             {"design", design_json(section.design)},
             {"seeds_within_1_percent", section.seeds_within_1_percent},
             {"encoder_held_rms_mdeg", number(section.encoder_held_rms / millidegree)},

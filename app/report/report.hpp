@@ -49,6 +49,8 @@ struct TuningSection {
   design::Design design;
   double design_speed = 0.0;
   plant::WindModel wind_model = plant::WindModel::coherence;
+  plant::WindSite wind_site;
+  std::optional<WindAttitude> wind_attitude;  // none: one torque coefficient for all
   struct SeedResult {
     std::uint64_t seed = 0;
     double beam_rms = 0.0;  // rad

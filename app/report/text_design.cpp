@@ -73,6 +73,24 @@ std::string breaks_text(const TuningSection& section) {
   return table(rows);
 }
 
+// Gusts and torque that the rms values rest on.
+std::string wind_text(const TuningSection& section) {
+  const auto gusts = plant::site_gusts(section.wind_site);
+  return wrapped(
+      fmt::format("Gusts by the {} spectrum, {:.1f} % of the mean speed rms; torque coefficient "
+                  "{:.4g}{}.",
+                  plant::to_string(gusts.kind),
+                  100.0 * std::sqrt(plant::gust_variance(gusts, section.design_speed)) /
+                      section.design_speed,
+                  section.wind_site.torque_coefficient,
+                  section.wind_attitude
+                      ? fmt::format(", from its table at yaw {:.4g} deg and elevation {:.4g} deg",
+                                    section.wind_attitude->yaw / (1e3 * millidegree),
+                                    section.wind_attitude->elevation / (1e3 * millidegree))
+                      : ""),
+      "  ");
+}
+
 }  // namespace
 
 std::string to_text(const TuningSection& section) {
@@ -133,7 +151,7 @@ std::string to_text(const TuningSection& section) {
       {"encoder held perfectly still: bending it cannot see", mdeg(section.encoder_held_rms)});
   rows.push_back({"static bending by the mean wind (calibration's job, not in the rms)",
                   mdeg(section.static_bending)});
-  text += table(rows) + "\n";
+  text += table(rows) + wind_text(section) + "\n";
   rows = {{"band", "beamwidth mdeg", "mean loss dB, two equal axes"}};
   for (const auto& loss : section.losses) {
     rows.push_back({fmt::format("{} {:g} GHz", loss.band.name, loss.band.frequency / 1e9),

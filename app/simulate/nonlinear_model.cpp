@@ -72,7 +72,12 @@ plant::NonlinearAntenna make_nonlinear_antenna(const Case& antenna) {
   details.line_damping_ratio = entry.line_damping_ratio.value;
   details.friction = {friction_curve(antenna), entry.bristle_stiffness.value,
                       entry.bristle_damping.value, 0.0};
-  details.offset = {entry.offset_torque.value, 0.0, 0.0, 0.0, gear_ratio(antenna)};
+  const auto value_or_0 = [](const std::optional<Quantity>& quantity) {
+    return quantity ? quantity->value : 0.0;
+  };
+  details.offset = {entry.offset_torque.value, value_or_0(entry.offset_cosine),
+                    value_or_0(entry.offset_sine), value_or_0(antenna.antenna.elevation),
+                    gear_ratio(antenna)};
   if (entry.backlash) {
     details.backlash = entry.backlash->value;
     details.preload_torque = entry.preload_torque.value;

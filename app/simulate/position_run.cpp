@@ -47,12 +47,13 @@ struct Course {
   VectorXd reference_rate;
   VectorXd wind_torque;
   plant::Trim start;
+  double mean_wind_speed = 0.0;  // m/s, of the linear prediction; 0: none
 };
 
 struct PositionRun {
   plant::SimulationResult result;
-  double predicted_rms = 0.0;  // rad of motor
-  double interval = 0.0;       // s
+  std::optional<double> predicted_rms;  // rad at the sky
+  double interval = 0.0;                // s
 };
 
 double controller_sample_time(const Case& antenna) {
@@ -61,6 +62,18 @@ double controller_sample_time(const Case& antenna) {
 
 double run_interval(const Case& antenna) {
   return controller_sample_time(antenna) / static_cast<double>(intervals_per_sample);
+}
+
+// Beam rms of the linear design in wind of that mean speed (rad at the sky).
+std::optional<double> predicted_rms(const design::TrackingProblem& problem,
+                                    const design::TuningResult& tuned, double mean_speed) {
+  if (mean_speed <= 0.0) return std::nullopt;
+  if (mean_speed == problem.wind.mean_speed) {
+    return std::sqrt(tuned.evaluation.beam_variance()) / problem.gear_ratio;
+  }
+  control::LoopEvaluator evaluator = design::make_evaluator(problem);
+  return design::beam_rms_at_speed(problem, evaluator, evaluator.wind_transmission(tuned.law),
+                                   tuned.evaluation.noise_variance, mean_speed);
 }
 
 PositionRun run_position_loop(const Case& antenna, const Course& course, std::uint64_t seed,
@@ -96,7 +109,7 @@ PositionRun run_position_loop(const Case& antenna, const Course& course, std::ui
     };
   }
   return {plant::simulate(plant::to_feedback_system(model), plan),
-          std::sqrt(tuned.evaluation.beam_variance()), plan.interval};
+          predicted_rms(problem, tuned, course.mean_wind_speed), plan.interval};
 }
 
 VectorXd column(const plant::SimulationResult& run, const char* name) {
@@ -148,6 +161,68 @@ void judge(PositionRecord& record, Index settled) {
 
 }  // namespace
 
+namespace {
+
+// Wind torque at the motor at the samples of a run (N m), its mean, and what it is.
+struct WindCourse {
+  VectorXd torque;
+  double mean = 0.0;
+  double mean_speed = 0.0;  // m/s
+  std::string description;
+};
+
+WindCourse synthesised_wind(const design::WindCondition& wind, double gear, double duration,
+                            double interval, std::uint64_t seed) {
+  const auto gusts = plant::synthesise_wind_torque(wind.site, wind.model, wind.mean_speed, duration,
+                                                   interval, seed);
+  const double mean = plant::mean_wind_torque(wind.site, wind.mean_speed) / gear;
+  return {((gusts.uniform + gusts.gradient).array() / gear + mean).matrix(), mean, wind.mean_speed,
+          fmt::format("wind of {:.3g} m/s ({} model, {} spectrum)", wind.mean_speed,
+                      plant::to_string(wind.model),
+                      plant::to_string(plant::site_gusts(wind.site).kind))};
+}
+
+// Straight between the samples of the record. The gradient over the dish, which an anemometer does
+// not see, is drawn from the site's spectrum at the record's mean speed.
+WindCourse recorded_wind(const Case& antenna, const plant::WindRecord& record,
+                         const design::WindCondition& wind, double gear, double interval,
+                         std::uint64_t seed) {
+  const plant::RecordTorqueOptions options{wind.model, false};
+  const auto& pointing = antenna.antenna;
+  const VectorXd torque =
+      antenna.wind.torque_table && pointing.azimuth && pointing.elevation
+          ? plant::wind_record_torque(record, wind.site, *antenna.wind.torque_table,
+                                      {pointing.azimuth->value, pointing.elevation->value}, options)
+          : plant::wind_record_torque(record, wind.site, options);
+  WindCourse course;
+  course.mean_speed = record.speed.mean();
+  const double duration = record.sample_time * static_cast<double>(record.speed.size() - 1);
+  course.torque = VectorXd::Zero(static_cast<Index>(duration / interval * (1.0 + 1e-12)) + 1);
+  if (wind.model == plant::WindModel::coherence) {
+    const auto parts = plant::synthesise_wind_torque(
+        wind.site, wind.model, course.mean_speed,
+        interval * static_cast<double>(course.torque.size() + 1), interval, seed);
+    course.torque = parts.gradient.head(course.torque.size()) / gear;
+  }
+  for (Index k = 0; k < course.torque.size(); ++k) {
+    const double place = interval * static_cast<double>(k) / record.sample_time;
+    const auto i = std::min(static_cast<Index>(place), torque.size() - 2);
+    const double share = place - static_cast<double>(i);
+    course.torque[k] += ((1.0 - share) * torque[i] + share * torque[i + 1]) / gear;
+  }
+  course.mean = torque.mean() / gear;
+  const double rms = std::sqrt((record.speed.array() - course.mean_speed).square().mean());
+  course.description = fmt::format(
+      "the measured wind {}, mean {:.3g} m/s, gusts {:.3g} m/s rms, sampled every "
+      "{:.3g} s ({} model; the linear prediction takes its mean speed and the {} "
+      "spectrum)",
+      antenna.wind.record_path, course.mean_speed, rms, record.sample_time,
+      plant::to_string(wind.model), plant::to_string(plant::site_gusts(wind.site).kind));
+  return course;
+}
+
+}  // namespace
+
 PositionRecord run_tracking(const Case& antenna, std::uint64_t seed, const RunProgress& progress) {
   constexpr double settle = 60.0;
   constexpr double measured = 600.0;
@@ -155,24 +230,25 @@ PositionRecord run_tracking(const Case& antenna, std::uint64_t seed, const RunPr
   const double gear = gear_ratio(antenna);
   const double interval = run_interval(antenna);
   const double rate = antenna.drive.tracking_rate.value * gear;
-  const auto gusts = plant::synthesise_wind_torque(wind.site, wind.model, wind.mean_speed,
-                                                   settle + measured, interval, seed);
-  const Index samples = gusts.uniform.size();
-  const double mean = plant::mean_wind_torque(wind.site, wind.mean_speed) / gear;
+  const WindCourse gusts =
+      antenna.wind.record ? recorded_wind(antenna, *antenna.wind.record, wind, gear, interval, seed)
+                          : synthesised_wind(wind, gear, settle + measured, interval, seed);
+  const Index samples = gusts.torque.size();
   Course course;
-  course.wind_torque = ((gusts.uniform + gusts.gradient).array() / gear + mean).matrix();
+  course.mean_wind_speed = gusts.mean_speed;
+  course.wind_torque = gusts.torque;
   course.reference =
       VectorXd::LinSpaced(samples, 0.0, rate * interval * static_cast<double>(samples - 1));
   course.reference_rate = VectorXd::Constant(samples, rate);
-  course.start = {rate, 0.0, VectorXd::Constant(1, mean)};
+  course.start = {rate, 0.0, VectorXd::Constant(1, gusts.mean)};
   const auto run = run_position_loop(antenna, course, seed, progress);
   PositionRecord record = describe(antenna, run, course);
   judge(record, static_cast<Index>(std::llround(settle / interval)));
-  record.predicted_rms = run.predicted_rms / gear;
+  record.predicted_rms = run.predicted_rms;
   record.test = "tracking";
   record.description =
-      fmt::format("tracking at {:.3g} mdeg/s in wind of {:.3g} m/s",
-                  antenna.drive.tracking_rate.value / millidegree_at_sky, wind.mean_speed);
+      fmt::format("tracking at {:.3g} mdeg/s in {}",
+                  antenna.drive.tracking_rate.value / millidegree_at_sky, gusts.description);
   return record;
 }
 

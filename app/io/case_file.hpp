@@ -4,7 +4,6 @@
 #include <string>
 #include <vector>
 
-#include <boresight/app/io/case_campaign.hpp>
 #include <boresight/app/io/quantity.hpp>
 #include <boresight/plant/gust_spectrum.hpp>
 #include <boresight/plant/torque_coefficients.hpp>
@@ -68,7 +67,6 @@ struct MotorEntry {
   Quantity volumetric_efficiency;
 };
 
-/// A line whose pressure wave was measured.
 struct OilLine {
   std::string name;
   Quantity length;
@@ -228,7 +226,6 @@ struct Case {
   MotorEntry motor;
   OilEntry oil;
   std::optional<Quantity> resonance_frequency;
-  /// If it has a voltage and a recorder limit; see campaign for one of another kind.
   std::optional<TachometerEntry> tachometer;
   FrictionTestsEntry friction_tests;
   std::vector<ImpulseResult> impulse_results;
@@ -246,8 +243,6 @@ struct Case {
   std::vector<double> matching_disks;
   std::vector<StatedEntry> stated;
   std::vector<RemarkEntry> remarks;
-  /// What was recorded, and with what.
-  CampaignEntry campaign;
   /// Every quantity of the file, in file order, for the list of assumptions.
   std::vector<Quantity> quantities;
 };

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include <boresight/app/io/case_campaign.hpp>
 #include <boresight/app/io/quantity.hpp>
 #include <boresight/plant/gust_spectrum.hpp>
 #include <boresight/plant/torque_coefficients.hpp>
@@ -67,6 +68,7 @@ struct MotorEntry {
   Quantity volumetric_efficiency;
 };
 
+/// A line whose pressure wave was measured.
 struct OilLine {
   std::string name;
   Quantity length;
@@ -228,6 +230,7 @@ struct Case {
   std::optional<Quantity> resonance_frequency;
   std::optional<TachometerEntry> tachometer;
   FrictionTestsEntry friction_tests;
+  /// If it has a voltage and a recorder limit; see campaign for one of another kind.
   std::vector<ImpulseResult> impulse_results;
   DriveEntry drive;
   FrictionCurveEntry friction_curve;
@@ -245,6 +248,8 @@ struct Case {
   std::vector<RemarkEntry> remarks;
   /// Every quantity of the file, in file order, for the list of assumptions.
   std::vector<Quantity> quantities;
+  /// What was recorded, and with what.
+  CampaignEntry campaign;
 };
 
 /// Reads and checks a case file. @throws InvalidInput with one message: file, line, column, key,

@@ -204,6 +204,14 @@ void read_structure(TableReader& file, Case& antenna) {
     structure.lowest_predicted_axis =
         table.choice("lowest_predicted_axis", {"elevation", "azimuth"});
   }
+  for (auto& entry : table.tables("prediction")) {
+    auto& frequencies = antenna.campaign.locked_rotor_frequencies;
+    frequencies.push_back(entry.quantity("frequency", Kind::frequency, Range::positive(1000.0)));
+    entry.finish();
+    if (frequencies.size() > 1 && frequencies.back().value <= frequencies.rbegin()[1].value) {
+      entry.refuse("frequency", "expected frequencies that rise, found one not above the last");
+    }
+  }
   if (modes_file) {
     table.finish();
     return;

@@ -57,7 +57,8 @@ std::vector<SlidingStart> sliding_starts(const plant::NonlinearAntenna& antenna,
     if (slides == rate.size() || sign * rate[slides] <= 0.0) continue;
     const double offset = plant::offset_torque(antenna.offset, angle[slides]).value;
     starts.push_back({interval * static_cast<double>(slides), sign > 0.0, sign * rate[slides],
-                      sign * (friction[slides] - offset), torque[slides]});
+                      sign * (friction[slides] - offset), torque[slides],
+                      sign * rate[slides] <= antenna.friction.curve.stribeck_rate});
   }
   return starts;
 }
@@ -117,7 +118,9 @@ RunEvents events_of(const plant::NonlinearAntenna& antenna, const plant::Simulat
 }
 
 std::optional<SlidingStart> first_start(const RunEvents& events, bool upward) {
-  const auto found = std::ranges::find(events.sliding_starts, upward, &SlidingStart::upward);
+  const auto found = std::ranges::find_if(events.sliding_starts, [&](const SlidingStart& start) {
+    return start.upward == upward && start.shows_breakaway;
+  });
   if (found == events.sliding_starts.end()) return std::nullopt;
   return *found;
 }

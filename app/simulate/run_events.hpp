@@ -16,6 +16,8 @@ struct SlidingStart {
   double rate = 0.0;          // rad/s of motor, in that direction
   double friction = 0.0;      // N m, against it, gravity's offset taken off
   double motor_torque = 0.0;  // N m, what a recorder's pressures show: signed, offset included
+  /// The rate is at most the curve's stribeck_rate: friction is still that of breaking away.
+  bool shows_breakaway = true;
 };
 
 /// Something that held at some samples of a run.
@@ -51,7 +53,7 @@ struct RunEvents {
 RunEvents events_of(const plant::NonlinearAntenna& antenna, const plant::SimulationResult& run,
                     const Eigen::VectorXd& commands, double interval);
 
-/// The first start of sliding in a direction; none if there is none.
+/// The first start of sliding in a direction that shows the breakaway; none if there is none.
 std::optional<SlidingStart> first_start(const RunEvents& events, bool upward);
 
 }  // namespace boresight::app

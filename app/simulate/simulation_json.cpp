@@ -33,7 +33,8 @@ Json events_json(const RunEvents& events) {
                       {"direction", start.upward ? "up" : "down"},
                       {"rate_rad_per_s", number(start.rate)},
                       {"friction_N_m", number(start.friction)},
-                      {"motor_torque_N_m", number(start.motor_torque)}});
+                      {"motor_torque_N_m", number(start.motor_torque)},
+                      {"shows_breakaway", start.shows_breakaway}});
   }
   const auto& work = events.integrator;
   return {{"sliding_start_count", events.sliding_starts.size()},

@@ -54,7 +54,7 @@ std::string breakaway_text(const SimulationReport& report) {
   Rows rows{{"test", "starts", "up at s", "rad/s", "friction N.m", "torque N.m", "down at s",
              "rad/s", "friction N.m", "torque N.m", "curve N.m"}};
   for (const auto& record : report.drive) {
-    if (record.events.sliding_starts.empty()) continue;
+    if (!first_start(record.events, true) && !first_start(record.events, false)) continue;
     std::vector<std::string> row{record.test,
                                  fmt::format("{}", record.events.sliding_starts.size())};
     for (const bool upward : {true, false}) {
@@ -68,7 +68,7 @@ std::string breakaway_text(const SimulationReport& report) {
     rows.push_back(std::move(row));
   }
   if (rows.size() == 1) return "";
-  return heading("Breakaway: the first start of sliding either way") + table(rows) +
+  return heading("Breakaway: the first slow start of sliding either way") + table(rows) +
          wrapped(
              "Where the motor has left standstill and the bristles have bent: its rate, the "
              "friction "

@@ -73,11 +73,16 @@ TEST_F(RunEventsTest, SlidingStartsWhereTheBristlesHaveBent) {
   ASSERT_EQ(events.sliding_starts.size(), 2U);
   const double bend = antenna.friction.curve.breakaway_torque / antenna.friction.bristle_stiffness;
   const auto up = first_start(events, true).value_or(SlidingStart{});
+  EXPECT_TRUE(up.shows_breakaway);
   EXPECT_NEAR(up.time, 2.0 + 4.0 * bend / 0.1, 1.5 * interval);
   EXPECT_NEAR(up.rate, 0.1, 1e-12);
   EXPECT_NEAR(up.friction, 17.0, 1e-9);
   EXPECT_NEAR(up.motor_torque, 12.0, 1e-9);
-  const auto down = first_start(events, false).value_or(SlidingStart{});
+  // Faster than the curve's Stribeck rate: sliding, but no breakaway to be read.
+  EXPECT_FALSE(first_start(events, false));
+  const SlidingStart& down = events.sliding_starts[1];
+  EXPECT_FALSE(down.upward);
+  EXPECT_FALSE(down.shows_breakaway);
   EXPECT_NEAR(down.time, 6.0 + 4.0 * bend / 0.2, 1.5 * interval);
   EXPECT_NEAR(down.friction, 18.0, 1e-9);
   EXPECT_NEAR(down.rate, 0.2, 1e-12);

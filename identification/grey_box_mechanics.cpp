@@ -186,16 +186,16 @@ bool MechanicalStepper::solve(double push, double& mean_rate, Bristle& b) const 
     (excess > 0.0 ? high : low) = mean_rate;
     const double slope = 2.0 * effective_inertia_ + h_ * b.torque_by_rate;
     double next = mean_rate - excess / slope;
-    if (!(next > low && next < high)) {
-      if (std::isinf(low) || std::isinf(high)) {
-        next = mean_rate - 2.0 * excess / effective_inertia_;
-      } else {
-        next = 0.5 * (low + high);
-      }
+    // What a step of Newton's leaves is its square.
+    if (std::abs(next - mean_rate) <= 1e-10 * (std::abs(next) + std::abs(v_)) + 1e-13) {
+      mean_rate = next;
+      return true;
     }
-    const double move = std::abs(next - mean_rate);
+    if (!(next > low && next < high)) {
+      next = std::isinf(low) || std::isinf(high) ? mean_rate - 2.0 * excess / effective_inertia_
+                                                 : 0.5 * (low + high);
+    }
     mean_rate = next;
-    if (move <= 1e-13 * (std::abs(next) + std::abs(v_)) + 1e-14) return true;
   }
   return true;
 }

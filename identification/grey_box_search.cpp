@@ -37,7 +37,9 @@ LeastSquaresResult search(const GreyBoxObjective& objective, const VectorXd& sta
     residuals.head(rows.rows()) = rows.col(n);
     jacobian->topRows(rows.rows()) = rows.leftCols(n);
   };
-  return least_squares(model, start, options);
+  LeastSquaresOptions deriving = options;
+  deriving.derive_when_trying = true;
+  return least_squares(model, start, deriving);
 }
 
 LeastSquaresResult search_with_scales(GreyBoxObjective& objective, const VectorXd& start) {

@@ -127,15 +127,15 @@ inline std::vector<GreyBoxManoeuvre> tests() {
     return t < 1.0 ? 0.0 : std::fmod(t - 1.0, 10.0) < 5.0 ? 1.0 : -1.0;
   };
   const auto triangle = [](double t) { return std::asin(std::sin(0.6 * t)) / 1.5708; };
-  return {manoeuvre("slow", TestKind::constant_speed, 21.0, true,
+  return {manoeuvre("slow", TestKind::constant_speed, 11.0, true,
                     [=](double t) { return 1.0 * square(t); }),
-          manoeuvre("middle", TestKind::constant_speed, 21.0, true,
+          manoeuvre("middle", TestKind::constant_speed, 11.0, true,
                     [=](double t) { return 4.0 * square(t); }),
-          manoeuvre("fast", TestKind::constant_speed, 21.0, true,
+          manoeuvre("fast", TestKind::constant_speed, 11.0, true,
                     [=](double t) { return 12.0 * square(t); }),
-          manoeuvre("ramp", TestKind::fast_ramp, 31.0, false,
+          manoeuvre("ramp", TestKind::fast_ramp, 21.0, false,
                     [=](double t) { return 28.0 * triangle(t); }),
-          manoeuvre("sweep", TestKind::valve_chirp, 30.0, false,
+          manoeuvre("sweep", TestKind::valve_chirp, 20.0, false,
                     [](double t) { return 8.0 + 3.0 * std::sin(0.7 * t * std::exp(0.1 * t)); })};
 }
 

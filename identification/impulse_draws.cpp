@@ -289,6 +289,7 @@ ImpulseEstimate ImpulseDraws::whole_records() const {
   result.rule = WindowRule::whole_records;
   result.treatment = FrictionTreatment::curve;
   result.name = "friction curve and inertia fitted to whole records";
+  if (!tests_->friction) return result;
   const auto& fit = *tests_->friction;
   result.as_recorded = normal_interval(fit.inertia, std::sqrt(std::max(0.0, fit.covariance(8, 8))));
   const InstrumentErrors exact = no_instrument_errors(fit.by_pressure_gain.cols());

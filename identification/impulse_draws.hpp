@@ -21,7 +21,7 @@ class ImpulseDraws {
   ImpulseEstimate estimate(WindowRule rule, FrictionTreatment treatment,
                            const std::vector<ImpulseWindow>& windows) const;
 
-  /// The friction curve's own estimate of the inertia.
+  /// The friction curve's own estimate of the inertia; without a curve no more than a name.
   ImpulseEstimate whole_records() const;
 
  private:

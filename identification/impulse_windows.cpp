@@ -79,7 +79,7 @@ std::vector<ImpulseWindow> ramp_windows(const Campaign& campaign, std::size_t re
     return !record.motor_rate.is_valid(i) || std::abs(rate(i)) >= 0.999 * record.motor_rate_limit;
   };
   Eigen::Index rise = 0;  // end of the first window
-  while (rise < samples && !(clipped(rise) && rate(rise) > 0.0)) ++rise;
+  while (rise < samples && (!clipped(rise) || rate(rise) <= 0.0)) ++rise;
   Eigen::Index fall = rise;  // start of the second
   const double largest = rate.maxCoeff();
   if (rise < samples) {

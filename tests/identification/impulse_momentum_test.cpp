@@ -171,7 +171,7 @@ TEST(ImpulseMomentum, IntervalsHoldOverDrawnInstruments) {
              std::cos(random.uniform(0.0, 2.0 * M_PI));
     };
     PrescribedMotion drive = clipped();
-    drive.sample_time = 0.01;
+    drive.sample_time = 0.02;
     drive.seed = static_cast<std::uint64_t>(trial) + 10;
     drive.inertia = random.uniform(1.4, 2.2);
     for (Eigen::Index i = 0; i < 4; ++i) {

@@ -192,7 +192,7 @@ TEST(ImpulseMomentum, IntervalsHoldOverDrawnInstruments) {
     friction += covers(friction_of_antenna(*result.friction, campaign, 6.0),
                        friction_torque(drive.friction, 6.0));
   }
-  // Of 40 at 95 %, fewer than 34 happen once in a hundred and fifty times.
+  // Of 40 at 95 %, fewer than 34 happen about once in three hundred times.
   EXPECT_GE(inertia, 34);
   EXPECT_GE(path, 34);
   EXPECT_GE(offset, 34);

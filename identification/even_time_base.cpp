@@ -11,6 +11,9 @@ namespace {
 
 using Index = Eigen::Index;
 
+// Steps over which the sample rate is told.
+constexpr std::size_t step_block = 32;
+
 double median(std::vector<double> values) {
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
   std::nth_element(values.begin(), middle, values.end());
@@ -216,7 +219,7 @@ class TimeBaseMaker {
 
   // Median step of the neighbourhood of each step; finds a change of the sample rate.
   std::vector<double> local_steps(const std::vector<double>& steps, double usual) {
-    constexpr std::size_t block = 32;
+    constexpr std::size_t block = step_block;
     constexpr double change = 1.3;
     std::vector<double> local(steps.size(), usual);
     Index first = -1;
@@ -261,7 +264,9 @@ class TimeBaseMaker {
     std::vector<double> order{0.0};
     for (std::size_t i = 0; i < steps.size(); ++i) {
       order.push_back(order.back() + std::max(1.0, std::round(steps[i] / usual)));
-      if (steps[i] <= 1.75 * local[i]) continue;
+      // A block about a change of the rate has the median of one side only.
+      const double next = local[std::min(i + step_block, steps.size() - 1)];
+      if (steps[i] <= 1.75 * std::max(local[i], next)) continue;
       if (++gaps == 1) first_gap = base_.rows[i];
       missing += static_cast<Index>(std::min(1e12, std::round(steps[i] / local[i]) - 1.0));
       longest = std::max(longest, steps[i]);
@@ -285,7 +290,9 @@ class TimeBaseMaker {
       base_.longest_step = 1.75 * line.slope;
     } else {
       start_ = base_.times.front();
-      const double intervals = std::max(1.0, std::round(span / usual));
+      // Jitter moves samples and adds none.
+      const double intervals = changed_ ? std::max(1.0, std::round(span / usual))
+                                        : rows - 1.0 + static_cast<double>(missing);
       base_.sample_time = span / intervals;
       base_.samples = static_cast<Index>(intervals) + 1;
       base_.longest_step = 1.75 * *std::max_element(local.begin(), local.end());

@@ -16,6 +16,12 @@ bool is_driven(const std::optional<Signal>& command, double fastest) {
   return command && largest(command->values) > 1e-3 * fastest;
 }
 
+// As many samples as a time has, but no more than a fiftieth of the record.
+Index block_width(const DriveRecord& record, double time) {
+  const double most = static_cast<double>(record.samples()) / 50.0;
+  return std::max<Index>(1, static_cast<Index>(std::min(most, time / record.sample_time)));
+}
+
 // Means over `width` samples each: noise and single samples out of the way.
 Eigen::VectorXd block_means(const Eigen::VectorXd& values, Index width) {
   Eigen::VectorXd means(values.size() / width);
@@ -40,14 +46,18 @@ double share_at_two_levels(const Eigen::VectorXd& values) {
   return static_cast<double>(count) / static_cast<double>(sorted.size());
 }
 
-// Times at which a signal crosses its mean, with a band around it that noise does not leave.
+// Times at which a signal crosses its median, with a band around it that noise does not leave. What
+// it does for a short time only, on its way to a bias, does not count.
 std::vector<double> crossings(const Eigen::VectorXd& values, double step) {
-  const double mean = values.mean();
-  const double band = 0.1 * (values.maxCoeff() - values.minCoeff());
+  std::vector<double> sorted(values.data(), values.data() + values.size());
+  std::sort(sorted.begin(), sorted.end());
+  const std::size_t count = sorted.size();
+  const double middle = sorted[count / 2];
+  const double band = 0.1 * (sorted[count - 1 - count / 20] - sorted[count / 20]);
   std::vector<double> times;
   int side = 0;
   for (Index i = 0; i < values.size(); ++i) {
-    const int now = values[i] > mean + band ? 1 : (values[i] < mean - band ? -1 : 0);
+    const int now = values[i] > middle + band ? 1 : (values[i] < middle - band ? -1 : 0);
     if (now == 0 || now == side) continue;
     if (side != 0) times.push_back(static_cast<double>(i) * step);
     side = now;
@@ -67,7 +77,7 @@ bool ever_faster(const std::vector<double>& times) {
 TestKind of_valve(const DriveRecord& record) {
   const Eigen::VectorXd& valve = record.valve_command->values;
   const double duration = record.sample_time * static_cast<double>(valve.size());
-  const Index width = std::max<Index>(1, static_cast<Index>(0.02 / record.sample_time));
+  const Index width = block_width(record, 0.02);
   const Eigen::VectorXd means = block_means(valve, width);
   if (ever_faster(crossings(means, record.sample_time * static_cast<double>(width)))) {
     return TestKind::valve_chirp;
@@ -112,7 +122,7 @@ TestKind recognised_test(const DriveRecord& record, double fastest) {
     const double duration = record.sample_time * static_cast<double>(record.samples());
     return duration < 20.0 ? TestKind::slosh : TestKind::other;
   }
-  const Index width = std::max<Index>(1, static_cast<Index>(0.1 / record.sample_time));
+  const Index width = block_width(record, 0.1);
   const Eigen::VectorXd means = block_means(record.motor_rate.values, width);
   return of_rate(means, fastest);
 }

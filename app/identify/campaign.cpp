@@ -55,7 +55,7 @@ void load(const Case& antenna, const RecordEntry& entry, Work& work) {
   const RecordTable table = read_record(notes.path);
   notes.format = table.format;
   notes.bytes = table.bytes;
-  notes.checksum = table.checksum;
+  notes.checksum = record_checksum(notes.path);
   notes.remarks = table.remarks;
   work.raw = raw_record(antenna, table, notes);
   work.raw.name = entry.name;

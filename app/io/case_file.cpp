@@ -39,19 +39,7 @@ bool names_one_of(const std::string& id, std::string_view prefix, std::string_vi
   });
 }
 
-}  // namespace
-
-std::string read_name(TableReader& entry, std::set<std::string>& names) {
-  std::string name = entry.text("name");
-  if (name.empty()) entry.refuse("name", "expected a name, found an empty text");
-  if (!names.insert(name).second) {
-    entry.refuse("name", "expected a name of its own, found " + quoted(name) + " again");
-  }
-  return name;
-}
-
-Case read_case(const std::string& path) {
-  TableReader file = TableReader::open(path);
+Case case_of(TableReader file, const std::string& path) {
   Case antenna;
   antenna.path = path;
   antenna.title = file.text("title");
@@ -75,6 +63,24 @@ Case read_case(const std::string& path) {
   return antenna;
 }
 
+}  // namespace
+
+std::string read_name(TableReader& entry, std::set<std::string>& names) {
+  std::string name = entry.text("name");
+  if (name.empty()) entry.refuse("name", "expected a name, found an empty text");
+  if (!names.insert(name).second) {
+    entry.refuse("name", "expected a name of its own, found " + quoted(name) + " again");
+  }
+  return name;
+}
+
+Case read_case(const std::string& path) {
+  return case_of(TableReader::open(path), path);
+}
+
+Case parse_case(std::string_view text, const std::string& path) {
+  return case_of(TableReader::parse(text, path), path);
+}
 std::optional<Kind> stated_kind(const std::string& id, const Case& antenna) {
   static const std::set<std::string> inertias{"load_inertia",
                                               "load_inertia.antenna",

@@ -2,6 +2,7 @@
 
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <boresight/app/io/case_campaign.hpp>
@@ -230,9 +231,9 @@ struct Case {
   MotorEntry motor;
   OilEntry oil;
   std::optional<Quantity> resonance_frequency;
+  /// If it has a voltage and a recorder limit; see campaign for one of another kind.
   std::optional<TachometerEntry> tachometer;
   FrictionTestsEntry friction_tests;
-  /// If it has a voltage and a recorder limit; see campaign for one of another kind.
   std::vector<ImpulseResult> impulse_results;
   DriveEntry drive;
   FrictionCurveEntry friction_curve;
@@ -248,15 +249,17 @@ struct Case {
   std::vector<double> matching_disks;
   std::vector<StatedEntry> stated;
   std::vector<RemarkEntry> remarks;
-  /// Every quantity of the file, in file order, for the list of assumptions.
-  std::vector<Quantity> quantities;
   /// What was recorded, and with what.
   CampaignEntry campaign;
+  /// Every quantity of the file, in file order, for the list of assumptions.
+  std::vector<Quantity> quantities;
 };
 
 /// Reads and checks a case file. @throws InvalidInput with one message: file, line, column, key,
 /// what was expected and what was found.
 Case read_case(const std::string& path);
+/// Same, of a text; files that it names stand relative to the path's folder.
+Case parse_case(std::string_view text, const std::string& path);
 
 /// The kind of a stated quantity's id ("reflected_inertia" is an inertia), from the closed list of
 /// docs/case-file.md; nothing for an unknown id.

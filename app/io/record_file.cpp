@@ -1,12 +1,13 @@
 #include <cerrno>
-#include <cstdio>
 #include <filesystem>
-#include <limits>
-#include <memory>
 #include <string_view>
 #include <system_error>
+#include <utility>
 
+#include <fcntl.h>
 #include <fmt/format.h>
+#include <sys/mman.h>
+#include <unistd.h>
 #include <zlib.h>
 
 #include <boresight/app/io/record_file.hpp>
@@ -17,39 +18,41 @@
 namespace boresight::app {
 namespace {
 
-struct Bytes {
-  std::unique_ptr<char[]> data;
-  std::size_t size = 0;
-};
-
 [[noreturn]] void refuse(const std::string& path, const std::string& found) {
   throw InvalidInput(fmt::format("{}: expected a readable recorder file, found {}", path, found));
 }
 
-// In one read, into memory that is not cleared first.
-Bytes read_bytes(const std::string& path) {
-  std::error_code error;
-  if (std::filesystem::is_directory(path, error)) refuse(path, "a folder");
-  const auto size = std::filesystem::file_size(path, error);
-  if (error) refuse(path, fmt::format("none ({})", error.message()));
-  if (size == 0) refuse(path, "an empty one");
-  struct Closing {
-    void operator()(std::FILE* file) const { std::fclose(file); }
-  };
-  const std::unique_ptr<std::FILE, Closing> file(std::fopen(path.c_str(), "rb"));
-  if (!file) refuse(path, fmt::format("none ({})", std::generic_category().message(errno)));
-  Bytes bytes{std::make_unique_for_overwrite<char[]>(size), size};
-  if (std::fread(bytes.data.get(), 1, size, file.get()) != size) {
-    refuse(path, "one that cannot be read to its end");
+/// A file's bytes as the system has them in memory: a copy would take a third of the reading time.
+class FileBytes {
+ public:
+  explicit FileBytes(const std::string& path) {
+    std::error_code error;
+    if (std::filesystem::is_directory(path, error)) refuse(path, "a folder");
+    size_ = std::filesystem::file_size(path, error);
+    if (error) refuse(path, fmt::format("none ({})", error.message()));
+    if (size_ == 0) refuse(path, "an empty one");
+    const int file = open(path.c_str(), O_RDONLY | O_CLOEXEC);
+    if (file < 0) refuse(path, fmt::format("none ({})", std::generic_category().message(errno)));
+    begin_ = mmap(nullptr, size_, PROT_READ, MAP_PRIVATE | MAP_POPULATE, file, 0);
+    close(file);
+    if (begin_ == MAP_FAILED) refuse(path, "one that cannot be read");
   }
-  return bytes;
-}
+  FileBytes(const FileBytes&) = delete;
+  FileBytes& operator=(const FileBytes&) = delete;
+  ~FileBytes() { munmap(begin_, size_); }
+
+  std::string_view view() const { return {static_cast<const char*>(begin_), size_}; }
+
+ private:
+  void* begin_ = nullptr;
+  std::size_t size_ = 0;
+};
 
 }  // namespace
 
 RecordTable read_record(const std::string& path) {
-  const Bytes bytes = read_bytes(path);
-  const std::string_view content(bytes.data.get(), bytes.size);
+  const FileBytes bytes(path);
+  const std::string_view content = bytes.view();
   for (const auto& [magic, kind] :
        {std::pair{"\x1F\x8B", "a gzip file"}, std::pair{"PK\x03\x04", "a zip or spreadsheet file"},
         std::pair{"\xD0\xCF\x11\xE0", "a spreadsheet file"}}) {
@@ -57,11 +60,13 @@ RecordTable read_record(const std::string& path) {
       refuse(path, fmt::format("{} (unpack it, or save it as CSV)", kind));
     }
   }
-  RecordTable table =
-      is_mat(content) ? read_record_mat(content, path) : read_record_text(content, path);
-  table.checksum = static_cast<std::uint32_t>(
-      crc32_z(0, reinterpret_cast<const Bytef*>(content.data()), content.size()));
-  return table;
+  return is_mat(content) ? read_record_mat(content, path) : read_record_text(content, path);
+}
+
+std::uint32_t record_checksum(const std::string& path) {
+  const FileBytes bytes(path);
+  return static_cast<std::uint32_t>(
+      crc32_z(0, reinterpret_cast<const Bytef*>(bytes.view().data()), bytes.view().size()));
 }
 
 }  // namespace boresight::app

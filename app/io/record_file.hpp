@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <string>
 
 #include <boresight/app/io/record_table.hpp>
@@ -10,5 +11,8 @@ namespace boresight::app {
 /// @throws InvalidInput if it cannot be read, is empty or compressed as a whole, and as
 /// read_record_text and read_record_mat do.
 RecordTable read_record(const std::string& path);
+
+/// CRC-32 of a file's bytes, as gzip and zip compute it. @throws InvalidInput as read_record
+std::uint32_t record_checksum(const std::string& path);
 
 }  // namespace boresight::app

@@ -173,6 +173,7 @@ RecordHeader read_record_header(std::string_view content, const std::string& nam
                   "other bytes (save as CSV in UTF-8)");
   }
   std::vector<Line> above;
+  bool found = false;
   while (position < std::min(content.size(), furthest_row)) {
     const std::size_t end = std::min(content.find_first_of("\r\n", position), content.size());
     std::string_view text = trimmed(content.substr(position, end - position));
@@ -182,6 +183,7 @@ RecordHeader read_record_header(std::string_view content, const std::string& nam
       if (header.separator != '\0' &&
           is_row(cells_of(content, position, end, header.separator), header.separator)) {
         header.first_row = position;
+        found = true;
         break;
       }
     }
@@ -189,14 +191,9 @@ RecordHeader read_record_header(std::string_view content, const std::string& nam
     if (!text.empty() && line.begin < end) above.push_back(line);
     position = end;
     if (position < content.size() && content[position] == '\r') ++position;
-    if (position < content.size() && content[position] == '\n' && content[position - 1] != '\n') {
-      ++position;
-    } else if (position == end) {
-      ++position;
-    }
+    if (position < content.size() && content[position] == '\n') ++position;
   }
-  if (header.first_row == 0 &&
-      (above.empty() || position >= furthest_row || position >= content.size())) {
+  if (!found) {
     refuse_record(content, above.empty() ? 0 : above.back().end, name,
                   "expected a header and lines of numbers separated by comma, semicolon or tab, "
                   "found no line of two or more numbers");

@@ -145,9 +145,13 @@ class Collector {
 }  // namespace
 
 bool is_mat(std::string_view content) {
-  return content.starts_with("MATLAB ") || content.starts_with("\x89HDF") ||
-         (content.size() >= head_size &&
-          (content.substr(126, 2) == "IM" || content.substr(126, 2) == "MI"));
+  if (content.starts_with("MATLAB 5.0 MAT-file") || content.starts_with("MATLAB 7.3 MAT-file") ||
+      content.starts_with("\x89HDF")) {
+    return true;
+  }
+  // The text at its head is free: version 1.0 and the mark of the byte order follow it.
+  const std::string_view mark = content.substr(std::min<std::size_t>(content.size(), 124), 4);
+  return mark == std::string_view("\x00\x01IM", 4) || mark == std::string_view("\x01\x00MI", 4);
 }
 
 RecordTable read_record_mat(std::string_view content, const std::string& name) {
@@ -162,7 +166,8 @@ RecordTable read_record_mat(std::string_view content, const std::string& name) {
   const std::string_view order = content.substr(126, 2);
   if (order != "IM" && order != "MI") {
     throw InvalidInput(fmt::format(
-        "{}: expected a MAT file of version 5, found another (save it with `save -v7`)", name));
+        "{}: expected a MAT file of version 5, found another version (save it with `save -v7`)",
+        name));
   }
   const bool swapped = order == "MI";  // written on a machine of the other byte order
   MatCursor cursor(content.substr(head_size), swapped, name);

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cstddef>
-#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -20,8 +19,6 @@ struct RecordColumn {
 struct RecordTable {
   std::string path;
   std::size_t bytes = 0;
-  /// CRC-32 of the file, as gzip and zip compute it.
-  std::uint32_t checksum = 0;
   /// "comma-separated text", "MAT 5".
   std::string format;
   std::vector<RecordColumn> columns;

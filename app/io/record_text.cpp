@@ -40,15 +40,15 @@ class RowReader {
         separator_(header.separator),
         columns_(std::move(header.columns)),
         position_(header.first_row) {
-    const std::size_t line_end =
-        std::min(content_.find_first_of("\r\n", position_), content_.size());
-    const std::string_view first = content_.substr(position_, line_end - position_);
     const std::string_view sample = content_.substr(position_, sample_of_numbers);
     decimal_comma_ = separator_ != ',' && sample.find(',') != std::string_view::npos &&
                      sample.find('.') == std::string_view::npos;
+    const auto lines = std::count_if(sample.begin(), sample.end(), ends_line) + 1;
     // A line of n cells has at least 2 n - 1 characters, and its end.
-    const std::size_t line_length = std::max(first.size() + 1, 2 * columns_.size());
-    grow((content_.size() - position_) / line_length + 16);
+    const std::size_t line_length =
+        std::max(sample.size() / static_cast<std::size_t>(lines), 2 * columns_.size());
+    const std::size_t rows = (content_.size() - position_) / line_length;
+    grow(rows + rows / 16 + 16);
   }
 
   void read() {

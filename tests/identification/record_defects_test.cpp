@@ -1,0 +1,462 @@
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <string>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <boresight/identification/record_defects.hpp>
+#include <boresight/plant/error.hpp>
+
+namespace boresight::identification {
+namespace {
+
+using testing::HasSubstr;
+using Index = Eigen::Index;
+
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+constexpr double step = 0.005;
+constexpr Index length = 4000;
+
+double noise(Index i, int channel) {
+  const double phase = 12.9898 * static_cast<double>(i + 1) + 78.233 * channel;
+  const double value = std::sin(phase) * 43758.5453;
+  return value - std::floor(value) - 0.5;
+}
+
+double rate_at(double t) {
+  return 8.0 * std::sin(2.0 * std::numbers::pi * 0.3 * t);
+}
+
+// Four motors swinging against friction, transducers with noise.
+RawRecord healthy() {
+  RawRecord raw;
+  raw.name = "swing";
+  raw.test = TestKind::other;
+  raw.time.resize(length);
+  raw.inlet.resize(4);
+  raw.outlet.resize(4);
+  raw.tachometer.values.resize(length);
+  raw.rate_command.emplace();
+  raw.rate_command->name = "command";
+  raw.rate_command->values.resize(length);
+  raw.tachometer.name = "tach";
+  for (int motor = 0; motor < 4; ++motor) {
+    const auto at = static_cast<std::size_t>(motor);
+    raw.inlet[at].name = "p" + std::to_string(motor + 1) + "_in";
+    raw.outlet[at].name = "p" + std::to_string(motor + 1) + "_out";
+    raw.inlet[at].values.resize(length);
+    raw.outlet[at].values.resize(length);
+  }
+  for (Index i = 0; i < length; ++i) {
+    const double t = step * static_cast<double>(i);
+    raw.time[i] = std::round(t * 1000.0) / 1000.0;
+    const double rate = rate_at(t);
+    raw.tachometer.values[i] = rate + 0.02 * noise(i, 0);
+    raw.rate_command->values[i] = rate;
+    for (int motor = 0; motor < 4; ++motor) {
+      const auto at = static_cast<std::size_t>(motor);
+      const double half = 0.5e6 * std::tanh(rate);
+      raw.inlet[at].values[i] = 7e6 + half + 1e4 * motor + 5e3 * noise(i, 1 + motor);
+      raw.outlet[at].values[i] = 7e6 - half - 1e4 * motor + 5e3 * noise(i, 5 + motor);
+    }
+  }
+  return raw;
+}
+
+std::vector<RecordDefect> of(const CleanRecord& clean, DefectKind kind) {
+  std::vector<RecordDefect> found;
+  for (const auto& defect : clean.defects) {
+    if (defect.kind == kind) found.push_back(defect);
+  }
+  return found;
+}
+
+// The one defect of a record that has no other.
+RecordDefect only(const CleanRecord& clean, DefectKind kind) {
+  EXPECT_EQ(clean.defects.size(), 1U);
+  for (const auto& defect : clean.defects) {
+    EXPECT_EQ(to_string(defect.kind), to_string(kind)) << defect.channel << defect.explanation;
+  }
+  const auto found = of(clean, kind);
+  return found.empty() ? RecordDefect{} : found.front();
+}
+
+Index invalid_count(const Signal& signal) {
+  Index count = 0;
+  for (Index i = 0; i < signal.values.size(); ++i) count += signal.is_valid(i) ? 0 : 1;
+  return count;
+}
+
+TEST(CleanRecord, LeavesAHealthyRecordAsItIs) {
+  const RawRecord raw = healthy();
+  const CleanRecord clean = clean_record(raw);
+  EXPECT_TRUE(clean.defects.empty());
+  ASSERT_TRUE(clean.record);
+  EXPECT_DOUBLE_EQ(clean.record->sample_time, step);
+  EXPECT_EQ(clean.record->samples(), length);
+  EXPECT_EQ(clean.record->motor_rate.values, raw.tachometer.values);
+  EXPECT_TRUE(clean.record->motor_rate.valid.empty());
+  EXPECT_EQ(clean.record->inlet_pressure[2].values, raw.inlet[2].values);
+  EXPECT_EQ(clean.record->outlet_pressure[3].values, raw.outlet[3].values);
+  EXPECT_EQ(clean.record->rate_command->values, raw.rate_command->values);
+  EXPECT_FALSE(clean.record->valve_command);
+  EXPECT_EQ(clean.record->name, "swing");
+}
+
+TEST(CleanRecord, MasksMissingSamplesAndBridgesThem) {
+  RawRecord raw = healthy();
+  raw.tachometer.values.segment(100, 7).setConstant(nan);
+  raw.tachometer.values[500] = nan;
+  const CleanRecord clean = clean_record(raw);
+  const RecordDefect defect = only(clean, DefectKind::missing_samples);
+  EXPECT_EQ(defect.channel, "tach");
+  EXPECT_EQ(defect.first, 100);
+  EXPECT_DOUBLE_EQ(defect.first_time, 0.5);
+  EXPECT_EQ(defect.count, 8);
+  EXPECT_EQ(defect.handling, DefectHandling::masked);
+  const Signal& rate = clean.record->motor_rate;
+  EXPECT_EQ(invalid_count(rate), 8);
+  EXPECT_FALSE(rate.is_valid(103));
+  EXPECT_NEAR(rate.values[103], 0.5 * (rate.values[99] + rate.values[107]), 1e-12);
+}
+
+TEST(CleanRecord, LeavesSamplesWithoutTimeOut) {
+  RawRecord raw = healthy();
+  raw.time[70] = nan;
+  const CleanRecord clean = clean_record(raw);
+  EXPECT_EQ(of(clean, DefectKind::missing_times).at(0).first, 70);
+  EXPECT_EQ(clean.record->samples(), length);
+  EXPECT_FALSE(clean.record->motor_rate.is_valid(70));
+  EXPECT_TRUE(clean.record->motor_rate.is_valid(71));
+  EXPECT_EQ(clean.record->motor_rate.values[71], raw.tachometer.values[71]);
+}
+
+TEST(CleanRecord, LeavesARepeatedTimeOut) {
+  RawRecord raw = healthy();
+  raw.time[300] = raw.time[299];
+  const CleanRecord clean = clean_record(raw);
+  const RecordDefect defect = of(clean, DefectKind::repeated_times).at(0);
+  EXPECT_EQ(defect.count, 1);
+  EXPECT_NEAR(static_cast<double>(defect.first), 299.5, 0.6);
+  EXPECT_EQ(defect.handling, DefectHandling::left_out);
+  EXPECT_EQ(invalid_count(clean.record->motor_rate), 1);
+  EXPECT_EQ(clean.record->motor_rate.values[301], raw.tachometer.values[301]);
+}
+
+TEST(CleanRecord, LeavesTimesThatRunBackOrAheadOut) {
+  RawRecord raw = healthy();
+  raw.time[300] = 0.1;
+  raw.time[800] = 1e6;
+  const CleanRecord clean = clean_record(raw);
+  const RecordDefect defect = of(clean, DefectKind::backward_times).at(0);
+  EXPECT_EQ(defect.count, 2);
+  EXPECT_EQ(defect.first, 300);
+  EXPECT_EQ(invalid_count(clean.record->motor_rate), 2);
+  EXPECT_EQ(clean.record->motor_rate.values[2000], raw.tachometer.values[2000]);
+}
+
+TEST(CleanRecord, RefusesTwoRecordsInOneFile) {
+  RawRecord raw = healthy();
+  raw.time.tail(1000).array() -= 15.0;
+  const CleanRecord clean = clean_record(raw);
+  EXPECT_FALSE(clean.record);
+  EXPECT_THAT(clean.refusal, HasSubstr("is the file made of several records?"));
+  EXPECT_EQ(clean.defects.back().handling, DefectHandling::refused);
+  EXPECT_EQ(clean.defects.back().kind, DefectKind::backward_times);
+}
+
+TEST(CleanRecord, InterpolatesJitteredTimesOntoAnEvenGrid) {
+  RawRecord raw = healthy();
+  for (Index i = 1; i + 1 < length; ++i) {
+    raw.time[i] += 0.3 * step * noise(i, 20) + 1e-7 * noise(i, 21);
+  }
+  const Eigen::VectorXd at = raw.time;
+  for (Index i = 0; i < length; ++i) raw.tachometer.values[i] = rate_at(at[i]);
+  const CleanRecord clean = clean_record(raw);
+  const RecordDefect defect = only(clean, DefectKind::jitter);
+  EXPECT_EQ(defect.handling, DefectHandling::resampled);
+  EXPECT_GT(defect.count, length / 2);
+  ASSERT_TRUE(clean.record);
+  EXPECT_NEAR(clean.record->sample_time, step, 1e-9);
+  double worst = 0.0;
+  for (Index i = 0; i < clean.record->samples(); ++i) {
+    const double t = clean.record->sample_time * static_cast<double>(i);
+    worst = std::max(worst, std::abs(clean.record->motor_rate.values[i] - rate_at(t)));
+  }
+  // Linear interpolation: h^2/8 times the second derivative, and the steps are up to 1.3 h.
+  EXPECT_LT(worst, 8.0 * std::pow(2.0 * std::numbers::pi * 0.3 * 1.3 * step, 2) / 8.0);
+}
+
+TEST(CleanRecord, TakesRoundedTimesForEven) {
+  RawRecord raw = healthy();
+  const double odd = 1.0 / 300.0;
+  for (Index i = 0; i < length; ++i) {
+    raw.time[i] = std::round(1000.0 * odd * static_cast<double>(i)) / 1000.0;
+  }
+  const CleanRecord clean = clean_record(raw);
+  EXPECT_TRUE(clean.defects.empty());
+  EXPECT_NEAR(clean.record->sample_time, odd, 1e-8);
+  EXPECT_EQ(clean.record->motor_rate.values, raw.tachometer.values);
+}
+
+TEST(CleanRecord, TakesTimesOfTooFewDigitsByTheirOrder) {
+  RawRecord raw = healthy();
+  for (Index i = 0; i < length; ++i) {
+    raw.time[i] = std::floor(step * static_cast<double>(i) * 50.0 + 1e-9) / 50.0;
+  }
+  const CleanRecord clean = clean_record(raw);
+  const RecordDefect defect = only(clean, DefectKind::repeated_times);
+  EXPECT_EQ(defect.handling, DefectHandling::resampled);
+  EXPECT_THAT(defect.explanation, HasSubstr("too few digits"));
+  EXPECT_NEAR(clean.record->sample_time, step, 1e-6);
+  EXPECT_EQ(clean.record->motor_rate.values, raw.tachometer.values);
+}
+
+TEST(CleanRecord, RefusesTimesThatStandStill) {
+  RawRecord raw = healthy();
+  raw.time.setConstant(3.0);
+  EXPECT_THAT(clean_record(raw).refusal, HasSubstr("expected times that rise"));
+  raw.time.setConstant(nan);
+  EXPECT_THAT(clean_record(raw).refusal, HasSubstr("expected at least 200 samples, found 0"));
+}
+
+TEST(CleanRecord, MasksAGap) {
+  RawRecord raw = healthy();
+  raw.time.tail(1000).array() += 40 * step;
+  const CleanRecord clean = clean_record(raw);
+  const RecordDefect defect = only(clean, DefectKind::gap);
+  EXPECT_EQ(defect.first, length - 1001);
+  EXPECT_EQ(defect.count, 40);
+  EXPECT_EQ(clean.record->samples(), length + 40);
+  EXPECT_EQ(invalid_count(clean.record->motor_rate), 40);
+  EXPECT_FALSE(clean.record->inlet_pressure[0].is_valid(length - 1000 + 20));
+  EXPECT_EQ(clean.record->motor_rate.values.tail(1000), raw.tachometer.values.tail(1000));
+}
+
+TEST(CleanRecord, RefusesGapsLongerThanTheRecord) {
+  RawRecord raw = healthy();
+  raw.time.tail(1000).array() += 1e4;
+  const CleanRecord clean = clean_record(raw);
+  EXPECT_THAT(clean.refusal, HasSubstr("cut the file there"));
+  EXPECT_EQ(clean.defects.back().kind, DefectKind::gap);
+}
+
+TEST(CleanRecord, FindsAChangeOfTheSampleRate) {
+  RawRecord raw = healthy();
+  for (Index i = 0; i < length; ++i) {
+    const auto slow = static_cast<double>(std::max<Index>(0, i - 3000));
+    raw.time[i] = step * (static_cast<double>(i) + slow);  // 100 a second from sample 3000
+    raw.tachometer.values[i] = rate_at(raw.time[i]);
+  }
+  const CleanRecord clean = clean_record(raw);
+  const RecordDefect defect = only(clean, DefectKind::rate_change);
+  EXPECT_NEAR(static_cast<double>(defect.first), 3000.0, 40.0);
+  EXPECT_NEAR(static_cast<double>(defect.count), 1000.0, 40.0);
+  EXPECT_DOUBLE_EQ(clean.record->sample_time, step);
+  EXPECT_EQ(clean.record->samples(), length + 999);
+  EXPECT_EQ(invalid_count(clean.record->motor_rate), 0);
+  EXPECT_NEAR(clean.record->motor_rate.values[4500], rate_at(4500 * step), 1e-3);
+}
+
+TEST(CleanRecord, MasksAStatedLimitWithAGuardBand) {
+  RawRecord raw = healthy();
+  raw.tachometer.upper_limit = 6.0;
+  raw.tachometer.lower_limit = -6.0;
+  for (double& value : raw.tachometer.values) value = std::clamp(value, -6.0, 6.0);
+  const CleanRecord clean = clean_record(raw);
+  const RecordDefect defect = only(clean, DefectKind::clipped);
+  EXPECT_EQ(defect.channel, "tach");
+  EXPECT_THAT(defect.explanation, HasSubstr("recorder's limit"));
+  const Signal& rate = clean.record->motor_rate;
+  EXPECT_DOUBLE_EQ(clean.record->motor_rate_limit, 6.0);
+  EXPECT_GT(invalid_count(rate), defect.count);
+  for (Index i = 2; i + 2 < rate.values.size(); ++i) {
+    if (!rate.is_valid(i)) continue;
+    for (Index k = i - 2; k <= i + 2; ++k) EXPECT_LT(std::abs(raw.tachometer.values[k]), 6.0);
+  }
+}
+
+TEST(CleanRecord, FindsALimitThatNobodyStated) {
+  RawRecord raw = healthy();
+  for (double& value : raw.tachometer.values) value = std::clamp(value, -5.9, 6.0);
+  for (double& value : raw.inlet[1].values) value = std::min(value, 7.3e6);
+  const CleanRecord clean = clean_record(raw);
+  const auto defects = of(clean, DefectKind::clipped);
+  ASSERT_EQ(defects.size(), 2U);
+  EXPECT_EQ(defects[0].channel, "p2_in");
+  EXPECT_EQ(defects[1].channel, "tach");
+  EXPECT_THAT(defects[1].explanation, HasSubstr("no limit is stated"));
+  EXPECT_DOUBLE_EQ(clean.record->motor_rate_limit, 5.9);
+  Index beyond = 0;
+  for (const double value : raw.tachometer.values) beyond += value == 6.0 || value == -5.9;
+  EXPECT_NEAR(static_cast<double>(defects[1].count), static_cast<double>(beyond), 20.0);
+  EXPECT_EQ(clean.defects.size(), 2U);
+}
+
+TEST(CleanRecord, DoesNotTakeRestOrAQuietConverterForClipping) {
+  RawRecord raw = healthy();
+  // Noise-free, 12 bits, at rest first and last: long equal runs everywhere.
+  for (Index i = 0; i < length; ++i) {
+    const bool rest = i < 500 || i > 3500;
+    raw.tachometer.values[i] =
+        rest ? 0.0 : 0.005 * std::round((1.0 + rate_at(step * static_cast<double>(i))) / 0.005);
+    raw.rate_command->values[i] = raw.tachometer.values[i];
+  }
+  const CleanRecord clean = clean_record(raw);
+  EXPECT_EQ(invalid_count(clean.record->motor_rate), 0);
+}
+
+TEST(CleanRecord, MasksSpikesAndNotSteps) {
+  RawRecord raw = healthy();
+  raw.inlet[0].values[777] += 2e6;
+  raw.tachometer.values[1500] -= 3.0;
+  raw.tachometer.values[1501] -= 3.0;
+  raw.outlet[2].values.tail(1000).array() += 4e5;  // a step is no spike
+  const CleanRecord clean = clean_record(raw);
+  const auto defects = of(clean, DefectKind::spike);
+  ASSERT_EQ(defects.size(), 1U + 1U);
+  EXPECT_EQ(defects[0].channel, "p1_in");
+  EXPECT_EQ(defects[0].first, 777);
+  EXPECT_EQ(defects[0].count, 1);
+  EXPECT_EQ(defects[1].channel, "tach");
+  EXPECT_EQ(defects[1].count, 2);
+  EXPECT_FALSE(clean.record->inlet_pressure[0].is_valid(777));
+  EXPECT_LT(clean.record->inlet_pressure[0].values[777], 7.6e6);
+  EXPECT_EQ(invalid_count(clean.record->outlet_pressure[2]), 0);
+}
+
+TEST(CleanRecord, MasksAStuckStretch) {
+  RawRecord raw = healthy();
+  raw.inlet[3].values.segment(1000, 400).setConstant(raw.inlet[3].values[1000]);
+  const CleanRecord clean = clean_record(raw);
+  const RecordDefect defect = only(clean, DefectKind::stuck);
+  EXPECT_EQ(defect.channel, "p4_in");
+  EXPECT_EQ(defect.first, 1000);
+  EXPECT_EQ(defect.count, 399);
+  EXPECT_EQ(invalid_count(clean.record->inlet_pressure[3]), 399);
+}
+
+TEST(CleanRecord, ReplacesADeadPressureByTheMeanOfTheOthers) {
+  for (const bool missing : {false, true}) {
+    RawRecord raw = healthy();
+    const RawRecord alive = raw;
+    if (missing) {
+      raw.outlet[1].values.setConstant(nan);
+    } else {
+      for (Index i = 0; i < length; ++i) raw.outlet[1].values[i] = 1e5 + 50.0 * noise(i, 30);
+    }
+    const CleanRecord clean = clean_record(raw);
+    const auto defects = of(clean, DefectKind::dead_channel);
+    ASSERT_EQ(defects.size(), 1U);
+    EXPECT_EQ(defects[0].channel, "p2_out");
+    EXPECT_EQ(defects[0].handling, DefectHandling::replaced);
+    EXPECT_EQ(clean.replaced_outlets, std::vector<std::size_t>{1});
+    EXPECT_TRUE(clean.replaced_inlets.empty());
+    const Signal& signal = clean.record->outlet_pressure[1];
+    EXPECT_EQ(invalid_count(signal), length);
+    const double mean =
+        (alive.outlet[0].values[900] + alive.outlet[2].values[900] + alive.outlet[3].values[900]) /
+        3.0;
+    EXPECT_NEAR(signal.values[900], mean, 1e-6);
+  }
+}
+
+TEST(CleanRecord, RefusesWithoutAnyPressureOfASide) {
+  RawRecord raw = healthy();
+  for (auto& channel : raw.inlet) channel.values.setConstant(nan);
+  const CleanRecord clean = clean_record(raw);
+  EXPECT_FALSE(clean.record);
+  EXPECT_THAT(clean.refusal, HasSubstr("expected an inlet pressure of one motor at least"));
+}
+
+TEST(CleanRecord, NeedsATachometerButInASloshTest) {
+  RawRecord raw = healthy();
+  raw.tachometer.values.setConstant(0.0);
+  EXPECT_THAT(clean_record(raw).refusal,
+              HasSubstr("expected a tachometer that moves, found tach at one value throughout"));
+  raw.test = TestKind::slosh;
+  const CleanRecord slosh = clean_record(raw);
+  ASSERT_TRUE(slosh.record);
+  EXPECT_EQ(invalid_count(slosh.record->motor_rate), length);
+  EXPECT_EQ(slosh.record->motor_rate.values.norm(), 0.0);
+  raw.test = TestKind::fast_ramp;
+  raw.tachometer.values.setConstant(nan);
+  EXPECT_THAT(clean_record(raw).refusal, HasSubstr("missing in more than half of the samples"));
+}
+
+TEST(CleanRecord, SuspectsSwappedPortsAndTurnsNothing) {
+  RawRecord raw = healthy();
+  std::swap(raw.inlet[2].values, raw.outlet[2].values);
+  const CleanRecord clean = clean_record(raw);
+  const RecordDefect defect = only(clean, DefectKind::swapped_ports);
+  EXPECT_EQ(defect.channel, "p3_in");
+  EXPECT_EQ(defect.handling, DefectHandling::reported);
+  EXPECT_THAT(defect.explanation, HasSubstr("motor 3 goes against that of the others"));
+  EXPECT_EQ(clean.record->inlet_pressure[2].values, raw.inlet[2].values);
+}
+
+TEST(CleanRecord, SuspectsATurnedTachometer) {
+  RawRecord raw = healthy();
+  raw.tachometer.values *= -1.0;
+  const CleanRecord clean = clean_record(raw);
+  const auto defects = of(clean, DefectKind::reversed_sign);
+  ASSERT_EQ(defects.size(), 2U);  // against its command, and against the torque
+  EXPECT_EQ(defects[0].channel, "command");
+  EXPECT_EQ(defects[1].channel, "tach");
+  EXPECT_EQ(clean.record->motor_rate.values, raw.tachometer.values);
+}
+
+TEST(CleanRecord, SuspectsAPressureBelowZero) {
+  RawRecord raw = healthy();
+  raw.inlet[0].values *= -1.0;
+  const auto defects = of(clean_record(raw), DefectKind::reversed_sign);
+  ASSERT_FALSE(defects.empty());
+  EXPECT_EQ(defects[0].channel, "p1_in");
+}
+
+TEST(CleanRecord, HandlesDifferentLengths) {
+  RawRecord raw = healthy();
+  raw.rate_command->values.conservativeResize(length - 5);
+  const CleanRecord shorter = clean_record(raw);
+  EXPECT_EQ(only(shorter, DefectKind::different_length).handling, DefectHandling::left_out);
+  EXPECT_FALSE(shorter.record->rate_command);
+  raw.inlet[1].values.conservativeResize(length - 1);
+  const CleanRecord refused = clean_record(raw);
+  EXPECT_THAT(refused.refusal,
+              HasSubstr("expected as many samples of p2_in as of the time, 4000, found 3999"));
+  EXPECT_EQ(refused.defects.back().kind, DefectKind::different_length);
+}
+
+TEST(CleanRecord, RefusesAShortRecord) {
+  RawRecord raw = healthy();
+  for (auto* side : {&raw.inlet, &raw.outlet}) {
+    for (auto& channel : *side) channel.values.conservativeResize(150);
+  }
+  raw.time.conservativeResize(150);
+  raw.tachometer.values.conservativeResize(150);
+  raw.rate_command.reset();
+  const CleanRecord clean = clean_record(raw);
+  EXPECT_EQ(clean.refusal, "expected at least 200 samples, found 150");
+  EXPECT_EQ(clean.defects.back().kind, DefectKind::too_short);
+}
+
+TEST(CleanRecord, RefusesARecordWithoutMotors) {
+  RawRecord raw = healthy();
+  raw.outlet.pop_back();
+  EXPECT_THAT([&] { clean_record(raw); },
+              testing::ThrowsMessage<InvalidInput>(HasSubstr("clean_record: record 'swing'")));
+}
+
+TEST(CleanRecord, NamesEveryKindAndHandling) {
+  for (int i = 0; i <= static_cast<int>(DefectKind::too_short); ++i) {
+    EXPECT_FALSE(to_string(static_cast<DefectKind>(i)).empty());
+  }
+  for (int i = 0; i <= static_cast<int>(DefectHandling::refused); ++i) {
+    EXPECT_FALSE(to_string(static_cast<DefectHandling>(i)).empty());
+  }
+}
+
+}  // namespace
+}  // namespace boresight::identification

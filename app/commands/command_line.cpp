@@ -12,6 +12,7 @@
 #include <boresight/app/commands/command_line.hpp>
 #include <boresight/app/commands/progress_line.hpp>
 #include <boresight/app/commands/simulate_command.hpp>
+#include <boresight/app/identify/campaign_identification.hpp>
 #include <boresight/app/redesign/sections.hpp>
 #include <boresight/app/report/json_report.hpp>
 #include <boresight/app/report/text_report.hpp>
@@ -52,10 +53,16 @@ struct Command {
   const char* name;
   const char* description;
   Section run;
+  const char* work = "tuning and verifying";  // as its progress line begins
 };
 
-void fill_redesign(const Case& antenna, const StudyOptions& options, Report& report) {
+void fill_identification(const Case& antenna, const StudyOptions& options, Report& report) {
   report.identification = identify(antenna, options);
+  if (!antenna.campaign.records.empty()) report.campaign = identify_campaign(antenna, options);
+}
+
+void fill_redesign(const Case& antenna, const StudyOptions& options, Report& report) {
+  fill_identification(antenna, options, report);
   report.audit = audit(antenna);
   report.plant = describe_plant(antenna);
   redesign(antenna, options, report);
@@ -69,11 +76,16 @@ const std::vector<Command>& commands() {
       {"audit", "recompute every derived number the case states; list what does not follow",
        [](const Case& antenna, const StudyOptions&, Report& report) {
          report.audit = audit(antenna);
+         if (antenna.campaign.records.empty()) return;
+         report.conclusions.push_back(fmt::format(
+             "The case has {} records, which an audit does not open: `boresight identify {}` lists "
+             "the numbers that they contradict.",
+             antenna.campaign.records.size(), report.case_path));
        }},
-      {"identify", "reflected inertia and motor-to-load ratio by each method, with intervals",
-       [](const Case& antenna, const StudyOptions& options, Report& report) {
-         report.identification = identify(antenna, options);
-       }},
+      {"identify",
+       "inertia and motor-to-load ratio by each method, with intervals; of a case with records all "
+       "that they say of the drive",
+       fill_identification, "identifying"},
       {"model", "the linear plant: parameters, poles, what each mode is",
        [](const Case& antenna, const StudyOptions&, Report& report) {
          report.plant = describe_plant(antenna);
@@ -108,7 +120,7 @@ int run(const Command& command, const Arguments& arguments) {
   report.seed = arguments.seed;
   report.assumed = assumed_inputs(antenna);
   {
-    ProgressLine progress("tuning and verifying");
+    ProgressLine progress(command.work);
     options.progress = [&](std::size_t finished, std::size_t all) {
       progress.show(finished, all);
       if (interrupt_requested != 0) throw Interrupted("interrupted by the user");

@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include <boresight/app/report/json_audit.hpp>
+#include <boresight/app/report/json_campaign.hpp>
 #include <boresight/app/report/json_report.hpp>
 #include <boresight/app/report/sky_units.hpp>
 
@@ -284,6 +285,7 @@ std::string to_json(const Report& report) {
             {"case", {{"path", report.case_path}, {"title", report.title}, {"axis", report.axis}}},
             {"seed", report.seed},
             {"interrupted", report.interrupted}};
+  if (report.campaign) json["campaign"] = campaign_json(*report.campaign);
   if (report.identification) json["identification"] = identification_json(*report.identification);
   if (report.audit) json["audit"] = audit_json(*report.audit);
   if (report.plant) json["plant"] = plant_json(*report.plant);

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include <boresight/app/audit/audit_report.hpp>
+#include <boresight/app/identify/campaign_section.hpp>
 #include <boresight/app/redesign/antenna_model.hpp>
 
 namespace boresight::app {
@@ -117,6 +118,7 @@ struct Report {
   std::string case_path;
   std::uint64_t seed = 1;
   std::optional<AuditReport> audit;
+  std::optional<CampaignSection> campaign;  // of cases with records
   std::optional<IdentificationSection> identification;
   std::optional<PlantSection> plant;
   std::optional<TuningSection> tuning;

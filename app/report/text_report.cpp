@@ -22,6 +22,7 @@ std::string to_text(const Report& report) {
       fmt::format("Boresight {} {}: {} ({} axis)\ncase {}, seed {}\n", BORESIGHT_VERSION,
                   report.command, report.title, report.axis, report.case_path, report.seed);
   if (report.interrupted) text += "INTERRUPTED: what follows is whole, the rest is missing.\n";
+  if (report.campaign) text += to_text(*report.campaign);
   if (report.identification) text += to_text(*report.identification);
   if (report.audit && report.command == "audit") text += to_text(*report.audit);
   if (report.audit && report.command != "audit") {

@@ -11,6 +11,8 @@ namespace boresight::app {
 std::string to_text(const Report& report);
 
 // One function a section; each begins with its heading.
+/// What the records say: what is not identifiable, the reconciled estimate, the methods beside it.
+std::string to_text(const CampaignSection& section);
 std::string to_text(const IdentificationSection& section);
 /// Every finding by kind, numbered, then the summary.
 std::string to_text(const AuditReport& report);

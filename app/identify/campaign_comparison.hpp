@@ -1,0 +1,37 @@
+#pragma once
+
+#include <boresight/app/identify/campaign_section.hpp>
+#include <boresight/app/io/case_file.hpp>
+
+namespace boresight::app {
+
+/// The reconciled estimate of a quantity (GreyBoxQuantity::name), where there is one.
+std::optional<identification::Interval> reconciled(const CampaignSection& section,
+                                                   const std::string& quantity);
+std::optional<Difference> difference_from_reconciled(const CampaignSection& section,
+                                                     const std::string& quantity,
+                                                     const identification::Interval& other);
+
+/// All motors over everything else (eq. 27) from a reflected inertia (kg m2).
+identification::Interval motor_to_load_ratio(const identification::DriveKnowledge& knowledge,
+                                             const identification::Interval& inertia);
+
+/// One row a method, with the difference from the reconciled inertia and its reasons.
+std::vector<InertiaRow> inertia_rows(const CampaignSection& section, const Case& antenna);
+
+/// Other estimates of bulk modulus, oil stiffness, leakage, offset and Coulomb level.
+std::vector<QuantityRow> quantity_rows(const CampaignSection& section);
+
+/// Friction at the constant-speed tests' rates (some of them, where there are many, with more
+/// between, where there are few) and at the tracking rate. Empty without any friction law.
+std::vector<FrictionRow> friction_rows(const CampaignSection& section,
+                                       const identification::Campaign& campaign);
+
+/// What the records cannot tell.
+std::vector<std::string> not_identifiable(const CampaignSection& section);
+
+/// Numbers that the case states and the records contradict by more than two combined standard
+/// uncertainties, the worst first.
+std::vector<Contradiction> contradictions(const CampaignSection& section, const Case& antenna);
+
+}  // namespace boresight::app

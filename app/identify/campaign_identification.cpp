@@ -1,0 +1,229 @@
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <mutex>
+#include <numeric>
+
+#include <fmt/format.h>
+
+#include <boresight/app/identify/campaign_comparison.hpp>
+#include <boresight/app/identify/campaign_identification.hpp>
+#include <boresight/app/redesign/antenna_model.hpp>
+#include <boresight/design/parallel_loop.hpp>
+#include <boresight/identification/drive_response.hpp>
+
+namespace boresight::app {
+namespace {
+
+using identification::Campaign;
+using identification::Interval;
+using identification::TestKind;
+using identification::Uncertain;
+
+/// Several methods at once, each telling how far it is, as one number of hundredths.
+class SharedProgress {
+ public:
+  explicit SharedProgress(const StudyOptions& options) : options_(options) {}
+  enum Part : std::size_t { reading, simple_methods, grey_box, ranking };
+  void tell(Part part, double share) {
+    if (!options_.progress) return;
+    const std::lock_guard lock(mutex_);
+    done_.at(part) = std::max(done_.at(part), share * weights.at(part));
+    const double sum = std::accumulate(done_.begin(), done_.end(), 0.0);
+    options_.progress(static_cast<std::size_t>(std::clamp(std::round(sum), 1.0, 100.0)), 100);
+  }
+
+ private:
+  static constexpr std::array<double, 4> weights{5.0, 20.0, 70.0, 5.0};
+  const StudyOptions& options_;
+  std::mutex mutex_;
+  std::array<double, 4> done_{};
+};
+
+// A method that the campaign does not allow is listed, not fatal.
+template <typename Function>
+void attempt(const std::string& method, std::vector<MethodFailure>& failures,
+             const Function& function) {
+  try {
+    function();
+  } catch (const InvalidInput& failure) {
+    failures.push_back({method, failure.what()});
+  } catch (const NumericalFailure& failure) {
+    failures.push_back({method, failure.what()});
+  }
+}
+
+void run_slosh(const Campaign& campaign, CampaignSection& section) {
+  bool any = false;
+  for (const auto& record : campaign.records) {
+    if (record.test != TestKind::slosh) continue;
+    any = true;
+    attempt(fmt::format("slosh, {}", record.name), section.failures, [&] {
+      section.slosh.push_back(
+          {record.name, identification::identify_slosh(record, campaign.knowledge)});
+    });
+  }
+  if (!any) {
+    section.failures.push_back(
+        {"slosh", "no record of a slosh test (the valve opened and closed suddenly)"});
+  }
+}
+
+// What the case says where no line was heard to ring. A number that nobody vouches for may be off
+// by the air in the oil.
+Interval stated_bulk_modulus(const Case& antenna) {
+  const double value = bulk_modulus(antenna);
+  constexpr double by_air = 0.15;
+  double uncertainty = by_air * value;
+  if (const auto& stated = antenna.oil.bulk_modulus;
+      stated && stated->uncertainty_given && stated->basis != Basis::assumed) {
+    uncertainty = stated->standard_uncertainty;
+  }
+  return identification::normal_interval(value, uncertainty);
+}
+
+void choose_bulk_modulus(const Case& antenna, CampaignSection& section) {
+  const Interval* best = nullptr;
+  for (const auto& test : section.slosh) {
+    const auto& found = test.result.bulk_modulus;
+    if (found && (best == nullptr || found->standard_uncertainty < best->standard_uncertainty)) {
+      best = &*found;
+    }
+  }
+  section.bulk_modulus_stated = best == nullptr;
+  section.bulk_modulus = best != nullptr ? *best : stated_bulk_modulus(antenna);
+}
+
+// Slope of friction at the mean speed of the valve steps, for leakage from the rings' damping.
+std::optional<Uncertain> friction_slope(const Campaign& campaign,
+                                        const std::optional<identification::ImpulseMomentum>& by) {
+  if (!by || !by->friction) return std::nullopt;
+  const auto& fit = *by->friction;
+  for (const auto& record : campaign.records) {
+    if (record.test != TestKind::valve_steps) continue;
+    const auto part = identification::moving_part(record);
+    if (part.samples < 2) continue;
+    const double rate = std::abs(record.motor_rate.values.segment(part.first, part.samples).mean());
+    const double step = 0.01 * rate;
+    if (!(step > 0.0)) continue;
+    const Eigen::VectorXd by_parameters =
+        (identification::friction_gradient(fit.curve, rate + step) -
+         identification::friction_gradient(fit.curve, rate - step)) /
+        (2.0 * step);
+    const Eigen::Index n = by_parameters.size();
+    const double variance = by_parameters.dot(fit.covariance.topLeftCorner(n, n) * by_parameters);
+    return Uncertain{plant::friction_slope(fit.curve, rate), std::sqrt(std::max(0.0, variance))};
+  }
+  return std::nullopt;
+}
+
+void run_simple_methods(const Campaign& campaign, const StudyOptions& options,
+                        SharedProgress& progress, CampaignSection& section,
+                        std::vector<MethodFailure>& failures) {
+  attempt("impulse and momentum", failures, [&] {
+    identification::ImpulseMomentumOptions impulse;
+    impulse.seed = options.seed;
+    section.impulse = identification::impulse_momentum(campaign, impulse);
+  });
+  progress.tell(SharedProgress::simple_methods, 0.5);
+  attempt("hydraulic resonance", failures, [&] {
+    identification::ResonanceOptions resonance;
+    resonance.friction_slope = friction_slope(campaign, section.impulse);
+    section.resonance =
+        identification::identify_resonance(campaign, section.bulk_modulus, resonance);
+  });
+  progress.tell(SharedProgress::simple_methods, 1.0);
+}
+
+void run_grey_box(const Campaign& campaign, const StudyOptions& options, SharedProgress& progress,
+                  CampaignSection& section, std::vector<MethodFailure>& failures) {
+  attempt("grey box", failures, [&] {
+    identification::GreyBoxOptions grey;
+    grey.seed = options.seed;
+    grey.threads = options.threads;
+    grey.progress = [&](const std::string&, double share) {
+      progress.tell(SharedProgress::grey_box, share);
+      return true;
+    };
+    std::optional<Interval> prior;
+    if (!section.bulk_modulus_stated) prior = section.bulk_modulus;
+    section.grey_box = identification::fit_grey_box(campaign, prior, grey);
+  });
+  progress.tell(SharedProgress::grey_box, 1.0);
+}
+
+// Where the grey box has failed: one estimate a method.
+void average_methods(CampaignSection& section) {
+  const auto& knowledge = section.knowledge;
+  const double motors = knowledge.motor_count * knowledge.motor_inertia.value;
+  std::vector<Uncertain> estimates{
+      {motors + knowledge.gear_inertia.value + knowledge.antenna_inertia.value,
+       std::hypot(knowledge.motor_count * knowledge.motor_inertia.standard_uncertainty,
+                  knowledge.gear_inertia.standard_uncertainty,
+                  knowledge.antenna_inertia.standard_uncertainty)}};
+  const auto add = [&](const Interval& inertia) {
+    estimates.push_back({inertia.value, inertia.standard_uncertainty});
+  };
+  if (section.resonance && section.resonance->best) add(section.resonance->best->inertia);
+  if (section.impulse && section.impulse->best) {
+    add(section.impulse->estimates[*section.impulse->best].inertia);
+  }
+  std::erase_if(estimates, [](const Uncertain& one) { return !(one.standard_uncertainty > 0.0); });
+  if (estimates.size() < 2) return;
+  section.mean_of_methods = identification::reconcile(estimates, motors);
+}
+
+void require_something(const CampaignSection& section) {
+  const bool resonance = section.resonance && section.resonance->best;
+  if (section.grey_box || section.impulse || resonance) return;
+  std::string reasons;
+  for (const auto& failure : section.failures) {
+    reasons += fmt::format("; {}: {}", failure.method, failure.reason);
+  }
+  throw NumericalFailure(
+      fmt::format("the records of this campaign give no inertia by any method{}", reasons));
+}
+
+}  // namespace
+
+CampaignSection identify_campaign(const Case& antenna, const StudyOptions& options) {
+  CampaignSection section;
+  SharedProgress progress(options);
+  const Campaign campaign = make_campaign(antenna, section.notes);
+  section.knowledge = campaign.knowledge;
+  section.instruments = campaign.instruments;
+  progress.tell(SharedProgress::reading, 0.5);
+  run_slosh(campaign, section);
+  choose_bulk_modulus(antenna, section);
+  progress.tell(SharedProgress::reading, 1.0);
+
+  // Each with a list of failures of its own: their order must not depend on the threads.
+  std::array<std::vector<MethodFailure>, 2> failures;
+  design::for_each_index(2, options.threads, [&](std::size_t which) {
+    if (which == 0) {
+      run_grey_box(campaign, options, progress, section, failures[0]);
+    } else {
+      run_simple_methods(campaign, options, progress, section, failures[1]);
+    }
+  });
+  for (const auto& some : {failures[1], failures[0]}) {
+    section.failures.insert(section.failures.end(), some.begin(), some.end());
+  }
+  require_something(section);
+  if (section.grey_box) {
+    attempt("gain of further tests", section.failures, [&] {
+      section.test_gains = identification::rank_tests(*section.grey_box, campaign, "inertia");
+    });
+  } else {
+    average_methods(section);
+  }
+  progress.tell(SharedProgress::ranking, 1.0);
+  section.inertia = inertia_rows(section, antenna);
+  section.quantities = quantity_rows(section);
+  section.friction = friction_rows(section, campaign);
+  section.not_identifiable = not_identifiable(section);
+  section.contradictions = contradictions(section, antenna);
+  return section;
+}
+
+}  // namespace boresight::app

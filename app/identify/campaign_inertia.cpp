@@ -1,0 +1,254 @@
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include <fmt/format.h>
+
+#include <boresight/app/identify/campaign_comparison.hpp>
+
+namespace boresight::app {
+namespace {
+
+using identification::FrictionTreatment;
+using identification::Interval;
+using identification::ResonanceReading;
+using identification::WindowRule;
+
+double percent(double ratio) {
+  return 100.0 * (ratio - 1.0);
+}
+
+std::string name_of(ResonanceReading kind) {
+  switch (kind) {
+    case ResonanceReading::spectrum_peak:
+      return "resonance: spectrum's peak";
+    case ResonanceReading::ring_single_mass:
+      return "resonance: rings, K/(2 pi f)^2";
+    case ResonanceReading::ring_with_losses:
+      return "resonance: rings, losses out";
+    case ResonanceReading::ring_flexible:
+      return "resonance: rings, flexible load";
+    case ResonanceReading::ring_shape:
+      return "resonance: rings' shape, no oil data";
+    case ResonanceReading::impedance:
+      break;
+  }
+  return "resonance: torque over rate, swept";
+}
+
+std::string name_of(WindowRule rule, FrictionTreatment treatment) {
+  std::string name = "impulse: ";
+  switch (rule) {
+    case WindowRule::two_on_the_ramp:
+      name += "two windows";
+      break;
+    case WindowRule::every_speed_change:
+      name += "every change of speed";
+      break;
+    case WindowRule::same_path:
+      return name + "friction cancelled";
+    case WindowRule::whole_records:
+      return name + "whole records, curve";
+  }
+  switch (treatment) {
+    case FrictionTreatment::constant_speed_line:
+      return name + ", straight line";
+    case FrictionTreatment::slow_ramp_line:
+      return name + ", slow ramp";
+    case FrictionTreatment::curve:
+      return name + ", curve";
+    case FrictionTreatment::cancelled:
+      break;
+  }
+  return name + ", cancelled";
+}
+
+std::string assumptions_of(const identification::ImpulseEstimate& estimate) {
+  switch (estimate.treatment) {
+    case FrictionTreatment::constant_speed_line:
+      return "friction is the straight line through the constant-speed tests";
+    case FrictionTreatment::slow_ramp_line:
+      return "friction is the slow ramp's Coulomb level and the constant-speed slope";
+    case FrictionTreatment::cancelled:
+      return "friction depends on speed and direction alone";
+    case FrictionTreatment::curve:
+      break;
+  }
+  return estimate.rule == WindowRule::whole_records
+             ? "friction is one curve for all tests; inertia fitted with it"
+             : "friction is the curve fitted to all tests";
+}
+
+// What in a spectrum's reading is oil data, flexibility, and the rest: harmonic or losses.
+std::string why_spectrum(const CampaignSection& section, const identification::InertiaReading& one,
+                         const Case& antenna) {
+  const auto& resonance = *section.resonance;
+  const auto inertia = reconciled(section, "inertia");
+  const double frequency = one.frequency ? one.frequency->value : 0.0;
+  std::string why;
+  const auto spectrum = std::find_if(resonance.spectra.begin(), resonance.spectra.end(),
+                                     [&](const auto& other) { return other.record == one.record; });
+  if (spectrum != resonance.spectra.end() && spectrum->chosen && spectrum->on_harmonic) {
+    const double spacing = spectrum->harmonic_spacing;
+    const auto at = [&](double f) {
+      return plant::inertia_from_resonance(resonance.stiffness.value, f);
+    };
+    why += fmt::format(
+        "Harmonic lock: the peak at {:.3f} Hz is harmonic {} of the {:.3g} s excitation, not the "
+        "mode itself; the neighbouring lines at {:.3f} and {:.3f} Hz would give {:.4g} and {:.4g} "
+        "kg.m2. ",
+        frequency, spectrum->chosen->harmonic, spectrum->period.value_or(0.0), frequency - spacing,
+        frequency + spacing, at(frequency - spacing), at(frequency + spacing));
+  }
+  const double flexible = 1.0 / std::pow(resonance.coupled_over_rigid, 2);
+  if (inertia && frequency > 0.0) {
+    const auto stiffness = reconciled(section, "oil stiffness");
+    const double oil = stiffness ? resonance.stiffness.value / stiffness->value : 1.0;
+    const double all = one.inertia.value / inertia->value;
+    why += fmt::format(
+        "Of {:+.1f} %, flexibility of the antenna makes {:+.1f} % (it lowers the mode), the oil's "
+        "stiffness {:+.1f} %, and reading the mode at {:.3f} Hz instead of {:.3f} Hz {:+.1f} %. ",
+        percent(all), percent(flexible), percent(oil), frequency,
+        resonance.coupled_over_rigid *
+            std::sqrt((stiffness ? stiffness->value : resonance.stiffness.value) / inertia->value) /
+            (2.0 * std::numbers::pi),
+        percent(all / (flexible * oil)));
+  }
+  const auto& knowledge = section.knowledge;
+  const double both = knowledge.torque_efficiency.value * knowledge.volumetric_efficiency.value;
+  const bool with = antenna.oil.efficiency_in_stiffness;
+  why += fmt::format(
+      "Efficiency convention: efficiencies {} the stiffness here; the other way it would read "
+      "{:.4g} kg.m2 ({:+.1f} %).",
+      with ? "in" : "not in", one.inertia.value * (with ? 1.0 / both : both),
+      percent(with ? 1.0 / both : both));
+  return why;
+}
+
+std::string why_rings(const CampaignSection& section, const identification::InertiaReading& one) {
+  const auto& resonance = *section.resonance;
+  const double flexible = 1.0 / std::pow(resonance.coupled_over_rigid, 2);
+  const auto of = [&](ResonanceReading kind) -> std::optional<double> {
+    for (const auto& other : resonance.readings) {
+      if (other.kind == kind && other.record == one.record) return other.inertia.value;
+    }
+    return std::nullopt;
+  };
+  const auto single = of(ResonanceReading::ring_single_mass);
+  const auto losses = of(ResonanceReading::ring_with_losses);
+  const auto bent = of(ResonanceReading::ring_flexible);
+  switch (one.kind) {
+    case ResonanceReading::ring_single_mass:
+      if (single && losses && bent) {
+        return fmt::format(
+            "Takes the load as rigid and without losses: leakage and friction make {:+.1f} %, the "
+            "antenna's flexibility {:+.1f} %.",
+            percent(*single / *losses), percent(*losses / *bent));
+      }
+      break;
+    case ResonanceReading::ring_with_losses:
+      return fmt::format("Takes the load as rigid: flexibility alone makes {:+.1f} %.",
+                         bent ? percent(one.inertia.value / *bent) : percent(flexible));
+    case ResonanceReading::ring_flexible:
+      return "Rests on the drawings' split of the inertia and on the oil's data.";
+    default:
+      break;
+  }
+  return "Rests on the pressures' and the tachometer's scales, which cancel out of no other term.";
+}
+
+InertiaRow mass_row(const CampaignSection& section) {
+  const auto& knowledge = section.knowledge;
+  const double motors = knowledge.motor_count * knowledge.motor_inertia.value;
+  const double side = motors + knowledge.gear_inertia.value;
+  InertiaRow row;
+  row.name = "mass properties (drawings)";
+  row.of_the_paper = true;
+  row.inertia = identification::normal_interval(
+      side + knowledge.antenna_inertia.value,
+      std::hypot(knowledge.motor_count * knowledge.motor_inertia.standard_uncertainty,
+                 knowledge.gear_inertia.standard_uncertainty,
+                 knowledge.antenna_inertia.standard_uncertainty));
+  row.assumes = "drawings and the structural group's antenna inertia";
+  if (const auto inertia = reconciled(section, "inertia")) {
+    row.why = fmt::format(
+        "Motors and gears make {:.4g} kg.m2 of it; the reconciled inertia leaves {:.4g} for the "
+        "antenna where the drawings have {:.4g} ({:+.1f} %).",
+        side, inertia->value - side, knowledge.antenna_inertia.value,
+        percent(knowledge.antenna_inertia.value / (inertia->value - side)));
+  }
+  return row;
+}
+
+void add_resonance(const CampaignSection& section, const Case& antenna,
+                   std::vector<InertiaRow>& rows) {
+  if (!section.resonance) return;
+  for (const auto& reading : section.resonance->readings) {
+    InertiaRow row;
+    row.name = name_of(reading.kind);
+    row.of_the_paper = reading.kind == ResonanceReading::spectrum_peak;
+    if (reading.kind == ResonanceReading::spectrum_peak ||
+        reading.kind == ResonanceReading::impedance) {
+      row.name += fmt::format(" ({})", reading.record);
+    }
+    row.inertia = reading.inertia;
+    row.assumes = reading.assumes;
+    row.why =
+        row.of_the_paper ? why_spectrum(section, reading, antenna) : why_rings(section, reading);
+    rows.push_back(std::move(row));
+  }
+}
+
+void add_impulse(const CampaignSection& section, std::vector<InertiaRow>& rows) {
+  if (!section.impulse) return;
+  for (const auto& estimate : section.impulse->estimates) {
+    InertiaRow row;
+    row.name = name_of(estimate.rule, estimate.treatment);
+    row.of_the_paper = estimate.rule == WindowRule::two_on_the_ramp &&
+                       estimate.treatment != FrictionTreatment::curve;
+    row.inertia = estimate.inertia;
+    row.assumes = assumptions_of(estimate);
+    row.why = estimate.note;
+    if (!estimate.shares.empty()) {
+      row.why += fmt::format("{}Its interval is mostly {} ({:.0f} %).", row.why.empty() ? "" : " ",
+                             estimate.shares.front().source, 100.0 * estimate.shares.front().share);
+    }
+    rows.push_back(std::move(row));
+  }
+}
+
+}  // namespace
+
+Interval motor_to_load_ratio(const identification::DriveKnowledge& knowledge,
+                             const Interval& inertia) {
+  const double motors = knowledge.motor_count * knowledge.motor_inertia.value;
+  const double error = knowledge.motor_count * knowledge.motor_inertia.standard_uncertainty;
+  constexpr double z = 1.959963984540054;
+  const auto ratio = [&](double total) {
+    return total > motors ? motors / (total - motors) : std::numeric_limits<double>::infinity();
+  };
+  // The motors' own uncertainty beside the inertia's, in the load.
+  const auto end = [&](double bound) {
+    const double half = std::hypot(bound - inertia.value, z * error);
+    return inertia.value + (bound > inertia.value ? half : -half);
+  };
+  const double value = ratio(inertia.value);
+  const double load = inertia.value - motors;
+  const double spread = load > 0.0 ? value * std::hypot(inertia.standard_uncertainty, error) / load
+                                   : std::numeric_limits<double>::infinity();
+  return {value, spread, ratio(end(inertia.upper)), ratio(end(inertia.lower))};
+}
+
+std::vector<InertiaRow> inertia_rows(const CampaignSection& section, const Case& antenna) {
+  std::vector<InertiaRow> rows{mass_row(section)};
+  add_resonance(section, antenna, rows);
+  add_impulse(section, rows);
+  for (auto& row : rows) {
+    row.motor_to_load_ratio = motor_to_load_ratio(section.knowledge, row.inertia);
+    row.difference = difference_from_reconciled(section, "inertia", row.inertia);
+  }
+  return rows;
+}
+
+}  // namespace boresight::app

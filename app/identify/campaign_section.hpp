@@ -1,0 +1,108 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <boresight/app/identify/campaign.hpp>
+#include <boresight/identification/grey_box.hpp>
+#include <boresight/identification/grey_box_test_gain.hpp>
+#include <boresight/identification/hydraulic_resonance.hpp>
+#include <boresight/identification/impulse_momentum.hpp>
+#include <boresight/identification/slosh.hpp>
+
+namespace boresight::app {
+
+/// What one slosh test gave.
+struct SloshTest {
+  std::string record;
+  identification::SloshResult result;
+};
+
+/// A method that this campaign does not allow, and why.
+struct MethodFailure {
+  std::string method;
+  std::string reason;
+};
+
+/// Of another estimate from the reconciled one.
+struct Difference {
+  double relative = 0.0;    // over the reconciled value
+  double normalised = 0.0;  // over both standard uncertainties' root sum of squares
+};
+
+/// A method's reflected inertia beside the reconciled one.
+struct InertiaRow {
+  std::string name;
+  /// Whether this is one of the founding paper's own procedures.
+  bool of_the_paper = false;
+  identification::Interval inertia;  // kg m2
+  /// All motors over everything else, eq. 27; upper end infinite where the inertia's interval
+  /// reaches the motors' own.
+  identification::Interval motor_to_load_ratio;
+  std::optional<Difference> difference;  // where there is a reconciled inertia
+  std::string assumes;
+  /// Why it differs from the reconciled inertia, in words and numbers.
+  std::string why;
+};
+
+/// Another estimate of one of the reconciled quantities.
+struct QuantityRow {
+  std::string quantity;  // as GreyBoxQuantity::name
+  std::string unit;
+  std::string method;
+  identification::Interval interval;
+  std::optional<Difference> difference;
+};
+
+/// Friction at one motor speed, N m.
+struct FrictionRow {
+  double rate = 0.0;          // rad/s of motor
+  bool extrapolated = false;  // slower or faster than the constant-speed tests
+  std::optional<identification::Interval> reconciled;  // grey box
+  std::optional<identification::Interval> curve;       // curve fitted to all tests' windows
+  std::optional<identification::Interval> tested;      // constant-speed test at this speed
+};
+
+/// A number of the case that the records contradict.
+struct Contradiction {
+  std::string key;            // of the case, or the [[stated]] id
+  std::string stated;         // as written
+  bool assumed = false;       // the case says itself that it assumes it
+  double stated_value = 0.0;  // SI
+  double stated_uncertainty = 0.0;
+  std::string unit;
+  identification::Interval records;
+  std::string by;  // which method
+  /// Records less stated, over both standard uncertainties' root sum of squares.
+  double normalised = 0.0;
+};
+
+/// What the records of a campaign say.
+struct CampaignSection {
+  CampaignNotes notes;
+  identification::DriveKnowledge knowledge;
+  identification::Instruments instruments;
+  std::vector<SloshTest> slosh;
+  /// Of the slosh test with the smallest uncertainty; without one what the case states, and then
+  /// `bulk_modulus_stated`.
+  identification::Interval bulk_modulus;  // Pa
+  bool bulk_modulus_stated = false;
+  std::optional<identification::ResonanceResult> resonance;
+  std::optional<identification::ImpulseMomentum> impulse;
+  /// The reconciled estimate: one model that explains all records. A plant ensemble takes its
+  /// draws.
+  std::optional<identification::GreyBoxResult> grey_box;
+  /// In its place where it could not be had: the random-effects mean of the methods.
+  std::optional<identification::ReconciledInertia> mean_of_methods;
+  std::vector<MethodFailure> failures;
+  /// What these records cannot tell, plainly.
+  std::vector<std::string> not_identifiable;
+  std::vector<InertiaRow> inertia;
+  std::vector<QuantityRow> quantities;
+  std::vector<FrictionRow> friction;
+  std::vector<identification::GreyBoxTestGain> test_gains;  // by gain for the inertia
+  std::vector<Contradiction> contradictions;
+};
+
+}  // namespace boresight::app

@@ -1,0 +1,32 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <boresight/identification/grey_box_test_gain.hpp>
+#include <boresight/identification/interval.hpp>
+
+namespace boresight::app {
+
+/// A unit as reports show it, and what an SI number is multiplied by.
+struct ShownUnit {
+  std::string name;  // "MPa" for Pa, "kg.m2" for "kg m2", "1" for none
+  double scale = 1.0;
+};
+ShownUnit shown_unit(const std::string& unit);
+
+/// Four digits; "infinity".
+std::string significant(double value);
+
+/// "1.741 .. 1.82": four digits each.
+std::string range(const identification::Interval& interval, double scale = 1.0);
+
+/// Quantities (GreyBoxQuantity::name) that tests are ranked for.
+bool advised_quantity(std::string_view name);
+
+/// The tests by what they leave of a quantity's interval, the least first.
+std::vector<const identification::GreyBoxTestGain*> ranked(
+    const std::vector<identification::GreyBoxTestGain>& gains, std::size_t quantity);
+
+}  // namespace boresight::app

@@ -1,0 +1,383 @@
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include <fmt/format.h>
+
+#include <boresight/app/report/campaign_wording.hpp>
+#include <boresight/app/report/sky_units.hpp>
+#include <boresight/app/report/text_layout.hpp>
+#include <boresight/app/report/text_report.hpp>
+
+namespace boresight::app {
+namespace {
+
+using identification::Interval;
+using Rows = std::vector<std::vector<std::string>>;
+
+std::string joined(const std::vector<std::string>& names) {
+  return fmt::format("{}", fmt::join(names, ", "));
+}
+
+std::string reconciled_text(const CampaignSection& section) {
+  if (section.mean_of_methods) {
+    const auto& mean = *section.mean_of_methods;
+    return wrapped(
+        fmt::format("Mean of {} methods (random effects): J = {:.4g} kg.m2, 95 % interval {:.4g} "
+                    ".. {:.4g}; R = {:.3f}. Cochran's Q {:.1f} on {} degrees of freedom{}.",
+                    mean.degrees_of_freedom + 1, mean.value, mean.lower, mean.upper,
+                    mean.motor_to_load_ratio, mean.heterogeneity, mean.degrees_of_freedom,
+                    mean.heterogeneity > 2.0 * mean.degrees_of_freedom
+                        ? ": the methods contradict one another"
+                        : ""),
+        "  ");
+  }
+  if (!section.grey_box) return {};
+  Rows rows{{"quantity", "unit", "value", "95 % interval", "+-%", "before the records", "learnt",
+             "verdict"}};
+  for (const auto& q : section.grey_box->quantities) {
+    const auto unit = shown_unit(q.unit);
+    const double half = 50.0 * (q.posterior.upper - q.posterior.lower);
+    rows.push_back({q.name, unit.name, significant(q.posterior.value * unit.scale),
+                    range(q.posterior, unit.scale),
+                    fmt::format("{:.2g}", half / std::abs(q.posterior.value)),
+                    range(q.prior, unit.scale), fmt::format("{:.0f} %", 100.0 * q.learnt),
+                    q.identified ? "identified" : "prior only"});
+  }
+  return table(rows, "llrrrrrl");
+}
+
+std::string methods_text(const CampaignSection& section) {
+  std::string text = heading("Inertia at the motor shaft, by method (95 % intervals)");
+  Rows rows{{"method", "J kg.m2", "interval", "R", "interval", "J off by", "sigmas"}};
+  const auto row_of = [](const std::string& name, const Interval& inertia, const Interval& ratio,
+                         const std::optional<Difference>& difference) {
+    return std::vector<std::string>{
+        name,
+        significant(inertia.value),
+        range(inertia),
+        std::isfinite(ratio.value) ? significant(ratio.value) : "none: J < Jm",
+        range(ratio),
+        difference ? fmt::format("{:+.1f} %", 100.0 * difference->relative) : "-",
+        difference ? fmt::format("{:+.1f}", difference->normalised) : "-"};
+  };
+  if (section.grey_box) {
+    rows.push_back(row_of("reconciled (grey box)", section.grey_box->quantity("inertia").posterior,
+                          section.grey_box->quantity("motor to load ratio").posterior,
+                          std::nullopt));
+  }
+  for (const auto& row : section.inertia) {
+    rows.push_back(row_of((row.of_the_paper ? "* " : "") + row.name, row.inertia,
+                          row.motor_to_load_ratio, row.difference));
+  }
+  text += table(rows, "lrrrrrr");
+  text += wrapped(
+      "* the founding paper's own procedures. R = Jm/(J - Jm), all motors against everything else. "
+      "Sigmas: difference over both standard uncertainties' root sum of squares.",
+      "  ");
+  text += "\n";
+  for (const auto& row : section.inertia) {
+    text += wrapped(fmt::format("{}: assumes {}. {}", row.name, row.assumes, row.why), "  ", "  ");
+  }
+  for (const auto& failure : section.failures) {
+    text += wrapped(fmt::format("{}: not done. {}", failure.method, failure.reason), "  ", "  ");
+  }
+  return text;
+}
+
+std::string quantities_text(const CampaignSection& section) {
+  if (section.quantities.empty()) return {};
+  std::string text = heading("Other quantities, by method");
+  Rows rows{{"quantity", "method", "unit", "value", "95 % interval", "off by", "sigmas"}};
+  for (const auto& row : section.quantities) {
+    const auto unit = shown_unit(row.unit);
+    rows.push_back(
+        {row.quantity, row.method, unit.name, significant(row.interval.value * unit.scale),
+         range(row.interval, unit.scale),
+         row.difference ? fmt::format("{:+.1f} %", 100.0 * row.difference->relative) : "-",
+         row.difference ? fmt::format("{:+.1f}", row.difference->normalised) : "-"});
+  }
+  return text + table(rows, "lllrrrr");
+}
+
+std::string lines_text(const SloshTest& test) {
+  std::string text = heading(fmt::format("Oil lines and bulk modulus ({})", test.record));
+  Rows rows{
+      {"line", "length m", "Hz", "interval", "damping", "events", "bulk modulus MPa", "interval"}};
+  const auto modulus = [&](const std::optional<Interval>& interval, std::vector<std::string>& row) {
+    row.push_back(interval ? significant(interval->value / megapascal) : "-");
+    row.push_back(interval ? range(*interval, 1.0 / megapascal) : "-");
+  };
+  for (const auto& line : test.result.lines) {
+    std::vector<std::string> row{
+        fmt::format("motor {}, {}", line.motor + 1,
+                    line.side == identification::LineSide::inlet ? "inlet" : "outlet"),
+        line.length ? fmt::format("{:.2f}", line.length->value) : "-",
+        fmt::format("{:.3f}", line.frequency.value),
+        fmt::format("{:.3f} .. {:.3f}", line.frequency.lower, line.frequency.upper),
+        fmt::format("{:.4f}", line.damping_ratio.value),
+        fmt::format("{}", line.events)};
+    modulus(line.bulk_modulus, row);
+    rows.push_back(std::move(row));
+  }
+  std::vector<std::string> pooled{"all lines", "", "", "", "", ""};
+  modulus(test.result.bulk_modulus, pooled);
+  rows.push_back(std::move(pooled));
+  if (const auto& extreme = test.result.extreme_lines) {
+    std::vector<std::string> paper{"* extremes only",
+                                   "",
+                                   fmt::format("{:.3f}", extreme->highest_frequency),
+                                   fmt::format("and {:.3f}", extreme->lowest_frequency),
+                                   "",
+                                   ""};
+    modulus(extreme->mean, paper);
+    rows.push_back(std::move(paper));
+  }
+  text += table(rows);
+  for (const auto& note : test.result.notes) text += wrapped(note, "  ", "  ");
+  return text;
+}
+
+std::string friction_text(const CampaignSection& section) {
+  if (section.friction.empty()) return {};
+  std::string text = heading("Friction at the motor shaft, N.m (95 % intervals)");
+  Rows rows{{"rate rad/s", "reconciled", "interval", "curve of all windows", "interval",
+             "constant speed", "interval", ""}};
+  for (const auto& row : section.friction) {
+    std::vector<std::string> cells{fmt::format("{:.3f}", row.rate)};
+    for (const auto* interval : {&row.reconciled, &row.curve, &row.tested}) {
+      cells.push_back(*interval ? significant((*interval)->value) : "-");
+      cells.push_back(*interval ? range(**interval) : "-");
+    }
+    cells.emplace_back(row.extrapolated ? "outside the tests" : "");
+    rows.push_back(std::move(cells));
+  }
+  text += table(rows, "rrrrrrrl");
+  std::string levels;
+  if (section.impulse && section.impulse->constant_speed &&
+      section.impulse->constant_speed->has_line) {
+    const auto& tests = *section.impulse->constant_speed;
+    levels += fmt::format(
+        "constant speeds give {} N.m ({}) as the intercept of a line with slope {} N.m.s/rad ({}), "
+        "from which the tests are off by up to {:.2g} N.m; ",
+        significant(tests.intercept.value), range(tests.intercept), significant(tests.slope.value),
+        range(tests.slope), tests.line_misfit);
+  }
+  if (section.impulse && section.impulse->slow_ramp) {
+    const auto& ramp = *section.impulse->slow_ramp;
+    levels += fmt::format("the slow ramp gives {} N.m ({}) just after breakaway at {} N.m ({}); ",
+                          significant(ramp.coulomb.value), range(ramp.coulomb),
+                          significant(ramp.breakaway.value), range(ramp.breakaway));
+  }
+  if (!levels.empty()) {
+    text += wrapped("The paper's two Coulomb levels: " + levels +
+                        "both are points of one curve that rises quickly with speed and then "
+                        "saturates.",
+                    "  ", "  ");
+  }
+  return text;
+}
+
+std::string contradictions_text(const CampaignSection& section) {
+  std::string text = heading("Numbers of the case that the records contradict");
+  if (section.contradictions.empty()) {
+    return text + "  none by more than two combined standard uncertainties\n";
+  }
+  Rows rows{{"key", "stated", "", "unit", "records say", "95 % interval", "sigmas", "by"}};
+  for (const auto& one : section.contradictions) {
+    const auto unit = shown_unit(one.unit);
+    rows.push_back(
+        {one.key, one.stated, one.assumed ? "assumed" : "", unit.name,
+         significant(one.records.value * unit.scale), range(one.records, unit.scale),
+         std::abs(one.normalised) < 100.0 ? fmt::format("{:+.1f}", one.normalised) : "> 100",
+         one.by});
+  }
+  return text + table(rows, "llllrrrl");
+}
+
+std::string advice_text(const CampaignSection& section) {
+  if (section.test_gains.empty()) return {};
+  std::string text =
+      heading("Which further test would shrink which interval most (1 = not at all)");
+  const auto& quantities = section.grey_box->quantities;
+  Rows rows{{"test", "in this campaign"}};
+  std::vector<std::size_t> shown;
+  for (std::size_t q = 0; q < quantities.size(); ++q) {
+    if (!advised_quantity(quantities[q].name)) continue;
+    shown.push_back(q);
+    rows.front().push_back(quantities[q].name);
+  }
+  for (const auto& gain : section.test_gains) {
+    rows.push_back({gain.test, gain.done_before ? "yes" : "no"});
+    for (const std::size_t q : shown)
+      rows.back().push_back(fmt::format("{:.2f}", gain.remaining[q]));
+  }
+  text += table(rows, "ll");
+  for (const std::size_t q : shown) {
+    const auto best = ranked(section.test_gains, q);
+    std::string names;
+    for (std::size_t i = 0; i < best.size() && i < 3; ++i) {
+      if (best[i]->remaining[q] > 0.98) break;
+      names += fmt::format("{}{} ({:.0f} % of the interval left)", i == 0 ? "" : ", then ",
+                           best[i]->test, 100.0 * best[i]->remaining[q]);
+    }
+    text += wrapped(fmt::format("{}: {}.", quantities[q].name,
+                                names.empty() ? "no test of these helps; what is left is the "
+                                                "instruments' and the model's"
+                                              : names),
+                    "  ", "  ");
+  }
+  return text;
+}
+
+std::string fit_text(const CampaignSection& section) {
+  if (!section.grey_box) return {};
+  const auto& fit = *section.grey_box;
+  std::string text = heading("How well one model explains all records");
+  Rows rows{{"record", "prediction of", "rms", "unit", "counted", "left out", "neighbours",
+             "effective", "white"}};
+  for (const auto& r : fit.residuals) {
+    rows.push_back({r.record, r.pressures ? "pressures" : "rate", fmt::format("{:.3g}", r.rms),
+                    r.pressures ? "N.m" : "rad/s", fmt::format("{}", r.counted),
+                    fmt::format("{}", r.outliers), fmt::format("{:+.2f}", r.neighbours),
+                    fmt::format("{:.0f}", r.effective), r.white ? "yes" : "no"});
+  }
+  text += table(rows, "llrlrrrrl");
+  std::string starts;
+  for (const auto& start : fit.starts) {
+    starts += fmt::format("{}{:.6g}", starts.empty() ? "" : ", ", start.cost);
+  }
+  text += wrapped(
+      fmt::format(
+          "Rank {} of {} varied parameters, condition {:.3g}. Sum of squares by start: {}. {}.",
+          fit.rank, fit.varied, fit.condition, starts,
+          std::string(identification::describe(fit.status))),
+      "  ");
+  for (const auto& note : fit.notes) text += wrapped(note, "  ", "  ");
+  text += "\n  correlation of the estimates\n";
+  rows = {{""}};
+  for (std::size_t i = 0; i < fit.quantities.size(); ++i) {
+    rows.front().push_back(fmt::format("{}", i + 1));
+    rows.push_back({fmt::format("{} {}", i + 1, fit.quantities[i].name)});
+    for (std::size_t j = 0; j <= i; ++j) {
+      rows.back().push_back(fmt::format(
+          "{:+.2f}", fit.correlation(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j))));
+    }
+  }
+  return text + table(rows);
+}
+
+// What was guessed, once for all records that it was guessed in.
+std::string guesses_text(const CampaignNotes& notes) {
+  std::map<std::string, std::vector<std::string>> guesses;
+  std::vector<std::string> order;
+  const auto add = [&](const std::string& sentence, const std::string& record) {
+    auto& records = guesses[sentence];
+    if (records.empty()) order.push_back(sentence);
+    records.push_back(record);
+  };
+  for (const auto& record : notes.records) {
+    for (const auto& source : record.sources) {
+      if (source.guessed) {
+        add(fmt::format("{} was taken from column '{}', by its name", source.signal, source.column),
+            record.name);
+      }
+      if (!source.remark.empty()) {
+        add(fmt::format("{} ('{}'): {}", source.signal, source.column, source.remark), record.name);
+      }
+    }
+    if (!record.unused_columns.empty()) {
+      add("not used: " + joined(record.unused_columns), record.name);
+    }
+    for (const auto& remark : record.remarks) add(remark, record.name);
+    if (record.test_guessed) {
+      add(fmt::format("the test was told by the data: {}", to_string(record.test)), record.name);
+    }
+    if (record.rate_loop_guessed) {
+      add(fmt::format("the rate loop was taken as {}", record.rate_loop_closed ? "closed" : "open"),
+          record.name);
+    }
+  }
+  for (const auto& assumption : notes.assumptions) add(assumption, "");
+  std::string text;
+  for (const auto& sentence : order) {
+    const auto& records = guesses[sentence];
+    std::string where;
+    if (!records.front().empty()) {
+      where = records.size() > 1 && records.size() == notes.records.size()
+                  ? " (all records)"
+                  : fmt::format(" ({})", joined(records));
+    }
+    text += wrapped(fmt::format("taken for granted: {}{}", sentence, where), "  ", "  ");
+  }
+  return text;
+}
+
+std::string records_text(const CampaignNotes& notes) {
+  std::string text = heading("Records");
+  Rows rows{{"record", "test", "rate loop", "s", "samples/s", "rows", "defects"}};
+  for (const auto& record : notes.records) {
+    if (!record.refusal.empty()) {
+      rows.push_back({record.name, "not used", "", "", "", fmt::format("{}", record.rows), ""});
+      continue;
+    }
+    rows.push_back(
+        {record.name, to_string(record.test), record.rate_loop_closed ? "closed" : "open",
+         fmt::format("{:.1f}", record.duration), fmt::format("{:.6g}", 1.0 / record.sample_time),
+         fmt::format("{}", record.rows), fmt::format("{}", record.defects.size())});
+  }
+  text += table(rows, "lllrrrr");
+  for (const auto& record : notes.records) {
+    if (!record.refusal.empty()) {
+      text += wrapped(fmt::format("{} is not used: {}", record.name, record.refusal), "  ", "  ");
+    }
+    constexpr std::size_t most = 10;
+    for (std::size_t i = 0; i < record.defects.size() && i < most; ++i) {
+      const auto& defect = record.defects[i];
+      text += wrapped(
+          fmt::format("{}{}{}, {} from {:.3f} s, {} samples, {}: {}", record.name,
+                      defect.channel.empty() ? "" : ", ", defect.channel,
+                      identification::to_string(defect.kind), defect.first_time, defect.count,
+                      identification::to_string(defect.handling), defect.explanation),
+          "  ", "  ");
+    }
+    if (record.defects.size() > most) {
+      text += wrapped(fmt::format("{}: {} more, all of them in the JSON report", record.name,
+                                  record.defects.size() - most),
+                      "  ");
+    }
+  }
+  return text + guesses_text(notes);
+}
+
+std::string method_notes_text(const CampaignSection& section) {
+  std::string text;
+  const auto add = [&](const char* title, const std::vector<std::string>& notes) {
+    if (notes.empty()) return;
+    text += heading(title);
+    for (const auto& note : notes) text += wrapped(note, "  ", "  ");
+  };
+  if (section.resonance) add("What the resonance shows", section.resonance->notes);
+  if (section.impulse) add("What impulse and friction tests show", section.impulse->notes);
+  return text;
+}
+
+}  // namespace
+
+std::string to_text(const CampaignSection& section) {
+  std::string text = heading("What the records say of the drive");
+  for (const auto& sentence : section.not_identifiable) text += wrapped(sentence, "  ", "  ");
+  if (!section.not_identifiable.empty()) text += "\n";
+  text += reconciled_text(section);
+  text += methods_text(section);
+  text += quantities_text(section);
+  for (const auto& test : section.slosh) text += lines_text(test);
+  text += friction_text(section);
+  text += contradictions_text(section);
+  text += advice_text(section);
+  text += fit_text(section);
+  text += method_notes_text(section);
+  return text + records_text(section.notes);
+}
+
+}  // namespace boresight::app

@@ -21,12 +21,13 @@ using P = GreyBoxParameters;
 void check(const GreyBoxOptions& options) {
   if (!(options.sample_rate >= 0.0) || options.further_starts < 0 || options.draws < 100 ||
       !(options.stretch > 0.0) || !(options.discrepancy.torque_balance >= 0.0) ||
-      !(options.discrepancy.flow_balance >= 0.0)) {
+      !(options.discrepancy.flow_balance >= 0.0) || !(options.discrepancy.stiffness >= 0.0)) {
     throw InvalidInput(fmt::format(
         "fit_grey_box: expected a sample rate from 0, further starts from 0, at least 100 draws, a "
-        "positive stretch and discrepancies from 0, found {}, {}, {}, {}, {} and {}",
+        "positive stretch and discrepancies from 0, found {}, {}, {}, {}, {}, {} and {}",
         options.sample_rate, options.further_starts, options.draws, options.stretch,
-        options.discrepancy.torque_balance, options.discrepancy.flow_balance));
+        options.discrepancy.torque_balance, options.discrepancy.flow_balance,
+        options.discrepancy.stiffness));
   }
 }
 
@@ -72,12 +73,12 @@ class Progress {
   const GreyBoxOptions& options_;
 };
 
-// Moves of the optimum when predictions reach a third and three times as far.
+// Moves of the optimum when predictions reach farther and less far.
 MatrixXd shifts_with_reach(const std::vector<GreyBoxRecord>& records, const P& parameters,
                            const VectorXd& point, unsigned threads) {
   MatrixXd shifts(point.size(), 2);
   for (Index i = 0; i < 2; ++i) {
-    const P other = parameters.with_correction(i == 0 ? 1.0 / 3.0 : 3.0);
+    const P other = parameters.with_correction(i == 0 ? 0.4 : 1.6);
     GreyBoxObjective objective(records, other, threads);
     shifts.col(i) = search_with_scales(objective, point).x - point;
   }
@@ -260,6 +261,7 @@ GreyBoxResult fit_grey_box(const Campaign& campaign, const std::optional<Interva
   const MatrixXd shifts = shifts_with_reach(records, parameters, best.x, threads);
   result.posterior = grey_box_posterior(objective, best.x, shifts, options.stretch);
   result.posterior.torque_discrepancy = options.discrepancy.torque_balance;
+  result.posterior.stiffness_discrepancy = options.discrepancy.stiffness;
   result.posterior.leakage_discrepancy =
       leakage_discrepancy(objective, records, parameters, best.x, options.discrepancy.flow_balance);
   const MatrixXd products = objective.products(best.x);

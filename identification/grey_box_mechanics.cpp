@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -62,9 +63,9 @@ struct Relaxation {
 
 }  // namespace
 
-MechanicalStepper::MechanicalStepper(const Eigen::VectorXd& coefficients, double sample_time,
+MechanicalStepper::MechanicalStepper(Eigen::VectorXd coefficients, double sample_time,
                                      bool derivatives)
-    : c_(coefficients), h_(sample_time), derivatives_(derivatives) {
+    : c_(std::move(coefficients)), h_(sample_time), derivatives_(derivatives) {
   const Index mode_count = (c_.size() - C::modes) / 2;
   if (c_.size() < C::modes || c_.size() != C::count(mode_count)) {
     throw InvalidInput(
@@ -191,7 +192,7 @@ bool MechanicalStepper::solve(double push, double& mean_rate, Bristle& b) const 
       mean_rate = next;
       return true;
     }
-    if (!(next > low && next < high)) {
+    if (next <= low || next >= high) {
       next = std::isinf(low) || std::isinf(high) ? mean_rate - 2.0 * excess / effective_inertia_
                                                  : 0.5 * (low + high);
     }

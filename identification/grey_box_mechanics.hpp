@@ -52,7 +52,7 @@ void predict_rate(const GreyBoxRecord& record, const Eigen::VectorXd& coefficien
 /// One prediction step after another, for driving the model by something other than a record.
 class MechanicalStepper {
  public:
-  MechanicalStepper(const Eigen::VectorXd& coefficients, double sample_time, bool derivatives);
+  MechanicalStepper(Eigen::VectorXd coefficients, double sample_time, bool derivatives);
 
   /// At rest or in even motion at this rate under this torque.
   void restart(double rate, double torque);

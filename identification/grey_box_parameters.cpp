@@ -104,7 +104,7 @@ GreyBoxParameters::GreyBoxParameters(const Campaign& campaign,
   add_drawings(campaign, bulk);
   add_friction(records);
   add_sensors(campaign, records);
-  add_hydraulics(campaign);
+  add_hydraulics(campaign, records);
   add_modes(campaign.knowledge);
 }
 
@@ -137,7 +137,7 @@ void GreyBoxParameters::add_drawings(const Campaign& campaign,
       std::hypot(displaced, relative(k.torque_efficiency)));
   set(flow_factor, "flow per rate", "", 1.0,
       std::hypot(displaced, relative(k.volumetric_efficiency)));
-  set(tachometer_scale, "tachometer scale", "", 1.0, campaign.instruments.tachometer_scale);
+  set(tachometer_gain, "tachometer scale", "", 1.0, campaign.instruments.tachometer_scale);
   if (bulk) {
     positive(bulk->value, "bulk modulus");
     set(bulk_modulus, "bulk modulus", "Pa", bulk->value, bulk->standard_uncertainty / bulk->value);
@@ -203,7 +203,8 @@ void GreyBoxParameters::add_sensors(const Campaign& campaign,
   list_[command_gain] = {"opening per rate command", "", true, followed, 0.5, false};
 }
 
-void GreyBoxParameters::add_hydraulics(const Campaign& campaign) {
+void GreyBoxParameters::add_hydraulics(const Campaign& campaign,
+                                       const std::vector<GreyBoxRecord>& records) {
   const DriveKnowledge& k = campaign.knowledge;
   const double torque = torque_per_pressure(k) * k.motor_count;
   units_.supply_torque = torque * k.supply_pressure;
@@ -227,10 +228,13 @@ void GreyBoxParameters::add_hydraulics(const Campaign& campaign) {
   set(valve_gain, "valve scale", "", 1.0, campaign.instruments.valve_scale, true);
   set(valve_lag, "valve lag", "s", 0.005, 0.8, false);
   set(supply_torque, "supply pressure as torque", "N m", units_.supply_torque, 0.01, true);
-  // Predictions reach ahead over half a radian of the hydraulic mode: far enough that torque and
-  // flow balances count and not only the recorder's last sample, near enough that wind does not
-  // add up. Fixed: left to the fit, they would serve ripple and noise at the highest frequencies.
-  const double correction = 2.0 * std::sqrt(stiffness / inertia);
+  // Predictions reach ahead over a quarter radian of the hydraulic mode: far enough that torque and
+  // flow balances count and not only the recorder's last sample, near enough that wind and small
+  // errors of the flow do not add up. Fixed: left to the fit, they would serve ripple and noise at
+  // the highest frequencies. No step may correct more than it was off.
+  double longest = 0.0;
+  for (const auto& record : records) longest = std::max(longest, record.sample_time);
+  const double correction = std::min(4.0 * std::sqrt(stiffness / inertia), 0.5 / longest);
   set(rate_correction, "correction by the rate", "N m s/rad", correction * inertia, 0.0, false);
   set(pressure_correction, "correction by the pressures", "1/s", correction, 0.0, false);
   // What flow curves and lines usually show beyond the model's orifice: a few parts in a hundred of
@@ -282,7 +286,7 @@ GreyBoxParameters GreyBoxParameters::with_correction(double factor) const {
 }
 
 double GreyBoxParameters::recorded_inertia_factor(const VectorXd& v) {
-  return v(pressure_gain) / (v(torque_factor) * v(tachometer_scale));
+  return v(pressure_gain) / (v(torque_factor) * v(tachometer_gain));
 }
 
 double GreyBoxParameters::oil_stiffness(const VectorXd& v) const {
@@ -317,7 +321,7 @@ GreyBoxParameters::Coefficients GreyBoxParameters::mechanical(const VectorXd& po
     c.by_point(row, antenna_inertia) = factor * antenna * spread(antenna_inertia);
     c.by_point(row, pressure_gain) = value * spread(pressure_gain);
     c.by_point(row, torque_factor) = -value * spread(torque_factor);
-    c.by_point(row, tachometer_scale) = -value * spread(tachometer_scale);
+    c.by_point(row, tachometer_gain) = -value * spread(tachometer_gain);
     for (Index j = 0; j < mode_count(); ++j) {
       c.by_point(row, share(j)) =
           factor * antenna * ((j == mode ? 1.0 : 0.0) - v(share(j)) / sum) * spread(share(j));
@@ -348,7 +352,7 @@ GreyBoxParameters::Coefficients GreyBoxParameters::hydraulic(const VectorXd& poi
     c.by_point(row, from) = by_coordinate(list_[static_cast<std::size_t>(from)], v(from));
   }
   // As recorded: pressures by the transducers' gain, flow counted in recorded rate.
-  const double factor = v(pressure_gain) * v(flow_factor) / v(tachometer_scale);
+  const double factor = v(pressure_gain) * v(flow_factor) / v(tachometer_gain);
   for (Index side = 0; side < 2; ++side) {
     const Index row = Hydraulic::stiffness_1 + side;
     // The inlets' transducers may read higher than the outlets'.
@@ -361,7 +365,7 @@ GreyBoxParameters::Coefficients GreyBoxParameters::hydraulic(const VectorXd& poi
     c.by_point(row, volume_1 + side) = -value * spread(volume_1 + side);
     c.by_point(row, pressure_gain) = value * spread(pressure_gain);
     c.by_point(row, flow_factor) = value * spread(flow_factor);
-    c.by_point(row, tachometer_scale) = -value * spread(tachometer_scale);
+    c.by_point(row, tachometer_gain) = -value * spread(tachometer_gain);
   }
   return c;
 }

@@ -30,15 +30,15 @@ struct GreyBoxParameter {
 class GreyBoxParameters {
  public:
   enum : Eigen::Index {
-    motor_inertia,     // kg m2, all motors with flywheels
-    gear_inertia,      // kg m2, all motors' gears
-    antenna_inertia,   // kg m2, at the motor shaft
-    pressure_gain,     // recorded per true pressure, mean of all transducers
-    torque_factor,     // torque per pressure, true per stated
-    flow_factor,       // flow per motor rate, true per stated
-    tachometer_scale,  // recorded per true rate
-    bulk_modulus,      // Pa
-    volume_1,          // m3
+    motor_inertia,    // kg m2, all motors with flywheels
+    gear_inertia,     // kg m2, all motors' gears
+    antenna_inertia,  // kg m2, at the motor shaft
+    pressure_gain,    // recorded per true pressure, mean of all transducers
+    torque_factor,    // torque per pressure, true per stated
+    flow_factor,      // flow per motor rate, true per stated
+    tachometer_gain,  // recorded per true rate
+    bulk_modulus,     // Pa
+    volume_1,         // m3
     volume_2,
     coulomb_torque,  // from here to tachometer_lag as MechanicalCoefficients has them
     stribeck_torque,
@@ -107,7 +107,7 @@ class GreyBoxParameters {
   void add_drawings(const Campaign& campaign, const std::optional<Interval>& bulk);
   void add_friction(const std::vector<GreyBoxRecord>& records);
   void add_sensors(const Campaign& campaign, const std::vector<GreyBoxRecord>& records);
-  void add_hydraulics(const Campaign& campaign);
+  void add_hydraulics(const Campaign& campaign, const std::vector<GreyBoxRecord>& records);
   void add_modes(const DriveKnowledge& knowledge);
 
   std::vector<GreyBoxParameter> list_;

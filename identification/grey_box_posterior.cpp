@@ -66,12 +66,12 @@ DriveEstimate drive_estimate(const GreyBoxParameters& parameters, const VectorXd
   e.oil_stiffness = parameters.oil_stiffness(v);
   e.bulk_modulus = v(P::bulk_modulus);
   const double recorded_stiffness =
-      e.oil_stiffness * v(P::pressure_gain) / (v(P::torque_factor) * v(P::tachometer_scale));
+      e.oil_stiffness * v(P::pressure_gain) / (v(P::torque_factor) * v(P::tachometer_gain));
   e.leakage_rate = recorded_stiffness * leakage_conductance(v);
   e.offset_as_recorded = v(P::offset_torque);
   // Torque and rate as they are, from what the recorder shows of them.
   const double torque = v(P::torque_factor) / v(P::pressure_gain);
-  const double rate = 1.0 / v(P::tachometer_scale);
+  const double rate = 1.0 / v(P::tachometer_gain);
   e.friction = {
       torque * v(P::coulomb_torque), torque * (v(P::coulomb_torque) + v(P::stribeck_torque)),
       rate * v(P::stribeck_rate),    torque * v(P::saturating_torque),
@@ -127,6 +127,8 @@ std::vector<DriveEstimate> posterior_draws(const GreyBoxParameters& parameters,
     const double frequency = std::exp(0.5 * posterior.torque_discrepancy * more.imag());
     e.mode_frequency *= frequency;
     e.lowest_frequency *= frequency;
+    const auto oil = numbers.pair(static_cast<std::uint64_t>(root.cols()) + 2U);
+    e.oil_stiffness *= std::exp(posterior.stiffness_discrepancy * oil.real());
     e.leakage_rate *= std::exp(posterior.leakage_discrepancy * more.real());
     draws.push_back(std::move(e));
   }

@@ -41,10 +41,13 @@ struct DriveEstimate {
 struct GreyBoxDiscrepancy {
   /// Of the torque balance, relative: friction that changes with load or place, oil torque that is
   /// not in proportion to pressure. Widens inertia and friction, and frequencies by half of it.
-  double torque_balance = 0.002;
+  double torque_balance = 0.003;
   /// Of the flow balance, relative to the flow: valve and lines other than modelled. Widens the
   /// leakage, which is a small part of the flow.
   double flow_balance = 0.003;
+  /// Of the oil's stiffness, relative: waves in the lines, hoses that yield, a bulk modulus that
+  /// changes with pressure.
+  double stiffness = 0.006;
 };
 
 /// Where the fit has arrived and how far it may be off, in the parameters' points.
@@ -59,8 +62,9 @@ struct GreyBoxPosterior {
   Eigen::MatrixXd misfit;
   /// Mean variance of the covariance over the formal one's, by directions.
   double inflation = 1.0;
-  double leakage_discrepancy = 0.0;  // relative standard uncertainty
-  double torque_discrepancy = 0.0;   // relative
+  double leakage_discrepancy = 0.0;    // relative standard uncertainty
+  double torque_discrepancy = 0.0;     // relative
+  double stiffness_discrepancy = 0.0;  // relative
 };
 
 /// Covariance at the optimum of an objective: the formal one made wider by the scatter of the

@@ -228,7 +228,7 @@ TEST(FitGreyBox, IntervalsHoldOverAFamilyOfDrives) {
   for (int drive = 0; drive < 4; ++drive) {
     VectorXd point = reference.point;
     for (const Index i : {P::motor_inertia, P::gear_inertia, P::antenna_inertia, P::pressure_gain,
-                          P::torque_factor, P::flow_factor, P::tachometer_scale, P::bulk_modulus,
+                          P::torque_factor, P::flow_factor, P::tachometer_gain, P::bulk_modulus,
                           P::volume_1, P::volume_2, P::valve_gain, P::common_torque}) {
       point(i) = normal();
     }

@@ -3,6 +3,50 @@
 #include <boresight/app/io/case_sections.hpp>
 
 namespace boresight::app {
+namespace {
+
+// Both of two keys, or neither. @throws InvalidInput at the one that is missing
+void need_together(const TableReader& table, const char* one, const char* other) {
+  if (table.has(one) == table.has(other)) return;
+  table.refuse(table.has(one) ? other : one, std::string("expected ") + one + " and " + other +
+                                                 " together, found " +
+                                                 (table.has(one) ? one : other) + " alone");
+}
+
+void read_tachometer(TableReader& table, Case& antenna) {
+  RecordedTachometerEntry entry;
+  entry.voltage = table.optional_quantity("voltage", Kind::voltage, Range::positive());
+  entry.shaft_speed = table.optional_quantity("shaft_speed", Kind::angular_rate, Range::positive());
+  entry.motor_teeth = table.optional_quantity("motor_teeth", Kind::number, Range::positive());
+  entry.tachometer_teeth =
+      table.optional_quantity("tachometer_teeth", Kind::number, Range::positive());
+  entry.recorder_limit = table.optional_quantity(
+      "recorder_limit", entry.voltage ? Kind::voltage : Kind::angular_rate, Range::positive());
+  entry.shaft = "tachometer";
+  if (table.has("shaft") || table.optional_text("shaft")) {
+    entry.shaft = table.choice("shaft", {"tachometer", "motor", "antenna"});
+  }
+  table.finish();
+  need_together(table, "voltage", "shaft_speed");
+  need_together(table, "motor_teeth", "tachometer_teeth");
+  if (entry.shaft == "tachometer" && !entry.motor_teeth) {
+    table.refuse("motor_teeth",
+                 "expected motor_teeth and tachometer_teeth, or another shaft than 'tachometer', "
+                 "found neither");
+  }
+  if (entry.shaft != "tachometer" && entry.motor_teeth) {
+    table.refuse("motor_teeth",
+                 "expected no motor_teeth beside shaft, which says what turns, found them");
+  }
+  if (entry.voltage && entry.shaft_speed && entry.motor_teeth && entry.tachometer_teeth &&
+      entry.recorder_limit) {
+    antenna.tachometer = {*entry.voltage, *entry.shaft_speed, *entry.motor_teeth,
+                          *entry.tachometer_teeth, *entry.recorder_limit};
+  }
+  antenna.campaign.tachometer = std::move(entry);
+}
+
+}  // namespace
 
 void read_oil(TableReader& file, Case& antenna) {
   TableReader table = file.table("oil");
@@ -15,13 +59,13 @@ void read_oil(TableReader& file, Case& antenna) {
   oil.efficiency_in_stiffness = table.optional_boolean("efficiency_in_stiffness").value_or(true);
   std::set<std::string> names;
   for (auto& entry : table.tables("line")) {
-    OilLine line;
-    line.name = read_name(entry, names);
-    line.length = entry.quantity("length", Kind::length, Range::positive(1000.0));
-    line.slosh_frequency =
-        entry.quantity("slosh_frequency", Kind::frequency, Range::positive(10000.0));
+    const std::string name = read_name(entry, names);
+    const Quantity length = entry.quantity("length", Kind::length, Range::positive(1000.0));
+    const auto slosh_frequency =
+        entry.optional_quantity("slosh_frequency", Kind::frequency, Range::positive(10000.0));
     entry.finish();
-    oil.lines.push_back(std::move(line));
+    antenna.campaign.lines.push_back({name, length});
+    if (slosh_frequency) oil.lines.push_back({name, length, *slosh_frequency});
   }
   table.finish();
   if (!oil.bulk_modulus && oil.lines.empty()) {
@@ -36,17 +80,7 @@ void read_tests(TableReader& file, Case& antenna) {
         table->quantity("frequency", Kind::frequency, Range::positive(1000.0));
     table->finish();
   }
-  if (auto table = file.optional_table("tachometer")) {
-    TachometerEntry tachometer;
-    tachometer.voltage = table->quantity("voltage", Kind::voltage, Range::positive());
-    tachometer.shaft_speed = table->quantity("shaft_speed", Kind::angular_rate, Range::positive());
-    tachometer.motor_teeth = table->quantity("motor_teeth", Kind::number, Range::positive());
-    tachometer.tachometer_teeth =
-        table->quantity("tachometer_teeth", Kind::number, Range::positive());
-    tachometer.recorder_limit = table->quantity("recorder_limit", Kind::voltage, Range::positive());
-    table->finish();
-    antenna.tachometer = std::move(tachometer);
-  }
+  if (auto table = file.optional_table("tachometer")) read_tachometer(*table, antenna);
   if (auto table = file.optional_table("friction_tests")) {
     FrictionTestsEntry& tests = antenna.friction_tests;
     const Range torque = Range::positive();
@@ -81,6 +115,8 @@ void read_drive(TableReader& file, Case& antenna) {
   drive.valve_damping = table.quantity("valve_damping", Kind::number, Range::positive(10.0));
   drive.supply_pressure =
       table.quantity("supply_pressure", Kind::pressure, Range::between(1e4, 1e9));
+  antenna.campaign.return_pressure =
+      table.optional_quantity("return_pressure", Kind::pressure, Range::not_negative(1e8));
   drive.slew_rate = table.quantity("slew_rate", Kind::angular_rate, Range::positive(10.0));
   drive.tracking_rate = table.quantity("tracking_rate", Kind::angular_rate, Range::positive(1.0));
   table.finish();

@@ -68,6 +68,7 @@ Case read_case(const std::string& path) {
   read_wind(file, antenna);
   read_pointing(file, antenna);
   read_goals(file, antenna);
+  read_campaign(file, antenna);
   read_stated(file, antenna);
   antenna.quantities = file.quantities_read();
   file.finish();

@@ -228,9 +228,9 @@ struct Case {
   MotorEntry motor;
   OilEntry oil;
   std::optional<Quantity> resonance_frequency;
-  /// If it has a voltage and a recorder limit; see campaign for one of another kind.
   std::optional<TachometerEntry> tachometer;
   FrictionTestsEntry friction_tests;
+  /// If it has a voltage and a recorder limit; see campaign for one of another kind.
   std::vector<ImpulseResult> impulse_results;
   DriveEntry drive;
   FrictionCurveEntry friction_curve;
@@ -246,10 +246,10 @@ struct Case {
   std::vector<double> matching_disks;
   std::vector<StatedEntry> stated;
   std::vector<RemarkEntry> remarks;
-  /// What was recorded, and with what.
-  CampaignEntry campaign;
   /// Every quantity of the file, in file order, for the list of assumptions.
   std::vector<Quantity> quantities;
+  /// What was recorded, and with what.
+  CampaignEntry campaign;
 };
 
 /// Reads and checks a case file. @throws InvalidInput with one message: file, line, column, key,

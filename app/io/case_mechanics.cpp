@@ -5,6 +5,8 @@
 #include <fmt/format.h>
 
 #include <boresight/app/io/case_sections.hpp>
+#include <boresight/app/io/modes_file.hpp>
+#include <boresight/app/io/unit_table.hpp>
 #include <boresight/app/io/wording.hpp>
 
 namespace boresight::app {
@@ -53,6 +55,46 @@ RotatingAssembly read_assembly(TableReader& entry, long stages, NamesInUse& name
     entry.refuse("inertia", "expected an inertia or parts to sum, found neither");
   }
   return assembly;
+}
+
+// Fills the structure from an export of a finite-element program.
+void take_modes_file(TableReader& table, const std::string& name, Case& antenna) {
+  for (const char* key : {"bull_gear_wind_fraction", "bull_gear_beam_weight", "mode"}) {
+    if (table.has(key)) {
+      table.refuse(key, "expected either a modes_file or what it says, found both");
+    }
+    table.optional_text(key);  // known keys all the same
+  }
+  const std::string path = beside_case(antenna.path, name);
+  const auto held = read_modes_file(path);
+  const double inertia = antenna.antenna.inertia.value;
+  if (std::abs(held.antenna_inertia - inertia) > 0.2 * inertia) {
+    throw InvalidInput(
+        fmt::format("{}: expected an inertia of the free turn within 20 % of antenna.inertia, "
+                    "{:.4g} kg.m2, found {:.4g} kg.m2",
+                    path, inertia, held.antenna_inertia));
+  }
+  const auto number = [&](double value) {
+    Quantity quantity;
+    quantity.value = value;
+    quantity.key = table.path("modes_file");
+    quantity.location = table.location("modes_file");
+    return quantity;
+  };
+  StructureEntry& structure = antenna.structure;
+  structure.bull_gear_wind_fraction = number(held.bull_gear_wind_fraction);
+  structure.bull_gear_beam_weight = number(held.bull_gear_beam_weight);
+  for (const auto& mode : held.modes) {
+    if (mode.frequency <= structure.locked_rotor_frequency.value) {
+      throw InvalidInput(fmt::format(
+          "{}: expected modes above locked_rotor_frequency, {:.6g} Hz, with the bull gear held, "
+          "found one of {:.6g} Hz",
+          path, structure.locked_rotor_frequency.value, mode.frequency));
+    }
+    structure.modes.push_back({number(mode.frequency), number(mode.damping_ratio),
+                               number(mode.inertia_fraction), number(mode.wind_fraction),
+                               number(mode.beam_weight)});
+  }
 }
 
 }  // namespace
@@ -147,10 +189,15 @@ void read_structure(TableReader& file, Case& antenna) {
   structure.locked_rotor_frequency =
       table.quantity("locked_rotor_frequency", Kind::frequency, Range::positive(1000.0));
   structure.gear_damping_ratio = table.quantity("gear_damping_ratio", Kind::number, damping);
-  structure.bull_gear_wind_fraction =
-      table.quantity("bull_gear_wind_fraction", Kind::number, share);
-  structure.bull_gear_beam_weight =
-      table.quantity("bull_gear_beam_weight", Kind::number, Range::between(-10.0, 10.0));
+  const auto modes_file = table.optional_text("modes_file");
+  if (modes_file) {
+    take_modes_file(table, *modes_file, antenna);
+  } else {
+    structure.bull_gear_wind_fraction =
+        table.quantity("bull_gear_wind_fraction", Kind::number, share);
+    structure.bull_gear_beam_weight =
+        table.quantity("bull_gear_beam_weight", Kind::number, Range::between(-10.0, 10.0));
+  }
   structure.lowest_predicted =
       table.optional_quantity("lowest_predicted", Kind::frequency, Range::positive(1000.0));
   if (structure.lowest_predicted) {
@@ -164,6 +211,10 @@ void read_structure(TableReader& file, Case& antenna) {
     if (frequencies.size() > 1 && frequencies.back().value <= frequencies.rbegin()[1].value) {
       entry.refuse("frequency", "expected frequencies that rise, found one not above the last");
     }
+  }
+  if (modes_file) {
+    table.finish();
+    return;
   }
   double fraction = 0.0;
   double wind = structure.bull_gear_wind_fraction.value;

@@ -24,6 +24,8 @@ void read_drive(TableReader& file, Case& antenna);
 /// Nonlinear drive and recorder, for simulated tests.
 void read_simulation(TableReader& file, Case& antenna);
 void read_structure(TableReader& file, Case& antenna);
+/// Records, their columns and instruments.
+void read_campaign(TableReader& file, Case& antenna);
 void read_sensors(TableReader& file, Case& antenna);
 void read_wind(TableReader& file, Case& antenna);
 void read_pointing(TableReader& file, Case& antenna);

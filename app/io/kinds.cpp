@@ -61,6 +61,9 @@ constexpr std::array kinds{
     KindEntry{Kind::tachometer_scale,
               {.length = -2, .mass = -1, .time = 2, .angle = 1, .current = 1},
               {"tachometer scale", "rad/(s.V)", "rpm/V, deg/(s.V)"}},
+    KindEntry{Kind::rate_per_current,
+              {.time = -1, .angle = 1, .current = -1},
+              {"rate per current", "rad/(s.A)", "rad/(s.A), rad/(s.mA)"}},
     KindEntry{
         Kind::proportional_gain, {.time = -1}, {"proportional gain", "1/s", "1/s, (rad/s)/rad"}},
     KindEntry{

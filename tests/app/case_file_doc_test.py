@@ -14,6 +14,13 @@ import unittest
 PROGRAM, SOURCE = sys.argv[1], pathlib.Path(sys.argv[2])
 DOC = (SOURCE / "docs/case-file.md").read_text(encoding="utf-8")
 CASE = (SOURCE / "cases/dss14-70m/case.toml").read_text(encoding="utf-8")
+# That case has every table but those of a recorded campaign.
+RECORDED = (SOURCE / "tests/data/campaigns/full/case.toml").read_text(encoding="utf-8")
+for mark in ("[[structure.prediction]]", "[instruments]", "[record_columns]", "[[record]]"):
+    if mark + "\n" not in CASE:
+        begin = RECORDED.index(mark + "\n")
+        CASE += "\n" + RECORDED[begin:RECORDED.find("\n[", begin) + 1]
+CASE += "\n[[remark]]\nplace = 'here'\ntext = 'the last table'\n"
 
 # Titles in the document of what has no header in a case.
 ROOT = "The file itself"

@@ -3,6 +3,7 @@
 #include <string>
 #include <utility>
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -201,13 +202,13 @@ TEST(CaseWind, RefusesTablesThatDoNotServe) {
   EXPECT_THAT(refusal(folder, case_with_table()), HasSubstr("wind.torque_table: "));
 }
 
-// Half a minute of gusts, 4 Hz, then the same again from another direction.
+// Gusts sampled at 4 Hz.
 std::string wind_record(double seconds, const std::string& direction = "") {
-  std::string text =
-      "time [s],speed [m/s]" + std::string(direction.empty() ? "" : ",direction [deg]");
+  std::string text = "time [s],speed [m/s]";
+  if (!direction.empty()) text += ",direction [deg]";
   for (int i = 0; 0.25 * i <= seconds; ++i) {
-    text += "\n" + std::to_string(0.25 * i) + "," + std::to_string(8.0 + 2.0 * std::sin(0.3 * i)) +
-            (direction.empty() ? "" : "," + direction);
+    text += fmt::format("\n{:.15g},{:.15g}", 0.25 * i, 8.0 + 2.0 * std::sin(0.3 * i));
+    if (!direction.empty()) text += "," + direction;
   }
   return text;
 }

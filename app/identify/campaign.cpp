@@ -1,0 +1,305 @@
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <cstddef>
+#include <exception>
+#include <filesystem>
+#include <thread>
+
+#include <fmt/format.h>
+
+#include <boresight/app/identify/campaign.hpp>
+#include <boresight/app/identify/raw_record.hpp>
+#include <boresight/app/io/record_file.hpp>
+#include <boresight/app/redesign/antenna_model.hpp>
+#include <boresight/identification/test_recognition.hpp>
+#include <boresight/plant/gear_train.hpp>
+
+namespace boresight::app {
+namespace {
+
+using identification::TestKind;
+using identification::Uncertain;
+
+constexpr std::pair<const char*, TestKind> tests[] = {{"slosh", TestKind::slosh},
+                                                      {"fast-ramp", TestKind::fast_ramp},
+                                                      {"slow-ramp", TestKind::slow_ramp},
+                                                      {"constant-speed", TestKind::constant_speed},
+                                                      {"valve-steps", TestKind::valve_steps},
+                                                      {"valve-chirp", TestKind::valve_chirp},
+                                                      {"other", TestKind::other}};
+
+Uncertain uncertain(const Quantity& quantity) {
+  return {quantity.value, quantity.standard_uncertainty};
+}
+
+std::string resolved(const Case& antenna, const std::string& file) {
+  const std::filesystem::path path(file);
+  if (path.is_absolute()) return file;
+  return (std::filesystem::path(antenna.path).parent_path() / path).string();
+}
+
+/// A record on its way from file to campaign.
+struct Work {
+  RecordNotes notes;
+  identification::RawRecord raw;
+  identification::CleanRecord clean;
+  std::exception_ptr failure;
+};
+
+void load(const Case& antenna, const RecordEntry& entry, Work& work) {
+  RecordNotes& notes = work.notes;
+  notes.name = entry.name;
+  notes.description = entry.description;
+  notes.path = resolved(antenna, entry.file);
+  const RecordTable table = read_record(notes.path);
+  notes.format = table.format;
+  notes.bytes = table.bytes;
+  notes.checksum = table.checksum;
+  notes.remarks = table.remarks;
+  work.raw = raw_record(antenna, table, notes);
+  work.raw.name = entry.name;
+  for (const auto& [name, test] : tests) {
+    if (entry.test == name) work.raw.test = test;
+  }
+  work.raw.rate_loop_closed = entry.rate_loop == "closed";
+  work.clean = identification::clean_record(work.raw);
+}
+
+// Each record on a thread of its own, as many at once as there are processors. Nothing depends on
+// their order.
+std::vector<Work> load_all(const Case& antenna) {
+  const auto& entries = antenna.campaign.records;
+  std::vector<Work> works(entries.size());
+  std::atomic<std::size_t> next{0};
+  const auto take = [&] {
+    for (std::size_t i = next++; i < works.size(); i = next++) {
+      try {
+        load(antenna, entries[i], works[i]);
+      } catch (...) {
+        works[i].failure = std::current_exception();
+      }
+    }
+  };
+  std::vector<std::jthread> threads;
+  const std::size_t most = std::max(1U, std::thread::hardware_concurrency());
+  for (std::size_t i = 1; i < std::min(most, works.size()); ++i) threads.emplace_back(take);
+  take();
+  threads.clear();
+  for (const Work& work : works) {
+    if (work.failure) std::rethrow_exception(work.failure);
+  }
+  return works;
+}
+
+identification::Instruments make_instruments(const Case& antenna, CampaignNotes& notes) {
+  identification::Instruments instruments;
+  if (const auto& entry = antenna.campaign.instruments) {
+    instruments.pressure_gain = entry->pressure_gain.value;
+    instruments.pressure_zero = entry->pressure_zero.value;
+    instruments.tachometer_scale = entry->tachometer_gain.value;
+    if (const auto& valve = entry->valve_command_scale) {
+      instruments.valve_scale = valve->standard_uncertainty / valve->value;
+    }
+  } else if (const auto& recorder = antenna.recorder) {
+    instruments.pressure_gain = recorder->pressure_gain.value;
+    instruments.pressure_zero = recorder->pressure_zero.value;
+    instruments.tachometer_scale = recorder->tachometer_gain.value;
+    notes.assumptions.emplace_back(
+        "no [instruments]: uncertainties of the simulated [recorder] were taken");
+  } else {
+    throw InvalidInput(
+        fmt::format("{}: instruments: expected the uncertainties of the recorder's channels beside "
+                    "records, found none",
+                    antenna.path));
+  }
+  return instruments;
+}
+
+// Of the motors' means, how far they are from one another (Pa, standard deviation).
+double spread_of_means(const identification::RawRecord& raw,
+                       const std::vector<identification::RawChannel>& side,
+                       const std::vector<std::size_t>& replaced) {
+  std::vector<double> means;
+  for (std::size_t motor = 0; motor < side.size(); ++motor) {
+    if (std::find(replaced.begin(), replaced.end(), motor) != replaced.end()) continue;
+    double sum = 0.0;
+    double count = 0.0;
+    for (const double value : side[motor].values.head(raw.time.size())) {
+      if (!std::isfinite(value)) continue;
+      sum += value;
+      count += 1.0;
+    }
+    if (count > 0.0) means.push_back(sum / count);
+  }
+  if (means.size() < 2) return 0.0;
+  const double mean =
+      Eigen::Map<const Eigen::VectorXd>(means.data(), static_cast<Eigen::Index>(means.size()))
+          .mean();
+  double square = 0.0;
+  for (const double value : means) square += (value - mean) * (value - mean);
+  return std::sqrt(square / static_cast<double>(means.size() - 1));
+}
+
+// A sum over n motors of which k are the mean of the others has more of the others' errors, and
+// does not know what sets the k apart.
+void raise_for_replaced(const Work& work, identification::Instruments& instruments,
+                        const identification::Instruments& stated) {
+  const auto motors = static_cast<double>(work.raw.inlet.size());
+  double variance = 0.0;  // of the sum of all channels, in those of one
+  double unknown = 0.0;
+  for (const auto* replaced : {&work.clean.replaced_inlets, &work.clean.replaced_outlets}) {
+    const auto dead = static_cast<double>(replaced->size());
+    variance += motors * motors / (motors - dead);
+    const auto& side = replaced == &work.clean.replaced_inlets ? work.raw.inlet : work.raw.outlet;
+    unknown += dead * std::pow(spread_of_means(work.raw, side, *replaced), 2);
+  }
+  const double growth = std::sqrt(variance / (2.0 * motors));
+  instruments.pressure_gain = std::max(instruments.pressure_gain, growth * stated.pressure_gain);
+  instruments.pressure_zero =
+      std::max(instruments.pressure_zero,
+               std::hypot(growth * stated.pressure_zero, std::sqrt(unknown / (2.0 * motors))));
+}
+
+// A closed rate loop follows its command: with the valve amplifier driven by the command, valve
+// and command are one signal.
+bool loop_seems_closed(const identification::DriveRecord& record) {
+  if (record.test == TestKind::constant_speed || record.test == TestKind::slow_ramp) return true;
+  if (record.test != TestKind::fast_ramp && record.test != TestKind::other) return false;
+  if (!record.rate_command) return false;
+  const Eigen::VectorXd& command = record.rate_command->values;
+  if (record.valve_command) {
+    const Eigen::VectorXd& valve = record.valve_command->values;
+    const double alike = command.dot(valve) / (command.norm() * valve.norm());
+    return !(alike > 0.9995);
+  }
+  const double gain = command.dot(record.motor_rate.values) / command.squaredNorm();
+  return gain > 0.9 && gain < 1.1;
+}
+
+}  // namespace
+
+std::string to_string(TestKind test) {
+  const auto* const found = std::find_if(std::begin(tests), std::end(tests),
+                                         [test](const auto& one) { return one.second == test; });
+  return found->first;
+}
+
+identification::DriveKnowledge drive_knowledge(const Case& antenna, CampaignNotes& notes) {
+  identification::DriveKnowledge knowledge;
+  const identification::DriveEvidence evidence = make_evidence(antenna);
+  knowledge.motor_count = evidence.motor_count;
+  knowledge.motor_inertia = evidence.motor_inertia;
+  for (const auto& assembly : evidence.assemblies) {
+    const double ratio = plant::gear_ratio(evidence.stages, assembly.stages);
+    const double share = assembly.count / (ratio * ratio);
+    knowledge.gear_inertia.value += share * assembly.inertia.value;
+    // Added, not in squares: one density, and the same habit of taking gears for disks.
+    knowledge.gear_inertia.standard_uncertainty += share * assembly.inertia.standard_uncertainty;
+  }
+  if (evidence.assemblies.empty()) {
+    notes.assumptions.emplace_back("no gear_train.assembly: the gears' inertia was taken as zero");
+  }
+  knowledge.antenna_inertia = evidence.antenna.front().reflected;
+  knowledge.displacement = evidence.displacement;
+  knowledge.torque_efficiency = evidence.torque_efficiency;
+  knowledge.volumetric_efficiency = evidence.volumetric_efficiency;
+  knowledge.oil_density = evidence.oil_density;
+  knowledge.volume_1 = evidence.volume_1;
+  knowledge.volume_2 = evidence.volume_2;
+  knowledge.efficiency_in_stiffness = evidence.efficiency_in_stiffness;
+  for (const auto& line : antenna.campaign.lines) {
+    knowledge.line_lengths.push_back(uncertain(line.length));
+  }
+  if (knowledge.line_lengths.empty()) {
+    notes.assumptions.emplace_back("no oil.line: slosh tests cannot give a bulk modulus");
+  } else if (knowledge.line_lengths.size() != static_cast<std::size_t>(antenna.motor.count)) {
+    notes.assumptions.push_back(
+        fmt::format("{} oil lines for {} motors: the first was taken as the shortest, the last as "
+                    "the longest",
+                    knowledge.line_lengths.size(), antenna.motor.count));
+  }
+  for (const auto& frequency : antenna.campaign.locked_rotor_frequencies) {
+    knowledge.locked_rotor_frequencies.push_back(uncertain(frequency));
+  }
+  if (knowledge.locked_rotor_frequencies.empty()) {
+    knowledge.locked_rotor_frequencies.push_back(
+        uncertain(antenna.structure.locked_rotor_frequency));
+    notes.assumptions.emplace_back(
+        "no structure.prediction: structure.locked_rotor_frequency is the only structural mode "
+        "known");
+  }
+  knowledge.supply_pressure = antenna.drive.supply_pressure.value;
+  if (antenna.campaign.return_pressure) {
+    knowledge.return_pressure = antenna.campaign.return_pressure->value;
+  } else if (antenna.simulation) {
+    knowledge.return_pressure = antenna.simulation->return_pressure.value;
+    notes.assumptions.emplace_back(
+        "no drive.return_pressure: simulation.return_pressure was taken");
+  } else {
+    notes.assumptions.emplace_back("no drive.return_pressure: taken as zero");
+  }
+  knowledge.tracking_rate = antenna.drive.tracking_rate.value * gear_ratio(antenna);
+  return knowledge;
+}
+
+identification::Campaign make_campaign(const Case& antenna, CampaignNotes& notes) {
+  const auto& entries = antenna.campaign.records;
+  if (entries.empty()) {
+    throw InvalidInput(
+        fmt::format("{}: record: expected a list of tables [[record]], found none", antenna.path));
+  }
+  identification::Campaign campaign;
+  campaign.knowledge = drive_knowledge(antenna, notes);
+  campaign.instruments = make_instruments(antenna, notes);
+  const identification::Instruments stated = campaign.instruments;
+  std::vector<Work> works = load_all(antenna);
+  std::vector<identification::DriveRecord*> unknown;
+  for (std::size_t i = 0; i < works.size(); ++i) {
+    if (works[i].clean.record && entries[i].test.empty()) {
+      unknown.push_back(&*works[i].clean.record);
+      works[i].notes.test_guessed = true;
+    }
+  }
+  std::vector<const identification::DriveRecord*> all;
+  for (const Work& work : works) {
+    if (work.clean.record) all.push_back(&*work.clean.record);
+  }
+  const double fastest = identification::fastest_motion(all);
+  for (auto* record : unknown) record->test = identification::recognised_test(*record, fastest);
+
+  for (std::size_t i = 0; i < works.size(); ++i) {
+    Work& work = works[i];
+    RecordNotes& note = work.notes;
+    note.defects = work.clean.defects;
+    note.refusal = work.clean.refusal;
+    if (auto& record = work.clean.record) {
+      if (entries[i].rate_loop.empty()) {
+        record->rate_loop_closed = loop_seems_closed(*record);
+        note.rate_loop_guessed = true;
+      }
+      note.test = record->test;
+      note.rate_loop_closed = record->rate_loop_closed;
+      note.sample_time = record->sample_time;
+      note.duration = record->sample_time * static_cast<double>(record->samples());
+      if (!work.clean.replaced_inlets.empty() || !work.clean.replaced_outlets.empty()) {
+        raise_for_replaced(work, campaign.instruments, stated);
+        notes.assumptions.push_back(fmt::format(
+            "record {}: a dead pressure was replaced by the mean of the other motors', which hang "
+            "on the same common line; the pressures' uncertainties were raised for it",
+            note.name));
+      }
+      campaign.records.push_back(std::move(*record));
+    }
+    notes.records.push_back(std::move(note));
+  }
+  if (campaign.records.empty()) {
+    throw InvalidInput(
+        fmt::format("{}: record: expected one record at least that can be used, "
+                    "found none: {}: {}",
+                    antenna.path, notes.records.front().name, notes.records.front().refusal));
+  }
+  return campaign;
+}
+
+}  // namespace boresight::app

@@ -1,0 +1,284 @@
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <set>
+
+#include <fmt/format.h>
+
+#include <boresight/app/identify/raw_record.hpp>
+#include <boresight/app/io/field.hpp>
+#include <boresight/app/io/kinds.hpp>
+#include <boresight/app/io/record_columns.hpp>
+#include <boresight/app/io/wording.hpp>
+#include <boresight/app/redesign/antenna_model.hpp>
+
+namespace boresight::app {
+namespace {
+
+using identification::RawChannel;
+
+std::string lower(std::string text) {
+  for (char& c : text) {
+    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+  }
+  return text;
+}
+
+Dimension product(const Dimension& a, const Dimension& b) {
+  return {a.length + b.length, a.mass + b.mass,       a.time + b.time,
+          a.angle + b.angle,   a.current + b.current, a.level + b.level};
+}
+
+/// Turns columns of one file into channels.
+class Mapper {
+ public:
+  Mapper(const Case& antenna, const RecordTable& table, RecordNotes& notes)
+      : antenna_(antenna), campaign_(antenna.campaign), table_(table), notes_(notes) {
+    for (const std::string& name : campaign_.columns.reversed) reversed_.insert(lower(name));
+  }
+
+  identification::RawRecord map() {
+    const RecordColumnsEntry& entry = campaign_.columns;
+    const ChosenColumns chosen = choose_columns(table_, entry, antenna_.motor.count);
+    identification::RawRecord raw;
+    raw.tachometer = tachometer(*chosen.tachometer);
+    raw.time = chosen.time ? time(*chosen.time) : even_times(raw.tachometer.values.size());
+    for (std::size_t motor = 0; motor < chosen.inlet.size(); ++motor) {
+      raw.inlet.push_back(pressure(chosen.inlet[motor], entry.inlet, motor, "inlet"));
+      raw.outlet.push_back(pressure(chosen.outlet[motor], entry.outlet, motor, "outlet"));
+    }
+    if (chosen.rate_command) raw.rate_command = rate_command(*chosen.rate_command);
+    if (chosen.valve_command) raw.valve_command = valve_command(*chosen.valve_command);
+    for (std::size_t i = 0; i < table_.columns.size(); ++i) {
+      if (!used_.contains(i)) notes_.unused_columns.push_back(table_.columns[i].name);
+    }
+    notes_.rows = static_cast<std::size_t>(raw.time.size());
+    return raw;
+  }
+
+ private:
+  struct Measured {
+    const RecordColumn& column;
+    Unit unit;
+    std::string unit_text;
+    std::string key;  // of the case, for messages
+    SignalSource source;
+  };
+
+  // A column with its unit: the file's, or the case's where the file states none.
+  Measured measured(const ChosenColumn& chosen, const std::optional<ColumnEntry>& entry,
+                    const std::string& signal, const std::string& key) {
+    const RecordColumn& column = table_.columns[chosen.index];
+    if (!used_.insert(chosen.index).second) {
+      throw InvalidInput(
+          fmt::format("{}: expected a column for each signal, found {} taken for two "
+                      "(say which is which in [record_columns])",
+                      table_.path, quoted(column.name)));
+    }
+    Measured result{column, {}, column.unit, "record_columns." + key, {}};
+    std::string remark;
+    const std::optional<Unit> own = column.unit.empty() ? std::nullopt : recorded_unit(column.unit);
+    if (entry && !entry->unit.empty()) {
+      result.unit = parse_unit(entry->unit);
+      result.unit_text = entry->unit;
+      if (own && (own->factor != result.unit.factor || own->dimension != result.unit.dimension)) {
+        refuse_at(entry->location, entry->key,
+                  fmt::format("expected the unit that {} states, '{}', or none, found '{}'",
+                              table_.path, column.unit, entry->unit));
+      }
+      if (!own && !column.unit.empty()) {
+        remark =
+            fmt::format("the file states the unit {}, which is not known", quoted(column.unit));
+      }
+    } else if (own) {
+      result.unit = *own;
+    } else {
+      throw InvalidInput(fmt::format(
+          "{}: expected a unit of column {}, found {} (say it in the case: record_columns.{} = "
+          "\"{} [unit]\")",
+          table_.path, quoted(column.name),
+          column.unit.empty() ? "none in the file or the case" : quoted(column.unit), key,
+          column.name));
+    }
+    result.source = {signal, column.name, result.unit_text, chosen.guessed, remark};
+    return result;
+  }
+
+  [[noreturn]] void refuse_kind(const Measured& measured, const std::string& expected) const {
+    throw InvalidInput(fmt::format("{}: expected {} in column {}, found '{}', {}", table_.path,
+                                   expected, quoted(measured.column.name), measured.unit_text,
+                                   measured_by(measured.unit.dimension)));
+  }
+
+  RawChannel channel(const Measured& measured, double factor) {
+    RawChannel result;
+    const bool turned = reversed_.contains(lower(measured.column.name));
+    SignalSource source = measured.source;
+    if (turned) source.remark += std::string(source.remark.empty() ? "" : "; ") + "sign turned";
+    result.name = measured.column.name;
+    result.values = Eigen::Map<const Eigen::VectorXd>(
+                        measured.column.values.data(),
+                        static_cast<Eigen::Index>(measured.column.values.size())) *
+                    (turned ? -factor : factor);
+    notes_.sources.push_back(std::move(source));
+    return result;
+  }
+
+  Eigen::VectorXd time(const ChosenColumn& chosen) {
+    const Measured column = measured(chosen, campaign_.columns.time, "time", "time");
+    if (column.unit.dimension != dimension_of(Kind::time)) refuse_kind(column, "a time");
+    return channel(column, column.unit.factor).values;
+  }
+
+  Eigen::VectorXd even_times(Eigen::Index samples) {
+    const auto& rate = campaign_.columns.sample_rate;
+    if (!rate) throw InvalidInput("even_times: no sample rate");
+    notes_.sources.push_back({"time", "", "", false, "none in the file: " + rate->text});
+    return Eigen::VectorXd::LinSpaced(samples, 0.0,
+                                      static_cast<double>(std::max<Eigen::Index>(samples - 1, 0))) /
+           rate->value;
+  }
+
+  RawChannel pressure(const ChosenColumn& chosen, const std::vector<ColumnEntry>& entries,
+                      std::size_t motor, const std::string& side) {
+    const Measured column =
+        measured(chosen, entries.empty() ? std::nullopt : std::optional(entries[motor]),
+                 fmt::format("{} pressure {}", side, motor + 1), side);
+    if (column.unit.dimension != dimension_of(Kind::pressure)) refuse_kind(column, "a pressure");
+    RawChannel result = channel(column, column.unit.factor);
+    if (campaign_.instruments && campaign_.instruments->pressure_range) {
+      result.upper_limit = campaign_.instruments->pressure_range->value;
+      // A transducer shows nothing below zero, unless it is one for either sign.
+      if (4 * (result.values.array() < 0.0).count() < result.values.size()) {
+        result.lower_limit = 0.0;
+      }
+    }
+    return result;
+  }
+
+  // Motor turns per turn of a shaft.
+  double turns(const std::string& shaft, const std::string& what) const {
+    if (shaft == "motor") return 1.0;
+    if (shaft == "antenna") return gear_ratio(antenna_);
+    const auto& tachometer = campaign_.tachometer;
+    if (!tachometer || !tachometer->motor_teeth || !tachometer->tachometer_teeth) {
+      throw InvalidInput(
+          fmt::format("{}: tachometer.motor_teeth: expected the gear of the tachometer, whose "
+                      "shaft {} is about, "
+                      "found none",
+                      antenna_.path, what));
+    }
+    return tachometer->motor_teeth->value / tachometer->tachometer_teeth->value;
+  }
+
+  RawChannel tachometer(const ChosenColumn& chosen) {
+    const Measured column =
+        measured(chosen, campaign_.columns.tachometer, "tachometer", "tachometer");
+    const bool volts = column.unit.dimension == dimension_of(Kind::voltage);
+    if (!volts && column.unit.dimension != dimension_of(Kind::angular_rate)) {
+      refuse_kind(column, "a voltage or an angular rate");
+    }
+    const auto& entry = campaign_.tachometer;
+    if (!entry || (volts && !entry->voltage)) {
+      throw InvalidInput(fmt::format(
+          "{}: tachometer{}: expected {} of the tachometer, which {} has in '{}', found none",
+          antenna_.path, entry ? ".voltage" : "",
+          volts ? "voltage and shaft_speed" : "shaft (whose rate it is)", table_.path,
+          column.unit_text));
+    }
+    const double gear = turns(entry->shaft, "the tachometer");
+    const double per_volt =
+        entry->voltage ? gear * entry->shaft_speed->value / entry->voltage->value : 0.0;
+    RawChannel result = channel(column, column.unit.factor * (volts ? per_volt : gear));
+    if (entry->recorder_limit) {
+      result.upper_limit = entry->recorder_limit->value * (entry->voltage ? per_volt : gear);
+      result.lower_limit = -result.upper_limit;
+    }
+    return result;
+  }
+
+  // A command that cannot be scaled is left out, unless the case names its column.
+  std::optional<RawChannel> left_out(const Measured& column, bool wanted,
+                                     const std::string& reason) {
+    if (wanted) {
+      throw InvalidInput(fmt::format("{}: {} for {} of {}, found none", antenna_.path, reason,
+                                     quoted(column.column.name), table_.path));
+    }
+    notes_.remarks.push_back(
+        fmt::format("column {} is not used: {}, found none", quoted(column.column.name), reason));
+    return std::nullopt;
+  }
+
+  std::optional<RawChannel> scaled(const Measured& column, const std::optional<Quantity>& scale,
+                                   double gear, bool wanted, const std::string& key) {
+    if (!scale) {
+      return left_out(column, wanted,
+                      fmt::format("instruments.{}: expected a rate per recorded unit, '{}',", key,
+                                  column.unit_text));
+    }
+    if (product(dimension_of(scale->kind), column.unit.dimension) !=
+        dimension_of(Kind::angular_rate)) {
+      refuse_at(scale->location, scale->key,
+                fmt::format("expected a rate per '{}', in which {} has column {}, found {}",
+                            column.unit_text, table_.path, quoted(column.column.name),
+                            quoted(scale->text)));
+    }
+    return channel(column, column.unit.factor * scale->value * gear);
+  }
+
+  // A column guessed for a command, without a unit: nothing can be said of it.
+  bool lacks_unit(const ChosenColumn& chosen) {
+    const RecordColumn& column = table_.columns[chosen.index];
+    if (!chosen.guessed || recorded_unit(column.unit)) return false;
+    notes_.remarks.push_back(
+        fmt::format("column {} is not used: it has no known unit", quoted(column.name)));
+    return true;
+  }
+
+  std::optional<RawChannel> rate_command(const ChosenColumn& chosen) {
+    if (lacks_unit(chosen)) return std::nullopt;
+    const auto& entry = campaign_.columns.rate_command;
+    const Measured column = measured(chosen, entry, "rate command", "rate_command");
+    const auto& instruments = campaign_.instruments;
+    const std::string shaft = instruments ? instruments->rate_command_shaft : "";
+    if (shaft.empty()) {
+      return left_out(column, entry.has_value(),
+                      "instruments.rate_command_shaft: expected whose rate it is, 'motor', "
+                      "'tachometer' or 'antenna',");
+    }
+    const double gear = turns(shaft, "instruments.rate_command_shaft");
+    if (column.unit.dimension == dimension_of(Kind::angular_rate)) {
+      return channel(column, column.unit.factor * gear);
+    }
+    return scaled(column, instruments->rate_command_scale, gear, entry.has_value(),
+                  "rate_command_scale");
+  }
+
+  std::optional<RawChannel> valve_command(const ChosenColumn& chosen) {
+    if (lacks_unit(chosen)) return std::nullopt;
+    const auto& entry = campaign_.columns.valve_command;
+    const Measured column = measured(chosen, entry, "valve command", "valve_command");
+    if (column.unit.dimension == dimension_of(Kind::angular_rate)) {
+      return channel(column, column.unit.factor);
+    }
+    const auto& instruments = campaign_.instruments;
+    return scaled(column, instruments ? instruments->valve_command_scale : std::nullopt, 1.0,
+                  entry.has_value(), "valve_command_scale");
+  }
+
+  const Case& antenna_;
+  const CampaignEntry& campaign_;
+  const RecordTable& table_;
+  RecordNotes& notes_;
+  std::set<std::size_t> used_;
+  std::set<std::string> reversed_;
+};
+
+}  // namespace
+
+identification::RawRecord raw_record(const Case& antenna, const RecordTable& table,
+                                     RecordNotes& notes) {
+  return Mapper(antenna, table, notes).map();
+}
+
+}  // namespace boresight::app

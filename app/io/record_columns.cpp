@@ -1,0 +1,242 @@
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include <boresight/app/io/field.hpp>
+#include <boresight/app/io/record_columns.hpp>
+#include <boresight/app/io/wording.hpp>
+
+namespace boresight::app {
+namespace {
+
+std::string lower(std::string_view text) {
+  std::string result(text);
+  for (char& c : result) {
+    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+  }
+  return result;
+}
+
+bool is_letter(char c) {
+  return c >= 'a' && c <= 'z';
+}
+
+bool is_digit(char c) {
+  return c >= '0' && c <= '9';
+}
+
+// "Motor 2 p_in" is motor, 2, p, in: letters or digits that stand together.
+std::vector<std::string> words_of(const std::string& name) {
+  std::vector<std::string> words;
+  char before = ' ';
+  for (const char c : lower(name)) {
+    const bool starts = (is_letter(c) && !is_letter(before)) || (is_digit(c) && !is_digit(before));
+    if (starts) words.emplace_back();
+    if (is_letter(c) || is_digit(c)) words.back() += c;
+    before = c;
+  }
+  return words;
+}
+
+template <std::size_t Count>
+bool has_any(const std::vector<std::string>& words,
+             const std::array<std::string_view, Count>& wanted) {
+  return std::any_of(words.begin(), words.end(), [&](const std::string& word) {
+    return std::find(wanted.begin(), wanted.end(), word) != wanted.end();
+  });
+}
+
+bool is_command(const std::vector<std::string>& words) {
+  constexpr std::array<std::string_view, 12> commands{
+      "command", "cmd", "ref",       "reference", "set",         "setpoint",
+      "demand",  "com", "commanded", "ratecmd",   "ratecommand", "ratecom"};
+  return has_any(words, commands);
+}
+
+bool is_rate(const std::vector<std::string>& words) {
+  constexpr std::array<std::string_view, 7> rates{"rate",    "speed",       "velocity", "omega",
+                                                  "ratecmd", "ratecommand", "ratecom"};
+  return has_any(words, rates);
+}
+
+bool is_valve(const std::vector<std::string>& words) {
+  return std::any_of(words.begin(), words.end(), [](const std::string& word) {
+    return word.starts_with("valve") || word.starts_with("servo");
+  });
+}
+
+bool is_tachometer(const std::vector<std::string>& words) {
+  const bool named = std::any_of(words.begin(), words.end(),
+                                 [](const std::string& word) { return word.starts_with("tach"); });
+  return !is_command(words) && !is_valve(words) && (named || is_rate(words));
+}
+
+bool is_rate_command(const std::vector<std::string>& words) {
+  return is_command(words) && is_rate(words) && !is_valve(words);
+}
+
+bool is_time(const std::vector<std::string>& words) {
+  return words.size() <= 2 && !words.empty() &&
+         (words[0] == "time" || words[0] == "timestamp" || (words.size() == 1 && words[0] == "t"));
+}
+
+bool is_port(const std::vector<std::string>& words, bool inlet, long motor, long motors) {
+  constexpr std::array<std::string_view, 6> ins{"in", "inlet", "pin", "a", "pa", "inp"};
+  constexpr std::array<std::string_view, 5> outs{"out", "outlet", "pout", "b", "pb"};
+  if (inlet ? !has_any(words, ins) : !has_any(words, outs)) return false;
+  if (inlet ? has_any(words, outs) : has_any(words, ins)) return false;
+  std::vector<std::string> numbers;
+  std::copy_if(words.begin(), words.end(), std::back_inserter(numbers),
+               [](const std::string& word) { return is_digit(word[0]); });
+  if (numbers.empty()) return motors == 1;
+  return numbers.size() == 1 && numbers[0] == fmt::format("{}", motor);
+}
+
+class Chooser {
+ public:
+  Chooser(const RecordTable& table) : table_(table) {
+    for (const auto& column : table.columns) words_.push_back(words_of(column.name));
+  }
+
+  ChosenColumn named(const ColumnEntry& entry) const {
+    std::vector<std::size_t> found;
+    std::vector<std::string_view> names;
+    for (std::size_t i = 0; i < table_.columns.size(); ++i) {
+      names.push_back(table_.columns[i].name);
+      if (lower(table_.columns[i].name) == lower(entry.name)) found.push_back(i);
+    }
+    if (found.size() == 1) return {found[0], false};
+    refuse_at(entry.location, entry.key,
+              found.empty() ? fmt::format("expected a column of {}, found {}{}", table_.path,
+                                          quoted(entry.name), did_you_mean(entry.name, names))
+                            : fmt::format("expected one column of {}, found {} named {}",
+                                          table_.path, found.size(), quoted(entry.name)));
+  }
+
+  template <typename Condition>
+  std::optional<ChosenColumn> guessed(const Condition& fits) const {
+    std::optional<ChosenColumn> chosen;
+    for (std::size_t i = 0; i < words_.size(); ++i) {
+      if (!fits(words_[i])) continue;
+      if (chosen) return std::nullopt;
+      chosen = {i, true};
+    }
+    return chosen;
+  }
+
+  [[noreturn]] void refuse_missing(const std::string& what, const std::string& key) const {
+    std::string names;
+    for (std::size_t i = 0; i < std::min<std::size_t>(table_.columns.size(), 20); ++i) {
+      names += (i == 0 ? "" : ", ") + quoted(table_.columns[i].name);
+    }
+    throw InvalidInput(fmt::format(
+        "{}: expected a column for the {}, found none or several that could be it among {} (say "
+        "which in the case: record_columns.{})",
+        table_.path, what, names, key));
+  }
+
+ private:
+  const RecordTable& table_;
+  std::vector<std::vector<std::string>> words_;
+};
+
+}  // namespace
+
+ChosenColumns choose_columns(const RecordTable& table, const RecordColumnsEntry& entry,
+                             long motors) {
+  const Chooser chooser(table);
+  const auto choose = [&](const std::optional<ColumnEntry>& column, const auto& fits) {
+    return column ? std::optional(chooser.named(*column)) : chooser.guessed(fits);
+  };
+  ChosenColumns chosen;
+  if (!entry.sample_rate) {
+    chosen.time = choose(entry.time, is_time);
+    if (!chosen.time) chooser.refuse_missing("time", "time, or record_columns.sample_rate");
+  }
+  for (const bool inlet : {true, false}) {
+    const auto& named = inlet ? entry.inlet : entry.outlet;
+    auto& columns = inlet ? chosen.inlet : chosen.outlet;
+    for (const auto& column : named) columns.push_back(chooser.named(column));
+    for (long motor = 1; named.empty() && motor <= motors; ++motor) {
+      const auto column = chooser.guessed([&](const std::vector<std::string>& words) {
+        return is_port(words, inlet, motor, motors);
+      });
+      const std::string side = inlet ? "inlet" : "outlet";
+      if (!column) {
+        chooser.refuse_missing(fmt::format("{} pressure of motor {}", side, motor), side);
+      }
+      columns.push_back(*column);
+    }
+  }
+  chosen.tachometer = choose(entry.tachometer, is_tachometer);
+  if (!chosen.tachometer) chooser.refuse_missing("tachometer", "tachometer");
+  // A command may be recorded in some tests only.
+  const auto has = [&](const ColumnEntry& column) {
+    return std::any_of(table.columns.begin(), table.columns.end(), [&](const RecordColumn& one) {
+      return lower(one.name) == lower(column.name);
+    });
+  };
+  const auto command = [&](const std::optional<ColumnEntry>& column, const auto& fits) {
+    return column && !has(*column) ? std::nullopt : choose(column, fits);
+  };
+  chosen.rate_command = command(entry.rate_command, is_rate_command);
+  chosen.valve_command = command(entry.valve_command, is_valve);
+  return chosen;
+}
+
+std::optional<Unit> recorded_unit(const std::string& text) {
+  try {
+    return parse_unit(text);
+  } catch (const UnitError&) {  // not as a case has it
+  }
+  constexpr std::array<std::pair<std::string_view, std::string_view>, 37> names{
+      {{"v", "V"},
+       {"volt", "V"},
+       {"volts", "V"},
+       {"vdc", "V"},
+       {"v dc", "V"},
+       {"mv", "mV"},
+       {"ma", "mA"},
+       {"a", "A"},
+       {"amp", "A"},
+       {"amps", "A"},
+       {"sec", "s"},
+       {"secs", "s"},
+       {"second", "s"},
+       {"seconds", "s"},
+       {"msec", "ms"},
+       {"millisec", "ms"},
+       {"min", "min"},
+       {"psi", "psi"},
+       {"psig", "psi"},
+       {"psia", "psi"},
+       {"psid", "psi"},
+       {"lbf/in2", "psi"},
+       {"lb/in2", "psi"},
+       {"kpa", "kPa"},
+       {"mpa", "MPa"},
+       {"pa", "Pa"},
+       {"bar", "bar"},
+       {"barg", "bar"},
+       {"rpm", "rpm"},
+       {"1/min", "rpm"},
+       {"rev/min", "rpm"},
+       {"deg/sec", "deg/s"},
+       {"degrees/s", "deg/s"},
+       {"dps", "deg/s"},
+       {"\xC2\xB0/s", "deg/s"},
+       {"rad/sec", "rad/s"},
+       {"percent", "%"}}};
+  std::string wanted = lower(text);
+  if (wanted == "s" || wanted == "ms") return parse_unit(wanted);
+  if (wanted == "\xB0/s") wanted = "deg/s";  // Latin-1
+  if (wanted == "deg/s" || wanted == "rad/s") return parse_unit(wanted);
+  const auto* const found = std::find_if(names.begin(), names.end(),
+                                         [&](const auto& name) { return name.first == wanted; });
+  return found != names.end() ? std::optional(parse_unit(found->second)) : std::nullopt;
+}
+
+}  // namespace boresight::app

@@ -1,0 +1,40 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <boresight/app/io/case_campaign.hpp>
+#include <boresight/app/io/record_table.hpp>
+#include <boresight/app/io/units.hpp>
+
+namespace boresight::app {
+
+/// A column of a file that was taken for a signal.
+struct ChosenColumn {
+  std::size_t index = 0;
+  /// By its name; else the case says so.
+  bool guessed = false;
+};
+
+/// The columns of a record that hold what is known to be in it; one a motor in order.
+struct ChosenColumns {
+  std::optional<ChosenColumn> time, tachometer, rate_command, valve_command;
+  std::vector<ChosenColumn> inlet, outlet;
+};
+
+/// Picks columns: those the case names (any case of letters), others by their names. A pressure is
+/// guessed from a motor's number and in, inlet, a, or out, outlet, b ("p1_in", "Motor 2 outlet");
+/// the tachometer from tach, or speed or rate without a word for command; commands from rate, speed
+/// or velocity, or valve or servo, with command, cmd, reference, setpoint or demand (valve alone
+/// will do); the time from time or t. Nothing is guessed that two columns could be.
+/// @throws InvalidInput for a column that the case names and the file has not, or has twice; for a
+/// missing or ambiguous pressure, tachometer or time, listing the file's columns.
+ChosenColumns choose_columns(const RecordTable& table, const RecordColumnsEntry& entry,
+                             long motors);
+
+/// A unit as recorders write it: as in a case, in any case of letters and with a few names more
+/// (volts, sec, psig, deg/sec, a degree sign). Nothing if it has no unit known.
+std::optional<Unit> recorded_unit(const std::string& text);
+
+}  // namespace boresight::app

@@ -149,7 +149,7 @@ MatchingPlan plan_matching(const Case& antenna, const StudyOptions& options) {
   const double tracking = tracking_friction(antenna);
   for (const auto& [friction, name] :
        {std::pair{linear, "linear plant"}, std::pair{tracking, "slope at tracking rate"}}) {
-    for (const auto structure : {LoopStructure::pi_with_lag(), LoopStructure::pi()}) {
+    for (const auto& structure : {LoopStructure::pi_with_lag(), LoopStructure::pi()}) {
       plan.section.series.push_back({name, friction, structure, {}});
       for (const auto& row : plan.section.rows) {
         plan.tasks.push_back(make_task(antenna, options, row.label,

@@ -41,7 +41,7 @@ TuningOptions coarse(std::uint64_t seed = 1) {
 TEST(Tune, MeetsEveryGoalOnTheReferenceAntenna) {
   const TrackingProblem problem = reference::tracking_problem();
   const HardGoals goals;
-  for (const auto structure : {LoopStructure::pi(), LoopStructure::pi_with_lag()}) {
+  for (const auto& structure : {LoopStructure::pi(), LoopStructure::pi_with_lag()}) {
     const TuningResult result = tune(problem, structure, goals, quick());
     EXPECT_EQ(result.status, TuningStatus::optimal);
     EXPECT_LE(result.worst_goal_ratio, 1.0 + 1e-9);
@@ -161,7 +161,7 @@ TEST(Tune, GivesTheSameBytesForTheSameSeed) {
 
 TEST(Evaluation, OfExtremeGainsIsANumber) {
   auto evaluator = make_evaluator(coarse_problem());
-  for (const auto structure : {LoopStructure::pi(), LoopStructure::pi_with_lag()}) {
+  for (const auto& structure : {LoopStructure::pi(), LoopStructure::pi_with_lag()}) {
     const auto& descriptions = control::gain_descriptions(structure);
     // Every corner of the bounds.
     for (unsigned corner = 0; corner < (1u << descriptions.size()); ++corner) {
@@ -191,8 +191,9 @@ TEST(Evaluation, OfExtremeGainsIsANumber) {
 TEST(WorstGoalRatio, IsTheLargestQuantityOverItsLimit) {
   control::LoopEvaluation evaluation;
   evaluation.effort_variance = 0.09;
-  evaluation.peaks[0] = {{1.0, 1.5, {}}};
-  evaluation.peaks[2] = {{1.0, 1.8, {}}, {2.0, 1.2, {}}};
+  evaluation.peaks[0].push_back({1.0, 1.5, {}});
+  evaluation.peaks[2].push_back({1.0, 1.8, {}});
+  evaluation.peaks[2].push_back({2.0, 1.2, {}});
   EXPECT_DOUBLE_EQ(worst_goal_ratio(evaluation, {{2.0, 2.0, 2.0}, 0.6}), 0.9);
   EXPECT_DOUBLE_EQ(worst_goal_ratio(evaluation, {{1.2, 2.0, 2.0}, 0.6}), 1.25);
   EXPECT_DOUBLE_EQ(worst_goal_ratio(evaluation, {{2.0, 2.0, 2.0}, 0.1}), 3.0);

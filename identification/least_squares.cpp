@@ -149,7 +149,7 @@ LeastSquaresResult least_squares(const ResidualFunction& model, const Eigen::Vec
   LeastSquaresResult result;
   result.x = start;
   Eigen::VectorXd residuals, tried_residuals;
-  Eigen::MatrixXd jacobian;
+  Eigen::MatrixXd jacobian, tried_jacobian;
   model(result.x, residuals, &jacobian);
   result.evaluations = 1;
   if (!residuals.allFinite() || !jacobian.allFinite()) {
@@ -181,7 +181,7 @@ LeastSquaresResult least_squares(const ResidualFunction& model, const Eigen::Vec
       const Eigen::VectorXd scaled_step = tangent.step(damping);
       const double length = scaled_step.norm();
       const Eigen::VectorXd tried = result.x + scaled_step.cwiseQuotient(scale);
-      model(tried, tried_residuals, nullptr);
+      model(tried, tried_residuals, options.derive_when_trying ? &tried_jacobian : nullptr);
       ++result.evaluations;
       const double tried_cost = tried_residuals.allFinite()
                                     ? tried_residuals.squaredNorm()
@@ -204,8 +204,13 @@ LeastSquaresResult least_squares(const ResidualFunction& model, const Eigen::Vec
       const bool accepted = (found > 0.0 && ratio >= 1e-4) || (unseen && std::isfinite(tried_cost));
       if (accepted) {
         result.x = tried;
-        model(result.x, residuals, &jacobian);
-        ++result.evaluations;
+        if (options.derive_when_trying) {
+          residuals.swap(tried_residuals);
+          jacobian.swap(tried_jacobian);
+        } else {
+          model(result.x, residuals, &jacobian);
+          ++result.evaluations;
+        }
         cost = residuals.squaredNorm();
         if (!jacobian.allFinite()) {
           throw NumericalFailure("least_squares: the Jacobian is not finite within the search");

@@ -21,6 +21,9 @@ struct LeastSquaresOptions {
   double cost_tolerance = 1e-15;
   /// First radius of trust, in units of the starting point's scaled norm.
   double first_radius = 1.0;
+  /// Derivatives of every point tried, not only of those taken: better where they cost little more
+  /// than the residuals.
+  bool derive_when_trying = false;
   /// Singular values below this share of the largest, columns brought to the same norm, count as 0.
   double rank_tolerance = 1e-12;
 };

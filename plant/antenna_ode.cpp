@@ -28,6 +28,24 @@ constexpr std::array<std::string_view, AntennaChannels::event_count> names{
     "upper flank meets the opposite side of its backlash"};
 
 constexpr double relative_difference = 1e-5;
+// To one side, where the error goes with the difference itself.
+constexpr double one_sided_difference = 1e-7;
+
+// Breakaway and Coulomb torque bound each other.
+enum class Bound { none, above, below };
+
+Bound bound_of(const FrictionCurve& curve, AntennaParameter which) {
+  const double room = curve.breakaway_torque - curve.coulomb_torque;
+  if (which == AntennaParameter::coulomb_torque &&
+      room < relative_difference * curve.coulomb_torque) {
+    return Bound::above;
+  }
+  if (which == AntennaParameter::breakaway_torque &&
+      room < relative_difference * curve.breakaway_torque) {
+    return Bound::below;
+  }
+  return Bound::none;
+}
 
 }  // namespace
 
@@ -40,15 +58,19 @@ AntennaOde::AntennaOde(const NonlinearAntenna& antenna, std::vector<AntennaParam
       throw InvalidInput(fmt::format("AntennaOde: parameter {} is given twice", to_string(which)));
     }
     const double value = parameter(antenna, which);
-    const double step = relative_difference * (value == 0.0 ? 1.0 : std::abs(value));
+    const Bound bound = bound_of(antenna.friction.curve, which);
+    const double step = (bound == Bound::none ? relative_difference : one_sided_difference) *
+                        (value == 0.0 ? 1.0 : std::abs(value));
+    const double above = bound == Bound::above ? 0.0 : step;
+    const double below = bound == Bound::below ? 0.0 : step;
     if (value == 0.0 && which != AntennaParameter::offset_torque) {
       throw InvalidInput(fmt::format(
           "AntennaOde: no derivative by {}, which is 0 and cannot be less", to_string(which)));
     }
     varied_.push_back(
-        {FeedbackOde(to_feedback_system(with_parameter(antenna, which, value + step))),
-         FeedbackOde(to_feedback_system(with_parameter(antenna, which, value - step))),
-         2.0 * step});
+        {FeedbackOde(to_feedback_system(with_parameter(antenna, which, value + above))),
+         FeedbackOde(to_feedback_system(with_parameter(antenna, which, value - below))),
+         above + below});
   }
   more_ = less_ = Eigen::VectorXd::Zero(states());
   z_ = Eigen::VectorXd::Zero(channels_.inputs());

@@ -45,7 +45,9 @@ class AntennaOde final : public OdeSystem {
                     Eigen::Ref<Eigen::VectorXd> g) const override;
   Eigen::Index parameters() const override { return static_cast<Eigen::Index>(varied_.size()); }
   /// By central differences over a 1e-5th of each parameter: right to some 1e-9 of the largest
-  /// terms of the rate, which grow with the angle turned where a spring is the parameter.
+  /// terms of the rate, which grow with the angle turned where a spring is the parameter. By
+  /// coulomb_torque and breakaway_torque where they are equal (the first cannot be more, the second
+  /// not less) to one side, over a 1e-7th: right to some 1e-7.
   void rate_by_parameters(double t, const Eigen::Ref<const Eigen::VectorXd>& x,
                           Eigen::Ref<Eigen::MatrixXd> df_dp) const override;
 

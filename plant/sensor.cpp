@@ -35,13 +35,16 @@ Readings readings(const Sensor& sensor, const Eigen::Ref<const Eigen::VectorXd>&
                   std::uint64_t seed, std::uint64_t stream) {
   validate(sensor);
   const NormalNumbers numbers(seed, stream);
-  Readings result{Eigen::VectorXd(signal.size()), 0};
+  Readings result{Eigen::VectorXd(signal.size()), 0, -1};
   std::complex<double> pair;
   for (Eigen::Index i = 0; i < signal.size(); ++i) {
     if (i % 2 == 0) pair = numbers.pair(static_cast<std::uint64_t>(i / 2));
     const double normal = i % 2 == 0 ? pair.real() : pair.imag();
     const double analog = sensor.gain * signal[i] + sensor.zero + sensor.noise * normal;
-    if (analog < sensor.lowest || analog > sensor.highest) ++result.at_limit;
+    if (analog < sensor.lowest || analog > sensor.highest) {
+      if (result.at_limit == 0) result.first_at_limit = i;
+      ++result.at_limit;
+    }
     result.values[i] = reading(sensor, signal[i], normal);
   }
   return result;

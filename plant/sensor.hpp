@@ -25,7 +25,8 @@ double reading(const Sensor& sensor, double value, double normal);
 /// Readings of a signal sampled evenly, noise of sample i the number i of `stream` of the seed.
 struct Readings {
   Eigen::VectorXd values;
-  Eigen::Index at_limit = 0;  // samples held at either end of the range
+  Eigen::Index at_limit = 0;         // samples held at either end of the range
+  Eigen::Index first_at_limit = -1;  // the first of them; -1: none
 };
 
 /// @throws InvalidInput for a gain of 0, a negative noise or resolution, a range without extent, or

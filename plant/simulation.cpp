@@ -158,6 +158,17 @@ void check_signals(const SimulationPlan& plan, const std::vector<std::string>& i
 
 }  // namespace
 
+Eigen::VectorXd column(const SimulationResult& run, std::string_view name) {
+  const auto found = std::ranges::find(run.names, name);
+  if (found == run.names.end()) {
+    throw InvalidInput(
+        fmt::format("column: expected an output or command of the run out of {}, "
+                    "found '{}'",
+                    fmt::join(run.names, ", "), name));
+  }
+  return run.values.col(found - run.names.begin());
+}
+
 SimulationResult simulate(const FeedbackSystem& system, const SimulationPlan& plan) {
   const auto& linear = system.linear;
   FastIntegrator integrator(system, {.interval = plan.interval,

@@ -2,6 +2,7 @@
 
 #include <functional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <Eigen/Core>
@@ -50,6 +51,9 @@ struct SimulationResult {
   Eigen::VectorXd final_state;
   FastIntegratorStatistics statistics;
 };
+
+/// The samples of an output or command by name. @throws InvalidInput for one the run has not.
+Eigen::VectorXd column(const SimulationResult& run, std::string_view name);
 
 /// Runs the plan by FastIntegrator. Inputs of the system that no signal names are 0.
 /// @throws InvalidInput for names that are unknown, given twice or driven by the controller, inputs

@@ -144,9 +144,17 @@ int run(const Command& command, const Arguments& arguments) {
 int run(const SimulateArguments& arguments) {
   std::signal(SIGINT, request_interrupt);
   const auto outcome = simulate_tests(arguments, [] { return interrupt_requested != 0; });
-  fmt::print("{}", outcome.report);
+  if (arguments.json_path == "-") {
+    fmt::print("{}", to_json(outcome.report));
+  } else {
+    if (!arguments.json_path.empty()) {
+      write_atomically(arguments.json_path, to_json(outcome.report));
+    }
+    fmt::print("{}", to_text(outcome.report));
+  }
   if (std::fflush(stdout) != 0) throw InvalidInput(unwritable_output);
-  return outcome.complete ? done : interrupted;
+  if (outcome.failure) std::rethrow_exception(outcome.failure);
+  return outcome.report.interrupted ? interrupted : done;
 }
 
 void add_seed(CLI::App* sub, std::uint64_t& seed) {
@@ -163,6 +171,9 @@ CLI::App* add_simulate(CLI::App& program, SimulateArguments& arguments) {
   sub->add_option("TEST", arguments.tests,
                   fmt::format("what to run: {}", fmt::join(simulated_test_names(), ", ")))
       ->required();
+  sub->add_option("--json", arguments.json_path,
+                  "also write the report as JSON to this file; '-' writes JSON only, to standard "
+                  "output");
   sub->add_option("--folder", arguments.folder, "where records TEST.csv are written")
       ->capture_default_str();
   add_seed(sub, arguments.seed);

@@ -1,9 +1,12 @@
 #pragma once
 
 #include <cstdint>
+#include <exception>
 #include <functional>
 #include <string>
 #include <vector>
+
+#include <boresight/app/simulate/simulation_report.hpp>
 
 namespace boresight::app {
 
@@ -11,19 +14,20 @@ struct SimulateArguments {
   std::string case_path;
   std::vector<std::string> tests;  // as simulated_test_names()
   std::string folder = ".";        // where records go
+  std::string json_path;           // of the report, "-" for standard output; empty: none
   std::uint64_t seed = 1;
 };
 
-/// Runs the tests on the nonlinear antenna of the case, writes a record TEST.csv of each into the
-/// folder (made if it is not there) and returns the report. `interrupted` is asked now and then;
-/// after it said yes the record under way is written up to there, marked as incomplete, and the
-/// rest is left out.
+/// Runs the tests on the nonlinear antenna of the case and writes a record TEST.csv of each into
+/// the folder (made if it is not there). `interrupted` is asked now and then; after it said yes the
+/// record under way is written up to there, marked as incomplete, and the rest is left out. A test
+/// that fails ends the work too: the report tells of those before it, `failure` holds the error.
 struct SimulateOutcome {
-  std::string report;
-  bool complete = true;
+  SimulationReport report;
+  std::exception_ptr failure;
 };
-/// @throws InvalidInput for an unknown test or one given twice, a folder that cannot be written to,
-/// and a case without what simulations need; as run_drive_test and run_tracking.
+/// @throws InvalidInput for an unknown test or one given twice, a folder or JSON file that cannot
+/// be written to, and a case without what simulations need: before anything is run.
 SimulateOutcome simulate_tests(const SimulateArguments& arguments,
                                const std::function<bool()>& interrupted);
 

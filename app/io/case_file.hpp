@@ -143,6 +143,8 @@ struct RecorderEntry {
   Quantity sample_rate;
   Quantity pressure_gain, pressure_zero, pressure_noise, pressure_resolution, pressure_range;
   Quantity tachometer_gain, tachometer_noise, tachometer_resolution;
+  long filter_order = 0;                     // of the low-pass before the converter; 0: none
+  std::optional<Quantity> filter_frequency;  // its corner
 };
 
 struct StructureModeEntry {

@@ -66,6 +66,13 @@ RecorderEntry read_recorder(TableReader& table) {
   entry.tachometer_gain = table.quantity("tachometer_gain", Kind::number, Range::not_negative(0.5));
   entry.tachometer_noise = table.quantity("tachometer_noise", Kind::voltage, error);
   entry.tachometer_resolution = table.quantity("tachometer_resolution", Kind::voltage, error);
+  entry.filter_order = table.optional_integer("filter_order", 1, 8).value_or(0);
+  entry.filter_frequency =
+      table.optional_quantity("filter_frequency", Kind::frequency, Range::positive(1e5));
+  if (entry.filter_frequency.has_value() != (entry.filter_order > 0)) {
+    table.refuse(entry.filter_frequency ? "filter_order" : "filter_frequency",
+                 "expected filter_order and filter_frequency together, found one alone");
+  }
   table.finish();
   return entry;
 }

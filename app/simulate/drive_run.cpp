@@ -7,6 +7,7 @@
 #include <boresight/app/redesign/antenna_model.hpp>
 #include <boresight/app/simulate/drive_run.hpp>
 #include <boresight/app/simulate/nonlinear_model.hpp>
+#include <boresight/app/simulate/recorder_filter.hpp>
 #include <boresight/plant/error.hpp>
 #include <boresight/plant/feedback_interconnection.hpp>
 #include <boresight/plant/operating_point.hpp>
@@ -32,22 +33,54 @@ plant::StateSpace rate_loop(double gain, double corner) {
           {"rate_integral"}};
 }
 
-Eigen::VectorXd column(const plant::SimulationResult& run, const std::string& name) {
-  return run.values.col(std::ranges::find(run.names, name) - run.names.begin());
-}
+// A test's record under way: the channels that the run's samples give.
+class Recording {
+ public:
+  Recording(DriveRecord& record, const Case& antenna, double interval, Index stride)
+      : record_(record), filter_(low_pass_of(antenna)), interval_(interval), stride_(stride) {}
 
-void add_pressures(CsvTable& record, const plant::SimulationResult& run,
-                   const RecorderSensors& sensors, std::uint64_t seed) {
-  for (std::size_t motor = 0; motor < sensors.inlet.size(); ++motor) {
-    for (const bool inlet : {true, false}) {
-      const auto& sensor = inlet ? sensors.inlet[motor] : sensors.outlet[motor];
-      const auto read = plant::readings(
-          sensor, column(run, fmt::format("{}_pressure_{}", inlet ? "inlet" : "outlet", motor + 1)),
-          seed, 2 * motor + (inlet ? 0 : 1));
-      record.columns.push_back(
-          {fmt::format("p{}_{}", motor + 1, inlet ? "in" : "out"), "MPa", 6, 1e-6 * read.values});
-    }
+  /// A channel that is written as it is, in its own unit.
+  void add(std::string name, std::string unit, int decimals, const Eigen::VectorXd& signal) {
+    record_.record.columns.push_back(
+        {std::move(name), std::move(unit), decimals, low_passed(signal)});
   }
+
+  /// One behind a transducer, in units of `scale`; the share of its samples at a limit.
+  double add(std::string name, std::string unit, int decimals, double scale,
+             const plant::Sensor& sensor, const Eigen::VectorXd& signal, std::uint64_t seed,
+             std::uint64_t stream) {
+    const auto read = plant::readings(sensor, low_passed(signal), seed, stream);
+    if (read.at_limit > 0) {
+      record_.clipped.push_back(
+          {name, read.at_limit, record_.sample_time * static_cast<double>(read.first_at_limit)});
+    }
+    record_.record.columns.push_back(
+        {std::move(name), std::move(unit), decimals, read.values / scale});
+    return static_cast<double>(read.at_limit) / static_cast<double>(read.values.size());
+  }
+
+ private:
+  Eigen::VectorXd low_passed(const Eigen::VectorXd& signal) const {
+    return filtered(filter_, signal, interval_, stride_);
+  }
+
+  DriveRecord& record_;
+  LowPass filter_;
+  double interval_;
+  Index stride_;
+};
+
+// A command at every `stride`-th part of its sample time.
+Eigen::VectorXd refined(const AntennaTest& test, Index stride) {
+  Eigen::VectorXd fine((test.command.size() - 1) * stride + 1);
+  for (Index k = 0; k < fine.size(); ++k) {
+    const Index from = k / stride;
+    const double share =
+        test.held ? 0.0 : static_cast<double>(k % stride) / static_cast<double>(stride);
+    fine[k] = share == 0.0 ? test.command[from]
+                           : (1.0 - share) * test.command[from] + share * test.command[from + 1];
+  }
+  return fine;
 }
 
 // At rest with the bristles bent by gravity's offset; or, where that would break them away, with
@@ -87,12 +120,17 @@ DriveRecord run_drive_test(const Case& antenna, const AntennaTest& test, std::ui
                                            2.0 * std::numbers::pi * entry.rate_loop_corner.value))
           : drive;
   plant::SimulationPlan plan;
-  plan.interval = test.sample_time;
+  double fastest_line = 0.0;
+  for (const auto& line : model.oil.lines) {
+    fastest_line = std::max(fastest_line, line.half_wave * model.oil.modes_per_line);
+  }
+  const Index stride = steps_per_sample(low_pass_of(antenna), test.sample_time, fastest_line);
+  plan.interval = test.sample_time / static_cast<double>(stride);
   plan.state = Eigen::VectorXd::Zero(system.linear.a.rows());
   const Eigen::VectorXd at_rest = held_by_friction(model);
   plan.state.head(at_rest.size()) = at_rest;
   plan.signals = {test.rate_loop_closed ? "rate_command" : "valve_command"};
-  plan.values = test.command;
+  plan.values = refined(test, stride);
   plan.held = {test.held};
   if (progress) {
     plan.progress = [&](Index done, Index all) {
@@ -106,39 +144,46 @@ DriveRecord run_drive_test(const Case& antenna, const AntennaTest& test, std::ui
   result.description = test.description;
   result.complete = run.complete;
   result.sample_time = test.sample_time;
-  const Index samples = run.values.rows();
+  const Index steps = run.values.rows();
+  const Index samples = (steps + stride - 1) / stride;
   result.duration = test.sample_time * static_cast<double>(samples - 1);
   const Eigen::VectorXd rate = column(run, "motor_rate");
+  const Eigen::VectorXd angle = column(run, "motor_angle");
   const Eigen::VectorXd friction = column(run, "friction_torque");
   result.largest_rate = largest(rate);
   result.largest_torque = largest(column(run, "motor_torque"));
-  const double offset = plant::offset_torque(model.offset, 0.0).value;
-  for (Index k = 0; k < samples; ++k) {
-    if (std::abs(rate[k]) < standstill) {
-      result.static_friction = std::max(result.static_friction, std::abs(friction[k] - offset));
-    }
+  for (Index k = 0; k < steps; ++k) {
+    if (std::abs(rate[k]) >= standstill) continue;
+    const double offset = plant::offset_torque(model.offset, angle[k]).value;
+    result.static_friction = std::max(result.static_friction, std::abs(friction[k] - offset));
   }
+  result.curve_breakaway = model.friction.curve.breakaway_torque;
+  const Eigen::VectorXd command = plan.values.col(0).head(steps);
+  const Eigen::VectorXd valve = test.rate_loop_closed ? column(run, "valve_command") : command;
+  result.events = events_of(model, run, valve, plan.interval);
 
-  auto& record = result.record;
   if (!run.complete) {
-    record.comments.push_back(
+    result.record.comments.push_back(
         fmt::format("incomplete: interrupted after {:.3f} s of {:.3f} s", result.duration,
                     test.sample_time * static_cast<double>(test.command.size() - 1)));
   }
   const double slew = antenna.drive.slew_rate.value * gear_ratio(antenna);
-  record.columns.push_back(
+  result.record.columns.push_back(
       {"time", "s", 6, Eigen::VectorXd::LinSpaced(samples, 0.0, result.duration)});
-  add_pressures(record, run, sensors, seed);
-  const auto tachometer =
-      plant::readings(sensors.tachometer, column(run, "tachometer"), seed, 2 * motors);
-  result.at_limit = static_cast<double>(tachometer.at_limit) / static_cast<double>(samples);
-  record.columns.push_back({"tach", "V", 4, tachometer.values / tachometer_scale(antenna)});
-  const Eigen::VectorXd command = test.command.head(samples);
-  const Eigen::VectorXd none = Eigen::VectorXd::Zero(samples);
-  record.columns.push_back(
-      {"rate_command", "V", 4, test.rate_loop_closed ? (10.0 / slew * command).eval() : none});
-  const Eigen::VectorXd valve = test.rate_loop_closed ? column(run, "valve_command") : command;
-  record.columns.push_back({"valve_command", "V", 4, 10.0 / model.valve.stroke_limit * valve});
+  Recording recording(result, antenna, plan.interval, stride);
+  constexpr double megapascal = 1e6;
+  for (std::size_t motor = 0; motor < motors; ++motor) {
+    recording.add(fmt::format("p{}_in", motor + 1), "MPa", 6, megapascal, sensors.inlet[motor],
+                  column(run, fmt::format("inlet_pressure_{}", motor + 1)), seed, 2 * motor);
+    recording.add(fmt::format("p{}_out", motor + 1), "MPa", 6, megapascal, sensors.outlet[motor],
+                  column(run, fmt::format("outlet_pressure_{}", motor + 1)), seed, 2 * motor + 1);
+  }
+  result.at_limit = recording.add("tach", "V", 4, tachometer_scale(antenna), sensors.tachometer,
+                                  column(run, "tachometer"), seed, 2 * motors);
+  recording.add(
+      "rate_command", "V", 4,
+      test.rate_loop_closed ? (10.0 / slew * command).eval() : Eigen::VectorXd::Zero(steps).eval());
+  recording.add("valve_command", "V", 4, 10.0 / model.valve.stroke_limit * valve);
   return result;
 }
 

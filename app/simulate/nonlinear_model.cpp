@@ -97,6 +97,12 @@ plant::NonlinearAntenna make_nonlinear_antenna(const Case& antenna) {
   return plant::make_nonlinear_antenna(make_plant(antenna), drive, details);
 }
 
+LowPass low_pass_of(const Case& antenna) {
+  const RecorderEntry& recorder = recorder_of(antenna);
+  return {static_cast<int>(recorder.filter_order),
+          recorder.filter_frequency ? recorder.filter_frequency->value : 0.0};
+}
+
 double tachometer_scale(const Case& antenna) {
   const TachometerEntry& tachometer = tachometer_of(antenna);
   return tachometer.shaft_speed.value * tachometer.motor_teeth.value /

@@ -3,6 +3,7 @@
 #include <vector>
 
 #include <boresight/app/io/case_file.hpp>
+#include <boresight/app/simulate/recorder_filter.hpp>
 #include <boresight/plant/nonlinear_antenna.hpp>
 #include <boresight/plant/sensor.hpp>
 
@@ -27,6 +28,9 @@ struct RecorderSensors {
   plant::Sensor tachometer;
 };
 RecorderSensors make_sensors(const Case& antenna, std::size_t motors, std::uint64_t seed);
+
+/// The low-pass before the recorder's converter; order 0 without one.
+LowPass low_pass_of(const Case& antenna);
 
 /// Motor rate per tachometer volt (rad/(s V)), eq. 32 of Sommerville. @throws InvalidInput without
 /// a tachometer table.

@@ -112,10 +112,6 @@ PositionRun run_position_loop(const Case& antenna, const Course& course, std::ui
           predicted_rms(problem, tuned, course.mean_wind_speed), plan.interval};
 }
 
-VectorXd column(const plant::SimulationResult& run, const char* name) {
-  return run.values.col(std::ranges::find(run.names, name) - run.names.begin());
-}
-
 double rms_about_mean(const VectorXd& values) {
   return std::sqrt((values.array() - values.mean()).square().mean());
 }
@@ -129,6 +125,8 @@ PositionRecord describe(const Case& antenna, const PositionRun& run, const Cours
   const VectorXd encoder = (column(run.result, "encoder") - reference) / gear;
   PositionRecord record;
   record.complete = run.result.complete;
+  record.events = events_of(make_nonlinear_antenna(antenna), run.result,
+                            column(run.result, "valve_command"), run.interval);
   record.sample_time = run.interval;
   record.duration = run.interval * static_cast<double>(samples - 1);
   if (!record.complete) {
@@ -285,8 +283,8 @@ double attainable_acceleration(const Case& antenna, double rate) {
   const double share = rate * gear / (model.valve.stroke_limit - model.valve.overlap);
   const double available =
       (model.oil.supply_torque - model.oil.return_torque) * (1.0 - share * share);
-  const double needed =
-      plant::friction_torque(model.friction.curve, rate * gear) + std::abs(model.offset.constant);
+  const double needed = plant::friction_torque(model.friction.curve, rate * gear) +
+                        std::abs(plant::offset_torque(model.offset, 0.0).value);
   return 0.5 * (available - needed) / (plant::reflected_inertia(make_plant(antenna)) * gear);
 }
 

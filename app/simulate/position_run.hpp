@@ -29,6 +29,7 @@ struct PositionRecord {
   /// sky).
   std::optional<double> settling_time;
   std::optional<double> overshoot;
+  RunEvents events;
 };
 
 /// Tracks at the case's rate in wind of its design speed for 600 s after 60 s to settle: tuned PI

@@ -10,7 +10,10 @@
 namespace boresight::app {
 
 inline std::string case_path(const std::string& antenna) {
-  return std::string(BORESIGHT_SOURCE_DIR) + "/cases/" + antenna + "/case.toml";
+  std::string path = BORESIGHT_SOURCE_DIR "/cases/";
+  path += antenna;
+  path += "/case.toml";
+  return path;
 }
 
 /// A good case file's text with edits. Each edit names what it replaces, so that a test fails

@@ -25,7 +25,8 @@ EditedCase case_with_file() {
   edited.replace(text.substr(from, bound - from), "modes_file = \"modes.csv\"\n");
   const auto modes = edited.text().find("[[structure.mode]]");
   const auto end = edited.text().find("# What a simulated test");
-  edited.replace(edited.text().substr(modes, end - modes), "\n");
+  edited.replace(edited.text().substr(modes, end - modes),
+                 "# The modes are those of the file.\n\n");
   return edited;
 }
 

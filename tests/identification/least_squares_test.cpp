@@ -191,6 +191,18 @@ TEST(LeastSquares, StepsBackFromWhereTheModelHasNoValue) {
   EXPECT_NEAR(result.x(0), std::exp(-2.0), 1e-12);
 }
 
+TEST(LeastSquares, GoesTheSameWayWhenDerivingWhatItTries) {
+  const Certified data = read_nist("MGH17");
+  LeastSquaresOptions options;
+  options.derive_when_trying = true;
+  const auto model = residuals_of(data, two_decays);
+  const auto one = least_squares(model, data.start);
+  const auto other = least_squares(model, data.start, options);
+  EXPECT_EQ(one.x, other.x);
+  EXPECT_EQ(one.iterations, other.iterations);
+  EXPECT_LT(other.evaluations, one.evaluations);
+}
+
 TEST(LeastSquares, DoesNotDependOnUnits) {
   const Certified data = read_nist("Misra1a");
   const auto model = residuals_of(data, saturating);

@@ -173,6 +173,33 @@ TEST(AntennaOde, SensitivitiesAreDifferencesOfSolutions) {
   }
 }
 
+TEST(AntennaOde, DifferentiatesByCoulombAndBreakawayTorqueWhereTheyAreEqual) {
+  auto antenna = reference::nonlinear_antenna();
+  antenna.friction.curve.breakaway_torque = antenna.friction.curve.coulomb_torque;
+  const AntennaOde ode(antenna,
+                       {AntennaParameter::coulomb_torque, AntennaParameter::breakaway_torque});
+  VectorXd state = disturbed(antenna);
+  state[AntennaStates::bristle] = 1e-3;
+  // At 0.05 rad/s both matter: of the curve's level and of its bump.
+  state[AntennaStates::motor_rate] = 0.05;
+  MatrixXd by(ode.states(), 2);
+  ode.rate_by_parameters(0.0, state, by);
+  EXPECT_GT(by.col(0).cwiseAbs().maxCoeff(), 1e-4);
+  EXPECT_GT(by.col(1).cwiseAbs().maxCoeff(), 1e-4);
+  // Both at once may go either way.
+  const double step = 1e-5 * antenna.friction.curve.coulomb_torque;
+  const auto rate = [&](double change) {
+    auto other = antenna;
+    other.friction.curve.coulomb_torque += change;
+    other.friction.curve.breakaway_torque += change;
+    VectorXd dx(ode.states());
+    AntennaOde(other).rate(0.0, state, dx);
+    return dx;
+  };
+  const VectorXd both = (rate(step) - rate(-step)) / (2.0 * step);
+  EXPECT_LT((by.rowwise().sum() - both).norm(), 1e-5 * both.norm());
+}
+
 TEST(AntennaOde, FastIntegratorGoesTheSameWay) {
   auto details = reference::drive_details();
   details.slew_limit = 300.0;

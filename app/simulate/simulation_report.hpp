@@ -1,0 +1,35 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include <boresight/app/simulate/drive_run.hpp>
+#include <boresight/app/simulate/position_run.hpp>
+
+namespace boresight::app {
+
+/// What `boresight simulate` ran, in order; the tests' records without their columns, which are in
+/// the files written.
+struct SimulationReport {
+  std::string case_path;
+  std::string title;
+  std::string axis;
+  std::uint64_t seed = 1;
+  bool interrupted = false;
+  /// What ended the work, and in which test; empty if nothing did.
+  std::string failure;
+  std::string failed_test;
+  std::vector<std::string> not_run;  // names of tests
+  std::vector<DriveRecord> drive;
+  std::vector<PositionRecord> position;
+  std::vector<std::string> written;  // paths of records
+  std::vector<Quantity> assumed;
+};
+
+std::string to_text(const SimulationReport& report);
+
+/// As docs/simulation.schema.json: keys end in their unit, null stands for what there is none of.
+std::string to_json(const SimulationReport& report);
+
+}  // namespace boresight::app

@@ -1,0 +1,142 @@
+#include <fmt/format.h>
+
+#include <boresight/app/report/sky_units.hpp>
+#include <boresight/app/report/text_layout.hpp>
+#include <boresight/app/report/text_report.hpp>
+#include <boresight/app/simulate/simulation_report.hpp>
+
+namespace boresight::app {
+namespace {
+
+using Rows = std::vector<std::vector<std::string>>;
+
+std::string length_of(double duration, bool complete) {
+  return fmt::format("{:.1f}{}", duration, complete ? "" : " (interrupted)");
+}
+
+std::string in_millidegrees(const std::optional<double>& angle) {
+  return angle ? fmt::format("{:.3f}", *angle / millidegree) : "-";
+}
+
+std::string drive_text(const SimulationReport& report) {
+  if (report.drive.empty()) return "";
+  Rows rows{{"test", "s", "samples/s", "rate rad/s", "torque N.m", "friction near rest N.m",
+             "tach at limit"}};
+  for (const auto& record : report.drive) {
+    rows.push_back({record.test, length_of(record.duration, record.complete),
+                    fmt::format("{:.0f}", 1.0 / record.sample_time),
+                    fmt::format("{:.2f}", record.largest_rate),
+                    fmt::format("{:.1f}", record.largest_torque),
+                    fmt::format("{:.1f}", record.static_friction),
+                    fmt::format("{:.1f} %", 100.0 * record.at_limit)});
+  }
+  return heading("Tests of the drive (true values, at the motor shaft)") + table(rows);
+}
+
+std::string position_text(const SimulationReport& report) {
+  if (report.position.empty()) return "";
+  Rows rows{
+      {"test", "s", "beam rms", "linear", "encoder rms", "beam mean", "settled s", "overshoot"}};
+  for (const auto& record : report.position) {
+    const bool slew = record.test == "slew";
+    rows.push_back({record.test, length_of(record.duration, record.complete),
+                    in_millidegrees(record.beam_rms), in_millidegrees(record.predicted_rms),
+                    in_millidegrees(record.encoder_rms), in_millidegrees(record.beam_mean),
+                    record.settling_time ? fmt::format("{:.2f}", *record.settling_time)
+                                         : std::string(slew && record.complete ? "never" : "-"),
+                    in_millidegrees(record.overshoot)});
+  }
+  return heading("Position loop, tuned PI with lag, at the sky (mdeg)") + table(rows);
+}
+
+// Friction where the motor first leaves standstill, either way.
+std::string breakaway_text(const SimulationReport& report) {
+  Rows rows{{"test", "starts", "up at s", "rad/s", "friction N.m", "torque N.m", "down at s",
+             "rad/s", "friction N.m", "torque N.m", "curve N.m"}};
+  for (const auto& record : report.drive) {
+    if (!first_start(record.events, true) && !first_start(record.events, false)) continue;
+    std::vector<std::string> row{record.test,
+                                 fmt::format("{}", record.events.sliding_starts.size())};
+    for (const bool upward : {true, false}) {
+      const auto start = first_start(record.events, upward);
+      row.push_back(start ? fmt::format("{:.2f}", start->time) : "-");
+      row.push_back(start ? fmt::format("{:.3f}", start->rate) : "-");
+      row.push_back(start ? fmt::format("{:.2f}", start->friction) : "-");
+      row.push_back(start ? fmt::format("{:.2f}", start->motor_torque) : "-");
+    }
+    row.push_back(fmt::format("{:.2f}", record.curve_breakaway));
+    rows.push_back(std::move(row));
+  }
+  if (rows.size() == 1) return "";
+  return heading("Breakaway: the first slow start of sliding either way") + table(rows) +
+         wrapped(
+             "Where the motor has left standstill and the bristles have bent: its rate, the "
+             "friction "
+             "without gravity's offset, and the motors' torque as pressures show it, with offset "
+             "and inertia "
+             "in it. Beside them the breakaway torque of the case's friction curve; the friction "
+             "is the "
+             "curve's at the rate given, above its breakaway where it rises with the rate.",
+             "  ");
+}
+
+std::string share_of(const SampledEvent& event) {
+  if (event.samples == 0) return "-";
+  return fmt::format("{:.3g} % from {:.3f}", 100.0 * event.share, event.first.value_or(0.0));
+}
+
+void add_limits(Rows& rows, const std::string& test, const RunEvents& events) {
+  rows.push_back({test, share_of(events.command_limit), share_of(events.stroke_limit),
+                  share_of(events.slew_limit),
+                  events.contact_losses == 0
+                      ? "-"
+                      : fmt::format("{}, {}", events.contact_losses, share_of(events.contact_lost)),
+                  share_of(events.below_makeup), share_of(events.below_zero)});
+}
+
+std::string limits_text(const SimulationReport& report) {
+  Rows rows{
+      {"test", "command", "port open", "spool speed", "flanks lost", "below make-up", "below 0"}};
+  for (const auto& record : report.drive) add_limits(rows, record.test, record.events);
+  for (const auto& record : report.position) add_limits(rows, record.test, record.events);
+  if (rows.size() == 1) return "";
+  std::string text = heading("Limits reached: share of the samples, and from which second on") +
+                     table(rows, "lllllll");
+  for (const auto& record : report.drive) {
+    for (const auto& channel : record.clipped) {
+      text += wrapped(fmt::format("{}: the recorder clips {} in {} samples, first at {:.3f} s.",
+                                  record.test, channel.name, channel.samples, channel.first),
+                      "  ", "  ");
+    }
+  }
+  return text;
+}
+
+}  // namespace
+
+std::string to_text(const SimulationReport& report) {
+  std::string text = fmt::format("boresight simulate: {}\n{}, {} axis, seed {}\n", report.case_path,
+                                 report.title, report.axis, report.seed);
+  text += heading("What was run");
+  for (const auto& record : report.drive) {
+    text += wrapped(fmt::format("{}: {}", record.test, record.description), "  ", "  ");
+  }
+  for (const auto& record : report.position) {
+    text += wrapped(fmt::format("{}: {}", record.test, record.description), "  ", "  ");
+  }
+  if (report.drive.empty() && report.position.empty()) text += "  nothing to its end\n";
+  text += drive_text(report) + position_text(report) + breakaway_text(report) + limits_text(report);
+  text += heading("Records");
+  if (report.written.empty()) text += "  none\n";
+  for (const auto& path : report.written) text += "  " + path + "\n";
+  if (report.interrupted) text += "\nInterrupted: the last record ends where the run did.\n";
+  if (!report.failure.empty()) {
+    text += "\n" + wrapped(fmt::format("FAILED in {}: {}", report.failed_test, report.failure), "");
+  }
+  if (!report.not_run.empty()) {
+    text += wrapped(fmt::format("Not run: {}.", fmt::join(report.not_run, ", ")), "");
+  }
+  return text + assumed_text(report.assumed);
+}
+
+}  // namespace boresight::app

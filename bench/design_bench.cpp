@@ -9,7 +9,7 @@ void tune(benchmark::State& state) {
   const auto problem = boresight::plant_family(static_cast<int>(state.range(0)));
   for (auto _ : state) {
     benchmark::DoNotOptimize(
-        boresight::design::tune(problem, boresight::control::LoopStructure::pi_with_lag, {}, {}));
+        boresight::design::tune(problem, boresight::control::LoopStructure::pi_with_lag(), {}, {}));
   }
 }
 BENCHMARK(tune)->Arg(5)->Unit(benchmark::kMillisecond);

@@ -31,7 +31,7 @@ inline design::TrackingProblem plant_family(int modes) {
 
 /// A stable law of that family, with lag.
 inline control::ControlLaw stable_law() {
-  return {control::LoopStructure::pi_with_lag, {0.05, 0.5, 3.0, 0.3, 0.01}};
+  return {control::LoopStructure::pi_with_lag(), {0.05, 0.5, 3.0, 0.3, 0.01}};
 }
 
 }  // namespace boresight

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -24,7 +25,8 @@ plant::StateSpace renamed(plant::StateSpace system, const std::string& from,
   return system;
 }
 
-// The plant seen at the tachometer only, without the free angle: angles relative to the bull gear.
+// The plant seen at tachometer and motor torque, without the free angle: angles relative to the
+// bull gear.
 plant::StateSpace without_free_angle(const plant::AntennaPlant& antenna) {
   plant::StateSpace system = plant::to_state_space(antenna);
   const auto n = static_cast<Eigen::Index>(system.states.size());
@@ -43,14 +45,19 @@ plant::StateSpace without_free_angle(const plant::AntennaPlant& antenna) {
   }
   const Eigen::MatrixXd a = relative * system.a * absolute;
   const Eigen::MatrixXd b = relative * system.b;
-  const Eigen::Index tachometer = plant::output_index(system, "tachometer");
-  const Eigen::RowVectorXd c = system.c.row(tachometer);
+  const std::vector<Eigen::Index> seen{plant::output_index(system, "tachometer"),
+                                       plant::output_index(system, "motor_torque")};
   std::vector<Eigen::Index> kept;
   for (Eigen::Index i = 0; i < n; ++i) {
     if (i != bull) kept.push_back(i);
   }
-  plant::StateSpace rate{a(kept, kept), b(kept, Eigen::all), c(kept), Eigen::MatrixXd::Zero(1, 2),
-                         system.inputs, {"tachometer"},      {}};
+  plant::StateSpace rate{a(kept, kept),
+                         b(kept, Eigen::all),
+                         system.c(seen, kept),
+                         Eigen::MatrixXd::Zero(2, 2),
+                         system.inputs,
+                         {"tachometer", "motor_torque"},
+                         {}};
   for (const Eigen::Index i : kept)
     rate.states.push_back(system.states[static_cast<std::size_t>(i)]);
   return rate;
@@ -58,35 +65,34 @@ plant::StateSpace without_free_angle(const plant::AntennaPlant& antenna) {
 
 plant::StateSpace rate_loop_alone(const plant::AntennaPlant& antenna, const ControlLaw& law,
                                   double delay) {
-  plant::StateSpace controller = to_state_space(law);
-  // Without the position loop its integrator is the first state and nothing drives it.
-  const auto n = static_cast<Eigen::Index>(controller.states.size());
-  const Eigen::MatrixXd a = controller.a.bottomRightCorner(n - 1, n - 1);
-  const Eigen::Index tachometer = plant::input_index(controller, "tachometer");
-  const Eigen::Index demand = plant::output_index(controller, "valve_demand");
-  const plant::StateSpace rate{a,
-                               controller.b.col(tachometer).tail(n - 1),
-                               controller.c.row(demand).tail(n - 1),
-                               controller.d.block(demand, tachometer, 1, 1),
-                               {"tachometer"},
-                               {"valve_demand"},
-                               {controller.states.begin() + 1, controller.states.end()}};
-  return plant::connect({without_free_angle(antenna), rate,
+  return plant::connect({without_free_angle(antenna), rate_loop_law(law),
                          delay_approximant(delay, delay_order, "valve_demand", "valve_command")},
                         {"wind_torque"}, {"tachometer"});
+}
+
+bool feeds_torque_back(const ControlLaw& law) {
+  return law.structure.has(LoopPath::pressure) || law.structure.has(LoopPath::compliance);
 }
 
 }  // namespace
 
 plant::StateSpace closed_loop(const plant::AntennaPlant& antenna, const ControlLaw& law,
                               double delay) {
-  const auto controller = renamed(renamed(to_state_space(law), "tachometer", "measured_rate"),
-                                  "encoder", "measured_angle");
-  return plant::connect({plant::to_state_space(antenna), controller,
-                         adder("tachometer", "tachometer_noise", "measured_rate"),
-                         adder("encoder", "encoder_noise", "measured_angle"),
-                         delay_approximant(delay, delay_order, "valve_demand", "valve_command")},
-                        {"wind_torque", "encoder_noise", "tachometer_noise", "rate_disturbance"},
+  auto controller = renamed(renamed(to_state_space(law), "tachometer", "measured_rate"), "encoder",
+                            "measured_angle");
+  std::vector<plant::StateSpace> parts{
+      plant::to_state_space(antenna), adder("tachometer", "tachometer_noise", "measured_rate"),
+      adder("encoder", "encoder_noise", "measured_angle"),
+      delay_approximant(delay, delay_order, "valve_demand", "valve_command")};
+  std::vector<std::string> inputs{"wind_torque", "encoder_noise", "tachometer_noise",
+                                  "rate_disturbance"};
+  if (feeds_torque_back(law)) {
+    controller = renamed(controller, "motor_torque", "measured_torque");
+    parts.push_back(adder("motor_torque", "torque_noise", "measured_torque"));
+    inputs.emplace_back("torque_noise");
+  }
+  parts.push_back(std::move(controller));
+  return plant::connect(parts, inputs,
                         {"beam", "encoder", "tachometer", "motor_torque", "valve_demand"});
 }
 
@@ -105,7 +111,8 @@ StabilityVerdict stability(const plant::AntennaPlant& antenna, const ControlLaw&
     const std::complex<double> change =
         1.0 - plant::frequency_response(approximant, w)(0, 0) / exact;
     for (const auto loop_break : {LoopBreak::rate_loop_alone, LoopBreak::valve_command}) {
-      const std::complex<double> loop = loop_gain(response, i, law, delay, loop_break);
+      const std::complex<double> loop =
+          loop_gain(plant::point(response, i), w, law, delay, loop_break);
       verdict.dead_time_residue =
           std::max(verdict.dead_time_residue, std::abs(change * loop / (1.0 + loop)));
     }
@@ -118,9 +125,11 @@ LyapunovRms lyapunov_rms(const plant::AntennaPlant& antenna, const ControlLaw& l
   const auto loop = closed_loop(antenna, law, delay);
   LyapunovRms rms;
   {
-    const auto driven = plant::connect(
-        {loop, plant::to_state_space(wind, "wind_torque")},
-        {"white_noise", "encoder_noise", "tachometer_noise", "rate_disturbance"}, {"beam"});
+    std::vector<std::string> inputs = loop.inputs;
+    std::replace(inputs.begin(), inputs.end(), std::string("wind_torque"),
+                 std::string("white_noise"));
+    const auto driven =
+        plant::connect({loop, plant::to_state_space(wind, "wind_torque")}, inputs, {"beam"});
     const Eigen::VectorXd b = driven.b.col(plant::input_index(driven, "white_noise"));
     const auto solution = solve_lyapunov(driven.a, b * b.transpose());
     rms.wind = std::sqrt((driven.c * solution.covariance * driven.c.transpose())(0, 0));
@@ -129,8 +138,10 @@ LyapunovRms lyapunov_rms(const plant::AntennaPlant& antenna, const ControlLaw& l
   {
     // One-sided density sigma^2/bandwidth per Hz is an intensity of half that.
     Eigen::MatrixXd q = Eigen::MatrixXd::Zero(loop.a.rows(), loop.a.rows());
-    for (const auto& [name, value] : {std::pair{"encoder_noise", noise.encoder_rms},
-                                      std::pair{"tachometer_noise", noise.tachometer_rms}}) {
+    std::vector<std::pair<const char*, double>> sources{{"encoder_noise", noise.encoder_rms},
+                                                        {"tachometer_noise", noise.tachometer_rms}};
+    if (feeds_torque_back(law)) sources.emplace_back("torque_noise", noise.torque_rms);
+    for (const auto& [name, value] : sources) {
       const Eigen::VectorXd b = loop.b.col(plant::input_index(loop, name));
       q += value * value / (2.0 * noise.bandwidth) * b * b.transpose();
     }

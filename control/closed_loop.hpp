@@ -12,8 +12,9 @@ namespace boresight::control {
 inline constexpr int delay_order = 8;
 
 /// Plant, control law and rational dead time as one state space. Inputs wind_torque (N m),
-/// encoder_noise (rad), tachometer_noise (rad/s), rate_disturbance (rad/s); outputs beam, encoder
-/// (rad), tachometer (rad/s), motor_torque (N m), valve_demand (rad/s).
+/// encoder_noise (rad), tachometer_noise (rad/s), rate_disturbance (rad/s) and, where the law feeds
+/// torque back, torque_noise (N m); outputs beam, encoder (rad), tachometer (rad/s), motor_torque
+/// (N m), valve_demand (rad/s).
 plant::StateSpace closed_loop(const plant::AntennaPlant& plant, const ControlLaw& law,
                               double delay);
 

@@ -1,42 +1,122 @@
+#include <algorithm>
 #include <cmath>
 
 #include <fmt/format.h>
 
 #include <boresight/control/control_law.hpp>
 #include <boresight/plant/error.hpp>
+#include <boresight/plant/interconnection.hpp>
+#include <boresight/plant/transfer_function.hpp>
 
 namespace boresight::control {
 namespace {
 
-constexpr GainDescription rate_gain{Gain::rate_gain, "rate gain", "kr", "1", 0.01, 30.0};
-constexpr GainDescription rate_integral{
-    Gain::rate_integral, "rate integral corner", "wi", "rad/s", 0.01, 30.0};
-constexpr GainDescription rate_lag{Gain::rate_lag, "rate lag corner", "wp", "rad/s", 0.3, 300.0};
-constexpr GainDescription position_gain{
-    Gain::position_gain, "position gain", "kp", "1/s", 0.03, 30.0};
-constexpr GainDescription position_integral{
-    Gain::position_integral, "position integral corner", "wip", "rad/s", 1e-4, 3.0};
+using Complex = std::complex<double>;
+
+// The blocks of one path with where their gains begin.
+struct PlacedBlock {
+  const LoopBlock* block;
+  const double* gains;
+};
+
+std::vector<PlacedBlock> blocks_of(const ControlLaw& law, LoopPath path) {
+  std::vector<PlacedBlock> placed;
+  const double* gains = law.gains.data();
+  for (const LoopBlock& block : law.structure.blocks()) {
+    if (block.path == path) placed.push_back({&block, gains});
+    gains += block.gains.size();
+  }
+  return placed;
+}
+
+// Numerator and denominator, lowest power first.
+struct Polynomials {
+  std::vector<double> numerator, denominator;
+};
+
+Polynomials polynomials(const PlacedBlock& placed) {
+  const double* g = placed.gains;
+  switch (placed.block->kind) {
+    case BlockKind::gain:
+      return {{g[0]}, {1.0}};
+    case BlockKind::integral:
+      return {{g[0], 1.0}, {0.0, 1.0}};
+    case BlockKind::lag:
+      return {{1.0}, {1.0, 1.0 / g[0]}};
+    case BlockKind::lead:
+      return {{1.0, 1.0 / g[0]}, {1.0}};
+    case BlockKind::washout:
+      return {{0.0, 1.0}, {g[0], 1.0}};
+    case BlockKind::notch:
+      return {{g[0] * g[0], 2.0 * g[1] * g[0], 1.0}, {g[0] * g[0], 2.0 * g[2] * g[0], 1.0}};
+  }
+  throw InvalidInput("control law: not a kind of block");
+}
+
+// One path as a chain of first- and second-order sections from `input` to `output`: the gain in the
+// first section, each lead on a lag of its own.
+std::vector<plant::StateSpace> chain(const ControlLaw& law, LoopPath path, const std::string& input,
+                                     const std::string& output) {
+  std::vector<PlacedBlock> leads, rest;
+  double gain = 1.0;
+  for (const PlacedBlock& placed : blocks_of(law, path)) {
+    if (placed.block->kind == BlockKind::gain) {
+      gain = placed.gains[0];
+    } else {
+      (placed.block->kind == BlockKind::lead ? leads : rest).push_back(placed);
+    }
+  }
+  const std::string name(to_string(path));
+  std::vector<plant::StateSpace> sections;
+  std::string signal = input;
+  for (std::size_t i = 0; i < rest.size(); ++i) {
+    Polynomials section = polynomials(rest[i]);
+    if (rest[i].block->kind == BlockKind::lag && !leads.empty()) {
+      section.numerator = polynomials(leads.back()).numerator;
+      leads.pop_back();
+    }
+    if (i == 0) {
+      for (double& coefficient : section.numerator) coefficient *= gain;
+    }
+    const std::string next = i + 1 == rest.size() ? output : fmt::format("{}_path_{}", name, i + 1);
+    sections.push_back(
+        plant::rational(section.numerator, section.denominator, signal, next,
+                        fmt::format("{}_{}", name, rest[i].block->gains.front().symbol)));
+    signal = next;
+  }
+  if (rest.empty()) {
+    sections.push_back(
+        plant::static_gain(Eigen::MatrixXd::Constant(1, 1, gain), {input}, {output}));
+  }
+  return sections;
+}
+
+void append(std::vector<plant::StateSpace>& parts, std::vector<plant::StateSpace> more) {
+  std::ranges::move(more, std::back_inserter(parts));
+}
+
+plant::StateSpace difference(const std::string& first, const std::string& second,
+                             const std::string& output) {
+  return plant::static_gain(Eigen::RowVector2d{1.0, -1.0}, {first, second}, {output});
+}
+
+// From rate error and, with a pressure path, motor torque to the valve demand.
+void append_rate_law(std::vector<plant::StateSpace>& parts, const ControlLaw& law) {
+  const bool pressure = law.structure.has(LoopPath::pressure);
+  append(parts,
+         chain(law, LoopPath::rate, "rate_error", pressure ? "rate_demand" : "valve_demand"));
+  if (!pressure) return;
+  append(parts, chain(law, LoopPath::pressure, "motor_torque", "pressure_demand"));
+  parts.push_back(difference("rate_demand", "pressure_demand", "valve_demand"));
+}
 
 }  // namespace
 
-std::string_view to_string(LoopStructure structure) {
-  return structure == LoopStructure::pi ? "PI without lag" : "PI with lag";
-}
-
-const std::vector<GainDescription>& gain_descriptions(LoopStructure structure) {
-  static const std::vector<GainDescription> without_lag{rate_gain, rate_integral, position_gain,
-                                                        position_integral};
-  static const std::vector<GainDescription> with_lag{rate_gain, rate_integral, rate_lag,
-                                                     position_gain, position_integral};
-  return structure == LoopStructure::pi ? without_lag : with_lag;
-}
-
 void validate(const ControlLaw& law) {
-  const auto& descriptions = gain_descriptions(law.structure);
+  const auto& descriptions = law.structure.gains();
   if (law.gains.size() != descriptions.size()) {
     throw InvalidInput(fmt::format("control law: expected {} gains for {}, found {}",
-                                   descriptions.size(), to_string(law.structure),
-                                   law.gains.size()));
+                                   descriptions.size(), law.structure.name(), law.gains.size()));
   }
   for (std::size_t i = 0; i < descriptions.size(); ++i) {
     if (!(law.gains[i] > 0.0) || !std::isfinite(law.gains[i])) {
@@ -46,79 +126,98 @@ void validate(const ControlLaw& law) {
   }
 }
 
-double gain(const ControlLaw& law, Gain kind) {
-  const auto& descriptions = gain_descriptions(law.structure);
+double gain(const ControlLaw& law, std::string_view symbol) {
+  const auto& descriptions = law.structure.gains();
   for (std::size_t i = 0; i < descriptions.size(); ++i) {
-    if (descriptions[i].gain == kind) return law.gains[i];
+    if (descriptions[i].symbol == symbol) return law.gains[i];
   }
-  throw InvalidInput(fmt::format("control law: {} has no such gain", to_string(law.structure)));
+  throw InvalidInput(fmt::format("control law: {} has no gain '{}'", law.structure.name(), symbol));
 }
 
 CompensatorResponse compensator_response(const ControlLaw& law, double angular_frequency) {
   const double w = angular_frequency;
   CompensatorResponse response;
-  response.rate = 1.0;
-  response.position = 1.0;
-  const auto& descriptions = gain_descriptions(law.structure);
-  for (std::size_t i = 0; i < descriptions.size(); ++i) {
-    const double value = law.gains[i];
+  response.rate = response.position = 1.0;
+  response.pressure = law.structure.has(LoopPath::pressure) ? 1.0 : 0.0;
+  response.compliance = law.structure.has(LoopPath::compliance) ? 1.0 : 0.0;
+  std::size_t k = 0;
+  for (const LoopBlock& block : law.structure.blocks()) {
+    Complex& compensator = block.path == LoopPath::rate       ? response.rate
+                           : block.path == LoopPath::pressure ? response.pressure
+                           : block.path == LoopPath::position ? response.position
+                                                              : response.compliance;
+    const double value = law.gains[k];
     // value/(s + value) and s/(s + value) at s = j w, with one division for both
     const double scale = 1.0 / (value * value + w * w);
-    const std::complex<double> low{value * value * scale, -value * w * scale};
-    const std::complex<double> high{w * w * scale, value * w * scale};
-    switch (descriptions[i].gain) {
-      case Gain::rate_gain:
-        response.rate *= value;
-        response.rate_by_gain[i] = 1.0;
+    const Complex low{value * value * scale, -value * w * scale};
+    const Complex high{w * w * scale, value * w * scale};
+    switch (block.kind) {
+      case BlockKind::gain:
+        compensator *= value;
+        response.by_gain[k] = 1.0;
         break;
-      case Gain::rate_integral:
-        response.rate *= std::complex<double>{1.0, -value / w};
-        response.rate_by_gain[i] = low;
+      case BlockKind::integral:
+        compensator *= Complex{1.0, -value / w};
+        response.by_gain[k] = low;
         break;
-      case Gain::rate_lag:
-        response.rate *= low;
-        response.rate_by_gain[i] = high;
+      case BlockKind::lag:
+        compensator *= low;
+        response.by_gain[k] = high;
         break;
-      case Gain::position_gain:
-        response.position *= value;
-        response.position_by_gain[i] = 1.0;
+      case BlockKind::lead:
+        compensator *= Complex{1.0, w / value};
+        response.by_gain[k] = -high;
         break;
-      case Gain::position_integral:
-        response.position *= std::complex<double>{1.0, -value / w};
-        response.position_by_gain[i] = low;
+      case BlockKind::washout:
+        compensator *= high;
+        response.by_gain[k] = -low;
         break;
+      case BlockKind::notch: {
+        const double square = value * value - w * w;
+        const double zero = law.gains[k + 1], pole = law.gains[k + 2];
+        const Complex above{square, 2.0 * zero * value * w};
+        const Complex below{square, 2.0 * pole * value * w};
+        compensator *= above / below;
+        const auto by_frequency = [&](double damping) {
+          return Complex{2.0 * value * value, 2.0 * damping * value * w};
+        };
+        response.by_gain[k] = by_frequency(zero) / above - by_frequency(pole) / below;
+        response.by_gain[k + 1] = Complex{0.0, above.imag()} / above;
+        response.by_gain[k + 2] = -Complex{0.0, below.imag()} / below;
+        break;
+      }
     }
+    k += block.gains.size();
   }
   return response;
 }
 
 plant::StateSpace to_state_space(const ControlLaw& law) {
   validate(law);
-  const double kr = gain(law, Gain::rate_gain);
-  const double wi = gain(law, Gain::rate_integral);
-  const double kp = gain(law, Gain::position_gain);
-  const double wip = gain(law, Gain::position_integral);
-  // The integrators carry rad/s and rad of command, the size of what they add to.
-  const auto position = plant::rational({kp * wip, kp}, {0.0, 1.0}, "encoder", "position_output",
-                                        "position_integrator");
-  Eigen::MatrixXd sum(1, 2);
-  sum << -1.0, 1.0;
-  const auto command =
-      plant::static_gain(sum, {"position_output", "rate_disturbance"}, {"rate_command"});
-  Eigen::MatrixXd difference(1, 2);
-  difference << 1.0, -1.0;
-  const auto error = plant::static_gain(difference, {"rate_command", "tachometer"}, {"rate_error"});
-  const bool lag = law.structure == LoopStructure::pi_with_lag;
-  std::vector<plant::StateSpace> parts{
-      position, command, error,
-      plant::rational({kr * wi, kr}, {0.0, 1.0}, "rate_error",
-                      lag ? "unlagged_demand" : "valve_demand", "rate_integrator")};
-  if (lag) {
-    parts.push_back(plant::rational({1.0}, {1.0, 1.0 / gain(law, Gain::rate_lag)},
-                                    "unlagged_demand", "valve_demand", "rate_lag"));
+  const bool compliance = law.structure.has(LoopPath::compliance);
+  std::vector<plant::StateSpace> parts;
+  std::vector<std::string> inputs{"tachometer", "encoder", "rate_disturbance"};
+  if (compliance || law.structure.has(LoopPath::pressure)) inputs.emplace_back("motor_torque");
+  if (compliance) {
+    append(parts, chain(law, LoopPath::compliance, "motor_torque", "bending"));
+    parts.push_back(difference("encoder", "bending", "corrected_angle"));
   }
-  return plant::connect(parts, {"tachometer", "encoder", "rate_disturbance"},
-                        {"valve_demand", "rate_command"});
+  append(parts, chain(law, LoopPath::position, compliance ? "corrected_angle" : "encoder",
+                      "position_output"));
+  parts.push_back(difference("rate_disturbance", "position_output", "rate_command"));
+  parts.push_back(difference("rate_command", "tachometer", "rate_error"));
+  append_rate_law(parts, law);
+  return plant::connect(parts, inputs, {"valve_demand", "rate_command"});
+}
+
+plant::StateSpace rate_loop_law(const ControlLaw& law) {
+  validate(law);
+  std::vector<plant::StateSpace> parts{
+      plant::static_gain(Eigen::MatrixXd::Constant(1, 1, -1.0), {"tachometer"}, {"rate_error"})};
+  append_rate_law(parts, law);
+  std::vector<std::string> inputs{"tachometer"};
+  if (law.structure.has(LoopPath::pressure)) inputs.emplace_back("motor_torque");
+  return plant::connect(parts, inputs, {"valve_demand"});
 }
 
 }  // namespace boresight::control

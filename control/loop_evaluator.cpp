@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <boresight/control/loop_evaluator.hpp>
+#include <boresight/control/loop_winding.hpp>
 #include <boresight/plant/error.hpp>
 
 namespace boresight::control {
@@ -16,68 +17,62 @@ constexpr double two_pi = 2.0 * std::numbers::pi;
 // The loop at one frequency.
 struct LoopPoint {
   CompensatorResponse compensator;
-  Complex delayed_rate;   // R exp(-s delay)
-  Complex rate_loop;      // L_rate
-  Complex position_part;  // R exp(-s delay) P encoder/command
+  Complex dead_time;
+  Complex angle;        // what the position path sees of a command: encoder less compliance
+  Complex rate_return;  // 1 + L, position loop open
+  Complex both_return;  // 1 + L, both closed
 };
 
-LoopPoint loop_point(const plant::PlantResponse& response, Eigen::Index i, const ControlLaw& law,
-                     Complex dead_time) {
+LoopPoint loop_point(const plant::ResponsePoint& response, const ControlLaw& law, double frequency,
+                     double delay) {
   LoopPoint point;
-  point.compensator = compensator_response(law, response.frequency[i]);
-  point.delayed_rate = point.compensator.rate * dead_time;
-  point.rate_loop = point.delayed_rate * response.tachometer_command[i];
-  point.position_part =
-      point.delayed_rate * point.compensator.position * response.encoder_command[i];
+  point.compensator = compensator_response(law, frequency);
+  const auto& c = point.compensator;
+  point.dead_time = std::polar(1.0, -frequency * delay);
+  point.angle = response.encoder_command - c.compliance * response.torque_command;
+  point.rate_return = 1.0 + point.dead_time * (c.rate * response.tachometer_command +
+                                               c.pressure * response.torque_command);
+  point.both_return = point.rate_return + point.dead_time * c.rate * c.position * point.angle;
   return point;
 }
 
-// Derivatives of 1 + L_rate and of 1 + L_rate + L_position by ln of gain k.
-struct LoopDerivative {
-  Complex rate_loop;
-  Complex both;
+// Derivatives of both returns by ln of the gains of a path, less the factor d ln X/d ln g.
+struct ReturnDerivative {
+  Complex rate, both;
 };
 
-LoopDerivative derivative(const LoopPoint& point, std::size_t k) {
-  const Complex rate = point.compensator.rate_by_gain[k];
-  const Complex position = point.compensator.position_by_gain[k];
-  const Complex of_rate = point.rate_loop * rate;
-  return {of_rate, of_rate + point.position_part * (rate + position)};
+ReturnDerivative return_derivative(const LoopPoint& point, const plant::ResponsePoint& response,
+                                   LoopPath path) {
+  const auto& c = point.compensator;
+  const Complex position = point.dead_time * c.rate * c.position * point.angle;
+  switch (path) {
+    case LoopPath::rate: {
+      const Complex rate = point.dead_time * c.rate * response.tachometer_command;
+      return {rate, rate + position};
+    }
+    case LoopPath::pressure: {
+      const Complex pressure = point.dead_time * c.pressure * response.torque_command;
+      return {pressure, pressure};
+    }
+    case LoopPath::position:
+      return {0.0, position};
+    case LoopPath::compliance:
+      return {0.0, -point.dead_time * c.rate * c.position * c.compliance * response.torque_command};
+  }
+  throw InvalidInput("loop evaluator: not a path");
 }
 
-// Counts the right-half-plane zeros of 1 + L from its turning along the positive frequencies.
-class Winding {
- public:
-  // L starts as c/s^integrators with c > 0.
-  explicit Winding(int integrators) : start_(-integrators * std::numbers::pi / 2.0) {}
-  void add(Complex value) {
-    if (first_) {
-      first_value_ = value;
-      first_ = false;
-    } else if ((last_.imag() < 0.0) != (value.imag() < 0.0)) {
-      // Where the chord meets the real axis: only left of the origin the phase jumps by a turn.
-      const double real = last_.real() - last_.imag() * (value.real() - last_.real()) /
-                                             (value.imag() - last_.imag());
-      if (real < 0.0) turns_ += value.imag() < 0.0 ? 1 : -1;
-    }
-    last_ = value;
+double sensitivity(const LoopPoint& point, LoopBreak loop_break) {
+  switch (loop_break) {
+    case LoopBreak::rate_loop_alone:
+      return 1.0 / std::abs(point.rate_return);
+    case LoopBreak::valve_command:
+      return 1.0 / std::abs(point.both_return);
+    case LoopBreak::position_loop:
+      return std::abs(point.rate_return / point.both_return);
   }
-  int unstable() const {
-    const double from_start = std::remainder(std::arg(first_value_) - start_, two_pi);
-    const double along = std::arg(last_) - std::arg(first_value_) + two_pi * turns_;
-    const double to_end = -std::arg(last_);
-    // A stable loop turns by -start from 0 to infinity, where 1 + L is 1; each zero in the right
-    // half plane takes a turn of pi away.
-    return static_cast<int>(
-        std::lround((-start_ - from_start - along - to_end) / std::numbers::pi));
-  }
-
- private:
-  double start_;
-  Complex first_value_, last_;
-  int turns_ = 0;
-  bool first_ = true;
-};
+  throw InvalidInput("loop evaluator: not a loop break");
+}
 
 // Trapezoid weights in ln f, per Hz, of the intervals that lie within the band.
 Eigen::ArrayXd integration_weights(const Eigen::ArrayXd& frequency, const FrequencyBand& band) {
@@ -102,10 +97,23 @@ Eigen::ArrayXd integration_weights(const Eigen::ArrayXd& frequency, const Freque
   return weight;
 }
 
-void accumulate(std::array<double, most_gains>& sum, double weight, std::size_t k, Complex value,
-                Complex change) {
-  // d|value|^2 = 2 Re(conj(value) d value)
-  sum[k] += weight * 2.0 * (value.real() * change.real() + value.imag() * change.imag());
+// Vertex of the parabola through three points of ln|S|^2 over ln w, the middle one the highest, and
+// how far it rises above that.
+struct Vertex {
+  double place = 0.0;
+  double rise = 0.0;
+};
+
+template <typename Point>
+Vertex vertex(const Point& left, const Point& middle, const Point& right) {
+  const double to_left = left.place - middle.place, to_right = right.place - middle.place;
+  const double down_left = left.value - middle.value, down_right = right.value - middle.value;
+  const double curvature = (down_right / to_right - down_left / to_left) / (to_right - to_left);
+  const double slope = down_left / to_left - curvature * to_left;
+  if (!(curvature < 0.0)) return {middle.place, 0.0};
+  // A step to the very end of the bracket would not shorten it.
+  const double shift = std::clamp(-0.5 * slope / curvature, 0.9 * to_left, 0.9 * to_right);
+  return {middle.place + shift, (slope + curvature * shift) * shift};
 }
 
 }  // namespace
@@ -122,17 +130,20 @@ std::string_view to_string(LoopBreak loop_break) {
   throw InvalidInput("to_string: not a loop break");
 }
 
-Complex loop_gain(const plant::PlantResponse& response, Eigen::Index i, const ControlLaw& law,
+Complex loop_gain(const plant::ResponsePoint& response, double frequency, const ControlLaw& law,
                   double delay, LoopBreak loop_break) {
-  const LoopPoint point =
-      loop_point(response, i, law, std::polar(1.0, -response.frequency[i] * delay));
+  const LoopPoint point = loop_point(response, law, frequency, delay);
+  const auto& c = point.compensator;
+  const Complex rate = point.dead_time * (c.rate * response.tachometer_command +
+                                          c.pressure * response.torque_command);
+  const Complex position = point.dead_time * c.rate * c.position * point.angle;
   switch (loop_break) {
     case LoopBreak::rate_loop_alone:
-      return point.rate_loop;
+      return rate;
     case LoopBreak::valve_command:
-      return point.rate_loop + point.position_part;
+      return rate + position;
     case LoopBreak::position_loop:
-      return point.position_part / (1.0 + point.rate_loop);
+      return position / (1.0 + rate);
   }
   throw InvalidInput("loop_gain: not a loop break");
 }
@@ -142,161 +153,198 @@ double LoopEvaluation::highest_peak(LoopBreak loop_break) const {
   return list.empty() ? 1.0 : list.front().magnitude;
 }
 
-LoopEvaluator::LoopEvaluator(plant::AntennaPlant plant, const Eigen::ArrayXd& frequency,
+LoopChannels make_channels(const plant::AntennaPlant& plant, const Eigen::ArrayXd& frequency) {
+  return {plant::plant_response(plant, frequency), plant::PointResponse(plant)};
+}
+
+LoopEvaluator::LoopEvaluator(LoopChannels channels, double delay, SensorNoise noise,
+                             const Eigen::ArrayXd& wind_spectrum, FrequencyBand band)
+    : LoopEvaluator(channels, delay, noise, wind_spectrum,
+                    integration_weights(channels.response.frequency, band),
+                    integration_weights(channels.response.frequency,
+                                        {band.lowest, std::min(band.highest, noise.bandwidth)})) {}
+
+LoopEvaluator::LoopEvaluator(const plant::AntennaPlant& plant, const Eigen::ArrayXd& frequency,
                              double delay, SensorNoise noise, const Eigen::ArrayXd& wind_spectrum,
                              FrequencyBand band)
-    : plant_(std::move(plant)),
-      response_(plant::plant_response(plant_, frequency)),
-      delay_(delay),
-      noise_(noise),
-      weight_(integration_weights(frequency, band)),
-      wind_weight_(weight_),
-      noise_weight_(
-          integration_weights(frequency, {band.lowest, std::min(band.highest, noise.bandwidth)})) {
-  const Eigen::Index count = frequency.size();
-  if (wind_spectrum.size() != count) {
-    throw InvalidInput(
-        fmt::format("LoopEvaluator: expected as many wind values as frequencies, found {} and {}",
-                    wind_spectrum.size(), count));
+    : LoopEvaluator(make_channels(plant, frequency), delay, noise, wind_spectrum, band) {}
+
+LoopEvaluator::LoopEvaluator(LoopChannels channels, double delay, SensorNoise noise,
+                             const Eigen::ArrayXd& wind_spectrum, const Eigen::ArrayXd& weight,
+                             const Eigen::ArrayXd& noise_weight)
+    : channels_(std::move(channels)), delay_(delay), noise_(noise), weight_(weight) {
+  const Eigen::Index count = channels_.response.frequency.size();
+  for (const auto* numbers : {&wind_spectrum, &weight, &noise_weight}) {
+    if (numbers->size() != count) {
+      throw InvalidInput(fmt::format(
+          "LoopEvaluator: expected as many wind values and weights as frequencies, found {} and {}",
+          numbers->size(), count));
+    }
   }
-  wind_weight_ *= wind_spectrum;
-  dead_time_.resize(count);
-  for (Eigen::Index i = 0; i < count; ++i) dead_time_[i] = std::polar(1.0, -frequency[i] * delay);
-  for (auto& array : sensitivity_square_) array.resize(count);
+  fill_packs(wind_spectrum, noise_weight);
+}
+
+void LoopEvaluator::fill_packs(const Eigen::ArrayXd& wind_spectrum,
+                               const Eigen::ArrayXd& noise_weight) {
+  const plant::PlantResponse& response = channels_.response;
+  const Eigen::Index count = response.frequency.size();
+  packs_.resize(plant::pack_count(static_cast<std::size_t>(count)));
+  // The last pack is filled up with the last frequency, without weight.
+  for (std::size_t i = 0; i < packs_.size() * plant::pack_size; ++i) {
+    const bool there = static_cast<Eigen::Index>(i) < count;
+    const Eigen::Index k = std::min(static_cast<Eigen::Index>(i), count - 1);
+    const double w = response.frequency[k];
+    const Complex dead_time = std::polar(1.0, -w * delay_);
+    GridPack& pack = packs_[i / plant::pack_size];
+    const std::size_t lane = i % plant::pack_size;
+    pack.frequency.set(lane, w);
+    pack.wind_weight.set(lane, there ? weight_[k] * wind_spectrum[k] : 0.0);
+    pack.noise_weight.set(lane, there ? noise_weight[k] : 0.0);
+    if (pack.noise_weight[lane] > 0.0) noise_packs_ = i / plant::pack_size + 1;
+    const auto set = [&](plant::ComplexPack& place, Complex value) {
+      place.re.set(lane, value.real());
+      place.im.set(lane, value.imag());
+    };
+    set(pack.tachometer_command, response.tachometer_command[k] * dead_time);
+    set(pack.torque_command, response.torque_command[k] * dead_time);
+    set(pack.encoder_command, response.encoder_command[k] * dead_time);
+    set(pack.beam_command, response.beam_command[k] * dead_time);
+    set(pack.tachometer_wind, response.tachometer_wind[k]);
+    set(pack.torque_wind, response.torque_wind[k]);
+    set(pack.encoder_wind, response.encoder_wind[k]);
+    set(pack.beam_wind, response.beam_wind[k]);
+  }
+  rate_return_.resize(packs_.size());
+  both_return_.resize(packs_.size());
+  for (auto& square : sensitivity_square_) square.resize(packs_.size());
 }
 
 LoopEvaluation LoopEvaluator::evaluate(const ControlLaw& law, bool with_gradients) {
   validate(law);
-  const std::size_t gains = law.gains.size();
-  const double encoder_density = noise_.encoder_rms * noise_.encoder_rms / noise_.bandwidth;
-  const double tachometer_density =
-      noise_.tachometer_rms * noise_.tachometer_rms / noise_.bandwidth;
   LoopEvaluation result;
-  Winding rate_winding(1);
-  Winding both_winding(3);
-  for (Eigen::Index i = 0; i < response_.frequency.size(); ++i) {
-    const LoopPoint point = loop_point(response_, i, law, dead_time_[i]);
-    const Complex rate_return = 1.0 + point.rate_loop;
-    const Complex both_return = rate_return + point.position_part;
-    rate_winding.add(rate_return);
-    both_winding.add(both_return);
-    const double rate_square = std::norm(rate_return);
-    const double both_square = std::norm(both_return);
-    const double inverse_square = 1.0 / both_square;
-    sensitivity_square_[0][i] = 1.0 / rate_square;
-    sensitivity_square_[1][i] = inverse_square;
-    sensitivity_square_[2][i] = rate_square * inverse_square;
-
-    const Complex inverse = std::conj(both_return) * inverse_square;
-    const Complex position = point.compensator.position;
-    // What the loop adds to the beam: -beam/command times (measured rate + P measured angle).
-    const Complex act = -response_.beam_command[i] * point.delayed_rate * inverse;
-    const Complex measured = response_.tachometer_wind[i] + position * response_.encoder_wind[i];
-    const Complex wind = response_.beam_wind[i] + act * measured;
-    const Complex encoder = act * position;
-    const Complex effort_rate = point.compensator.rate * inverse;
-    const Complex effort_position = effort_rate * position;
-
-    const double wind_weight = wind_weight_[i];
-    const double encoder_weight = noise_weight_[i] * encoder_density;
-    const double tachometer_weight = noise_weight_[i] * tachometer_density;
-    result.wind_variance += wind_weight * std::norm(wind);
-    result.noise_variance +=
-        encoder_weight * std::norm(encoder) + tachometer_weight * std::norm(act);
-    result.effort_variance +=
-        encoder_weight * std::norm(effort_position) + tachometer_weight * std::norm(effort_rate);
-    if (!with_gradients) continue;
-    for (std::size_t k = 0; k < gains; ++k) {
-      const Complex by_rate = point.compensator.rate_by_gain[k];
-      const Complex by_position = point.compensator.position_by_gain[k];
-      const Complex by_return = derivative(point, k).both * inverse;
-      const Complex relative = by_rate - by_return;
-      const Complex act_change = act * relative;
-      accumulate(result.wind_log_gradient, wind_weight, k, wind,
-                 act_change * measured + act * position * by_position * response_.encoder_wind[i]);
-      accumulate(result.noise_log_gradient, encoder_weight, k, encoder,
-                 encoder * (relative + by_position));
-      accumulate(result.noise_log_gradient, tachometer_weight, k, act, act_change);
-      accumulate(result.effort_log_gradient, encoder_weight, k, effort_position,
-                 effort_position * (relative + by_position));
-      accumulate(result.effort_log_gradient, tachometer_weight, k, effort_rate,
-                 effort_rate * relative);
-    }
+  sweep(law, with_gradients, result);
+  int rate_integrators = 0, position_integrators = 0;
+  for (const LoopBlock& block : law.structure.blocks()) {
+    if (block.kind != BlockKind::integral) continue;
+    ++(block.path == LoopPath::rate ? rate_integrators : position_integrators);
+  }
+  // The position loop has the antenna's own integration besides.
+  Winding rate_winding(rate_integrators);
+  Winding both_winding(rate_integrators + position_integrators + 1);
+  const auto count = static_cast<std::size_t>(response().frequency.size());
+  for (std::size_t i = 0; i < count; ++i) {
+    const std::size_t pack = i / plant::pack_size, lane = i % plant::pack_size;
+    rate_winding.add({rate_return_[pack].re[lane], rate_return_[pack].im[lane]});
+    both_winding.add({both_return_[pack].re[lane], both_return_[pack].im[lane]});
   }
   result.unstable_rate_loop = rate_winding.unstable();
   result.unstable_closed_loop = both_winding.unstable();
   for (std::size_t b = 0; b < loop_breaks.size(); ++b) {
-    result.peaks[b] = find_peaks(law, loop_breaks[b], sensitivity_square_[b]);
+    if (breaks_[b]) find_peaks(law, loop_breaks[b], result.peaks[b]);
   }
   return result;
 }
 
 SensitivityPeak LoopEvaluator::peak_at(const ControlLaw& law, LoopBreak loop_break,
                                        double frequency) const {
-  const auto response = plant::plant_response(plant_, Eigen::ArrayXd::Constant(1, frequency));
-  const LoopPoint point = loop_point(response, 0, law, std::polar(1.0, -frequency * delay_));
-  const Complex rate_return = 1.0 + point.rate_loop;
-  const Complex both_return = rate_return + point.position_part;
+  const plant::ResponsePoint response = channels_.at(frequency);
+  const LoopPoint point = loop_point(response, law, frequency, delay_);
   SensitivityPeak peak;
   peak.frequency = frequency;
-  const bool alone = loop_break == LoopBreak::rate_loop_alone;
-  peak.magnitude = alone                                    ? 1.0 / std::abs(rate_return)
-                   : loop_break == LoopBreak::valve_command ? 1.0 / std::abs(both_return)
-                                                            : std::abs(rate_return / both_return);
-  for (std::size_t k = 0; k < law.gains.size(); ++k) {
-    const LoopDerivative change = derivative(point, k);
-    const double of_rate = (change.rate_loop / rate_return).real();
-    const double of_both = (change.both / both_return).real();
-    peak.log_gradient[k] = alone                                    ? -of_rate
-                           : loop_break == LoopBreak::valve_command ? -of_both
-                                                                    : of_rate - of_both;
+  peak.magnitude = sensitivity(point, loop_break);
+  std::size_t k = 0;
+  for (const LoopBlock& block : law.structure.blocks()) {
+    const ReturnDerivative change = return_derivative(point, response, block.path);
+    const Complex of_rate = change.rate / point.rate_return;
+    const Complex of_both = change.both / point.both_return;
+    const Complex of_break = loop_break == LoopBreak::rate_loop_alone ? -of_rate
+                             : loop_break == LoopBreak::valve_command ? -of_both
+                                                                      : of_rate - of_both;
+    for (std::size_t j = 0; j < block.gains.size(); ++j, ++k) {
+      peak.log_gradient[k] = (of_break * point.compensator.by_gain[k]).real();
+    }
   }
   return peak;
 }
 
-std::vector<SensitivityPeak> LoopEvaluator::find_peaks(const ControlLaw& law, LoopBreak loop_break,
-                                                       const Eigen::ArrayXd& square) const {
-  constexpr std::size_t kept = 3;
-  std::vector<Eigen::Index> maxima;
-  for (Eigen::Index i = 1; i + 1 < square.size(); ++i) {
-    if (square[i] > 1.0 && square[i] >= square[i - 1] && square[i] > square[i + 1]) {
-      maxima.push_back(i);
+// Successive parabolas through the best point and its neighbours, whose values are all exact.
+SensitivityPeak LoopEvaluator::polish(const ControlLaw& law, LoopBreak loop_break,
+                                      std::array<LogPoint, 3> bracket) const {
+  constexpr int most_steps = 8;
+  constexpr double enough = 1e-11;  // of ln|S|^2
+  SensitivityPeak best;
+  for (int step = 0; step < most_steps; ++step) {
+    auto& [left, middle, right] = bracket;
+    const Vertex top = vertex(left, middle, right);
+    const bool done = top.rise < enough;
+    if (done && step > 0) break;
+    const SensitivityPeak peak = peak_at(law, loop_break, std::exp(top.place));
+    if (peak.magnitude > best.magnitude) best = peak;
+    const LogPoint found{top.place, 2.0 * std::log(peak.magnitude)};
+    if (done || found.place == middle.place) break;
+    // The highest of the four with its neighbours.
+    const bool beyond = found.place > middle.place;
+    if (found.value > middle.value) {
+      (beyond ? left : right) = middle;
+      middle = found;
+    } else {
+      (beyond ? right : left) = found;
     }
   }
-  const std::size_t count = std::min(kept, maxima.size());
-  std::partial_sort(maxima.begin(), maxima.begin() + static_cast<std::ptrdiff_t>(count),
-                    maxima.end(),
-                    [&](Eigen::Index x, Eigen::Index y) { return square[x] > square[y]; });
-  std::vector<SensitivityPeak> peaks;
+  return best;
+}
+
+void LoopEvaluator::find_peaks(const ControlLaw& law, LoopBreak loop_break, PeakList& peaks) const {
+  const auto& packs = sensitivity_square_[static_cast<std::size_t>(loop_break)];
+  const auto square = [&](Eigen::Index i) {
+    const auto place = static_cast<std::size_t>(i);
+    return packs[place / plant::pack_size][place % plant::pack_size];
+  };
+  const Eigen::ArrayXd& w = response().frequency;
+  // The highest few, in falling order.
+  std::array<Eigen::Index, PeakList::most> maxima{};
+  std::size_t count = 0;
+  double before = square(0), here = square(1);
+  for (Eigen::Index i = 1; i + 1 < w.size(); ++i) {
+    const double after = square(i + 1);
+    if (here > 1.0 && here >= before && here > after) {
+      std::size_t place = count;
+      while (place > 0 && square(maxima[place - 1]) < here) --place;
+      if (place < PeakList::most) {
+        count = std::min(count + 1, PeakList::most);
+        for (std::size_t j = count - 1; j > place; --j) maxima[j] = maxima[j - 1];
+        maxima[place] = i;
+      }
+    }
+    before = here;
+    here = after;
+  }
   for (std::size_t m = 0; m < count; ++m) {
-    // Vertex of the parabola through three points in (ln w, ln |S|^2), then the exact response
-    // there.
     const Eigen::Index i = maxima[m];
-    const double left = std::log(response_.frequency[i - 1] / response_.frequency[i]);
-    const double right = std::log(response_.frequency[i + 1] / response_.frequency[i]);
-    const double down_left = std::log(square[i - 1] / square[i]);
-    const double down_right = std::log(square[i + 1] / square[i]);
-    const double curvature = (down_right / right - down_left / left) / (right - left);
-    const double slope = down_left / left - curvature * left;
-    const double shift = curvature < 0.0 ? std::clamp(-0.5 * slope / curvature, left, right) : 0.0;
-    peaks.push_back(peak_at(law, loop_break, response_.frequency[i] * std::exp(shift)));
+    const auto on_grid = [&](Eigen::Index k) {
+      return LogPoint{std::log(w[k]), std::log(square(k))};
+    };
+    peaks.push_back(polish(law, loop_break, {on_grid(i - 1), on_grid(i), on_grid(i + 1)}));
   }
   std::sort(peaks.begin(), peaks.end(), [](const SensitivityPeak& x, const SensitivityPeak& y) {
     return x.magnitude > y.magnitude;
   });
-  return peaks;
 }
 
 Eigen::ArrayXd LoopEvaluator::wind_transmission(const ControlLaw& law) const {
   validate(law);
-  Eigen::ArrayXd square(response_.frequency.size());
+  const plant::PlantResponse& plant = response();
+  Eigen::ArrayXd square(plant.frequency.size());
   for (Eigen::Index i = 0; i < square.size(); ++i) {
-    const LoopPoint point = loop_point(response_, i, law, dead_time_[i]);
+    const plant::ResponsePoint here = plant::point(plant, i);
+    const LoopPoint point = loop_point(here, law, plant.frequency[i], delay_);
+    const auto& c = point.compensator;
     const Complex measured =
-        response_.tachometer_wind[i] + point.compensator.position * response_.encoder_wind[i];
-    square[i] = std::norm(response_.beam_wind[i] -
-                          response_.beam_command[i] * point.delayed_rate * measured /
-                              (1.0 + point.rate_loop + point.position_part));
+        c.rate * (here.tachometer_wind +
+                  c.position * (here.encoder_wind - c.compliance * here.torque_wind)) +
+        c.pressure * here.torque_wind;
+    square[i] = std::norm(here.beam_wind -
+                          here.beam_command * point.dead_time * measured / point.both_return);
   }
   return square;
 }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <functional>
 #include <limits>
 #include <vector>
 
@@ -8,6 +9,7 @@
 
 #include <boresight/control/control_law.hpp>
 #include <boresight/plant/plant_response.hpp>
+#include <boresight/plant/point_response.hpp>
 
 namespace boresight::control {
 
@@ -16,6 +18,7 @@ struct SensorNoise {
   double encoder_rms = 0.0;     // rad of motor
   double tachometer_rms = 0.0;  // rad/s of motor
   double bandwidth = 25.0;      // Hz
+  double torque_rms = 0.0;      // N m, heard only where a law feeds torque back
 };
 
 /// Frequencies (Hz) over which variances are integrated; all of the grid by default.
@@ -35,8 +38,8 @@ inline constexpr std::array loop_breaks{LoopBreak::rate_loop_alone, LoopBreak::v
 std::string_view to_string(LoopBreak loop_break);
 
 /// The open-loop gain at a break (positive gain with the -1 taken out, so that S = 1/(1 + L)) at
-/// one frequency, with exact dead time.
-std::complex<double> loop_gain(const plant::PlantResponse& response, Eigen::Index i,
+/// one frequency (rad/s), with exact dead time.
+std::complex<double> loop_gain(const plant::ResponsePoint& response, double frequency,
                                const ControlLaw& law, double delay, LoopBreak loop_break);
 
 /// A local maximum of a sensitivity.
@@ -45,6 +48,25 @@ struct SensitivityPeak {
   double magnitude = 0.0;
   /// d ln(magnitude) / d ln(gain), in the order of the gain vector.
   std::array<double, most_gains> log_gradient{};
+};
+
+/// The highest local maxima at a break, highest first.
+class PeakList {
+ public:
+  static constexpr std::size_t most = 3;
+  void push_back(const SensitivityPeak& peak) { peaks_.at(size_++) = peak; }
+  std::size_t size() const { return size_; }
+  bool empty() const { return size_ == 0; }
+  const SensitivityPeak& operator[](std::size_t i) const { return peaks_[i]; }
+  const SensitivityPeak& front() const { return peaks_[0]; }
+  SensitivityPeak* begin() { return peaks_.data(); }
+  SensitivityPeak* end() { return peaks_.data() + size_; }
+  const SensitivityPeak* begin() const { return peaks_.data(); }
+  const SensitivityPeak* end() const { return peaks_.data() + size_; }
+
+ private:
+  std::array<SensitivityPeak, most> peaks_;
+  std::size_t size_ = 0;
 };
 
 /// One control law on one plant, seen through the frequency response. Variances in rad^2 of motor
@@ -56,8 +78,7 @@ struct LoopEvaluation {
   std::array<double, most_gains> wind_log_gradient{};
   std::array<double, most_gains> noise_log_gradient{};
   std::array<double, most_gains> effort_log_gradient{};
-  /// Highest local maxima of |S| at each break, highest first (at most three).
-  std::array<std::vector<SensitivityPeak>, 3> peaks;
+  std::array<PeakList, 3> peaks;  // of |S|, by break
   /// Closed-loop poles in the right half plane by the winding of 1 + L along the grid, position
   /// loop open and closed. A quick filter: the verdict is the eigenvalues' (closed_loop.hpp).
   int unstable_rate_loop = 0;
@@ -68,10 +89,18 @@ struct LoopEvaluation {
   double highest_peak(LoopBreak loop_break) const;
 };
 
+/// What a loop needs to know of its plant: the response on a grid, and between its points. The
+/// response may be a model's or a measured one.
+struct LoopChannels {
+  plant::PlantResponse response;
+  std::function<plant::ResponsePoint(double frequency)> at;
+};
+LoopChannels make_channels(const plant::AntennaPlant& plant, const Eigen::ArrayXd& frequency);
+
 /// Evaluates control laws on one plant. The plant enters through its frequency response only,
-/// computed once; an evaluation costs some fifty complex operations a frequency whatever the
-/// number of structural modes, and dead time is exact. Not to be shared between threads: it keeps
-/// its work arrays.
+/// computed once; an evaluation costs some hundred operations a frequency, and ten more a gain for
+/// all gradients (by the adjoint of the closed loop), whatever the number of structural modes; dead
+/// time is exact. Not to be shared between threads: it keeps its work arrays.
 class LoopEvaluator {
  public:
   /// `wind_spectrum`: one-sided spectrum of the wind torque at the motor shaft, (N m)^2/Hz, at the
@@ -79,8 +108,18 @@ class LoopEvaluator {
   /// its bandwidth too) by the trapezoid rule in ln f; put the edges among the frequencies. Peaks
   /// and stability are taken over the whole grid.
   /// @throws InvalidInput for sizes that differ or a grid that does not rise.
-  LoopEvaluator(plant::AntennaPlant plant, const Eigen::ArrayXd& frequency, double delay,
+  LoopEvaluator(LoopChannels channels, double delay, SensorNoise noise,
+                const Eigen::ArrayXd& wind_spectrum, FrequencyBand band = {});
+  LoopEvaluator(const plant::AntennaPlant& plant, const Eigen::ArrayXd& frequency, double delay,
                 SensorNoise noise, const Eigen::ArrayXd& wind_spectrum, FrequencyBand band = {});
+  /// With weights of another quadrature in place of the trapezoid rule's: `weight` turns a sum over
+  /// the grid into an integral over Hz.
+  LoopEvaluator(LoopChannels channels, double delay, SensorNoise noise,
+                const Eigen::ArrayXd& wind_spectrum, const Eigen::ArrayXd& weight,
+                const Eigen::ArrayXd& noise_weight);
+
+  /// Breaks whose peaks are looked for; all by default.
+  void look_at(std::array<bool, 3> breaks) { breaks_ = breaks; }
 
   /// @throws InvalidInput as validate(law).
   LoopEvaluation evaluate(const ControlLaw& law, bool with_gradients);
@@ -88,26 +127,39 @@ class LoopEvaluator {
   /// |beam / wind torque|^2 of the closed loop at each frequency of the grid, rad^2/(N m)^2.
   Eigen::ArrayXd wind_transmission(const ControlLaw& law) const;
 
-  const plant::PlantResponse& response() const { return response_; }
-  const plant::AntennaPlant& antenna() const { return plant_; }
+  const plant::PlantResponse& response() const { return channels_.response; }
   double delay() const { return delay_; }
   /// Weights that turn a sum over the grid into an integral over Hz.
   const Eigen::ArrayXd& integration_weight() const { return weight_; }
 
  private:
+  // Eight frequencies: responses to the command with the dead time in them.
+  struct GridPack {
+    plant::RealPack frequency, wind_weight, noise_weight;
+    plant::ComplexPack tachometer_command, torque_command, encoder_command, beam_command;
+    plant::ComplexPack tachometer_wind, torque_wind, encoder_wind, beam_wind;
+  };
+  struct Sums;
+  void fill_packs(const Eigen::ArrayXd& wind_spectrum, const Eigen::ArrayXd& noise_weight);
+  void sweep(const ControlLaw& law, bool with_gradients, LoopEvaluation& result);
+  // ln|S|^2 over ln w.
+  struct LogPoint {
+    double place = 0.0, value = 0.0;
+  };
   SensitivityPeak peak_at(const ControlLaw& law, LoopBreak loop_break, double frequency) const;
-  std::vector<SensitivityPeak> find_peaks(const ControlLaw& law, LoopBreak loop_break,
-                                          const Eigen::ArrayXd& square) const;
+  SensitivityPeak polish(const ControlLaw& law, LoopBreak loop_break,
+                         std::array<LogPoint, 3> bracket) const;
+  void find_peaks(const ControlLaw& law, LoopBreak loop_break, PeakList& peaks) const;
 
-  plant::AntennaPlant plant_;
-  plant::PlantResponse response_;
+  LoopChannels channels_;
   double delay_;
   SensorNoise noise_;
+  std::array<bool, 3> breaks_{true, true, true};
   Eigen::ArrayXd weight_;
-  Eigen::ArrayXd wind_weight_;   // weight times wind spectrum
-  Eigen::ArrayXd noise_weight_;  // weight within the noise band
-  Eigen::ArrayXcd dead_time_;
-  std::array<Eigen::ArrayXd, 3> sensitivity_square_;
+  std::vector<GridPack> packs_;
+  std::size_t noise_packs_ = 0;  // those up to the last with noise in it
+  std::vector<plant::ComplexPack> rate_return_, both_return_;  // 1 + L, position loop open, closed
+  std::array<std::vector<plant::RealPack>, 3> sensitivity_square_;
 };
 
 }  // namespace boresight::control

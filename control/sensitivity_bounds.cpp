@@ -11,10 +11,6 @@ plant::StateSpace adder(const std::string& first, const std::string& second,
   return plant::static_gain(Eigen::MatrixXd::Ones(1, 2), {first, second}, {sum});
 }
 
-void rename(std::vector<std::string>& names, const std::string& from, const std::string& to) {
-  std::replace(names.begin(), names.end(), from, to);
-}
-
 // The law and the sums around the plant's core, which takes the place of the plant.
 void close_core(plant::ModalSystem& system, const plant::StateSpace& controller,
                 const std::vector<std::string>& inputs, const std::vector<std::string>& outputs,
@@ -71,10 +67,7 @@ std::array<PeakGain, 3> sensitivity_bounds(const plant::AntennaPlant& antenna,
   const plant::ModalSystem both = modal_closed_loop(antenna, law, delay);
   plant::ModalSystem rate = plant::to_modal_system(antenna);
   remove_free_angle(rate.core);
-  plant::StateSpace controller = to_state_space(law);
-  rename(controller.inputs, "encoder", "no_encoder");
-  close_core(rate, controller,
-             {"wind_torque", "valve_disturbance", "rate_disturbance", "no_encoder"},
+  close_core(rate, rate_loop_law(law), {"wind_torque", "valve_disturbance"},
              {"tachometer", "valve_command"}, delay);
   return {peak_gain(rate, "valve_disturbance", "valve_command", options),
           peak_gain(both, "valve_disturbance", "valve_command", options),

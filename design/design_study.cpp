@@ -8,7 +8,7 @@
 #include <boresight/design/design_study.hpp>
 #include <boresight/design/parallel_loop.hpp>
 #include <boresight/plant/error.hpp>
-#include <boresight/plant/plant_response.hpp>
+#include <boresight/plant/point_response.hpp>
 
 namespace boresight::design {
 
@@ -20,6 +20,7 @@ TrackingProblem without_band_limits(TrackingProblem problem) {
   problem.rms_band = analysis_band(problem);
   problem.noise.encoder_rms *= std::sqrt(problem.rms_band.highest / problem.noise.bandwidth);
   problem.noise.tachometer_rms *= std::sqrt(problem.rms_band.highest / problem.noise.bandwidth);
+  problem.noise.torque_rms *= std::sqrt(problem.rms_band.highest / problem.noise.bandwidth);
   problem.noise.bandwidth = problem.rms_band.highest;
   return problem;
 }
@@ -92,12 +93,11 @@ Design finish(const DesignTask& task, TuningResult tuning) {
   TrackingProblem coarse = problem;
   coarse.points_per_decade = 100;
   const Eigen::ArrayXd grid = analysis_grid(coarse);
+  const plant::PointResponse response(problem.plant);
   for (std::size_t b = 0; b < control::loop_breaks.size(); ++b) {
     design.margins[b] = control::margins(
         [&](double w) {
-          const auto response =
-              plant::plant_response(problem.plant, Eigen::ArrayXd::Constant(1, w));
-          return control::loop_gain(response, 0, design.tuning.law, problem.delay,
+          return control::loop_gain(response(w), w, design.tuning.law, problem.delay,
                                     control::loop_breaks[b]);
         },
         grid);

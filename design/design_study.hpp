@@ -36,7 +36,7 @@ Verification verify(const TrackingProblem& problem, const control::ControlLaw& l
 struct DesignTask {
   std::string name;
   TrackingProblem problem;
-  control::LoopStructure structure = control::LoopStructure::pi_with_lag;
+  control::LoopStructure structure;
   HardGoals goals;
   TuningOptions options;
 };

@@ -21,7 +21,7 @@ Eigen::ArrayXd motor_wind_spectrum(const WindCondition& wind, double gear_ratio,
 control::FrequencyBand analysis_band(const TrackingProblem& problem) {
   const double valve = problem.plant.drive.valve_corner / two_pi;
   return {std::min(problem.rms_band.lowest, 1e-4),
-          std::max({problem.rms_band.highest, 25.0, 2.0 * valve})};
+          std::max({problem.rms_band.highest, 25.0, 8.0 * valve})};
 }
 
 Eigen::ArrayXd analysis_grid(const TrackingProblem& problem) {

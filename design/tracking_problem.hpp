@@ -30,7 +30,8 @@ Eigen::ArrayXd motor_wind_spectrum(const WindCondition& wind, double gear_ratio,
                                    const Eigen::ArrayXd& frequency);
 
 /// Frequencies (Hz) over which stability, peaks and margins are judged, whatever band the rms is
-/// taken over: at least 1e-4 to 25 Hz, and up to twice the valve's corner.
+/// taken over: at least 1e-4 to 25 Hz, and up to eight times the valve's corner: pressure feedback
+/// can carry a loop beyond it.
 control::FrequencyBand analysis_band(const TrackingProblem& problem);
 
 /// Grid (rad/s) over the analysis band, with the edges of rms band and noise among its points.

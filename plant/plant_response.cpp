@@ -7,6 +7,7 @@
 #include <boresight/plant/eigenvalues.hpp>
 #include <boresight/plant/error.hpp>
 #include <boresight/plant/plant_response.hpp>
+#include <boresight/plant/point_response.hpp>
 
 namespace boresight::plant {
 
@@ -43,6 +44,35 @@ StructureResponse structure_response(const Structure& structure, const Eigen::Ar
   return response;
 }
 
+ResponsePoint drive_on_structure(const Drive& drive, const StructurePoint& structure,
+                                 double frequency) {
+  const double wv = drive.valve_corner;
+  const std::complex<double> s{0.0, frequency};
+  const std::complex<double> valve =
+      wv * wv / (s * s + 2.0 * drive.valve_damping * wv * s + wv * wv);
+  const std::complex<double> oil = drive.oil_stiffness / (s + drive.leakage_rate);
+  const std::complex<double> own = drive.motor_inertia * s * s + drive.viscous_friction * s;
+  const std::complex<double> a = own + oil * s;
+  const std::complex<double> b = structure.inertial_stiffness;
+  const std::complex<double> g = structure.gear_stiffness;
+  // det of [[g+a, -g], [-g, g+b]] without the cancelling g^2
+  const std::complex<double> inverse = 1.0 / (g * (a + b) + a * b);
+  const std::complex<double> push = oil * valve * inverse;
+  const std::complex<double> wind = structure.wind_at_bull_gear * inverse;
+  const std::complex<double> lag = drive.tachometer_corner / (s + drive.tachometer_corner);
+
+  ResponsePoint point;
+  point.tachometer_command = s * lag * (g + b) * push;
+  point.torque_command = (own * (g + b) + g * b) * push;
+  point.encoder_command = g * push;
+  point.beam_command = structure.beam_per_bull_gear * g * push;
+  point.tachometer_wind = s * lag * g * wind;
+  point.torque_wind = -g * oil * s * wind;
+  point.encoder_wind = (g + a) * wind;
+  point.beam_wind = structure.beam_per_bull_gear * point.encoder_wind + structure.beam_per_wind;
+  return point;
+}
+
 PlantResponse plant_response(const StructureResponse& structure, const Drive& drive) {
   const Eigen::Index count = structure.frequency.size();
   PlantResponse response;
@@ -52,31 +82,21 @@ PlantResponse plant_response(const StructureResponse& structure, const Drive& dr
                       &response.torque_wind, &response.encoder_wind, &response.beam_wind}) {
     array->resize(count);
   }
-  const double wv = drive.valve_corner;
   for (Eigen::Index i = 0; i < count; ++i) {
-    const std::complex<double> s{0.0, structure.frequency[i]};
-    const std::complex<double> valve =
-        wv * wv / (s * s + 2.0 * drive.valve_damping * wv * s + wv * wv);
-    const std::complex<double> oil = drive.oil_stiffness / (s + drive.leakage_rate);
-    const std::complex<double> own = drive.motor_inertia * s * s + drive.viscous_friction * s;
-    const std::complex<double> a = own + oil * s;
-    const std::complex<double> b = structure.inertial_stiffness[i];
-    const std::complex<double> g = structure.gear_stiffness[i];
-    // det of [[g+a, -g], [-g, g+b]] without the cancelling g^2
-    const std::complex<double> inverse = 1.0 / (g * (a + b) + a * b);
-    const std::complex<double> push = oil * valve * inverse;
-    const std::complex<double> wind = structure.wind_at_bull_gear[i] * inverse;
-    const std::complex<double> lag = drive.tachometer_corner / (s + drive.tachometer_corner);
-
-    response.tachometer_command[i] = s * lag * (g + b) * push;
-    response.torque_command[i] = (own * (g + b) + g * b) * push;
-    response.encoder_command[i] = g * push;
-    response.beam_command[i] = structure.beam_per_bull_gear[i] * g * push;
-    response.tachometer_wind[i] = s * lag * g * wind;
-    response.torque_wind[i] = -g * oil * s * wind;
-    response.encoder_wind[i] = (g + a) * wind;
-    response.beam_wind[i] =
-        structure.beam_per_bull_gear[i] * response.encoder_wind[i] + structure.beam_per_wind[i];
+    const ResponsePoint point = drive_on_structure(
+        drive,
+        {structure.inertial_stiffness[i], structure.gear_stiffness[i],
+         structure.wind_at_bull_gear[i], structure.beam_per_bull_gear[i],
+         structure.beam_per_wind[i]},
+        structure.frequency[i]);
+    response.tachometer_command[i] = point.tachometer_command;
+    response.torque_command[i] = point.torque_command;
+    response.encoder_command[i] = point.encoder_command;
+    response.beam_command[i] = point.beam_command;
+    response.tachometer_wind[i] = point.tachometer_wind;
+    response.torque_wind[i] = point.torque_wind;
+    response.encoder_wind[i] = point.encoder_wind;
+    response.beam_wind[i] = point.beam_wind;
   }
   return response;
 }

@@ -34,7 +34,7 @@ double ratio_of(const Case& antenna, const design::TrackingProblem& problem, dou
 std::vector<design::DesignTask> tuning_tasks(const Case& antenna, const StudyOptions& options) {
   std::vector<design::DesignTask> tasks;
   for (int i = 0; i < seed_count; ++i) {
-    tasks.push_back(make_task(antenna, options, "as built", {}, LoopStructure::pi_with_lag));
+    tasks.push_back(make_task(antenna, options, "as built", {}, LoopStructure::pi_with_lag()));
     tasks.back().options.seed = options.seed + static_cast<std::uint64_t>(i);
   }
   return tasks;
@@ -149,7 +149,7 @@ MatchingPlan plan_matching(const Case& antenna, const StudyOptions& options) {
   const double tracking = tracking_friction(antenna);
   for (const auto& [friction, name] :
        {std::pair{linear, "linear plant"}, std::pair{tracking, "slope at tracking rate"}}) {
-    for (const auto structure : {LoopStructure::pi_with_lag, LoopStructure::pi}) {
+    for (const auto& structure : {LoopStructure::pi_with_lag(), LoopStructure::pi()}) {
       plan.section.series.push_back({name, friction, structure, {}});
       for (const auto& row : plan.section.rows) {
         plan.tasks.push_back(make_task(antenna, options, row.label,
@@ -190,7 +190,7 @@ std::vector<Choice> plan_choices(const Case& antenna, const StudyOptions& option
   const double inertia = fixed + antenna_inertia(antenna);
   const auto add = [&](std::string name, std::string says, const PlantVariant& variant) {
     Choice choice;
-    choice.task = make_task(antenna, options, name, variant, LoopStructure::pi_with_lag);
+    choice.task = make_task(antenna, options, name, variant, LoopStructure::pi_with_lag());
     const auto& plant = choice.task->problem.plant;
     choice.result = {
         std::move(name),

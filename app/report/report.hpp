@@ -45,7 +45,7 @@ struct BudgetResult {
 };
 
 struct TuningSection {
-  control::LoopStructure structure = control::LoopStructure::pi_with_lag;
+  control::LoopStructure structure;
   design::HardGoals goals;
   design::Design design;
   double design_speed = 0.0;
@@ -101,7 +101,7 @@ struct MatchingRow {
 struct MatchingSeries {
   std::string friction;  // "linear plant", "slope at tracking speed"
   double viscous_friction = 0.0;
-  control::LoopStructure structure = control::LoopStructure::pi_with_lag;
+  control::LoopStructure structure;
   std::vector<design::Design> designs;  // one a row
 };
 

@@ -80,7 +80,7 @@ PositionRun run_position_loop(const Case& antenna, const Course& course, std::ui
                               const RunProgress& progress) {
   const auto problem = make_problem(antenna);
   const auto tuned =
-      design::tune(problem, control::LoopStructure::pi_with_lag, make_goals(antenna), {});
+      design::tune(problem, control::LoopStructure::pi_with_lag(), make_goals(antenna), {});
   if (tuned.status != design::TuningStatus::optimal) {
     throw InfeasibleRequirement(fmt::format(
         "{}: no control law meets the hard goals, so there is none to simulate", antenna.path));

@@ -245,7 +245,7 @@ TEST(CaseWind, TracksInAMeasuredWind) {
   // In 8 m/s: gusts go with V, torque with V gusts, and all of it to lower frequencies.
   const auto problem = make_problem(antenna);
   const auto tuned =
-      design::tune(problem, control::LoopStructure::pi_with_lag, make_goals(antenna), {});
+      design::tune(problem, control::LoopStructure::pi_with_lag(), make_goals(antenna), {});
   const double at_design = std::sqrt(tuned.evaluation.beam_variance()) / gear;
   EXPECT_LT(*run.predicted_rms, std::pow(0.8, 1.5) * at_design);
   EXPECT_GT(*run.predicted_rms, std::pow(0.8, 4.0) * at_design);

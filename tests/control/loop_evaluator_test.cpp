@@ -18,21 +18,22 @@ using testing::HasSubstr;
 using testing::ThrowsMessage;
 using Complex = std::complex<double>;
 
-constexpr LoopStructure structures[] = {LoopStructure::pi, LoopStructure::pi_with_lag};
+const std::vector<LoopStructure> structures = reference::loop_structures();
 
 TEST(LoopGain, OfTheBreaksIsOneLoopCutAtThreePlaces) {
   reference::RandomNumbers random(121);
   const auto plant = reference::antenna();
-  for (const auto structure : structures) {
+  for (const auto& structure : structures) {
     const ControlLaw law = reference::random_law(random, structure);
     const double w = random.log_uniform(0.01, 100.0);
-    const auto response = plant::plant_response(plant, Eigen::ArrayXd::Constant(1, w));
+    const plant::PointResponse response(plant);
     const auto at = [&](LoopBreak loop_break) {
-      return loop_gain(response, 0, law, reference::delay, loop_break);
+      return loop_gain(response(w), w, law, reference::delay, loop_break);
     };
     const auto compensator = compensator_response(law, w);
     const Complex dead_time = std::exp(Complex{0.0, -w * reference::delay});
-    const Complex rate = compensator.rate * dead_time * response.tachometer_command[0];
+    const Complex rate = dead_time * (compensator.rate * response(w).tachometer_command +
+                                      compensator.pressure * response(w).torque_command);
     EXPECT_LT(relative_error(at(LoopBreak::rate_loop_alone), rate), 1e-13);
     // 1 + L_valve = (1 + L_rate)(1 + L_position).
     EXPECT_LT(relative_error(1.0 + at(LoopBreak::valve_command),
@@ -44,22 +45,23 @@ TEST(LoopGain, OfTheBreaksIsOneLoopCutAtThreePlaces) {
 TEST(LoopGain, TakesDeadTimeExactly) {
   // Each further second of dead time turns the loop by w and changes no gain.
   const auto plant = reference::antenna();
-  const ControlLaw law{LoopStructure::pi, {0.5, 1.0, 0.4, 0.06}};
+  const ControlLaw law{LoopStructure::pi(), {0.5, 1.0, 0.4, 0.06}};
   for (const double w : {0.1, 5.0, 150.0}) {
-    const auto response = plant::plant_response(plant, Eigen::ArrayXd::Constant(1, w));
+    const plant::PointResponse response(plant);
     const auto loop_break = LoopBreak::rate_loop_alone;
-    const Complex without = loop_gain(response, 0, law, 0.0, loop_break);
-    const Complex with = loop_gain(response, 0, law, 0.7, loop_break);
+    const Complex without = loop_gain(response(w), w, law, 0.0, loop_break);
+    const Complex with = loop_gain(response(w), w, law, 0.7, loop_break);
     EXPECT_LT(relative_error(with / without, std::exp(Complex{0.0, -0.7 * w})), 1e-12);
   }
 }
 
 TEST(WindTransmission, IsThatOfTheClosedLoopsStateSpace) {
   reference::RandomNumbers random(122);
-  auto evaluator = reference::loop_evaluator(reference::antenna(), 20);
-  for (const auto structure : structures) {
+  const auto plant = reference::antenna();
+  auto evaluator = reference::loop_evaluator(plant, 20);
+  for (const auto& structure : structures) {
     const ControlLaw law = reference::sound_law(random, evaluator, structure, 2.5);
-    const auto loop = closed_loop(evaluator.antenna(), law, reference::delay);
+    const auto loop = closed_loop(plant, law, reference::delay);
     const Eigen::ArrayXd found = evaluator.wind_transmission(law);
     const Eigen::ArrayXd& w = evaluator.response().frequency;
     for (Eigen::Index i = 0; i < w.size(); i += 7) {
@@ -76,7 +78,7 @@ TEST(LoopEvaluation, HasTheVariancesOfABruteForceIntegral) {
   const auto plant = reference::antenna();
   auto coarse = reference::loop_evaluator(plant, 300);
   auto fine = reference::loop_evaluator(plant, 6000);
-  for (const auto structure : structures) {
+  for (const auto& structure : structures) {
     for (int trial = 0; trial < 10; ++trial) {
       const ControlLaw law = reference::sound_law(random, coarse, structure, 3.0);
       const auto found = coarse.evaluate(law, false), expected = fine.evaluate(law, false);
@@ -92,7 +94,7 @@ TEST(LoopEvaluation, HasTheVariancesOfLyapunovEquations) {
   reference::RandomNumbers random(124);
   const auto plant = reference::antenna();
   auto evaluator = reference::loop_evaluator(plant);
-  for (const auto structure : structures) {
+  for (const auto& structure : structures) {
     for (int trial = 0; trial < 5; ++trial) {
       const ControlLaw law = reference::sound_law(random, evaluator, structure, 2.5);
       const auto found = evaluator.evaluate(law, false);
@@ -109,7 +111,7 @@ TEST(LoopEvaluation, IntegratesOverItsBandOnlyAndBandsAdd) {
   const auto plant = reference::antenna();
   const Eigen::ArrayXd w = plant::frequency_grid(plant, 1e-3, 25.0, 60);
   const Eigen::ArrayXd wind = 1.0 / w;
-  const ControlLaw law{LoopStructure::pi, {0.25, 1.0, 0.4, 0.06}};
+  const ControlLaw law{LoopStructure::pi(), {0.25, 1.0, 0.4, 0.06}};
   const double middle = w[w.size() / 2] / reference::two_pi;
   const auto over = [&](FrequencyBand band) {
     LoopEvaluator evaluator(plant, w, reference::delay, reference::sensor_noise(), wind, band);
@@ -131,11 +133,12 @@ TEST(LoopEvaluation, ScalesWithNoiseAndWind) {
   const auto plant = reference::antenna();
   const Eigen::ArrayXd w = plant::frequency_grid(plant, 1e-3, 25.0, 60);
   const Eigen::ArrayXd wind = 1.0 / w;
-  const ControlLaw law{LoopStructure::pi, {0.25, 1.0, 0.4, 0.06}};
+  const ControlLaw law{LoopStructure::pi(), {0.25, 1.0, 0.4, 0.06}};
   const auto noise = reference::sensor_noise();
   LoopEvaluator one(plant, w, reference::delay, noise, wind);
   LoopEvaluator other(plant, w, reference::delay,
-                      {3.0 * noise.encoder_rms, 3.0 * noise.tachometer_rms, noise.bandwidth},
+                      {3.0 * noise.encoder_rms, 3.0 * noise.tachometer_rms, noise.bandwidth,
+                       3.0 * noise.torque_rms},
                       4.0 * wind);
   const auto a = one.evaluate(law, false), b = other.evaluate(law, false);
   EXPECT_LT(relative_error(b.wind_variance, 4.0 * a.wind_variance), 1e-13);
@@ -158,7 +161,7 @@ TEST(LoopEvaluation, ScalesWithNoiseAndWind) {
 TEST(LoopEvaluation, HasTheGradientsOfCentralDifferences) {
   reference::RandomNumbers random(125);
   auto evaluator = reference::loop_evaluator(reference::antenna());
-  for (const auto structure : structures) {
+  for (const auto& structure : structures) {
     for (int trial = 0; trial < 5; ++trial) {
       const ControlLaw law = reference::sound_law(random, evaluator, structure, 3.0);
       const auto here = evaluator.evaluate(law, true);
@@ -189,11 +192,11 @@ TEST(LoopEvaluation, HasTheGradientsOfCentralDifferences) {
         for (std::size_t b = 0; b < 3; ++b) {
           for (const auto& peak : here.peaks[b]) {
             // At the peak's frequency: along it the magnitude is stationary.
-            const auto response = plant::plant_response(
-                evaluator.antenna(), Eigen::ArrayXd::Constant(1, peak.frequency));
+            const double w = peak.frequency;
+            const plant::PointResponse response(reference::antenna());
             const double slope = difference([&](const ControlLaw& changed) {
               return -std::log(std::abs(
-                  1.0 + loop_gain(response, 0, changed, reference::delay, loop_breaks[b])));
+                  1.0 + loop_gain(response(w), w, changed, reference::delay, loop_breaks[b])));
             });
             EXPECT_NEAR(peak.log_gradient[k], slope, 1e-6)
                 << to_string(loop_breaks[b]) << ", " << peak.frequency << " rad/s, gain " << k;
@@ -207,7 +210,7 @@ TEST(LoopEvaluation, HasTheGradientsOfCentralDifferences) {
 TEST(LoopEvaluation, WithoutGradientsHasTheSameValues) {
   reference::RandomNumbers random(126);
   auto evaluator = reference::loop_evaluator(reference::antenna(), 60);
-  for (const auto structure : structures) {
+  for (const auto& structure : structures) {
     const ControlLaw law = reference::random_law(random, structure);
     const auto with = evaluator.evaluate(law, true), without = evaluator.evaluate(law, false);
     EXPECT_EQ(with.wind_variance, without.wind_variance);
@@ -222,7 +225,7 @@ TEST(LoopEvaluation, ListsThePeaksHighestFirst) {
   auto evaluator = reference::loop_evaluator(reference::antenna());
   for (int trial = 0; trial < 20; ++trial) {
     const auto evaluation =
-        evaluator.evaluate(reference::random_law(random, LoopStructure::pi_with_lag), false);
+        evaluator.evaluate(reference::random_law(random, LoopStructure::pi_with_lag()), false);
     for (const auto loop_break : loop_breaks) {
       const auto& peaks = evaluation.peaks[static_cast<std::size_t>(loop_break)];
       EXPECT_LE(peaks.size(), 3u);
@@ -241,15 +244,16 @@ TEST(LoopEvaluator, RefusesGridsThatDoNotFit) {
   const auto make = [&](const Eigen::ArrayXd& frequency, const Eigen::ArrayXd& spectrum) {
     return LoopEvaluator(plant, frequency, 0.03, reference::sensor_noise(), spectrum);
   };
-  EXPECT_THAT([&] { make(w, w.head(4)); },
-              ThrowsMessage<InvalidInput>(HasSubstr("as many wind values as frequencies")));
+  EXPECT_THAT(
+      [&] { make(w, w.head(4)); },
+      ThrowsMessage<InvalidInput>(HasSubstr("as many wind values and weights as frequencies")));
   EXPECT_THROW(make(w.head(2), w.head(2)), InvalidInput);
   EXPECT_THAT([&] { make(w.reverse(), w); },
               ThrowsMessage<InvalidInput>(HasSubstr("rising frequencies")));
   EXPECT_THROW(make(w - 1.0, w), InvalidInput);
   auto evaluator = make(w, w);
-  EXPECT_THROW(evaluator.evaluate({LoopStructure::pi, {1, 2, 3}}, false), InvalidInput);
-  EXPECT_THROW(evaluator.wind_transmission({LoopStructure::pi, {1, 2, -3, 4}}), InvalidInput);
+  EXPECT_THROW(evaluator.evaluate({LoopStructure::pi(), {1, 2, 3}}, false), InvalidInput);
+  EXPECT_THROW(evaluator.wind_transmission({LoopStructure::pi(), {1, 2, -3, 4}}), InvalidInput);
   EXPECT_THROW(to_string(static_cast<LoopBreak>(9)), InvalidInput);
 }
 

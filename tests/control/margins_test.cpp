@@ -378,8 +378,7 @@ TEST(Margins, OfAStaticGainAreItsOwn) {
 // The reference antenna's loop at a break, as a function of frequency.
 auto antenna_loop(const plant::AntennaPlant& plant, const ControlLaw& law, LoopBreak loop_break) {
   return [=](double w) {
-    return loop_gain(plant::plant_response(plant, Eigen::ArrayXd::Constant(1, w)), 0, law,
-                     reference::delay, loop_break);
+    return loop_gain(plant::PointResponse(plant)(w), w, law, reference::delay, loop_break);
   };
 }
 
@@ -388,7 +387,7 @@ TEST(Margins, OfTheAntennaPutAPoleOnTheAxisWhenUsedUp) {
   const Eigen::ArrayXd w = plant::frequency_grid(plant, 1e-4, 25.0, 200);
   auto evaluator = reference::loop_evaluator(plant, 200);
   reference::RandomNumbers random(111);
-  for (const auto structure : {LoopStructure::pi, LoopStructure::pi_with_lag}) {
+  for (const auto& structure : {LoopStructure::pi(), LoopStructure::pi_with_lag()}) {
     for (int trial = 0; trial < 3; ++trial) {
       const ControlLaw law = reference::sound_law(random, evaluator, structure, 2.5);
       ASSERT_LT(plant::spectral_abscissa(closed_loop(plant, law, reference::delay).a), 0.0);

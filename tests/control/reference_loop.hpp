@@ -13,7 +13,19 @@ namespace boresight::reference {
 inline constexpr double delay = 0.03;
 
 inline control::SensorNoise sensor_noise() {
-  return {0.1 * mdeg * gear_ratio(), 0.02, 25.0};
+  return {0.1 * mdeg * gear_ratio(), 0.02, 25.0, 0.5};
+}
+
+/// Every kind of block, in every path that takes it.
+inline std::vector<control::LoopStructure> loop_structures() {
+  using control::LoopStructure;
+  return {LoopStructure::pi(),
+          LoopStructure::pi_with_lag(),
+          LoopStructure::pressure_feedback(),
+          LoopStructure::lead_lag(),
+          LoopStructure::full(),
+          LoopStructure::pi_with_lag().with_compliance_compensation(),
+          LoopStructure::pressure_feedback().with_notch().with_compliance_compensation()};
 }
 
 inline double motor_wind_spectrum(double frequency) {
@@ -24,7 +36,11 @@ inline double motor_wind_spectrum(double frequency) {
 
 inline control::LoopEvaluator loop_evaluator(const plant::AntennaPlant& plant,
                                              int points_per_decade = 300) {
-  const Eigen::ArrayXd w = plant::frequency_grid(plant, 1e-4, 25.0, points_per_decade);
+  // The edge of the noise's band is a point of the grid.
+  const Eigen::ArrayXd low = plant::frequency_grid(plant, 1e-4, 25.0, points_per_decade);
+  const Eigen::ArrayXd high = plant::frequency_grid(plant, 25.0, 100.0, points_per_decade);
+  Eigen::ArrayXd w(low.size() + high.size() - 1);
+  w << low, high.tail(high.size() - 1);
   return {plant, w, delay, sensor_noise(),
           (w / two_pi).unaryExpr([](double f) { return motor_wind_spectrum(f); })};
 }

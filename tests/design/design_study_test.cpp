@@ -34,7 +34,7 @@ TEST(Verify, PassesACautiousLawAndFailsAWildOne) {
   EXPECT_LT(relative_error(sound.lyapunov.total, sound.spectral_rms), 5e-3);
   EXPECT_NEAR(sound.rms_disagreement, relative_error(sound.lyapunov.total, sound.spectral_rms),
               1e-15);
-  const auto wild = verify(problem, {LoopStructure::pi, {20.0, 1.0, 0.05, 1e-3}}, {});
+  const auto wild = verify(problem, {LoopStructure::pi(), {20.0, 1.0, 0.05, 1e-3}}, {});
   EXPECT_FALSE(wild.stability.stable());
   EXPECT_FALSE(wild.passed);
   EXPECT_EQ(wild.lyapunov.total, 0.0);
@@ -54,7 +54,7 @@ TEST(Verify, FailsAStableLawWhosePeakIsTooHigh) {
 }
 
 TEST(Solve, GivesOneDesignInSkyUnitsWithItsMargins) {
-  const DesignTask one = task("24 disks", LoopStructure::pi_with_lag, 24.0);
+  const DesignTask one = task("24 disks", LoopStructure::pi_with_lag(), 24.0);
   const Design design = solve(one);
   EXPECT_EQ(design.name, "24 disks");
   const auto& evaluation = design.tuning.evaluation;
@@ -80,8 +80,8 @@ TEST(Solve, GivesOneDesignInSkyUnitsWithItsMargins) {
 
 TEST(SolveAll, GivesTheSameBytesOnOneThreadAndOnTwo) {
   const std::vector<DesignTask> tasks{
-      task("a", LoopStructure::pi, 24.0), task("b", LoopStructure::pi_with_lag, 24.0),
-      task("c", LoopStructure::pi, 8.0), task("d", LoopStructure::pi, 0.0)};
+      task("a", LoopStructure::pi(), 24.0), task("b", LoopStructure::pi_with_lag(), 24.0),
+      task("c", LoopStructure::pi(), 8.0), task("d", LoopStructure::pi(), 0.0)};
   std::vector<std::size_t> calls;
   const auto one = solve_all(tasks, 1, [&](std::size_t done, std::size_t all) {
     EXPECT_EQ(all, 4u);
@@ -102,8 +102,8 @@ TEST(SolveAll, GivesTheSameBytesOnOneThreadAndOnTwo) {
 }
 
 TEST(SolveAll, HandsOnTheErrorOfATask) {
-  std::vector<DesignTask> tasks{task("a", LoopStructure::pi, 24.0),
-                                task("b", LoopStructure::pi, 24.0)};
+  std::vector<DesignTask> tasks{task("a", LoopStructure::pi(), 24.0),
+                                task("b", LoopStructure::pi(), 24.0)};
   tasks[1].options.starts = 0;
   EXPECT_THROW(solve_all(tasks, 2, {}), InvalidInput);
   EXPECT_TRUE(solve_all({}, 2, {}).empty());
@@ -116,7 +116,7 @@ TEST(Verify, SaysWhyItFails) {
   const auto strict = verify(problem, reference::cautious_law(), narrow);
   EXPECT_FALSE(strict.passed);
   EXPECT_THAT(strict.failure, testing::HasSubstr("peak of S at"));
-  const auto wild = verify(problem, {LoopStructure::pi, {20.0, 1.0, 0.05, 1e-3}}, {});
+  const auto wild = verify(problem, {LoopStructure::pi(), {20.0, 1.0, 0.05, 1e-3}}, {});
   EXPECT_THAT(wild.failure, testing::HasSubstr("not stable"));
   HardGoals quiet;
   quiet.valve_effort = 1e-6;
@@ -139,7 +139,7 @@ TEST(Verify, DoesNotDependOnTheBandOfTheRms) {
 TEST(ImproveAlong, BringsANeighboursOptimumWhereRandomStartsMissedIt) {
   std::vector<DesignTask> tasks;
   for (const double disks : {24.0, 21.0, 18.0}) {
-    tasks.push_back(task("", LoopStructure::pi_with_lag, disks));
+    tasks.push_back(task("", LoopStructure::pi_with_lag(), disks));
   }
   auto designs = solve_all(tasks, 1, {});
   // A cautious law in place of the middle's optimum.

@@ -67,7 +67,7 @@ TEST(PlantEnsemble, FindsTheMemberThatALawFailsOnAndCountsTheRest) {
 
 TEST(PlantEnsemble, SaysOfAnUnstableMemberNothingButThatItIs) {
   const TrackingProblem problem = coarse_problem();
-  const control::ControlLaw wild{control::LoopStructure::pi, {20.0, 1.0, 0.05, 1e-3}};
+  const control::ControlLaw wild{control::LoopStructure::pi(), {20.0, 1.0, 0.05, 1e-3}};
   const auto result = judge(problem, {{"nominal", problem.plant}}, wild, {}, 1);
   EXPECT_FALSE(result.members[0].stable);
   EXPECT_TRUE(std::isnan(result.members[0].beam_rms));
@@ -81,7 +81,7 @@ TEST(PlantEnsemble, RefusesAnEmptyEnsembleAndAWrongLaw) {
   const TrackingProblem problem = coarse_problem();
   EXPECT_THROW(judge(problem, {}, reference::cautious_law(), {}, 1), InvalidInput);
   EXPECT_THROW(
-      judge(problem, {{"nominal", problem.plant}}, {control::LoopStructure::pi, {1.0}}, {}, 1),
+      judge(problem, {{"nominal", problem.plant}}, {control::LoopStructure::pi(), {1.0}}, {}, 1),
       InvalidInput);
 }
 

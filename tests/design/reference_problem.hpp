@@ -18,7 +18,7 @@ inline design::TrackingProblem tracking_problem(double disks = 24.0) {
 
 /// A cautious law, stable on the reference antenna.
 inline control::ControlLaw cautious_law() {
-  return {control::LoopStructure::pi_with_lag, {0.2, 0.8, 6.0, 0.2, 0.02}};
+  return {control::LoopStructure::pi_with_lag(), {0.2, 0.8, 6.0, 0.2, 0.02}};
 }
 
 }  // namespace boresight::reference

@@ -41,7 +41,7 @@ TuningOptions coarse(std::uint64_t seed = 1) {
 TEST(Tune, MeetsEveryGoalOnTheReferenceAntenna) {
   const TrackingProblem problem = reference::tracking_problem();
   const HardGoals goals;
-  for (const auto structure : {LoopStructure::pi, LoopStructure::pi_with_lag}) {
+  for (const auto& structure : {LoopStructure::pi(), LoopStructure::pi_with_lag()}) {
     const TuningResult result = tune(problem, structure, goals, quick());
     EXPECT_EQ(result.status, TuningStatus::optimal);
     EXPECT_LE(result.worst_goal_ratio, 1.0 + 1e-9);
@@ -66,7 +66,7 @@ TEST(Tune, PassesItsVerificationInEveryWind) {
       TrackingProblem problem = reference::tracking_problem();
       problem.wind.model = model;
       problem.wind.mean_speed = speed;
-      const auto result = tune(problem, LoopStructure::pi_with_lag, {}, quick());
+      const auto result = tune(problem, LoopStructure::pi_with_lag(), {}, quick());
       const auto verification = verify(problem, result.law, {});
       EXPECT_TRUE(verification.passed)
           << to_string(model) << " " << speed << " m/s: " << verification.rms_disagreement;
@@ -78,7 +78,7 @@ TEST(Tune, FindsTheSameRmsFromMostSeeds) {
   const TrackingProblem problem = reference::tracking_problem();
   std::vector<double> rms;
   for (std::uint64_t seed = 1; seed <= 8; ++seed) {
-    const auto result = tune(problem, LoopStructure::pi_with_lag, {}, quick(seed));
+    const auto result = tune(problem, LoopStructure::pi_with_lag(), {}, quick(seed));
     if (result.status == TuningStatus::optimal) {
       rms.push_back(std::sqrt(result.evaluation.beam_variance()));
     }
@@ -91,15 +91,15 @@ TEST(Tune, FindsTheSameRmsFromMostSeeds) {
 TEST(Tune, WithTheLagIsNoWorseThanWithout) {
   // PI is PI with lag at an infinite corner; the search's bound of 300 rad/s costs little.
   const TrackingProblem problem = reference::tracking_problem();
-  const auto without = tune(problem, LoopStructure::pi, {}, quick());
-  const auto with = tune(problem, LoopStructure::pi_with_lag, {}, quick());
+  const auto without = tune(problem, LoopStructure::pi(), {}, quick());
+  const auto with = tune(problem, LoopStructure::pi_with_lag(), {}, quick());
   EXPECT_LT(with.evaluation.beam_variance(), 1.01 * without.evaluation.beam_variance());
 }
 
 TEST(Tune, EndsAtALocalOptimum) {
   const TrackingProblem problem = reference::tracking_problem();
   const HardGoals goals;
-  const auto result = tune(problem, LoopStructure::pi_with_lag, goals, quick());
+  const auto result = tune(problem, LoopStructure::pi_with_lag(), goals, quick());
   auto evaluator = make_evaluator(problem);
   const double best = evaluator.evaluate(result.law, false).beam_variance();
   for (std::size_t k = 0; k < result.law.gains.size(); ++k) {
@@ -121,15 +121,15 @@ TEST(Tune, GainsNothingByLessWind) {
   // The same law serves a calmer wind better: the optimum there cannot be worse.
   TrackingProblem calm = coarse_problem();
   calm.wind.mean_speed = 7.0;
-  const auto windy = tune(coarse_problem(), LoopStructure::pi, {}, coarse());
-  const auto less = tune(calm, LoopStructure::pi, {}, coarse());
+  const auto windy = tune(coarse_problem(), LoopStructure::pi(), {}, coarse());
+  const auto less = tune(calm, LoopStructure::pi(), {}, coarse());
   EXPECT_LT(less.evaluation.beam_variance(), windy.evaluation.beam_variance());
 }
 
 TEST(Tune, SaysWhenGoalsAreOutOfReach) {
   for (const auto& goals :
        {HardGoals{{1.001, 1.001, 1.001}, 0.6}, HardGoals{{2.0, 2.0, 2.0}, 1e-6}}) {
-    const auto result = tune(coarse_problem(), LoopStructure::pi_with_lag, goals, coarse());
+    const auto result = tune(coarse_problem(), LoopStructure::pi_with_lag(), goals, coarse());
     EXPECT_EQ(result.status, TuningStatus::infeasible);
     EXPECT_GT(result.worst_goal_ratio, 1.0);
     EXPECT_TRUE(result.evaluation.stable());
@@ -141,7 +141,7 @@ TEST(Tune, NeverCallsALawOptimalThatBreaksAGoal) {
   for (std::uint64_t seed = 1; seed <= 3; ++seed) {
     for (const double peak : {1.2, 1.35, 1.5, 1.7}) {
       const HardGoals goals{{peak, peak, peak}, 0.6};
-      const auto result = tune(coarse_problem(), LoopStructure::pi, goals, coarse(seed));
+      const auto result = tune(coarse_problem(), LoopStructure::pi(), goals, coarse(seed));
       auto evaluator = make_evaluator(coarse_problem());
       const double ratio = worst_goal_ratio(evaluator.evaluate(result.law, false), goals);
       EXPECT_EQ(result.status == TuningStatus::optimal, ratio <= 1.0 + 1e-9) << peak;
@@ -151,8 +151,8 @@ TEST(Tune, NeverCallsALawOptimalThatBreaksAGoal) {
 }
 
 TEST(Tune, GivesTheSameBytesForTheSameSeed) {
-  const auto once = tune(coarse_problem(), LoopStructure::pi_with_lag, {}, coarse(3));
-  const auto again = tune(coarse_problem(), LoopStructure::pi_with_lag, {}, coarse(3));
+  const auto once = tune(coarse_problem(), LoopStructure::pi_with_lag(), {}, coarse(3));
+  const auto again = tune(coarse_problem(), LoopStructure::pi_with_lag(), {}, coarse(3));
   EXPECT_EQ(once.law.gains, again.law.gains);
   EXPECT_EQ(once.evaluation.wind_variance, again.evaluation.wind_variance);
   EXPECT_EQ(once.evaluations, again.evaluations);
@@ -161,7 +161,7 @@ TEST(Tune, GivesTheSameBytesForTheSameSeed) {
 
 TEST(Evaluation, OfExtremeGainsIsANumber) {
   auto evaluator = make_evaluator(coarse_problem());
-  for (const auto structure : {LoopStructure::pi, LoopStructure::pi_with_lag}) {
+  for (const auto& structure : {LoopStructure::pi(), LoopStructure::pi_with_lag()}) {
     const auto& descriptions = control::gain_descriptions(structure);
     // Every corner of the bounds.
     for (unsigned corner = 0; corner < (1u << descriptions.size()); ++corner) {
@@ -191,8 +191,9 @@ TEST(Evaluation, OfExtremeGainsIsANumber) {
 TEST(WorstGoalRatio, IsTheLargestQuantityOverItsLimit) {
   control::LoopEvaluation evaluation;
   evaluation.effort_variance = 0.09;
-  evaluation.peaks[0] = {{1.0, 1.5, {}}};
-  evaluation.peaks[2] = {{1.0, 1.8, {}}, {2.0, 1.2, {}}};
+  evaluation.peaks[0].push_back({1.0, 1.5, {}});
+  evaluation.peaks[2].push_back({1.0, 1.8, {}});
+  evaluation.peaks[2].push_back({2.0, 1.2, {}});
   EXPECT_DOUBLE_EQ(worst_goal_ratio(evaluation, {{2.0, 2.0, 2.0}, 0.6}), 0.9);
   EXPECT_DOUBLE_EQ(worst_goal_ratio(evaluation, {{1.2, 2.0, 2.0}, 0.6}), 1.25);
   EXPECT_DOUBLE_EQ(worst_goal_ratio(evaluation, {{2.0, 2.0, 2.0}, 0.1}), 3.0);
@@ -207,7 +208,7 @@ TEST(Tune, RefusesOptionsBelowOne) {
     TuningOptions options;
     options.*member = 0;
     EXPECT_THAT(
-        [&] { tune(coarse_problem(), LoopStructure::pi, {}, options); },
+        [&] { tune(coarse_problem(), LoopStructure::pi(), {}, options); },
         ThrowsMessage<InvalidInput>(HasSubstr("at least 1 starts, 1 evaluation and 1 point")));
   }
 }

@@ -1,0 +1,59 @@
+#include <boresight/plant/point_response.hpp>
+#include <boresight/plant/vector_clones.hpp>
+
+namespace boresight::plant {
+
+ResponsePoint point(const PlantResponse& response, Eigen::Index i) {
+  return {response.tachometer_command[i], response.torque_command[i],  response.encoder_command[i],
+          response.beam_command[i],       response.tachometer_wind[i], response.torque_wind[i],
+          response.encoder_wind[i],       response.beam_wind[i]};
+}
+
+PointResponse::PointResponse(const AntennaPlant& plant)
+    : drive_(plant.drive),
+      structure_(plant.structure),
+      modes_(pack_count(plant.structure.modes.size())) {
+  structure_.modes.clear();
+  for (std::size_t i = 0; i < modes_.size() * pack_size; ++i) {
+    // What fills the last pack up weighs nothing and follows nothing.
+    const bool there = i < plant.structure.modes.size();
+    const StructuralMode mode =
+        there ? plant.structure.modes[i] : StructuralMode{0.0, 1.0, 0.0, 0.0, 0.0};
+    ModePack& pack = modes_[i / pack_size];
+    pack.inertia.set(i % pack_size, mode.inertia);
+    pack.stiffness.set(i % pack_size, mode.stiffness);
+    pack.damping.set(i % pack_size, mode.damping);
+    pack.wind_fraction.set(i % pack_size, mode.wind_fraction);
+    pack.beam_weight.set(i % pack_size, mode.beam_weight);
+  }
+}
+
+BORESIGHT_VECTOR_CLONES
+ResponsePoint PointResponse::operator()(double frequency) const {
+  const double w = frequency;
+  ComplexPack inertial{}, wind{}, beam{}, bending{};
+  for (const ModePack& mode : modes_) {
+    const RealPack damping = mode.damping * w;
+    const RealPack inertia = mode.inertia * (w * w);
+    const RealPack real = mode.stiffness - inertia;
+    const RealPack scale = 1.0 / (real * real + damping * damping);
+    const ComplexPack inverse{real * scale, -damping * scale};
+    const ComplexPack follow = ComplexPack{mode.stiffness, damping} * inverse;
+    inertial = inertial - follow * inertia;
+    wind = wind + follow * mode.wind_fraction;
+    beam = beam + follow * mode.beam_weight;
+    bending = bending + inverse * (mode.wind_fraction * mode.beam_weight);
+  }
+  const auto total = [](const ComplexPack& x) {
+    return std::complex<double>(sum(x.re), sum(x.im));
+  };
+  return drive_on_structure(drive_,
+                            {total(inertial) - structure_.bull_gear_inertia * w * w,
+                             {structure_.gear_stiffness, structure_.gear_damping * w},
+                             total(wind) + structure_.bull_gear_wind_fraction,
+                             total(beam) + structure_.bull_gear_beam_weight,
+                             total(bending)},
+                            w);
+}
+
+}  // namespace boresight::plant

@@ -8,6 +8,7 @@
 #include "random_numbers.hpp"
 #include "synthetic_drive.hpp"
 #include <boresight/identification/grey_box.hpp>
+#include <boresight/identification/grey_box_hold_out.hpp>
 #include <boresight/identification/grey_box_mechanics.hpp>
 #include <boresight/identification/grey_box_search.hpp>
 #include <boresight/identification/grey_box_test_gain.hpp>
@@ -215,6 +216,22 @@ TEST(FitGreyBox, SaysWhereRecordsContradictTheDrawings) {
                                                "locked-rotor frequency 1")));
 }
 
+TEST(FitGreyBox, TakesKnowledgeWithoutUncertaintyAndADriveWithoutStructure) {
+  Campaign campaign = reference_campaign();
+  campaign.knowledge.locked_rotor_frequencies.clear();
+  campaign.instruments = {};
+  campaign.knowledge.volume_1.standard_uncertainty = 0.0;
+  campaign.knowledge.motor_inertia.standard_uncertainty = 0.0;
+  const auto result = fit_grey_box(campaign, {}, quick());
+  EXPECT_EQ(result.quantity("lowest locked-rotor frequency").posterior.value, 0.0);
+  EXPECT_FALSE(result.quantity("lowest locked-rotor frequency").identified);
+  EXPECT_EQ(result.parameters[P::motor_inertia].value, 1.0);
+  EXPECT_EQ(result.parameters[P::volume_1].departure, 0.0);
+  const auto& bulk_modulus = result.quantity("bulk modulus");
+  EXPECT_TRUE(bulk_modulus.identified);
+  EXPECT_TRUE(covers(bulk_modulus.posterior, 1.3e9));
+}
+
 TEST(FitGreyBox, IntervalsHoldOverAFamilyOfDrives) {
   // Truths drawn from the priors, transducers off by their standard uncertainties: of four drives
   // and five quantities, 20 intervals of 95 %, fewer than 16 have a chance of 3e-3.
@@ -337,6 +354,15 @@ TEST(ValidateDrive, DrivenByTheValveAloneDoesWhatWasRecorded) {
   blind.valve.resize(0);
   EXPECT_THAT([&] { validate_drive(result.model.at(0), result.posterior.point, blind); },
               ThrowsMessage<InvalidInput>(HasSubstr("has no valve command")));
+}
+
+TEST(HoldOutRecord, ForetellsATestThatWasNotFitted) {
+  const auto held = hold_out_record(reference_campaign(), "ramp", bulk, quick());
+  EXPECT_LT(held.error.rate_error, 0.02);
+  EXPECT_LT(held.error.torque_error, 0.03);
+  EXPECT_EQ(held.simulated.samples(), held.recorded.samples());
+  EXPECT_THAT([] { hold_out_record(reference_campaign(), "none", bulk, quick()); },
+              ThrowsMessage<InvalidInput>(HasSubstr("no record of the campaign is named 'none'")));
 }
 
 TEST(Autocorrelations, AreOneOverTheLagForASawtoothAndNoneForNoise) {

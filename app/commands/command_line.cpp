@@ -188,6 +188,10 @@ CLI::App* add_simulate(CLI::App& program, SimulateArguments& arguments) {
                   "output");
   sub->add_option("--folder", arguments.folder, "where records TEST.csv are written")
       ->capture_default_str();
+  sub->add_option("--sample-rate", arguments.sample_rate,
+                  "samples a second of the records (default: as the case has it); slosh is sampled "
+                  "at 1000 or more")
+      ->check(CLI::Range(1.0, 1e5));
   add_seed(sub, arguments.seed);
   return sub;
 }

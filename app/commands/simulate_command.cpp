@@ -46,6 +46,9 @@ class Campaign {
   Campaign(const SimulateArguments& arguments, const std::function<bool()>& interrupted)
       : arguments_(arguments), interrupted_(interrupted), antenna_(read_case(arguments.case_path)) {
     check_tests(arguments.tests);
+    if (arguments.sample_rate > 0.0 && antenna_.recorder) {
+      antenna_.recorder->sample_rate.value = arguments.sample_rate;
+    }
     folder_ = make_folder(arguments.folder);
     report_.case_path = arguments.case_path;
     report_.title = antenna_.title;

@@ -16,6 +16,7 @@ struct SimulateArguments {
   std::string folder = ".";        // where records go
   std::string json_path;           // of the report, "-" for standard output; empty: none
   std::uint64_t seed = 1;
+  double sample_rate = 0.0;  // Hz, of the records; 0: as the case has it
 };
 
 /// Runs the tests on the nonlinear antenna of the case and writes a record TEST.csv of each into

@@ -153,8 +153,12 @@ std::vector<AntennaTest> drive_tests(const Case& antenna, const std::string& nam
                  60.0, 2.0, true)};
   }
   if (name == "constant-speed") {
-    return {constant_speed(0.2 * limit / scale, scale, step),
-            constant_speed(0.8 * limit / scale, scale, step)};
+    // A factor of two apart, from just beyond breakaway to near the recorder's limit.
+    std::vector<AntennaTest> tests;
+    for (const double share : {0.025, 0.05, 0.1, 0.2, 0.4, 0.8}) {
+      tests.push_back(constant_speed(share * limit / scale, scale, step));
+    }
+    return tests;
   }
   if (name == "valve-steps") return {valve_steps(stroke, step)};
   return {valve_chirp(stroke, step)};

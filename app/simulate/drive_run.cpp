@@ -95,6 +95,22 @@ Eigen::VectorXd held_by_friction(const plant::NonlinearAntenna& model) {
   return state;
 }
 
+// Gains and zeros are the sensors' and the same in every test; noise is not.
+std::uint64_t noise_seed(std::uint64_t seed, const std::string& test) {
+  std::uint64_t hash = 14695981039346656037ULL ^ seed;  // FNV-1a
+  for (const char c : test) {
+    hash = (hash ^ static_cast<unsigned char>(c)) * 1099511628211ULL;
+  }
+  return hash;
+}
+
+// Digits behind the point that show a fifth of a sensor's step.
+int decimals_of(double resolution) {
+  return resolution > 0.0
+             ? std::clamp(static_cast<int>(std::ceil(-std::log10(resolution / 5.0))), 0, 9)
+             : 6;
+}
+
 double largest(const Eigen::VectorXd& values) {
   return values.cwiseAbs().maxCoeff();
 }
@@ -168,18 +184,22 @@ DriveRecord run_drive_test(const Case& antenna, const AntennaTest& test, std::ui
                     test.sample_time * static_cast<double>(test.command.size() - 1)));
   }
   const double slew = antenna.drive.slew_rate.value * gear_ratio(antenna);
-  result.record.columns.push_back(
-      {"time", "s", 6, Eigen::VectorXd::LinSpaced(samples, 0.0, result.duration)});
+  result.record.columns.push_back({"time", "s", decimals_of(0.5 * test.sample_time),
+                                   Eigen::VectorXd::LinSpaced(samples, 0.0, result.duration)});
   Recording recording(result, antenna, plan.interval, stride);
   constexpr double megapascal = 1e6;
+  const std::uint64_t noise = noise_seed(seed, test.name);
+  const int decimals = decimals_of(recorder_of(antenna).pressure_resolution.value / megapascal);
   for (std::size_t motor = 0; motor < motors; ++motor) {
-    recording.add(fmt::format("p{}_in", motor + 1), "MPa", 6, megapascal, sensors.inlet[motor],
-                  column(run, fmt::format("inlet_pressure_{}", motor + 1)), seed, 2 * motor);
-    recording.add(fmt::format("p{}_out", motor + 1), "MPa", 6, megapascal, sensors.outlet[motor],
-                  column(run, fmt::format("outlet_pressure_{}", motor + 1)), seed, 2 * motor + 1);
+    recording.add(fmt::format("p{}_in", motor + 1), "MPa", decimals, megapascal,
+                  sensors.inlet[motor], column(run, fmt::format("inlet_pressure_{}", motor + 1)),
+                  noise, 2 * motor);
+    recording.add(fmt::format("p{}_out", motor + 1), "MPa", decimals, megapascal,
+                  sensors.outlet[motor], column(run, fmt::format("outlet_pressure_{}", motor + 1)),
+                  noise, 2 * motor + 1);
   }
   result.at_limit = recording.add("tach", "V", 4, tachometer_scale(antenna), sensors.tachometer,
-                                  column(run, "tachometer"), seed, 2 * motors);
+                                  column(run, "tachometer"), noise, 2 * motors);
   recording.add(
       "rate_command", "V", 4,
       test.rate_loop_closed ? (10.0 / slew * command).eval() : Eigen::VectorXd::Zero(steps).eval());

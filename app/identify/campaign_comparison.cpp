@@ -37,9 +37,9 @@ std::vector<QuantityRow> quantity_rows(const CampaignSection& section) {
                     difference_from_reconciled(section, quantity, *interval)});
   };
   for (const auto& test : section.slosh) {
-    add("bulk modulus", "Pa", fmt::format("slosh, {}", test.record), test.result.bulk_modulus);
+    add("bulk modulus", "Pa", fmt::format("{}, all lines", test.record), test.result.bulk_modulus);
     if (const auto& extreme = test.result.extreme_lines) {
-      add("bulk modulus", "Pa", fmt::format("slosh, {}, extreme lines (paper)", test.record),
+      add("bulk modulus", "Pa", fmt::format("{}, extreme lines (paper)", test.record),
           extreme->mean);
     }
   }
@@ -54,14 +54,14 @@ std::vector<QuantityRow> quantity_rows(const CampaignSection& section) {
     const auto& impulse = *section.impulse;
     if (impulse.constant_speed) {
       if (impulse.constant_speed->has_line) {
-        add("Coulomb level", "N m", "constant speed, line's intercept (paper)",
+        add("Coulomb level", "N m", "constant speeds' line (paper)",
             impulse.constant_speed->intercept);
       }
       add("offset torque as recorded", "N m", "constant speed, half sum",
           impulse.constant_speed->offset);
     }
     if (impulse.slow_ramp) {
-      add("Coulomb level", "N m", "slow ramp, after breakaway (paper)", impulse.slow_ramp->coulomb);
+      add("Coulomb level", "N m", "slow ramp (paper)", impulse.slow_ramp->coulomb);
       add("offset torque as recorded", "N m", "slow ramp, half sum", impulse.slow_ramp->offset);
     }
     if (impulse.friction) {
@@ -108,6 +108,7 @@ std::vector<FrictionRow> friction_rows(const CampaignSection& section,
   for (const double rate : rates) {
     FrictionRow row;
     row.rate = rate;
+    row.tracking = rate == tracking;
     row.extrapolated = rate < lowest || rate > highest;
     if (section.grey_box) {
       row.reconciled = identification::friction_interval(*section.grey_box, rate);
@@ -123,6 +124,14 @@ std::vector<FrictionRow> friction_rows(const CampaignSection& section,
   return rows;
 }
 
+std::string verdict(const CampaignSection& section,
+                    const identification::GreyBoxQuantity& quantity) {
+  if (quantity.identified) return "identified";
+  const bool oil = quantity.name == "bulk modulus" || quantity.name == "oil stiffness";
+  if (oil && !section.bulk_modulus_stated) return "slosh";
+  return quantity.prior_from_drawings ? "drawings" : "not identifiable";
+}
+
 std::vector<std::string> not_identifiable(const CampaignSection& section) {
   std::vector<std::string> sentences;
   const auto add = [&](const std::string& what, const std::string& why) {
@@ -130,17 +139,20 @@ std::vector<std::string> not_identifiable(const CampaignSection& section) {
   };
   if (section.grey_box) {
     for (const auto& q : section.grey_box->quantities) {
-      if (q.identified) continue;
+      const std::string origin = verdict(section, q);
       const std::string range = fmt::format("{:.4g} to {:.4g}{}{}", q.posterior.lower,
                                             q.posterior.upper, q.unit.empty() ? "" : " ", q.unit);
-      sentences.push_back(
-          q.prior_from_drawings
-              ? fmt::format("The {} comes from drawings and data sheets, not from the records "
-                            "({:.0f} % of its variance learnt): {}.",
-                            q.name, 100.0 * q.learnt, range)
-              : fmt::format("The {} is not identifiable from these records ({:.0f} % of its "
-                            "variance learnt): {} is a wide guess, do not build on it.",
-                            q.name, 100.0 * q.learnt, range));
+      if (origin == "drawings") {
+        sentences.push_back(fmt::format(
+            "The {} comes from drawings and data sheets, not from the records ({:.0f} % of its "
+            "variance learnt): {}.",
+            q.name, 100.0 * q.learnt, range));
+      } else if (origin == "not identifiable") {
+        sentences.push_back(fmt::format(
+            "The {} is not identifiable from these records ({:.0f} % of its variance learnt): {} "
+            "is a wide guess, do not build on it.",
+            q.name, 100.0 * q.learnt, range));
+      }
     }
   } else {
     sentences.emplace_back(

@@ -27,6 +27,12 @@ std::vector<QuantityRow> quantity_rows(const CampaignSection& section);
 std::vector<FrictionRow> friction_rows(const CampaignSection& section,
                                        const identification::Campaign& campaign);
 
+/// Where a reconciled quantity comes from: "identified"; "slosh" where the lines' ringing gave the
+/// prior (with volumes of the data sheet in the stiffness) and other records add little to it;
+/// "drawings"; "not identifiable".
+std::string verdict(const CampaignSection& section,
+                    const identification::GreyBoxQuantity& quantity);
+
 /// What the records cannot tell.
 std::vector<std::string> not_identifiable(const CampaignSection& section);
 

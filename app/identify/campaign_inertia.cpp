@@ -22,29 +22,29 @@ double percent(double ratio) {
 std::string name_of(ResonanceReading kind) {
   switch (kind) {
     case ResonanceReading::spectrum_peak:
-      return "resonance: spectrum's peak";
+      return "spectrum's peak";
     case ResonanceReading::ring_single_mass:
-      return "resonance: rings, K/(2 pi f)^2";
+      return "valve steps, K/(2 pi f)^2";
     case ResonanceReading::ring_with_losses:
-      return "resonance: rings, losses out";
+      return "valve steps, losses out";
     case ResonanceReading::ring_flexible:
-      return "resonance: rings, flexible load";
+      return "valve steps, flexible load";
     case ResonanceReading::ring_shape:
-      return "resonance: rings' shape, no oil data";
+      return "valve steps, no oil data";
     case ResonanceReading::impedance:
       break;
   }
-  return "resonance: torque over rate, swept";
+  return "torque over rate";
 }
 
 std::string name_of(WindowRule rule, FrictionTreatment treatment) {
-  std::string name = "impulse: ";
+  std::string name = "impulse, ";
   switch (rule) {
     case WindowRule::two_on_the_ramp:
       name += "two windows";
       break;
     case WindowRule::every_speed_change:
-      name += "every change of speed";
+      name += "all changes";
       break;
     case WindowRule::same_path:
       return name + "friction cancelled";
@@ -155,7 +155,7 @@ std::string why_rings(const CampaignSection& section, const identification::Iner
     default:
       break;
   }
-  return "Rests on the pressures' and the tachometer's scales, which cancel out of no other term.";
+  return "Takes its scale from pressures and tachometer: their errors are its interval.";
 }
 
 InertiaRow mass_row(const CampaignSection& section) {

@@ -58,6 +58,7 @@ struct QuantityRow {
 /// Friction at one motor speed, N m.
 struct FrictionRow {
   double rate = 0.0;          // rad/s of motor
+  bool tracking = false;      // at which the antenna follows a star
   bool extrapolated = false;  // slower or faster than the constant-speed tests
   std::optional<identification::Interval> reconciled;  // grey box
   std::optional<identification::Interval> curve;       // curve fitted to all tests' windows

@@ -17,7 +17,7 @@ ShownUnit shown_unit(const std::string& unit) {
 }
 
 std::string significant(double value) {
-  return std::isfinite(value) ? fmt::format("{:.4g}", value) : "infinity";
+  return std::isfinite(value) ? fmt::format("{:.4g}", value) : "inf";
 }
 
 std::string range(const identification::Interval& interval, double scale) {

@@ -16,7 +16,7 @@ struct ShownUnit {
 };
 ShownUnit shown_unit(const std::string& unit);
 
-/// Four digits; "infinity".
+/// Four digits; "inf".
 std::string significant(double value);
 
 /// "1.741 .. 1.82": four digits each.

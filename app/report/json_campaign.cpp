@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include <boresight/app/identify/campaign_comparison.hpp>
 #include <boresight/app/report/campaign_wording.hpp>
 #include <boresight/app/report/json_campaign.hpp>
 
@@ -84,7 +85,8 @@ Json reconciled_json(const CampaignSection& section) {
                           {"prior", interval_json(q.prior, unit_or_one(q.unit))},
                           {"prior_from_drawings", q.prior_from_drawings},
                           {"variance_learnt_1", number(q.learnt)},
-                          {"identified", q.identified}});
+                          {"identified", q.identified},
+                          {"verdict", verdict(section, q)}});
   }
   Json correlation = Json::array();
   for (Eigen::Index i = 0; i < fit.correlation.rows(); ++i) {
@@ -198,6 +200,7 @@ Json friction_json(const CampaignSection& section) {
   Json rows = Json::array();
   for (const auto& row : section.friction) {
     rows.push_back({{"rate_rad_per_s", number(row.rate)},
+                    {"tracking", row.tracking},
                     {"extrapolated", row.extrapolated},
                     {"reconciled", optional_json(row.reconciled, "N m")},
                     {"curve", optional_json(row.curve, "N m")},

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <limits>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -101,15 +102,26 @@ Json spectrum_plot(const identification::TorqueSpectrum& spectrum) {
 
 Json ringing_plot(const SloshTest& test) {
   Json plots = Json::array();
+  double lowest = std::numeric_limits<double>::infinity(), highest = 0.0;
+  for (const auto& line : test.result.lines) {
+    lowest = std::min(lowest, line.frequency.value);
+    highest = std::max(highest, line.frequency.value);
+  }
   for (const auto& plot : test.result.plots) {
+    // The spectrum about the lines.
+    Eigen::Index first = 0, count = 0;
+    while (first < plot.frequency.size() && plot.frequency(first) < 0.6 * lowest) ++first;
+    while (first + count < plot.frequency.size() && plot.frequency(first + count) < 1.4 * highest) {
+      ++count;
+    }
     plots.push_back({{"motor", plot.motor + 1},
                      {"side", plot.side == identification::LineSide::inlet ? "inlet" : "outlet"},
                      {"start_s", short_number(plot.start)},
                      {"pressure_Pa", list(plot.pressure)},
                      {"fitted_Pa", list(plot.fitted)},
-                     {"frequency_Hz", list(plot.frequency)},
-                     {"amplitude_Pa", list(plot.amplitude)},
-                     {"fitted_amplitude_Pa", list(plot.fitted_amplitude)}});
+                     {"frequency_Hz", list(plot.frequency.segment(first, count))},
+                     {"amplitude_Pa", list(plot.amplitude.segment(first, count))},
+                     {"fitted_amplitude_Pa", list(plot.fitted_amplitude.segment(first, count))}});
   }
   return {{"record", test.record}, {"ports", std::move(plots)}};
 }

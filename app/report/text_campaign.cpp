@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include <boresight/app/identify/campaign_comparison.hpp>
 #include <boresight/app/report/campaign_wording.hpp>
 #include <boresight/app/report/sky_units.hpp>
 #include <boresight/app/report/text_layout.hpp>
@@ -14,6 +15,10 @@ namespace {
 
 using identification::Interval;
 using Rows = std::vector<std::vector<std::string>>;
+
+std::string with_unit(const std::string& name, const ShownUnit& unit) {
+  return unit.name == "1" ? name : fmt::format("{}, {}", name, unit.name);
+}
 
 std::string joined(const std::vector<std::string>& names) {
   return fmt::format("{}", fmt::join(names, ", "));
@@ -33,23 +38,22 @@ std::string reconciled_text(const CampaignSection& section) {
         "  ");
   }
   if (!section.grey_box) return {};
-  Rows rows{{"quantity", "unit", "value", "95 % interval", "+-%", "before the records", "learnt",
-             "verdict"}};
+  Rows rows{{"quantity", "value", "95 % interval", "+-%", "before records", "learnt", "verdict"}};
   for (const auto& q : section.grey_box->quantities) {
     const auto unit = shown_unit(q.unit);
     const double half = 50.0 * (q.posterior.upper - q.posterior.lower);
-    rows.push_back({q.name, unit.name, significant(q.posterior.value * unit.scale),
+    rows.push_back({with_unit(q.name, unit), significant(q.posterior.value * unit.scale),
                     range(q.posterior, unit.scale),
                     fmt::format("{:.2g}", half / std::abs(q.posterior.value)),
                     range(q.prior, unit.scale), fmt::format("{:.0f} %", 100.0 * q.learnt),
-                    q.identified ? "identified" : "prior only"});
+                    verdict(section, q)});
   }
-  return table(rows, "llrrrrrl");
+  return table(rows, "lrrrrrl");
 }
 
 std::string methods_text(const CampaignSection& section) {
   std::string text = heading("Inertia at the motor shaft, by method (95 % intervals)");
-  Rows rows{{"method", "J kg.m2", "interval", "R", "interval", "J off by", "sigmas"}};
+  Rows rows{{"method", "J kg.m2", "interval", "R", "interval", "off by", "sigmas"}};
   const auto row_of = [](const std::string& name, const Interval& inertia, const Interval& ratio,
                          const std::optional<Difference>& difference) {
     return std::vector<std::string>{
@@ -88,16 +92,16 @@ std::string methods_text(const CampaignSection& section) {
 std::string quantities_text(const CampaignSection& section) {
   if (section.quantities.empty()) return {};
   std::string text = heading("Other quantities, by method");
-  Rows rows{{"quantity", "method", "unit", "value", "95 % interval", "off by", "sigmas"}};
+  Rows rows{{"quantity", "method", "value", "95 % interval", "off by", "sigmas"}};
   for (const auto& row : section.quantities) {
     const auto unit = shown_unit(row.unit);
     rows.push_back(
-        {row.quantity, row.method, unit.name, significant(row.interval.value * unit.scale),
+        {with_unit(row.quantity, unit), row.method, significant(row.interval.value * unit.scale),
          range(row.interval, unit.scale),
          row.difference ? fmt::format("{:+.1f} %", 100.0 * row.difference->relative) : "-",
          row.difference ? fmt::format("{:+.1f}", row.difference->normalised) : "-"});
   }
-  return text + table(rows, "lllrrrr");
+  return text + table(rows, "llrrrr");
 }
 
 std::string lines_text(const SloshTest& test) {
@@ -141,18 +145,23 @@ std::string lines_text(const SloshTest& test) {
 std::string friction_text(const CampaignSection& section) {
   if (section.friction.empty()) return {};
   std::string text = heading("Friction at the motor shaft, N.m (95 % intervals)");
-  Rows rows{{"rate rad/s", "reconciled", "interval", "curve of all windows", "interval",
-             "constant speed", "interval", ""}};
+  Rows rows{{"rate rad/s", "reconciled", "interval", "curve fit", "interval", "constant speed",
+             "interval", ""}};
   for (const auto& row : section.friction) {
     std::vector<std::string> cells{fmt::format("{:.3f}", row.rate)};
     for (const auto* interval : {&row.reconciled, &row.curve, &row.tested}) {
       cells.push_back(*interval ? significant((*interval)->value) : "-");
       cells.push_back(*interval ? range(**interval) : "-");
     }
-    cells.emplace_back(row.extrapolated ? "outside the tests" : "");
+    cells.push_back(fmt::format("{}{}", row.tracking ? "t" : "", row.extrapolated ? "x" : ""));
     rows.push_back(std::move(cells));
   }
   text += table(rows, "rrrrrrrl");
+  text += wrapped(
+      "Curve fit: one curve through windows of all tests. t: the tracking rate. x: slower or "
+      "faster "
+      "than the constant-speed tests.",
+      "  ");
   std::string levels;
   if (section.impulse && section.impulse->constant_speed &&
       section.impulse->constant_speed->has_line) {
@@ -247,12 +256,11 @@ std::string fit_text(const CampaignSection& section) {
   for (const auto& start : fit.starts) {
     starts += fmt::format("{}{:.6g}", starts.empty() ? "" : ", ", start.cost);
   }
-  text += wrapped(
-      fmt::format(
-          "Rank {} of {} varied parameters, condition {:.3g}. Sum of squares by start: {}. {}.",
-          fit.rank, fit.varied, fit.condition, starts,
-          std::string(identification::describe(fit.status))),
-      "  ");
+  text += wrapped(fmt::format("Rank {} of {} varied parameters, condition {:.3g}. Sum of squares "
+                              "by start: {}. The search ended because {}.",
+                              fit.rank, fit.varied, fit.condition, starts,
+                              std::string(identification::describe(fit.status))),
+                  "  ");
   for (const auto& note : fit.notes) text += wrapped(note, "  ", "  ");
   text += "\n  correlation of the estimates\n";
   rows = {{""}};
@@ -357,8 +365,8 @@ std::string method_notes_text(const CampaignSection& section) {
     text += heading(title);
     for (const auto& note : notes) text += wrapped(note, "  ", "  ");
   };
-  if (section.resonance) add("What the resonance shows", section.resonance->notes);
-  if (section.impulse) add("What impulse and friction tests show", section.impulse->notes);
+  if (section.resonance) add("What the resonance alone shows", section.resonance->notes);
+  if (section.impulse) add("What impulse and friction tests alone show", section.impulse->notes);
   return text;
 }
 

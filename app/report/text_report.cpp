@@ -1,9 +1,22 @@
+#include <algorithm>
+
 #include <fmt/format.h>
 
 #include <boresight/app/report/text_layout.hpp>
 #include <boresight/app/report/text_report.hpp>
 
 namespace boresight::app {
+namespace {
+
+// Mass properties alone are among the campaign's methods already.
+bool rests_on_tests(const IdentificationSection& section) {
+  const auto& methods = section.inertia.methods;
+  return std::any_of(methods.begin(), methods.end(), [](const auto& method) {
+    return method.kind != identification::MethodKind::mass_properties;
+  });
+}
+
+}  // namespace
 
 std::string assumed_text(const std::vector<Quantity>& assumed) {
   std::string text = heading("Assumed inputs");
@@ -23,7 +36,9 @@ std::string to_text(const Report& report) {
                   report.command, report.title, report.axis, report.case_path, report.seed);
   if (report.interrupted) text += "INTERRUPTED: what follows is whole, the rest is missing.\n";
   if (report.campaign) text += to_text(*report.campaign);
-  if (report.identification) text += to_text(*report.identification);
+  if (report.identification && (!report.campaign || rests_on_tests(*report.identification))) {
+    text += to_text(*report.identification);
+  }
   if (report.audit && report.command == "audit") text += to_text(*report.audit);
   if (report.audit && report.command != "audit") {
     text += heading("Audit of the case's own numbers");

@@ -21,6 +21,9 @@ SCHEMA = json.loads((SOURCE / "docs/report.schema.json").read_text(encoding="utf
 VALIDATOR = jsonschema.Draft202012Validator(SCHEMA)
 
 BIG, SMALL = "dss14-70m", "dss14-64m"
+# A campaign's case with a few of its records.
+RECORDED = "recorded"
+RECORDS = ("slosh", "fast_ramp", "constant_speed_0.14deg_s", "valve_steps")
 CHEAP = ("audit", "identify", "model")
 SECTIONS = {"audit": "audit", "identify": "identification", "model": "plant", "tune": "tuning",
             "match": "matching"}
@@ -29,11 +32,20 @@ SECTIONS = {"audit": "audit", "identify": "identification", "model": "plant", "t
 UNITS = ("1", "kg_m2", "Pa", "N_m", "N_m_per_rad", "N_m_s_per_rad", "Hz", "s", "per_s", "rad_per_s",
          "rad_per_s_V", "m_per_s", "deg", "mdeg", "dB", "si")
 COUNTS = {"seed", "degrees_of_freedom", "starts", "starts_at_optimum", "evaluations",
-          "seeds_within_1_percent", "checked_numbers"}
+          "seeds_within_1_percent", "checked_numbers", "bytes", "rows", "first_sample", "samples",
+          "events", "counted", "outliers", "iterations", "rank", "varied", "motor", "harmonic"}
 
 
 def refuse_constant(name):
     raise ValueError(f"{name} is no JSON")
+
+
+def recorded_case():
+    campaign = pathlib.Path(PROGRAM).parent.parent / "campaigns/small-dish"
+    common, *entries = (campaign / "case.toml").read_text(encoding="utf-8").split("[[record]]")
+    wanted = [entry.replace('file = "', f'file = "{campaign}/') for entry in entries
+              if any(f'"{name}.csv"' in entry for name in RECORDS)]
+    return "[[record]]".join((common, *wanted))
 
 
 @functools.lru_cache(maxsize=None)
@@ -41,8 +53,12 @@ def run(command, case, threads=2, seed=1):
     """Bytes of the JSON report, and the text report."""
     with tempfile.TemporaryDirectory() as folder:
         path = pathlib.Path(folder) / "report.json"
+        case_path = f"cases/{case}/case.toml"
+        if case == RECORDED:
+            case_path = pathlib.Path(folder) / "case.toml"
+            case_path.write_text(recorded_case(), encoding="utf-8")
         process = subprocess.run(
-            [PROGRAM, command, f"cases/{case}/case.toml", "--json", str(path), "--threads",
+            [PROGRAM, command, str(case_path), "--json", str(path), "--threads",
              str(threads), "--seed", str(seed)],
             cwd=SOURCE, capture_output=True, text=True, check=True)
         assert process.stderr == "", process.stderr
@@ -59,6 +75,7 @@ def every_report():
     yield "match", BIG, report("match", threads=1)
     for command in (*CHEAP, "tune"):
         yield command, SMALL, report(command, SMALL)
+    yield "identify", RECORDED, report("identify", RECORDED)
 
 
 def numbers(value, key=""):
@@ -182,6 +199,85 @@ class Numbers(unittest.TestCase):
                                cwd=SOURCE, capture_output=True, check=True)
         self.assertEqual(shown.stdout, run("model", BIG)[0])
         self.assertEqual(shown.stderr, b"")
+
+
+class Campaign(unittest.TestCase):
+    def setUp(self):
+        self.found = report("identify", RECORDED)["campaign"]
+
+    def test_names_every_record_and_what_became_of_it(self):
+        self.assertEqual([record["name"] for record in self.found["records"]], list(RECORDS))
+        for record in self.found["records"]:
+            self.assertIsNone(record["refused_because"])
+            self.assertGreater(record["rows"], 1000)
+            signals = [source["signal"] for source in record["sources"]]
+            self.assertEqual(len(signals), len(set(signals)))
+            self.assertIn("tachometer", signals)
+
+    def test_sets_every_method_beside_the_reconciled_inertia(self):
+        quantities = {q["name"]: q for q in self.found["reconciled"]["quantities"]}
+        inertia = quantities["inertia"]["posterior"]
+        self.assertGreater(len(self.found["methods"]), 5)
+        for method in self.found["methods"]:
+            own, difference = method["inertia"], method["difference"]
+            self.assertLess(own["lower_95_si"], own["value_si"])
+            apart = own["value_si"] - inertia["value_si"]
+            self.assertAlmostEqual(difference["relative_1"], apart / inertia["value_si"])
+            self.assertAlmostEqual(
+                difference["normalised_1"],
+                apart / math.hypot(own["standard_uncertainty_si"],
+                                   inertia["standard_uncertainty_si"]))
+            self.assertTrue(method["assumes"])
+            self.assertTrue(method["why"])
+        correlation = self.found["reconciled"]["correlation_1"]
+        self.assertEqual(len(correlation), len(quantities))
+        for i, row in enumerate(correlation):
+            self.assertEqual(row[i], 1)
+            self.assertEqual(row, [other[i] for other in correlation])
+
+    def test_lists_only_contradictions_beyond_two_sigmas_and_ranks_tests(self):
+        sigmas = [abs(one["normalised_1"]) for one in self.found["contradictions"]]
+        self.assertEqual(sigmas, sorted(sigmas, reverse=True))
+        self.assertTrue(all(sigma > 2 for sigma in sigmas))
+        self.assertEqual([one["quantity"] for one in self.found["advice"]],
+                         ["inertia", "oil stiffness", "leakage rate", "Coulomb level"])
+        for one in self.found["advice"]:
+            left = [test["interval_remaining_1"] for test in one["tests"]]
+            self.assertEqual(left, sorted(left))
+            self.assertTrue(all(0 < share <= 1 + 1e-9 for share in left))
+
+    def test_gives_plots_whose_series_belong_together(self):
+        plots = self.found["plots"]
+        friction = plots["friction"]
+        count = len(friction["rate_rad_per_s"])
+        for key in ("reconciled_N_m", "reconciled_lower_95_N_m", "reconciled_upper_95_N_m"):
+            self.assertEqual(len(friction[key]), count)
+        for lower, value, upper in zip(friction["reconciled_lower_95_N_m"],
+                                       friction["reconciled_N_m"],
+                                       friction["reconciled_upper_95_N_m"]):
+            self.assertTrue(lower < value < upper)
+        self.assertEqual(len(plots["torque_spectra"]), 1)
+        spectrum = plots["torque_spectra"][0]
+        self.assertEqual(len(spectrum["frequency_Hz"]), len(spectrum["amplitude_N_m"]))
+        self.assertTrue(any(peak["harmonic"] > 0 for peak in spectrum["peaks"]))
+        self.assertEqual(len(plots["line_ringing"][0]["ports"]), 4)
+        for port in plots["line_ringing"][0]["ports"]:
+            self.assertEqual(len(port["pressure_Pa"]), len(port["fitted_Pa"]))
+            self.assertEqual(len(port["frequency_Hz"]), len(port["amplitude_Pa"]))
+            self.assertGreater(len(port["frequency_Hz"]), 10)
+        rings = plots["step_rings"]
+        self.assertGreater(len(rings["rings"]), 3)
+        self.assertEqual(len(rings["time_s"]), len(rings["fitted_torque_N_m"]))
+        for response in plots["torque_over_rate"]:
+            self.assertEqual(len(response["frequency_Hz"]), len(response["measured_real_N_m_s_per_rad"]))
+
+    def test_agrees_with_the_text(self):
+        text = run("identify", RECORDED)[1]
+        for q in self.found["reconciled"]["quantities"]:
+            scale = 1e-6 if q["posterior"]["unit"] == "Pa" else 1
+            self.assertIn(f"{q['posterior']['value_si'] * scale:.4g}", text)
+        for method in self.found["methods"]:
+            self.assertIn(method["name"], text)
 
 
 class Redesign(unittest.TestCase):

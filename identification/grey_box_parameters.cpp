@@ -200,7 +200,8 @@ void GreyBoxParameters::add_sensors(const Campaign& campaign,
     rate += record.rate.squaredNorm();
   }
   const double followed = command > 0.0 && rate > 0.0 ? std::sqrt(rate / command) : 1.0;
-  list_[command_gain] = {"opening per rate command", "", true, followed, 0.5, false};
+  list_[command_gain] = {"opening per rate command", "",   true, followed,
+                         command > 0.0 ? 0.5 : 0.0,  false};
 }
 
 void GreyBoxParameters::add_hydraulics(const Campaign& campaign,

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <complex>
 #include <numbers>
 
 #include <boresight/identification/grey_box_mechanics.hpp>

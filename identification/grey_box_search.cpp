@@ -1,4 +1,5 @@
 #include <cmath>
+#include <limits>
 
 #include <boresight/identification/grey_box_search.hpp>
 #include <boresight/plant/normal_numbers.hpp>

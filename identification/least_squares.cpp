@@ -195,9 +195,8 @@ LeastSquaresResult least_squares(const ResidualFunction& model, const Eigen::Vec
       const bool unseen = std::abs(found) <= 64.0 * epsilon && expected <= 64.0 * epsilon;
       const double ratio = expected > 0.0 ? found / expected : 0.0;
       if (ratio < 0.25 && !unseen) {
-        // Where the parabola through cost, slope and tried cost has its minimum.
-        const double left = tangent.norm(damping, nullptr);
-        radius = (found > -10.0 ? 0.5 : 0.1) * std::min(radius, 10.0 * left);
+        // Far worse than expected: far too long.
+        radius = (found > -10.0 ? 0.5 : 0.1) * std::min(radius, 10.0 * length);
       } else if (ratio > 0.75 || damping == 0.0) {
         radius = std::max(radius, 2.0 * length);
       }

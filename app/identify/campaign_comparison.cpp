@@ -160,8 +160,10 @@ std::vector<std::string> not_identifiable(const CampaignSection& section) {
         "methods that differ in what they leave out.");
   }
   if (section.bulk_modulus_stated) {
-    add("The bulk modulus",
-        "no slosh test shows the lines ringing; what the case states was taken.");
+    sentences.push_back(fmt::format(
+        "No slosh test shows the lines ringing: methods that need the oil's bulk modulus take what "
+        "the case states, {:.4g} +- {:.2g} GPa.",
+        1e-9 * section.bulk_modulus.value, 1e-9 * section.bulk_modulus.standard_uncertainty));
   }
   if (section.resonance && !section.resonance->rings && section.resonance->responses.empty()) {
     add("The hydraulic mode's damping",

@@ -56,9 +56,9 @@ class Records {
     const auto& found = section_.grey_box->quantity(name);
     return found.identified ? std::optional(found.posterior) : std::nullopt;
   }
-  // Slosh frequencies say it, whatever the grey box adds.
+  // Slosh frequencies say it, whatever the grey box adds; without them only the grey box may.
   std::optional<Interval> bulk_modulus() const {
-    if (section_.bulk_modulus_stated) return std::nullopt;
+    if (section_.bulk_modulus_stated) return quantity("bulk modulus");
     const auto best = reconciled(section_, "bulk modulus");
     return best ? *best : section_.bulk_modulus;
   }

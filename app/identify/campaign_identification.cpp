@@ -24,7 +24,7 @@ using identification::Uncertain;
 class SharedProgress {
  public:
   explicit SharedProgress(const StudyOptions& options) : options_(options) {}
-  enum Part : std::size_t { reading, simple_methods, grey_box, ranking };
+  enum Part : std::size_t { reading, simple_methods, grey_box, hold_out, ranking };
   void tell(Part part, double share) {
     if (!options_.progress) return;
     const std::lock_guard lock(mutex_);
@@ -34,10 +34,10 @@ class SharedProgress {
   }
 
  private:
-  static constexpr std::array<double, 4> weights{5.0, 20.0, 70.0, 5.0};
+  static constexpr std::array<double, 5> weights{5.0, 20.0, 50.0, 20.0, 5.0};
   const StudyOptions& options_;
   std::mutex mutex_;
-  std::array<double, 4> done_{};
+  std::array<double, 5> done_{};
 };
 
 // A method that the campaign does not allow is listed, not fatal.
@@ -152,6 +152,41 @@ void run_grey_box(const Campaign& campaign, const StudyOptions& options, SharedP
   progress.tell(SharedProgress::grey_box, 1.0);
 }
 
+// Small steps are nearest to what the antenna does in service.
+const identification::DriveRecord* record_to_hold_out(const Campaign& campaign) {
+  if (campaign.records.size() < 3) return nullptr;
+  for (const auto kind : {TestKind::valve_steps, TestKind::valve_chirp, TestKind::fast_ramp}) {
+    for (const auto& record : campaign.records) {
+      if (record.test == kind && record.valve_command && !record.inlet_pressure.empty()) {
+        return &record;
+      }
+    }
+  }
+  return nullptr;
+}
+
+void run_hold_out(const Campaign& campaign, const StudyOptions& options, SharedProgress& progress,
+                  CampaignSection& section, std::vector<MethodFailure>& failures) {
+  if (const auto* record = record_to_hold_out(campaign)) {
+    attempt(fmt::format("foretelling {}", record->name), failures, [&] {
+      identification::GreyBoxOptions grey;
+      grey.seed = options.seed;
+      grey.threads = options.threads;
+      grey.further_starts = 0;
+      grey.draws = 100;
+      grey.progress = [&](const std::string&, double share) {
+        progress.tell(SharedProgress::hold_out, share);
+        return true;
+      };
+      std::optional<Interval> prior;
+      if (!section.bulk_modulus_stated) prior = section.bulk_modulus;
+      section.hold_out = HoldOut{
+          record->name, identification::hold_out_record(campaign, record->name, prior, grey)};
+    });
+  }
+  progress.tell(SharedProgress::hold_out, 1.0);
+}
+
 // Where the grey box has failed: one estimate a method.
 void average_methods(CampaignSection& section) {
   const auto& knowledge = section.knowledge;
@@ -198,15 +233,17 @@ CampaignSection identify_campaign(const Case& antenna, const StudyOptions& optio
   progress.tell(SharedProgress::reading, 1.0);
 
   // Each with a list of failures of its own: their order must not depend on the threads.
-  std::array<std::vector<MethodFailure>, 2> failures;
-  design::for_each_index(2, options.threads, [&](std::size_t which) {
+  std::array<std::vector<MethodFailure>, 3> failures;
+  design::for_each_index(3, options.threads, [&](std::size_t which) {
     if (which == 0) {
       run_grey_box(campaign, options, progress, section, failures[0]);
-    } else {
+    } else if (which == 1) {
       run_simple_methods(campaign, options, progress, section, failures[1]);
+    } else {
+      run_hold_out(campaign, options, progress, section, failures[2]);
     }
   });
-  for (const auto& some : {failures[1], failures[0]}) {
+  for (const auto& some : {failures[1], failures[0], failures[2]}) {
     section.failures.insert(section.failures.end(), some.begin(), some.end());
   }
   require_something(section);

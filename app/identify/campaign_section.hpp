@@ -6,6 +6,7 @@
 
 #include <boresight/app/identify/campaign.hpp>
 #include <boresight/identification/grey_box.hpp>
+#include <boresight/identification/grey_box_hold_out.hpp>
 #include <boresight/identification/grey_box_test_gain.hpp>
 #include <boresight/identification/hydraulic_resonance.hpp>
 #include <boresight/identification/impulse_momentum.hpp>
@@ -79,6 +80,12 @@ struct Contradiction {
   double normalised = 0.0;
 };
 
+/// A record that was not fitted, and how well the drive fitted to the others foretells it.
+struct HoldOut {
+  std::string record;
+  identification::GreyBoxHoldOut result;
+};
+
 /// What the records of a campaign say.
 struct CampaignSection {
   CampaignNotes notes;
@@ -96,6 +103,7 @@ struct CampaignSection {
   std::optional<identification::GreyBoxResult> grey_box;
   /// In its place where it could not be had: the random-effects mean of the methods.
   std::optional<identification::ReconciledInertia> mean_of_methods;
+  std::optional<HoldOut> hold_out;  // where a record has a valve command and others are left
   std::vector<MethodFailure> failures;
   /// What these records cannot tell, plainly.
   std::vector<std::string> not_identifiable;

@@ -288,11 +288,18 @@ Json campaign_json(const CampaignSection& section) {
                  {"coupled_over_rigid_frequency_1", number(found.coupled_over_rigid)},
                  {"notes", found.notes}};
   }
+  Json held = nullptr;
+  if (section.hold_out) {
+    held = {{"record", section.hold_out->record},
+            {"rate_error_1", number(section.hold_out->result.error.rate_error)},
+            {"torque_error_1", number(section.hold_out->result.error.torque_error)}};
+  }
   return {{"not_identifiable", section.not_identifiable},
           {"records", std::move(records)},
           {"assumptions", section.notes.assumptions},
           {"reconciled", reconciled_json(section)},
           {"mean_of_methods", mean_json(section.mean_of_methods)},
+          {"hold_out", std::move(held)},
           {"methods", methods_json(section.inertia)},
           {"methods_not_done", std::move(failures)},
           {"quantities", std::move(quantities)},

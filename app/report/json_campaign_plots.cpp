@@ -152,6 +152,16 @@ Json response_plot(const identification::DriveResponse& response) {
           {"fitted_imaginary_N_m_s_per_rad", list(response.fitted.imag().eval())}};
 }
 
+Json hold_out_plot(const HoldOut& held) {
+  const auto& recorded = held.result.recorded;
+  const auto& simulated = held.result.simulated;
+  return {{"sample_time_s", short_number(recorded.sample_time)},
+          {"rate_rad_per_s", list(recorded.rate)},
+          {"torque_N_m", list(recorded.torque)},
+          {"simulated_rate_rad_per_s", list(simulated.rate)},
+          {"simulated_torque_N_m", list(simulated.torque)}};
+}
+
 }  // namespace
 
 Json campaign_plots_json(const CampaignSection& section) {
@@ -171,7 +181,8 @@ Json campaign_plots_json(const CampaignSection& section) {
           {"torque_spectra", std::move(spectra)},
           {"line_ringing", std::move(slosh)},
           {"step_rings", std::move(rings)},
-          {"torque_over_rate", std::move(responses)}};
+          {"torque_over_rate", std::move(responses)},
+          {"hold_out", section.hold_out ? hold_out_plot(*section.hold_out) : Json(nullptr)}};
 }
 
 }  // namespace boresight::app

@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <cmath>
-#include <map>
 
 #include <fmt/format.h>
 
@@ -18,10 +17,6 @@ using Rows = std::vector<std::vector<std::string>>;
 
 std::string with_unit(const std::string& name, const ShownUnit& unit) {
   return unit.name == "1" ? name : fmt::format("{}, {}", name, unit.name);
-}
-
-std::string joined(const std::vector<std::string>& names) {
-  return fmt::format("{}", fmt::join(names, ", "));
 }
 
 std::string reconciled_text(const CampaignSection& section) {
@@ -261,6 +256,15 @@ std::string fit_text(const CampaignSection& section) {
                               fit.rank, fit.varied, fit.condition, starts,
                               std::string(identification::describe(fit.status))),
                   "  ");
+  if (const auto& held = section.hold_out) {
+    text += wrapped(
+        fmt::format("Held out: fitted to the other records and driven by the valve command of {} "
+                    "alone, the model misses its rate by {:.0f} % and its torque by {:.0f} % (rms "
+                    "over that of the record about its mean).",
+                    held->record, 100.0 * held->result.error.rate_error,
+                    100.0 * held->result.error.torque_error),
+        "  ", "  ");
+  }
   for (const auto& note : fit.notes) text += wrapped(note, "  ", "  ");
   text += "\n  correlation of the estimates\n";
   rows = {{""}};
@@ -273,89 +277,6 @@ std::string fit_text(const CampaignSection& section) {
     }
   }
   return text + table(rows);
-}
-
-// What was guessed, once for all records that it was guessed in.
-std::string guesses_text(const CampaignNotes& notes) {
-  std::map<std::string, std::vector<std::string>> guesses;
-  std::vector<std::string> order;
-  const auto add = [&](const std::string& sentence, const std::string& record) {
-    auto& records = guesses[sentence];
-    if (records.empty()) order.push_back(sentence);
-    records.push_back(record);
-  };
-  for (const auto& record : notes.records) {
-    for (const auto& source : record.sources) {
-      if (source.guessed) {
-        add(fmt::format("{} was taken from column '{}', by its name", source.signal, source.column),
-            record.name);
-      }
-      if (!source.remark.empty()) {
-        add(fmt::format("{} ('{}'): {}", source.signal, source.column, source.remark), record.name);
-      }
-    }
-    if (!record.unused_columns.empty()) {
-      add("not used: " + joined(record.unused_columns), record.name);
-    }
-    for (const auto& remark : record.remarks) add(remark, record.name);
-    if (record.test_guessed) {
-      add(fmt::format("the test was told by the data: {}", to_string(record.test)), record.name);
-    }
-    if (record.rate_loop_guessed) {
-      add(fmt::format("the rate loop was taken as {}", record.rate_loop_closed ? "closed" : "open"),
-          record.name);
-    }
-  }
-  for (const auto& assumption : notes.assumptions) add(assumption, "");
-  std::string text;
-  for (const auto& sentence : order) {
-    const auto& records = guesses[sentence];
-    std::string where;
-    if (!records.front().empty()) {
-      where = records.size() > 1 && records.size() == notes.records.size()
-                  ? " (all records)"
-                  : fmt::format(" ({})", joined(records));
-    }
-    text += wrapped(fmt::format("taken for granted: {}{}", sentence, where), "  ", "  ");
-  }
-  return text;
-}
-
-std::string records_text(const CampaignNotes& notes) {
-  std::string text = heading("Records");
-  Rows rows{{"record", "test", "rate loop", "s", "samples/s", "rows", "defects"}};
-  for (const auto& record : notes.records) {
-    if (!record.refusal.empty()) {
-      rows.push_back({record.name, "not used", "", "", "", fmt::format("{}", record.rows), ""});
-      continue;
-    }
-    rows.push_back(
-        {record.name, to_string(record.test), record.rate_loop_closed ? "closed" : "open",
-         fmt::format("{:.1f}", record.duration), fmt::format("{:.6g}", 1.0 / record.sample_time),
-         fmt::format("{}", record.rows), fmt::format("{}", record.defects.size())});
-  }
-  text += table(rows, "lllrrrr");
-  for (const auto& record : notes.records) {
-    if (!record.refusal.empty()) {
-      text += wrapped(fmt::format("{} is not used: {}", record.name, record.refusal), "  ", "  ");
-    }
-    constexpr std::size_t most = 10;
-    for (std::size_t i = 0; i < record.defects.size() && i < most; ++i) {
-      const auto& defect = record.defects[i];
-      text += wrapped(
-          fmt::format("{}{}{}, {} from {:.3f} s, {} samples, {}: {}", record.name,
-                      defect.channel.empty() ? "" : ", ", defect.channel,
-                      identification::to_string(defect.kind), defect.first_time, defect.count,
-                      identification::to_string(defect.handling), defect.explanation),
-          "  ", "  ");
-    }
-    if (record.defects.size() > most) {
-      text += wrapped(fmt::format("{}: {} more, all of them in the JSON report", record.name,
-                                  record.defects.size() - most),
-                      "  ");
-    }
-  }
-  return text + guesses_text(notes);
 }
 
 std::string method_notes_text(const CampaignSection& section) {
@@ -385,7 +306,7 @@ std::string to_text(const CampaignSection& section) {
   text += advice_text(section);
   text += fit_text(section);
   text += method_notes_text(section);
-  return text + records_text(section.notes);
+  return text + to_text(section.notes);
 }
 
 }  // namespace boresight::app

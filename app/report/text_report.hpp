@@ -13,6 +13,8 @@ std::string to_text(const Report& report);
 // One function a section; each begins with its heading.
 /// What the records say: what is not identifiable, the reconciled estimate, the methods beside it.
 std::string to_text(const CampaignSection& section);
+/// The records: tests, defects with place and count, everything that was taken for granted.
+std::string to_text(const CampaignNotes& notes);
 std::string to_text(const IdentificationSection& section);
 /// Every finding by kind, numbered, then the summary.
 std::string to_text(const AuditReport& report);

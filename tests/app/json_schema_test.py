@@ -268,8 +268,16 @@ class Campaign(unittest.TestCase):
         rings = plots["step_rings"]
         self.assertGreater(len(rings["rings"]), 3)
         self.assertEqual(len(rings["time_s"]), len(rings["fitted_torque_N_m"]))
+        held = plots["hold_out"]
+        self.assertEqual(len(held["torque_N_m"]), len(held["simulated_torque_N_m"]))
         for response in plots["torque_over_rate"]:
             self.assertEqual(len(response["frequency_Hz"]), len(response["measured_real_N_m_s_per_rad"]))
+
+    def test_foretells_a_record_that_was_not_fitted(self):
+        held = self.found["hold_out"]
+        self.assertEqual(held["record"], "valve_steps")
+        self.assertTrue(0 < held["rate_error_1"] < 0.5)
+        self.assertTrue(0 < held["torque_error_1"] < 0.5)
 
     def test_agrees_with_the_text(self):
         text = run("identify", RECORDED)[1]

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -20,7 +21,7 @@ Index finite_count(const Eigen::VectorXd& values) {
 
 class Cleaner {
  public:
-  Cleaner(const RawRecord& raw, const DefectOptions& options) : raw_(raw), options_(options) {}
+  Cleaner(RawRecord raw, const DefectOptions& options) : raw_(std::move(raw)), options_(options) {}
 
   CleanRecord clean() {
     try {
@@ -30,6 +31,8 @@ class Cleaner {
       find_dead_pressures();
       report_suspicions();
       mask_sensors();
+      replace(inlets());
+      replace(outlets());
       assemble(base);
     } catch (const UnusableTimes& refusal) {
       refuse(refusal.kind, refusal.what());
@@ -45,6 +48,8 @@ class Cleaner {
     std::vector<std::size_t>& replaced;
     const char* name;
   };
+  Side inlets() { return {raw_.inlet, result_.replaced_inlets, "inlet"}; }
+  Side outlets() { return {raw_.outlet, result_.replaced_outlets, "outlet"}; }
 
   void refuse(DefectKind kind, const std::string& reason) {
     result_.record.reset();
@@ -108,8 +113,7 @@ class Cleaner {
 
   void find_dead_pressures() {
     const double usual = usual_spread();
-    for (Side side : {Side{raw_.inlet, result_.replaced_inlets, "inlet"},
-                      Side{raw_.outlet, result_.replaced_outlets, "outlet"}}) {
+    for (const Side& side : {inlets(), outlets()}) {
       for (std::size_t motor = 0; motor < side.channels.size(); ++motor) {
         const RawChannel& channel = side.channels[motor];
         const bool missing = 2 * finite_count(channel.values) < channel.values.size();
@@ -118,8 +122,7 @@ class Cleaner {
         side.replaced.push_back(motor);
         add(DefectKind::dead_channel, DefectHandling::replaced, channel.name, channel.values.size(),
             fmt::format(
-                "{}: replaced by the mean of the other {} pressures, on the same common "
-                "line, and marked not valid",
+                "{}: replaced by the mean of the other {} pressures, on the same common line",
                 missing ? "more than half of it is missing" : "hardly moves while others do",
                 side.name));
       }
@@ -147,7 +150,7 @@ class Cleaner {
     raw_.tachometer.values.setConstant(std::numeric_limits<double>::quiet_NaN());
   }
 
-  void replace(Side& side) const {
+  void replace(const Side& side) const {
     for (const std::size_t motor : side.replaced) {
       Eigen::VectorXd sum = Eigen::VectorXd::Zero(raw_.time.size());
       double count = 0.0;
@@ -227,17 +230,12 @@ class Cleaner {
     const std::vector<RawChannel*> all = sensors();
     limit_ = std::min(raw_.tachometer.upper_limit, -raw_.tachometer.lower_limit);
     for (RawChannel* channel : all) {
-      // Its neighbours' defects show in a replaced channel; they are reported there.
-      const bool replaced = is_replaced_channel(*channel);
+      if (is_replaced_channel(*channel)) continue;  // its neighbours' defects are masked there
       const bool tachometer = channel == &raw_.tachometer;
-      auto clipped = mask_clipped(*channel, raw_.time, options_, tachometer ? &limit_ : nullptr);
+      add(mask_clipped(*channel, raw_.time, options_, tachometer ? &limit_ : nullptr));
       const std::vector<const RawChannel*> others(all.begin(), all.end());
-      auto stuck = mask_stuck(*channel, others, raw_.time);
-      auto spikes = mask_spikes(*channel, raw_.time);
-      if (replaced) continue;
-      add(std::move(clipped));
-      add(std::move(stuck));
-      add(std::move(spikes));
+      add(mask_stuck(*channel, others, raw_.time));
+      add(mask_spikes(*channel, raw_.time));
     }
   }
 
@@ -257,22 +255,18 @@ class Cleaner {
     record.test = raw_.test;
     record.rate_loop_closed = raw_.rate_loop_closed;
     record.sample_time = base.sample_time;
-    const auto pressures = [&](const std::vector<RawChannel>& side,
-                               const std::vector<std::size_t>& replaced) {
-      std::vector<Signal> signals;
-      for (const auto& channel : side) signals.push_back(on_time_base(base, channel.values));
-      for (const std::size_t motor : replaced) {
-        signals[motor].valid.assign(static_cast<std::size_t>(base.samples), false);
-      }
-      return signals;
-    };
-    record.inlet_pressure = pressures(raw_.inlet, result_.replaced_inlets);
-    record.outlet_pressure = pressures(raw_.outlet, result_.replaced_outlets);
+    for (const auto& channel : raw_.inlet) {
+      record.inlet_pressure.push_back(on_time_base(base, channel.values));
+    }
+    for (const auto& channel : raw_.outlet) {
+      record.outlet_pressure.push_back(on_time_base(base, channel.values));
+    }
     record.motor_rate = on_time_base(base, raw_.tachometer.values);
     record.motor_rate_limit = limit_;
     if (raw_.rate_command) record.rate_command = on_time_base(base, raw_.rate_command->values);
     if (raw_.valve_command) record.valve_command = on_time_base(base, raw_.valve_command->values);
     result_.record = std::move(record);
+    if (raw_.test == TestKind::slosh) mask_replaced(result_);
   }
 
   RawRecord raw_;
@@ -336,6 +330,17 @@ std::string to_string(DefectHandling handling) {
       break;
   }
   return "refused";
+}
+
+void mask_replaced(CleanRecord& clean) {
+  if (!clean.record) return;
+  const auto samples = static_cast<std::size_t>(clean.record->samples());
+  for (const std::size_t motor : clean.replaced_inlets) {
+    clean.record->inlet_pressure[motor].valid.assign(samples, false);
+  }
+  for (const std::size_t motor : clean.replaced_outlets) {
+    clean.record->outlet_pressure[motor].valid.assign(samples, false);
+  }
 }
 
 CleanRecord clean_record(const RawRecord& raw, const DefectOptions& options) {

@@ -96,6 +96,10 @@ struct CleanRecord {
   std::vector<std::size_t> replaced_inlets, replaced_outlets;
 };
 
+/// Marks replaced pressures not valid throughout: what looks at each line on its own, as slosh
+/// tests do, must not take the others' mean for a line. No effect without a record.
+void mask_replaced(CleanRecord& clean);
+
 /// Finds the defects of a record and makes an evenly sampled one with what is not valid marked.
 ///
 /// Times: samples without a time, with a time again or before an earlier one are left out (at most
@@ -108,9 +112,10 @@ struct CleanRecord {
 /// is four times as long as runs elsewhere, is clipped and masked with a guard band. A run of equal
 /// samples, 25 or more and eight times as long as usual, while other channels move, is stuck:
 /// masked. One or two samples at least 12 times the local differences off both sides are a spike:
-/// masked. A dead pressure is replaced by the mean of the others at the same common line and marked
-/// not valid throughout. Commands are taken as they are but for missing samples. Swapped or
-/// reversed channels are reported and never turned.
+/// masked. A dead pressure is replaced by the mean of the others at the same common line, valid
+/// where they all are: the sum over the motors is what counts. In a slosh test it is masked
+/// (mask_replaced). Commands are taken as they are but for missing samples. Swapped or reversed
+/// channels are reported and never turned.
 ///
 /// Refused: too short, more than half of the samples of the tachometer (but in a slosh test) or of
 /// all inlets or all outlets missing or dead, times of which more than one in twenty cannot be

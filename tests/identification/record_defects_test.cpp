@@ -355,12 +355,29 @@ TEST(CleanRecord, ReplacesADeadPressureByTheMeanOfTheOthers) {
     EXPECT_EQ(clean.replaced_outlets, std::vector<std::size_t>{1});
     EXPECT_TRUE(clean.replaced_inlets.empty());
     const Signal& signal = clean.record->outlet_pressure[1];
-    EXPECT_EQ(invalid_count(signal), length);
+    EXPECT_EQ(invalid_count(signal), 0);
     const double mean =
         (alive.outlet[0].values[900] + alive.outlet[2].values[900] + alive.outlet[3].values[900]) /
         3.0;
     EXPECT_NEAR(signal.values[900], mean, 1e-6);
   }
+}
+
+TEST(CleanRecord, TakesAReplacedPressureForValidWhereTheOthersAre) {
+  RawRecord raw = healthy();
+  raw.outlet[1].values.setConstant(nan);
+  raw.outlet[2].values[700] = 1e9;  // a spike
+  const CleanRecord clean = clean_record(raw);
+  const auto& outlets = clean.record->outlet_pressure;
+  EXPECT_EQ(invalid_count(outlets[1]), 1);
+  EXPECT_FALSE(outlets[1].is_valid(700));
+  EXPECT_TRUE(outlets[0].is_valid(700));
+  EXPECT_EQ(of(clean, DefectKind::spike).size(), 1U);
+  // Each line on its own: nothing is known of this one.
+  raw.test = TestKind::slosh;
+  const CleanRecord slosh = clean_record(raw);
+  EXPECT_EQ(invalid_count(slosh.record->outlet_pressure[1]), length);
+  EXPECT_EQ(slosh.record->outlet_pressure[1].values, outlets[1].values);
 }
 
 TEST(CleanRecord, RefusesWithoutAnyPressureOfASide) {

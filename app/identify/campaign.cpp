@@ -4,13 +4,17 @@
 #include <cstddef>
 #include <exception>
 #include <filesystem>
+#include <set>
 #include <thread>
 
 #include <fmt/format.h>
 
 #include <boresight/app/identify/campaign.hpp>
 #include <boresight/app/identify/raw_record.hpp>
+#include <boresight/app/io/field.hpp>
+#include <boresight/app/io/record_columns.hpp>
 #include <boresight/app/io/record_file.hpp>
+#include <boresight/app/io/wording.hpp>
 #include <boresight/app/redesign/antenna_model.hpp>
 #include <boresight/identification/test_recognition.hpp>
 #include <boresight/plant/gear_train.hpp>
@@ -42,6 +46,7 @@ std::string resolved(const Case& antenna, const std::string& file) {
 /// A record on its way from file to campaign.
 struct Work {
   RecordNotes notes;
+  std::vector<RecordColumn> columns;  // without their values
   identification::RawRecord raw;
   identification::CleanRecord clean;
   std::exception_ptr failure;
@@ -57,6 +62,7 @@ void load(const Case& antenna, const RecordEntry& entry, Work& work) {
   notes.bytes = table.bytes;
   notes.checksum = record_checksum(notes.path);
   notes.remarks = table.remarks;
+  for (const auto& column : table.columns) work.columns.push_back({column.name, column.unit, {}});
   work.raw = raw_record(antenna, table, notes);
   work.raw.name = entry.name;
   for (const auto& [name, test] : tests) {
@@ -90,6 +96,37 @@ std::vector<Work> load_all(const Case& antenna) {
     if (work.failure) std::rethrow_exception(work.failure);
   }
   return works;
+}
+
+// A record may lack a column that the case names, but not every record: that is a misspelt name.
+void check_names(const Case& antenna, const std::vector<Work>& works) {
+  RecordTable all;  // of all records' columns, one of each name
+  std::set<std::string> seen;
+  std::vector<std::string_view> names;
+  for (const Work& work : works) {
+    for (const RecordColumn& column : work.columns) {
+      all.columns.push_back(column);
+      if (!seen.insert(column.name).second) all.columns.pop_back();
+    }
+  }
+  for (const RecordColumn& column : all.columns) names.push_back(column.name);
+  const auto check = [&](const std::string& name, const Location& location,
+                         const std::string& key) {
+    for (const Work& work : works) {
+      for (const RecordColumn& column : work.columns) {
+        if (is_named(column, name)) return;
+      }
+    }
+    refuse_at(location, key,
+              fmt::format("expected a column of one record at least, found {}{} where they have {}",
+                          app::quoted(name), did_you_mean(name, names), columns_of(all)));
+  };
+  const RecordColumnsEntry& entry = antenna.campaign.columns;
+  for (const auto* command : {&entry.rate_command, &entry.valve_command}) {
+    if (*command) check((*command)->name, (*command)->location, (*command)->key);
+  }
+  for (const std::string& name : entry.reversed)
+    check(name, entry.reversed_location, "record_columns.reversed");
 }
 
 identification::Instruments make_instruments(const Case& antenna, CampaignNotes& notes) {
@@ -254,20 +291,21 @@ identification::Campaign make_campaign(const Case& antenna, CampaignNotes& notes
   campaign.instruments = make_instruments(antenna, notes);
   const identification::Instruments stated = campaign.instruments;
   std::vector<Work> works = load_all(antenna);
-  std::vector<identification::DriveRecord*> unknown;
-  for (std::size_t i = 0; i < works.size(); ++i) {
-    if (works[i].clean.record && entries[i].test.empty()) {
-      unknown.push_back(&*works[i].clean.record);
-      works[i].notes.test_guessed = true;
-    }
-  }
+  check_names(antenna, works);
   std::vector<const identification::DriveRecord*> all;
   for (const Work& work : works) {
     if (work.clean.record) all.push_back(&*work.clean.record);
   }
   const double fastest = identification::fastest_motion(all);
-  for (auto* record : unknown) record->test = identification::recognised_test(*record, fastest);
+  for (std::size_t i = 0; i < works.size(); ++i) {
+    auto& clean = works[i].clean;
+    if (!clean.record || !entries[i].test.empty()) continue;
+    works[i].notes.test_guessed = true;
+    clean.record->test = identification::recognised_test(*clean.record, fastest);
+    if (clean.record->test == TestKind::slosh) identification::mask_replaced(clean);
+  }
 
+  std::string replaced;  // names of records
   for (std::size_t i = 0; i < works.size(); ++i) {
     Work& work = works[i];
     RecordNotes& note = work.notes;
@@ -284,14 +322,17 @@ identification::Campaign make_campaign(const Case& antenna, CampaignNotes& notes
       note.duration = record->sample_time * static_cast<double>(record->samples());
       if (!work.clean.replaced_inlets.empty() || !work.clean.replaced_outlets.empty()) {
         raise_for_replaced(work, campaign.instruments, stated);
-        notes.assumptions.push_back(fmt::format(
-            "record {}: a dead pressure was replaced by the mean of the other motors', which hang "
-            "on the same common line; the pressures' uncertainties were raised for it",
-            note.name));
+        replaced += (replaced.empty() ? "" : ", ") + note.name;
       }
       campaign.records.push_back(std::move(*record));
     }
     notes.records.push_back(std::move(note));
+  }
+  if (!replaced.empty()) {
+    notes.assumptions.push_back(fmt::format(
+        "a dead pressure was replaced by the mean of the other motors', which hang on the same "
+        "common line ({}); the pressures' uncertainties were raised for it",
+        replaced));
   }
   if (campaign.records.empty()) {
     throw InvalidInput(

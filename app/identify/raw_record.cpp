@@ -17,13 +17,6 @@ namespace {
 
 using identification::RawChannel;
 
-std::string lower(std::string text) {
-  for (char& c : text) {
-    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-  }
-  return text;
-}
-
 Dimension product(const Dimension& a, const Dimension& b) {
   return {a.length + b.length, a.mass + b.mass,       a.time + b.time,
           a.angle + b.angle,   a.current + b.current, a.level + b.level};
@@ -33,13 +26,12 @@ Dimension product(const Dimension& a, const Dimension& b) {
 class Mapper {
  public:
   Mapper(const Case& antenna, const RecordTable& table, RecordNotes& notes)
-      : antenna_(antenna), campaign_(antenna.campaign), table_(table), notes_(notes) {
-    for (const std::string& name : campaign_.columns.reversed) reversed_.insert(lower(name));
-  }
+      : antenna_(antenna), campaign_(antenna.campaign), table_(table), notes_(notes) {}
 
   identification::RawRecord map() {
     const RecordColumnsEntry& entry = campaign_.columns;
     const ChosenColumns chosen = choose_columns(table_, entry, antenna_.motor.count);
+    notes_.remarks.insert(notes_.remarks.end(), chosen.remarks.begin(), chosen.remarks.end());
     identification::RawRecord raw;
     raw.tachometer = tachometer(*chosen.tachometer);
     raw.time = chosen.time ? time(*chosen.time) : even_times(raw.tachometer.values.size());
@@ -112,7 +104,10 @@ class Mapper {
 
   RawChannel channel(const Measured& measured, double factor) {
     RawChannel result;
-    const bool turned = reversed_.contains(lower(measured.column.name));
+    const auto& reversed = campaign_.columns.reversed;
+    const bool turned = std::any_of(reversed.begin(), reversed.end(), [&](const std::string& name) {
+      return is_named(measured.column, name);
+    });
     SignalSource source = measured.source;
     if (turned) source.remark += std::string(source.remark.empty() ? "" : "; ") + "sign turned";
     result.name = measured.column.name;
@@ -271,7 +266,6 @@ class Mapper {
   const RecordTable& table_;
   RecordNotes& notes_;
   std::set<std::size_t> used_;
-  std::set<std::string> reversed_;
 };
 
 }  // namespace

@@ -68,7 +68,10 @@ RecordColumnsEntry read_columns(TableReader& table, long motors) {
   entry.tachometer = read_optional_column(table, "tachometer");
   entry.rate_command = read_optional_column(table, "rate_command");
   entry.valve_command = read_optional_column(table, "valve_command");
-  if (may_have(table, "reversed")) entry.reversed = table.texts("reversed");
+  if (may_have(table, "reversed")) {
+    entry.reversed = table.texts("reversed");
+    entry.reversed_location = table.location("reversed");
+  }
   entry.sample_rate =
       table.optional_quantity("sample_rate", Kind::frequency, Range::between(0.1, 1e6));
   if (entry.time && entry.sample_rate) {

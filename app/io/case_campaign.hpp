@@ -34,6 +34,7 @@ struct RecordColumnsEntry {
   std::optional<ColumnEntry> tachometer, rate_command, valve_command;
   /// Names of columns whose sign is turned.
   std::vector<std::string> reversed;
+  Location reversed_location;
   std::optional<Quantity> sample_rate;  // of files without times
 };
 

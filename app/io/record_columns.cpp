@@ -1,10 +1,12 @@
 #include <algorithm>
 #include <array>
+#include <initializer_list>
 #include <utility>
 
 #include <fmt/format.h>
 
 #include <boresight/app/io/field.hpp>
+#include <boresight/app/io/kinds.hpp>
 #include <boresight/app/io/record_columns.hpp>
 #include <boresight/app/io/wording.hpp>
 
@@ -27,15 +29,19 @@ bool is_digit(char c) {
   return c >= '0' && c <= '9';
 }
 
-// "Motor 2 p_in" is motor, 2, p, in: letters or digits that stand together.
+// "Motor 2 p_in" is motor, 2, p, in; "PressIn1" is press, in, 1: letters or digits that stand
+// together, a new word at a capital behind a small letter.
 std::vector<std::string> words_of(const std::string& name) {
   std::vector<std::string> words;
-  char before = ' ';
-  for (const char c : lower(name)) {
-    const bool starts = (is_letter(c) && !is_letter(before)) || (is_digit(c) && !is_digit(before));
+  const std::string letters = lower(name);
+  for (std::size_t i = 0; i < name.size(); ++i) {
+    const char c = letters[i];
+    const char before = i > 0 ? letters[i - 1] : ' ';
+    const bool capital = name[i] != c && i > 0 && is_letter(name[i - 1]);
+    const bool starts =
+        (is_letter(c) && (!is_letter(before) || capital)) || (is_digit(c) && !is_digit(before));
     if (starts) words.emplace_back();
     if (is_letter(c) || is_digit(c)) words.back() += c;
-    before = c;
   }
   return words;
 }
@@ -105,36 +111,53 @@ class Chooser {
     std::vector<std::string_view> names;
     for (std::size_t i = 0; i < table_.columns.size(); ++i) {
       names.push_back(table_.columns[i].name);
-      if (lower(table_.columns[i].name) == lower(entry.name)) found.push_back(i);
+      if (is_named(table_.columns[i], entry.name)) found.push_back(i);
     }
     if (found.size() == 1) return {found[0], false};
     refuse_at(entry.location, entry.key,
-              found.empty() ? fmt::format("expected a column of {}, found {}{}", table_.path,
-                                          quoted(entry.name), did_you_mean(entry.name, names))
+              found.empty() ? fmt::format("expected a column of {}, found {}{} where it has {}",
+                                          table_.path, quoted(entry.name),
+                                          did_you_mean(entry.name, names), columns_of(table_))
                             : fmt::format("expected one column of {}, found {} named {}",
                                           table_.path, found.size(), quoted(entry.name)));
   }
 
   template <typename Condition>
-  std::optional<ChosenColumn> guessed(const Condition& fits) const {
-    std::optional<ChosenColumn> chosen;
+  std::optional<ChosenColumn> guessed(std::initializer_list<Dimension> kinds,
+                                      const Condition& fits) const {
+    std::vector<std::size_t> with_unit, without;
     for (std::size_t i = 0; i < words_.size(); ++i) {
       if (!fits(words_[i])) continue;
-      if (chosen) return std::nullopt;
-      chosen = {i, true};
+      const std::optional<Unit> unit = recorded_unit(table_.columns[i].unit);
+      if (!unit) {
+        without.push_back(i);
+      } else if (std::find(kinds.begin(), kinds.end(), unit->dimension) != kinds.end()) {
+        with_unit.push_back(i);
+      }
     }
-    return chosen;
+    const auto& found = with_unit.empty() ? without : with_unit;
+    return found.size() == 1 ? std::optional(ChosenColumn{found[0], true}) : std::nullopt;
+  }
+
+  // A command may be recorded in some tests only.
+  bool lacks(const std::optional<ColumnEntry>& entry, std::vector<std::string>& remarks) const {
+    if (!entry) return false;
+    std::vector<std::string_view> names;
+    for (const RecordColumn& column : table_.columns) {
+      if (is_named(column, entry->name)) return false;
+      names.push_back(column.name);
+    }
+    remarks.push_back(fmt::format("no column {}, which {} names{}: taken as not recorded",
+                                  quoted(entry->name), entry->key,
+                                  did_you_mean(entry->name, names)));
+    return true;
   }
 
   [[noreturn]] void refuse_missing(const std::string& what, const std::string& key) const {
-    std::string names;
-    for (std::size_t i = 0; i < std::min<std::size_t>(table_.columns.size(), 20); ++i) {
-      names += (i == 0 ? "" : ", ") + quoted(table_.columns[i].name);
-    }
     throw InvalidInput(fmt::format(
         "{}: expected a column for the {}, found none or several that could be it among {} (say "
         "which in the case: record_columns.{})",
-        table_.path, what, names, key));
+        table_.path, what, columns_of(table_), key));
   }
 
  private:
@@ -142,17 +165,26 @@ class Chooser {
   std::vector<std::vector<std::string>> words_;
 };
 
+std::optional<Unit> unit_as_in_a_case(const std::string& text) {
+  try {
+    return parse_unit(text);
+  } catch (const UnitError&) {
+    return std::nullopt;
+  }
+}
+
 }  // namespace
 
 ChosenColumns choose_columns(const RecordTable& table, const RecordColumnsEntry& entry,
                              long motors) {
   const Chooser chooser(table);
-  const auto choose = [&](const std::optional<ColumnEntry>& column, const auto& fits) {
-    return column ? std::optional(chooser.named(*column)) : chooser.guessed(fits);
+  const auto choose = [&](const std::optional<ColumnEntry>& column,
+                          std::initializer_list<Dimension> kinds, const auto& fits) {
+    return column ? std::optional(chooser.named(*column)) : chooser.guessed(kinds, fits);
   };
   ChosenColumns chosen;
   if (!entry.sample_rate) {
-    chosen.time = choose(entry.time, is_time);
+    chosen.time = choose(entry.time, {dimension_of(Kind::time)}, is_time);
     if (!chosen.time) chooser.refuse_missing("time", "time, or record_columns.sample_rate");
   }
   for (const bool inlet : {true, false}) {
@@ -160,9 +192,10 @@ ChosenColumns choose_columns(const RecordTable& table, const RecordColumnsEntry&
     auto& columns = inlet ? chosen.inlet : chosen.outlet;
     for (const auto& column : named) columns.push_back(chooser.named(column));
     for (long motor = 1; named.empty() && motor <= motors; ++motor) {
-      const auto column = chooser.guessed([&](const std::vector<std::string>& words) {
-        return is_port(words, inlet, motor, motors);
-      });
+      const auto column = chooser.guessed({dimension_of(Kind::pressure)},
+                                          [&](const std::vector<std::string>& words) {
+                                            return is_port(words, inlet, motor, motors);
+                                          });
       const std::string side = inlet ? "inlet" : "outlet";
       if (!column) {
         chooser.refuse_missing(fmt::format("{} pressure of motor {}", side, motor), side);
@@ -170,27 +203,43 @@ ChosenColumns choose_columns(const RecordTable& table, const RecordColumnsEntry&
       columns.push_back(*column);
     }
   }
-  chosen.tachometer = choose(entry.tachometer, is_tachometer);
+  chosen.tachometer =
+      choose(entry.tachometer, {dimension_of(Kind::voltage), dimension_of(Kind::angular_rate)},
+             is_tachometer);
   if (!chosen.tachometer) chooser.refuse_missing("tachometer", "tachometer");
-  // A command may be recorded in some tests only.
-  const auto has = [&](const ColumnEntry& column) {
-    return std::any_of(table.columns.begin(), table.columns.end(), [&](const RecordColumn& one) {
-      return lower(one.name) == lower(column.name);
-    });
-  };
   const auto command = [&](const std::optional<ColumnEntry>& column, const auto& fits) {
-    return column && !has(*column) ? std::nullopt : choose(column, fits);
+    return chooser.lacks(column, chosen.remarks)
+               ? std::nullopt
+               : choose(column,
+                        {dimension_of(Kind::voltage), dimension_of(Kind::number),
+                         dimension_of(Kind::angular_rate), Dimension{.current = 1}},
+                        fits);
   };
   chosen.rate_command = command(entry.rate_command, is_rate_command);
   chosen.valve_command = command(entry.valve_command, is_valve);
   return chosen;
 }
 
+bool is_named(const RecordColumn& column, const std::string& name) {
+  const std::string wanted = lower(name);
+  const std::string own = lower(column.name);
+  const std::string unit = lower(column.unit);
+  return wanted == own ||
+         (!unit.empty() && (wanted == own + " [" + unit + "]" || wanted == own + "[" + unit + "]" ||
+                            wanted == own + " (" + unit + ")" || wanted == own + "(" + unit + ")"));
+}
+
+std::string columns_of(const RecordTable& table) {
+  constexpr std::size_t most = 20;
+  std::vector<std::string_view> names;
+  for (const RecordColumn& column : table.columns) names.push_back(column.name);
+  names.resize(std::min(most, names.size()));
+  const std::size_t more = table.columns.size() - names.size();
+  return quoted_list(names) + (more > 0 ? fmt::format(" and {} more", more) : "");
+}
+
 std::optional<Unit> recorded_unit(const std::string& text) {
-  try {
-    return parse_unit(text);
-  } catch (const UnitError&) {  // not as a case has it
-  }
+  if (const auto unit = unit_as_in_a_case(text)) return unit;
   constexpr std::array<std::pair<std::string_view, std::string_view>, 37> names{
       {{"v", "V"},
        {"volt", "V"},

@@ -8,8 +8,8 @@
 namespace boresight::app {
 
 /// Reads a recorder file: MAT of version 5 if it begins as one, else text.
-/// @throws InvalidInput if it cannot be read, is empty or compressed as a whole, and as
-/// read_record_text and read_record_mat do.
+/// @throws InvalidInput if it cannot be read, is empty, compressed as a whole or becomes shorter
+/// meanwhile, and as read_record_text and read_record_mat do.
 RecordTable read_record(const std::string& path);
 
 /// CRC-32 of a file's bytes, as gzip and zip compute it. @throws InvalidInput as read_record

@@ -3,9 +3,12 @@
 #include <charconv>
 #include <cmath>
 #include <limits>
+#include <optional>
+#include <utility>
 
 #include <fmt/format.h>
 
+#include <boresight/app/io/record_columns.hpp>
 #include <boresight/app/io/record_header.hpp>
 #include <boresight/app/io/wording.hpp>
 #include <boresight/plant/error.hpp>
@@ -75,24 +78,76 @@ struct Line {
   bool comment = false;
 };
 
-// "p1_in [psi]": the unit is in the brackets the text ends with.
+// "p1_in [psi]": the unit is in the brackets the text ends with. "Tach (raw)" has no unit.
 RecordColumn named_column(std::string_view text) {
   constexpr std::array<std::pair<char, char>, 2> brackets{{{'[', ']'}, {'(', ')'}}};
   for (const auto& [open, close] : brackets) {
     const std::size_t begin = text.rfind(open);
     if (text.empty() || text.back() != close || begin == std::string_view::npos) continue;
-    const std::string_view unit = trimmed(text.substr(begin + 1, text.size() - begin - 2));
-    return {std::string(trimmed(text.substr(0, begin))), std::string(unit), {}};
+    std::string unit(trimmed(text.substr(begin + 1, text.size() - begin - 2)));
+    if (open == '(' && !recorded_unit(unit)) continue;
+    return {std::string(trimmed(text.substr(0, begin))), std::move(unit), {}};
   }
   return {std::string(text), "", {}};
 }
 
-// Cells in brackets, or short ones without digits or blanks: "s", "[psi]", "deg/s".
+// A unit in a line of units: in brackets, or as it is.
+std::string_view unit_of(std::string_view cell) {
+  const bool brackets = cell.size() > 1 && ((cell.front() == '[' && cell.back() == ']') ||
+                                            (cell.front() == '(' && cell.back() == ')'));
+  return brackets ? trimmed(cell.substr(1, cell.size() - 2)) : cell;
+}
+
+// "s,psi,V", "[s],[psi],[]": cells in brackets, units, marks for none; and at least one unit. A
+// bare "t" is a time, no tonne.
 bool is_unit_line(const std::vector<Cell>& cells) {
-  return std::all_of(cells.begin(), cells.end(), [](const Cell& cell) {
-    return !cell.text.empty() && ((cell.text.front() == '[' && cell.text.back() == ']') ||
-                                  (cell.text.front() == '(' && cell.text.back() == ')'));
-  });
+  bool units = false;
+  for (const Cell& cell : cells) {
+    const std::string_view unit = unit_of(cell.text);
+    const bool known =
+        !unit.empty() && cell.text != "t" && recorded_unit(std::string(unit)).has_value();
+    units = units || known;
+    if (!known && unit.size() == cell.text.size() && !marks_no_number(cell.text)) return false;
+  }
+  return units;
+}
+
+// Of the lines above the numbers, the one with the names: the last that has as many cells as the
+// numbers, or one more or less where a separator ends the lines; else whichever is the last. A
+// comment only if no other will do: comments say something about the numbers.
+std::size_t header_among(const std::vector<Line>& above, const std::vector<std::size_t>& widths,
+                         std::size_t width) {
+  for (const std::size_t tolerance : {std::size_t{0}, std::size_t{1}}) {
+    for (const bool comment : {false, true}) {
+      for (std::size_t i = above.size(); i-- > 0;) {
+        const std::size_t off = widths[i] > width ? widths[i] - width : width - widths[i];
+        if (above[i].comment == comment && off <= tolerance && widths[i] > 1) return i;
+      }
+    }
+  }
+  for (std::size_t i = above.size(); i-- > 0;) {
+    if (!above[i].comment) return i;
+  }
+  return above.size();
+}
+
+// Where a line was a row of numbers but for some cells, for the message if there is no better one.
+struct OddCell {
+  std::size_t begin = 0;
+  std::string text;
+};
+
+std::optional<OddCell> odd_cell_of(const std::vector<Cell>& cells, char separator) {
+  std::optional<OddCell> odd;
+  std::size_t numbers = 0;
+  for (const Cell& cell : cells) {
+    if (is_number(cell.text, separator)) {
+      ++numbers;
+    } else if (!odd && !marks_no_number(cell.text)) {
+      odd = {cell.begin, std::string(cell.text)};
+    }
+  }
+  return 2 * numbers >= cells.size() && numbers > 1 ? odd : std::nullopt;
 }
 
 }  // namespace
@@ -173,6 +228,7 @@ RecordHeader read_record_header(std::string_view content, const std::string& nam
                   "other bytes (save as CSV in UTF-8)");
   }
   std::vector<Line> above;
+  std::optional<OddCell> odd;
   bool found = false;
   while (position < std::min(content.size(), furthest_row)) {
     const std::size_t end = std::min(content.find_first_of("\r\n", position), content.size());
@@ -180,18 +236,26 @@ RecordHeader read_record_header(std::string_view content, const std::string& nam
     Line line{position, end, !text.empty() && (text.front() == '#' || text.front() == '%')};
     if (!text.empty() && !line.comment) {
       header.separator = separator_of(text);
-      if (header.separator != '\0' &&
-          is_row(cells_of(content, position, end, header.separator), header.separator)) {
+      const auto cells = cells_of(content, position, end, header.separator);
+      if (header.separator != '\0' && is_row(cells, header.separator)) {
         header.first_row = position;
         found = true;
         break;
       }
+      if (header.separator != '\0' && !odd) odd = odd_cell_of(cells, header.separator);
     }
     if (line.comment) line.begin = content.find_first_not_of("#% \t", position);
     if (!text.empty() && line.begin < end) above.push_back(line);
     position = end;
     if (position < content.size() && content[position] == '\r') ++position;
     if (position < content.size() && content[position] == '\n') ++position;
+  }
+  if (!found && odd) {
+    refuse_record(
+        content, odd->begin, name,
+        fmt::format("expected a number, found {} (columns of text, dates and times of day "
+                    "are not read: leave them out)",
+                    quoted(odd->text)));
   }
   if (!found) {
     refuse_record(content, above.empty() ? 0 : above.back().end, name,
@@ -204,23 +268,21 @@ RecordHeader read_record_header(std::string_view content, const std::string& nam
   const std::size_t row_end =
       std::min(content.find_first_of("\r\n", header.first_row), content.size());
   const std::size_t width = cells_of(content, header.first_row, row_end, header.separator).size();
+  std::vector<std::size_t> widths;
+  for (const Line& line : above) widths.push_back(in_line(line).size());
   std::vector<Cell> units;
-  if (above.size() > 1 && !above.back().comment && is_unit_line(in_line(above.back())) &&
-      in_line(above[above.size() - 2]).size() == in_line(above.back()).size()) {
+  if (above.size() > 1 && !above.back().comment && widths.back() > 1 &&
+      widths[above.size() - 2] == widths.back() && is_unit_line(in_line(above.back())) &&
+      !is_unit_line(in_line(above[above.size() - 2]))) {
     units = in_line(above.back());
     above.pop_back();
   }
-  // Comments between header and numbers say something about the numbers, unless there is no header.
-  auto chosen =
-      std::find_if(above.rbegin(), above.rend(), [](const Line& line) { return !line.comment; });
-  if (chosen == above.rend()) {
-    chosen = std::find_if(above.rbegin(), above.rend(),
-                          [&](const Line& line) { return in_line(line).size() == width; });
-  }
-  if (chosen == above.rend()) {
+  const std::size_t place = header_among(above, widths, width);
+  if (place == above.size()) {
     refuse_record(content, header.first_row, name,
                   "expected a header such as 'time [s],tach [V]' above the numbers, found none");
   }
+  const auto* const chosen = &above[place];
   const std::vector<Cell> names = in_line(*chosen);
   const bool numbers_among = std::any_of(names.begin(), names.end(), [&](const Cell& cell) {
     return is_number(cell.text, header.separator);
@@ -240,15 +302,27 @@ RecordHeader read_record_header(std::string_view content, const std::string& nam
   }
   for (std::size_t i = 0; i < names.size(); ++i) {
     header.columns.push_back(named_column(names[i].text));
-    if (units.empty()) continue;
-    header.columns.back().unit = named_column(units[i].text).unit;
+    if (i >= units.size() || marks_no_number(units[i].text)) continue;
+    std::string& unit = header.columns.back().unit;
+    if (unit.empty()) unit = unit_of(units[i].text);
   }
-  if (header.columns.back().name.empty()) header.columns.pop_back();  // a separator ends each line
+  while (header.columns.size() > 1 && header.columns.back().name.empty()) {
+    header.columns.pop_back();  // separators end each line
+  }
   if (chosen->comment) header.remarks.emplace_back("the header was taken from a comment line");
-  const auto skipped =
-      std::count_if(chosen + 1, above.rend(), [](const Line& line) { return !line.comment; });
-  if (skipped > 0) {
-    header.remarks.push_back(fmt::format("{} lines above the header were skipped", skipped));
+  if (!units.empty()) {
+    header.remarks.emplace_back("the line below the names was taken for their units");
+  }
+  const auto text_lines = [&](std::size_t begin, std::size_t end) {
+    return std::count_if(above.begin() + static_cast<std::ptrdiff_t>(begin),
+                         above.begin() + static_cast<std::ptrdiff_t>(end),
+                         [](const Line& line) { return !line.comment; });
+  };
+  for (const auto& [count, where] : {std::pair{text_lines(0, place), "above the header"},
+                                     {text_lines(place + 1, above.size()), "below the header"}}) {
+    if (count == 0) continue;
+    header.remarks.push_back(fmt::format("{} line{} {} {} skipped", count, count == 1 ? "" : "s",
+                                         where, count == 1 ? "was" : "were"));
   }
   return header;
 }

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
@@ -10,6 +11,7 @@
 #include <gtest/gtest.h>
 
 #include <boresight/app/identify/campaign.hpp>
+#include <boresight/identification/integrated_motion.hpp>
 #include <boresight/plant/error.hpp>
 
 namespace boresight::app {
@@ -234,6 +236,110 @@ TEST(MakeCampaign, RefusesColumnsAndUnitsThatDoNotFit) {
                         "expected at least 200 samples"));
 }
 
+TEST(MakeCampaign, RefusesAMappedColumnThatNoRecordHas) {
+  for (const std::string key : {"rate_command", "valve_command"}) {
+    OneRecord record("full", "slow_ramp");
+    auto& columns = record.antenna.campaign.columns;
+    auto& entry = key == "rate_command" ? columns.rate_command : columns.valve_command;
+    entry->name = key + "s";
+    EXPECT_THAT(record.refusal(), HasSubstr("record_columns." + key +
+                                            ": expected a column of one record at least, "
+                                            "found '" +
+                                            key + "s' (did you mean '" + key +
+                                            "'?) where they have "
+                                            "'time', 'p1_in'"));
+  }
+  OneRecord record("full", "slow_ramp");
+  record.antenna.campaign.columns.reversed = {"tach", "p1_inn"};
+  EXPECT_THAT(record.refusal(),
+              HasSubstr("record_columns.reversed: expected a column of one record at least, found "
+                        "'p1_inn' (did you mean 'p1_in'?)"));
+}
+
+TEST(MakeCampaign, SaysWhichRecordsLackAMappedColumn) {
+  OneRecord record("full", "slow_ramp");
+  record.antenna.campaign.records.push_back(record.antenna.campaign.records[0]);
+  RecordEntry& whole = record.antenna.campaign.records[1];
+  whole.name = "whole";
+  whole.file = folder_of("full") + "/slow_ramp.csv";
+  record.replace("rate_command", "rate_commnd");
+  const auto made = record.make();
+  EXPECT_FALSE(made.records[0].rate_command);
+  EXPECT_TRUE(made.records[1].rate_command);
+  EXPECT_THAT(record.notes.records[0].remarks,
+              testing::ElementsAre("no column 'rate_command', which record_columns.rate_command "
+                                   "names (did you mean 'rate_commnd'?): taken as not recorded"));
+  EXPECT_TRUE(record.notes.records[1].remarks.empty());
+}
+
+TEST(MakeCampaign, GuessesNamesInOtherStyles) {
+  OneRecord record("small-dish", "slow_ramp");
+  const auto before = record.make().records.at(0);
+  record.antenna.campaign.columns = {};
+  for (const std::string header :
+       {"Time,P1 IN,P1 OUT,P2 IN,P2 OUT,Motor Speed,Speed Cmd,Valve\n"
+        "s,bar,bar,bar,bar,rpm,deg/s,V",
+        "t [sec];press_in_1 [BAR];press_out_1 [BAR];press_in_2 [BAR];press_out_2 [BAR];Tacho [RPM];"
+        "RateRef [deg/sec];ServoValve [volts]",
+        "timestamp (s)\tPressureInlet1 (bar)\tPressureOutlet1 (bar)\tPressureInlet2 "
+        "(bar)\tPressureOutlet2 (bar)\tMotorSpeed (rpm)\tRateCommand (deg/s)\tvalve cmd (V)",
+        "TIME [s],Motor 1 A [bar],Motor 1 B [bar],Motor 2 A [bar],Motor 2 B [bar],TACH [rpm],"
+        "rate setpoint [deg/s],valve [V]"}) {
+    OneRecord styled("small-dish", "slow_ramp");
+    styled.antenna.campaign.columns = {};
+    const std::size_t end = styled.text.find('\n');
+    std::string rows = styled.text.substr(end);
+    const char separator = header.find('\t') != std::string::npos  ? '\t'
+                           : header.find(';') != std::string::npos ? ';'
+                                                                   : ',';
+    std::replace(rows.begin(), rows.end(), ',', separator);
+    styled.text = header + rows;
+    const auto after = styled.make().records.at(0);
+    EXPECT_EQ(after.inlet_pressure[1].values, before.inlet_pressure[1].values) << header;
+    EXPECT_EQ(after.outlet_pressure[0].values, before.outlet_pressure[0].values) << header;
+    EXPECT_EQ(after.motor_rate.values, before.motor_rate.values) << header;
+    ASSERT_TRUE(after.rate_command && after.valve_command) << header;
+    EXPECT_EQ(after.rate_command->values, before.rate_command->values) << header;
+    EXPECT_EQ(after.valve_command->values, before.valve_command->values) << header;
+    for (const auto& source : styled.notes.records[0].sources) EXPECT_TRUE(source.guessed);
+  }
+}
+
+TEST(MakeCampaign, TakesTimesInMillisecondsAndMinutes) {
+  const auto with_times = [](double per_second, const std::string& unit) {
+    OneRecord record("small-dish", "slow_ramp");
+    std::stringstream lines(record.text);
+    std::string line;
+    std::getline(lines, line);
+    std::string edited = "time [" + unit + line.substr(line.find(']')) + "\n";
+    while (std::getline(lines, line)) {
+      const std::size_t comma = line.find(',');
+      std::ostringstream time;
+      time.precision(12);
+      time << per_second * std::stod(line.substr(0, comma));
+      edited += time.str() + line.substr(comma) + "\n";
+    }
+    record.text = edited;
+    return record.make().records.at(0);
+  };
+  OneRecord record("small-dish", "slow_ramp");
+  const auto before = record.make().records.at(0);
+  for (const auto& after : {with_times(1e3, "ms"), with_times(1.0 / 60.0, "min")}) {
+    EXPECT_NEAR(after.sample_time, before.sample_time, 1e-9 * before.sample_time);
+    EXPECT_EQ(after.motor_rate.values, before.motor_rate.values);
+  }
+}
+
+TEST(MakeCampaign, DoesNotGuessAColumnOfAnotherKind) {
+  OneRecord record("full", "slow_ramp");
+  record.antenna.campaign.columns = {};
+  record.replace("valve_command [V]", "p1_in_sensor [mA]");
+  record.replace("rate_command [V]", "p1_in_temperature [K]");
+  record.make();
+  EXPECT_EQ(record.notes.records[0].unused_columns,
+            (std::vector<std::string>{"p1_in_temperature", "p1_in_sensor"}));
+}
+
 TEST(MakeCampaign, LeavesAGuessedCommandItCannotScaleOutAndSaysSo) {
   OneRecord record("full", "slow_ramp");
   record.antenna.campaign.columns = {};
@@ -280,6 +386,14 @@ TEST(MakeCampaign, RaisesUncertaintiesForADeadTransducer) {
   EXPECT_GT(after.instruments.pressure_zero, 1.05 * before.instruments.pressure_zero);
   ASSERT_EQ(record.notes.assumptions.size(), 1U);
   EXPECT_THAT(record.notes.assumptions[0], HasSubstr("a dead pressure was replaced by the mean"));
+  // What needs every pressure has the record still, but not what looks at each line on its own.
+  const auto valid = [](const identification::Campaign& campaign) {
+    return std::ranges::count(identification::usable_samples(campaign.records[0], 0.0), true);
+  };
+  EXPECT_EQ(valid(after), valid(before));
+  record.antenna.campaign.records[0].test = "slosh";
+  EXPECT_EQ(valid(record.make()), 0);
+  record.antenna.campaign.records[0].test = "slow-ramp";
   // The sum over the motors is off by what the transducers differ by, far less than a motor's
   // share.
   const auto torque = [](const identification::Campaign& campaign) {

@@ -59,10 +59,54 @@ TEST(ReadRecordText, SkipsWhatIsNeitherHeaderNorNumbers) {
   const RecordTable titled =
       read("Recorder 7\nSerial,5x\ntime,Tach Out\n[s],[V]\n0,1.25\n0.5,-2.5\n1,3e-3\n");
   expect_three_rows(titled);
-  EXPECT_THAT(titled.remarks, ElementsAre("2 lines above the header were skipped"));
+  EXPECT_THAT(titled.remarks, ElementsAre("the line below the names was taken for their units",
+                                          "2 lines above the header were skipped"));
   const RecordTable commented = read("# time [s],Tach Out [V]\n0,1.25\n0.5,-2.5\n1,3e-3\n");
   expect_three_rows(commented);
   EXPECT_THAT(commented.remarks, ElementsAre("the header was taken from a comment line"));
+}
+
+TEST(ReadRecordText, TakesALineOfUnitsBelowTheNames) {
+  for (const std::string units : {"[s],[V]", "s,V", "(s),(V)", "SEC,Volts", "\"s\", V ,"}) {
+    const bool ended = units.back() == ',';
+    const RecordTable table = read(std::string("time,Tach Out") + (ended ? ",\n" : "\n") + units +
+                                   "\n0,1.25\n0.5,-2.5\n1,3e-3\n");
+    ASSERT_EQ(table.columns.size(), 2U) << units;
+    EXPECT_EQ(table.columns[0].name, "time");
+    EXPECT_EQ(table.columns[1].name, "Tach Out");
+    EXPECT_THAT(table.columns[0].unit, testing::AnyOf("s", "SEC"));
+    EXPECT_THAT(table.columns[1].unit, testing::AnyOf("V", "Volts"));
+    EXPECT_THAT(table.columns[1].values, ElementsAre(1.25, -2.5, 3e-3)) << units;
+  }
+  // A column without a unit, and names that are units' too.
+  const RecordTable without = read("time;counter;p\ns;-;bar\n0,5;1;2\n1;2;3\n");
+  EXPECT_EQ(without.columns[1].unit, "");
+  EXPECT_EQ(without.columns[2].unit, "bar");
+  EXPECT_EQ(read("Recorder 7,b\nt,V\n0,1\n").columns[0].name, "t");
+}
+
+TEST(ReadRecordText, FindsTheHeaderAmongOtherLines) {
+  const RecordTable noted =
+      read("time [s];Tach Out [V]\nfrom 12:00 on\n0;1,25\n0,5;-2,5\n1;3e-3\n");
+  expect_three_rows(noted);
+  EXPECT_THAT(noted.remarks, ElementsAre("1 line below the header was skipped"));
+  const RecordTable titled =
+      read("Recorder 7\n# time [s],Tach Out [V]\n0,1.25\n0.5,-2.5\n1,3e-3\n");
+  expect_three_rows(titled);
+  EXPECT_THAT(titled.remarks, ElementsAre("the header was taken from a comment line",
+                                          "1 line above the header was skipped"));
+  expect_three_rows(read("sep=;\ntime [s];Tach Out [V];;\n0;1,25;;\n0,5;-2,5;;\n1;3e-3;;\n"));
+  expect_three_rows(read("time [s],Tach Out [V]\n0,1.25,\n0.5,-2.5,\n1,3e-3,\n"));
+}
+
+TEST(ReadRecordText, KeepsBracketsThatHoldNoUnitInTheName) {
+  const RecordTable table =
+      read("t (ms),Tach (raw),Tach (filtered) [V],p (kPa)\n0,1,2,3\n1,2,3,4\n");
+  EXPECT_EQ(table.columns[0].unit, "ms");
+  EXPECT_EQ(table.columns[1].name, "Tach (raw)");
+  EXPECT_EQ(table.columns[1].unit, "");
+  EXPECT_EQ(table.columns[2].name, "Tach (filtered)");
+  EXPECT_EQ(table.columns[3].unit, "kPa");
 }
 
 TEST(ReadRecordText, TakesASeparatorInQuotesForText) {
@@ -136,6 +180,9 @@ TEST(ReadRecordText, RefusesWithThePlace) {
   EXPECT_THAT(refusal("time\n0,1\n1,2\n"), HasSubstr("r.csv:1:1: expected a header of 2 to 4096"));
   EXPECT_THAT(refusal("time [s]\n0\n1\n"), HasSubstr("found no line of two or more numbers"));
   EXPECT_THAT(refusal("t,x\n"), HasSubstr("found no line of two or more numbers"));
+  EXPECT_EQ(refusal("t,x,y,when\n0,1,2,12:00:01\n1,2,3,12:00:02\n"),
+            "r.csv:2:7: expected a number, found '12:00:01' (columns of text, dates and times of "
+            "day are not read: leave them out)");
   EXPECT_THAT(refusal("time tach\n0 1\n1 2\n"), HasSubstr("separated by comma, semicolon or tab"));
   EXPECT_THAT(refusal(std::string("t,x\n0,1\n\0", 9)), HasSubstr("found other bytes"));
   EXPECT_THAT(refusal("\xFF\xFEt"), HasSubstr("save as CSV in UTF-8"));

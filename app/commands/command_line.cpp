@@ -50,8 +50,8 @@ struct Arguments {
 using Section = std::function<void(const Case&, const StudyOptions&, Report&)>;
 
 struct Command {
-  const char* name;
-  const char* description;
+  const char* name = "";
+  const char* description = "";
   Section run;
   const char* work = "tuning and verifying";  // as its progress line begins
 };

@@ -119,7 +119,7 @@ std::vector<FrictionRow> friction_rows(const CampaignSection& section,
         if (std::abs(point.rate) == rate) row.tested = point.coulomb;
       }
     }
-    rows.push_back(std::move(row));
+    rows.push_back(row);
   }
   return rows;
 }

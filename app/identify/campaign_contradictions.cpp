@@ -11,7 +11,6 @@ namespace boresight::app {
 namespace {
 
 using identification::Interval;
-using identification::Uncertain;
 
 constexpr double contradicts = 2.0;  // standard uncertainties, both sides' together
 
@@ -126,6 +125,7 @@ void compare_friction(const CampaignSection& section, const Case& antenna,
   for (const auto* one : tested) {
     const FrictionRow& row = *one;
     const auto& records = row.reconciled ? row.reconciled : row.curve;
+    if (!records) continue;
     const double stated = plant::friction_torque(friction_curve(antenna), row.rate);
     const double uncertainty =
         std::hypot(curve.coulomb.standard_uncertainty, curve.saturating.standard_uncertainty,
@@ -171,8 +171,7 @@ void compare_stated(const Case& antenna, const Records& records, const CampaignS
       if (id == line + ".slosh_frequency") compare("Hz", records.line(i, false), "slosh");
     }
   }
-  for (std::size_t i = 0; i < antenna.impulse_results.size(); ++i) {
-    const auto& impulse = antenna.impulse_results[i];
+  for (const auto& impulse : antenna.impulse_results) {
     contradictions.compare(impulse.reflected_inertia, fmt::format("impulse.{}", impulse.name),
                            "kg m2", reconciled(section, "inertia"), "reconciled inertia");
   }

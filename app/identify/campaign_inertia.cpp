@@ -80,26 +80,33 @@ std::string assumptions_of(const identification::ImpulseEstimate& estimate) {
              : "friction is the curve fitted to all tests";
 }
 
+// Empty where the peak is not one of the excitation's lines.
+std::string harmonic_lock(const identification::TorqueSpectrum& spectrum, double stiffness) {
+  if (!spectrum.chosen || !spectrum.on_harmonic) return {};
+  const identification::SpectralPeak& peak = *spectrum.chosen;
+  std::string text = fmt::format(
+      "Harmonic lock: the peak at {:.3f} Hz is harmonic {} of the {:.3g} s excitation, not the "
+      "mode "
+      "itself. ",
+      peak.frequency, peak.harmonic, spectrum.period.value_or(0.0));
+  const double spacing = spectrum.harmonic_spacing;
+  for (const double next : {peak.frequency - spacing, peak.frequency + spacing}) {
+    if (!(next > 0.0)) continue;
+    text += fmt::format("The line at {:.3f} Hz would give {:.4g} kg.m2. ", next,
+                        plant::inertia_from_resonance(stiffness, next));
+  }
+  return text;
+}
+
 // What in a spectrum's reading is oil data, flexibility, and the rest: harmonic or losses.
-std::string why_spectrum(const CampaignSection& section, const identification::InertiaReading& one,
-                         const Case& antenna) {
-  const auto& resonance = *section.resonance;
+std::string why_spectrum(const CampaignSection& section,
+                         const identification::ResonanceResult& resonance,
+                         const identification::InertiaReading& one, const Case& antenna) {
   const auto inertia = reconciled(section, "inertia");
   const double frequency = one.frequency ? one.frequency->value : 0.0;
   std::string why;
-  const auto spectrum = std::find_if(resonance.spectra.begin(), resonance.spectra.end(),
-                                     [&](const auto& other) { return other.record == one.record; });
-  if (spectrum != resonance.spectra.end() && spectrum->chosen && spectrum->on_harmonic) {
-    const double spacing = spectrum->harmonic_spacing;
-    const auto at = [&](double f) {
-      return plant::inertia_from_resonance(resonance.stiffness.value, f);
-    };
-    why += fmt::format(
-        "Harmonic lock: the peak at {:.3f} Hz is harmonic {} of the {:.3g} s excitation, not the "
-        "mode itself; the neighbouring lines at {:.3f} and {:.3f} Hz would give {:.4g} and {:.4g} "
-        "kg.m2. ",
-        frequency, spectrum->chosen->harmonic, spectrum->period.value_or(0.0), frequency - spacing,
-        frequency + spacing, at(frequency - spacing), at(frequency + spacing));
+  for (const auto& spectrum : resonance.spectra) {
+    if (spectrum.record == one.record) why = harmonic_lock(spectrum, resonance.stiffness.value);
   }
   const double flexible = 1.0 / std::pow(resonance.coupled_over_rigid, 2);
   if (inertia && frequency > 0.0) {
@@ -126,8 +133,8 @@ std::string why_spectrum(const CampaignSection& section, const identification::I
   return why;
 }
 
-std::string why_rings(const CampaignSection& section, const identification::InertiaReading& one) {
-  const auto& resonance = *section.resonance;
+std::string why_rings(const identification::ResonanceResult& resonance,
+                      const identification::InertiaReading& one) {
   const double flexible = 1.0 / std::pow(resonance.coupled_over_rigid, 2);
   const auto of = [&](ResonanceReading kind) -> std::optional<double> {
     for (const auto& other : resonance.readings) {
@@ -184,7 +191,8 @@ InertiaRow mass_row(const CampaignSection& section) {
 void add_resonance(const CampaignSection& section, const Case& antenna,
                    std::vector<InertiaRow>& rows) {
   if (!section.resonance) return;
-  for (const auto& reading : section.resonance->readings) {
+  const auto& resonance = *section.resonance;
+  for (const auto& reading : resonance.readings) {
     InertiaRow row;
     row.name = name_of(reading.kind);
     row.of_the_paper = reading.kind == ResonanceReading::spectrum_peak;
@@ -194,8 +202,8 @@ void add_resonance(const CampaignSection& section, const Case& antenna,
     }
     row.inertia = reading.inertia;
     row.assumes = reading.assumes;
-    row.why =
-        row.of_the_paper ? why_spectrum(section, reading, antenna) : why_rings(section, reading);
+    row.why = row.of_the_paper ? why_spectrum(section, resonance, reading, antenna)
+                               : why_rings(resonance, reading);
     rows.push_back(std::move(row));
   }
 }

@@ -200,7 +200,7 @@ std::string contradictions_text(const CampaignSection& section) {
 }
 
 std::string advice_text(const CampaignSection& section) {
-  if (section.test_gains.empty()) return {};
+  if (section.test_gains.empty() || !section.grey_box) return {};
   std::string text =
       heading("Which further test would shrink which interval most (1 = not at all)");
   const auto& quantities = section.grey_box->quantities;

@@ -125,7 +125,16 @@ Report report_of(CampaignSection section) {
   return report;
 }
 
+#ifdef __SANITIZE_ADDRESS__
+constexpr bool under_sanitizers = true;
+#else
+constexpr bool under_sanitizers = false;
+#endif
+constexpr const char* too_slow =
+    "minutes under sanitizers, which see the same code with fewer records";
+
 TEST(IdentifyCampaign, FindsTheTruthByThePapersTestsAndSaysWhyItsMethodsMissIt) {
+  if (under_sanitizers) GTEST_SKIP() << too_slow;
   const Case antenna = campaign_case("paper-like");
   const CampaignSection section = identify_campaign(antenna, {});
   expect_truth(section, "paper-like");
@@ -161,9 +170,7 @@ TEST(IdentifyCampaign, FindsTheTruthByThePapersTestsAndSaysWhyItsMethodsMissIt) 
 }
 
 TEST(IdentifyCampaign, FindsTheTruthOfAnotherAntennaInOtherUnits) {
-#ifdef __SANITIZE_ADDRESS__
-  GTEST_SKIP() << "minutes under sanitizers, which see the same code with fewer records";
-#endif
+  if (under_sanitizers) GTEST_SKIP() << too_slow;
   const CampaignSection section = identify_campaign(campaign_case("small-dish"), {});
   expect_truth(section, "small-dish");
   const auto truth = truth_of("small-dish");

@@ -1,93 +1,17 @@
 #include <cmath>
-#include <limits>
-#include <numbers>
 #include <string>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <boresight/identification/record_defects.hpp>
+#include "swinging_record.hpp"
 #include <boresight/plant/error.hpp>
 
 namespace boresight::identification {
 namespace {
 
+using namespace swinging;
 using testing::HasSubstr;
-using Index = Eigen::Index;
-
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-constexpr double step = 0.005;
-constexpr Index length = 4000;
-
-double noise(Index i, int channel) {
-  const double phase = 12.9898 * static_cast<double>(i + 1) + 78.233 * channel;
-  const double value = std::sin(phase) * 43758.5453;
-  return value - std::floor(value) - 0.5;
-}
-
-double rate_at(double t) {
-  return 8.0 * std::sin(2.0 * std::numbers::pi * 0.3 * t);
-}
-
-// Four motors swinging against friction, transducers with noise.
-RawRecord healthy() {
-  RawRecord raw;
-  raw.name = "swing";
-  raw.test = TestKind::other;
-  raw.time.resize(length);
-  raw.inlet.resize(4);
-  raw.outlet.resize(4);
-  raw.tachometer.values.resize(length);
-  raw.rate_command.emplace();
-  raw.rate_command->name = "command";
-  raw.rate_command->values.resize(length);
-  raw.tachometer.name = "tach";
-  for (int motor = 0; motor < 4; ++motor) {
-    const auto at = static_cast<std::size_t>(motor);
-    raw.inlet[at].name = "p" + std::to_string(motor + 1) + "_in";
-    raw.outlet[at].name = "p" + std::to_string(motor + 1) + "_out";
-    raw.inlet[at].values.resize(length);
-    raw.outlet[at].values.resize(length);
-  }
-  for (Index i = 0; i < length; ++i) {
-    const double t = step * static_cast<double>(i);
-    raw.time[i] = std::round(t * 1000.0) / 1000.0;
-    const double rate = rate_at(t);
-    raw.tachometer.values[i] = rate + 0.02 * noise(i, 0);
-    raw.rate_command->values[i] = rate;
-    for (int motor = 0; motor < 4; ++motor) {
-      const auto at = static_cast<std::size_t>(motor);
-      const double half = 0.5e6 * std::tanh(rate);
-      raw.inlet[at].values[i] = 7e6 + half + 1e4 * motor + 5e3 * noise(i, 1 + motor);
-      raw.outlet[at].values[i] = 7e6 - half - 1e4 * motor + 5e3 * noise(i, 5 + motor);
-    }
-  }
-  return raw;
-}
-
-std::vector<RecordDefect> of(const CleanRecord& clean, DefectKind kind) {
-  std::vector<RecordDefect> found;
-  for (const auto& defect : clean.defects) {
-    if (defect.kind == kind) found.push_back(defect);
-  }
-  return found;
-}
-
-// The one defect of a record that has no other.
-RecordDefect only(const CleanRecord& clean, DefectKind kind) {
-  EXPECT_EQ(clean.defects.size(), 1U);
-  for (const auto& defect : clean.defects) {
-    EXPECT_EQ(to_string(defect.kind), to_string(kind)) << defect.channel << defect.explanation;
-  }
-  const auto found = of(clean, kind);
-  return found.empty() ? RecordDefect{} : found.front();
-}
-
-Index invalid_count(const Signal& signal) {
-  Index count = 0;
-  for (Index i = 0; i < signal.values.size(); ++i) count += signal.is_valid(i) ? 0 : 1;
-  return count;
-}
 
 TEST(CleanRecord, LeavesAHealthyRecordAsItIs) {
   const RawRecord raw = healthy();
@@ -120,144 +44,6 @@ TEST(CleanRecord, MasksMissingSamplesAndBridgesThem) {
   EXPECT_EQ(invalid_count(rate), 8);
   EXPECT_FALSE(rate.is_valid(103));
   EXPECT_NEAR(rate.values[103], 0.5 * (rate.values[99] + rate.values[107]), 1e-12);
-}
-
-TEST(CleanRecord, LeavesSamplesWithoutTimeOut) {
-  RawRecord raw = healthy();
-  raw.time[70] = nan;
-  const CleanRecord clean = clean_record(raw);
-  EXPECT_EQ(of(clean, DefectKind::missing_times).at(0).first, 70);
-  EXPECT_EQ(clean.record->samples(), length);
-  EXPECT_FALSE(clean.record->motor_rate.is_valid(70));
-  EXPECT_TRUE(clean.record->motor_rate.is_valid(71));
-  EXPECT_EQ(clean.record->motor_rate.values[71], raw.tachometer.values[71]);
-}
-
-TEST(CleanRecord, LeavesARepeatedTimeOut) {
-  RawRecord raw = healthy();
-  raw.time[300] = raw.time[299];
-  const CleanRecord clean = clean_record(raw);
-  const RecordDefect defect = of(clean, DefectKind::repeated_times).at(0);
-  EXPECT_EQ(defect.count, 1);
-  EXPECT_NEAR(static_cast<double>(defect.first), 299.5, 0.6);
-  EXPECT_EQ(defect.handling, DefectHandling::left_out);
-  EXPECT_EQ(invalid_count(clean.record->motor_rate), 1);
-  EXPECT_EQ(clean.record->motor_rate.values[301], raw.tachometer.values[301]);
-}
-
-TEST(CleanRecord, LeavesTimesThatRunBackOrAheadOut) {
-  RawRecord raw = healthy();
-  raw.time[300] = 0.1;
-  raw.time[800] = 1e6;
-  const CleanRecord clean = clean_record(raw);
-  const RecordDefect defect = of(clean, DefectKind::backward_times).at(0);
-  EXPECT_EQ(defect.count, 2);
-  EXPECT_EQ(defect.first, 300);
-  EXPECT_EQ(invalid_count(clean.record->motor_rate), 2);
-  EXPECT_EQ(clean.record->motor_rate.values[2000], raw.tachometer.values[2000]);
-}
-
-TEST(CleanRecord, RefusesTwoRecordsInOneFile) {
-  RawRecord raw = healthy();
-  raw.time.tail(1000).array() -= 15.0;
-  const CleanRecord clean = clean_record(raw);
-  EXPECT_FALSE(clean.record);
-  EXPECT_THAT(clean.refusal, HasSubstr("is the file made of several records?"));
-  EXPECT_EQ(clean.defects.back().handling, DefectHandling::refused);
-  EXPECT_EQ(clean.defects.back().kind, DefectKind::backward_times);
-}
-
-TEST(CleanRecord, InterpolatesJitteredTimesOntoAnEvenGrid) {
-  RawRecord raw = healthy();
-  for (Index i = 1; i + 1 < length; ++i) {
-    raw.time[i] += 0.3 * step * noise(i, 20) + 1e-7 * noise(i, 21);
-  }
-  const Eigen::VectorXd at = raw.time;
-  for (Index i = 0; i < length; ++i) raw.tachometer.values[i] = rate_at(at[i]);
-  const CleanRecord clean = clean_record(raw);
-  const RecordDefect defect = only(clean, DefectKind::jitter);
-  EXPECT_EQ(defect.handling, DefectHandling::resampled);
-  EXPECT_GT(defect.count, length / 2);
-  ASSERT_TRUE(clean.record);
-  EXPECT_NEAR(clean.record->sample_time, step, 1e-9);
-  double worst = 0.0;
-  for (Index i = 0; i < clean.record->samples(); ++i) {
-    const double t = clean.record->sample_time * static_cast<double>(i);
-    worst = std::max(worst, std::abs(clean.record->motor_rate.values[i] - rate_at(t)));
-  }
-  // Linear interpolation: h^2/8 times the second derivative, and the steps are up to 1.3 h.
-  EXPECT_LT(worst, 8.0 * std::pow(2.0 * std::numbers::pi * 0.3 * 1.3 * step, 2) / 8.0);
-}
-
-TEST(CleanRecord, TakesRoundedTimesForEven) {
-  RawRecord raw = healthy();
-  const double odd = 1.0 / 300.0;
-  for (Index i = 0; i < length; ++i) {
-    raw.time[i] = std::round(1000.0 * odd * static_cast<double>(i)) / 1000.0;
-  }
-  const CleanRecord clean = clean_record(raw);
-  EXPECT_TRUE(clean.defects.empty());
-  EXPECT_NEAR(clean.record->sample_time, odd, 1e-8);
-  EXPECT_EQ(clean.record->motor_rate.values, raw.tachometer.values);
-}
-
-TEST(CleanRecord, TakesTimesOfTooFewDigitsByTheirOrder) {
-  RawRecord raw = healthy();
-  for (Index i = 0; i < length; ++i) {
-    raw.time[i] = std::floor(step * static_cast<double>(i) * 50.0 + 1e-9) / 50.0;
-  }
-  const CleanRecord clean = clean_record(raw);
-  const RecordDefect defect = only(clean, DefectKind::repeated_times);
-  EXPECT_EQ(defect.handling, DefectHandling::resampled);
-  EXPECT_THAT(defect.explanation, HasSubstr("too few digits"));
-  EXPECT_NEAR(clean.record->sample_time, step, 1e-6);
-  EXPECT_EQ(clean.record->motor_rate.values, raw.tachometer.values);
-}
-
-TEST(CleanRecord, RefusesTimesThatStandStill) {
-  RawRecord raw = healthy();
-  raw.time.setConstant(3.0);
-  EXPECT_THAT(clean_record(raw).refusal, HasSubstr("expected times that rise"));
-  raw.time.setConstant(nan);
-  EXPECT_THAT(clean_record(raw).refusal, HasSubstr("expected at least 200 samples, found 0"));
-}
-
-TEST(CleanRecord, MasksAGap) {
-  RawRecord raw = healthy();
-  raw.time.tail(1000).array() += 40 * step;
-  const CleanRecord clean = clean_record(raw);
-  const RecordDefect defect = only(clean, DefectKind::gap);
-  EXPECT_EQ(defect.first, length - 1001);
-  EXPECT_EQ(defect.count, 40);
-  EXPECT_EQ(clean.record->samples(), length + 40);
-  EXPECT_EQ(invalid_count(clean.record->motor_rate), 40);
-  EXPECT_FALSE(clean.record->inlet_pressure[0].is_valid(length - 1000 + 20));
-  EXPECT_EQ(clean.record->motor_rate.values.tail(1000), raw.tachometer.values.tail(1000));
-}
-
-TEST(CleanRecord, RefusesGapsLongerThanTheRecord) {
-  RawRecord raw = healthy();
-  raw.time.tail(1000).array() += 1e4;
-  const CleanRecord clean = clean_record(raw);
-  EXPECT_THAT(clean.refusal, HasSubstr("cut the file there"));
-  EXPECT_EQ(clean.defects.back().kind, DefectKind::gap);
-}
-
-TEST(CleanRecord, FindsAChangeOfTheSampleRate) {
-  RawRecord raw = healthy();
-  for (Index i = 0; i < length; ++i) {
-    const auto slow = static_cast<double>(std::max<Index>(0, i - 3000));
-    raw.time[i] = step * (static_cast<double>(i) + slow);  // 100 a second from sample 3000
-    raw.tachometer.values[i] = rate_at(raw.time[i]);
-  }
-  const CleanRecord clean = clean_record(raw);
-  const RecordDefect defect = only(clean, DefectKind::rate_change);
-  EXPECT_NEAR(static_cast<double>(defect.first), 3000.0, 40.0);
-  EXPECT_NEAR(static_cast<double>(defect.count), 1000.0, 40.0);
-  EXPECT_DOUBLE_EQ(clean.record->sample_time, step);
-  EXPECT_EQ(clean.record->samples(), length + 999);
-  EXPECT_EQ(invalid_count(clean.record->motor_rate), 0);
-  EXPECT_NEAR(clean.record->motor_rate.values[4500], rate_at(4500 * step), 1e-3);
 }
 
 TEST(CleanRecord, MasksAStatedLimitWithAGuardBand) {

@@ -12,8 +12,8 @@ double largest(const Eigen::VectorXd& values) {
   return values.size() > 0 ? values.cwiseAbs().maxCoeff() : 0.0;
 }
 
-bool is_driven(const std::optional<Signal>& command, double fastest) {
-  return command && largest(command->values) > 1e-3 * fastest;
+bool is_driven(const Signal& command, double fastest) {
+  return largest(command.values) > 1e-3 * fastest;
 }
 
 // As many samples as a time has, but no more than a fiftieth of the record.
@@ -74,8 +74,7 @@ bool ever_faster(const std::vector<double>& times) {
   return last < 0.3 * first;
 }
 
-TestKind of_valve(const DriveRecord& record) {
-  const Eigen::VectorXd& valve = record.valve_command->values;
+TestKind of_valve(const DriveRecord& record, const Eigen::VectorXd& valve) {
   const double duration = record.sample_time * static_cast<double>(valve.size());
   const Index width = block_width(record, 0.02);
   const Eigen::VectorXd means = block_means(valve, width);
@@ -113,10 +112,10 @@ double fastest_motion(const std::vector<const DriveRecord*>& records) {
 }
 
 TestKind recognised_test(const DriveRecord& record, double fastest) {
-  if (is_driven(record.rate_command, fastest)) {
-    return of_rate(record.rate_command->values, fastest);
-  }
-  if (is_driven(record.valve_command, fastest)) return of_valve(record);
+  const auto& rate = record.rate_command;
+  const auto& valve = record.valve_command;
+  if (rate && is_driven(*rate, fastest)) return of_rate(rate->values, fastest);
+  if (valve && is_driven(*valve, fastest)) return of_valve(record, valve->values);
   if (largest(record.motor_rate.values) <= 0.0) return TestKind::other;
   if (record.rate_command) {  // the valve driven, and not recorded
     const double duration = record.sample_time * static_cast<double>(record.samples());

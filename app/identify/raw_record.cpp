@@ -33,7 +33,7 @@ class Mapper {
     const ChosenColumns chosen = choose_columns(table_, entry, antenna_.motor.count);
     notes_.remarks.insert(notes_.remarks.end(), chosen.remarks.begin(), chosen.remarks.end());
     identification::RawRecord raw;
-    raw.tachometer = tachometer(*chosen.tachometer);
+    raw.tachometer = tachometer(chosen.tachometer);
     raw.time = chosen.time ? time(*chosen.time) : even_times(raw.tachometer.values.size());
     for (std::size_t motor = 0; motor < chosen.inlet.size(); ++motor) {
       raw.inlet.push_back(pressure(chosen.inlet[motor], entry.inlet, motor, "inlet"));
@@ -182,8 +182,9 @@ class Mapper {
           column.unit_text));
     }
     const double gear = turns(entry->shaft, "the tachometer");
-    const double per_volt =
-        entry->voltage ? gear * entry->shaft_speed->value / entry->voltage->value : 0.0;
+    const double per_volt = entry->voltage && entry->shaft_speed
+                                ? gear * entry->shaft_speed->value / entry->voltage->value
+                                : 0.0;
     RawChannel result = channel(column, column.unit.factor * (volts ? per_volt : gear));
     if (entry->recorder_limit) {
       result.upper_limit = entry->recorder_limit->value * (entry->voltage ? per_volt : gear);
@@ -245,8 +246,8 @@ class Mapper {
     if (column.unit.dimension == dimension_of(Kind::angular_rate)) {
       return channel(column, column.unit.factor * gear);
     }
-    return scaled(column, instruments->rate_command_scale, gear, entry.has_value(),
-                  "rate_command_scale");
+    return scaled(column, instruments ? instruments->rate_command_scale : std::nullopt, gear,
+                  entry.has_value(), "rate_command_scale");
   }
 
   std::optional<RawChannel> valve_command(const ChosenColumn& chosen) {

@@ -203,10 +203,11 @@ ChosenColumns choose_columns(const RecordTable& table, const RecordColumnsEntry&
       columns.push_back(*column);
     }
   }
-  chosen.tachometer =
+  const auto tachometer =
       choose(entry.tachometer, {dimension_of(Kind::voltage), dimension_of(Kind::angular_rate)},
              is_tachometer);
-  if (!chosen.tachometer) chooser.refuse_missing("tachometer", "tachometer");
+  if (!tachometer) chooser.refuse_missing("tachometer", "tachometer");
+  chosen.tachometer = *tachometer;
   const auto command = [&](const std::optional<ColumnEntry>& column, const auto& fits) {
     return chooser.lacks(column, chosen.remarks)
                ? std::nullopt

@@ -19,7 +19,9 @@ struct ChosenColumn {
 
 /// The columns of a record that hold what is known to be in it; one a motor in order.
 struct ChosenColumns {
-  std::optional<ChosenColumn> time, tachometer, rate_command, valve_command;
+  ChosenColumn tachometer;
+  /// No time only where the case states the sample rate.
+  std::optional<ChosenColumn> time, rate_command, valve_command;
   std::vector<ChosenColumn> inlet, outlet;
   /// Of commands that the case names a column for and the file has none of that name, a sentence
   /// each.

@@ -23,6 +23,25 @@ plant::Slope signed_root(double y) {
 
 }  // namespace
 
+PortOpening port_opening(const Eigen::VectorXd& c, const HydraulicUnits& units, double spool) {
+  const double gain = c(C::valve_gain);
+  const double share = std::abs(spool) / units.largest_command;
+  const double bent = 1.0 + c(C::valve_curvature) * share;
+  const double position = gain * spool * bent + c(C::valve_null);
+  const double lap = c(C::valve_lap);
+  // Rounded, as the lands' edges are.
+  const double edge = 0.002 * units.largest_command;
+  const double beyond = std::hypot(position + lap, edge);
+  const double before = std::hypot(position - lap, edge);
+  const double slope = 1.0 - 0.5 * ((position + lap) / beyond - (position - lap) / before);
+  return {position - 0.5 * (beyond - before),
+          slope * gain * (1.0 + 2.0 * c(C::valve_curvature) * share),
+          slope * spool * bent,
+          slope * gain * spool * share,
+          slope,
+          -0.5 * ((position + lap) / beyond + (position - lap) / before)};
+}
+
 PressureRates pressure_rates(const Eigen::VectorXd& c, const HydraulicUnits& units,
                              const Eigen::Vector2d& p, double opening, double rate) {
   const double size = std::abs(opening) / units.largest_command;
@@ -104,29 +123,18 @@ void predict_pressures(const GreyBoxRecord& record, const HydraulicUnits& units,
   Eigen::Vector2d p = Eigen::Vector2d::Zero();
   By p_by = By::Zero();
   double spool = record.valve(0), spool_by_lag = 0.0;
-  // Port opening at a spool position, and its derivatives by that and by the curvature.
-  struct Opening {
-    double value, by_spool, by_gain, by_curvature;
-  };
-  const auto opening = [&](double spool_now) {
-    const double gain = c(C::valve_gain);
-    const double share = std::abs(spool_now) / units.largest_command;
-    const double bent = 1.0 + c(C::valve_curvature) * share;
-    return Opening{gain * spool_now * bent + c(C::valve_null),
-                   gain * (1.0 + 2.0 * c(C::valve_curvature) * share), spool_now * bent,
-                   gain * spool_now * share};
-  };
   const auto motor_rate = [&](Index k) {
     return record.motion(k) - c(C::tachometer_zero) + c(C::tachometer_lag) * record.motion_slope(k);
   };
   // Total derivatives of the pressures' rates: through the pressures, the valve and the rate, and
   // directly.
-  const auto total = [&](const PressureRates& f, const By& pressure_by, const Opening& o,
+  const auto total = [&](const PressureRates& f, const By& pressure_by, const PortOpening& o,
                          double spool_by, Index k) {
     By by = f.by_pressure * pressure_by + f.by_coefficient;
     by.col(C::valve_gain) += f.by_opening * o.by_gain;
     by.col(C::valve_curvature) += f.by_opening * o.by_curvature;
-    by.col(C::valve_null) += f.by_opening;
+    by.col(C::valve_null) += f.by_opening * o.by_null;
+    by.col(C::valve_lap) += f.by_opening * o.by_lap;
     by.col(C::valve_lag) += f.by_opening * (o.by_spool * spool_by);
     by.col(C::tachometer_zero) -= f.by_rate;
     by.col(C::tachometer_lag) += f.by_rate * record.motion_slope(k);
@@ -147,7 +155,8 @@ void predict_pressures(const GreyBoxRecord& record, const HydraulicUnits& units,
         decay * spool + (mean - decay) * record.valve(k) + (1.0 - mean) * record.valve(k + 1);
     const double next_by = decay * spool_by_lag + decay_by * spool +
                            (mean_by - decay_by) * record.valve(k) - mean_by * record.valve(k + 1);
-    const Opening now = opening(spool), next = opening(next_spool);
+    const PortOpening now = port_opening(c, units, spool);
+    const PortOpening next = port_opening(c, units, next_spool);
     const auto f = pressure_rates(c, units, p, now.value, motor_rate(k));
     const Eigen::Vector2d slope = f.value + correction * error;
     const Eigen::Vector2d ahead = p + h * slope;

@@ -25,6 +25,7 @@ struct HydraulicCoefficients {
     tachometer_zero,  // rad/s
     tachometer_lag,   // s
     correction,       // 1/s
+    valve_lap,        // rad/s of opening that the lands cover about the centre; below 0: underlap
     count
   };
 };
@@ -44,7 +45,8 @@ struct HydraulicUnits {
 ///   o > 0: q1 = o s(2 (Ps - P1 - R w)/(ps - pr)), q2 = o s(2 (P2 - R w - Pr)/(ps - pr)),
 ///   mirrored for o < 0
 /// as plant::to_feedback_system but for the lines' resistance R; w the recorded rate less its zero
-/// and put forward by the tachometer's lag. Heun's method.
+/// and put forward by the tachometer's lag, the opening that of port_opening behind the valve's
+/// lag. Heun's method.
 ///
 /// Writes measured less predicted pressure of both sides, 2 a sample, and, unless `jacobian` is
 /// null, its derivatives (coefficients x 2 samples). Nothing is allocated per sample.
@@ -53,6 +55,26 @@ struct HydraulicUnits {
 void predict_pressures(const GreyBoxRecord& record, const HydraulicUnits& units,
                        const Eigen::VectorXd& coefficients, Eigen::VectorXd& residuals,
                        Eigen::MatrixXd* jacobian);
+
+/// The port's opening (rad/s) at a spool position s (rad/s of command), and its derivatives: by the
+/// spool and, directly, by coefficients:
+///   x = gain s (1 + curvature |s|/largest command) + null
+///   o = x - (sqrt((x + lap)^2 + e^2) - sqrt((x - lap)^2 + e^2))/2,  e 2/1000 of the largest
+///   command
+/// which rises with s: nothing within the lap, x less the lap beyond; twice x within an underlap,
+/// where both lands let oil through. Leakage takes a flow in proportion to the load, the lap the
+/// same at every load; as most of the load is friction of nearly one size, the two look alike, and
+/// a lap of a thousandth of the stroke counts as much as a good part of the leakage.
+struct PortOpening {
+  double value = 0.0;
+  double by_spool = 0.0;
+  double by_gain = 0.0;
+  double by_curvature = 0.0;
+  double by_null = 0.0;
+  double by_lap = 0.0;
+};
+PortOpening port_opening(const Eigen::VectorXd& coefficients, const HydraulicUnits& units,
+                         double spool);
 
 /// d/dt of both pressures (N m/s) at an opening (rad/s) and a motor rate (rad/s), without
 /// correction, and its derivatives: by the pressures, the opening, the rate and, directly, the

@@ -72,11 +72,11 @@ constexpr std::array from_mechanics{P::coulomb_torque,    P::stribeck_torque, P:
                                     P::bristle_stiffness, P::bristle_damping, P::offset_torque,
                                     P::common_torque,     P::tachometer_zero, P::tachometer_lag,
                                     P::rate_correction,   P::mode_damping};
-constexpr std::array from_hydraulics{P::cross_leakage,      P::null_leakage,    P::case_leakage,
-                                     P::valve_gain,         P::valve_null,      P::valve_lag,
-                                     P::valve_curvature,    P::line_resistance, P::supply_torque,
-                                     P::supply_droop,       P::tachometer_zero, P::tachometer_lag,
-                                     P::pressure_correction};
+constexpr std::array from_hydraulics{P::cross_leakage,       P::null_leakage,    P::case_leakage,
+                                     P::valve_gain,          P::valve_null,      P::valve_lag,
+                                     P::valve_curvature,     P::line_resistance, P::supply_torque,
+                                     P::supply_droop,        P::tachometer_zero, P::tachometer_lag,
+                                     P::pressure_correction, P::valve_lap};
 
 }  // namespace
 
@@ -248,6 +248,8 @@ void GreyBoxParameters::add_hydraulics(const Campaign& campaign,
                             0.0,
                             0.01 * units_.supply_torque / largest_rate_,
                             false};
+  // Ground to the ports within a few thousandths of the stroke.
+  list_[valve_lap] = {"valve lap", "rad/s", false, 0.0, 0.005 * units_.largest_command, false};
   list_[valve_null] = {"valve null", "rad/s", false, 0.0, 0.02 * units_.largest_command, false};
   list_[supply_droop] = {"supply droop", "", false, 0.0, 0.05, false};
 }

@@ -54,7 +54,7 @@ class GreyBoxParameters {
     tachometer_lag,
     rate_correction,
     mode_damping,
-    cross_leakage,  // from here to supply_droop as HydraulicCoefficients has them
+    cross_leakage,  // from here to valve_lap as HydraulicCoefficients has them
     null_leakage,
     case_leakage,
     valve_gain,
@@ -65,6 +65,7 @@ class GreyBoxParameters {
     supply_torque,
     supply_droop,
     pressure_correction,
+    valve_lap,
     command_gain,  // opening per rate command, where the rate command drives the valve
     modes          // share and frequency of each mode of the locked rotor
   };

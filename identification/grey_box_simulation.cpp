@@ -82,10 +82,7 @@ GreyBoxRecord simulate_drive(const GreyBoxParameters& parameters, const VectorXd
       const double place = (static_cast<double>(step) + 0.5) / steps_per_sample;
       const double wanted = valve + place * (next_valve - valve);
       spool = wanted + (spool - wanted) * decay;
-      const double share = std::abs(spool) / units.largest_command;
-      const double opening = hydraulic(Hydraulic::valve_gain) * spool *
-                                 (1.0 + hydraulic(Hydraulic::valve_curvature) * share) +
-                             hydraulic(Hydraulic::valve_null);
+      const double opening = port_opening(hydraulic, units, spool).value;
       const auto now = pressure_rates(hydraulic, units, p, opening, motor.rate());
       const auto half =
           pressure_rates(hydraulic, units, p + 0.5 * h * now.value, opening, motor.rate());

@@ -29,7 +29,7 @@ Vector mechanical() {
 Vector hydraulic() {
   Vector c(Hydraulic::count);
   c << 26.3, 26.5, 0.007, 0.0005, 0.0008, 0.97, 0.3, 0.005, 0.02, 0.1, 474.0, 0.05, 0.03, 0.004,
-      11.0;
+      11.0, 0.2;
   return c;
 }
 
@@ -226,6 +226,27 @@ TEST(PredictPressures, OfTheMirroredDriveAreExchanged) {
   for (Eigen::Index k = 0; k < errors.size(); k += 2) {
     EXPECT_NEAR(errors(k), exchanged(k + 1), 1e-9);
     EXPECT_NEAR(errors(k + 1), exchanged(k), 1e-9);
+  }
+}
+
+TEST(PortOpening, IsADeadZoneOfTheLapAndDoublesWithinAnUnderlap) {
+  Vector c = Vector::Zero(Hydraulic::count);
+  c(Hydraulic::valve_gain) = 0.9;
+  c(Hydraulic::valve_null) = 0.05;
+  const auto opening = [&](double lap, double spool) {
+    c(Hydraulic::valve_lap) = lap;
+    return port_opening(c, units, spool).value;
+  };
+  for (const double lap : {1.5, -1.5, 0.0}) {
+    EXPECT_NEAR(opening(lap, 20.0), 0.9 * 20.0 + 0.05 - lap, 1e-3);
+    EXPECT_NEAR(opening(lap, -20.0), -0.9 * 20.0 + 0.05 + lap, 1e-3);
+  }
+  EXPECT_NEAR(opening(1.5, 0.4), 0.0, 0.01);
+  EXPECT_NEAR(opening(-1.5, 0.4), 2.0 * (0.9 * 0.4 + 0.05), 0.01);
+  EXPECT_DOUBLE_EQ(opening(0.0, 0.4), 0.9 * 0.4 + 0.05);
+  // Rises everywhere, so that a flow belongs to one position.
+  for (double spool = -4.0; spool < 4.0; spool += 0.05) {
+    EXPECT_GT(opening(1.5, spool + 0.05), opening(1.5, spool)) << spool;
   }
 }
 

@@ -72,18 +72,14 @@ inline Eigen::VectorXd point_of(const GreyBoxParameters& parameters,
 }
 
 inline std::vector<std::pair<Eigen::Index, double>> truth_values() {
-  return {{P::motor_inertia, 1.004},    {P::gear_inertia, 0.19},
-          {P::antenna_inertia, 0.55},   {P::coulomb_torque, 4.0},
-          {P::stribeck_torque, 2.0},    {P::stribeck_rate, 0.15},
-          {P::saturating_torque, 14.0}, {P::saturating_rate, 1.5},
-          {P::viscous_friction, 0.5},   {P::bristle_stiffness, 800.0},
-          {P::bristle_damping, 2.0},    {P::offset_torque, -2.5},
-          {P::tachometer_zero, 0.02},   {P::tachometer_lag, 0.002},
-          {P::mode_damping, 0.012},     {P::cross_leakage, 0.02},
-          {P::null_leakage, 0.002},     {P::case_leakage, 0.002},
-          {P::valve_gain, 0.98},        {P::valve_null, 0.1},
-          {P::valve_lag, 0.005},        {P::share(0), 4.0},
-          {P::frequency(0), 2.55}};
+  return {{P::motor_inertia, 1.004},     {P::gear_inertia, 0.19},    {P::antenna_inertia, 0.55},
+          {P::coulomb_torque, 4.0},      {P::stribeck_torque, 2.0},  {P::stribeck_rate, 0.15},
+          {P::saturating_torque, 14.0},  {P::saturating_rate, 1.5},  {P::viscous_friction, 0.5},
+          {P::bristle_stiffness, 800.0}, {P::bristle_damping, 2.0},  {P::offset_torque, -2.5},
+          {P::tachometer_zero, 0.02},    {P::tachometer_lag, 0.002}, {P::mode_damping, 0.012},
+          {P::cross_leakage, 0.02},      {P::null_leakage, 0.002},   {P::case_leakage, 0.002},
+          {P::valve_gain, 0.98},         {P::valve_null, 0.1},       {P::valve_lag, 0.005},
+          {P::valve_lap, 0.1},           {P::share(0), 4.0},         {P::frequency(0), 2.55}};
 }
 
 /// A record as a recorder with errors would write it, 50 samples a second; torque and rate noise

@@ -35,10 +35,6 @@ SimulationResult exercise(const NonlinearAntenna& antenna, double duration, doub
   return simulate(to_feedback_system(antenna), plan);
 }
 
-VectorXd column(const SimulationResult& result, const std::string& name) {
-  return result.values.col(std::ranges::find(result.names, name) - result.names.begin());
-}
-
 TEST(SimulationCorners, BristlesAHundredTimesAsStiff) {
   auto details = reference::drive_details();
   details.friction.bristle_stiffness *= 100.0;

@@ -19,7 +19,7 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-Index column(const SimulationResult& result, const std::string& name) {
+Index column_index(const SimulationResult& result, const std::string& name) {
   const auto found = std::ranges::find(result.names, name);
   EXPECT_NE(found, result.names.end()) << name;
   return found - result.names.begin();
@@ -50,8 +50,8 @@ TEST(Simulation, SampledLoopFollowsItsRecursion) {
   plan.computation_delay = sample_time;
   const auto result = simulate(lag(), plan);
   ASSERT_TRUE(result.complete);
-  const Index y = column(result, "y");
-  const Index u = column(result, "u");
+  const Index y = column_index(result, "y");
+  const Index u = column_index(result, "u");
   const double decay = std::exp(-sample_time);
   double x = 0.0;
   double acting = 0.0;
@@ -73,11 +73,11 @@ TEST(Simulation, DelayOfPartOfASampleShiftsTheCommand) {
   plan.controller = &controller;
   plan.computation_delay = 0.04;
   const auto result = simulate(lag(), plan);
-  const Index u = column(result, "u");
+  const Index u = column_index(result, "u");
   EXPECT_EQ(result.values(1, u), 0.0);
   EXPECT_EQ(result.values(2, u), 1.0);
   EXPECT_EQ(result.values(6, u), 1.0);
-  EXPECT_NEAR(result.values(7, u), 1.0 - result.values(5, column(result, "y")), 1e-15);
+  EXPECT_NEAR(result.values(7, u), 1.0 - result.values(5, column_index(result, "y")), 1e-15);
 }
 
 TEST(LinearSampledController, DoesNotWindUp) {
@@ -121,7 +121,7 @@ TEST(Simulation, SmallMotionIsThatOfTheLinearisedAntenna) {
     const MatrixXd expected = linear.simulate(small);
     VectorXd steady = VectorXd::Zero(samples);
     for (const char* name : {"tachometer", "motor_torque", "encoder", "beam", "inlet_pressure_2"}) {
-      const Index c = column(result, name);
+      const Index c = column_index(result, name);
       const bool angle = std::string(name) == "encoder" || std::string(name) == "beam";
       for (Index k = 0; k < samples; ++k) {
         steady[k] =
@@ -175,7 +175,7 @@ TEST(Simulation, SloshFrequenciesReturnTheBulkModulus) {
   for (std::size_t motor = 0; motor < lengths.size(); ++motor) {
     // After the valve has closed.
     const VectorXd record =
-        result.values.col(column(result, "inlet_pressure_" + std::to_string(motor + 1))).tail(1950);
+        result.values.col(column_index(result, "inlet_pressure_" + std::to_string(motor + 1))).tail(1950);
     const double slosh = strongest_frequency(record, plan.interval, 30.0, 60.0);
     EXPECT_NEAR(bulk_modulus_from_slosh(lengths[motor], slosh, 850.0), 1229e6, 0.005 * 1229e6);
   }

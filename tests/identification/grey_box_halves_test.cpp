@@ -4,7 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "random_numbers.hpp"
+#include "../random_numbers.hpp"
 #include <boresight/identification/grey_box_hydraulics.hpp>
 #include <boresight/identification/grey_box_mechanics.hpp>
 #include <boresight/plant/error.hpp>

@@ -5,7 +5,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "random_numbers.hpp"
+#include "../random_numbers.hpp"
 #include "synthetic_drive.hpp"
 #include <boresight/identification/grey_box.hpp>
 #include <boresight/identification/grey_box_hold_out.hpp>

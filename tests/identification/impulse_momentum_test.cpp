@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "prescribed_motion.hpp"
-#include "random_numbers.hpp"
+#include "../random_numbers.hpp"
 #include <boresight/identification/impulse_momentum.hpp>
 #include <boresight/plant/error.hpp>
 

@@ -83,12 +83,12 @@ PlantResponse plant_response(const StructureResponse& structure, const Drive& dr
     array->resize(count);
   }
   for (Eigen::Index i = 0; i < count; ++i) {
-    const ResponsePoint point = drive_on_structure(
-        drive,
-        {structure.inertial_stiffness[i], structure.gear_stiffness[i],
-         structure.wind_at_bull_gear[i], structure.beam_per_bull_gear[i],
-         structure.beam_per_wind[i]},
-        structure.frequency[i]);
+    const ResponsePoint point =
+        drive_on_structure(drive,
+                           {structure.inertial_stiffness[i], structure.gear_stiffness[i],
+                            structure.wind_at_bull_gear[i], structure.beam_per_bull_gear[i],
+                            structure.beam_per_wind[i]},
+                           structure.frequency[i]);
     response.tachometer_command[i] = point.tachometer_command;
     response.torque_command[i] = point.torque_command;
     response.encoder_command[i] = point.encoder_command;

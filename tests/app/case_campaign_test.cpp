@@ -15,8 +15,7 @@ using testing::HasSubstr;
 
 // What the small dish's case says with one text of it replaced.
 std::string refusal(const std::string& old, const std::string& replacement) {
-  std::ifstream file(std::string(BORESIGHT_SOURCE_DIR) +
-                     "/tests/data/campaigns/small-dish/case.toml");
+  std::ifstream file(BORESIGHT_SOURCE_DIR "/tests/data/campaigns/small-dish/case.toml");
   std::string text{std::istreambuf_iterator<char>(file), {}};
   const std::size_t at = text.find(old);
   if (at == std::string::npos) return "not in the case: " + old;

@@ -47,8 +47,8 @@ TEST(SensitivityBounds, AreThoseOfADenseGrid) {
         const double highest = brute_force(plant, law, loop_breaks[b]);
         EXPECT_TRUE(bounds[b].closed);
         EXPECT_LT(relative_error(bounds[b].lower, highest), 1e-8)
-            << to_string(loop_breaks[b]) << ", " << structure.name() << ", "
-            << bounds[b].frequency << " rad/s";
+            << to_string(loop_breaks[b]) << ", " << structure.name() << ", " << bounds[b].frequency
+            << " rad/s";
         EXPECT_LE(highest, bounds[b].upper * (1.0 + 1e-12)) << to_string(loop_breaks[b]);
       }
     }

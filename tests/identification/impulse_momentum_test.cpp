@@ -3,8 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "prescribed_motion.hpp"
 #include "../random_numbers.hpp"
+#include "prescribed_motion.hpp"
 #include <boresight/identification/impulse_momentum.hpp>
 #include <boresight/plant/error.hpp>
 

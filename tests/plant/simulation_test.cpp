@@ -175,7 +175,8 @@ TEST(Simulation, SloshFrequenciesReturnTheBulkModulus) {
   for (std::size_t motor = 0; motor < lengths.size(); ++motor) {
     // After the valve has closed.
     const VectorXd record =
-        result.values.col(column_index(result, "inlet_pressure_" + std::to_string(motor + 1))).tail(1950);
+        result.values.col(column_index(result, "inlet_pressure_" + std::to_string(motor + 1)))
+            .tail(1950);
     const double slosh = strongest_frequency(record, plan.interval, 30.0, 60.0);
     EXPECT_NEAR(bulk_modulus_from_slosh(lengths[motor], slosh, 850.0), 1229e6, 0.005 * 1229e6);
   }

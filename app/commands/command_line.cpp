@@ -13,6 +13,7 @@
 #include <boresight/app/commands/progress_line.hpp>
 #include <boresight/app/commands/simulate_command.hpp>
 #include <boresight/app/identify/campaign_identification.hpp>
+#include <boresight/app/identify/identified_case.hpp>
 #include <boresight/app/redesign/sections.hpp>
 #include <boresight/app/report/json_report.hpp>
 #include <boresight/app/report/text_report.hpp>
@@ -64,8 +65,18 @@ void fill_identification(const Case& antenna, const StudyOptions& options, Repor
 void fill_redesign(const Case& antenna, const StudyOptions& options, Report& report) {
   fill_identification(antenna, options, report);
   report.audit = audit(antenna);
-  report.plant = describe_plant(antenna);
-  redesign(antenna, options, report);
+  // With records the redesign is of the drive that they show, and is judged on what they leave
+  // open.
+  const bool identified = report.campaign && report.campaign->grey_box;
+  const Case designed =
+      identified ? with_identified(antenna, report.campaign->grey_box->estimate) : antenna;
+  if (identified) report.assumed = assumed_inputs(designed);
+  report.plant = describe_plant(designed);
+  redesign(designed, options, report);
+  if (identified && report.tuning) {
+    report.tuning->ensemble =
+        judge_identified(antenna, designed, *report.campaign->grey_box, *report.tuning, options);
+  }
   report.conclusions = conclude(report);
 }
 

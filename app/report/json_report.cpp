@@ -180,6 +180,28 @@ Json design_json(const design::Design& design) {
             {"lyapunov_to_spectral_rms_1", number(check.lyapunov.total / check.spectral_rms)}}}};
 }
 
+Json ensemble_json(const design::EnsembleResult& ensemble) {
+  Json members = Json::array();
+  for (const auto& member : ensemble.members) {
+    Json peaks = Json::array();
+    for (const double peak : member.sensitivity_peaks) peaks.push_back(number(peak));
+    members.push_back({{"name", member.name},
+                       {"stable", member.stable},
+                       {"beam_rms_mdeg", number(member.beam_rms / millidegree)},
+                       {"sensitivity_peaks_1", std::move(peaks)},
+                       {"valve_effort_rad_per_s", number(member.valve_effort)},
+                       {"worst_goal_ratio_1", number(member.worst_goal_ratio)}});
+  }
+  return {{"stable", ensemble.stable},
+          {"within_goals", ensemble.within_goals},
+          {"least_beam_rms_mdeg", number(ensemble.least_rms / millidegree)},
+          {"median_beam_rms_mdeg", number(ensemble.median_rms / millidegree)},
+          {"quantile_95_beam_rms_mdeg", number(ensemble.high_rms / millidegree)},
+          {"largest_beam_rms_mdeg", number(ensemble.largest_rms / millidegree)},
+          {"worst", ensemble.members[ensemble.worst].name},
+          {"members", std::move(members)}};
+}
+
 Json tuning_json(const TuningSection& section) {
   const auto gusts = plant::site_gusts(section.wind_site);
   Json json{{"design_wind_speed_m_per_s", section.design_speed},
@@ -218,6 +240,7 @@ Json tuning_json(const TuningSection& section) {
                              {"beamwidth_mdeg", loss.band.beamwidth / millidegree},
                              {"mean_loss_two_axes_dB", number(loss.mean_loss_db)}});
   }
+  json["ensemble"] = section.ensemble ? ensemble_json(*section.ensemble) : Json(nullptr);
   json["budgets"] = Json::array();
   for (const auto& result : section.budgets) {
     json["budgets"].push_back({{"name", result.budget.name},

@@ -8,6 +8,7 @@
 #include <boresight/app/audit/audit_report.hpp>
 #include <boresight/app/identify/campaign_section.hpp>
 #include <boresight/app/redesign/antenna_model.hpp>
+#include <boresight/design/plant_ensemble.hpp>
 
 namespace boresight::app {
 
@@ -76,6 +77,8 @@ struct TuningSection {
   };
   std::vector<BandLoss> losses;
   std::vector<BudgetResult> budgets;
+  /// The law on plants drawn from what the records leave open; of cases with records.
+  std::optional<design::EnsembleResult> ensemble;
 };
 
 /// The same loop tuned on what another choice among contradictory numbers would make of the plant.

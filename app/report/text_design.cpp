@@ -91,6 +91,21 @@ std::string wind_text(const TuningSection& section) {
       "  ");
 }
 
+std::string ensemble_text(const design::EnsembleResult& ensemble, const design::HardGoals& goals) {
+  const auto& worst = ensemble.members[ensemble.worst];
+  const double peak = *std::ranges::max_element(worst.sensitivity_peaks);
+  return fmt::format(
+      "The same gains on {} plants drawn from what the records leave open: {} stable, {} within "
+      "every goal; beam rms {} .. {} mdeg, median {}, 95 % below {}. The worst, {}, {}.",
+      ensemble.members.size(), ensemble.stable, ensemble.within_goals, mdeg(ensemble.least_rms),
+      mdeg(ensemble.largest_rms), mdeg(ensemble.median_rms), mdeg(ensemble.high_rms), worst.name,
+      worst.stable
+          ? fmt::format("has a sensitivity peak of {:.3f} where {:g} is allowed and a valve effort "
+                        "of {:.3f} rad/s where {:g} is",
+                        peak, goals.sensitivity_peak[0], worst.valve_effort, goals.valve_effort)
+          : "is not stable");
+}
+
 }  // namespace
 
 std::string to_text(const TuningSection& section) {
@@ -143,6 +158,8 @@ std::string to_text(const TuningSection& section) {
                               section.seeds.size(), seeds, section.seeds_within_1_percent),
                   "  ");
   text += "\n";
+  if (section.ensemble)
+    text += wrapped(ensemble_text(*section.ensemble, section.goals), "  ") + "\n";
   std::vector<std::vector<std::string>> rows{{"wind model, same gains", "beam rms mdeg"}};
   for (const auto& alternative : section.wind_alternatives) {
     rows.push_back({std::string(plant::to_string(alternative.model)), mdeg(alternative.beam_rms)});

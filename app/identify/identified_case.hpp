@@ -1,0 +1,33 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include <boresight/app/redesign/sections.hpp>
+#include <boresight/design/plant_ensemble.hpp>
+#include <boresight/identification/grey_box.hpp>
+
+namespace boresight::app {
+
+/// The case with what its records say in the place of what it states: the motors' and the antenna's
+/// inertia (gear train as stated), oil stiffness and bulk modulus (both volumes scaled alike to
+/// meet the stiffness), leakage, friction curve, offset torque and bristles where the case has
+/// them, and all structural frequencies in proportion to the lowest of the locked rotor. These
+/// numbers then have the basis "measured".
+/// @throws NumericalFailure for an estimate that leaves the antenna no inertia.
+Case with_identified(const Case& antenna, const identification::DriveEstimate& estimate);
+
+/// Plants of the identified distribution, at most `count`, named "draw 1" and so on. Draws that
+/// leave the antenna no inertia are passed over.
+std::vector<design::EnsembleMember> identified_ensemble(
+    const Case& antenna, const std::vector<identification::DriveEstimate>& draws,
+    std::size_t count);
+
+/// The tuned law, its gains held, on 200 plants of the identified distribution; nothing where no
+/// law was found. `designed`: the case at the estimate.
+std::optional<design::EnsembleResult> judge_identified(const Case& antenna, const Case& designed,
+                                                       const identification::GreyBoxResult& found,
+                                                       const TuningSection& tuning,
+                                                       const StudyOptions& options);
+
+}  // namespace boresight::app

@@ -28,6 +28,24 @@ void conclude_masses(const IdentificationSection& section, std::vector<std::stri
   sentences.push_back(text + ".");
 }
 
+// What the records say takes the place of the methods' own printed numbers.
+void conclude_campaign(const CampaignSection& section, const identification::GreyBoxResult& found,
+                       std::vector<std::string>& sentences) {
+  const auto& inertia = found.quantity("inertia").posterior;
+  const auto& ratio = found.quantity("motor to load ratio").posterior;
+  const auto& leakage = found.quantity("leakage rate").posterior;
+  sentences.push_back(fmt::format(
+      "{} records together give a reflected inertia of {:.3f} kg.m2 (95 % interval {:.3f} .. "
+      "{:.3f}), R = {:.2f} ({:.2f} .. {:.2f}), and leakage of {:.3g} 1/s ({:.3g} .. {:.3g}); the "
+      "plant below is the one they show.",
+      found.records.size(), inertia.value, inertia.lower, inertia.upper, ratio.value, ratio.lower,
+      ratio.upper, leakage.value, leakage.lower, leakage.upper));
+  if (!section.contradictions.empty()) {
+    sentences.push_back(fmt::format("They contradict {} of the numbers that the case states.",
+                                    section.contradictions.size()));
+  }
+}
+
 void conclude_identification(const IdentificationSection& section,
                              std::vector<std::string>& sentences) {
   const auto& methods = section.inertia.methods;
@@ -185,7 +203,11 @@ void conclude_matching(const MatchingSection& section, std::vector<std::string>&
 
 std::vector<std::string> conclude(const Report& report) {
   std::vector<std::string> sentences;
-  if (report.identification) conclude_identification(*report.identification, sentences);
+  if (report.campaign && report.campaign->grey_box) {
+    conclude_campaign(*report.campaign, *report.campaign->grey_box, sentences);
+  } else if (report.identification) {
+    conclude_identification(*report.identification, sentences);
+  }
   if (report.tuning) conclude_tuning(*report.tuning, sentences);
   if (report.matching) conclude_matching(*report.matching, sentences);
   if (report.tuning && !report.assumed.empty()) {

@@ -17,8 +17,9 @@ struct RecordHeader {
   std::vector<std::string> remarks;
 };
 
-/// Finds the header: the last line with a text above the first line of two or more numbers, a
-/// comment if it has as many names; a line of units below the names is taken as such.
+/// Finds the header: the last line above the first line of two or more numbers that has as many
+/// cells (or one more or less), a comment only if no other has. A line of units below the names,
+/// "s,psi,V" or "[s],[psi],[V]", is taken as such. Lines skipped are counted in the remarks.
 /// @throws InvalidInput as read_record_text
 RecordHeader read_record_header(std::string_view content, const std::string& name);
 

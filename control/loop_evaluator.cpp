@@ -157,7 +157,7 @@ LoopChannels make_channels(const plant::AntennaPlant& plant, const Eigen::ArrayX
   return {plant::plant_response(plant, frequency), plant::PointResponse(plant)};
 }
 
-LoopEvaluator::LoopEvaluator(LoopChannels channels, double delay, SensorNoise noise,
+LoopEvaluator::LoopEvaluator(const LoopChannels& channels, double delay, SensorNoise noise,
                              const Eigen::ArrayXd& wind_spectrum, FrequencyBand band)
     : LoopEvaluator(channels, delay, noise, wind_spectrum,
                     integration_weights(channels.response.frequency, band),

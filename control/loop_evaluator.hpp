@@ -108,7 +108,7 @@ class LoopEvaluator {
   /// its bandwidth too) by the trapezoid rule in ln f; put the edges among the frequencies. Peaks
   /// and stability are taken over the whole grid.
   /// @throws InvalidInput for sizes that differ or a grid that does not rise.
-  LoopEvaluator(LoopChannels channels, double delay, SensorNoise noise,
+  LoopEvaluator(const LoopChannels& channels, double delay, SensorNoise noise,
                 const Eigen::ArrayXd& wind_spectrum, FrequencyBand band = {});
   LoopEvaluator(const plant::AntennaPlant& plant, const Eigen::ArrayXd& frequency, double delay,
                 SensorNoise noise, const Eigen::ArrayXd& wind_spectrum, FrequencyBand band = {});

@@ -37,7 +37,7 @@ constexpr double worthwhile = 0.998;
 // Keeps the record of one tuning and answers the optimiser's callbacks.
 class Search {
  public:
-  Search(control::LoopEvaluator& evaluator, control::LoopStructure structure,
+  Search(control::LoopEvaluator& evaluator, const control::LoopStructure& structure,
          const HardGoals& goals)
       : evaluator_(evaluator),
         goals_(goals),
@@ -237,8 +237,9 @@ bool less(const Candidate& x, const Candidate& y) {
 // Random starts on the coarse grid: the best three laws, the nearest to the goals where none is
 // feasible, nothing where none is stable.
 std::vector<Candidate> global_search(const TrackingProblem& problem,
-                                     control::LoopStructure structure, const HardGoals& goals,
-                                     const TuningOptions& options, TuningResult& result) {
+                                     const control::LoopStructure& structure,
+                                     const HardGoals& goals, const TuningOptions& options,
+                                     TuningResult& result) {
   TrackingProblem coarse_problem = problem;
   coarse_problem.points_per_decade = options.search_points_per_decade;
   control::LoopEvaluator coarse = make_evaluator(coarse_problem);
@@ -311,7 +312,7 @@ double worst_goal_ratio(const control::LoopEvaluation& evaluation, const HardGoa
   return worst;
 }
 
-TuningResult tune(const TrackingProblem& problem, control::LoopStructure structure,
+TuningResult tune(const TrackingProblem& problem, const control::LoopStructure& structure,
                   const HardGoals& goals, const TuningOptions& options) {
   const int least_starts = options.warm_starts.empty() ? 1 : 0;
   if (options.starts < least_starts || options.evaluations_per_start < 1 ||

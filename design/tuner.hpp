@@ -62,7 +62,7 @@ double worst_goal_ratio(const control::LoopEvaluation& evaluation, const HardGoa
 /// only feasible ones whose eigenvalues are stable can win. Deterministic by seed.
 /// A plant that no law of the search stabilises is a stated result, not an error.
 /// @throws InvalidInput for options below 1 (starts: below 0, or 0 without warm starts).
-TuningResult tune(const TrackingProblem& problem, control::LoopStructure structure,
+TuningResult tune(const TrackingProblem& problem, const control::LoopStructure& structure,
                   const HardGoals& goals, const TuningOptions& options);
 
 }  // namespace boresight::design

@@ -67,13 +67,14 @@ void fill_redesign(const Case& antenna, const StudyOptions& options, Report& rep
   report.audit = audit(antenna);
   // With records the redesign is of the drive that they show, and is judged on what they leave
   // open.
-  const bool identified = report.campaign && report.campaign->grey_box;
-  const Case designed =
-      identified ? with_identified(antenna, report.campaign->grey_box->estimate) : antenna;
-  if (identified) report.assumed = assumed_inputs(designed);
+  Case designed = antenna;
+  if (report.campaign && report.campaign->grey_box) {
+    designed = with_identified(antenna, report.campaign->grey_box->estimate);
+    report.assumed = assumed_inputs(designed);
+  }
   report.plant = describe_plant(designed);
   redesign(designed, options, report);
-  if (identified && report.tuning) {
+  if (report.campaign && report.campaign->grey_box && report.tuning) {
     report.tuning->ensemble =
         judge_identified(antenna, designed, *report.campaign->grey_box, *report.tuning, options);
   }

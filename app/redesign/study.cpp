@@ -20,7 +20,7 @@ design::DesignTask make_task(const Case& antenna, const StudyOptions& options, s
   design::DesignTask task;
   task.name = std::move(name);
   task.problem = make_problem(antenna, variant);
-  task.structure = structure;
+  task.structure = std::move(structure);
   task.goals = make_goals(antenna);
   task.options.seed = options.seed;
   return task;

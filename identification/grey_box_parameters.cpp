@@ -258,14 +258,19 @@ void GreyBoxParameters::add_modes(const DriveKnowledge& knowledge) {
   double sum = 0.0;
   const std::size_t count = knowledge.locked_rotor_frequencies.size();
   for (std::size_t i = 1; i <= count; ++i) sum += 1.0 / static_cast<double>(i * i);
+  // The rigid part is uncertain by a factor of e however many modes there are.
+  const double apart = std::sqrt(static_cast<double>(count));
   for (std::size_t i = 0; i < count; ++i) {
     const Uncertain& f = knowledge.locked_rotor_frequencies[i];
     positive(f.value, "locked-rotor frequency");
-    // Four fifths of the antenna in its modes, the lower ones heavier; the rest turns rigidly.
+    // On a locked rotor all of the antenna hangs on springs: what seems to turn rigidly is the mass
+    // of the modes that are not stated, by the usual rule of modal analysis a tenth; the lower
+    // modes are the heavier ones. A larger rigid part would have to come out of the motors'
+    // inertia, which is known well, and so out of the transducers' gains.
     const double rank = static_cast<double>(i + 1);
-    const double against_rest = 4.0 / (rank * rank * sum);
+    const double against_rest = 9.0 / (rank * rank * sum);
     list_.push_back({fmt::format("share of structural mode {} against the rigid part", i + 1), "",
-                     true, against_rest, 1.0, false});
+                     true, against_rest, apart, false});
     list_.push_back(
         {fmt::format("locked-rotor frequency {}", i + 1), "Hz", true, f.value, relative(f), true});
   }

@@ -29,7 +29,18 @@ says who). Written by `./dev accuracy`; a test compares it with what the program
   ten above it is given.
 - *asked*: largest error allowed; *last digit*: half a unit of the last digit the reference is
   printed with.
+
+The last section, how often the intervals of identified numbers hold the truth, is written by
+`./dev coverage`, which takes longer than a test may.
 )";
+
+std::string text_of(const std::string& path) {
+  std::ifstream file(path);
+  if (!file) throw std::runtime_error("cannot read " + path);
+  std::ostringstream text;
+  text << file.rdbuf();
+  return text.str();
+}
 
 std::string document(bool& holds) {
   const std::vector<std::function<AccuracySection()>> sections = {
@@ -43,15 +54,7 @@ std::string document(bool& holds) {
     text += "\n" + rows.markdown();
     holds = holds && rows.holds();
   }
-  return text;
-}
-
-std::string text_of(const std::string& path) {
-  std::ifstream file(path);
-  if (!file) throw std::runtime_error("cannot read " + path);
-  std::ostringstream text;
-  text << file.rdbuf();
-  return text.str();
+  return text + "\n" + text_of(BORESIGHT_SOURCE_DIR "/tests/coverage/table.md");
 }
 
 }  // namespace

@@ -65,14 +65,15 @@ Eigen::VectorXd weights(const MotionWindow& window, double sample_time) {
 }
 
 void integrate_rate(const DriveRecord& record, IntegratedMotion& motion) {
-  const auto& [first, last, taper] = motion.window;
+  const Eigen::Index first = motion.window.first, last = motion.window.last,
+                     taper = motion.window.taper;
   const auto& rate = record.motor_rate.values;
   if (taper == 0) {
     motion.rate_change = rate(last) - rate(first);
     return;
   }
   const double flank_time = static_cast<double>(taper) * record.sample_time;
-  const auto difference = [&, first = first, last = last](Eigen::Index i) {
+  const auto difference = [&](Eigen::Index i) {
     return rate(last - i) - rate(first + i);
   };
   double slope = 0.0, jerk = 0.0, slope_sum = 0.0, jerk_sum = 0.0;

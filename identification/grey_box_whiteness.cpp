@@ -34,7 +34,8 @@ std::vector<GreyBoxResidual> residual_statistics(const GreyBoxObjective& objecti
     r.outliers = channel.outliers;
     r.rms = channel.scale *
             std::sqrt(errors.squaredNorm() / static_cast<double>(std::max<Index>(1, r.counted)));
-    // Both sides' errors alternate: the larger of their correlations counts.
+    // Both sides' errors alternate: the larger of their correlations counts. A negative one takes
+    // nothing off the number of independent errors.
     const Index series = channel.pressures ? 2 : 1;
     const Index length = errors.size() / series;
     const Index longest = std::min<Index>(length / 4, 2000);
@@ -51,8 +52,8 @@ std::vector<GreyBoxResidual> residual_statistics(const GreyBoxObjective& objecti
              std::max(1.0, n - static_cast<double>(lag));
       }
       r.white = (s == 0 || r.white) && q <= chi_square_95;
+      if (std::abs(first(0)) > std::abs(r.neighbours)) r.neighbours = first(0);
     }
-    r.neighbours = worst(0);
     // Summed until the correlation first vanishes.
     double sum = 1.0;
     for (Index lag = 0; lag < worst.size() && worst(lag) > 0.0; ++lag) sum += 2.0 * worst(lag);

@@ -16,7 +16,7 @@ struct GreyBoxResidual {
   Eigen::Index counted = 0;
   Eigen::Index outliers = 0;  // beyond eight rms, left out
   double rms = 0.0;           // N m or rad/s
-  /// Autocorrelation at one sample.
+  /// Autocorrelation at one sample; of both sides' pressures the larger in size.
   double neighbours = 0.0;
   /// Independent errors that would say as much: counted over the correlation's length.
   double effective = 0.0;

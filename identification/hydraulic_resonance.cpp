@@ -294,7 +294,7 @@ void explain(const Campaign& campaign, const ResonanceOptions& options, Resonanc
         std::hypot(motion.standard_uncertainty, result.stiffness.standard_uncertainty);
     notes.push_back(fmt::format(
         "stiffness from oil data {:.4g} N m/rad, from motion alone {:.4g} ({:+.1f} %, {:.1f} "
-        "standard uncertainties{})",
+        "standard uncertainties{}",
         result.stiffness.value, motion.value, 100.0 * apart / result.stiffness.value,
         std::abs(apart) / expected,
         std::abs(apart) > 3.0 * expected

@@ -73,6 +73,9 @@ void fill_redesign(const Case& antenna, const StudyOptions& options, Report& rep
     report.assumed = assumed_inputs(designed);
   }
   report.plant = describe_plant(designed);
+  if (report.campaign && report.campaign->grey_box) {
+    report.plant->records = report.campaign->grey_box->records.size();
+  }
   redesign(designed, options, report);
   if (report.campaign && report.campaign->grey_box && report.tuning) {
     report.tuning->ensemble =

@@ -202,7 +202,7 @@ std::vector<Choice> plan_choices(const Case& antenna, const StudyOptions& option
         {}};
     choices.push_back(std::move(choice));
   };
-  add("reference", "masses and oil stiffness as the case gives them", {});
+  add("reference", "masses and oil stiffness of the plant above", {});
   for (const auto& alternative : antenna.antenna.alternatives) {
     add("antenna of " + alternative.name, "another antenna inertia",
         {.antenna_inertia = antenna_inertia(antenna, alternative)});

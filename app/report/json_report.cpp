@@ -103,7 +103,8 @@ Json plant_json(const PlantSection& section) {
   const auto& drive = section.plant.drive;
   Json modes = Json::array();
   for (const auto& mode : section.modes) modes.push_back(mode_json(mode));
-  return {{"gear_ratio_1", section.gear_ratio},
+  return {{"identified_from_records", section.records > 0},
+          {"gear_ratio_1", section.gear_ratio},
           {"motor_side_inertia_kg_m2", drive.motor_inertia},
           {"antenna_inertia_kg_m2", plant::antenna_inertia(section.plant.structure)},
           {"reflected_inertia_kg_m2", section.reflected_inertia},

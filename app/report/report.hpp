@@ -37,6 +37,8 @@ struct PlantSection {
   plant::PlantMode hydraulic;
   double supply_torque = 0.0;     // N m
   double mean_wind_torque = 0.0;  // N m at the motor, design speed
+  /// Records whose reconciled estimate the plant is; 0: as the case states it.
+  std::size_t records = 0;
 };
 
 /// Wind speed up to which a budget is met with the gains held.

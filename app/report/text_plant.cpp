@@ -13,6 +13,14 @@ std::string to_text(const PlantSection& section) {
   const auto& drive = section.plant.drive;
   const auto& structure = section.plant.structure;
   std::string text = heading("Plant, at the motor shaft, all motors lumped");
+  if (section.records > 0) {
+    text += wrapped(fmt::format("As the reconciled estimate of {} records has inertias, oil "
+                                "stiffness, leakage, friction curve and lowest structural "
+                                "frequency; all else as the case states it.",
+                                section.records),
+                    "  ") +
+            "\n";
+  }
   const auto row = [](const char* name, double value, const char* unit) {
     return std::vector<std::string>{name, fmt::format("{:.6g}", value), unit};
   };

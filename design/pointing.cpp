@@ -1,3 +1,4 @@
+#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -8,6 +9,38 @@
 
 namespace boresight::design {
 namespace {
+
+// Over the half-power beam neither field nor Bessel function turns more than once: this many panels
+// of five-point Gauss-Legendre leave less than 1e-12.
+constexpr int panels = 40;
+constexpr std::array<std::pair<double, double>, 5> gauss_legendre{
+    {{-0.906179845938663993, 0.236926885056189088},
+     {-0.538469310105683091, 0.478628670499366468},
+     {0.0, 0.568888888888888889},
+     {0.538469310105683091, 0.478628670499366468},
+     {0.906179845938663993, 0.236926885056189088}}};
+
+double field(const Illumination& illumination, double radius) {
+  const double edge = std::pow(10.0, -illumination.edge_taper_db / 20.0);
+  const double square = radius * radius;
+  if (illumination.shape == IlluminationShape::gaussian) return std::pow(edge, square);
+  return edge + (1.0 - edge) * std::pow(1.0 - square, illumination.exponent);
+}
+
+// Integral over the aperture of field J0(u r) r dr. With r = 1 - t^2 the edge, where a parabola of
+// broken exponent has no derivatives, is smooth too.
+double pattern(const Illumination& illumination, double u) {
+  double sum = 0.0;
+  for (int panel = 0; panel < panels; ++panel) {
+    for (const auto& [node, weight] : gauss_legendre) {
+      const double t = (panel + 0.5 * (node + 1.0)) / panels;
+      const double r = 1.0 - t * t;
+      sum += weight * 0.5 / panels * 2.0 * t * field(illumination, r) *
+             std::cyl_bessel_j(0.0, u * r) * r;
+    }
+  }
+  return sum;
+}
 
 double loss_factor(LossConvention convention) {
   switch (convention) {
@@ -46,6 +79,27 @@ double half_power_beamwidth(double beamwidth_factor, double frequency, double di
         beamwidth_factor, frequency, dish_diameter));
   }
   return beamwidth_factor * wavelength / dish_diameter;
+}
+
+std::string_view to_string(IlluminationShape shape) {
+  return shape == IlluminationShape::gaussian ? "gaussian" : "parabola";
+}
+
+double beamwidth_factor(const Illumination& illumination) {
+  if (!(illumination.edge_taper_db >= 0.0 && illumination.edge_taper_db <= 60.0) ||
+      !(illumination.exponent >= 0.5 && illumination.exponent <= 8.0)) {
+    throw InvalidInput(fmt::format(
+        "beamwidth_factor: expected an edge taper of 0 to 60 dB and an exponent of 0.5 to 8, found "
+        "{} dB and {}",
+        illumination.edge_taper_db, illumination.exponent));
+  }
+  const double half = pattern(illumination, 0.0) / std::numbers::sqrt2;
+  double low = 0.0, high = 12.0;  // beyond the half power of every illumination in range
+  while (high - low > 1e-11) {
+    const double middle = 0.5 * (low + high);
+    (pattern(illumination, middle) > half ? low : high) = middle;
+  }
+  return 2.0 / std::numbers::pi * low;
 }
 
 double pointing_loss_db(double rms, double beamwidth, LossConvention convention) {

@@ -9,6 +9,28 @@ namespace boresight::design {
 /// wavelength longer than the dish, where a beam has no meaning.
 double half_power_beamwidth(double beamwidth_factor, double frequency, double dish_diameter);
 
+/// How the feed lights the aperture, by its field over the radius r (0 at the centre, 1 at the
+/// edge) with edge level b = 10^(-T/20), T the edge taper in dB:
+///   parabola_on_pedestal   b + (1 - b) (1 - r^2)^p
+///   gaussian               b^(r^2)
+/// J. W. M. Baars, The Paraboloidal Reflector Antenna in Radio Astronomy and Communication, 2007,
+/// section 4.3 (both, with their beamwidths).
+enum class IlluminationShape { parabola_on_pedestal, gaussian };
+std::string_view to_string(IlluminationShape shape);
+struct Illumination {
+  IlluminationShape shape = IlluminationShape::parabola_on_pedestal;
+  double edge_taper_db = 0.0;  // T, 0 (uniform) to 60
+  double exponent = 1.0;       // p of the parabola, 0.5 to 8
+};
+
+/// k (rad) of the half-power beamwidth k lambda/D of a circular aperture without blockage: 2/pi
+/// times the u at which the pattern, the integral of field(r) J0(u r) r dr, has half its power on
+/// the axis (small angles, u = pi D theta/lambda). 1.02899 rad (58.96 deg) for uniform
+/// illumination, 65.3 deg for a parabola with 10 dB, (2/pi) sqrt(T ln 10 ln 2/10) for a strongly
+/// tapered Gaussian. By Gauss-Legendre quadrature and bisection to 1e-10.
+/// @throws InvalidInput outside the ranges above.
+double beamwidth_factor(const Illumination& illumination);
+
 /// What "0.1 dB" is taken of; sigma is the rms of one axis.
 enum class LossConvention {
   /// Mean loss over two equal axes: 24 sigma^2/HPBW^2.

@@ -90,5 +90,64 @@ TEST(LossConvention, HasANameOfItsOwn) {
   EXPECT_THROW(to_string(static_cast<LossConvention>(9)), InvalidInput);
 }
 
+// Half power of 2 J1(u)/u at u = 1.616339948.
+TEST(BeamwidthFactor, OfUniformIllumination) {
+  for (const auto shape : {IlluminationShape::parabola_on_pedestal, IlluminationShape::gaussian}) {
+    EXPECT_NEAR(beamwidth_factor({shape, 0.0, 1.0}), 1.028993969, 1e-8);
+  }
+  EXPECT_NEAR(beamwidth_factor({}) / degree, 58.957, 5e-4);
+}
+
+// The integral of (b + (1 - b)(1 - r^2)^p) J0(u r) r dr in closed form (Sonine's first integral),
+// at the half power that the factor claims.
+TEST(BeamwidthFactor, OfAParabolaOnAPedestalHasHalfThePower) {
+  for (const double p : {0.5, 1.0, 2.0, 3.5}) {
+    for (const double taper : {6.0, 10.0, 12.0, 20.0, 60.0}) {
+      const double b = std::pow(10.0, -taper / 20.0);
+      const double u = 0.5 * std::numbers::pi *
+                       beamwidth_factor({IlluminationShape::parabola_on_pedestal, taper, p});
+      const double pattern = b * std::cyl_bessel_j(1.0, u) / u +
+                             (1.0 - b) * std::pow(2.0, p) * std::tgamma(p + 1.0) *
+                                 std::cyl_bessel_j(p + 1.0, u) / std::pow(u, p + 1.0);
+      const double axis = 0.5 * b + 0.5 * (1.0 - b) / (p + 1.0);
+      EXPECT_NEAR(pattern * pattern / (axis * axis), 0.5, 1e-9) << p << ' ' << taper;
+    }
+  }
+}
+
+// Over an endless aperture the Hankel transform of exp(-a r^2) is exp(-u^2/4a); what the edge cuts
+// off is of the size of its level.
+TEST(BeamwidthFactor, ApproachesThatOfAGaussianBeam) {
+  const auto excess = [](double taper) {
+    const double a = taper * std::numbers::ln10 / 20.0;
+    return beamwidth_factor({IlluminationShape::gaussian, taper, 1.0}) /
+               (2.0 / std::numbers::pi * std::sqrt(2.0 * a * std::numbers::ln2)) -
+           1.0;
+  };
+  EXPECT_NEAR(excess(60.0), 0.0, 3e-3);
+  EXPECT_NEAR(excess(60.0) / excess(40.0), 0.1, 0.05);
+}
+
+TEST(BeamwidthFactor, GrowsWithTheTaperWithinTheUsualRange) {
+  double last = 0.0;
+  for (const double taper : {0.0, 5.0, 10.0, 15.0, 20.0}) {
+    const double factor = beamwidth_factor({IlluminationShape::parabola_on_pedestal, taper, 1.0});
+    EXPECT_GT(factor, last);
+    EXPECT_GT(factor, 58.9 * degree);
+    EXPECT_LT(factor, 73.0 * degree);
+    last = factor;
+  }
+}
+
+TEST(BeamwidthFactor, RefusesWhatIsNoIllumination) {
+  for (const Illumination& wrong :
+       {Illumination{IlluminationShape::gaussian, -1.0, 1.0},
+        Illumination{IlluminationShape::gaussian, 61.0, 1.0},
+        Illumination{IlluminationShape::parabola_on_pedestal, 10.0, 0.0},
+        Illumination{IlluminationShape::parabola_on_pedestal, std::nan(""), 1.0}}) {
+    EXPECT_THROW(beamwidth_factor(wrong), InvalidInput);
+  }
+}
+
 }  // namespace
 }  // namespace boresight::design

@@ -1,0 +1,75 @@
+#include <array>
+#include <cmath>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include <boresight/design/wind_climate.hpp>
+#include <boresight/plant/error.hpp>
+
+namespace boresight::design {
+namespace {
+
+// Four nodes a panel; panels that shrink towards calm, where a Weibull density may have no
+// derivatives.
+constexpr std::array<std::pair<double, double>, 4> gauss_legendre{
+    {{-0.861136311594052575, 0.347854845137453857},
+     {-0.339981043584856265, 0.652145154862546143},
+     {0.339981043584856265, 0.652145154862546143},
+     {0.861136311594052575, 0.347854845137453857}}};
+constexpr int panels = 12;
+constexpr double negligible = 1e-12;
+
+bool within(double value, double least, double most) {
+  return value >= least && value <= most;
+}
+
+}  // namespace
+
+std::vector<WeightedSpeed> climate_speeds(const WeibullClimate& climate) {
+  if (!within(climate.scale, 1e-3, 1e3) || !within(climate.shape, 0.5, 10.0) ||
+      !within(climate.highest, 1e-3, 1e3)) {
+    throw InvalidInput(
+        fmt::format("climate_speeds: expected a scale and a highest speed of 0.001 to 1000 m/s and "
+                    "a shape of 0.5 to 10, found {} m/s, {} m/s and {}",
+                    climate.scale, climate.highest, climate.shape));
+  }
+  // Beyond this (v/scale)^shape there is less than 1e-13 of all winds.
+  const double rarest = climate.scale * std::pow(30.0, 1.0 / climate.shape);
+  const double end = std::min(climate.highest, rarest);
+  std::vector<WeightedSpeed> speeds;
+  for (int panel = 0; panel < panels; ++panel) {
+    for (const auto& [node, weight] : gauss_legendre) {
+      const double t = (panel + 0.5 * (node + 1.0)) / panels;
+      const double speed = end * t * t;
+      const double relative = std::pow(speed / climate.scale, climate.shape);
+      // dv = 2 end t dt, density (shape/v) (v/scale)^shape exp(-(v/scale)^shape)
+      speeds.push_back(
+          {speed, weight * t * climate.shape / speed * relative * std::exp(-relative)});
+    }
+  }
+  return climate_speeds(speeds);
+}
+
+std::vector<WeightedSpeed> climate_speeds(const std::vector<WeightedSpeed>& table) {
+  double sum = 0.0;
+  for (const auto& [speed, weight] : table) {
+    if (!(speed > 0.0 && std::isfinite(speed)) || !(weight >= 0.0 && std::isfinite(weight))) {
+      throw InvalidInput(fmt::format(
+          "climate_speeds: expected speeds above 0 and weights of at least 0, found {} m/s of "
+          "weight {}",
+          speed, weight));
+    }
+    sum += weight;
+  }
+  if (!(sum > 0.0)) {
+    throw InvalidInput("climate_speeds: expected a speed of a weight above 0, found none");
+  }
+  std::vector<WeightedSpeed> speeds;
+  for (const auto& [speed, weight] : table) {
+    if (weight > negligible * sum) speeds.push_back({speed, weight / sum});
+  }
+  return speeds;
+}
+
+}  // namespace boresight::design

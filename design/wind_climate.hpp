@@ -1,0 +1,32 @@
+#pragma once
+
+#include <vector>
+
+namespace boresight::design {
+
+/// A mean wind speed and the share of the time it stands for.
+struct WeightedSpeed {
+  double speed = 0.0;  // m/s
+  double weight = 0.0;
+};
+
+/// How often the mean speed exceeds v: exp(-(v/scale)^shape), while the antenna tracks, which it
+/// does up to `highest` m/s and no more (W. Weibull's law as used for winds: A. Burton et al., Wind
+/// Energy Handbook, section 2.4; shape 2 is Rayleigh's).
+struct WeibullClimate {
+  double scale = 0.0;    // m/s, above 0
+  double shape = 2.0;    // 0.5 to 10
+  double highest = 0.0;  // m/s, above 0; the law is conditional on speeds below it
+};
+
+/// Speeds and weights (sum 1) whose weighted sums are expectations over the climate: composite
+/// Gauss-Legendre quadrature, to 1e-6 for what grows like powers of the speed from 1 to 6, and so
+/// for rms^2, wind torque spectra and pointing losses. Speeds whose weight is below 1e-12 are left
+/// out. @throws InvalidInput outside the ranges above.
+std::vector<WeightedSpeed> climate_speeds(const WeibullClimate& climate);
+
+/// The given speeds with their weights scaled to the sum 1, those of weight 0 left out.
+/// @throws InvalidInput for none, a speed that is not above 0, a negative or no positive weight.
+std::vector<WeightedSpeed> climate_speeds(const std::vector<WeightedSpeed>& table);
+
+}  // namespace boresight::design

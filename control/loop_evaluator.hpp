@@ -75,9 +75,15 @@ struct LoopEvaluation {
   double wind_variance = 0.0;
   double noise_variance = 0.0;
   double effort_variance = 0.0;
+  /// Of valve demand, (rad/s)^2, and motor torque, (N m)^2, as the wind drives them: what comes
+  /// near saturation in gusts. 0 unless look_at_gusts() asked for them.
+  double wind_demand_variance = 0.0;
+  double wind_torque_variance = 0.0;
   std::array<double, most_gains> wind_log_gradient{};
   std::array<double, most_gains> noise_log_gradient{};
   std::array<double, most_gains> effort_log_gradient{};
+  std::array<double, most_gains> wind_demand_log_gradient{};
+  std::array<double, most_gains> wind_torque_log_gradient{};
   std::array<PeakList, 3> peaks;  // of |S|, by break
   /// Closed-loop poles in the right half plane by the winding of 1 + L along the grid, position
   /// loop open and closed. A quick filter: the verdict is the eigenvalues' (closed_loop.hpp).
@@ -120,6 +126,8 @@ class LoopEvaluator {
 
   /// Breaks whose peaks are looked for; all by default.
   void look_at(std::array<bool, 3> breaks) { breaks_ = breaks; }
+  /// Whether the variances of valve demand and motor torque by wind are taken; not by default.
+  void look_at_gusts(bool look) { gusts_ = look; }
 
   /// @throws InvalidInput as validate(law).
   LoopEvaluation evaluate(const ControlLaw& law, bool with_gradients);
@@ -155,6 +163,7 @@ class LoopEvaluator {
   double delay_;
   SensorNoise noise_;
   std::array<bool, 3> breaks_{true, true, true};
+  bool gusts_ = false;
   Eigen::ArrayXd weight_;
   std::vector<GridPack> packs_;
   std::size_t noise_packs_ = 0;  // those up to the last with noise in it

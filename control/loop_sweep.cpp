@@ -68,13 +68,15 @@ using Adjoint = std::array<ComplexPack, 4>;
 }  // namespace
 
 struct LoopEvaluator::Sums {
-  RealPack wind{}, noise{}, effort{};
+  RealPack wind{}, noise{}, effort{}, wind_demand{}, wind_torque{};
   std::array<RealPack, most_gains> wind_gradient{}, noise_gradient{}, effort_gradient{};
+  std::array<RealPack, most_gains> wind_demand_gradient{}, wind_torque_gradient{};
 };
 
 // With D1 and D2 the returns 1 + L of the rate loop and of both loops, a = -b/D2 what a demand of
 // one does to the beam, m what the law makes of the wind, and y its answer to each sensor's noise:
 //   beam by wind  z = beam_wind + a m,   dz = a (dm - m dD2/D2)
+//   likewise the demand by wind with a = -1/D2 and the motor torque with its own response for b
 //   noise         y = n/D2,              dy = (dn - y dD2)/D2
 BORESIGHT_VECTOR_CLONES
 void LoopEvaluator::sweep(const ControlLaw& law, bool with_gradients, LoopEvaluation& result) {
@@ -143,16 +145,35 @@ void LoopEvaluator::sweep(const ControlLaw& law, bool with_gradients, LoopEvalua
     const ComplexPack measured = rate_wind + pressure_wind;
     const ComplexPack wind = grid.beam_wind + act * measured;
     sums.wind += grid.wind_weight * plant::square(wind);
+    ComplexPack demand_by_wind, torque_by_wind;
+    if (gusts_) {
+      demand_by_wind = -measured * inverse;
+      torque_by_wind = grid.torque_wind + grid.torque_command * demand_by_wind;
+      sums.wind_demand += grid.wind_weight * plant::square(demand_by_wind);
+      sums.wind_torque += grid.wind_weight * plant::square(torque_by_wind);
+    }
     if (with_gradients) {
-      const ComplexPack left = (plant::conjugate(wind) * act) * RealPack(2.0 * grid.wind_weight);
+      const RealPack twice = 2.0 * grid.wind_weight;
+      const ComplexPack left = (plant::conjugate(wind) * act) * twice;
       const ComplexPack turned = measured * inverse;
       const Adjoint measured_by{rate_wind, pressure_wind, position_wind, -rp * bent_wind};
-      Adjoint adjoint;
+      Adjoint change;
       for (std::size_t path = 0; path < 4; ++path) {
-        adjoint[path] = left * (measured_by[path] - turned * return_by[path]);
+        change[path] = measured_by[path] - turned * return_by[path];
       }
-      for (std::size_t g = 0; g < gains; ++g) {
-        sums.wind_gradient[g] += plant::real_product(adjoint[path_of_gain[g]], law_here.by_gain[g]);
+      const auto add = [&](const ComplexPack& factor, std::array<RealPack, most_gains>& gradient) {
+        Adjoint adjoint;
+        for (std::size_t path = 0; path < 4; ++path) adjoint[path] = factor * change[path];
+        for (std::size_t g = 0; g < gains; ++g) {
+          gradient[g] += plant::real_product(adjoint[path_of_gain[g]], law_here.by_gain[g]);
+        }
+      };
+      add(left, sums.wind_gradient);
+      if (gusts_) {
+        const ComplexPack by_demand = -inverse * twice;
+        add(plant::conjugate(demand_by_wind) * by_demand, sums.wind_demand_gradient);
+        add(plant::conjugate(torque_by_wind) * grid.torque_command * by_demand,
+            sums.wind_torque_gradient);
       }
     }
     if (!noisy || i >= noise_packs_) continue;
@@ -190,11 +211,15 @@ void LoopEvaluator::sweep(const ControlLaw& law, bool with_gradients, LoopEvalua
   result.wind_variance = plant::sum(sums.wind);
   result.noise_variance = plant::sum(sums.noise);
   result.effort_variance = plant::sum(sums.effort);
+  result.wind_demand_variance = plant::sum(sums.wind_demand);
+  result.wind_torque_variance = plant::sum(sums.wind_torque);
   if (!with_gradients) return;
   for (std::size_t g = 0; g < gains; ++g) {
     result.wind_log_gradient[g] = plant::sum(sums.wind_gradient[g]);
     result.noise_log_gradient[g] = plant::sum(sums.noise_gradient[g]);
     result.effort_log_gradient[g] = plant::sum(sums.effort_gradient[g]);
+    result.wind_demand_log_gradient[g] = plant::sum(sums.wind_demand_gradient[g]);
+    result.wind_torque_log_gradient[g] = plant::sum(sums.wind_torque_gradient[g]);
   }
 }
 

@@ -158,6 +158,50 @@ TEST(LoopEvaluation, ScalesWithNoiseAndWind) {
             1e-12);
 }
 
+TEST(LoopEvaluation, HasDemandAndTorqueByWindOfTheClosedLoop) {
+  reference::RandomNumbers random(128);
+  const auto plant = reference::antenna();
+  auto evaluator = reference::loop_evaluator(plant, 60);
+  const Eigen::ArrayXd& w = evaluator.response().frequency;
+  const Eigen::ArrayXd weight =
+      evaluator.integration_weight() *
+      (w / two_pi).unaryExpr([](double f) { return reference::motor_wind_spectrum(f); });
+  for (const auto& structure : structures) {
+    const ControlLaw law = reference::sound_law(random, evaluator, structure, 2.5);
+    EXPECT_EQ(evaluator.evaluate(law, true).wind_demand_variance, 0.0);
+    evaluator.look_at_gusts(true);
+    const auto found = evaluator.evaluate(law, true);
+    const auto loop = closed_loop(plant, law, reference::delay);
+    const auto wind = plant::input_index(loop, "wind_torque");
+    double demand = 0.0, torque = 0.0;
+    for (Eigen::Index i = 0; i < w.size(); ++i) {
+      if (w[i] > 60.0) break;  // where the rational dead time is exact; the wind is spent there
+      const Eigen::MatrixXcd response = plant::frequency_response(loop, w[i]);
+      demand += weight[i] * std::norm(response(plant::output_index(loop, "valve_demand"), wind));
+      torque += weight[i] * std::norm(response(plant::output_index(loop, "motor_torque"), wind));
+    }
+    EXPECT_LT(relative_error(found.wind_demand_variance, demand), 1e-5);
+    EXPECT_LT(relative_error(found.wind_torque_variance, torque), 1e-5);
+    for (std::size_t k = 0; k < law.gains.size(); ++k) {
+      const auto difference = [&](double LoopEvaluation::*value, double step) {
+        ControlLaw up = law, down = law;
+        up.gains[k] *= std::exp(step);
+        down.gains[k] *= std::exp(-step);
+        return (evaluator.evaluate(up, false).*value - evaluator.evaluate(down, false).*value) /
+               (2.0 * step);
+      };
+      const auto slope = [&](double LoopEvaluation::*value) {
+        return (4.0 * difference(value, 1e-4) - difference(value, 2e-4)) / 3.0;
+      };
+      EXPECT_NEAR(found.wind_demand_log_gradient[k], slope(&LoopEvaluation::wind_demand_variance),
+                  1e-6 * found.wind_demand_variance);
+      EXPECT_NEAR(found.wind_torque_log_gradient[k], slope(&LoopEvaluation::wind_torque_variance),
+                  1e-6 * found.wind_torque_variance);
+    }
+    evaluator.look_at_gusts(false);
+  }
+}
+
 TEST(LoopEvaluation, HasTheGradientsOfCentralDifferences) {
   reference::RandomNumbers random(125);
   auto evaluator = reference::loop_evaluator(reference::antenna());

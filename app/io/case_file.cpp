@@ -56,6 +56,8 @@ Case case_of(TableReader file, const std::string& path) {
   read_wind(file, antenna);
   read_pointing(file, antenna);
   read_goals(file, antenna);
+  read_loops(file, antenna);
+  read_ensemble(file, antenna);
   read_campaign(file, antenna);
   read_stated(file, antenna);
   antenna.quantities = file.quantities_read();

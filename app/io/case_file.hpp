@@ -6,6 +6,7 @@
 #include <vector>
 
 #include <boresight/app/io/case_campaign.hpp>
+#include <boresight/app/io/case_tuning.hpp>
 #include <boresight/app/io/quantity.hpp>
 #include <boresight/plant/gust_spectrum.hpp>
 #include <boresight/plant/torque_coefficients.hpp>
@@ -179,6 +180,10 @@ struct WindEntry {
   Quantity design_speed;
   std::string model;
   plant::GustSpectrum gusts;
+  /// How often which mean speed blows; empty: not stated.
+  std::vector<design::WeightedSpeed> climate;
+  /// Root of the mean square of the torque coefficients over the attitudes that the case gives.
+  std::optional<double> climate_torque_coefficient;
   /// Torque coefficients over yaw and elevation; torque_coefficient is then the table's.
   std::optional<plant::TorqueCoefficientTable> torque_table;
   std::optional<WindAttitude> attitude;
@@ -190,7 +195,8 @@ struct WindEntry {
 struct BandEntry {
   std::string name;
   Quantity frequency;
-  Quantity beamwidth_factor;
+  Quantity beamwidth_factor;  // as stated, or by the illumination
+  std::string illumination;   // in words; empty if the factor is stated
 };
 
 /// A pointing budget: a loss in a band by a named convention, or an rms error an axis.
@@ -200,13 +206,7 @@ struct BudgetEntry {
   std::optional<Quantity> loss;  // dB
   std::string convention;
   std::optional<Quantity> rms;
-};
-
-struct GoalsEntry {
-  Quantity sensitivity_peak;
-  Quantity valve_effort;
-  Quantity lowest_frequency;
-  Quantity highest_frequency;
+  std::optional<Quantity> wind_speed;  // up to which it must be met
 };
 
 /// A derived number that the source prints, for the audit.
@@ -246,6 +246,10 @@ struct Case {
   std::vector<BandEntry> bands;
   std::vector<BudgetEntry> budgets;
   GoalsEntry goals;
+  std::vector<LoopEntry> loops;
+  std::optional<PresentGainsEntry> present_gains;
+  EnsembleEntry ensemble;
+  TuningEntry tuning;
   std::vector<double> matching_disks;
   std::vector<StatedEntry> stated;
   std::vector<RemarkEntry> remarks;
@@ -260,6 +264,15 @@ struct Case {
 Case read_case(const std::string& path);
 /// Same, of a text; files that it names stand relative to the path's folder.
 Case parse_case(std::string_view text, const std::string& path);
+
+/// A loop structure by the name of one of the case's own, or else as control::LoopStructure::named.
+/// @throws InvalidInput listing them
+control::LoopStructure loop_structure(const std::vector<LoopEntry>& own, const std::string& name);
+
+/// Puts other goals in the place of the case's: each change reads KEY=VALUE, with a key and value
+/// of [goals], "valve_effort=0.4 rad/s".
+/// @throws InvalidInput for keys and values that [goals] would not take
+void change_goals(GoalsEntry& goals, const std::vector<std::string>& changes);
 
 /// The kind of a stated quantity's id ("reflected_inertia" is an inertia), from the closed list of
 /// docs/case-file.md; nothing for an unknown id.

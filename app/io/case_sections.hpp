@@ -30,5 +30,10 @@ void read_sensors(TableReader& file, Case& antenna);
 void read_wind(TableReader& file, Case& antenna);
 void read_pointing(TableReader& file, Case& antenna);
 void read_goals(TableReader& file, Case& antenna);
+/// Wind speeds and attitudes by their shares, within [wind].
+void read_climate(TableReader& wind, Case& antenna);
+/// Structures of the engineer's own, the gains run on now, what to tune and over which plants.
+void read_loops(TableReader& file, Case& antenna);
+void read_ensemble(TableReader& file, Case& antenna);
 
 }  // namespace boresight::app

@@ -207,6 +207,7 @@ void read_wind(TableReader& file, Case& antenna) {
     table.refuse(wind.torque_table ? "torque_table" : "torque_coefficient",
                  "expected a wind model and coefficients that give some torque, found none");
   }
+  read_climate(table, antenna);
   read_wind_record(table, wind, antenna.path);
   table.finish();
 }

@@ -64,6 +64,9 @@ constexpr std::array kinds{
     KindEntry{Kind::rate_per_current,
               {.time = -1, .angle = 1, .current = -1},
               {"rate per current", "rad/(s.A)", "rad/(s.A), rad/(s.mA)"}},
+    KindEntry{Kind::rate_per_torque,
+              {.length = -2, .mass = -1, .time = 1, .angle = 1},
+              {"rate per torque", "rad/(s.N.m)", "rad/(s.N.m), rpm/(N.m)"}},
     KindEntry{
         Kind::proportional_gain, {.time = -1}, {"proportional gain", "1/s", "1/s, (rad/s)/rad"}},
     KindEntry{

@@ -78,6 +78,7 @@ enum class Kind {
   voltage,               // V
   tachometer_scale,      // rad/(s V): "600/157 rpm/V" is written as its value, e.g. "3.82166 rpm/V"
   rate_per_current,      // rad/(s A): a valve driven by a current
+  rate_per_torque,       // rad/(s N m): torque or pressure fed back to a valve
   proportional_gain,     // 1/s of a position loop: rad/s per rad; also "1/s"
   bandwidth_frequency,   // rad/s of a compensator corner: takes rad/s and Hz alike
   level,                 // dB: a loss or gain

@@ -1,0 +1,93 @@
+#include <set>
+
+#include <fmt/format.h>
+
+#include <boresight/app/io/case_sections.hpp>
+#include <boresight/design/pointing.hpp>
+
+namespace boresight::app {
+namespace {
+
+// k as stated, or by how the feed lights the dish.
+void read_beamwidth_factor(TableReader& entry, BandEntry& band) {
+  const auto stated =
+      entry.optional_quantity("beamwidth_factor", Kind::angle, Range::between(0.5, 2.0));
+  const auto taper = entry.optional_quantity("edge_taper", Kind::level, Range::between(0.0, 60.0));
+  // Beside a misspelt edge_taper they are no unknown keys.
+  design::Illumination illumination;
+  if (entry.has("illumination") || entry.optional_text("illumination")) {
+    illumination.shape = entry.choice("illumination", {"parabola", "gaussian"}) == "gaussian"
+                             ? design::IlluminationShape::gaussian
+                             : design::IlluminationShape::parabola_on_pedestal;
+  }
+  const auto exponent =
+      entry.optional_quantity("illumination_exponent", Kind::number, Range::between(0.5, 8.0));
+  entry.finish();
+  if (stated.has_value() == taper.has_value()) {
+    entry.refuse("beamwidth_factor",
+                 std::string("expected either beamwidth_factor or edge_taper, found ") +
+                     (stated ? "both" : "neither"));
+  }
+  for (const auto* key : {"illumination", "illumination_exponent"}) {
+    if (stated && entry.has(key)) {
+      entry.refuse(key, "expected it beside edge_taper only, found it beside beamwidth_factor");
+    }
+  }
+  if (stated) {
+    band.beamwidth_factor = *stated;
+    return;
+  }
+  const bool gaussian = illumination.shape == design::IlluminationShape::gaussian;
+  if (exponent && gaussian) {
+    entry.refuse("illumination_exponent",
+                 "expected it with the illumination 'parabola' only, found it with 'gaussian'");
+  }
+  if (exponent) illumination.exponent = exponent->value;
+  illumination.edge_taper_db = taper ? taper->value : 0.0;
+  band.beamwidth_factor.value = design::beamwidth_factor(illumination);
+  band.beamwidth_factor.kind = Kind::angle;
+  band.beamwidth_factor.key = entry.path("edge_taper");
+  band.illumination =
+      fmt::format("{} illumination, {:g} dB edge taper{}", design::to_string(illumination.shape),
+                  illumination.edge_taper_db,
+                  gaussian ? "" : fmt::format(", exponent {:g}", illumination.exponent));
+}
+
+}  // namespace
+
+void read_pointing(TableReader& file, Case& antenna) {
+  TableReader table = file.table("pointing");
+  std::set<std::string> names;
+  for (auto& entry : table.tables("band", true)) {
+    BandEntry band;
+    band.name = read_name(entry, names);
+    band.frequency = entry.quantity("frequency", Kind::frequency, Range::between(1e8, 1e13));
+    read_beamwidth_factor(entry, band);
+    antenna.bands.push_back(std::move(band));
+  }
+  for (auto& entry : table.tables("budget", true)) {
+    BudgetEntry budget;
+    budget.name = entry.text("name");
+    budget.band = entry.choice("band", {names.begin(), names.end()});
+    budget.loss = entry.optional_quantity("loss", Kind::level, Range::positive(3.0));
+    budget.rms = entry.optional_quantity("rms", Kind::angle, Range::positive(1.0));
+    if (budget.loss && budget.rms) {
+      entry.refuse("rms", "expected either loss (dB) or rms (angle), found both");
+    }
+    // Beside a misspelt loss it is no unknown key: the misspelt one is what to name.
+    if (budget.loss || (!budget.rms && entry.has("convention"))) {
+      budget.convention = entry.choice(
+          "convention", {"mean_loss_two_axes", "mean_loss_one_axis", "loss_at_mean_radial_error"});
+    }
+    budget.wind_speed =
+        entry.optional_quantity("wind_speed", Kind::speed, Range::between(0.1, 60.0));
+    entry.finish();
+    if (!budget.loss && !budget.rms) {
+      entry.refuse("loss", "expected either loss (dB) or rms (angle), found neither");
+    }
+    antenna.budgets.push_back(std::move(budget));
+  }
+  table.finish();
+}
+
+}  // namespace boresight::app

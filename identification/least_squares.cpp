@@ -220,8 +220,9 @@ LeastSquaresResult least_squares(const ResidualFunction& model, const Eigen::Vec
         done = true;
       } else if (negligible || (flat && accepted)) {
         result.status = negligible ? LeastSquaresStatus::step_small : LeastSquaresStatus::cost_flat;
-        // So short a step, while the derivatives promise a descent.
-        if (!accepted && tangent.along.squaredNorm() > 1e-8 * cost) {
+        // So short a step, while the derivatives promise a descent that would count.
+        const double counts = std::max(1e-8, options.cost_tolerance);
+        if (!accepted && tangent.along.squaredNorm() > counts * cost) {
           result.status = LeastSquaresStatus::no_descent;
         }
         done = true;

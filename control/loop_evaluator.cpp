@@ -1,10 +1,12 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <numeric>
 
 #include <fmt/format.h>
 
 #include <boresight/control/loop_evaluator.hpp>
+#include <boresight/control/loop_point.hpp>
 #include <boresight/control/loop_winding.hpp>
 #include <boresight/plant/error.hpp>
 
@@ -13,66 +15,6 @@ namespace {
 
 using Complex = std::complex<double>;
 constexpr double two_pi = 2.0 * std::numbers::pi;
-
-// The loop at one frequency.
-struct LoopPoint {
-  CompensatorResponse compensator;
-  Complex dead_time;
-  Complex angle;        // what the position path sees of a command: encoder less compliance
-  Complex rate_return;  // 1 + L, position loop open
-  Complex both_return;  // 1 + L, both closed
-};
-
-LoopPoint loop_point(const plant::ResponsePoint& response, const ControlLaw& law, double frequency,
-                     double delay) {
-  LoopPoint point;
-  point.compensator = compensator_response(law, frequency);
-  const auto& c = point.compensator;
-  point.dead_time = std::polar(1.0, -frequency * delay);
-  point.angle = response.encoder_command - c.compliance * response.torque_command;
-  point.rate_return = 1.0 + point.dead_time * (c.rate * response.tachometer_command +
-                                               c.pressure * response.torque_command);
-  point.both_return = point.rate_return + point.dead_time * c.rate * c.position * point.angle;
-  return point;
-}
-
-// Derivatives of both returns by ln of the gains of a path, less the factor d ln X/d ln g.
-struct ReturnDerivative {
-  Complex rate, both;
-};
-
-ReturnDerivative return_derivative(const LoopPoint& point, const plant::ResponsePoint& response,
-                                   LoopPath path) {
-  const auto& c = point.compensator;
-  const Complex position = point.dead_time * c.rate * c.position * point.angle;
-  switch (path) {
-    case LoopPath::rate: {
-      const Complex rate = point.dead_time * c.rate * response.tachometer_command;
-      return {rate, rate + position};
-    }
-    case LoopPath::pressure: {
-      const Complex pressure = point.dead_time * c.pressure * response.torque_command;
-      return {pressure, pressure};
-    }
-    case LoopPath::position:
-      return {0.0, position};
-    case LoopPath::compliance:
-      return {0.0, -point.dead_time * c.rate * c.position * c.compliance * response.torque_command};
-  }
-  throw InvalidInput("loop evaluator: not a path");
-}
-
-double sensitivity(const LoopPoint& point, LoopBreak loop_break) {
-  switch (loop_break) {
-    case LoopBreak::rate_loop_alone:
-      return 1.0 / std::abs(point.rate_return);
-    case LoopBreak::valve_command:
-      return 1.0 / std::abs(point.both_return);
-    case LoopBreak::position_loop:
-      return std::abs(point.rate_return / point.both_return);
-  }
-  throw InvalidInput("loop evaluator: not a loop break");
-}
 
 // Trapezoid weights in ln f, per Hz, of the intervals that lie within the band.
 Eigen::ArrayXd integration_weights(const Eigen::ArrayXd& frequency, const FrequencyBand& band) {
@@ -97,26 +39,20 @@ Eigen::ArrayXd integration_weights(const Eigen::ArrayXd& frequency, const Freque
   return weight;
 }
 
-// Vertex of the parabola through three points of ln|S|^2 over ln w, the middle one the highest, and
-// how far it rises above that.
-struct Vertex {
-  double place = 0.0;
-  double rise = 0.0;
-};
-
-template <typename Point>
-Vertex vertex(const Point& left, const Point& middle, const Point& right) {
-  const double to_left = left.place - middle.place, to_right = right.place - middle.place;
-  const double down_left = left.value - middle.value, down_right = right.value - middle.value;
-  const double curvature = (down_right / to_right - down_left / to_left) / (to_right - to_left);
-  const double slope = down_left / to_left - curvature * to_left;
-  if (!(curvature < 0.0)) return {middle.place, 0.0};
-  // A step to the very end of the bracket would not shorten it.
-  const double shift = std::clamp(-0.5 * slope / curvature, 0.9 * to_left, 0.9 * to_right);
-  return {middle.place + shift, (slope + curvature * shift) * shift};
-}
-
 }  // namespace
+
+LoopPoint loop_point(const plant::ResponsePoint& response, const ControlLaw& law, double frequency,
+                     double delay) {
+  LoopPoint point;
+  point.compensator = compensator_response(law, frequency);
+  const auto& c = point.compensator;
+  point.dead_time = std::polar(1.0, -frequency * delay);
+  point.angle = response.encoder_command - c.compliance * response.torque_command;
+  point.rate_return = 1.0 + point.dead_time * (c.rate * response.tachometer_command +
+                                               c.pressure * response.torque_command);
+  point.both_return = point.rate_return + point.dead_time * c.rate * c.position * point.angle;
+  return point;
+}
 
 std::string_view to_string(LoopBreak loop_break) {
   switch (loop_break) {
@@ -173,7 +109,8 @@ LoopEvaluator::LoopEvaluator(LoopChannels channels, double delay, SensorNoise no
                              const Eigen::ArrayXd& wind_spectrum, const Eigen::ArrayXd& weight,
                              const Eigen::ArrayXd& noise_weight)
     : channels_(std::move(channels)), delay_(delay), noise_(noise), weight_(weight) {
-  const Eigen::Index count = channels_.response.frequency.size();
+  const plant::PlantResponse& response = channels_.response;
+  const Eigen::Index count = response.frequency.size();
   for (const auto* numbers : {&wind_spectrum, &weight, &noise_weight}) {
     if (numbers->size() != count) {
       throw InvalidInput(fmt::format(
@@ -181,48 +118,49 @@ LoopEvaluator::LoopEvaluator(LoopChannels channels, double delay, SensorNoise no
           numbers->size(), count));
     }
   }
-  fill_packs(wind_spectrum, noise_weight);
-}
-
-void LoopEvaluator::fill_packs(const Eigen::ArrayXd& wind_spectrum,
-                               const Eigen::ArrayXd& noise_weight) {
-  const plant::PlantResponse& response = channels_.response;
-  const Eigen::Index count = response.frequency.size();
   packs_.resize(plant::pack_count(static_cast<std::size_t>(count)));
+  values_.resize(packs_.size());
+  leaves_.resize(packs_.size());
+  std::iota(leaves_.begin(), leaves_.end(), 0U);
   // The last pack is filled up with the last frequency, without weight.
   for (std::size_t i = 0; i < packs_.size() * plant::pack_size; ++i) {
     const bool there = static_cast<Eigen::Index>(i) < count;
     const Eigen::Index k = std::min(static_cast<Eigen::Index>(i), count - 1);
-    const double w = response.frequency[k];
-    const Complex dead_time = std::polar(1.0, -w * delay_);
     GridPack& pack = packs_[i / plant::pack_size];
     const std::size_t lane = i % plant::pack_size;
-    pack.frequency.set(lane, w);
-    pack.wind_weight.set(lane, there ? weight_[k] * wind_spectrum[k] : 0.0);
-    pack.noise_weight.set(lane, there ? noise_weight[k] : 0.0);
-    if (pack.noise_weight[lane] > 0.0) noise_packs_ = i / plant::pack_size + 1;
-    const auto set = [&](plant::ComplexPack& place, Complex value) {
-      place.re.set(lane, value.real());
-      place.im.set(lane, value.imag());
-    };
-    set(pack.tachometer_command, response.tachometer_command[k] * dead_time);
-    set(pack.torque_command, response.torque_command[k] * dead_time);
-    set(pack.encoder_command, response.encoder_command[k] * dead_time);
-    set(pack.beam_command, response.beam_command[k] * dead_time);
-    set(pack.tachometer_wind, response.tachometer_wind[k]);
-    set(pack.torque_wind, response.torque_wind[k]);
-    set(pack.encoder_wind, response.encoder_wind[k]);
-    set(pack.beam_wind, response.beam_wind[k]);
+    pack.set(lane, response.frequency[k], plant::point(response, k), delay_);
+    pack.set_weights(lane, there ? weight_[k] * wind_spectrum[k] : 0.0,
+                     there ? noise_weight[k] : 0.0);
   }
-  rate_return_.resize(packs_.size());
-  both_return_.resize(packs_.size());
-  for (auto& square : sensitivity_square_) square.resize(packs_.size());
 }
 
-LoopEvaluation LoopEvaluator::evaluate(const ControlLaw& law, bool with_gradients) {
-  validate(law);
-  LoopEvaluation result;
-  sweep(law, with_gradients, result);
+void LoopEvaluator::GridPack::set(std::size_t lane, double w, const plant::ResponsePoint& response,
+                                  double delay) {
+  const Complex dead_time = std::polar(1.0, -w * delay);
+  frequency.set(lane, w);
+  period.set(lane, 1.0 / w);
+  const auto put = [lane](plant::ComplexPack& place, Complex value) {
+    place.re.set(lane, value.real());
+    place.im.set(lane, value.imag());
+  };
+  put(tachometer_command, response.tachometer_command * dead_time);
+  put(torque_command, response.torque_command * dead_time);
+  put(encoder_command, response.encoder_command * dead_time);
+  put(beam_command, response.beam_command * dead_time);
+  put(tachometer_wind, response.tachometer_wind);
+  put(torque_wind, response.torque_wind);
+  put(encoder_wind, response.encoder_wind);
+  put(beam_wind, response.beam_wind);
+}
+
+void LoopEvaluator::GridPack::set_weights(std::size_t lane, double wind, double noise) {
+  wind_weight.set(lane, wind);
+  noise_weight.set(lane, noise);
+  noisy = noisy || noise > 0.0;
+  weighted = weighted || noisy || wind > 0.0;
+}
+
+void LoopEvaluator::count_unstable(const ControlLaw& law, LoopEvaluation& result) const {
   int rate_integrators = 0, position_integrators = 0;
   for (const LoopBlock& block : law.structure.blocks()) {
     if (block.kind != BlockKind::integral) continue;
@@ -231,104 +169,49 @@ LoopEvaluation LoopEvaluator::evaluate(const ControlLaw& law, bool with_gradient
   // The position loop has the antenna's own integration besides.
   Winding rate_winding(rate_integrators);
   Winding both_winding(rate_integrators + position_integrators + 1);
-  const auto count = static_cast<std::size_t>(response().frequency.size());
-  for (std::size_t i = 0; i < count; ++i) {
-    const std::size_t pack = i / plant::pack_size, lane = i % plant::pack_size;
-    rate_winding.add({rate_return_[pack].re[lane], rate_return_[pack].im[lane]});
-    both_winding.add({both_return_[pack].re[lane], both_return_[pack].im[lane]});
+  std::size_t left = points();
+  for (const std::uint32_t i : leaves_) {
+    const LoopValues& values = values_[i];
+    const std::size_t lanes = std::min(plant::pack_size, left);
+    rate_winding.add(values.rate_return, lanes);
+    both_winding.add(values.both_return, lanes);
+    left -= lanes;
   }
   result.unstable_rate_loop = rate_winding.unstable();
   result.unstable_closed_loop = both_winding.unstable();
+}
+
+LoopEvaluation LoopEvaluator::evaluate(const ControlLaw& law, bool with_gradients) {
+  validate(law);
+  LoopEvaluation result;
+  const Sweep sweep = prepare(law);
+  if (panels_.empty()) {
+    sweep_values(sweep, leaves_.data(), leaves_.size());
+  } else {
+    choose_leaves(sweep);
+  }
+  plant::RealPack wind{}, noise{}, effort{}, wind_demand{}, wind_torque{};
+  for (const std::uint32_t i : leaves_) {
+    const LoopValues& values = values_[i];
+    wind += values.wind;
+    noise += values.noise;
+    effort += values.effort;
+    if (gusts_) {
+      wind_demand += values.wind_demand;
+      wind_torque += values.wind_torque;
+    }
+  }
+  result.wind_variance = plant::sum(wind);
+  result.noise_variance = plant::sum(noise);
+  result.effort_variance = plant::sum(effort);
+  result.wind_demand_variance = plant::sum(wind_demand);
+  result.wind_torque_variance = plant::sum(wind_torque);
+  if (with_gradients) sweep_gradients(sweep, result);
+  count_unstable(law, result);
   for (std::size_t b = 0; b < loop_breaks.size(); ++b) {
     if (breaks_[b]) find_peaks(law, loop_breaks[b], result.peaks[b]);
   }
   return result;
-}
-
-SensitivityPeak LoopEvaluator::peak_at(const ControlLaw& law, LoopBreak loop_break,
-                                       double frequency) const {
-  const plant::ResponsePoint response = channels_.at(frequency);
-  const LoopPoint point = loop_point(response, law, frequency, delay_);
-  SensitivityPeak peak;
-  peak.frequency = frequency;
-  peak.magnitude = sensitivity(point, loop_break);
-  std::size_t k = 0;
-  for (const LoopBlock& block : law.structure.blocks()) {
-    const ReturnDerivative change = return_derivative(point, response, block.path);
-    const Complex of_rate = change.rate / point.rate_return;
-    const Complex of_both = change.both / point.both_return;
-    const Complex of_break = loop_break == LoopBreak::rate_loop_alone ? -of_rate
-                             : loop_break == LoopBreak::valve_command ? -of_both
-                                                                      : of_rate - of_both;
-    for (std::size_t j = 0; j < block.gains.size(); ++j, ++k) {
-      peak.log_gradient[k] = (of_break * point.compensator.by_gain[k]).real();
-    }
-  }
-  return peak;
-}
-
-// Successive parabolas through the best point and its neighbours, whose values are all exact.
-SensitivityPeak LoopEvaluator::polish(const ControlLaw& law, LoopBreak loop_break,
-                                      std::array<LogPoint, 3> bracket) const {
-  constexpr int most_steps = 8;
-  constexpr double enough = 1e-11;  // of ln|S|^2
-  SensitivityPeak best;
-  for (int step = 0; step < most_steps; ++step) {
-    auto& [left, middle, right] = bracket;
-    const Vertex top = vertex(left, middle, right);
-    const bool done = top.rise < enough;
-    if (done && step > 0) break;
-    const SensitivityPeak peak = peak_at(law, loop_break, std::exp(top.place));
-    if (peak.magnitude > best.magnitude) best = peak;
-    const LogPoint found{top.place, 2.0 * std::log(peak.magnitude)};
-    if (done || found.place == middle.place) break;
-    // The highest of the four with its neighbours.
-    const bool beyond = found.place > middle.place;
-    if (found.value > middle.value) {
-      (beyond ? left : right) = middle;
-      middle = found;
-    } else {
-      (beyond ? right : left) = found;
-    }
-  }
-  return best;
-}
-
-void LoopEvaluator::find_peaks(const ControlLaw& law, LoopBreak loop_break, PeakList& peaks) const {
-  const auto& packs = sensitivity_square_[static_cast<std::size_t>(loop_break)];
-  const auto square = [&](Eigen::Index i) {
-    const auto place = static_cast<std::size_t>(i);
-    return packs[place / plant::pack_size][place % plant::pack_size];
-  };
-  const Eigen::ArrayXd& w = response().frequency;
-  // The highest few, in falling order.
-  std::array<Eigen::Index, PeakList::most> maxima{};
-  std::size_t count = 0;
-  double before = square(0), here = square(1);
-  for (Eigen::Index i = 1; i + 1 < w.size(); ++i) {
-    const double after = square(i + 1);
-    if (here > 1.0 && here >= before && here > after) {
-      std::size_t place = count;
-      while (place > 0 && square(maxima[place - 1]) < here) --place;
-      if (place < PeakList::most) {
-        count = std::min(count + 1, PeakList::most);
-        for (std::size_t j = count - 1; j > place; --j) maxima[j] = maxima[j - 1];
-        maxima[place] = i;
-      }
-    }
-    before = here;
-    here = after;
-  }
-  for (std::size_t m = 0; m < count; ++m) {
-    const Eigen::Index i = maxima[m];
-    const auto on_grid = [&](Eigen::Index k) {
-      return LogPoint{std::log(w[k]), std::log(square(k))};
-    };
-    peaks.push_back(polish(law, loop_break, {on_grid(i - 1), on_grid(i), on_grid(i + 1)}));
-  }
-  std::sort(peaks.begin(), peaks.end(), [](const SensitivityPeak& x, const SensitivityPeak& y) {
-    return x.magnitude > y.magnitude;
-  });
 }
 
 Eigen::ArrayXd LoopEvaluator::wind_transmission(const ControlLaw& law) const {

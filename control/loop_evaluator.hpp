@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <functional>
 #include <limits>
 #include <vector>
@@ -103,10 +104,28 @@ struct LoopChannels {
 };
 LoopChannels make_channels(const plant::AntennaPlant& plant, const Eigen::ArrayXd& frequency);
 
+/// Where and how closely an evaluator looks by itself. The frequencies from `analysis.lowest` to
+/// `analysis.highest` are cut into panels of eight Gauss points in ln f: at the edges of rms band
+/// and noise, until the plant's channels are polynomials of that degree within `channel_tolerance`
+/// of their largest value in the panel, and no wider than `widest_panel`. An evaluation halves them
+/// on where its own closed loop asks for it: where poles near the axis leave variances and their
+/// gradients an error above about `tolerance` of the variance, or where 1 + L turns by more than a
+/// right angle from point to point.
+struct LoopQuadrature {
+  FrequencyBand analysis{1e-4, 100.0};  // Hz: peaks and stability
+  /// Hz: variances. Where it begins below the analysis band, the density below that is taken for
+  /// constant.
+  FrequencyBand band;
+  double tolerance = 1e-10;
+  double channel_tolerance = 0.1;
+  double widest_panel = 2.0;  // in ln f
+};
+
 /// Evaluates control laws on one plant. The plant enters through its frequency response only,
 /// computed once; an evaluation costs some hundred operations a frequency, and ten more a gain for
 /// all gradients (by the adjoint of the closed loop), whatever the number of structural modes; dead
-/// time is exact. Not to be shared between threads: it keeps its work arrays.
+/// time is exact. Not to be shared between threads: it keeps its work arrays, and the frequencies
+/// that laws asked for.
 class LoopEvaluator {
  public:
   /// `wind_spectrum`: one-sided spectrum of the wind torque at the motor shaft, (N m)^2/Hz, at the
@@ -123,6 +142,16 @@ class LoopEvaluator {
   LoopEvaluator(LoopChannels channels, double delay, SensorNoise noise,
                 const Eigen::ArrayXd& wind_spectrum, const Eigen::ArrayXd& weight,
                 const Eigen::ArrayXd& noise_weight);
+  /// On frequencies of its own choice (LoopQuadrature): every law's integrals to the stated
+  /// tolerance, however lightly its closed loop is damped. Frequencies that one law asked for are
+  /// at hand for the next; no value depends on what was evaluated before. `channels`: the response
+  /// at a frequency in rad/s; `wind_spectrum`: one-sided, (N m)^2/Hz at the motor shaft, at a
+  /// frequency in Hz; both smooth.
+  /// @throws InvalidInput for bands that are not in order or do not meet, or a tolerance or panel
+  /// width that is not positive; NumericalFailure for a response or spectrum that is not finite.
+  LoopEvaluator(std::function<plant::ResponsePoint(double frequency)> channels, double delay,
+                SensorNoise noise, std::function<double(double hertz)> wind_spectrum,
+                const LoopQuadrature& quadrature);
 
   /// Breaks whose peaks are looked for; all by default.
   void look_at(std::array<bool, 3> breaks) { breaks_ = breaks; }
@@ -131,32 +160,87 @@ class LoopEvaluator {
 
   /// @throws InvalidInput as validate(law).
   LoopEvaluation evaluate(const ControlLaw& law, bool with_gradients);
+  /// How many frequencies the last evaluation took.
+  std::size_t frequencies_used() const { return leaves_.size() * plant::pack_size; }
 
   /// |beam / wind torque|^2 of the closed loop at each frequency of the grid, rad^2/(N m)^2.
   Eigen::ArrayXd wind_transmission(const ControlLaw& law) const;
 
+  /// On the grid, or on the panels that every evaluation starts from.
   const plant::PlantResponse& response() const { return channels_.response; }
   double delay() const { return delay_; }
-  /// Weights that turn a sum over the grid into an integral over Hz.
+  /// Weights that turn a sum over the response's frequencies into an integral over Hz.
   const Eigen::ArrayXd& integration_weight() const { return weight_; }
 
  private:
   // Eight frequencies: responses to the command with the dead time in them.
   struct GridPack {
-    plant::RealPack frequency, wind_weight, noise_weight;
+    plant::RealPack frequency, period, wind_weight, noise_weight;  // period: 1/frequency
     plant::ComplexPack tachometer_command, torque_command, encoder_command, beam_command;
     plant::ComplexPack tachometer_wind, torque_wind, encoder_wind, beam_wind;
+    bool weighted = false, noisy = false;  // whether any weight is above 0
+
+    void set(std::size_t lane, double frequency, const plant::ResponsePoint& response,
+             double delay);
+    void set_weights(std::size_t lane, double wind, double noise);
   };
-  struct Sums;
-  void fill_packs(const Eigen::ArrayXd& wind_spectrum, const Eigen::ArrayXd& noise_weight);
-  void sweep(const ControlLaw& law, bool with_gradients, LoopEvaluation& result);
-  // ln|S|^2 over ln w.
-  struct LogPoint {
-    double place = 0.0, value = 0.0;
+  // What a law makes of eight frequencies: weighted integrands, and their tails (panel_rule.hpp) of
+  // beam and effort, of demand and torque by wind.
+  struct LoopValues {
+    plant::ComplexPack rate_return, both_return;  // 1 + L, position loop open, closed
+    std::array<plant::RealPack, 3> sensitivity_square;
+    plant::RealPack wind, noise, effort, wind_demand, wind_torque, tail, gust_tail;
+    // Below 0 where a return turns by more than a right angle to the next point.
+    plant::RealPack turn;
   };
+  // A stretch of ln w; its halves once an evaluation asked for them.
+  struct Panel {
+    double from = 0.0, to = 0.0;
+    std::uint32_t first_half = 0;  // 0: not made
+
+    double centre() const { return 0.5 * (from + to); }
+    double half_width() const { return 0.5 * (to - from); }
+  };
+  struct PlacedBlock {
+    BlockKind kind = BlockKind::gain;
+    std::size_t path = 0;
+    std::size_t first_gain = 0;
+  };
+  // What a sweep needs of a law.
+  struct Sweep {
+    const ControlLaw* law = nullptr;
+    std::array<PlacedBlock, most_gains> blocks{};
+    std::size_t block_count = 0;
+    std::array<std::size_t, most_gains> path_of_gain{};
+    std::array<bool, 4> present{};
+    double tachometer_density = 0.0, encoder_density = 0.0, torque_density = 0.0;
+    bool noisy = false;
+  };
+  struct LoopPack;
+  struct GradientSums;
+  struct Limits;
+  struct PointOnAxis {
+    double place = 0.0, value = 0.0;  // ln w, ln|S|^2
+  };
+
+  void use_first_panels();
+  void make_panels(const LoopQuadrature& quadrature);
+  void add_resolved(double from, double to, const LoopQuadrature& quadrature);
+  std::uint32_t add_panel(double from, double to);
+  void keep_first_panels();
+  void choose_leaves(const Sweep& sweep);
+  bool close_enough(std::uint32_t i, const Limits& limits) const;
+  Sweep prepare(const ControlLaw& law) const;
+  void sweep_values(const Sweep& sweep, const std::uint32_t* packs, std::size_t count);
+  void sweep_gradients(const Sweep& sweep, LoopEvaluation& result) const;
+  void count_unstable(const ControlLaw& law, LoopEvaluation& result) const;
+
+  std::size_t points() const;
+  double sensitivity_square(std::size_t loop_break, std::size_t i) const;
+  PointOnAxis point_on_axis(LoopBreak loop_break, std::size_t i) const;
+  double interpolated(LoopBreak loop_break, std::size_t near, double place) const;
   SensitivityPeak peak_at(const ControlLaw& law, LoopBreak loop_break, double frequency) const;
-  SensitivityPeak polish(const ControlLaw& law, LoopBreak loop_break,
-                         std::array<LogPoint, 3> bracket) const;
+  SensitivityPeak polish(const ControlLaw& law, LoopBreak loop_break, std::size_t i) const;
   void find_peaks(const ControlLaw& law, LoopBreak loop_break, PeakList& peaks) const;
 
   LoopChannels channels_;
@@ -166,9 +250,15 @@ class LoopEvaluator {
   bool gusts_ = false;
   Eigen::ArrayXd weight_;
   std::vector<GridPack> packs_;
-  std::size_t noise_packs_ = 0;  // those up to the last with noise in it
-  std::vector<plant::ComplexPack> rate_return_, both_return_;  // 1 + L, position loop open, closed
-  std::array<std::vector<plant::RealPack>, 3> sensitivity_square_;
+  std::vector<LoopValues> values_;     // by pack
+  std::vector<std::uint32_t> leaves_;  // packs of the last evaluation, rising in frequency
+  // Empty where the frequencies were given.
+  std::vector<Panel> panels_;                // by pack
+  std::vector<std::uint32_t> first_panels_;  // those every evaluation starts from, rising
+  std::function<double(double)> wind_spectrum_;
+  FrequencyBand band_;
+  double tolerance_ = 0.0;
+  double lowest_place_ = -std::numeric_limits<double>::infinity();
 };
 
 }  // namespace boresight::control

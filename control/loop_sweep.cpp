@@ -1,64 +1,86 @@
 #include <boresight/control/loop_evaluator.hpp>
+#include <boresight/control/panel_rule.hpp>
 #include <boresight/plant/vector_clones.hpp>
 
 namespace boresight::control {
+
 namespace {
 
 using plant::ComplexPack;
 using plant::RealPack;
 
-// The four compensators at eight frequencies, and the logarithmic derivative by each gain.
-struct CompensatorPack {
-  std::array<ComplexPack, 4> path;  // by LoopPath
-  std::array<ComplexPack, most_gains> by_gain;
-};
+// The four compensators at eight frequencies, by LoopPath.
+using Compensators = std::array<ComplexPack, 4>;
 
-[[gnu::always_inline]] inline void multiply(const LoopBlock& block, const double* gains,
-                                            const RealPack& w, ComplexPack& compensator,
+template <bool with_gradients>
+[[gnu::always_inline]] inline void multiply(BlockKind kind, const double* gains, const RealPack& w,
+                                            const RealPack& period, ComplexPack& compensator,
                                             ComplexPack* by_gain) {
   const double g = *gains;
-  if (block.kind == BlockKind::gain) {
+  if (kind == BlockKind::gain) {
     compensator = compensator * RealPack(g);
-    by_gain[0] = {1.0, 0.0};
+    if (with_gradients) by_gain[0] = {1.0, 0.0};
     return;
   }
-  if (block.kind == BlockKind::notch) {
+  if (kind == BlockKind::notch) {
     const RealPack square = g * g - w * w;
     const ComplexPack above{square, 2.0 * gains[1] * g * w};
     const ComplexPack below{square, 2.0 * gains[2] * g * w};
-    const RealPack above_square = plant::square(above), below_square = plant::square(below);
-    const ComplexPack above_inverse = (plant::conjugate(above)) * RealPack(1.0 / above_square);
-    const ComplexPack below_inverse = (plant::conjugate(below)) * RealPack(1.0 / below_square);
+    const ComplexPack below_inverse =
+        plant::conjugate(below) * RealPack(1.0 / plant::square(below));
     compensator = compensator * (above * below_inverse);
-    const RealPack twice = 2.0 * g * g;
-    by_gain[0] =
-        ComplexPack{twice, above.im} * above_inverse - ComplexPack{twice, below.im} * below_inverse;
-    by_gain[1] = ComplexPack{0.0, above.im} * above_inverse;
-    by_gain[2] = ComplexPack{0.0, -below.im} * below_inverse;
+    if (with_gradients) {
+      const ComplexPack above_inverse =
+          plant::conjugate(above) * RealPack(1.0 / plant::square(above));
+      const RealPack twice = 2.0 * g * g;
+      by_gain[0] = ComplexPack{twice, above.im} * above_inverse -
+                   ComplexPack{twice, below.im} * below_inverse;
+      by_gain[1] = ComplexPack{0.0, above.im} * above_inverse;
+      by_gain[2] = ComplexPack{0.0, -below.im} * below_inverse;
+    }
     return;
+  }
+  if (kind == BlockKind::integral || kind == BlockKind::lead) {
+    compensator = compensator * (kind == BlockKind::integral ? ComplexPack{1.0, -g * period}
+                                                             : ComplexPack{1.0, w * (1.0 / g)});
+    if (!with_gradients) return;
   }
   // g/(s + g) and s/(s + g) at s = j w
   const RealPack scale = 1.0 / (g * g + w * w);
   const ComplexPack low{g * g * scale, -g * w * scale};
   const ComplexPack high{w * w * scale, g * w * scale};
-  switch (block.kind) {
+  switch (kind) {
     case BlockKind::integral:
-      compensator = compensator * ComplexPack{1.0, -g / w};
       by_gain[0] = low;
       break;
     case BlockKind::lag:
       compensator = compensator * low;
-      by_gain[0] = high;
+      if (with_gradients) by_gain[0] = high;
       break;
     case BlockKind::lead:
-      compensator = compensator * ComplexPack{1.0, w / g};
       by_gain[0] = {-high.re, -high.im};
       break;
     default:
       compensator = compensator * high;
-      by_gain[0] = {-low.re, -low.im};
+      if (with_gradients) by_gain[0] = {-low.re, -low.im};
       break;
   }
+}
+
+// The cosine, times the magnitudes, of each value's angle to the next; the last has none.
+[[gnu::always_inline]] inline RealPack onward(const ComplexPack& x) {
+  using Places = long long __attribute__((vector_size(sizeof(RealPack::Lanes))));
+  constexpr Places next{1, 2, 3, 4, 5, 6, 7, 7};
+  RealPack product;
+  product.lanes = x.re.lanes * __builtin_shuffle(x.re.lanes, next) +
+                  x.im.lanes * __builtin_shuffle(x.im.lanes, next);
+  return product;
+}
+
+[[gnu::always_inline]] inline RealPack smaller(const RealPack& x, const RealPack& y) {
+  RealPack result;
+  result.lanes = x.lanes < y.lanes ? x.lanes : y.lanes;
+  return result;
 }
 
 // Derivatives by R, Q, P and C of a sum of weighted squares, each times its compensator: Re of the
@@ -67,159 +89,221 @@ using Adjoint = std::array<ComplexPack, 4>;
 
 }  // namespace
 
-struct LoopEvaluator::Sums {
-  RealPack wind{}, noise{}, effort{}, wind_demand{}, wind_torque{};
-  std::array<RealPack, most_gains> wind_gradient{}, noise_gradient{}, effort_gradient{};
-  std::array<RealPack, most_gains> wind_demand_gradient{}, wind_torque_gradient{};
-};
-
-// With D1 and D2 the returns 1 + L of the rate loop and of both loops, a = -b/D2 what a demand of
-// one does to the beam, m what the law makes of the wind, and y its answer to each sensor's noise:
+// The loop at eight frequencies. With D1 and D2 the returns 1 + L of the rate loop and of both
+// loops, a = -b/D2 what a demand of one does to the beam, m what the law makes of the wind, and y
+// its answer to each sensor's noise:
 //   beam by wind  z = beam_wind + a m,   dz = a (dm - m dD2/D2)
 //   likewise the demand by wind with a = -1/D2 and the motor torque with its own response for b
 //   noise         y = n/D2,              dy = (dn - y dD2)/D2
-BORESIGHT_VECTOR_CLONES
-void LoopEvaluator::sweep(const ControlLaw& law, bool with_gradients, LoopEvaluation& result) {
-  const double per_band = 1.0 / noise_.bandwidth;
-  const double encoder_density = noise_.encoder_rms * noise_.encoder_rms * per_band;
-  const double tachometer_density = noise_.tachometer_rms * noise_.tachometer_rms * per_band;
-  const double torque_density = noise_.torque_rms * noise_.torque_rms * per_band;
-  const bool noisy = encoder_density + tachometer_density + torque_density > 0.0;
-  const auto& blocks = law.structure.blocks();
-  const std::size_t gains = law.gains.size();
-  std::array<std::size_t, most_gains> path_of_gain{};
-  std::size_t next = 0;
-  std::array<bool, 4> present{};
-  for (const LoopBlock& block : blocks) {
-    present[static_cast<std::size_t>(block.path)] = true;
-    for (std::size_t j = 0; j < block.gains.size(); ++j) {
-      path_of_gain[next++] = static_cast<std::size_t>(block.path);
-    }
-  }
+struct LoopEvaluator::LoopPack {
+  ComplexPack rate_part, pressure_part, bending_part, rp, position_part;
+  ComplexPack rate_return, both_return, inverse, act;
+  RealPack inverse_square;
+  ComplexPack bent_wind, position_wind, pressure_wind, rate_wind, measured, wind;
+  ComplexPack demand_by_wind, torque_by_wind;
 
-  Sums sums;
-  const ComplexPack one{1.0, 0.0};
-  for (std::size_t i = 0; i < packs_.size(); ++i) {
-    const GridPack& grid = packs_[i];
-    CompensatorPack law_here;
+  template <bool with_gradients>
+  [[gnu::always_inline]] inline void fill(const Sweep& sweep, const GridPack& grid, bool gusts,
+                                          Compensators& law, ComplexPack* by_gain) {
     for (std::size_t path = 0; path < 4; ++path) {
-      law_here.path[path] = present[path] ? one : ComplexPack{};
+      law[path] = sweep.present[path] ? ComplexPack{1.0, 0.0} : ComplexPack{};
     }
-    std::size_t k = 0;
-    for (const LoopBlock& block : blocks) {
-      multiply(block, law.gains.data() + k, grid.frequency,
-               law_here.path[static_cast<std::size_t>(block.path)], law_here.by_gain.data() + k);
-      k += block.gains.size();
+    for (std::size_t b = 0; b < sweep.block_count; ++b) {
+      const PlacedBlock& block = sweep.blocks[b];
+      multiply<with_gradients>(block.kind, sweep.law->gains.data() + block.first_gain,
+                               grid.frequency, grid.period, law[block.path],
+                               with_gradients ? by_gain + block.first_gain : nullptr);
     }
-    const ComplexPack& r = law_here.path[0];
-    const ComplexPack& q = law_here.path[1];
-    const ComplexPack& p = law_here.path[2];
-    const ComplexPack& c = law_here.path[3];
-
-    const ComplexPack rate_part = r * grid.tachometer_command;
-    const ComplexPack pressure_part = q * grid.torque_command;
-    const ComplexPack bending_part = c * grid.torque_command;
-    const ComplexPack rp = r * p;
-    const ComplexPack position_part = rp * (grid.encoder_command - bending_part);
-    const ComplexPack rate_return = one + rate_part + pressure_part;
-    const ComplexPack both_return = rate_return + position_part;
-    rate_return_[i] = rate_return;
-    both_return_[i] = both_return;
-    const RealPack rate_square = plant::square(rate_return);
-    const RealPack both_square = plant::square(both_return);
-    const RealPack inverse_square = 1.0 / both_square;
-    sensitivity_square_[0][i] = 1.0 / rate_square;
-    sensitivity_square_[1][i] = inverse_square;
-    sensitivity_square_[2][i] = rate_square * inverse_square;
-
-    const ComplexPack inverse = (plant::conjugate(both_return)) * RealPack(inverse_square);
-    const ComplexPack act = -grid.beam_command * inverse;
-    // Derivatives of D2 by each compensator, times the compensator.
-    const ComplexPack rp_bending = rp * bending_part;
-    const Adjoint return_by{rate_part + position_part, pressure_part, position_part, -rp_bending};
-
-    const ComplexPack bent_wind = c * grid.torque_wind;
-    const ComplexPack position_wind = rp * (grid.encoder_wind - bent_wind);
-    const ComplexPack pressure_wind = q * grid.torque_wind;
-    const ComplexPack rate_wind = r * grid.tachometer_wind + position_wind;
-    const ComplexPack measured = rate_wind + pressure_wind;
-    const ComplexPack wind = grid.beam_wind + act * measured;
-    sums.wind += grid.wind_weight * plant::square(wind);
-    ComplexPack demand_by_wind, torque_by_wind;
-    if (gusts_) {
+    const auto [r, q, p, c] = law;
+    const bool pressure = sweep.present[1], compliance = sweep.present[3];
+    rate_part = r * grid.tachometer_command;
+    rp = r * p;
+    ComplexPack angle = grid.encoder_command, wind_angle = grid.encoder_wind;
+    rate_return = ComplexPack{1.0, 0.0} + rate_part;
+    pressure_part = pressure_wind = bending_part = bent_wind = {};
+    if (pressure) {
+      pressure_part = q * grid.torque_command;
+      pressure_wind = q * grid.torque_wind;
+      rate_return = rate_return + pressure_part;
+    }
+    if (compliance) {
+      bending_part = c * grid.torque_command;
+      bent_wind = c * grid.torque_wind;
+      angle = angle - bending_part;
+      wind_angle = wind_angle - bent_wind;
+    }
+    position_part = rp * angle;
+    both_return = rate_return + position_part;
+    inverse_square = 1.0 / plant::square(both_return);
+    inverse = plant::conjugate(both_return) * inverse_square;
+    act = -grid.beam_command * inverse;
+    position_wind = rp * wind_angle;
+    rate_wind = r * grid.tachometer_wind + position_wind;
+    measured = rate_wind + pressure_wind;
+    wind = grid.beam_wind + act * measured;
+    if (gusts) {
       demand_by_wind = -measured * inverse;
       torque_by_wind = grid.torque_wind + grid.torque_command * demand_by_wind;
-      sums.wind_demand += grid.wind_weight * plant::square(demand_by_wind);
-      sums.wind_torque += grid.wind_weight * plant::square(torque_by_wind);
     }
-    if (with_gradients) {
-      const RealPack twice = 2.0 * grid.wind_weight;
-      const ComplexPack left = (plant::conjugate(wind) * act) * twice;
-      const ComplexPack turned = measured * inverse;
-      const Adjoint measured_by{rate_wind, pressure_wind, position_wind, -rp * bent_wind};
-      Adjoint change;
-      for (std::size_t path = 0; path < 4; ++path) {
-        change[path] = measured_by[path] - turned * return_by[path];
-      }
-      const auto add = [&](const ComplexPack& factor, std::array<RealPack, most_gains>& gradient) {
-        Adjoint adjoint;
-        for (std::size_t path = 0; path < 4; ++path) adjoint[path] = factor * change[path];
-        for (std::size_t g = 0; g < gains; ++g) {
-          gradient[g] += plant::real_product(adjoint[path_of_gain[g]], law_here.by_gain[g]);
-        }
-      };
-      add(left, sums.wind_gradient);
-      if (gusts_) {
-        const ComplexPack by_demand = -inverse * twice;
-        add(plant::conjugate(demand_by_wind) * by_demand, sums.wind_demand_gradient);
-        add(plant::conjugate(torque_by_wind) * grid.torque_command * by_demand,
-            sums.wind_torque_gradient);
-      }
-    }
-    if (!noisy || i >= noise_packs_) continue;
+  }
+};
 
-    const ComplexPack torque_law = q - rp * c;
-    const ComplexPack tachometer = r * inverse, encoder = rp * inverse,
-                      torque = torque_law * inverse;
-    const RealPack tachometer_square = plant::square(tachometer);
-    const RealPack encoder_square = plant::square(encoder);
-    const RealPack torque_square = plant::square(torque);
-    const RealPack demand = tachometer_density * tachometer_square +
-                            encoder_density * encoder_square + torque_density * torque_square;
+LoopEvaluator::Sweep LoopEvaluator::prepare(const ControlLaw& law) const {
+  Sweep sweep;
+  sweep.law = &law;
+  const double per_band = 1.0 / noise_.bandwidth;
+  sweep.encoder_density = noise_.encoder_rms * noise_.encoder_rms * per_band;
+  sweep.tachometer_density = noise_.tachometer_rms * noise_.tachometer_rms * per_band;
+  sweep.torque_density = noise_.torque_rms * noise_.torque_rms * per_band;
+  sweep.noisy = sweep.encoder_density + sweep.tachometer_density + sweep.torque_density > 0.0;
+  std::size_t next = 0;
+  for (const LoopBlock& block : law.structure.blocks()) {
+    const auto path = static_cast<std::size_t>(block.path);
+    sweep.present[path] = true;
+    sweep.blocks[sweep.block_count++] = {block.kind, path, next};
+    for (std::size_t j = 0; j < block.gains.size(); ++j) sweep.path_of_gain[next++] = path;
+  }
+  return sweep;
+}
+
+BORESIGHT_VECTOR_CLONES
+void LoopEvaluator::sweep_values(const Sweep& sweep, const std::uint32_t* packs,
+                                 std::size_t count) {
+  const PanelRule& rule = panel_rule();
+  for (std::size_t n = 0; n < count; ++n) {
+    const std::size_t i = packs[n];
+    const GridPack& grid = packs_[i];
+    LoopPack loop;
+    Compensators law;
+    loop.fill<false>(sweep, grid, gusts_, law, nullptr);
+    LoopValues& values = values_[i];
+    values.rate_return = loop.rate_return;
+    values.both_return = loop.both_return;
+    values.turn = smaller(onward(loop.rate_return), onward(loop.both_return));
+    values.sensitivity_square[1] = loop.inverse_square;
+    if (breaks_[0] || breaks_[2]) {
+      const RealPack rate_square = plant::square(loop.rate_return);
+      if (breaks_[0]) values.sensitivity_square[0] = 1.0 / rate_square;
+      values.sensitivity_square[2] = rate_square * loop.inverse_square;
+    }
+    values.wind = grid.wind_weight * plant::square(loop.wind);
+    RealPack beam = values.wind, effort{};
+    if (gusts_) {
+      values.wind_demand = grid.wind_weight * plant::square(loop.demand_by_wind);
+      values.wind_torque = grid.wind_weight * plant::square(loop.torque_by_wind);
+    }
+    if (sweep.noisy && grid.noisy) {
+      const auto& [r, q, p, c] = law;
+      const RealPack demand = (sweep.tachometer_density * plant::square(r) +
+                               sweep.encoder_density * plant::square(loop.rp) +
+                               sweep.torque_density * plant::square(q - loop.rp * c)) *
+                              loop.inverse_square;
+      effort = grid.noise_weight * demand;
+      values.noise = plant::square(grid.beam_command) * effort;
+      beam += values.noise;
+    } else {
+      values.noise = RealPack{};
+    }
+    values.effort = effort;
+    if (!panels_.empty()) {
+      RealPack tail{}, gust_tail{};
+      for (std::size_t lane = 0; lane < plant::pack_size; ++lane) {
+        tail += rule.first_tail[lane] * beam[lane];
+      }
+      if (sweep.noisy && grid.noisy) {
+        for (std::size_t lane = 0; lane < plant::pack_size; ++lane) {
+          tail += rule.second_tail[lane] * effort[lane];
+        }
+      }
+      values.tail = tail;
+      if (gusts_) {
+        for (std::size_t lane = 0; lane < plant::pack_size; ++lane) {
+          gust_tail += rule.first_tail[lane] * values.wind_demand[lane] +
+                       rule.second_tail[lane] * values.wind_torque[lane];
+        }
+        values.gust_tail = gust_tail;
+      }
+    }
+  }
+}
+
+struct LoopEvaluator::GradientSums {
+  std::array<RealPack, most_gains> wind{}, noise{}, effort{}, wind_demand{}, wind_torque{};
+};
+
+BORESIGHT_VECTOR_CLONES
+void LoopEvaluator::sweep_gradients(const Sweep& sweep, LoopEvaluation& result) const {
+  const std::size_t gains = sweep.law->gains.size();
+  const auto& path_of_gain = sweep.path_of_gain;
+  GradientSums sums;
+  std::array<ComplexPack, most_gains> by_gain;  // d ln X/d ln g of its own compensator X
+  for (const std::uint32_t i : leaves_) {
+    const GridPack& grid = packs_[i];
+    if (!grid.weighted) continue;
+    LoopPack loop;
+    Compensators law;
+    loop.fill<true>(sweep, grid, gusts_, law, by_gain.data());
+    const auto& [r, q, p, c] = law;
+    // Derivatives of D2 by each compensator, times the compensator.
+    const Adjoint return_by{loop.rate_part + loop.position_part, loop.pressure_part,
+                            loop.position_part, -loop.rp * loop.bending_part};
+    const Adjoint measured_by{loop.rate_wind, loop.pressure_wind, loop.position_wind,
+                              -loop.rp * loop.bent_wind};
+    const ComplexPack turned = loop.measured * loop.inverse;
+    Adjoint change;
+    for (std::size_t path = 0; path < 4; ++path) {
+      if (sweep.present[path]) change[path] = measured_by[path] - turned * return_by[path];
+    }
+    const auto add = [&](const ComplexPack& factor, std::array<RealPack, most_gains>& gradient) {
+      Adjoint adjoint;
+      for (std::size_t path = 0; path < 4; ++path) {
+        if (sweep.present[path]) adjoint[path] = factor * change[path];
+      }
+      for (std::size_t g = 0; g < gains; ++g) {
+        gradient[g] += plant::real_product(adjoint[path_of_gain[g]], by_gain[g]);
+      }
+    };
+    const RealPack twice = 2.0 * grid.wind_weight;
+    add((plant::conjugate(loop.wind) * loop.act) * twice, sums.wind);
+    if (gusts_) {
+      const ComplexPack by_demand = -loop.inverse * twice;
+      add(plant::conjugate(loop.demand_by_wind) * by_demand, sums.wind_demand);
+      add(plant::conjugate(loop.torque_by_wind) * grid.torque_command * by_demand,
+          sums.wind_torque);
+    }
+    if (!sweep.noisy || !grid.noisy) continue;
+
+    const ComplexPack torque = (q - loop.rp * c) * loop.inverse;
+    const RealPack tachometer_square =
+        sweep.tachometer_density * plant::square(r) * loop.inverse_square;
+    const RealPack encoder_square =
+        sweep.encoder_density * plant::square(loop.rp) * loop.inverse_square;
+    const RealPack demand =
+        tachometer_square + encoder_square + sweep.torque_density * plant::square(torque);
     const RealPack to_beam = plant::square(grid.beam_command) * grid.noise_weight;
-    sums.noise += to_beam * demand;
-    sums.effort += grid.noise_weight * demand;
-    if (!with_gradients) continue;
     const ComplexPack torque_left =
-        (plant::conjugate(torque) * inverse) * RealPack(2.0 * torque_density);
-    const RealPack own_rate =
-        2.0 * (tachometer_density * tachometer_square + encoder_density * encoder_square);
-    const RealPack own_position = 2.0 * encoder_density * encoder_square;
-    const ComplexPack loop = (inverse)*RealPack(2.0 * demand);
-    const ComplexPack compensated = torque_left * (rp * c);
+        (plant::conjugate(torque) * loop.inverse) * RealPack(2.0 * sweep.torque_density);
+    const RealPack own_rate = 2.0 * (tachometer_square + encoder_square);
+    const RealPack own_position = 2.0 * encoder_square;
+    const ComplexPack by_return = loop.inverse * RealPack(2.0 * demand);
+    const ComplexPack compensated = torque_left * (loop.rp * c);
     Adjoint adjoint{ComplexPack{own_rate, 0.0} - compensated, torque_left * q,
                     ComplexPack{own_position, 0.0} - compensated, -compensated};
     for (std::size_t path = 0; path < 4; ++path) {
-      adjoint[path] = adjoint[path] - loop * return_by[path];
+      adjoint[path] = adjoint[path] - by_return * return_by[path];
     }
     for (std::size_t g = 0; g < gains; ++g) {
-      const RealPack change = plant::real_product(adjoint[path_of_gain[g]], law_here.by_gain[g]);
-      sums.noise_gradient[g] += to_beam * change;
-      sums.effort_gradient[g] += grid.noise_weight * change;
+      const RealPack slope = plant::real_product(adjoint[path_of_gain[g]], by_gain[g]);
+      sums.noise[g] += to_beam * slope;
+      sums.effort[g] += grid.noise_weight * slope;
     }
   }
-  result.wind_variance = plant::sum(sums.wind);
-  result.noise_variance = plant::sum(sums.noise);
-  result.effort_variance = plant::sum(sums.effort);
-  result.wind_demand_variance = plant::sum(sums.wind_demand);
-  result.wind_torque_variance = plant::sum(sums.wind_torque);
-  if (!with_gradients) return;
   for (std::size_t g = 0; g < gains; ++g) {
-    result.wind_log_gradient[g] = plant::sum(sums.wind_gradient[g]);
-    result.noise_log_gradient[g] = plant::sum(sums.noise_gradient[g]);
-    result.effort_log_gradient[g] = plant::sum(sums.effort_gradient[g]);
-    result.wind_demand_log_gradient[g] = plant::sum(sums.wind_demand_gradient[g]);
-    result.wind_torque_log_gradient[g] = plant::sum(sums.wind_torque_gradient[g]);
+    result.wind_log_gradient[g] = plant::sum(sums.wind[g]);
+    result.noise_log_gradient[g] = plant::sum(sums.noise[g]);
+    result.effort_log_gradient[g] = plant::sum(sums.effort[g]);
+    result.wind_demand_log_gradient[g] = plant::sum(sums.wind_demand[g]);
+    result.wind_torque_log_gradient[g] = plant::sum(sums.wind_torque[g]);
   }
 }
 

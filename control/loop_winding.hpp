@@ -4,6 +4,8 @@
 #include <complex>
 #include <numbers>
 
+#include <boresight/plant/complex_packs.hpp>
+
 namespace boresight::control {
 
 /// Counts the right-half-plane zeros of 1 + L from its turning along rising frequencies. A quick
@@ -23,6 +25,13 @@ class Winding {
       if (real < 0.0) turns_ += value.imag() < 0.0 ? 1 : -1;
     }
     last_ = value;
+  }
+  /// The first so many of eight values.
+  void add(const plant::ComplexPack& values, std::size_t count) {
+    // Nothing left of the origin is crossed where no value lies left of it.
+    bool left = first_ || last_.real() < 0.0;
+    for (std::size_t i = 0; i < plant::pack_size; ++i) left |= values.re[i] < 0.0;
+    for (std::size_t i = left ? 0 : count - 1; i < count; ++i) add({values.re[i], values.im[i]});
   }
   int unstable() const {
     constexpr double two_pi = 2.0 * std::numbers::pi;

@@ -1,0 +1,118 @@
+#pragma once
+
+#include <complex>
+#include <vector>
+
+#include "peer_family.hpp"
+#include <boresight/control/loop_evaluator.hpp>
+#include <boresight/plant/complex_packs.hpp>
+#include <boresight/plant/vector_clones.hpp>
+
+/// The peers' antenna servo (peer_family.hpp) as an evaluator of control laws sees it.
+namespace boresight::reference {
+
+/// Responses of the peers' plant at a frequency (rad/s), eight modes at a time.
+class PeerChannels {
+ public:
+  explicit PeerChannels(const PeerModes& modes)
+      : modes_(plant::pack_count(static_cast<std::size_t>(modes.frequency.size()))) {
+    for (std::size_t i = 0; i < modes_.size() * plant::pack_size; ++i) {
+      const auto k = static_cast<Eigen::Index>(i);
+      const bool there = k < modes.frequency.size();
+      const auto value = [&](const Eigen::VectorXd& x) { return there ? x[k] : 0.0; };
+      const double w = there ? modes.frequency[k] : 1.0;
+      ModePack& pack = modes_[i / plant::pack_size];
+      const std::size_t lane = i % plant::pack_size;
+      pack.stiffness.set(lane, w * w);
+      pack.damping.set(lane, 2.0 * value(modes.damping_ratio) * w);
+      pack.motor_motor.set(lane, value(modes.motor) * value(modes.motor));
+      pack.motor_wind.set(lane, value(modes.motor) * value(modes.wind));
+      pack.beam_motor.set(lane, value(modes.beam) * value(modes.motor));
+      pack.beam_wind.set(lane, value(modes.beam) * value(modes.wind));
+    }
+  }
+  explicit PeerChannels(Eigen::Index modes) : PeerChannels(peer_modes(modes)) {}
+
+  BORESIGHT_VECTOR_CLONES
+  plant::ResponsePoint operator()(double frequency) const {
+    using Complex = std::complex<double>;
+    plant::ComplexPack motor_motor{}, motor_wind{}, beam_motor{}, beam_wind{};
+    const plant::RealPack w = frequency, square = frequency * frequency;
+    for (const ModePack& mode : modes_) {
+      const plant::RealPack real = mode.stiffness - square, imaginary = mode.damping * w;
+      const plant::RealPack scale = 1.0 / (real * real + imaginary * imaginary);
+      const plant::ComplexPack inverse{real * scale, -imaginary * scale};
+      motor_motor = motor_motor + inverse * mode.motor_motor;
+      motor_wind = motor_wind + inverse * mode.motor_wind;
+      beam_motor = beam_motor + inverse * mode.beam_motor;
+      beam_wind = beam_wind + inverse * mode.beam_wind;
+    }
+    const PeerDrive& d = drive_;
+    const Complex s{0.0, frequency};
+    const double rigid = -1.0 / (d.inertia * frequency * frequency);
+    const auto total = [&](const plant::ComplexPack& x) {
+      return Complex{rigid + plant::sum(x.re), plant::sum(x.im)};
+    };
+    const double wv = d.valve_frequency;
+    const Complex valve = wv * wv / (s * s + 2.0 * d.valve_damping * wv * s + wv * wv);
+    const Complex oil = d.stiffness / (s + d.leakage);
+    const Complex drag = (oil + d.friction) * s;
+    const Complex a = total(motor_motor), b = total(motor_wind);
+    const Complex inverse = 1.0 / (1.0 + a * drag);
+    const Complex lag = s * d.tachometer_corner / (s + d.tachometer_corner);
+    plant::ResponsePoint point;
+    point.encoder_command = a * oil * valve * inverse;
+    point.encoder_wind = b * inverse;
+    const Complex force_command = oil * valve * inverse;  // what drives motor and modes
+    const Complex force_wind = -drag * point.encoder_wind;
+    point.tachometer_command = lag * point.encoder_command;
+    point.tachometer_wind = lag * point.encoder_wind;
+    point.torque_command = oil * (valve - s * point.encoder_command);
+    point.torque_wind = -oil * s * point.encoder_wind;
+    point.beam_command = total(beam_motor) * force_command;
+    point.beam_wind = total(beam_motor) * force_wind + total(beam_wind);
+    return point;
+  }
+
+ private:
+  struct ModePack {
+    plant::RealPack stiffness, damping, motor_motor, motor_wind, beam_motor, beam_wind;
+  };
+  PeerDrive drive_;
+  std::vector<ModePack> modes_;
+};
+
+/// One-sided spectrum of the peers' wind torque, (N m)^2/Hz, at a frequency in Hz.
+inline double peer_wind_spectrum(double hertz) {
+  const PeerDrive d;
+  const double w = PeerDrive::two_pi * hertz;
+  const double slow = d.slow_wind_corner, fast = d.fast_wind_corner;
+  return 2.0 * d.wind_amplitude * d.wind_amplitude * (slow * slow / (w * w + slow * slow)) *
+         (fast * fast / (w * w + fast * fast));
+}
+
+/// rms of the peers' pointing error (arcsec) of a beam variance (rad^2 of motor).
+inline double peer_rms(double variance) {
+  const PeerDrive d;
+  return std::sqrt(variance) * d.arcseconds / d.gear_ratio;
+}
+
+/// The peers' gains as a law: u = krp e_r + kri zr is krp (1 + wi/s), wi = kri/krp.
+inline control::ControlLaw peer_law(const PeerGains& gains) {
+  return {control::LoopStructure::pi(),
+          {gains.rate_gain, gains.rate_integral / gains.rate_gain, gains.position_gain,
+           gains.position_integral / gains.position_gain}};
+}
+
+/// What the rms of white noise through the wind filter takes: all frequencies where it is.
+inline control::LoopQuadrature peer_quadrature() {
+  control::LoopQuadrature quadrature;
+  quadrature.analysis = {1e-6, 300.0};
+  return quadrature;
+}
+
+inline control::LoopEvaluator peer_evaluator(Eigen::Index modes) {
+  return {PeerChannels(modes), 0.0, {}, peer_wind_spectrum, peer_quadrature()};
+}
+
+}  // namespace boresight::reference

@@ -69,11 +69,12 @@ template <bool with_gradients>
 
 // The cosine, times the magnitudes, of each value's angle to the next; the last has none.
 [[gnu::always_inline]] inline RealPack onward(const ComplexPack& x) {
-  using Places = long long __attribute__((vector_size(sizeof(RealPack::Lanes))));
-  constexpr Places next{1, 2, 3, 4, 5, 6, 7, 7};
+  const RealPack::Lanes re =
+      __builtin_shufflevector(x.re.lanes, x.re.lanes, 1, 2, 3, 4, 5, 6, 7, 7);
+  const RealPack::Lanes im =
+      __builtin_shufflevector(x.im.lanes, x.im.lanes, 1, 2, 3, 4, 5, 6, 7, 7);
   RealPack product;
-  product.lanes = x.re.lanes * __builtin_shuffle(x.re.lanes, next) +
-                  x.im.lanes * __builtin_shuffle(x.im.lanes, next);
+  product.lanes = x.re.lanes * re + x.im.lanes * im;
   return product;
 }
 

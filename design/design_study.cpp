@@ -43,7 +43,7 @@ Verification verify(const TrackingProblem& problem, const control::ControlLaw& l
     }
     verification.lyapunov =
         control::lyapunov_rms(problem.plant, law, problem.delay,
-                              fit_wind_filter(problem.wind, problem.gear_ratio), whole.noise);
+                              fit_wind_filter(problem), whole.noise);
   } catch (const NumericalFailure& error) {
     verification.failure = error.what();
     return verification;

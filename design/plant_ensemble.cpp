@@ -1,6 +1,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <random>
+
+#include <fmt/format.h>
 
 #include <boresight/control/closed_loop.hpp>
 #include <boresight/design/parallel_loop.hpp>
@@ -36,7 +39,72 @@ MemberResult judge_member(TrackingProblem problem, const EnsembleMember& member,
   return result;
 }
 
+// Every frequency of the structure by a factor, its damping ratios as they are.
+void scale_frequencies(plant::Structure& structure, double factor) {
+  const double square = factor * factor;
+  structure.gear_stiffness *= square;
+  structure.gear_damping *= factor;
+  for (auto& mode : structure.modes) {
+    mode.stiffness *= square;
+    mode.damping *= factor;
+  }
+}
+
+// One value in each of `count` equal parts of [0, 1], in random order.
+std::vector<double> stratified(std::size_t count, std::mt19937_64& generator) {
+  // 53 random bits, so that the sequence does not depend on the standard library.
+  const auto uniform = [&] { return static_cast<double>(generator() >> 11) * 0x1p-53; };
+  std::vector<double> values(count);
+  for (std::size_t i = 0; i < count; ++i) {
+    values[i] = (static_cast<double>(i) + uniform()) / static_cast<double>(count);
+  }
+  for (std::size_t i = count; i-- > 1;) std::swap(values[i], values[generator() % (i + 1)]);
+  return values;
+}
+
 }  // namespace
+
+std::vector<EnsembleMember> reference_ensemble(const TrackingProblem& problem, std::uint64_t seed) {
+  const plant::AntennaPlant& nominal = problem.plant;
+  if (!(nominal.drive.leakage_rate > 0.0)) {
+    throw InvalidInput(
+        fmt::format("reference_ensemble: expected a leakage rate above 0, found {:g}",
+                    nominal.drive.leakage_rate));
+  }
+  constexpr double low_frequency = 0.95, high_frequency = 1.05;
+  constexpr double soft = 0.8, stiff = 1.33;
+  constexpr double low_leakage = 0.366 / 1.219;
+  constexpr double most_friction = 12.0;  // N m s/rad
+  std::vector<EnsembleMember> members{{"nominal", nominal}};
+  const auto add = [&](std::string name, double frequency, double stiffness, double leakage,
+                       double friction) {
+    EnsembleMember member{std::move(name), nominal};
+    scale_frequencies(member.plant.structure, frequency);
+    member.plant.drive.oil_stiffness *= stiffness;
+    member.plant.drive.leakage_rate *= leakage;
+    member.plant.drive.viscous_friction = friction;
+    members.push_back(std::move(member));
+  };
+  const double as_it_is = nominal.drive.viscous_friction;
+  add("structure frequencies x 0.95", low_frequency, 1.0, 1.0, as_it_is);
+  add("structure frequencies x 1.05", high_frequency, 1.0, 1.0, as_it_is);
+  add("oil stiffness x 0.8", 1.0, soft, 1.0, as_it_is);
+  add("oil stiffness x 1.33", 1.0, stiff, 1.0, as_it_is);
+  add("low leakage", 1.0, 1.0, low_leakage, as_it_is);
+  constexpr std::size_t draws = 24;
+  std::mt19937_64 generator(seed);
+  const auto frequency = stratified(draws, generator), stiffness = stratified(draws, generator),
+             leakage = stratified(draws, generator), friction = stratified(draws, generator);
+  for (std::size_t i = 0; i < draws; ++i) {
+    const double f = low_frequency + (high_frequency - low_frequency) * frequency[i];
+    const double k = soft + (stiff - soft) * stiffness[i];
+    const double l = low_leakage + (1.0 - low_leakage) * leakage[i];
+    const double b = most_friction * friction[i];
+    add(fmt::format("f x {:.3f}, K x {:.3f}, leakage x {:.3f}, friction {:.2f}", f, k, l, b), f, k,
+        l, b);
+  }
+  return members;
+}
 
 EnsembleResult judge(const TrackingProblem& problem, const std::vector<EnsembleMember>& members,
                      const control::ControlLaw& law, const HardGoals& goals, unsigned threads) {

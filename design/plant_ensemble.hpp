@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -8,11 +9,14 @@
 
 namespace boresight::design {
 
-/// A plant that may be the true one.
-struct EnsembleMember {
-  std::string name;
-  plant::AntennaPlant plant;
-};
+/// The 30 plants that a design of the problem's antenna is held against where records say nothing:
+/// the nominal plant; one change at a time: structure frequencies (modes and locked rotor) x 0.95
+/// and x 1.05, oil stiffness x 0.8 and x 1.33, leakage 0.3 times the nominal (0.366 1/s on the
+/// reference antenna); and 24 of a seeded Latin hypercube over frequencies x [0.95, 1.05], oil
+/// stiffness x [0.8, 1.33], leakage x [0.3, 1], friction slope [0, 12] N m s/rad. Names say what
+/// changed.
+/// @throws InvalidInput for a nominal leakage that is not positive.
+std::vector<EnsembleMember> reference_ensemble(const TrackingProblem& problem, std::uint64_t seed);
 
 /// One control law, its gains held, on one member. Rms at the sky in rad, one axis.
 struct MemberResult {

@@ -3,7 +3,10 @@
 #include <limits>
 #include <numbers>
 
+#include <fmt/format.h>
+
 #include <boresight/design/tracking_problem.hpp>
+#include <boresight/plant/error.hpp>
 
 namespace boresight::design {
 namespace {
@@ -16,6 +19,30 @@ Eigen::ArrayXd motor_wind_spectrum(const WindCondition& wind, double gear_ratio,
     return plant::wind_torque_spectrum(wind.site, wind.model, wind.mean_speed, w / two_pi) /
            (gear_ratio * gear_ratio);
   });
+}
+
+Eigen::ArrayXd motor_wind_spectrum(const TrackingProblem& problem,
+                                   const Eigen::ArrayXd& frequency) {
+  if (problem.climate.empty()) {
+    return motor_wind_spectrum(problem.wind, problem.gear_ratio, frequency);
+  }
+  double sum = 0.0;
+  Eigen::ArrayXd spectrum = Eigen::ArrayXd::Zero(frequency.size());
+  for (const auto& [wind, weight] : problem.climate) {
+    if (!(weight >= 0.0)) {
+      throw InvalidInput(
+          fmt::format("wind climate: expected weights of 0 or more, found {:g}", weight));
+    }
+    sum += weight;
+    if (weight > 0.0) {
+      spectrum += weight * motor_wind_spectrum(wind, problem.gear_ratio, frequency);
+    }
+  }
+  if (!(std::abs(sum - 1.0) < 1e-9)) {
+    throw InvalidInput(
+        fmt::format("wind climate: expected weights that sum to 1, found {:.12g}", sum));
+  }
+  return spectrum;
 }
 
 control::FrequencyBand analysis_band(const TrackingProblem& problem) {
@@ -39,22 +66,63 @@ Eigen::ArrayXd analysis_grid(const TrackingProblem& problem) {
   return Eigen::Map<Eigen::ArrayXd>(points.data(), static_cast<Eigen::Index>(points.size()));
 }
 
+WindTable::WindTable(const TrackingProblem& problem) {
+  const control::FrequencyBand band = analysis_band(problem);
+  constexpr double points_per_decade = 60.0;
+  first_ = std::log(two_pi * band.lowest);
+  const double width = std::log(band.highest / band.lowest);
+  const auto intervals =
+      static_cast<Eigen::Index>(std::ceil(points_per_decade * width / std::numbers::ln10)) + 3;
+  step_ = width / static_cast<double>(intervals);
+  log_spectrum_ =
+      motor_wind_spectrum(problem,
+                          Eigen::ArrayXd::LinSpaced(intervals + 1, first_, first_ + width).exp())
+          .log();
+}
+
+Eigen::ArrayXd WindTable::spectrum(const Eigen::ArrayXd& frequency) const {
+  return frequency.unaryExpr([this](double w) {
+    const double place = (std::log(w) - first_) / step_;
+    const auto left = std::clamp<Eigen::Index>(static_cast<Eigen::Index>(std::floor(place)) - 1, 0,
+                                               log_spectrum_.size() - 4);
+    // Lagrange's polynomial through four points, at 0, 1, 2, 3.
+    const double t = place - static_cast<double>(left);
+    const double t1 = t - 1.0, t2 = t - 2.0, t3 = t - 3.0;
+    const auto y = log_spectrum_.segment<4>(left);
+    return std::exp(-t1 * t2 * t3 / 6.0 * y[0] + t * t2 * t3 / 2.0 * y[1] -
+                    t * t1 * t3 / 2.0 * y[2] + t * t1 * t2 / 6.0 * y[3]);
+  });
+}
+
+namespace {
+control::LoopEvaluator evaluator_in(const TrackingProblem& problem, const Eigen::ArrayXd& frequency,
+                                    const Eigen::ArrayXd& spectrum) {
+  return {problem.plant, frequency, problem.delay, problem.noise, spectrum, problem.rms_band};
+}
+}  // namespace
+
 control::LoopEvaluator make_evaluator(const TrackingProblem& problem) {
   const Eigen::ArrayXd frequency = analysis_grid(problem);
-  return {problem.plant,
-          frequency,
-          problem.delay,
-          problem.noise,
-          motor_wind_spectrum(problem.wind, problem.gear_ratio, frequency),
-          problem.rms_band};
+  return evaluator_in(problem, frequency, motor_wind_spectrum(problem, frequency));
+}
+
+control::LoopEvaluator make_evaluator(const TrackingProblem& problem, const WindTable& wind) {
+  const Eigen::ArrayXd frequency = analysis_grid(problem);
+  return evaluator_in(problem, frequency, wind.spectrum(frequency));
 }
 
 plant::ShapingFilter fit_wind_filter(const WindCondition& wind, double gear_ratio) {
+  TrackingProblem problem;
+  problem.wind = wind;
+  problem.gear_ratio = gear_ratio;
+  return fit_wind_filter(problem);
+}
+
+plant::ShapingFilter fit_wind_filter(const TrackingProblem& problem) {
   constexpr Eigen::Index points = 200;
   const Eigen::ArrayXd frequency =
       Eigen::ArrayXd::LinSpaced(points, std::log(5e-4), std::log(5.0)).exp();
-  return plant::fit_shaping_filter(frequency,
-                                   motor_wind_spectrum(wind, gear_ratio, two_pi * frequency), 6);
+  return plant::fit_shaping_filter(frequency, motor_wind_spectrum(problem, two_pi * frequency), 6);
 }
 
 double beam_rms_at_speed(const TrackingProblem& problem, const control::LoopEvaluator& evaluator,

@@ -1,306 +1,236 @@
 #include <algorithm>
 #include <cmath>
-#include <exception>
 #include <limits>
-#include <numbers>
-#include <optional>
 #include <random>
 
 #include <fmt/format.h>
-#include <nlopt.hpp>
 
-#include <boresight/control/closed_loop.hpp>
+#include <boresight/design/active_multipliers.hpp>
+#include <boresight/design/ensemble_search.hpp>
+#include <boresight/design/parallel_loop.hpp>
 #include <boresight/design/tuner.hpp>
 #include <boresight/plant/error.hpp>
 
 namespace boresight::design {
 namespace {
 
-using control::LoopEvaluation;
-constexpr unsigned peaks_per_break = 3;
-constexpr unsigned constraint_count = 3 * peaks_per_break + 1;
-// What an unstable loop counts as: finite, far above any stable loop's, so a line search backs off.
-constexpr double unstable_penalty = 5.0;
-// Peaks are read off a parabola through grid points; what it can miss is kept in hand, so that the
-// exact peak meets the goal.
-constexpr double peak_reserve = 5e-5;
+// A goal met to the last digit is met.
+constexpr double rounding = 1e-9;
 
-struct Candidate {
-  control::ControlLaw law;
-  LoopEvaluation evaluation;
-};
-
-// A search is started again from where it stopped, at most so often and while it gains so much.
-constexpr int most_restarts = 4;
-constexpr double worthwhile = 0.998;
-
-// Keeps the record of one tuning and answers the optimiser's callbacks.
-class Search {
- public:
-  Search(control::LoopEvaluator& evaluator, const control::LoopStructure& structure,
-         const HardGoals& goals)
-      : evaluator_(evaluator),
-        goals_(goals),
-        descriptions_(control::gain_descriptions(structure)),
-        size_(static_cast<unsigned>(descriptions_.size())) {
-    law_.structure = structure;
-    law_.gains.resize(size_);
-    for (const auto& description : descriptions_) {
-      lower_.push_back(std::log(description.lower));
-      upper_.push_back(std::log(description.upper));
-    }
+void check(const control::LoopStructure& structure, const HardGoals& goals,
+           const TuningOptions& options) {
+  const int least_starts = options.warm_starts.empty() ? 1 : 0;
+  if (options.starts < least_starts || options.evaluations_per_start < 1 ||
+      options.search_points_per_decade < 1) {
+    throw InvalidInput(fmt::format(
+        "tune: expected at least {} starts, 1 evaluation and 1 point a decade, found {}, {}, {}",
+        least_starts, options.starts, options.evaluations_per_start,
+        options.search_points_per_decade));
   }
-
-  std::vector<double> random_point(std::mt19937_64& generator) const {
-    std::vector<double> point(size_);
-    for (unsigned k = 0; k < size_; ++k) {
-      // 53 random bits, so that the sequence does not depend on the standard library.
-      const double share = static_cast<double>(generator() >> 11) * 0x1p-53;
-      point[k] = lower_[k] + share * (upper_[k] - lower_[k]);
-    }
-    return point;
+  const double quantile = options.soft_goal.quantile;
+  if (!std::isfinite(quantile) || quantile <= 0.0 || quantile > 1.0) {
+    throw InvalidInput(
+        fmt::format("tune: expected a quantile above 0 and at most 1, found {:g}", quantile));
   }
-
-  const LoopEvaluation& evaluate(const std::vector<double>& point) {
-    if (point == point_) return evaluation_;
-    point_ = point;
-    for (unsigned k = 0; k < size_; ++k) {
-      law_.gains[k] = std::exp(std::clamp(point[k], lower_[k], upper_[k]));
-    }
-    evaluation_ = evaluator_.evaluate(law_, true);
-    ++evaluations_;
-    if (evaluation_.stable()) consider();
-    return evaluation_;
+  for (const auto& gains : options.warm_starts) {
+    control::validate({structure, gains});
   }
-
-  // Walks from an unstable point towards a stable one, to the first stable place.
-  std::vector<double> pull_back(const std::vector<double>& from, const std::vector<double>& to) {
-    for (int step = 0; step < 12; ++step) {
-      std::vector<double> point(size_);
-      for (unsigned k = 0; k < size_; ++k) point[k] = from[k] + (to[k] - from[k]) * step / 12.0;
-      if (evaluate(point).stable()) return point;
-    }
-    return to;
-  }
-
-  void minimise(std::vector<double> start, int evaluations) {
-    nlopt::opt optimiser(nlopt::LD_SLSQP, size_);
-    optimiser.set_lower_bounds(lower_);
-    optimiser.set_upper_bounds(upper_);
-    optimiser.set_maxeval(evaluations);
-    optimiser.set_xtol_rel(1e-7);
-    optimiser.set_ftol_abs(1e-9);
-    optimiser_ = &optimiser;
-    failure_ = nullptr;
-    optimiser.set_min_objective(objective, this);
-    optimiser.add_inequality_mconstraint(constraints, this,
-                                         std::vector<double>(constraint_count, 0.0));
-    try {
-      double value = 0.0;
-      optimiser.optimize(start, value);
-    } catch (const std::runtime_error&) {
-      // A failed line search, rounding, or our own stop: the record stands all the same.
-      ++failures_;
-    }
-    optimiser_ = nullptr;
-    if (failure_) std::rethrow_exception(failure_);
-  }
-
-  // Takes the best feasible candidate since the last call.
-  std::optional<Candidate> take_best() {
-    auto best = std::move(best_);
-    best_.reset();
-    best_log_rms_ = std::numeric_limits<double>::infinity();
-    return best;
-  }
-  const std::optional<Candidate>& nearest() const { return nearest_; }
-  int evaluations() const { return evaluations_; }
-  int failures() const { return failures_; }
-  const std::vector<control::GainDescription>& descriptions() const { return descriptions_; }
-
- private:
-  void consider() {
-    const double ratio = worst_goal_ratio(evaluation_, goals_);
-    const double log_rms = 0.5 * std::log(evaluation_.beam_variance());
-    // The reserve is the constraints' too: what is recorded must hold on the exact response.
-    if (ratio <= std::exp(-peak_reserve) * (1.0 + 1e-7) && log_rms < best_log_rms_) {
-      best_log_rms_ = log_rms;
-      best_ = Candidate{law_, evaluation_};
-    }
-    if (ratio < nearest_ratio_) {
-      nearest_ratio_ = ratio;
-      nearest_ = Candidate{law_, evaluation_};
-    }
-  }
-
-  template <typename Function>
-  void guarded(Function function) {
-    try {
-      function();
-    } catch (...) {
-      failure_ = std::current_exception();
-      optimiser_->force_stop();
-    }
-  }
-
-  static double objective(const std::vector<double>& point, std::vector<double>& gradient,
-                          void* data) {
-    auto& self = *static_cast<Search*>(data);
-    double value = unstable_penalty;
-    self.guarded([&] {
-      const LoopEvaluation& evaluation = self.evaluate(point);
-      const double variance = evaluation.beam_variance();
-      value = 0.5 * std::log(variance);
-      for (std::size_t k = 0; k < gradient.size(); ++k) {
-        gradient[k] =
-            0.5 * (evaluation.wind_log_gradient[k] + evaluation.noise_log_gradient[k]) / variance;
-      }
-      if (!evaluation.stable()) value += unstable_penalty;
-    });
-    return value;
-  }
-
-  static void constraints(unsigned count, double* values, unsigned size, const double* point,
-                          double* gradients, void* data) {
-    auto& self = *static_cast<Search*>(data);
-    std::fill(values, values + count, -1.0);
-    if (gradients != nullptr) std::fill(gradients, gradients + count * size, 0.0);
-    self.guarded([&] {
-      const LoopEvaluation& evaluation = self.evaluate(std::vector<double>(point, point + size));
-      for (unsigned b = 0; b < 3; ++b) {
-        const auto& peaks = evaluation.peaks[b];
-        for (unsigned j = 0; j < peaks.size(); ++j) {
-          const unsigned row = b * peaks_per_break + j;
-          values[row] =
-              std::log(peaks[j].magnitude / self.goals_.sensitivity_peak[b]) + peak_reserve;
-          if (gradients != nullptr) {
-            std::copy_n(peaks[j].log_gradient.begin(), size, gradients + row * size);
-          }
-        }
-        if (!evaluation.stable()) values[b * peaks_per_break] = unstable_penalty;
-      }
-      const unsigned row = constraint_count - 1;
-      const double limit = self.goals_.valve_effort;
-      if (evaluation.effort_variance > 0.0) {
-        values[row] = 0.5 * std::log(evaluation.effort_variance / (limit * limit)) + peak_reserve;
-        for (unsigned k = 0; gradients != nullptr && k < size; ++k) {
-          gradients[row * size + k] =
-              0.5 * evaluation.effort_log_gradient[k] / evaluation.effort_variance;
-        }
-      }
-    });
-  }
-
-  control::LoopEvaluator& evaluator_;
-  HardGoals goals_;
-  const std::vector<control::GainDescription>& descriptions_;
-  unsigned size_;
-  std::vector<double> lower_, upper_;
-  control::ControlLaw law_;
-  std::vector<double> point_;
-  LoopEvaluation evaluation_;
-  int evaluations_ = 0;
-  int failures_ = 0;
-  double best_log_rms_ = std::numeric_limits<double>::infinity();
-  double nearest_ratio_ = std::numeric_limits<double>::infinity();
-  std::optional<Candidate> best_, nearest_;
-  nlopt::opt* optimiser_ = nullptr;
-  std::exception_ptr failure_;
-};
-
-std::vector<double> logarithms(const std::vector<double>& gains) {
-  std::vector<double> logarithm(gains.size());
-  std::transform(gains.begin(), gains.end(), logarithm.begin(),
-                 [](double gain) { return std::log(gain); });
-  return logarithm;
+  validate(goals);
 }
 
-// The first `count` laws of a list sorted by rms that are not copies of one another; the law
-// nearest to the goals where the list is empty.
-std::vector<Candidate> distinct(const std::vector<Candidate>& sorted,
-                                const std::optional<Candidate>& nearest, std::size_t count) {
-  std::vector<Candidate> chosen;
-  for (const auto& candidate : sorted) {
-    const bool copy = std::any_of(chosen.begin(), chosen.end(), [&](const Candidate& other) {
-      return candidate.evaluation.beam_variance() < other.evaluation.beam_variance() * (1.0 + 1e-4);
-    });
-    if (!copy && chosen.size() < count) chosen.push_back(candidate);
+std::vector<JudgedPlant> make_plants(TrackingProblem problem, const HardGoals& goals,
+                                     const std::vector<EnsembleMember>& members,
+                                     const WindTable& wind, int points_per_decade) {
+  problem.points_per_decade = points_per_decade;
+  std::vector<JudgedPlant> plants;
+  plants.reserve(1 + members.size());
+  plants.emplace_back("", problem, goals, wind);
+  for (const auto& member : members) {
+    problem.plant = member.plant;
+    plants.emplace_back(member.name, problem, goals, wind);
   }
-  if (chosen.empty() && nearest) chosen.push_back(*nearest);
+  return plants;
+}
+
+struct Started {
+  std::vector<SearchPoint> feasible;  // one a start at most, best first
+  std::vector<SearchPoint> nearest;   // where none is feasible
+};
+
+// All starts on some of the plants. Each start has a record of its own, so that threads make no
+// difference.
+Started multi_start(const std::vector<JudgedPlant>& plants, const CarriedPlants& carried,
+                    const control::LoopStructure& structure, const HardGoals& goals,
+                    const TuningOptions& options, TuningResult& result) {
+  const FeasibleSearchOptions settings = search_options(options);
+  std::vector<JudgedPlant> own = plants;
+  FeasibleSearch trial(law_problem(own, carried, structure, goals, goal_reserve), settings);
+  std::mt19937_64 generator(options.seed);
+  std::vector<double> anchor;
+  constexpr int most_trials = 2000;
+  for (int i = 0; i < most_trials && anchor.empty() && !(options.stop && options.stop()); ++i) {
+    const auto point = trial.random_point(generator);
+    if (trial.evaluate(point) != nullptr) anchor = point;
+  }
+  result.evaluations += static_cast<int>(trial.evaluations());
+  if (anchor.empty()) return {};
+
+  struct Outcome {
+    std::optional<SearchPoint> best, nearest;
+    int evaluations = 0, failures = 0;
+    bool stopped = false;
+  };
+  std::vector<std::vector<double>> starts;
+  for (int i = 0; i < options.starts; ++i) starts.push_back(trial.random_point(generator));
+  std::vector<Outcome> outcomes(starts.size());
+  const std::size_t threads =
+      std::clamp<std::size_t>(options.threads, 1, std::max<std::size_t>(starts.size(), 1));
+  for_each_index(threads, static_cast<unsigned>(threads), [&](std::size_t thread) {
+    std::vector<JudgedPlant> mine = plants;
+    for (std::size_t i = thread; i < starts.size(); i += threads) {
+      // Even when stopped the first start is looked at: something stands.
+      if (i > 0 && options.stop && options.stop()) {
+        outcomes[i].stopped = true;
+        break;
+      }
+      FeasibleSearch search(law_problem(mine, carried, structure, goals, goal_reserve), settings);
+      outcomes[i].best = search.search_from(search.retreat(starts[i], anchor));
+      outcomes[i].nearest = search.nearest();
+      outcomes[i].evaluations = static_cast<int>(search.evaluations());
+      outcomes[i].failures = search.optimiser_failures();
+      outcomes[i].stopped = search.stopped();
+    }
+  });
+  Started started;
+  for (auto& outcome : outcomes) {
+    if (outcome.best) started.feasible.push_back(std::move(*outcome.best));
+    if (outcome.nearest) started.nearest.push_back(std::move(*outcome.nearest));
+    result.evaluations += outcome.evaluations;
+    result.optimiser_failures += outcome.failures;
+    result.interrupted = result.interrupted || outcome.stopped;
+  }
+  std::ranges::stable_sort(started.feasible, {}, &SearchPoint::cost);
+  std::ranges::stable_sort(started.nearest, {}, &SearchPoint::violation);
+  return started;
+}
+
+// The first `count` that are not copies of one another, of what is sorted by a value.
+std::vector<std::vector<double>> distinct(const std::vector<SearchPoint>& sorted,
+                                          double SearchPoint::*value, std::size_t count) {
+  constexpr double apart = 5e-5;
+  std::vector<std::vector<double>> chosen;
+  double last = -std::numeric_limits<double>::infinity();
+  for (const auto& one : sorted) {
+    if (chosen.size() == count) break;
+    if (one.*value < last + apart) continue;
+    last = one.*value;
+    chosen.push_back(one.point);
+  }
   return chosen;
 }
 
-bool less(const Candidate& x, const Candidate& y) {
-  return x.evaluation.beam_variance() < y.evaluation.beam_variance();
+std::vector<std::vector<double>> promising(const Started& started) {
+  constexpr std::size_t most = 3;
+  if (!started.feasible.empty()) return distinct(started.feasible, &SearchPoint::cost, most);
+  return distinct(started.nearest, &SearchPoint::violation, 2);
 }
 
-// Random starts on the coarse grid: the best three laws, the nearest to the goals where none is
-// feasible, nothing where none is stable.
-std::vector<Candidate> global_search(const TrackingProblem& problem,
-                                     const control::LoopStructure& structure,
-                                     const HardGoals& goals, const TuningOptions& options,
-                                     TuningResult& result) {
-  TrackingProblem coarse_problem = problem;
-  coarse_problem.points_per_decade = options.search_points_per_decade;
-  control::LoopEvaluator coarse = make_evaluator(coarse_problem);
-  Search search(coarse, structure, goals);
-  std::mt19937_64 generator(options.seed);
-  std::vector<double> anchor;
-  for (int trial = 0; trial < 2000 && anchor.empty(); ++trial) {
-    const auto point = search.random_point(generator);
-    if (search.evaluate(point).stable()) anchor = point;
+// Random starts on the coarse grid; with members, again with those that have to be carried.
+std::vector<std::vector<double>> global_search(const TrackingProblem& problem,
+                                               const control::LoopStructure& structure,
+                                               const HardGoals& goals, const TuningOptions& options,
+                                               const WindTable& wind,
+                                               std::vector<std::size_t>& carried,
+                                               TuningResult& result) {
+  std::vector<JudgedPlant> plants =
+      make_plants(problem, goals, options.members, wind, options.search_points_per_decade);
+  Started started = multi_start(plants, {{0}, {0}, false}, structure, goals, options, result);
+  auto points = promising(started);
+  if (!options.members.empty() && !points.empty() && !result.interrupted) {
+    EnsembleSearch ensemble(plants, structure, goals, options);
+    const auto held = ensemble.hold(points.front(), {0});
+    result.evaluations += ensemble.evaluations();
+    carried = ensemble.carried();
+    const CarriedPlants many = ensemble.carried_plants(carried);
+    Started again = multi_start(plants, many, structure, goals, options, result);
+    if (!again.feasible.empty() || started.feasible.empty()) started = std::move(again);
+    points = promising(started);
+    if (held) points.push_back(held->point);
   }
-  std::vector<Candidate> found;
-  for (int start = 0; start < options.starts && !anchor.empty(); ++start) {
-    auto point = search.pull_back(search.random_point(generator), anchor);
-    std::optional<Candidate> best;
-    // SLSQP stops where two peaks change places; from there it often goes on with the new pair.
-    for (int restart = 0; restart < most_restarts; ++restart) {
-      search.minimise(point, options.evaluations_per_start);
-      auto next = search.take_best();
-      if (!next || (best && next->evaluation.beam_variance() >
-                                worthwhile * best->evaluation.beam_variance())) {
-        break;
-      }
-      best = std::move(next);
-      point = logarithms(best->law.gains);
-    }
-    if (best) found.push_back(std::move(*best));
+  if (!started.feasible.empty()) {
+    const double best = started.feasible.front().cost;
+    result.starts_at_optimum = static_cast<int>(std::ranges::count_if(
+        started.feasible, [&](const auto& one) { return one.cost < best + std::log(1.01); }));
   }
-  std::stable_sort(found.begin(), found.end(), less);
-  result.starts_at_optimum =
-      static_cast<int>(std::count_if(found.begin(), found.end(), [&](const Candidate& candidate) {
-        return candidate.evaluation.beam_variance() <
-               1.01 * 1.01 * found.front().evaluation.beam_variance();
-      }));
-  result.evaluations += search.evaluations();
-  result.optimiser_failures += search.failures();
-  return distinct(found, search.nearest(), 3);
+  return points;
 }
 
-void describe_limits(TuningResult& result, const HardGoals& goals,
-                     const std::vector<control::GainDescription>& descriptions) {
-  for (std::size_t b = 0; b < control::loop_breaks.size(); ++b) {
-    for (const auto& peak : result.evaluation.peaks[b]) {
-      if (peak.magnitude > 0.999 * goals.sensitivity_peak[b]) {
-        result.active_goals.push_back(fmt::format("sensitivity peak at {}, {:.2f} Hz",
-                                                  control::to_string(control::loop_breaks[b]),
-                                                  peak.frequency / (2.0 * std::numbers::pi)));
+// Prices of what holds the law, by the multipliers of the goals that are active on any plant.
+void describe_limits(std::vector<JudgedPlant>& plants, const EnsembleSearch& ensemble,
+                     TuningResult& result) {
+  const auto& descriptions = control::gain_descriptions(result.law.structure);
+  const auto size = static_cast<Eigen::Index>(descriptions.size());
+  const bool feasible = result.status == TuningStatus::optimal;
+  std::vector<LimitingGoal> active;
+  for (auto& plant : plants) {
+    for (const GoalRatio& goal : plant.judge(result.law, true).ratios) {
+      if (goal.ratio > 0.999) {
+        result.active_goals.push_back(
+            describe(goal) + (plant.name().empty() ? "" : fmt::format(", on {}", plant.name())));
       }
+      const double threshold = feasible ? 1.0 : result.worst_goal_ratio;
+      if (goal.ratio > threshold * (1.0 - 1e-4)) active.push_back({goal, plant.name(), 0.0});
     }
   }
-  if (std::sqrt(result.evaluation.effort_variance) > 0.999 * goals.valve_effort) {
-    result.active_goals.emplace_back("noise-driven valve effort");
+  const auto row = [&](const std::array<double, control::most_gains>& gradient) {
+    return Eigen::Map<const Eigen::RowVectorXd>(gradient.data(), size);
+  };
+  ActiveSet set;
+  const auto goals = static_cast<Eigen::Index>(active.size());
+  Eigen::MatrixXd gradients(goals, size);
+  for (Eigen::Index i = 0; i < goals; ++i) {
+    gradients.row(i) = row(active[static_cast<std::size_t>(i)].goal.log_gradient);
+  }
+  set.constraints.resize(0, size);
+  set.objectives = std::move(gradients);
+  if (feasible) {
+    set.constraints = std::move(set.objectives);
+    set.objectives = ensemble.soft_gradients(result.law);
   }
   for (std::size_t k = 0; k < descriptions.size(); ++k) {
     const double value = result.law.gains[k];
-    if (value < 1.001 * descriptions[k].lower || value > 0.999 * descriptions[k].upper) {
-      result.gains_at_bound.emplace_back(descriptions[k].name);
+    set.at_lower.push_back(value < 1.001 * descriptions[k].lower);
+    set.at_upper.push_back(value > 0.999 * descriptions[k].upper);
+    if (set.at_lower.back() || set.at_upper.back()) {
+      result.gains_at_bound.push_back(descriptions[k].name);
+    }
+  }
+  const Multipliers found = active_multipliers(set);
+  result.gradient_residual = found.residual;
+  const Eigen::VectorXd& prices = feasible ? found.constraints : found.objectives;
+  constexpr double worth_saying = 1e-4;
+  for (std::size_t i = 0; i < active.size(); ++i) {
+    active[i].price = prices[static_cast<Eigen::Index>(i)];
+    if (active[i].price > worth_saying) result.limits.push_back(std::move(active[i]));
+  }
+  std::ranges::stable_sort(result.limits, std::ranges::greater(), &LimitingGoal::price);
+  for (std::size_t k = 0; k < descriptions.size(); ++k) {
+    const auto place = static_cast<Eigen::Index>(k);
+    for (const bool upper : {false, true}) {
+      const double price = upper ? found.upper[place] : found.lower[place];
+      if (price > worth_saying) {
+        result.limiting_bounds.push_back({descriptions[k].name, upper, price});
+      }
     }
   }
 }
 
 }  // namespace
+
+std::string LimitingGoal::description() const {
+  return fmt::format("{}{}: 1 % more buys {:.2f} %", describe(goal),
+                     member.empty() ? "" : fmt::format(", on {}", member), price);
+}
 
 double worst_goal_ratio(const control::LoopEvaluation& evaluation, const HardGoals& goals) {
   if (!evaluation.stable()) return std::numeric_limits<double>::infinity();
@@ -314,58 +244,52 @@ double worst_goal_ratio(const control::LoopEvaluation& evaluation, const HardGoa
 
 TuningResult tune(const TrackingProblem& problem, const control::LoopStructure& structure,
                   const HardGoals& goals, const TuningOptions& options) {
-  const int least_starts = options.warm_starts.empty() ? 1 : 0;
-  if (options.starts < least_starts || options.evaluations_per_start < 1 ||
-      options.search_points_per_decade < 1) {
-    throw InvalidInput(fmt::format(
-        "tune: expected at least {} starts, 1 evaluation and 1 point a decade, found {}, {}, {}",
-        least_starts, options.starts, options.evaluations_per_start,
-        options.search_points_per_decade));
-  }
+  check(structure, goals, options);
   TuningResult result;
   result.starts = options.starts;
   result.law.structure = structure;
-  std::vector<std::vector<double>> promising = options.warm_starts;
+  const WindTable wind(problem);
+  std::vector<std::size_t> carried{0};
+  std::vector<std::vector<double>> points;
+  for (const auto& gains : options.warm_starts) points.push_back(log_gains({structure, gains}));
   if (options.starts > 0) {
-    for (auto& candidate : global_search(problem, structure, goals, options, result)) {
-      promising.push_back(std::move(candidate.law.gains));
+    const auto found = global_search(problem, structure, goals, options, wind, carried, result);
+    points.insert(points.end(), found.begin(), found.end());
+  }
+  std::vector<JudgedPlant> plants =
+      make_plants(problem, goals, options.members, wind, problem.points_per_decade);
+  EnsembleSearch ensemble(plants, structure, goals, options);
+  std::optional<HeldLaw> chosen;
+  bool any_stable = false;
+  for (const auto& point : points) {
+    const auto held = ensemble.hold(point, carried);
+    if (!held) continue;
+    any_stable = true;
+    if ((!chosen || ensemble.better(*held, *chosen)) &&
+        ensemble.stable_by_eigenvalues(held->point)) {
+      chosen = held;
+      result.carried_members = ensemble.carried_names();
     }
   }
-  if (promising.empty()) {
+  result.evaluations += ensemble.evaluations();
+  result.optimiser_failures += ensemble.failures();
+  result.interrupted = result.interrupted || ensemble.stopped();
+  if (!chosen) {
+    if (any_stable) {
+      throw NumericalFailure(
+          "tune: a law that is stable on the search's frequency grid is not by its eigenvalues");
+    }
     result.status = TuningStatus::unstable;
     result.worst_goal_ratio = std::numeric_limits<double>::infinity();
     return result;
   }
-  control::LoopEvaluator fine = make_evaluator(problem);
-  Search refine(fine, structure, goals);
-  std::optional<Candidate> chosen;
-  for (const auto& gains : promising) {
-    refine.minimise(logarithms(gains), options.evaluations_per_start);
-    auto best = refine.take_best();
-    if (best && (!chosen || less(*best, *chosen)) &&
-        control::stability(problem.plant, best->law, problem.delay, fine.response().frequency)
-            .stable()) {
-      chosen = std::move(best);
-    }
-  }
-  result.evaluations += refine.evaluations();
-  result.optimiser_failures += refine.failures();
-  result.status = TuningStatus::optimal;
-  if (!chosen) {
-    // No law with the reserve in hand; the nearest may still meet the goals as they stand.
-    chosen = refine.nearest();
-    if (!chosen) {
-      throw NumericalFailure(
-          "tune: a law that is stable on the search's frequency grid is not on the problem's own");
-    }
-    if (worst_goal_ratio(chosen->evaluation, goals) > 1.0 + 1e-9) {
-      result.status = TuningStatus::infeasible;
-    }
-  }
-  result.law = chosen->law;
-  result.evaluation = chosen->evaluation;
-  result.worst_goal_ratio = worst_goal_ratio(result.evaluation, goals);
-  describe_limits(result, goals, refine.descriptions());
+  result.law = law_at(structure, chosen->point);
+  result.evaluation = plants.front().judge(result.law, true).evaluation;
+  result.worst_goal_ratio = chosen->worst_ratio;
+  result.soft_rms = chosen->soft_rms;
+  result.status =
+      chosen->worst_ratio <= 1.0 + rounding ? TuningStatus::optimal : TuningStatus::infeasible;
+  describe_limits(plants, ensemble, result);
   return result;
 }
 

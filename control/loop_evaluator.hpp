@@ -223,6 +223,12 @@ class LoopEvaluator {
     double place = 0.0, value = 0.0;  // ln w, ln|S|^2
   };
 
+  // ln|S|^2 between points, the product of the distances from them, the leaf they are in.
+  struct Interpolation {
+    double value = 0.0, product = 0.0;
+    std::size_t leaf = 0;
+  };
+
   void use_first_panels();
   void make_panels(const LoopQuadrature& quadrature);
   void add_resolved(double from, double to, const LoopQuadrature& quadrature);
@@ -238,7 +244,7 @@ class LoopEvaluator {
   std::size_t points() const;
   double sensitivity_square(std::size_t loop_break, std::size_t i) const;
   PointOnAxis point_on_axis(LoopBreak loop_break, std::size_t i) const;
-  double interpolated(LoopBreak loop_break, std::size_t near, double place) const;
+  Interpolation interpolate(LoopBreak loop_break, std::size_t near, double place) const;
   SensitivityPeak peak_at(const ControlLaw& law, LoopBreak loop_break, double frequency) const;
   SensitivityPeak polish(const ControlLaw& law, LoopBreak loop_break, std::size_t i) const;
   void find_peaks(const ControlLaw& law, LoopBreak loop_break, PeakList& peaks) const;

@@ -115,7 +115,8 @@ LoopEvaluator::PointOnAxis LoopEvaluator::point_on_axis(LoopBreak loop_break, st
 }
 
 // ln|S|^2 from the polynomials through the returns in the panel around `place`.
-double LoopEvaluator::interpolated(LoopBreak loop_break, std::size_t near, double place) const {
+LoopEvaluator::Interpolation LoopEvaluator::interpolate(LoopBreak loop_break, std::size_t near,
+                                                        double place) const {
   std::size_t leaf = near / plant::pack_size;
   const auto offset = [&] {
     const Panel& panel = panels_[leaves_[leaf]];
@@ -130,7 +131,7 @@ double LoopEvaluator::interpolated(LoopBreak loop_break, std::size_t near, doubl
   const PanelRule& rule = panel_rule();
   const LoopValues& values = values_[leaves_[leaf]];
   Complex rate = 0.0, both = 0.0;
-  double total = 0.0;
+  double total = 0.0, product = 1.0;
   for (std::size_t j = 0; j < plant::pack_size; ++j) {
     const double away = u - rule.node[j];
     const Complex rate_here{values.rate_return.re[j], values.rate_return.im[j]};
@@ -139,8 +140,10 @@ double LoopEvaluator::interpolated(LoopBreak loop_break, std::size_t near, doubl
       rate = rate_here;
       both = both_here;
       total = 1.0;
+      product = 0.0;
       break;
     }
+    product *= away;
     const double weight = rule.barycentric[j] / away;
     rate += weight * rate_here;
     both += weight * both_here;
@@ -148,11 +151,11 @@ double LoopEvaluator::interpolated(LoopBreak loop_break, std::size_t near, doubl
   }
   switch (loop_break) {
     case LoopBreak::rate_loop_alone:
-      return std::log(total * total / std::norm(rate));
+      return {std::log(total * total / std::norm(rate)), product, leaf};
     case LoopBreak::valve_command:
-      return std::log(total * total / std::norm(both));
+      return {std::log(total * total / std::norm(both)), product, leaf};
     case LoopBreak::position_loop:
-      return std::log(std::norm(rate) / std::norm(both));
+      return {std::log(std::norm(rate) / std::norm(both)), product, leaf};
   }
   throw InvalidInput("loop evaluator: not a loop break");
 }
@@ -181,6 +184,8 @@ SensitivityPeak LoopEvaluator::peak_at(const ControlLaw& law, LoopBreak loop_bre
 }
 
 // Between the points of panels the returns are polynomials, and the plant is asked at the top only.
+// What it says there corrects the polynomial: its error is nearly the product of the distances from
+// the points times a constant.
 SensitivityPeak LoopEvaluator::polish(const ControlLaw& law, LoopBreak loop_break,
                                       std::size_t i) const {
   const auto on_grid = [&](std::size_t k) {
@@ -190,10 +195,23 @@ SensitivityPeak LoopEvaluator::polish(const ControlLaw& law, LoopBreak loop_brea
   const LogPoint left = on_grid(i - 1), middle = on_grid(i), right = on_grid(i + 1);
   if (!panels_.empty()) {
     constexpr double agreement = 3e-7;  // of ln|S|^2
-    const LogPoint top = climb(left, middle, right,
-                               [&](double place) { return interpolated(loop_break, i, place); });
-    const SensitivityPeak peak = peak_at(law, loop_break, std::exp(top.place));
-    if (std::abs(2.0 * std::log(peak.magnitude) - top.value) < agreement) return peak;
+    constexpr int most_corrections = 3;
+    double factor = 0.0;
+    std::size_t corrected_leaf = leaves_.size();
+    const auto value = [&](double place) {
+      const Interpolation found = interpolate(loop_break, i, place);
+      return found.value + (found.leaf == corrected_leaf ? factor * found.product : 0.0);
+    };
+    for (int round = 0; round < most_corrections; ++round) {
+      const LogPoint top = climb(left, middle, right, value);
+      const SensitivityPeak peak = peak_at(law, loop_break, std::exp(top.place));
+      const double error = 2.0 * std::log(peak.magnitude) - top.value;
+      if (std::abs(error) < agreement) return peak;
+      const Interpolation there = interpolate(loop_break, i, top.place);
+      if (there.product == 0.0) break;
+      factor = (there.leaf == corrected_leaf ? factor : 0.0) + error / there.product;
+      corrected_leaf = there.leaf;
+    }
   }
   const LogPoint top = climb(left, middle, right, [&](double place) {
     return 2.0 * std::log(peak_at(law, loop_break, std::exp(place)).magnitude);

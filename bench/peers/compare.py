@@ -28,10 +28,12 @@ ITEMS = {
     "lyapunov": ("Lyapunov equation, trace", 1, 1e-8, None),
     "riccati": ("Riccati equation, trace", 1, 1e-6, None),
     "discrete_riccati": ("discrete Riccati equation, trace", 1, 1e-6, None),
+    "tune": ("four gains for the least rms with the peak of S at most 2", 2, 1e-6, "tune"),
 }
 SMALLEST_ONLY = {"lyapunov", "riccati", "discrete_riccati"}
 SIMULATED = {5, 50}
 DRIVEN = {5, 20}
+TUNED = {5, 500}
 HERE = pathlib.Path(__file__).resolve().parent
 
 
@@ -75,6 +77,8 @@ class Boresight:
                 unit = {"ns": 1e-9, "us": 1e-6, "ms": 1e-3, "s": 1.0}[entry["time_unit"]]
                 line["med"] = entry["cpu_time"] * unit
                 line["val"] = [entry[key] for key in (f"value{i}" for i in range(9)) if key in entry]
+                notes = {key.removeprefix("note_"): entry[key] for key in entry if key.startswith("note_")}
+                line["notes"] = ", ".join(f"{key.replace('_', ' ')} {value:.4g}" for key, value in notes.items())
         return list(lines.values())
 
 
@@ -138,6 +142,7 @@ def compare(item, modes, programs, rounds, seconds):
                 else:
                     row["times"].append(line["med"])
                     row["val"] = line["val"]
+                    row["notes"] = line.get("notes", "")
     return rows
 
 
@@ -169,6 +174,8 @@ def table(item, rows_of):
                     cells[-1] += " differs"
                     agree = agree and not peer.startswith("Boresight")
                 worst = max(worst, off)
+                if row["notes"]:
+                    notes.append(f"{peer}, {modes} modes: {row['notes']}")
         print(f"| {peer} | {' | '.join(cells)} | {worst:.0e} |")
     if notes:
         print("\n" + "\n".join(f"- {note}" for note in notes))
@@ -183,7 +190,7 @@ def main():
     parser.add_argument("--seconds", type=float, default=300.0, help="longest run of one program (default: 300)")
     parser.add_argument("--limit", action="append", default=[], metavar="PROGRAM",
                         help="also run PROGRAM ITEM MODES, which adds JSON lines to the file $RES")
-    for name in ("boresight", "systems", "slicot"):
+    for name in ("boresight", "systems", "slicot", "slicot-tune"):
         parser.add_argument(f"--{name}", required=True, help=argparse.SUPPRESS)
     options = parser.parse_args()
     items = options.items or list(ITEMS)
@@ -198,6 +205,7 @@ def main():
     with tempfile.TemporaryDirectory() as folder:
         subprocess.run([options.systems, folder, *map(str, sizes)], check=True)
         programs = [Boresight(options.boresight), Program("SLICOT", [options.slicot, folder])]
+        programs.append(Program("NLopt on SLICOT", [options.slicot_tune, folder]))
         programs.append(Program("SciPy", [sys.executable, "-B", str(HERE / "scipy_peer.py"), folder]))
         programs.append(Program("SciPy drive", [sys.executable, "-B", str(HERE / "scipy_drive.py"), folder]))
         octave = ["octave-cli", "--quiet", "--no-history", str(HERE / "octave_peer.m"), folder]
@@ -210,6 +218,7 @@ def main():
                 if not (item in SMALLEST_ONLY and modes != 5)
                 and not (item == "simulation" and modes not in SIMULATED)
                 and not (item.startswith("nl_") and modes not in DRIVEN)
+                and not (item == "tune" and modes not in TUNED)
             }
             agree = table(item, rows_of) and agree
             sys.stdout.flush()

@@ -17,7 +17,8 @@ JudgedPlant::JudgedPlant(std::string name, const TrackingProblem& problem, const
       plant_(problem.plant),
       delay_(problem.delay),
       goals_(goals),
-      evaluator_(make_evaluator(problem, wind)) {
+      frequency_(analysis_grid(problem)),
+      evaluator_(make_adaptive_evaluator(problem, wind)) {
   if (goals.ask_for_gusts()) {
     const auto& drive = problem.plant.drive;
     mean_.torque =
@@ -28,13 +29,13 @@ JudgedPlant::JudgedPlant(std::string name, const TrackingProblem& problem, const
     } else {
       TrackingProblem windy = problem;
       windy.climate.clear();
-      gusts_.push_back(make_evaluator(windy));
+      gusts_.push_back(make_adaptive_evaluator(windy, WindTable(windy)));
       gusts_.back().look_at({false, false, false});
       gusts_.back().look_at_gusts(true);
     }
   }
   if (goals.ask_for_margins()) {
-    channels_.push_back(control::make_channels(plant_, evaluator_.response().frequency));
+    channels_.push_back(control::make_channels(plant_, frequency_));
   }
 }
 
@@ -59,7 +60,7 @@ const PlantJudgement& JudgedPlant::judge(const control::ControlLaw& law, bool wi
 }
 
 bool JudgedPlant::stable_by_eigenvalues(const control::ControlLaw& law) const {
-  return control::stability(plant_, law, delay_, evaluator_.response().frequency).stable();
+  return control::stability(plant_, law, delay_, frequency_).stable();
 }
 
 }  // namespace boresight::design

@@ -11,7 +11,7 @@ namespace boresight::design {
 
 /// A control law on one plant against its hard goals.
 struct PlantJudgement {
-  /// By the winding on the grid; nothing below is set where it is false.
+  /// By the winding along the frequencies; nothing below is set where it is false.
   bool stable = false;
   control::LoopEvaluation evaluation;
   std::vector<GoalRatio> ratios;
@@ -43,6 +43,7 @@ class JudgedPlant {
   double delay_;
   HardGoals goals_;
   MeanWindLoad mean_;
+  Eigen::ArrayXd frequency_;  // rad/s, for margins and the eigenvalues' residue
   control::LoopEvaluator evaluator_;
   /// Gusts are those of the design's wind: beside a climate they take an evaluator of their own.
   std::vector<control::LoopEvaluator> gusts_;

@@ -7,6 +7,7 @@
 
 #include <boresight/design/tracking_problem.hpp>
 #include <boresight/plant/error.hpp>
+#include <boresight/plant/point_response.hpp>
 
 namespace boresight::design {
 namespace {
@@ -80,35 +81,36 @@ WindTable::WindTable(const TrackingProblem& problem) {
           .log();
 }
 
-Eigen::ArrayXd WindTable::spectrum(const Eigen::ArrayXd& frequency) const {
-  return frequency.unaryExpr([this](double w) {
-    const double place = (std::log(w) - first_) / step_;
-    const auto left = std::clamp<Eigen::Index>(static_cast<Eigen::Index>(std::floor(place)) - 1, 0,
-                                               log_spectrum_.size() - 4);
-    // Lagrange's polynomial through four points, at 0, 1, 2, 3.
-    const double t = place - static_cast<double>(left);
-    const double t1 = t - 1.0, t2 = t - 2.0, t3 = t - 3.0;
-    const auto y = log_spectrum_.segment<4>(left);
-    return std::exp(-t1 * t2 * t3 / 6.0 * y[0] + t * t2 * t3 / 2.0 * y[1] -
-                    t * t1 * t3 / 2.0 * y[2] + t * t1 * t2 / 6.0 * y[3]);
-  });
+double WindTable::spectrum(double frequency) const {
+  const double place = (std::log(frequency) - first_) / step_;
+  const auto left = std::clamp<Eigen::Index>(static_cast<Eigen::Index>(std::floor(place)) - 1, 0,
+                                             log_spectrum_.size() - 4);
+  // Lagrange's polynomial through four points, at 0, 1, 2, 3.
+  const double t = place - static_cast<double>(left);
+  const double t1 = t - 1.0, t2 = t - 2.0, t3 = t - 3.0;
+  const auto y = log_spectrum_.segment<4>(left);
+  return std::exp(-t1 * t2 * t3 / 6.0 * y[0] + t * t2 * t3 / 2.0 * y[1] - t * t1 * t3 / 2.0 * y[2] +
+                  t * t1 * t2 / 6.0 * y[3]);
 }
-
-namespace {
-control::LoopEvaluator evaluator_in(const TrackingProblem& problem, const Eigen::ArrayXd& frequency,
-                                    const Eigen::ArrayXd& spectrum) {
-  return {problem.plant, frequency, problem.delay, problem.noise, spectrum, problem.rms_band};
-}
-}  // namespace
 
 control::LoopEvaluator make_evaluator(const TrackingProblem& problem) {
   const Eigen::ArrayXd frequency = analysis_grid(problem);
-  return evaluator_in(problem, frequency, motor_wind_spectrum(problem, frequency));
+  return {problem.plant,
+          frequency,
+          problem.delay,
+          problem.noise,
+          motor_wind_spectrum(problem, frequency),
+          problem.rms_band};
 }
 
-control::LoopEvaluator make_evaluator(const TrackingProblem& problem, const WindTable& wind) {
-  const Eigen::ArrayXd frequency = analysis_grid(problem);
-  return evaluator_in(problem, frequency, wind.spectrum(frequency));
+control::LoopEvaluator make_adaptive_evaluator(const TrackingProblem& problem,
+                                               const WindTable& wind) {
+  control::LoopQuadrature quadrature;
+  quadrature.analysis = analysis_band(problem);
+  quadrature.band = problem.rms_band;
+  quadrature.tolerance = 1e-8;
+  return {plant::PointResponse(problem.plant), problem.delay, problem.noise,
+          [wind](double hertz) { return wind.spectrum(two_pi * hertz); }, quadrature};
 }
 
 plant::ShapingFilter fit_wind_filter(const WindCondition& wind, double gear_ratio) {

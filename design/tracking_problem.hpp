@@ -66,18 +66,22 @@ class WindTable {
  public:
   /// @throws InvalidInput as motor_wind_spectrum(problem).
   explicit WindTable(const TrackingProblem& problem);
-  /// (N m)^2/Hz at frequencies (rad/s) within the analysis band.
-  Eigen::ArrayXd spectrum(const Eigen::ArrayXd& frequency) const;
+  /// (N m)^2/Hz at a frequency (rad/s) within the analysis band.
+  double spectrum(double frequency) const;
 
  private:
   double first_ = 0.0, step_ = 0.0;  // of ln w
   Eigen::ArrayXd log_spectrum_;
 };
 
-/// The problem's frequency response and spectra, ready to evaluate control laws. With a table: in
-/// the wind it was made of.
+/// The problem's frequency response and spectra on its analysis grid, ready to evaluate control
+/// laws.
 control::LoopEvaluator make_evaluator(const TrackingProblem& problem);
-control::LoopEvaluator make_evaluator(const TrackingProblem& problem, const WindTable& wind);
+
+/// The same on frequencies that the laws ask for (control::LoopQuadrature), in the wind the table
+/// was made of: a few hundred frequencies an evaluation, and its error is held to 1e-8.
+control::LoopEvaluator make_adaptive_evaluator(const TrackingProblem& problem,
+                                               const WindTable& wind);
 
 /// Order-6 shaping filter of the motor wind torque, fitted from 5e-4 to 5 Hz. Order 4 is enough for
 /// the coherence model at 10 m/s; other models and speeds need two more for 0.5 % of the rms.

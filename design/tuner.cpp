@@ -20,12 +20,10 @@ constexpr double rounding = 1e-9;
 void check(const control::LoopStructure& structure, const HardGoals& goals,
            const TuningOptions& options) {
   const int least_starts = options.warm_starts.empty() ? 1 : 0;
-  if (options.starts < least_starts || options.evaluations_per_start < 1 ||
-      options.search_points_per_decade < 1) {
-    throw InvalidInput(fmt::format(
-        "tune: expected at least {} starts, 1 evaluation and 1 point a decade, found {}, {}, {}",
-        least_starts, options.starts, options.evaluations_per_start,
-        options.search_points_per_decade));
+  if (options.starts < least_starts || options.evaluations_per_start < 1) {
+    throw InvalidInput(
+        fmt::format("tune: expected at least {} starts and 1 evaluation a start, found {} and {}",
+                    least_starts, options.starts, options.evaluations_per_start));
   }
   const double quantile = options.soft_goal.quantile;
   if (!std::isfinite(quantile) || quantile <= 0.0 || quantile > 1.0) {
@@ -39,9 +37,8 @@ void check(const control::LoopStructure& structure, const HardGoals& goals,
 }
 
 std::vector<JudgedPlant> make_plants(TrackingProblem problem, const HardGoals& goals,
-                                     const std::vector<EnsembleMember>& members,
-                                     const WindTable& wind, int points_per_decade) {
-  problem.points_per_decade = points_per_decade;
+                                     const std::vector<EnsembleMember>& members) {
+  const WindTable wind(problem);
   std::vector<JudgedPlant> plants;
   plants.reserve(1 + members.size());
   plants.emplace_back("", problem, goals, wind);
@@ -135,15 +132,12 @@ std::vector<std::vector<double>> promising(const Started& started) {
   return distinct(started.nearest, &SearchPoint::violation, 2);
 }
 
-// Random starts on the coarse grid; with members, again with those that have to be carried.
-std::vector<std::vector<double>> global_search(const TrackingProblem& problem,
+// Random starts on the problem's own plant; with members, again with those that have to be carried.
+std::vector<std::vector<double>> global_search(std::vector<JudgedPlant>& plants,
                                                const control::LoopStructure& structure,
                                                const HardGoals& goals, const TuningOptions& options,
-                                               const WindTable& wind,
                                                std::vector<std::size_t>& carried,
                                                TuningResult& result) {
-  std::vector<JudgedPlant> plants =
-      make_plants(problem, goals, options.members, wind, options.search_points_per_decade);
   Started started = multi_start(plants, {{0}, {0}, false}, structure, goals, options, result);
   auto points = promising(started);
   if (!options.members.empty() && !points.empty() && !result.interrupted) {
@@ -248,16 +242,14 @@ TuningResult tune(const TrackingProblem& problem, const control::LoopStructure& 
   TuningResult result;
   result.starts = options.starts;
   result.law.structure = structure;
-  const WindTable wind(problem);
+  std::vector<JudgedPlant> plants = make_plants(problem, goals, options.members);
   std::vector<std::size_t> carried{0};
   std::vector<std::vector<double>> points;
   for (const auto& gains : options.warm_starts) points.push_back(log_gains({structure, gains}));
   if (options.starts > 0) {
-    const auto found = global_search(problem, structure, goals, options, wind, carried, result);
+    const auto found = global_search(plants, structure, goals, options, carried, result);
     points.insert(points.end(), found.begin(), found.end());
   }
-  std::vector<JudgedPlant> plants =
-      make_plants(problem, goals, options.members, wind, problem.points_per_decade);
   EnsembleSearch ensemble(plants, structure, goals, options);
   std::optional<HeldLaw> chosen;
   bool any_stable = false;
@@ -276,8 +268,7 @@ TuningResult tune(const TrackingProblem& problem, const control::LoopStructure& 
   result.interrupted = result.interrupted || ensemble.stopped();
   if (!chosen) {
     if (any_stable) {
-      throw NumericalFailure(
-          "tune: a law that is stable on the search's frequency grid is not by its eigenvalues");
+      throw NumericalFailure("tune: a law that is stable by its winding is not by its eigenvalues");
     }
     result.status = TuningStatus::unstable;
     result.worst_goal_ratio = std::numeric_limits<double>::infinity();

@@ -15,10 +15,7 @@ struct TuningOptions {
   std::uint64_t seed = 1;
   /// Of one run of the optimiser; a start takes a few runs (FeasibleSearchOptions).
   int evaluations_per_start = 150;
-  /// Frequency grid of the search; its best laws are then tuned again on the problem's own grid.
-  int search_points_per_decade = 100;
-  /// Gains to start from besides, straight on the problem's own grid: a neighbour's optimum. With
-  /// these, `starts` may be 0.
+  /// Gains to start from besides: a neighbour's optimum. With these, `starts` may be 0.
   std::vector<std::vector<double>> warm_starts;
   /// Plants that may be the true one: every hard goal is held on each of them and on the problem's
   /// own. The soft goal is over these alone; without them every soft goal is the nominal one.
@@ -92,8 +89,8 @@ double worst_goal_ratio(const control::LoopEvaluation& evaluation, const HardGoa
 
 /// Least beam rms under the hard goals: sequential quadratic programming on the logarithms of the
 /// gains (feasible_search.hpp), within the bounds of gain_descriptions, from seeded log-uniform
-/// starts, each pulled back towards a stable law if it is unstable, first on a coarse frequency
-/// grid, then from the best three on the problem's own. The highest three local maxima of |S| at
+/// starts, each pulled back towards a stable law if it is unstable, and from the best three once
+/// more. The highest three local maxima of |S| at
 /// each break are separate constraints with analytic gradients; limits are kept by one part in a
 /// million.
 ///

@@ -22,7 +22,6 @@ DesignTask task(const std::string& name, LoopStructure structure, double disks) 
   task.structure = structure;
   task.options.starts = 3;
   task.options.evaluations_per_start = 60;
-  task.options.search_points_per_decade = 40;
   return task;
 }
 

@@ -34,7 +34,6 @@ TuningOptions coarse(std::uint64_t seed = 1) {
   TuningOptions options = quick(seed);
   options.starts = 3;
   options.evaluations_per_start = 60;
-  options.search_points_per_decade = 40;
   return options;
 }
 
@@ -145,7 +144,7 @@ TEST(Tune, NeverCallsALawOptimalThatBreaksAGoal) {
       auto evaluator = make_evaluator(coarse_problem());
       const double ratio = worst_goal_ratio(evaluator.evaluate(result.law, false), goals);
       EXPECT_EQ(result.status == TuningStatus::optimal, ratio <= 1.0 + 1e-9) << peak;
-      EXPECT_EQ(ratio, result.worst_goal_ratio);
+      EXPECT_NEAR(ratio, result.worst_goal_ratio, 1e-6);
     }
   }
 }
@@ -203,13 +202,11 @@ TEST(WorstGoalRatio, IsTheLargestQuantityOverItsLimit) {
 }
 
 TEST(Tune, RefusesOptionsBelowOne) {
-  for (const auto member : {&TuningOptions::starts, &TuningOptions::evaluations_per_start,
-                            &TuningOptions::search_points_per_decade}) {
+  for (const auto member : {&TuningOptions::starts, &TuningOptions::evaluations_per_start}) {
     TuningOptions options;
     options.*member = 0;
-    EXPECT_THAT(
-        [&] { tune(coarse_problem(), LoopStructure::pi(), {}, options); },
-        ThrowsMessage<InvalidInput>(HasSubstr("at least 1 starts, 1 evaluation and 1 point")));
+    EXPECT_THAT([&] { tune(coarse_problem(), LoopStructure::pi(), {}, options); },
+                ThrowsMessage<InvalidInput>(HasSubstr("at least 1 starts and 1 evaluation")));
   }
 }
 

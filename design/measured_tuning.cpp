@@ -15,7 +15,6 @@
 namespace boresight::design {
 namespace {
 
-using control::LoopBreak;
 using control::LoopEvaluation;
 using Eigen::Index;
 
@@ -44,11 +43,12 @@ std::vector<double> logarithms(const std::vector<double>& gains) {
   return result;
 }
 
-control::LoopEvaluator evaluator_of(const MeasuredProblem& problem, control::LoopChannels channels,
+control::LoopEvaluator evaluator_of(const MeasuredProblem& problem,
+                                    const control::LoopChannels& channels,
                                     control::FrequencyBand band) {
   const Eigen::ArrayXd spectrum =
       motor_wind_spectrum(problem.wind, problem.gear_ratio, channels.response.frequency);
-  return {std::move(channels), problem.delay, problem.noise, spectrum, band};
+  return {channels, problem.delay, problem.noise, spectrum, band};
 }
 
 // The members' rms and peaks as FeasibleSearch wants them. The first member is the measured
@@ -143,7 +143,9 @@ class Tuning {
       const bool copy = !distinct.empty() && one.cost < distinct.back().cost + 1e-4;
       if (!copy && distinct.size() < most) distinct.push_back(one);
     }
-    if (distinct.empty() && search.nearest()) distinct.push_back(*search.nearest());
+    if (const auto& nearest = search.nearest(); distinct.empty() && nearest) {
+      distinct.push_back(*nearest);
+    }
     return distinct;
   }
 

@@ -183,12 +183,21 @@ DriveResponse drive_response(const DriveRecord& record, const Campaign& campaign
                          scale)});
   }
 
-  if (record.valve_command) {
+  // Below the structure's modes: above, what the valve commands is no longer what the motors do.
+  const double oil_highest =
+      locked.empty() ? highest : std::min(highest, 2.0 * locked.front().value);
+  const bool oil_shows = shows_oil_relation(lowest, oil_highest, bin);
+  if (record.valve_command && !oil_shows) {
+    result.notes.push_back(
+        fmt::format("{}: excited between {:.2f} Hz and twice the structure's lowest mode, {:.2f} "
+                    "Hz: too narrow "
+                    "to tell the oil's stiffness, losses and the valve apart",
+                    record.name, lowest, oil_highest));
+  } else if (record.valve_command) {
     const auto command = windowed_transforms(record.valve_command->values, part, dt);
-    const double lowest_mode = locked.empty() ? highest : locked.front().value;
-    OilRelation oil = fit_oil_relation(
-        torque, rate, command, lowest, std::min(highest, 2.0 * lowest_mode), bin,
-        torque_scale_uncertainty(record, campaign), campaign.instruments.tachometer_scale);
+    OilRelation oil = fit_oil_relation(torque, rate, command, lowest, oil_highest, bin,
+                                       torque_scale_uncertainty(record, campaign),
+                                       campaign.instruments.tachometer_scale);
     const double k = oil.stiffness.value;
     // The flow is the rate's and the leakage's, which rests on the orifices' share: two rounds.
     double leakage = 0.5 * oil.total_loss_rate.value;

@@ -63,6 +63,7 @@ struct DriveResponseOptions {
 struct DriveResponse {
   std::string record;
   MechanicalImpedance impedance;
+  /// Absent too where the record excites too little below twice the structure's lowest mode.
   std::optional<OilRelation> oil;
   /// The hydraulic mode that both make at the record's mean speed: the root of
   /// (s + lambda) Z(s) + R s + K = 0 near the expected one. Undamped natural, Hz.

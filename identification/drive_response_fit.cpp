@@ -3,7 +3,10 @@
 #include <complex>
 #include <numbers>
 
+#include <fmt/format.h>
+
 #include <boresight/identification/drive_response_fit.hpp>
+#include <boresight/plant/error.hpp>
 #include <boresight/plant/fourier_transform.hpp>
 #include <boresight/plant/semidefinite_factor.hpp>
 
@@ -68,11 +71,17 @@ WindowedTransforms windowed_transforms(const VectorXd& signal, const MovingPart&
 FrequencyBand frequency_band(double lowest, double highest, double bin, Index bins) {
   const auto first = std::max<Index>(1, std::llround(lowest / bin));
   const Index last = std::min<Index>(bins - 2, std::llround(highest / bin));
-  return {bin, first, last - first + 1};
+  return {bin, first, std::max<Index>(0, last - first + 1)};
 }
 
 RealFit real_least_squares(const Eigen::MatrixXcd& columns, const VectorXcd& right,
                            const VectorXd& weight, Index nonlinear, const char* what) {
+  if (2 * columns.rows() < columns.cols() + nonlinear) {
+    throw NumericalFailure(
+        fmt::format("{}: {} frequencies do not determine {} numbers; a longer record or a wider "
+                    "band of excitation would",
+                    what, columns.rows(), columns.cols() + nonlinear));
+  }
   const Eigen::MatrixXcd scaled = weight.asDiagonal() * columns;
   const VectorXcd target = weight.asDiagonal() * right;
   MatrixXd normal = (scaled.adjoint() * scaled).real();

@@ -25,6 +25,7 @@ struct FrequencyBand {
   std::complex<double> s(Eigen::Index k) const;
 };
 
+/// Bins between two frequencies (Hz) of a transform with so many; none where there is none between.
 FrequencyBand frequency_band(double lowest, double highest, double bin, Eigen::Index bins);
 
 /// Real coefficients of complex equations, least squares.
@@ -34,6 +35,7 @@ struct RealFit {
   Eigen::VectorXcd residual;   // weighted
 };
 
+/// @throws NumericalFailure where there are fewer real equations than unknowns.
 RealFit real_least_squares(const Eigen::MatrixXcd& columns, const Eigen::VectorXcd& right,
                            const Eigen::VectorXd& weight, Eigen::Index nonlinear, const char* what);
 
@@ -64,6 +66,10 @@ Eigen::MatrixXcd impedance_columns(const WindowedTransforms& rate, const Frequen
 ImpedanceFit fit_impedance(const WindowedTransforms& rate, const WindowedTransforms& torque,
                            const FrequencyBand& band, const BinNoise& noise,
                            const Eigen::VectorXd& centres, Eigen::Index fitted, double tolerance);
+
+/// Whether a band of frequencies (Hz), and its inner part that fit_oil_relation holds against it,
+/// has three bins for each of the relation's five numbers.
+bool shows_oil_relation(double lowest, double highest, double bin);
 
 /// OilRelation without its orifices' share, over `lowest` .. `highest` (Hz). `scale`: relative
 /// uncertainty of torque.

@@ -16,6 +16,10 @@ using Eigen::Index;
 using Eigen::VectorXd;
 
 constexpr double two_pi = 2.0 * std::numbers::pi;
+constexpr Index relation_numbers = 5;
+// The inner part of a band, to see what the choice of the band does.
+constexpr double inner_lowest = 1.4;
+constexpr double inner_highest = 0.6;
 
 // What the hydraulic mode rests on.
 struct ModeNumbers {
@@ -48,12 +52,17 @@ Complex hydraulic_pole(const ModeNumbers& of, double start) {
 
 }  // namespace
 
+bool shows_oil_relation(double lowest, double highest, double bin) {
+  return inner_highest * highest - inner_lowest * lowest >=
+         static_cast<double>(3 * relation_numbers) * bin;
+}
+
 OilRelation fit_oil_relation(const WindowedTransforms& torque, const WindowedTransforms& rate,
                              const WindowedTransforms& command, double lowest, double highest,
                              double bin, double scale, double tachometer) {
   const auto over = [&](double low, double high) {
     const FrequencyBand band = frequency_band(low, high, bin, torque.value.size());
-    Eigen::MatrixXcd columns(band.count, 5);
+    Eigen::MatrixXcd columns(band.count, relation_numbers);
     columns.col(0) = -torque.value.segment(band.first, band.count);
     columns.col(1) = -rate.value.segment(band.first, band.count);
     columns.col(2) = command.value.segment(band.first, band.count);
@@ -65,7 +74,7 @@ OilRelation fit_oil_relation(const WindowedTransforms& torque, const WindowedTra
                               "drive_response: change of torque on torque, rate and valve command");
   };
   const RealFit fit = over(lowest, highest);
-  const RealFit narrower = over(1.4 * lowest, 0.6 * highest);
+  const RealFit narrower = over(inner_lowest * lowest, inner_highest * highest);
   const auto own = [&](Index k) {
     return std::hypot(std::sqrt(fit.covariance(k, k)), 0.4 * (fit.x(k) - narrower.x(k)));
   };

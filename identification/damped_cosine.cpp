@@ -92,6 +92,12 @@ RingMode mode_of(const RingPole& pole, const Eigen::Matrix2d& covariance,
 
 }  // namespace
 
+bool can_fit_rings(Index samples, double sample_time, std::size_t starts,
+                   const RingFitOptions& options) {
+  return starts > 0 && samples >= 4 * (background_columns(samples, sample_time, options).cols() +
+                                       2 * static_cast<Index>(starts));
+}
+
 RingFit fit_damped_cosines(const MatrixXd& channels, double sample_time,
                            const std::vector<RingPole>& starts, const RingFitOptions& options) {
   const Window window = window_of(channels, sample_time, options);

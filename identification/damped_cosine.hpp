@@ -50,6 +50,11 @@ struct RingFit {
   int iterations = 0;
 };
 
+/// Whether a window of so many samples (`sample_time` s apart) has the four samples a coefficient
+/// that fit_damped_cosines needs for so many starts.
+bool can_fit_rings(Eigen::Index samples, double sample_time, std::size_t starts,
+                   const RingFitOptions& options = {});
+
 /// Fits damped cosines that all channels share, each channel with amplitudes and a trend of its
 /// own, by nonlinear least squares in log w and log s with the linear coefficients eliminated
 /// (variable projection: Golub and Pereyra, SIAM J. Numer. Anal. 10, 1973; Kaufman's derivative)

@@ -188,6 +188,14 @@ StepRings fit_step_rings(const DriveRecord& record, const Campaign& campaign, do
         expected, stiffness));
   }
   const auto& knowledge = campaign.knowledge;
+  if (!(options.highest_share * expected < 0.45 / record.sample_time)) {
+    throw NumericalFailure(
+        fmt::format("fit_step_rings: record '{}' has {:.3g} samples/s; a ringing up to {:.3g} Hz "
+                    "needs more than "
+                    "{:.3g}",
+                    record.name, 1.0 / record.sample_time, options.highest_share * expected,
+                    options.highest_share * expected / 0.45));
+  }
   const double dt = record.sample_time;
   const VectorXd torque = recorded_torque(record, knowledge);
   const auto times = valve_step_times(record, knowledge, stiffness, options.step_threshold);
@@ -228,6 +236,16 @@ StepRings fit_step_rings(const DriveRecord& record, const Campaign& campaign, do
       const auto more = ring_starts(signals, dt, 1, lowest, highest, structural);
       starts.insert(starts.end(), more.begin(), more.end());
     }
+    // Too few samples for the structure's mode beside the oil's: then the oil's alone.
+    if (!can_fit_rings(window.samples, dt, starts.size())) starts.resize(1);
+    if (!can_fit_rings(window.samples, dt, starts.size())) {
+      result.notes.push_back(
+          fmt::format("step at {:.2f} s left out: {} samples until it has rung out, too few to "
+                      "fit; record more "
+                      "a second",
+                      times[k], window.samples));
+      continue;
+    }
     const RingFit fit = fit_damped_cosines(signals, dt, starts);
     const auto& mode = fit.modes.front();
     const double f = mode.natural_frequency.value;
@@ -250,6 +268,13 @@ StepRings fit_step_rings(const DriveRecord& record, const Campaign& campaign, do
     const auto oil = oil_from_shape({-mode.pole.decay_rate, two_pi * mode.pole.damped_frequency},
                                     ring.torque_over_rate);
     const auto spread = shape_spread(fit, fit.modes.size());
+    if (!std::isfinite(oil.stiffness) || !std::isfinite(spread.stiffness) ||
+        !std::isfinite(oil.loss) || !std::isfinite(spread.loss)) {
+      result.notes.push_back(fmt::format(
+          "step at {:.2f} s left out: torque and rate swing in phase, as they do in no oil spring",
+          times[k]));
+      continue;
+    }
     ring.stiffness = oil.stiffness;
     ring.total_loss_rate = oil.loss;
     ring.stiffness_uncertainty = spread.stiffness;

@@ -23,7 +23,7 @@ struct StepRing {
   double stiffness = 0.0;        // N m/rad
   double total_loss_rate = 0.0;  // 1/s
   double leakage_rate = 0.0;     // less what the valve's orifices add, 1/s
-  /// Of log stiffness and total_loss_rate, by the fit's noise.
+  /// N m/rad and 1/s, by the fit's noise.
   double stiffness_uncertainty = 0.0;
   double loss_uncertainty = 0.0;
 };

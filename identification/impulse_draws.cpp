@@ -152,7 +152,7 @@ WindowImpulse ImpulseDraws::measure(WindowRule rule, const ImpulseWindow& source
   window.motion =
       rule == WindowRule::same_path
           ? integrate_over_speed(record, source.window, source.from_rate, source.to_rate,
-                                 0.5 * structure_period(campaign_->knowledge))
+                                 speed_smoothing_time(campaign_->knowledge))
           : integrate_motion(record, source.window);
   if (rule == WindowRule::every_speed_change) {
     // Disturbances' impulse grows with duration; what the structure adds beyond its first term

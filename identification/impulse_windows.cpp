@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <boresight/identification/impulse_windows.hpp>
+#include <boresight/identification/integrated_motion.hpp>
 #include <boresight/identification/rate_smoothing.hpp>
 #include <boresight/plant/error.hpp>
 
@@ -64,6 +65,10 @@ double structure_period(const DriveKnowledge& knowledge) {
     return 0.5;
   }
   return 1.0 / knowledge.locked_rotor_frequencies.front().value;
+}
+
+double speed_smoothing_time(const DriveKnowledge& knowledge) {
+  return 0.5 * structure_period(knowledge);
 }
 
 std::vector<ImpulseWindow> ramp_windows(const Campaign& campaign, std::size_t record_index) {
@@ -158,6 +163,7 @@ std::vector<ImpulseWindow> impulse_windows(const Campaign& campaign,
 std::vector<ImpulseWindow> common_path(const Campaign& campaign,
                                        const std::vector<ImpulseWindow>& windows, int direction,
                                        double cut_low, double cut_high) {
+  const double same_path_smoothing = speed_smoothing_time(campaign.knowledge);
   const auto select = [&](bool ramps_only) {
     std::vector<ImpulseWindow> chosen;
     double largest = 0.0;
@@ -166,6 +172,9 @@ std::vector<ImpulseWindow> common_path(const Campaign& campaign,
           (ramps_only && campaign.records[one.record].test != TestKind::fast_ramp)) {
         continue;
       }
+      const Eigen::Index least =
+          shortest_speed_window(campaign.records[one.record].sample_time, same_path_smoothing);
+      if (one.window.last - one.window.first + 1 < least) continue;
       chosen.push_back(one);
       largest = std::max(largest, std::abs(one.to_rate - one.from_rate));
     }

@@ -42,11 +42,16 @@ std::vector<ImpulseWindow> impulse_windows(const Campaign& campaign,
 
 /// Windows with the speeds that all of them pass through as their rates: those of one direction,
 /// from the fast ramps where these accelerate and decelerate, else from all tests. Only windows
-/// over at least half of the largest change of speed enter. `cut_low` and `cut_high`: shares of the
+/// over at least half of the largest change of speed, long enough to be integrated over speed
+/// (shortest_speed_window), enter. `cut_low` and `cut_high`: shares of the
 /// common speeds left out at either end. Empty where none accelerates or none decelerates.
 std::vector<ImpulseWindow> common_path(const Campaign& campaign,
                                        const std::vector<ImpulseWindow>& windows, int direction,
                                        double cut_low = 0.0, double cut_high = 0.0);
+
+/// Time (s) over which rate and torque are smoothed to integrate over speed: half a period of the
+/// lowest structural mode.
+double speed_smoothing_time(const DriveKnowledge& knowledge);
 
 /// Period of the lowest structural mode, s; 0.5 s where none is known.
 double structure_period(const DriveKnowledge& knowledge);

@@ -126,6 +126,10 @@ std::vector<PortFit> fit_event(const DriveRecord& record, const std::vector<Port
   std::vector<PortFit> fits(ports.size());
   std::vector<PortPole> poles(ports.size());
   const auto fit_port = [&](std::size_t k, Index samples, const RingPole& start) {
+    if (!can_fit_rings(samples, dt, 1, ring)) {
+      fits[k].usable = poles[k].usable = false;
+      return;
+    }
     const Eigen::MatrixXd pressure = ports[k].pressure->values.segment(window.first, samples);
     fits[k].fit = fit_damped_cosines(pressure, dt, {start}, ring);
     fits[k].usable = credible(fits[k], band);

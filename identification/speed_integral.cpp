@@ -21,21 +21,30 @@ Eigen::VectorXd derivative(const Eigen::VectorXd& series, double sample_time) {
   return slope;
 }
 
+// Of the moving means: two of them make the smoothing time.
+Eigen::Index half_width(double sample_time, double smoothing_time) {
+  return std::max<Eigen::Index>(
+      1, static_cast<Eigen::Index>(std::lround(0.25 * smoothing_time / sample_time)));
+}
+
 }  // namespace
+
+Eigen::Index shortest_speed_window(double sample_time, double smoothing_time) {
+  return 8 * half_width(sample_time, smoothing_time);
+}
 
 IntegratedMotion integrate_over_speed(const DriveRecord& record, const MotionWindow& window,
                                       double from_rate, double to_rate, double smoothing_time) {
   const double dt = record.sample_time;
   // Checks the window and the record, and gives the arrays their sizes.
   IntegratedMotion motion = integrate_motion(record, {window.first, window.last, 0}, dt);
-  const auto half =
-      std::max<Eigen::Index>(1, static_cast<Eigen::Index>(std::lround(0.25 * smoothing_time / dt)));
+  const Eigen::Index half = half_width(dt, smoothing_time);
   const Eigen::Index count = window.last - window.first + 1;
-  if (!(smoothing_time > 0.0) || 8 * half > count) {
-    throw InvalidInput(
-        fmt::format("integrate_over_speed: expected a positive smoothing time up to half the "
-                    "window of {:.3g} s, found {}",
-                    static_cast<double>(count) * dt, smoothing_time));
+  if (!(smoothing_time > 0.0) || shortest_speed_window(dt, smoothing_time) > count) {
+    throw InvalidInput(fmt::format(
+        "integrate_over_speed: expected a positive smoothing time and a window of {} samples for "
+        "it, found {} s and {} samples",
+        shortest_speed_window(dt, smoothing_time), smoothing_time, count));
   }
   // Samples outside the window help to smooth its ends where there are any.
   const Eigen::Index before = std::min(window.first, 2 * half);

@@ -85,6 +85,17 @@ double spread(const Eigen::VectorXd& values) {
   return std::max(0.0, extremes.largest - extremes.smallest);
 }
 
+double median(const Eigen::VectorXd& values) {
+  std::vector<double> finite;
+  for (const double value : values) {
+    if (std::isfinite(value)) finite.push_back(value);
+  }
+  if (finite.empty()) return 0.0;
+  const auto middle = finite.begin() + static_cast<std::ptrdiff_t>(finite.size() / 2);
+  std::nth_element(finite.begin(), middle, finite.end());
+  return *middle;
+}
+
 double correlation(const Eigen::VectorXd& one, const Eigen::VectorXd& other) {
   double count = 0.0;
   double mean_one = 0.0;

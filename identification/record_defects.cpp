@@ -28,7 +28,9 @@ class Cleaner {
       check_lengths();
       const EvenTimeBase base = even_time_base(raw_.time, options_, result_.defects);
       note_missing();
+      leave_out_commands();
       find_dead_pressures();
+      find_dead_tachometer();
       report_suspicions();
       mask_sensors();
       replace(inlets());
@@ -111,35 +113,71 @@ class Cleaner {
     return spreads[spreads.size() / 2];
   }
 
+  void leave_out_commands() {
+    const auto leave_out = [&](std::optional<RawChannel>& command, bool against) {
+      if (!against || !command) return;
+      add(DefectKind::reversed_sign, DefectHandling::left_out, command->name,
+          command->values.size(),
+          "goes against the tachometer, which torque and motion agree with: not used; turn its "
+          "sign "
+          "(record_columns.reversed) if it is reversed");
+      command.reset();
+    };
+    leave_out(raw_.rate_command, options_.leave_out_rate_command);
+    leave_out(raw_.valve_command, options_.leave_out_valve_command);
+  }
+
+  // Far below: zero errors are some thousandths of what pressures come to.
+  bool is_reversed(const RawChannel& channel) const {
+    double largest = 0.0;
+    for (const auto* side : {&raw_.inlet, &raw_.outlet}) {
+      for (const auto& other : *side) largest = std::max(largest, std::abs(median(other.values)));
+    }
+    return median(channel.values) < -0.1 * largest;
+  }
+
   void find_dead_pressures() {
     const double usual = usual_spread();
+    const auto& exchanged = options_.exchanged_motors;
     for (const Side& side : {inlets(), outlets()}) {
       for (std::size_t motor = 0; motor < side.channels.size(); ++motor) {
         const RawChannel& channel = side.channels[motor];
-        const bool missing = 2 * finite_count(channel.values) < channel.values.size();
-        const bool still = spread(channel.values) < options_.dead_share * usual;
-        if (!missing && !still) continue;
-        side.replaced.push_back(motor);
-        add(DefectKind::dead_channel, DefectHandling::replaced, channel.name, channel.values.size(),
-            fmt::format(
-                "{}: replaced by the mean of the other {} pressures, on the same common line",
-                missing ? "more than half of it is missing" : "hardly moves while others do",
-                side.name));
+        const auto because = [&](DefectKind kind, const char* why, const char* remedy) {
+          side.replaced.push_back(motor);
+          add(kind, DefectHandling::replaced, channel.name, channel.values.size(),
+              fmt::format(
+                  "{}: replaced by the mean of the other {} pressures, on the same common line{}",
+                  why, side.name, remedy));
+        };
+        if (2 * finite_count(channel.values) < channel.values.size()) {
+          because(DefectKind::dead_channel, "more than half of it is missing", "");
+        } else if (spread(channel.values) < options_.dead_share * usual) {
+          because(DefectKind::dead_channel, "hardly moves while others do", "");
+        } else if (is_reversed(channel)) {
+          because(DefectKind::reversed_sign, "a pressure below zero most of the time",
+                  "; if its sign is turned, record_columns.reversed turns it back");
+        } else if (std::find(exchanged.begin(), exchanged.end(), motor) != exchanged.end()) {
+          because(DefectKind::swapped_ports,
+                  "the motor's pressure difference goes against that of the others",
+                  "; if its inlet and outlet are exchanged, exchange them in record_columns");
+        }
       }
       if (side.replaced.size() == side.channels.size()) {
         refusal_kind_ = DefectKind::dead_channel;
         throw InvalidInput(
             fmt::format("expected an {} pressure of one motor at least, found all "
-                        "dead or missing",
+                        "dead, missing or of the wrong sign",
                         side.name));
       }
       replace(side);
     }
+  }
+
+  void find_dead_tachometer() {
     const Eigen::VectorXd& rate = raw_.tachometer.values;
     const bool missing = 2 * finite_count(rate) < rate.size();
-    if (!missing && (spread(rate) > 0.0 || usual == 0.0)) return;
-    const bool needed = raw_.test != TestKind::slosh;
-    if (needed) {
+    if (!missing && (spread(rate) > 0.0 || usual_spread() == 0.0)) return;
+    if (raw_.test != TestKind::slosh && raw_.test_known) {
       refusal_kind_ = DefectKind::dead_channel;
       throw InvalidInput(fmt::format(
           "expected a tachometer that moves, found {} {}", raw_.tachometer.name,
@@ -147,6 +185,7 @@ class Cleaner {
     }
     add(DefectKind::dead_channel, DefectHandling::left_out, raw_.tachometer.name, rate.size(),
         "the tachometer shows nothing; a slosh test does without");
+    result_.without_rate = true;
     raw_.tachometer.values.setConstant(std::numeric_limits<double>::quiet_NaN());
   }
 
@@ -187,27 +226,22 @@ class Cleaner {
           correlation(differences[motor], sum - differences[motor]) > against) {
         continue;
       }
+      result_.suspicions.exchanged_motors.push_back(motor);
       add(DefectKind::swapped_ports, DefectHandling::reported, raw_.inlet[motor].name,
           raw_.time.size(),
           fmt::format("the pressure difference of motor {} goes against that of the other{}: are "
                       "its inlet and outlet swapped{}?",
                       motor + 1, motors > 2 ? "s" : "", motors > 2 ? "" : ", or the other's"));
     }
-    for (const auto* side : {&raw_.inlet, &raw_.outlet}) {
-      for (const auto& channel : *side) {
-        Index below = 0;
-        for (const double value : channel.values) below += value < 0.0 ? 1 : 0;
-        if (2 * below < channel.values.size()) continue;
-        add(DefectKind::reversed_sign, DefectHandling::reported, channel.name, below,
-            "a pressure below zero most of the time: is its sign turned?");
-      }
-    }
     const Eigen::VectorXd& rate = raw_.tachometer.values;
-    for (const auto* command : {&raw_.rate_command, &raw_.valve_command}) {
-      if (!*command || correlation((*command)->values, rate) > against) continue;
-      add(DefectKind::reversed_sign, DefectHandling::reported, (*command)->name, raw_.time.size(),
+    const auto against_rate = [&](const std::optional<RawChannel>& command) {
+      if (!command || correlation(command->values, rate) > against) return false;
+      add(DefectKind::reversed_sign, DefectHandling::reported, command->name, raw_.time.size(),
           "goes against the tachometer: is the sign of one of the two turned?");
-    }
+      return true;
+    };
+    result_.suspicions.rate_command = against_rate(raw_.rate_command);
+    result_.suspicions.valve_command = against_rate(raw_.valve_command);
     // Friction takes power: over a test the torque does work on the motion.
     double work = 0.0;
     double torque_square = 0.0;
@@ -219,6 +253,7 @@ class Cleaner {
       rate_square += rate[i] * rate[i];
     }
     if (work < -0.3 * std::sqrt(torque_square * rate_square)) {
+      result_.suspicions.torque = true;
       add(DefectKind::reversed_sign, DefectHandling::reported, raw_.tachometer.name,
           raw_.time.size(),
           "inlet above outlet drives against the tachometer: is its sign turned, or are inlets "

@@ -66,6 +66,8 @@ struct RawChannel {
 struct RawRecord {
   std::string name;
   TestKind test = TestKind::other;
+  /// Whether somebody said so; if not, recognised_test still has to.
+  bool test_known = true;
   bool rate_loop_closed = false;
   Eigen::VectorXd time;                   // s, NaN: none
   std::vector<RawChannel> inlet, outlet;  // one a motor
@@ -84,6 +86,21 @@ struct DefectOptions {
   double jitter_tolerance = 0.02;
   /// A pressure that moves less than this share of what the others do is dead.
   double dead_share = 0.02;
+  /// Motors (from 0) whose ports the campaign as a whole shows to be exchanged: both pressures are
+  /// replaced as dead ones are (ColumnConflicts).
+  std::vector<std::size_t> exchanged_motors;
+  /// Whether the campaign as a whole shows a command to go against the drive: it is left out.
+  bool leave_out_rate_command = false;
+  bool leave_out_valve_command = false;
+};
+
+/// What speaks against a record's columns having the names and signs they have.
+struct ColumnSuspicions {
+  /// Motors (from 0) whose pressure difference goes against that of the others.
+  std::vector<std::size_t> exchanged_motors;
+  bool rate_command = false;   // goes against the tachometer
+  bool valve_command = false;  // goes against the tachometer
+  bool torque = false;         // works against the motion where friction takes power
 };
 
 /// A record without defects, or why there is none.
@@ -92,6 +109,10 @@ struct CleanRecord {
   /// Why there is none, a sentence.
   std::string refusal;
   std::vector<RecordDefect> defects;
+  ColumnSuspicions suspicions;
+  /// The tachometer is dead: only a slosh test does without. Not yet refused for it where the test
+  /// is still to be recognised.
+  bool without_rate = false;
   /// Motors (from 0) whose inlet, outlet was replaced by the mean of the others'.
   std::vector<std::size_t> replaced_inlets, replaced_outlets;
 };
@@ -114,8 +135,10 @@ void mask_replaced(CleanRecord& clean);
 /// masked. One or two samples at least 12 times the local differences off both sides are a spike:
 /// masked. A dead pressure is replaced by the mean of the others at the same common line, valid
 /// where they all are: the sum over the motors is what counts. In a slosh test it is masked
-/// (mask_replaced). Commands are taken as they are but for missing samples. Swapped or reversed
-/// channels are reported and never turned.
+/// (mask_replaced). A pressure far below zero most of the time, which no oil has, counts as dead.
+/// Commands are taken as they are but for missing samples. Other swapped or reversed channels are
+/// reported (ColumnSuspicions) and never turned: what is to be done is for the campaign as a whole
+/// to say, column_conflicts.
 ///
 /// Refused: too short, more than half of the samples of the tachometer (but in a slosh test) or of
 /// all inlets or all outlets missing or dead, times of which more than one in twenty cannot be

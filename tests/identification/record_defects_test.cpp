@@ -179,6 +179,11 @@ TEST(CleanRecord, NeedsATachometerButInASloshTest) {
   raw.tachometer.values.setConstant(0.0);
   EXPECT_THAT(clean_record(raw).refusal,
               HasSubstr("expected a tachometer that moves, found tach at one value throughout"));
+  // Not refused while it may still be recognised as one.
+  raw.test_known = false;
+  EXPECT_TRUE(clean_record(raw).record);
+  EXPECT_TRUE(clean_record(raw).without_rate);
+  raw.test_known = true;
   raw.test = TestKind::slosh;
   const CleanRecord slosh = clean_record(raw);
   ASSERT_TRUE(slosh.record);
@@ -196,6 +201,7 @@ TEST(CleanRecord, SuspectsSwappedPortsAndTurnsNothing) {
   const RecordDefect defect = only(clean, DefectKind::swapped_ports);
   EXPECT_EQ(defect.channel, "p3_in");
   EXPECT_EQ(defect.handling, DefectHandling::reported);
+  EXPECT_EQ(clean.suspicions.exchanged_motors, std::vector<std::size_t>{2});
   EXPECT_THAT(defect.explanation, HasSubstr("motor 3 goes against that of the others"));
   EXPECT_EQ(clean.record->inlet_pressure[2].values, raw.inlet[2].values);
 }
@@ -208,15 +214,45 @@ TEST(CleanRecord, SuspectsATurnedTachometer) {
   ASSERT_EQ(defects.size(), 2U);  // against its command, and against the torque
   EXPECT_EQ(defects[0].channel, "command");
   EXPECT_EQ(defects[1].channel, "tach");
+  EXPECT_TRUE(clean.suspicions.torque);
+  EXPECT_TRUE(clean.suspicions.rate_command);
   EXPECT_EQ(clean.record->motor_rate.values, raw.tachometer.values);
 }
 
-TEST(CleanRecord, SuspectsAPressureBelowZero) {
+TEST(CleanRecord, ReplacesAPressureBelowZero) {
   RawRecord raw = healthy();
+  const RawRecord right = raw;
   raw.inlet[0].values *= -1.0;
-  const auto defects = of(clean_record(raw), DefectKind::reversed_sign);
-  ASSERT_FALSE(defects.empty());
-  EXPECT_EQ(defects[0].channel, "p1_in");
+  const CleanRecord clean = clean_record(raw);
+  const RecordDefect defect = only(clean, DefectKind::reversed_sign);
+  EXPECT_EQ(defect.channel, "p1_in");
+  EXPECT_EQ(defect.handling, DefectHandling::replaced);
+  EXPECT_THAT(defect.explanation, HasSubstr("record_columns.reversed"));
+  EXPECT_EQ(clean.replaced_inlets, std::vector<std::size_t>{0});
+  EXPECT_NEAR(clean.record->inlet_pressure[0].values[900], right.inlet[0].values[900], 5e4);
+  // Of two motors on lines without pressure a zero error is no sign.
+  raw = right;
+  for (double& value : raw.outlet[0].values) value = -1e4 + 5e3 * std::sin(value);
+  EXPECT_TRUE(of(clean_record(raw), DefectKind::reversed_sign).empty());
+}
+
+TEST(CleanRecord, LeavesOutWhatTheCampaignShowsToBeAnother) {
+  RawRecord raw = healthy();
+  std::swap(raw.inlet[2].values, raw.outlet[2].values);
+  DefectOptions options;
+  options.exchanged_motors = {2};
+  options.leave_out_rate_command = true;
+  const CleanRecord clean = clean_record(raw, options);
+  EXPECT_EQ(clean.replaced_inlets, std::vector<std::size_t>{2});
+  EXPECT_EQ(clean.replaced_outlets, std::vector<std::size_t>{2});
+  EXPECT_TRUE(clean.suspicions.exchanged_motors.empty());
+  EXPECT_FALSE(clean.record->rate_command);
+  EXPECT_EQ(of(clean, DefectKind::swapped_ports).size(), 2U);
+  const auto difference = [&](std::size_t motor) {
+    return clean.record->inlet_pressure[motor].values[900] -
+           clean.record->outlet_pressure[motor].values[900];
+  };
+  EXPECT_NEAR(difference(2), difference(0), 0.1 * std::abs(difference(0)));
 }
 
 TEST(CleanRecord, HandlesDifferentLengths) {

@@ -52,10 +52,10 @@ void read_spectra(const Campaign& campaign, ResonanceResult& result) {
           {ResonanceReading::spectrum_peak, record.name,
            "the peak is the mode of a rigid load without losses (the paper's procedure)",
            normal_interval(f, spectrum.reading_uncertainty),
-           single_mass_inertia(result.stiffness, f, spectrum.reading_uncertainty)});
+           single_mass_inertia(result.conventional_stiffness, f, spectrum.reading_uncertainty)});
       if (!spectrum.on_harmonic) continue;
       const auto at = [&](double frequency) {
-        return plant::inertia_from_resonance(result.stiffness.value, frequency);
+        return plant::inertia_from_resonance(result.conventional_stiffness.value, frequency);
       };
       const double spacing = spectrum.harmonic_spacing;
       result.notes.push_back(fmt::format(
@@ -341,6 +341,12 @@ Interval oil_stiffness(const DriveKnowledge& knowledge, const Interval& bulk_mod
   return normal_interval(value, value * std::sqrt(square));
 }
 
+Interval oil_stiffness_in_motion(const DriveKnowledge& knowledge, const Interval& bulk_modulus) {
+  DriveKnowledge with = knowledge;
+  with.efficiency_in_stiffness = plant::EfficiencyInStiffness::both;
+  return oil_stiffness(with, bulk_modulus);
+}
+
 ResonanceResult identify_resonance(const Campaign& campaign, const Interval& bulk_modulus,
                                    const ResonanceOptions& options) {
   const auto& knowledge = campaign.knowledge;
@@ -353,7 +359,8 @@ ResonanceResult identify_resonance(const Campaign& campaign, const Interval& bul
         drawings));
   }
   ResonanceResult result;
-  result.stiffness = oil_stiffness(knowledge, bulk_modulus);
+  result.stiffness = oil_stiffness_in_motion(knowledge, bulk_modulus);
+  result.conventional_stiffness = oil_stiffness(knowledge, bulk_modulus);
   result.expected_frequency = plant::hydraulic_frequency(result.stiffness.value, drawings);
   read_spectra(campaign, result);
   compare_conditions(campaign, result);

@@ -14,8 +14,14 @@ namespace boresight::identification {
 
 /// The oil spring at the motor shaft from a bulk modulus and the drive's data: plant::oil_stiffness
 /// with first-order uncertainties of both efficiencies (if they enter), displacement (squared) and
-/// volumes. @throws as plant::oil_stiffness.
+/// volumes. By the knowledge's convention about efficiencies in it. @throws as
+/// plant::oil_stiffness.
 Interval oil_stiffness(const DriveKnowledge& knowledge, const Interval& bulk_modulus);
+
+/// The same with both efficiencies in it whatever the convention: the spring that recorded torque
+/// has against recorded rate, dT/dt = K (q - w), since torque counts with the torque efficiency and
+/// flow with the volumetric one.
+Interval oil_stiffness_in_motion(const DriveKnowledge& knowledge, const Interval& bulk_modulus);
 
 /// How a reflected inertia follows from the hydraulic mode.
 enum class ResonanceReading {
@@ -46,7 +52,12 @@ struct ResonanceOptions {
 
 /// Everything that method 2 makes of a campaign after the bulk modulus.
 struct ResonanceResult {
-  Interval stiffness;                   // N m/rad, oil data
+  /// N m/rad, oil data: what motion shows, both efficiencies in it, for all but the paper's
+  /// reading.
+  Interval stiffness;
+  /// By the case's convention about efficiencies: the paper's J = K/(2 pi f)^2 at a spectrum's
+  /// peak.
+  Interval conventional_stiffness;
   double expected_frequency = 0.0;      // Hz, rigid, drawings' inertia on that stiffness
   std::vector<TorqueSpectrum> spectra;  // fast ramps, then slow ramps
   std::optional<StepRings> rings;

@@ -106,12 +106,14 @@ std::string why_spectrum(const CampaignSection& section,
   const double frequency = one.frequency ? one.frequency->value : 0.0;
   std::string why;
   for (const auto& spectrum : resonance.spectra) {
-    if (spectrum.record == one.record) why = harmonic_lock(spectrum, resonance.stiffness.value);
+    if (spectrum.record == one.record) {
+      why = harmonic_lock(spectrum, resonance.conventional_stiffness.value);
+    }
   }
   const double flexible = 1.0 / std::pow(resonance.coupled_over_rigid, 2);
   if (inertia && frequency > 0.0) {
     const auto stiffness = reconciled(section, "oil stiffness");
-    const double oil = stiffness ? resonance.stiffness.value / stiffness->value : 1.0;
+    const double oil = stiffness ? resonance.conventional_stiffness.value / stiffness->value : 1.0;
     const double all = one.inertia.value / inertia->value;
     why += fmt::format(
         "Of {:+.1f} %, flexibility of the antenna makes {:+.1f} % (it lowers the mode), the oil's "

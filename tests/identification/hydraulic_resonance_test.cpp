@@ -173,6 +173,27 @@ TEST(DriveResponse, DoesNotRestOnTheValvesCommand) {
   EXPECT_FALSE(without.oil.has_value());
 }
 
+TEST(DriveResponse, LeavesTheOilOutWhereASweepBeginsAboveTheHydraulicMode) {
+  const LinearDrive drive;
+  // From 1.9 Hz on, less than the structure's lowest mode is: room for the impedance alone.
+  auto record = drive.record(
+      [](double t) {
+        const double start = 10.0 * std::min(t / 2.0, 1.0);
+        const double phase = two_pi * 1.9 * 40.0 * (std::exp(t / 40.0) - 1.0);
+        return start + (t > 4.0 ? 2.0 * std::sin(phase) : 0.0);
+      },
+      60.0, 1.0);
+  record.test = TestKind::valve_chirp;
+  DriveResponseOptions options;
+  options.lowest_frequency = 1.9;
+  options.highest_frequency = 6.0;
+  const auto response = drive_response(record, drive.campaign(), options);
+  EXPECT_FALSE(response.oil.has_value());
+  EXPECT_FALSE(response.hydraulic_frequency.has_value());
+  EXPECT_THAT(response.notes, testing::Contains(HasSubstr("too narrow to tell the oil's")));
+  EXPECT_NEAR(response.impedance.inertia.value, drive.inertia(), 0.2 * drive.inertia());
+}
+
 TEST(DriveResponse, OfSignsThatDoNotBelongTogetherIsRefused) {
   const LinearDrive drive;
   auto record = drive.record(chirp, 60.0, 1.0);
@@ -367,6 +388,57 @@ TEST(OilStiffness, AddsTheUncertaintiesOfItsFactors) {
   none.efficiency_in_stiffness = plant::EfficiencyInStiffness::none;
   const auto without = oil_stiffness(none, drive.bulk_modulus());
   EXPECT_NEAR(without.standard_uncertainty / without.value, rest, 1e-9);
+}
+
+TEST(OilStiffness, InMotionCountsBothEfficienciesWhateverTheConvention) {
+  auto knowledge = LinearDrive{}.campaign().knowledge;
+  knowledge.torque_efficiency = {0.94, 0.003};
+  knowledge.volumetric_efficiency = {0.95, 0.003};
+  const Interval bulk = LinearDrive{}.bulk_modulus();
+  const double with = oil_stiffness(knowledge, bulk).value;
+  knowledge.efficiency_in_stiffness = plant::EfficiencyInStiffness::none;
+  EXPECT_NEAR(oil_stiffness(knowledge, bulk).value, with / (0.94 * 0.95), 1e-9 * with);
+  EXPECT_NEAR(oil_stiffness_in_motion(knowledge, bulk).value, with, 1e-12 * with);
+  // Rings of the drive read alike by either convention, the paper's formula alone does not.
+  const LinearDrive drive;
+  auto campaign = drive.campaign();
+  campaign.knowledge.torque_efficiency = {0.94, 0.003};
+  campaign.knowledge.volumetric_efficiency = {0.95, 0.003};
+  campaign.records = {drive.record(steps, 60.0, 1.0)};
+  campaign.records[0].test = TestKind::valve_steps;
+  const auto both = identify_resonance(campaign, bulk);
+  campaign.knowledge.efficiency_in_stiffness = plant::EfficiencyInStiffness::none;
+  const auto none = identify_resonance(campaign, bulk);
+  EXPECT_EQ(none.best->inertia.value, both.best->inertia.value);
+  EXPECT_EQ(none.stiffness.value, both.stiffness.value);
+  EXPECT_GT(none.conventional_stiffness.value, 1.1 * both.conventional_stiffness.value);
+}
+
+TEST(StepRings, OfASlowRecorderCostNoOtherReading) {
+  const LinearDrive drive;
+  auto campaign = drive.campaign();
+  const auto thinned = [](DriveRecord record, Index by) {
+    const auto thin = [by](VectorXd& values) {
+      const VectorXd all = values;
+      values = VectorXd::NullaryExpr(all.size() / by, [&](Index i) { return all(i * by); });
+    };
+    thin(record.inlet_pressure[0].values);
+    thin(record.outlet_pressure[0].values);
+    thin(record.motor_rate.values);
+    thin(record.valve_command->values);
+    record.sample_time *= static_cast<double>(by);
+    return record;
+  };
+  // 10 and 1 samples/s: too few for a fit of two modes, and for any.
+  for (const Index by : {20, 200}) {
+    campaign.records = {thinned(drive.record(steps, 60.0, 1.0), by),
+                        drive.record(chirp, 90.0, 1.0)};
+    campaign.records[0].test = TestKind::valve_steps;
+    campaign.records[1].test = TestKind::valve_chirp;
+    const auto result = identify_resonance(campaign, drive.bulk_modulus());
+    ASSERT_TRUE(result.best) << by;
+    EXPECT_NEAR(result.best->inertia.value, drive.inertia(), 0.02 * drive.inertia()) << by;
+  }
 }
 
 TEST(FlexibleAmplification, IsOneWhenSlowAndGrowsTowardsTheMode) {

@@ -82,7 +82,7 @@ constexpr std::array from_hydraulics{P::cross_leakage,       P::null_leakage,   
 
 GreyBoxParameters::GreyBoxParameters(const Campaign& campaign,
                                      const std::vector<GreyBoxRecord>& records,
-                                     const std::optional<Interval>& bulk) {
+                                     const std::optional<Interval>& bulk, bool bulk_guessed) {
   if (records.empty()) {
     throw InvalidInput(
         "GreyBoxParameters: expected at least one record with motor rate and pressures on both "
@@ -101,19 +101,18 @@ GreyBoxParameters::GreyBoxParameters(const Campaign& campaign,
         "torque other than 0");
   }
   list_.resize(modes);
-  add_drawings(campaign, bulk);
+  add_drawings(campaign, bulk, bulk_guessed);
   add_friction(records);
   add_sensors(campaign, records);
   add_hydraulics(campaign, records);
   add_modes(campaign.knowledge);
 }
 
-void GreyBoxParameters::add_drawings(const Campaign& campaign,
-                                     const std::optional<Interval>& bulk) {
+void GreyBoxParameters::add_drawings(const Campaign& campaign, const std::optional<Interval>& bulk,
+                                     bool guessed) {
   const DriveKnowledge& k = campaign.knowledge;
   positive(k.motor_count, "number of motors");
   positive(k.motor_inertia.value, "motor inertia");
-  positive(k.gear_inertia.value, "gear inertia");
   positive(k.antenna_inertia.value, "antenna inertia");
   positive(k.displacement.value, "displacement");
   positive(k.torque_efficiency.value, "torque efficiency");
@@ -127,7 +126,13 @@ void GreyBoxParameters::add_drawings(const Campaign& campaign,
   };
   set(motor_inertia, "motor inertia", "kg m2", k.motor_count * k.motor_inertia.value,
       relative(k.motor_inertia));
-  set(gear_inertia, "gear inertia", "kg m2", k.gear_inertia.value, relative(k.gear_inertia));
+  // Nobody's drawings: none, for certain. Its logarithm is not needed then.
+  if (!(k.gear_inertia.value >= 0.0) || !std::isfinite(k.gear_inertia.value)) {
+    positive(k.gear_inertia.value, "gear inertia");
+  }
+  const bool gears = k.gear_inertia.value > 0.0;
+  set(gear_inertia, "gear inertia", "kg m2", k.gear_inertia.value,
+      gears ? relative(k.gear_inertia) : 0.0);
   set(antenna_inertia, "antenna inertia", "kg m2", k.antenna_inertia.value,
       relative(k.antenna_inertia));
   const double displaced = relative(k.displacement);
@@ -141,6 +146,7 @@ void GreyBoxParameters::add_drawings(const Campaign& campaign,
   if (bulk) {
     positive(bulk->value, "bulk modulus");
     set(bulk_modulus, "bulk modulus", "Pa", bulk->value, bulk->standard_uncertainty / bulk->value);
+    list_[bulk_modulus].from_drawings = !guessed;
   } else {
     // Mineral oils with a little air.
     set(bulk_modulus, "bulk modulus", "Pa", 1.3e9, 0.2);
@@ -155,7 +161,8 @@ void GreyBoxParameters::add_drawings(const Campaign& campaign,
   drive.volumetric_efficiency = k.volumetric_efficiency.value;
   drive.bulk_modulus = 1.0;
   drive.volume_1 = drive.volume_2 = 2.0;  // so that 1/V1 + 1/V2 = 1
-  drive.efficiency_in_stiffness = k.efficiency_in_stiffness;
+  // Whatever the convention of K is: torque counts with one efficiency, flow with the other.
+  drive.efficiency_in_stiffness = plant::EfficiencyInStiffness::both;
   stiffness_scale_ = plant::oil_stiffness(drive);
 }
 

@@ -73,11 +73,12 @@ class GreyBoxParameters {
   static Eigen::Index frequency(Eigen::Index mode) { return modes + 2 * mode + 1; }
 
   /// Priors of drawings and instruments from the campaign, of the bulk modulus from `bulk`
-  /// if given, and wide ones of all else about what a glance at the records says.
+  /// if given (from drawings unless `bulk_guessed`), and wide ones of all else about what a glance
+  /// at the records says. A gear inertia of zero is taken as known.
   /// @throws InvalidInput for knowledge without motors, displacement, volumes, inertias or supply
   /// pressure above the return's, or without records.
   GreyBoxParameters(const Campaign& campaign, const std::vector<GreyBoxRecord>& records,
-                    const std::optional<Interval>& bulk = {});
+                    const std::optional<Interval>& bulk = {}, bool bulk_guessed = false);
 
   Eigen::Index size() const { return static_cast<Eigen::Index>(list_.size()); }
   Eigen::Index mode_count() const { return (size() - modes) / 2; }
@@ -99,13 +100,14 @@ class GreyBoxParameters {
   /// The same with predictions that reach ahead over 1/factor of the time.
   GreyBoxParameters with_correction(double factor) const;
 
-  /// The oil's stiffness on both sides together (N m/rad), true, from parameter values.
+  /// The oil's stiffness on both sides together (N m/rad), true, from parameter values: what torque
+  /// has against rate, with both efficiencies whatever the knowledge's convention of K.
   double oil_stiffness(const Eigen::VectorXd& values) const;
   /// All inertia at the motor shaft as the recorder shows it (kg m2), per true inertia.
   static double recorded_inertia_factor(const Eigen::VectorXd& values);
 
  private:
-  void add_drawings(const Campaign& campaign, const std::optional<Interval>& bulk);
+  void add_drawings(const Campaign& campaign, const std::optional<Interval>& bulk, bool guessed);
   void add_friction(const std::vector<GreyBoxRecord>& records);
   void add_sensors(const Campaign& campaign, const std::vector<GreyBoxRecord>& records);
   void add_hydraulics(const Campaign& campaign, const std::vector<GreyBoxRecord>& records);
@@ -113,7 +115,8 @@ class GreyBoxParameters {
 
   std::vector<GreyBoxParameter> list_;
   HydraulicUnits units_;
-  /// Stiffness of a side as recorded, per Pa of bulk modulus and m3: K = stiffness_scale_ beta/V.
+  /// Stiffness of a side as recorded, both efficiencies in it, per Pa of bulk modulus and m3: K =
+  /// stiffness_scale_ beta/V.
   double stiffness_scale_ = 0.0;
   double largest_rate_ = 0.0;
   double largest_torque_ = 0.0;

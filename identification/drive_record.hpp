@@ -56,6 +56,9 @@ struct Instruments {
   double pressure_zero = 0.0;     // Pa
   double tachometer_scale = 0.0;  // relative
   double valve_scale = 0.0;       // relative
+  /// What is not known of the sum of all pressures where some stand for others, whose zeros they do
+  /// not have. Pa.
+  double unknown_pressure_sum = 0.0;
 };
 
 /// What drawings, data sheets and the structural model say of the drive. SI at the motor shaft.

@@ -85,6 +85,13 @@ MatrixXd shifts_with_reach(const std::vector<GreyBoxRecord>& records, const P& p
   return shifts;
 }
 
+// Friction and offset that the drive's motion cannot tell apart.
+bool is_doubtful(const GreyBoxPosterior& posterior, double DriveEstimate::*member) {
+  if (member == &DriveEstimate::offset_as_recorded) return posterior.one_way != 0.0;
+  return member == &DriveEstimate::coulomb_level &&
+         (posterior.one_way != 0.0 || posterior.unsaturated > 0.0);
+}
+
 void add_quantities(GreyBoxResult& result, const P& parameters, const GreyBoxOptions& options) {
   GreyBoxPosterior prior;
   prior.point = VectorXd::Zero(parameters.size());
@@ -110,7 +117,7 @@ void add_quantities(GreyBoxResult& result, const P& parameters, const GreyBoxOpt
                              ? out.posterior.standard_uncertainty / out.prior.standard_uncertainty
                              : 1.0;
     out.learnt = std::max(0.0, 1.0 - ratio * ratio);
-    out.identified = out.learnt >= 0.5;
+    out.identified = out.learnt >= 0.5 && !is_doubtful(result.posterior, quantity.member);
     out.prior_from_drawings = quantity.member != &DriveEstimate::leakage_rate &&
                               quantity.member != &DriveEstimate::offset_as_recorded &&
                               quantity.member != &DriveEstimate::coulomb_level;
@@ -203,7 +210,7 @@ GreyBoxResult fit_grey_box(const Campaign& campaign, const std::optional<Interva
   GreyBoxRecordOptions record_options;
   record_options.sample_rate = sample_rate(campaign.knowledge, options);
   const auto records = prepare_records(campaign, record_options);
-  const P parameters(campaign, records, bulk_modulus);
+  const P parameters(campaign, records, bulk_modulus, options.bulk_modulus_guessed);
 
   GreyBoxResult result;
   for (const auto& record : campaign.records) {
@@ -264,6 +271,15 @@ GreyBoxResult fit_grey_box(const Campaign& campaign, const std::optional<Interva
   result.posterior.stiffness_discrepancy = options.discrepancy.stiffness;
   result.posterior.leakage_discrepancy =
       leakage_discrepancy(objective, records, parameters, best.x, options.discrepancy.flow_balance);
+  const double unknown =
+      torque_per_pressure(campaign.knowledge) * campaign.instruments.unknown_pressure_sum;
+  result.posterior.offset_discrepancy =
+      offset_discrepancy(objective, result.posterior, records, parameters,
+                         options.discrepancy.torque_balance, unknown);
+  result.conflict = grey_box_conflict(parameters, best.x);
+  widen(result.posterior, parameters, result.conflict);
+  result.motion = motion_of(records);
+  add_motion_doubts(result.posterior, parameters, result.motion);
   const MatrixXd products = objective.products(best.x);
   const auto svd =
       plant::singular_values(products.topLeftCorner(parameters.size(), parameters.size()));
@@ -283,6 +299,7 @@ GreyBoxResult fit_grey_box(const Campaign& campaign, const std::optional<Interva
     result.parameters.push_back(out);
   }
   result.estimate = drive_estimate(parameters, best.x);
+  result.estimate.contradicted = result.conflict.widening > 1.0;
   result.draws = posterior_draws(parameters, result.posterior, options.draws, options.seed);
   add_quantities(result, parameters, options);
   std::vector<double> times, rates, pressures;

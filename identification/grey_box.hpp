@@ -9,6 +9,7 @@
 
 #include <Eigen/Core>
 
+#include <boresight/identification/grey_box_doubts.hpp>
 #include <boresight/identification/grey_box_posterior.hpp>
 #include <boresight/identification/grey_box_whiteness.hpp>
 #include <boresight/identification/least_squares.hpp>
@@ -25,6 +26,9 @@ struct GreyBoxOptions {
   std::uint64_t seed = 1;
   /// s of errors that are taken together as one observation of how far off the model may be.
   double stretch = 4.0;
+  /// Whether the bulk modulus given is a guess (oil of an unknown kind) and not a measured or
+  /// published number: then records may contradict it.
+  bool bulk_modulus_guessed = false;
   GreyBoxDiscrepancy discrepancy;
   unsigned threads = 0;  // at a time; 0: as many as the machine has. Never changes the result.
   /// Told what is done, and how much of all; false stops with Interrupted.
@@ -40,7 +44,9 @@ struct GreyBoxQuantity {
   /// Share of the prior's variance that the records took away.
   double learnt = 0.0;
   /// Whether the records say anything to speak of (half the variance): if not, the interval is that
-  /// of drawings and data sheets, or of a wide guess where those say nothing.
+  /// of drawings and data sheets, or of a wide guess where those say nothing. Offset and Coulomb
+  /// level are not, however narrow, where the drive moves one way, the level not where the drive is
+  /// too slow for friction to saturate.
   bool identified = false;
   bool prior_from_drawings = false;
 };
@@ -63,6 +69,10 @@ struct GreyBoxStart {
 };
 
 struct GreyBoxResult {
+  /// Between what fits the records and what is stated. Where it widens the posterior, quantities
+  /// hold only if the stated number that it names is what is wrong.
+  GreyBoxConflict conflict;
+  GreyBoxMotion motion;
   std::vector<GreyBoxParameterResult> parameters;
   std::vector<GreyBoxQuantity> quantities;
   /// Of the quantities, by their order.

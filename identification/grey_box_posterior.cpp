@@ -21,6 +21,19 @@ double leakage_conductance(const VectorXd& v) {
   return v(P::cross_leakage) + v(P::null_leakage) + 0.5 * v(P::case_leakage);
 }
 
+// Moves what is one number for a drive that moves one way from the friction's level to the offset.
+void share_one_way(double one_way, double normal, DriveEstimate& e) {
+  if (one_way == 0.0) return;
+  // No friction drives: the level stays above nothing.
+  const double moved = std::min(std::abs(one_way) * normal, 0.98 * e.coulomb_level);
+  const double left = 1.0 - moved / e.coulomb_level;
+  e.offset_as_recorded += std::copysign(1.0, one_way) * moved;
+  e.coulomb_level *= left;
+  e.friction.coulomb_torque *= left;
+  e.friction.breakaway_torque *= left;
+  e.friction.saturating_torque *= left;
+}
+
 }  // namespace
 
 GreyBoxPosterior grey_box_posterior(const GreyBoxObjective& objective, const VectorXd& point,
@@ -131,6 +144,13 @@ std::vector<DriveEstimate> posterior_draws(const GreyBoxParameters& parameters,
     const auto oil = numbers.pair(static_cast<std::uint64_t>(root.cols()) + 2U);
     e.oil_stiffness *= std::exp(posterior.stiffness_discrepancy * oil.real());
     e.leakage_rate *= std::exp(posterior.leakage_discrepancy * more.real());
+    const auto doubts = numbers.pair(static_cast<std::uint64_t>(root.cols()) + 3U);
+    e.offset_as_recorded += posterior.offset_discrepancy * oil.imag();
+    share_one_way(posterior.one_way, doubts.real(), e);
+    const double saturating = std::exp(posterior.unsaturated * doubts.imag());
+    e.coulomb_level += (saturating - 1.0) * e.friction.saturating_torque;
+    e.friction.saturating_torque *= saturating;
+    e.friction.saturating_rate *= saturating;
     draws.push_back(std::move(e));
   }
   return draws;

@@ -34,6 +34,9 @@ struct DriveEstimate {
   Eigen::VectorXd mode_inertia;    // kg m2, of each mode of the locked rotor
   Eigen::VectorXd mode_frequency;  // Hz
   double mode_damping = 0.0;
+  /// The records contradict the stated numbers that inertia or stiffness rest on: nothing to design
+  /// for.
+  bool contradicted = false;
 };
 
 /// By what the models' laws may be off where nothing in the records tells: standard uncertainties
@@ -65,6 +68,13 @@ struct GreyBoxPosterior {
   double leakage_discrepancy = 0.0;    // relative standard uncertainty
   double torque_discrepancy = 0.0;     // relative
   double stiffness_discrepancy = 0.0;  // relative
+  double offset_discrepancy = 0.0;     // N m, standard uncertainty: offset_discrepancy
+  /// Where the drive moves one way, friction's level and the offset are one number: by how much
+  /// either may be the other's (N m, standard uncertainty; the sign is the motion's). 0 otherwise.
+  double one_way = 0.0;
+  /// Where the drive is never fast enough for friction to saturate, standard uncertainty of the
+  /// logarithm of the saturating level, and with it of its rate: slow friction stays as it is.
+  double unsaturated = 0.0;
 };
 
 /// Covariance at the optimum of an objective: the formal one made wider by the scatter of the

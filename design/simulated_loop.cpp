@@ -145,11 +145,11 @@ bool feeds_torque_back(const control::ControlLaw& law) {
          law.structure.has(control::LoopPath::compliance);
 }
 
-void finish(LoopRun& run, const SimulatedLoop& loop, double interval, const VectorXd& reference) {
+void finish(LoopRun& run, const SimulatedLoop& loop, double interval) {
   const Index steps = run.result.values.rows();
-  run.beam_error = (plant::column(run.result, "beam") - reference.head(steps)) / loop.gear_ratio;
-  run.encoder_error =
-      (plant::column(run.result, "encoder") - reference.head(steps)) / loop.gear_ratio;
+  run.reference.conservativeResize(steps);
+  run.beam_error = (plant::column(run.result, "beam") - run.reference) / loop.gear_ratio;
+  run.encoder_error = (plant::column(run.result, "encoder") - run.reference) / loop.gear_ratio;
   if (!run.result.complete) {
     run.status = RunStatus::interrupted;
     run.message = "interrupted";
@@ -310,7 +310,8 @@ LoopRun run_loop(const SimulatedLoop& loop, const LoopCourse& course,
     run.message = failure.what();
     return run;
   }
-  finish(run, loop, course.interval, reference);
+  run.reference = std::move(reference);
+  finish(run, loop, course.interval);
   return run;
 }
 
@@ -361,7 +362,8 @@ LoopRun run_linear_loop(const SimulatedLoop& loop, const LoopCourse& course, int
     for (Index k = 0; k < kept; ++k) thinned.row(k) = run.result.values.row(k * parts);
     run.result.values = std::move(thinned);
   }
-  finish(run, loop, course.interval, VectorXd::Zero(course.reference.size()));
+  run.reference = VectorXd::Zero(course.reference.size());
+  finish(run, loop, course.interval);
   return run;
 }
 

@@ -99,7 +99,10 @@ struct LoopRun {
   RunStatus status = RunStatus::complete;
   std::string message;             // empty if complete
   plant::SimulationResult result;  // empty if failed
-  // At the steps of the course, rad at the sky: less the reference.
+  /// What the controller was given (rad of motor): the course's, shifted to where the antenna
+  /// begins.
+  Eigen::VectorXd reference;
+  // At the steps of the course, rad at the sky: less that reference.
   Eigen::VectorXd beam_error;
   Eigen::VectorXd encoder_error;
 };

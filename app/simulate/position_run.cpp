@@ -7,12 +7,10 @@
 #include <boresight/app/redesign/antenna_model.hpp>
 #include <boresight/app/simulate/nonlinear_model.hpp>
 #include <boresight/app/simulate/position_run.hpp>
-#include <boresight/control/control_law.hpp>
+#include <boresight/design/drive_reach.hpp>
+#include <boresight/design/simulated_loop.hpp>
 #include <boresight/design/tuner.hpp>
 #include <boresight/plant/error.hpp>
-#include <boresight/plant/interconnection.hpp>
-#include <boresight/plant/operating_point.hpp>
-#include <boresight/plant/sampling.hpp>
 #include <boresight/plant/simulation.hpp>
 #include <boresight/plant/wind_time_series.hpp>
 
@@ -25,35 +23,17 @@ using Eigen::VectorXd;
 constexpr double degree = std::numbers::pi / 180.0;
 constexpr double millidegree_at_sky = 1e-3 * degree;
 constexpr Index intervals_per_sample = 4;
+constexpr double largest_acceleration = 0.2 * degree;  // rad/s2, of a command
 
-// The law for a digital controller that is told where to point and how fast that moves.
-plant::StateSpace sampled_law(const control::ControlLaw& law, double sample_time) {
-  const auto continuous =
-      plant::renamed(control::to_state_space(law), {{"encoder", "encoder_error"},
-                                                    {"rate_disturbance", "reference_rate"},
-                                                    {"valve_demand", "valve_command"}});
-  Eigen::MatrixXd difference(1, 2);
-  difference << 1.0, -1.0;
-  const auto error = plant::static_gain(difference, {"encoder", "reference"}, {"encoder_error"});
-  return plant::sample(
-      plant::connect({continuous, error}, {"tachometer", "encoder", "reference", "reference_rate"},
-                     {"valve_command"}),
-      sample_time, plant::SamplingMethod::tustin);
-}
-
-// What moves where: at the samples of the run, in motor radians and N m at the motor.
+// What the loop is told and what acts on it.
 struct Course {
-  VectorXd reference;
-  VectorXd reference_rate;
-  VectorXd wind_torque;
-  plant::Trim start;
+  design::LoopCourse loop;
   double mean_wind_speed = 0.0;  // m/s, of the linear prediction; 0: none
 };
 
 struct PositionRun {
-  plant::SimulationResult result;
+  design::LoopRun loop;
   std::optional<double> predicted_rms;  // rad at the sky
-  double interval = 0.0;                // s
 };
 
 double controller_sample_time(const Case& antenna) {
@@ -85,31 +65,20 @@ PositionRun run_position_loop(const Case& antenna, const Course& course, std::ui
     throw InfeasibleRequirement(fmt::format(
         "{}: no control law meets the hard goals, so there is none to simulate", antenna.path));
   }
-  const auto model = make_nonlinear_antenna(antenna);
-  const double sample_time = controller_sample_time(antenna);
-  plant::LinearSampledController controller(
-      sampled_law(tuned.law, sample_time),
-      {VectorXd::Constant(1, model.valve.stroke_limit), Eigen::MatrixXd()});
-  plant::SimulationPlan plan;
-  plan.interval = run_interval(antenna);
-  plan.state = plant::trim(model, course.start).state;
-  plan.signals = {"reference", "reference_rate", "wind_torque"};
-  plan.values.resize(course.reference.size(), 3);
-  plan.values << course.reference, course.reference_rate, course.wind_torque;
-  plan.controller = &controller;
-  plan.computation_delay = sample_time;
-  // Noise of a density sampled: the rms belongs to half the sampling rate.
-  const double folded = std::sqrt(0.5 / (sample_time * antenna.sensors.noise_bandwidth.value));
-  plan.sensors = {{.noise = folded * antenna.sensors.tachometer_noise.value},
-                  {.noise = folded * antenna.sensors.encoder_noise.value * problem.gear_ratio}};
-  plan.seed = seed;
+  const auto loop =
+      design::make_simulated_loop(problem, make_nonlinear_antenna(antenna), tuned.law);
+  design::LoopRunOptions options;
+  options.seed = seed;
+  options.relative_tolerance = 1e-6;
+  options.absolute_tolerance = 1e-8;
   if (progress) {
-    plan.progress = [&](Index done, Index all) {
+    options.progress = [&](Index done, Index all) {
       return progress(static_cast<double>(done) / static_cast<double>(all));
     };
   }
-  return {plant::simulate(plant::to_feedback_system(model), plan),
-          predicted_rms(problem, tuned, course.mean_wind_speed), plan.interval};
+  auto run = design::run_loop(loop, course.loop, options);
+  if (run.status == design::RunStatus::failed) throw NumericalFailure(run.message);
+  return {std::move(run), predicted_rms(problem, tuned, course.mean_wind_speed)};
 }
 
 double rms_about_mean(const VectorXd& values) {
@@ -119,29 +88,29 @@ double rms_about_mean(const VectorXd& values) {
 // The record without its errors.
 PositionRecord describe(const Case& antenna, const PositionRun& run, const Course& course) {
   const double gear = gear_ratio(antenna);
-  const Index samples = run.result.values.rows();
-  const VectorXd reference = course.reference.head(samples);
-  const VectorXd beam = (column(run.result, "beam") - reference) / gear;
-  const VectorXd encoder = (column(run.result, "encoder") - reference) / gear;
+  const auto& result = run.loop.result;
+  const double interval = course.loop.interval;
+  const Index samples = result.values.rows();
   PositionRecord record;
-  record.complete = run.result.complete;
-  record.events = events_of(make_nonlinear_antenna(antenna), run.result,
-                            column(run.result, "valve_command"), run.interval);
-  record.sample_time = run.interval;
-  record.duration = run.interval * static_cast<double>(samples - 1);
+  record.complete = result.complete;
+  record.events =
+      events_of(make_nonlinear_antenna(antenna), result, column(result, "valve_command"), interval);
+  record.sample_time = interval;
+  record.duration = interval * static_cast<double>(samples - 1);
   if (!record.complete) {
     record.record.comments.push_back(
         fmt::format("incomplete: interrupted after {:.3f} s of {:.3f} s", record.duration,
-                    run.interval * static_cast<double>(course.reference.size() - 1)));
+                    interval * static_cast<double>(course.loop.reference.size() - 1)));
   }
-  record.record.columns = {{"time", "s", 6, VectorXd::LinSpaced(samples, 0.0, record.duration)},
-                           {"reference", "deg", 7, reference / (gear * degree)},
-                           {"encoder_error", "mdeg", 5, encoder / millidegree_at_sky},
-                           {"beam_error", "mdeg", 5, beam / millidegree_at_sky},
-                           {"motor_rate", "rad/s", 5, column(run.result, "motor_rate")},
-                           {"motor_torque", "N.m", 4, column(run.result, "motor_torque")},
-                           {"valve_command", "rad/s", 5, column(run.result, "valve_command")},
-                           {"wind_torque_at_motor", "N.m", 4, course.wind_torque.head(samples)}};
+  record.record.columns = {
+      {"time", "s", 6, VectorXd::LinSpaced(samples, 0.0, record.duration)},
+      {"reference", "deg", 7, run.loop.reference / (gear * degree)},
+      {"encoder_error", "mdeg", 5, run.loop.encoder_error / millidegree_at_sky},
+      {"beam_error", "mdeg", 5, run.loop.beam_error / millidegree_at_sky},
+      {"motor_rate", "rad/s", 5, column(result, "motor_rate")},
+      {"motor_torque", "N.m", 4, column(result, "motor_torque")},
+      {"valve_command", "rad/s", 5, column(result, "valve_command")},
+      {"wind_torque_at_motor", "N.m", 4, course.loop.wind_torque.head(samples)}};
   return record;
 }
 
@@ -161,10 +130,9 @@ void judge(PositionRecord& record, Index settled) {
 
 namespace {
 
-// Wind torque at the motor at the samples of a run (N m), its mean, and what it is.
+// Wind torque at the motor at the samples of a run (N m), and what it is.
 struct WindCourse {
   VectorXd torque;
-  double mean = 0.0;
   double mean_speed = 0.0;  // m/s
   std::string description;
 };
@@ -174,7 +142,7 @@ WindCourse synthesised_wind(const design::WindCondition& wind, double gear, doub
   const auto gusts = plant::synthesise_wind_torque(wind.site, wind.model, wind.mean_speed, duration,
                                                    interval, seed);
   const double mean = plant::mean_wind_torque(wind.site, wind.mean_speed) / gear;
-  return {((gusts.uniform + gusts.gradient).array() / gear + mean).matrix(), mean, wind.mean_speed,
+  return {((gusts.uniform + gusts.gradient).array() / gear + mean).matrix(), wind.mean_speed,
           fmt::format("wind of {:.3g} m/s ({} model, {} spectrum)", wind.mean_speed,
                       plant::to_string(wind.model),
                       plant::to_string(plant::site_gusts(wind.site).kind))};
@@ -208,7 +176,6 @@ WindCourse recorded_wind(const Case& antenna, const plant::WindRecord& record,
     const double share = place - static_cast<double>(i);
     course.torque[k] += ((1.0 - share) * torque[i] + share * torque[i + 1]) / gear;
   }
-  course.mean = torque.mean() / gear;
   const double rms = std::sqrt((record.speed.array() - course.mean_speed).square().mean());
   course.description = fmt::format(
       "the measured wind {}, mean {:.3g} m/s, gusts {:.3g} m/s rms, sampled every "
@@ -234,11 +201,10 @@ PositionRecord run_tracking(const Case& antenna, std::uint64_t seed, const RunPr
   const Index samples = gusts.torque.size();
   Course course;
   course.mean_wind_speed = gusts.mean_speed;
-  course.wind_torque = gusts.torque;
-  course.reference =
-      VectorXd::LinSpaced(samples, 0.0, rate * interval * static_cast<double>(samples - 1));
-  course.reference_rate = VectorXd::Constant(samples, rate);
-  course.start = {rate, 0.0, VectorXd::Constant(1, gusts.mean)};
+  course.loop = {
+      interval,
+      VectorXd::LinSpaced(samples, 0.0, rate * interval * static_cast<double>(samples - 1)),
+      VectorXd::Constant(samples, rate), VectorXd::Zero(samples), gusts.torque};
   const auto run = run_position_loop(antenna, course, seed, progress);
   PositionRecord record = describe(antenna, run, course);
   judge(record, static_cast<Index>(std::llround(settle / interval)));
@@ -250,85 +216,41 @@ PositionRecord run_tracking(const Case& antenna, std::uint64_t seed, const RunPr
   return record;
 }
 
-namespace {
-
-// The highest rate up to the case's slew rate (rad/s of motor) that the supply can hold against
-// friction and offset.
-double attainable_rate(const Case& antenna) {
-  const auto model = make_nonlinear_antenna(antenna);
-  const auto holds = [&](double rate) {
-    try {
-      plant::trim(model, {rate, 0.0, {}});
-      plant::trim(model, {-rate, 0.0, {}});
-      return true;
-    } catch (const NumericalFailure&) {
-      return false;
-    }
-  };
-  double highest = antenna.drive.slew_rate.value * gear_ratio(antenna);
-  if (holds(highest)) return highest;
-  double lowest = 0.0;
-  for (int i = 0; i < 20; ++i) {
-    const double middle = 0.5 * (lowest + highest);
-    (holds(middle) ? lowest : highest) = middle;
-  }
-  return lowest;
-}
-
-// What half the torque that the supply has left at a rate gives the whole antenna (rad/s2 of the
-// antenna).
-double attainable_acceleration(const Case& antenna, double rate) {
-  const auto model = make_nonlinear_antenna(antenna);
-  const double gear = gear_ratio(antenna);
-  const double share = rate * gear / (model.valve.stroke_limit - model.valve.overlap);
-  const double available =
-      (model.oil.supply_torque - model.oil.return_torque) * (1.0 - share * share);
-  const double needed = plant::friction_torque(model.friction.curve, rate * gear) +
-                        std::abs(plant::offset_torque(model.offset, 0.0).value);
-  return 0.5 * (available - needed) / (plant::reflected_inertia(make_plant(antenna)) * gear);
-}
-
-}  // namespace
-
 PositionRecord run_slew(const Case& antenna, std::uint64_t seed, const RunProgress& progress) {
   constexpr double distance = 1.0 * degree;
   constexpr double still = 5.0;  // s before
   constexpr double hold = 60.0;  // s after
+  const double gear = gear_ratio(antenna);
+  const auto model = make_nonlinear_antenna(antenna);
   const double wanted = antenna.drive.slew_rate.value;
-  const double attainable = attainable_rate(antenna) / gear_ratio(antenna);
-  const double top = attainable < wanted ? 0.8 * attainable : wanted;
-  const double acceleration = std::min(0.2 * degree, attainable_acceleration(antenna, top));
+  const double attainable = design::attainable_rate(model, wanted * gear) / gear;
+  const auto limits = design::within_reach(model, plant::reflected_inertia(make_plant(antenna)),
+                                           {wanted * gear, largest_acceleration * gear});
   constexpr double longest = 3600.0;  // s
-  if (top <= 0.0 || acceleration <= 0.0 || distance / top + top / acceleration >= longest) {
+  if (!(limits.rate > 0.0) || !(limits.acceleration > 0.0) ||
+      control::least_move_time(limits, distance * gear) >= longest) {
     throw InfeasibleRequirement(fmt::format(
         "{}: the supply cannot slew this antenna: against friction it holds {:.3g} deg/s",
         antenna.path, attainable / degree));
   }
-  const double ramp = std::min(top / acceleration, std::sqrt(distance / acceleration));
-  const double cruise = distance / (acceleration * ramp) - ramp;
-  const double interval = run_interval(antenna);
-  const double gear = gear_ratio(antenna);
-  const double moving = 2.0 * ramp + cruise;
-  const auto samples = static_cast<Index>(std::ceil((still + moving + hold) / interval)) + 1;
+  const double sample_time = controller_sample_time(antenna);
+  const double moving = control::least_move_time(limits, distance * gear);
+  const auto moved = static_cast<Index>(std::ceil((still + moving) / sample_time)) + 2;
+  const auto samples = moved + static_cast<Index>(std::ceil(hold / sample_time));
   Course course;
-  course.wind_torque = VectorXd::Zero(samples);
-  course.reference = course.reference_rate = VectorXd::Zero(samples);
-  for (Index k = 0; k < samples; ++k) {
-    const double t = interval * static_cast<double>(k) - still;
-    const double up = std::clamp(t, 0.0, ramp);
-    const double level = std::clamp(t - ramp, 0.0, cruise);
-    const double down = std::clamp(t - ramp - cruise, 0.0, ramp);
-    course.reference[k] =
-        gear * acceleration * (0.5 * up * up + ramp * level + ramp * down - 0.5 * down * down);
-    course.reference_rate[k] = gear * acceleration * (up - down);
-  }
+  course.loop =
+      design::shaped_course(limits, sample_time, samples, intervals_per_sample, [&](double t) {
+        return control::CommandSample{t > still ? distance * gear : 0.0, 0.0, 0.0};
+      });
   const auto run = run_position_loop(antenna, course, seed, progress);
-  const auto end = static_cast<Index>(std::ceil((still + moving) / interval));
+  const Index end = moved * intervals_per_sample;
+  const double interval = course.loop.interval;
   PositionRecord record = describe(antenna, run, course);
   record.test = "slew";
   record.description =
       fmt::format("{:.3g} deg at up to {:.3g} deg/s and {:.2g} deg/s2", distance / degree,
-                  acceleration * ramp / degree, acceleration / degree);
+                  course.loop.reference_rate.maxCoeff() / (gear * degree),
+                  limits.acceleration / (gear * degree));
   if (attainable < wanted) {
     record.description += fmt::format(
         "; the case's slew rate of {:.3g} deg/s is out of reach: against this friction the supply "

@@ -33,15 +33,16 @@ struct PositionRecord {
 };
 
 /// Tracks at the case's rate in wind of its design speed for 600 s after 60 s to settle: tuned PI
-/// with lag, sampled by Tustin's method, all noise, friction, orifices and lines. The controller's
-/// sample time is two thirds of the case's delay, which is one sample of computing and half of one
-/// of holding. @throws as run_drive_test, and InfeasibleRequirement if no law meets the goals or,
-/// for a slew, if the supply cannot move the antenna.
+/// with lag in its sampled form (control::AntennaController: feedforward, anti-windup), all noise,
+/// friction, orifices and lines. The controller's sample time is two thirds of the case's delay,
+/// which is one sample of computing and half of one of holding. @throws as run_drive_test, and
+/// InfeasibleRequirement if no law meets the goals or, for a slew, if the supply cannot move the
+/// antenna.
 PositionRecord run_tracking(const Case& antenna, std::uint64_t seed, const RunProgress& progress);
 
-/// One degree at the case's slew rate, or at 0.8 times what the supply can hold against friction if
-/// that is less, and at 0.2 deg/s2, or with half the torque the supply has left at that rate if
-/// that is less, in still air, then 60 s of holding.
+/// One degree through the command preprocessor, at the case's slew rate, or at 0.8 times what the
+/// supply can hold against friction if that is less, and at 0.2 deg/s2, or with half the torque the
+/// supply has left at that rate if that is less, in still air, then 60 s of holding.
 PositionRecord run_slew(const Case& antenna, std::uint64_t seed, const RunProgress& progress);
 
 }  // namespace boresight::app

@@ -1,0 +1,106 @@
+#include <cmath>
+#include <numbers>
+
+#include <nlohmann/json.hpp>
+
+#include <boresight/app/report/json_time_domain.hpp>
+#include <boresight/app/report/sky_units.hpp>
+
+namespace boresight::app {
+namespace {
+
+using Json = nlohmann::ordered_json;
+constexpr double degree = std::numbers::pi / 180.0;
+
+Json finite(double value) {
+  return std::isfinite(value) ? Json(value) : Json(nullptr);
+}
+
+Json mdeg(double angle) {
+  return finite(angle / millidegree);
+}
+
+Json optional_number(const std::optional<double>& value) {
+  return value ? finite(*value) : Json(nullptr);
+}
+
+Json message(const std::string& text) {
+  return text.empty() ? Json(nullptr) : Json(text);
+}
+
+Json wind_json(const TimeDomainSection& section) {
+  const design::WindResult& wind = section.result.wind;
+  Json influences = Json::array();
+  for (const auto& influence : wind.influences) {
+    influences.push_back({{"influence", design::to_string(influence.influence)},
+                          {"status", design::to_string(influence.status)},
+                          {"beam_rms_without_mdeg", mdeg(influence.beam_rms_without)},
+                          {"difference_mdeg", mdeg(influence.difference)}});
+  }
+  return {{"status", design::to_string(wind.status)},
+          {"message", message(wind.message)},
+          {"duration_s", section.options.wind_duration},
+          {"seeds", section.options.seeds},
+          {"beam_rms_mdeg", mdeg(wind.beam_rms)},
+          {"encoder_rms_mdeg", mdeg(wind.encoder_rms)},
+          {"predicted_rms_mdeg", mdeg(wind.predicted_rms)},
+          {"chance_mdeg", mdeg(wind.chance)},
+          {"sampling_mdeg", mdeg(wind.sampling)},
+          {"influences", std::move(influences)},
+          {"joint_mdeg", mdeg(wind.joint)},
+          {"at_command_limit_1", wind.at_command_limit}};
+}
+
+Json hunting_json(const design::HuntingResult& hunting) {
+  return {{"rate_mdeg_per_s", mdeg(hunting.rate)},
+          {"status", design::to_string(hunting.status)},
+          {"message", message(hunting.message)},
+          {"limit_cycle", hunting.limit_cycle},
+          {"encoder_amplitude_mdeg", mdeg(hunting.encoder_amplitude)},
+          {"beam_amplitude_mdeg", mdeg(hunting.beam_amplitude)},
+          {"frequency_Hz", optional_number(hunting.frequency)},
+          {"persistence_1", finite(hunting.persistence)}};
+}
+
+Json reversal_json(const design::ReversalResult& reversal) {
+  return {{"status", design::to_string(reversal.status)},
+          {"message", message(reversal.message)},
+          {"encoder_error_mdeg", mdeg(reversal.encoder_error)},
+          {"beam_error_mdeg", mdeg(reversal.beam_error)},
+          {"encoder_error_without_friction_mdeg", mdeg(reversal.encoder_error_without_friction)},
+          {"time_of_largest_s", finite(reversal.time_of_largest)}};
+}
+
+Json slew_json(const design::SlewResult& slew, double settled_error) {
+  return {{"status", design::to_string(slew.status)},
+          {"message", message(slew.message)},
+          {"distance_deg", slew.distance / degree},
+          {"rate_limit_deg_per_s", finite(slew.limits.rate / degree)},
+          {"acceleration_limit_deg_per_s2", finite(slew.limits.acceleration / degree)},
+          {"limits_within_reach", slew.within_reach},
+          {"command_time_s", finite(slew.command_time)},
+          {"largest_error_mdeg", mdeg(slew.largest_error)},
+          {"overshoot_mdeg", mdeg(slew.overshoot)},
+          {"settled_error_mdeg", mdeg(settled_error)},
+          {"settling_time_s", optional_number(slew.settling_time)},
+          {"at_command_limit_1", slew.at_command_limit}};
+}
+
+}  // namespace
+
+nlohmann::ordered_json time_domain_json(const TimeDomainSection& section) {
+  const auto& result = section.result;
+  Json hunting = Json::array();
+  for (const auto& one : result.hunting) hunting.push_back(hunting_json(one));
+  return {{"law", section.law},
+          {"wind_speed_m_per_s", section.wind_speed},
+          {"sample_time_s", section.sample_time},
+          {"encoder_resolution_mdeg", mdeg(section.encoder_resolution)},
+          {"wind", wind_json(section)},
+          {"hunting", std::move(hunting)},
+          {"reversal", result.reversal ? reversal_json(*result.reversal) : Json(nullptr)},
+          {"slew",
+           result.slew ? slew_json(*result.slew, section.options.settled_error) : Json(nullptr)}};
+}
+
+}  // namespace boresight::app

@@ -1,0 +1,159 @@
+#include <cmath>
+#include <numbers>
+
+#include <fmt/format.h>
+
+#include <boresight/app/report/sky_units.hpp>
+#include <boresight/app/report/text_layout.hpp>
+#include <boresight/app/simulate/time_domain.hpp>
+
+namespace boresight::app {
+namespace {
+
+using design::RunStatus;
+using Rows = std::vector<std::vector<std::string>>;
+constexpr double degree = std::numbers::pi / 180.0;
+
+std::string mdeg(double angle) {
+  return std::isfinite(angle) ? fmt::format("{:.4f}", angle / millidegree) : "-";
+}
+
+std::string signed_mdeg(double angle) {
+  if (!std::isfinite(angle)) return "-";
+  const double rounded = std::round(1e4 * angle / millidegree) * 1e-4;
+  return rounded == 0.0 ? "0" : fmt::format("{:+.4f}", rounded);
+}
+
+// Why there is no figure.
+std::string ended(RunStatus status, const std::string& message) {
+  return fmt::format("{}: {}", design::to_string(status), message);
+}
+
+std::string words_of(design::Influence influence) {
+  switch (influence) {
+    case design::Influence::friction:
+      return "friction curve and bristles, against the linear plant's viscous friction";
+    case design::Influence::limits:
+      return "limits of stroke, spool speed and command";
+    case design::Influence::quantisation:
+      return "steps of the encoder";
+    case design::Influence::orifice:
+      return "flow through orifices, against flow in proportion to the opening";
+    case design::Influence::gear:
+      return "backlash";
+  }
+  return "";
+}
+
+std::string wind_text(const TimeDomainSection& section) {
+  const design::WindResult& wind = section.result.wind;
+  if (wind.status != RunStatus::complete) {
+    return wrapped(fmt::format("In wind of {:g} m/s no rms: {}.", section.wind_speed,
+                               ended(wind.status, wind.message)),
+                   "  ");
+  }
+  Rows rows{{fmt::format("beam in wind of {:g} m/s, {:g} s", section.wind_speed,
+                         section.options.wind_duration),
+             "rms mdeg", "without it"}};
+  rows.push_back({"linear prediction", mdeg(wind.predicted_rms), ""});
+  rows.push_back({"  this record instead of the expectation", signed_mdeg(wind.chance), ""});
+  rows.push_back({fmt::format("  sampling every {:g} s", section.sample_time),
+                  signed_mdeg(wind.sampling), ""});
+  for (const auto& influence : wind.influences) {
+    rows.push_back({"  " + words_of(influence.influence), signed_mdeg(influence.difference),
+                    influence.status == RunStatus::complete
+                        ? mdeg(influence.beam_rms_without)
+                        : std::string(design::to_string(influence.status))});
+  }
+  rows.push_back(
+      {"  what these do together only, and lines and offset", signed_mdeg(wind.joint), ""});
+  rows.push_back({"simulated", mdeg(wind.beam_rms), ""});
+  std::string text = table(rows, "l");
+  if (wind.at_command_limit > 0.0) {
+    text += fmt::format("  The valve command is at its limit in {:.2g} % of the samples.\n",
+                        100.0 * wind.at_command_limit);
+  }
+  return text;
+}
+
+std::string hunting_text(const TimeDomainSection& section) {
+  std::string text;
+  for (const auto& hunting : section.result.hunting) {
+    const std::string where = hunting.rate == 0.0
+                                  ? std::string("At rest")
+                                  : fmt::format("At {:.3g} mdeg/s", hunting.rate / millidegree);
+    if (hunting.status != RunStatus::complete) {
+      text +=
+          wrapped(fmt::format("{}, no wind: {}.", where, ended(hunting.status, hunting.message)),
+                  "  ", "  ");
+      continue;
+    }
+    const std::string cycle =
+        hunting.limit_cycle
+            ? fmt::format("a limit cycle of +-{} mdeg at the encoder, +-{} mdeg at the beam, {}",
+                          mdeg(hunting.encoder_amplitude), mdeg(hunting.beam_amplitude),
+                          hunting.frequency ? fmt::format("{:.3g} Hz", *hunting.frequency)
+                                            : std::string("of no steady period"))
+            : fmt::format("no limit cycle above the encoder's resolution (+-{} mdeg left)",
+                          mdeg(hunting.encoder_amplitude));
+    text += wrapped(fmt::format("{}, no wind: {}.", where, cycle), "  ", "  ");
+  }
+  return text;
+}
+
+std::string reversal_text(const TimeDomainSection& section) {
+  if (!section.result.reversal) return "";
+  const auto& reversal = *section.result.reversal;
+  if (reversal.status != RunStatus::complete) {
+    return wrapped(fmt::format("Slow reversals: {}.", ended(reversal.status, reversal.message)),
+                   "  ", "  ");
+  }
+  return wrapped(
+      fmt::format("Turning round at +-{:.3g} mdeg/s: error up to {} mdeg at the encoder, {} mdeg "
+                  "at the beam, {:.2f} s after the reversal; {} mdeg at the encoder without "
+                  "friction.",
+                  section.options.tracking_rate / millidegree, mdeg(reversal.encoder_error),
+                  mdeg(reversal.beam_error), reversal.time_of_largest,
+                  mdeg(reversal.encoder_error_without_friction)),
+      "  ", "  ");
+}
+
+std::string slew_text(const TimeDomainSection& section) {
+  if (!section.result.slew) return "";
+  const auto& slew = *section.result.slew;
+  const auto& asked = section.options.limits;
+  std::string text =
+      fmt::format("Slew of {:g} deg at {:.3g} deg/s and {:.3g} deg/s2", slew.distance / degree,
+                  slew.limits.rate / degree, slew.limits.acceleration / degree);
+  if (!slew.within_reach) {
+    text += fmt::format(" (what the drive can do of {:.3g} deg/s and {:.3g} deg/s2)",
+                        asked.rate / degree, asked.acceleration / degree);
+  }
+  const std::string settled =
+      slew.settling_time
+          ? fmt::format("within {} mdeg {:.2f} s after the end of the command",
+                        mdeg(section.options.settled_error), *slew.settling_time)
+          : fmt::format("not within {} mdeg {:g} s after the end of the command",
+                        mdeg(section.options.settled_error), section.options.settling_watched);
+  text += std::isfinite(slew.largest_error)
+              ? fmt::format(": {}; error up to {:.2f} mdeg on the way, overshoot {:.2f} mdeg.",
+                            settled, slew.largest_error / millidegree, slew.overshoot / millidegree)
+              : fmt::format(": {}.", ended(slew.status, slew.message));
+  return wrapped(text, "  ", "  ");
+}
+
+}  // namespace
+
+std::string to_text(const TimeDomainSection& section) {
+  return heading("In the time domain, on the nonlinear antenna: " + section.law) +
+         wind_text(section) + hunting_text(section) + reversal_text(section) + slew_text(section) +
+         wrapped(fmt::format("The controller: sampled every {:g} s with one sample of computing, "
+                             "feedforward of rate and acceleration, commands shaped to the limits "
+                             "above, anti-windup. Encoder steps of {} mdeg, those whose rounding "
+                             "is the case's encoder noise. Differences are of the rms with and "
+                             "without each influence, the others on.",
+                             section.sample_time, mdeg(section.encoder_resolution)),
+                 "  ");
+}
+
+}  // namespace boresight::app

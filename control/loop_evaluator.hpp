@@ -109,14 +109,16 @@ LoopChannels make_channels(const plant::AntennaPlant& plant, const Eigen::ArrayX
 /// and noise, until the plant's channels are polynomials of that degree within `channel_tolerance`
 /// of their largest value in the panel, and no wider than `widest_panel`. An evaluation halves them
 /// on where its own closed loop asks for it: where poles near the axis leave variances and their
-/// gradients an error above about `tolerance` of the variance, or where 1 + L turns by more than a
+/// gradients an error near `tolerance` of the variance, or where 1 + L turns by more than a
 /// right angle from point to point.
 struct LoopQuadrature {
   FrequencyBand analysis{1e-4, 100.0};  // Hz: peaks and stability
   /// Hz: variances. Where it begins below the analysis band, the density below that is taken for
   /// constant.
   FrequencyBand band;
-  double tolerance = 1e-10;
+  /// Of the whole variance of beam, effort, demand or torque: the estimated error of one panel,
+  /// over the root of its half width in ln f.
+  double tolerance = 3e-11;
   double channel_tolerance = 0.1;
   double widest_panel = 2.0;  // in ln f
 };
@@ -203,14 +205,13 @@ class LoopEvaluator {
   };
   struct PlacedBlock {
     BlockKind kind = BlockKind::gain;
-    std::size_t path = 0;
     std::size_t first_gain = 0;
   };
   // What a sweep needs of a law.
   struct Sweep {
     const ControlLaw* law = nullptr;
-    std::array<PlacedBlock, most_gains> blocks{};
-    std::size_t block_count = 0;
+    std::array<PlacedBlock, most_gains> blocks{};  // path by path
+    std::array<std::size_t, 4> path_end{};
     std::array<std::size_t, most_gains> path_of_gain{};
     std::array<bool, 4> present{};
     double tachometer_density = 0.0, encoder_density = 0.0, torque_density = 0.0;

@@ -177,9 +177,9 @@ bool LoopEvaluator::close_enough(std::uint32_t i, const Limits& limits) const {
   const LoopValues& values = values_[i];
   // The lowest panel carries all below it.
   if (packs_[i].weighted && panel.from != lowest_place_) {
-    // A pole that moves with a gain moves the more panels the narrower they are: the error of a
-    // gradient grows with it.
-    const double allowed = half_width * half_width;
+    // The narrower the panel, the further in it a gain moves a pole: the gradient's error against
+    // the variance's grows.
+    const double allowed = half_width;
     if (tail(values.tail, 0).error_square() > allowed * limits.beam ||
         tail(values.tail, 4).error_square() > allowed * limits.effort) {
       return false;

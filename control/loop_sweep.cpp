@@ -106,14 +106,15 @@ struct LoopEvaluator::LoopPack {
   template <bool with_gradients>
   [[gnu::always_inline]] inline void fill(const Sweep& sweep, const GridPack& grid, bool gusts,
                                           Compensators& law, ComplexPack* by_gain) {
-    for (std::size_t path = 0; path < 4; ++path) {
-      law[path] = sweep.present[path] ? ComplexPack{1.0, 0.0} : ComplexPack{};
-    }
-    for (std::size_t b = 0; b < sweep.block_count; ++b) {
-      const PlacedBlock& block = sweep.blocks[b];
-      multiply<with_gradients>(block.kind, sweep.law->gains.data() + block.first_gain,
-                               grid.frequency, grid.period, law[block.path],
-                               with_gradients ? by_gain + block.first_gain : nullptr);
+    for (std::size_t path = 0, b = 0; path < 4; ++path) {
+      ComplexPack compensator{sweep.present[path] ? 1.0 : 0.0, 0.0};
+      for (; b < sweep.path_end[path]; ++b) {
+        const PlacedBlock& block = sweep.blocks[b];
+        multiply<with_gradients>(block.kind, sweep.law->gains.data() + block.first_gain,
+                                 grid.frequency, grid.period, compensator,
+                                 with_gradients ? by_gain + block.first_gain : nullptr);
+      }
+      law[path] = compensator;
     }
     const auto [r, q, p, c] = law;
     const bool pressure = sweep.present[1], compliance = sweep.present[3];
@@ -157,12 +158,18 @@ LoopEvaluator::Sweep LoopEvaluator::prepare(const ControlLaw& law) const {
   sweep.tachometer_density = noise_.tachometer_rms * noise_.tachometer_rms * per_band;
   sweep.torque_density = noise_.torque_rms * noise_.torque_rms * per_band;
   sweep.noisy = sweep.encoder_density + sweep.tachometer_density + sweep.torque_density > 0.0;
-  std::size_t next = 0;
-  for (const LoopBlock& block : law.structure.blocks()) {
-    const auto path = static_cast<std::size_t>(block.path);
-    sweep.present[path] = true;
-    sweep.blocks[sweep.block_count++] = {block.kind, path, next};
-    for (std::size_t j = 0; j < block.gains.size(); ++j) sweep.path_of_gain[next++] = path;
+  std::size_t count = 0;
+  for (std::size_t path = 0; path < 4; ++path) {
+    std::size_t next = 0;
+    for (const LoopBlock& block : law.structure.blocks()) {
+      if (static_cast<std::size_t>(block.path) == path) {
+        sweep.blocks[count++] = {block.kind, next};
+        for (std::size_t j = 0; j < block.gains.size(); ++j) sweep.path_of_gain[next + j] = path;
+      }
+      next += block.gains.size();
+    }
+    sweep.path_end[path] = count;
+    sweep.present[path] = count > (path > 0 ? sweep.path_end[path - 1] : 0);
   }
   return sweep;
 }
@@ -208,6 +215,7 @@ void LoopEvaluator::sweep_values(const Sweep& sweep, const std::uint32_t* packs,
     values.effort = effort;
     if (!panels_.empty()) {
       RealPack tail{}, gust_tail{};
+#pragma GCC unroll 8
       for (std::size_t lane = 0; lane < plant::pack_size; ++lane) {
         tail += rule.first_tail[lane] * beam[lane];
       }

@@ -40,7 +40,7 @@ Json wind_json(const TimeDomainSection& section) {
   return {{"status", design::to_string(wind.status)},
           {"message", message(wind.message)},
           {"duration_s", section.options.wind_duration},
-          {"seeds", section.options.seeds},
+          {"seed", section.options.seeds.front()},
           {"beam_rms_mdeg", mdeg(wind.beam_rms)},
           {"encoder_rms_mdeg", mdeg(wind.encoder_rms)},
           {"predicted_rms_mdeg", mdeg(wind.predicted_rms)},

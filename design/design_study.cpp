@@ -58,7 +58,7 @@ Verification verify(const TrackingProblem& problem, const control::ControlLaw& l
     }
   }
   const double effort = std::sqrt(make_evaluator(problem).evaluate(law, false).effort_variance);
-  if (effort > goals.valve_effort * (1.0 + 1e-6)) {
+  if (effort > goals.valve_effort * (1.0 + 1e-5)) {
     verification.failure = fmt::format("noise-driven valve effort {:.6f} rad/s above {:g}", effort,
                                        goals.valve_effort);
   }

@@ -61,7 +61,7 @@ control::FrequencyBand analysis_band(const TrackingProblem& problem);
 Eigen::ArrayXd analysis_grid(const TrackingProblem& problem);
 
 /// A problem's motor wind spectrum from a table, for many plants in one wind: 60 points a decade
-/// over the analysis band, cubic in the logarithms between, to 1e-7.
+/// over the analysis band, cubic in the logarithms between, to 2e-7.
 class WindTable {
  public:
   /// @throws InvalidInput as motor_wind_spectrum(problem).

@@ -11,7 +11,7 @@
 namespace boresight::design {
 
 struct TuningOptions {
-  int starts = 20;
+  int starts = 30;
   std::uint64_t seed = 1;
   /// Of one run of the optimiser; a start takes a few runs (FeasibleSearchOptions).
   int evaluations_per_start = 150;
@@ -31,7 +31,7 @@ struct TuningOptions {
 enum class TuningStatus {
   optimal,     // the best feasible law seen
   infeasible,  // no feasible law seen: the stable one nearest to the goals
-  unstable,    // no stable law seen
+  unstable,    // no law seen whose eigenvalues are stable
 };
 
 /// What holds the result where it is.

@@ -9,6 +9,7 @@
 #include "peer_loop.hpp"
 #include <boresight/control/h2_norm.hpp>
 #include <boresight/control/peak_gain.hpp>
+#include <boresight/control/spectral_rms.hpp>
 #include <boresight/design/feasible_search.hpp>
 #include <boresight/plant/eigenvalues.hpp>
 
@@ -100,6 +101,15 @@ inline PeerJudgement judge_peer(Eigen::Index modes, const PeerGains& gains) {
   if (!(judgement.abscissa < 0.0)) return judgement;
   judgement.rms = control::h2_norm(channel(closed, "n", "y")).value;
   judgement.peak = control::peak_gain(channel(closed, "d", "u")).upper;
+  return judgement;
+}
+
+/// rms and peak without dense matrices; the abscissa is left out.
+inline PeerJudgement judge_peer_by_modes(Eigen::Index modes, const PeerGains& gains) {
+  const auto closed = peer_modal_system(modes, gains);
+  PeerJudgement judgement;
+  judgement.rms = control::spectral_rms(plant::ModalResponse(closed, "n", "y")).rms;
+  judgement.peak = control::peak_gain(closed, "d", "u").upper;
   return judgement;
 }
 

@@ -1,0 +1,133 @@
+#include <limits>
+#include <numbers>
+
+#include <nlohmann/json.hpp>
+
+#include "edited_case.hpp"
+#include <boresight/app/redesign/antenna_model.hpp>
+#include <boresight/app/report/json_time_domain.hpp>
+#include <boresight/app/simulate/time_domain.hpp>
+
+namespace boresight::app {
+namespace {
+
+using testing::HasSubstr;
+using testing::Not;
+constexpr double degree = std::numbers::pi / 180.0;
+constexpr double mdeg = 1e-3 * degree;
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+
+TimeDomainSection section() {
+  TimeDomainSection section;
+  section.law = "PI, robust";
+  section.wind_speed = 10.0;
+  section.sample_time = 0.02;
+  section.encoder_resolution = 0.3464 * mdeg;
+  section.options.tracking_rate = 4.17 * mdeg;
+  section.options.limits = {0.25 * degree, 0.2 * degree};
+  section.options.settled_error = 0.527 * mdeg;
+  auto& wind = section.result.wind;
+  wind.predicted_rms = 0.5 * mdeg;
+  wind.chance = -0.01 * mdeg;
+  wind.sampling = 0.001 * mdeg;
+  wind.beam_rms = 0.6 * mdeg;
+  wind.encoder_rms = 0.4 * mdeg;
+  wind.influences = {
+      {design::Influence::friction, design::RunStatus::complete, 0.52 * mdeg, 0.08 * mdeg},
+      {design::Influence::gear, design::RunStatus::complete, 0.59 * mdeg, 0.01 * mdeg}};
+  wind.joint = 0.019 * mdeg;
+  design::HuntingResult rest;
+  rest.limit_cycle = true;
+  rest.encoder_amplitude = 0.29 * mdeg;
+  rest.beam_amplitude = 0.295 * mdeg;
+  rest.frequency = 0.0612;
+  rest.persistence = 0.97;
+  design::HuntingResult moving;
+  moving.rate = 4.17 * mdeg;
+  moving.encoder_amplitude = 0.007 * mdeg;
+  section.result.hunting = {rest, moving};
+  design::ReversalResult reversal;
+  reversal.encoder_error = 4.98 * mdeg;
+  reversal.beam_error = 5.04 * mdeg;
+  reversal.encoder_error_without_friction = 1.5 * mdeg;
+  reversal.time_of_largest = 1.34;
+  section.result.reversal = reversal;
+  design::SlewResult slew;
+  slew.distance = 1.0 * degree;
+  slew.limits = {0.1 * degree, 0.03 * degree};
+  slew.within_reach = false;
+  slew.command_time = 13.3;
+  slew.largest_error = 32.0 * mdeg;
+  slew.overshoot = 13.0 * mdeg;
+  slew.settling_time = 24.16;
+  section.result.slew = slew;
+  return section;
+}
+
+TEST(TimeDomain, TextSaysWhatTheNumbersAre) {
+  const std::string text = to_text(section());
+  EXPECT_THAT(text, HasSubstr("on the nonlinear antenna: PI, robust"));
+  EXPECT_THAT(text, HasSubstr("linear prediction"));
+  EXPECT_THAT(text, HasSubstr("-0.0100"));
+  EXPECT_THAT(text, HasSubstr("+0.0800      0.5200"));
+  EXPECT_THAT(text, HasSubstr("At rest, no wind: a limit cycle of +-0.2900 mdeg at the encoder"));
+  EXPECT_THAT(text, HasSubstr("0.0612 Hz"));
+  EXPECT_THAT(text,
+              HasSubstr("no limit cycle above the encoder's resolution (+-0.0070 mdeg left)"));
+  EXPECT_THAT(text, HasSubstr("error up to 4.9800 mdeg"));
+  EXPECT_THAT(text, HasSubstr("what the drive can do of 0.25 deg/s and 0.2 deg/s2"));
+  EXPECT_THAT(text, HasSubstr("24.16 s after the end of the command"));
+}
+
+TEST(TimeDomain, TextSaysWhyThereAreNoNumbers) {
+  auto lost = section();
+  lost.result.wind.status = design::RunStatus::lost;
+  lost.result.wind.message = "the encoder is 1 rad off";
+  lost.result.hunting[0].status = design::RunStatus::failed;
+  lost.result.hunting[0].message = "no steady motion";
+  lost.result.reversal->status = design::RunStatus::lost;
+  lost.result.reversal->message = "gone";
+  lost.result.slew->largest_error = nan;
+  lost.result.slew->settling_time.reset();
+  lost.result.slew->status = design::RunStatus::failed;
+  lost.result.slew->message = "the supply cannot move it";
+  const std::string text = to_text(lost);
+  EXPECT_THAT(text, HasSubstr("In wind of 10 m/s no rms: lost: the encoder is 1 rad off."));
+  EXPECT_THAT(text, Not(HasSubstr("linear prediction")));
+  EXPECT_THAT(text, HasSubstr("At rest, no wind: failed: no steady motion."));
+  EXPECT_THAT(text, HasSubstr("Slow reversals: lost: gone."));
+  EXPECT_THAT(text, HasSubstr("the supply cannot move it."));
+  EXPECT_THAT(text, Not(HasSubstr("nan")));
+  auto slow = section();
+  slow.result.slew->settling_time.reset();
+  EXPECT_THAT(to_text(slow), HasSubstr("within 0.5270 mdeg 40 s after"));
+}
+
+TEST(TimeDomain, JsonAloneGivesTheDifferenceFromThePrediction) {
+  const auto json = time_domain_json(section());
+  const auto& wind = json.at("wind");
+  double sum = wind.at("predicted_rms_mdeg").get<double>() + wind.at("chance_mdeg").get<double>() +
+               wind.at("sampling_mdeg").get<double>() + wind.at("joint_mdeg").get<double>();
+  for (const auto& one : wind.at("influences")) sum += one.at("difference_mdeg").get<double>();
+  EXPECT_NEAR(sum, wind.at("beam_rms_mdeg").get<double>(), 1e-12);
+  EXPECT_NEAR(json.at("slew").at("rate_limit_deg_per_s").get<double>(), 0.1, 1e-12);
+  EXPECT_TRUE(json.at("hunting").at(1).at("frequency_Hz").is_null());
+  EXPECT_TRUE(wind.at("message").is_null());
+  auto bare = section();
+  bare.result.reversal.reset();
+  bare.result.slew.reset();
+  bare.result.wind.beam_rms = nan;
+  EXPECT_TRUE(time_domain_json(bare).at("slew").is_null());
+  EXPECT_TRUE(time_domain_json(bare).at("reversal").is_null());
+  EXPECT_TRUE(time_domain_json(bare).at("wind").at("beam_rms_mdeg").is_null());
+}
+
+TEST(TimeDomain, NoneOfACaseThatSaysNothingOfItsDrive) {
+  Case antenna = read_case(case_path("dss14-70m"));
+  antenna.simulation.reset();
+  const control::ControlLaw law{control::LoopStructure::pi_with_lag(), {0.2, 0.8, 6.0, 0.2, 0.02}};
+  EXPECT_FALSE(verify_in_time_domain(antenna, make_problem(antenna), law, "PI", 1, 1));
+}
+
+}  // namespace
+}  // namespace boresight::app

@@ -1,0 +1,12 @@
+#pragma once
+
+#include <nlohmann/json.hpp>
+
+#include <boresight/design/pointing_limit.hpp>
+
+namespace boresight::app {
+
+/// "limit" of docs/report.schema.json: every number that a ratio is made of stands beside it.
+nlohmann::ordered_json limit_json(const design::PointingLimit& limit);
+
+}  // namespace boresight::app

@@ -1,0 +1,94 @@
+#include <cmath>
+#include <optional>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include <boresight/app/report/sky_units.hpp>
+#include <boresight/app/report/text_layout.hpp>
+#include <boresight/app/report/text_limit.hpp>
+
+namespace boresight::app {
+namespace {
+
+using Row = std::vector<std::string>;
+
+std::string fixed(double value, int decimals) {
+  return std::isfinite(value) ? fmt::format("{:.{}f}", value, decimals) : "-";
+}
+
+std::string mdeg(double angle) {
+  return fixed(angle / millidegree, 4);
+}
+
+std::string ratio(const std::optional<double>& value) {
+  return value ? fixed(*value, 3) : "-";
+}
+
+Row cells(const std::string& name, const design::SampledDesign& design) {
+  const design::SampledResult& nominal = design.nominal;
+  const bool members = !design.members.empty();
+  return {name,
+          mdeg(nominal.beam_rms),
+          mdeg(nominal.wind_rms),
+          mdeg(nominal.noise_rms),
+          fixed(nominal.valve_effort, 3),
+          fixed(nominal.peak.magnitude, 3),
+          members ? mdeg(design.worst_rms) : "-",
+          members ? fmt::format("{}/{}", design.stable_members, design.members.size()) : "-"};
+}
+
+}  // namespace
+
+std::string to_text(const design::PointingLimit& limit) {
+  std::string text = heading("How far from the best any controller could do");
+  text += wrapped(
+      fmt::format("Every law in its sampled form: {:g} s, zero-order hold, {:g} s of computation "
+                  "delay; covariance of the closed loop, wind by its shaping filter.",
+                  limit.sample_time, limit.computation_delay),
+      "  ");
+  std::vector<Row> rows{{"controller", "rms mdeg", "wind", "noise", "effort rad/s", "S valve",
+                         "worst plant", "stable plants"}};
+  rows.push_back(cells("LQG, unconstrained", limit.unconstrained));
+  if (limit.margin_limited) {
+    rows.push_back(
+        cells(fmt::format("LQG, S valve <= {:g}", limit.peak_limit), limit.margin_limited->design));
+  }
+  if (limit.robustified) {
+    rows.push_back(cells("LQG, robust over the plants", limit.robustified->design));
+  }
+  for (const auto& law : limit.laws) {
+    rows.push_back(law.design.nominal.stable() ? cells(law.name, law.design)
+                                               : Row{law.name, "unstable"});
+  }
+  for (Row& row : rows) row.resize(rows.front().size(), "-");
+  text += table(rows, "l");
+  text += wrapped(
+      fmt::format("Lower bound: {} mdeg. No linear controller of the same sensors, sampling and "
+                  "delay whose noise drives the valve with at most {:g} rad/s is below it; the "
+                  "unconstrained LQG reaches it. The other LQGs are benchmarks, not bounds.",
+                  mdeg(limit.least_rms), limit.effort_limit),
+      "  ");
+  text += wrapped(
+      fmt::format("Encoder held perfectly still: {} mdeg, the bending that no encoder sees. Whole "
+                  "state known without error at each sample, effort free: {} mdeg.",
+                  mdeg(limit.encoder_held_rms), mdeg(limit.full_information_rms)),
+      "  ");
+  if (!limit.margin_limited) {
+    text += wrapped("No LQG of the searched weights keeps the peak on the nominal plant.", "  ");
+  }
+  if (!limit.robustified && !limit.unconstrained.members.empty()) {
+    text += wrapped("No LQG of the searched weights keeps the goals on every plant.", "  ");
+  }
+  if (limit.laws.empty()) return text;
+  std::vector<Row> ratios{{"rms of the law over", "least of its effort", "LQG with margins",
+                           "robust LQG", "worst: robust LQG", "encoder held"}};
+  for (const auto& law : limit.laws) {
+    ratios.push_back({law.name, ratio(law.to_least), ratio(law.to_margin_limited),
+                      ratio(law.to_robustified), ratio(law.worst_to_robustified),
+                      ratio(law.to_encoder_held)});
+  }
+  return text + "\n" + table(ratios, "l");
+}
+
+}  // namespace boresight::app

@@ -2,10 +2,12 @@
 #include <cmath>
 #include <limits>
 #include <mutex>
+#include <numbers>
 
 #include <fmt/format.h>
 
 #include <boresight/design/design_study.hpp>
+#include <boresight/design/judged_plant.hpp>
 #include <boresight/design/parallel_loop.hpp>
 #include <boresight/plant/error.hpp>
 #include <boresight/plant/point_response.hpp>
@@ -25,6 +27,69 @@ TrackingProblem without_band_limits(TrackingProblem problem) {
   return problem;
 }
 
+std::array<control::Margins, 3> margins_of(TrackingProblem problem,
+                                           const control::ControlLaw& law) {
+  problem.points_per_decade = 100;
+  const Eigen::ArrayXd grid = analysis_grid(problem);
+  const plant::PointResponse response(problem.plant);
+  std::array<control::Margins, 3> margins;
+  for (std::size_t b = 0; b < control::loop_breaks.size(); ++b) {
+    margins[b] = control::margins(
+        [&](double w) {
+          return control::loop_gain(response(w), w, law, problem.delay, control::loop_breaks[b]);
+        },
+        grid);
+  }
+  return margins;
+}
+
+constexpr double met = 1.0 + 1e-6;
+
+// Margins from every crossover, bandwidth from |S| along the grid: the first goal missed.
+std::string missed_margin(const TrackingProblem& problem, const control::ControlLaw& law,
+                          const HardGoals& goals) {
+  const auto margins = margins_of(problem, law);
+  for (std::size_t b = 0; b < margins.size(); ++b) {
+    const std::string_view cut = control::to_string(control::loop_breaks[b]);
+    const double gain =
+        std::min(margins[b].increasing_gain_margin, 1.0 / margins[b].decreasing_gain_margin);
+    if (goals.gain_margin[b].value_or(0.0) > gain * met) {
+      return fmt::format("gain margin at {}: {:.6f} below {:g}", cut, gain,
+                         goals.gain_margin[b].value_or(0.0));
+    }
+    const double phase = margins[b].phase_margin_deg * std::numbers::pi / 180.0;
+    if (goals.phase_margin[b].value_or(0.0) > phase * met) {
+      return fmt::format("phase margin at {}: {:.6f} rad below {:g}", cut, phase,
+                         goals.phase_margin[b].value_or(0.0));
+    }
+  }
+  const plant::PointResponse response(problem.plant);
+  for (const double w : analysis_grid(problem)) {
+    if (w * met > goals.bandwidth.value_or(0.0)) break;
+    const auto loop =
+        control::loop_gain(response(w), w, law, problem.delay, control::LoopBreak::position_loop);
+    if (std::norm(1.0 + loop) < 2.0) {
+      return fmt::format(
+          "bandwidth: |S| of the position loop above 0.707 at {:.6f} rad/s, below "
+          "{:g}",
+          w, goals.bandwidth.value_or(0.0));
+    }
+  }
+  return {};
+}
+
+std::string missed_gusts(const TrackingProblem& problem, const control::ControlLaw& law,
+                         const HardGoals& goals) {
+  JudgedPlant plant("", problem, goals, WindTable(problem));
+  for (const GoalRatio& goal : plant.judge(law, false).ratios) {
+    const bool gusts = goal.kind == GoalKind::gust_demand || goal.kind == GoalKind::gust_torque;
+    if (gusts && goal.ratio > met) {
+      return fmt::format("{}: {:.6f} times its limit", describe(goal), goal.ratio);
+    }
+  }
+  return {};
+}
+
 }  // namespace
 
 Verification verify(const TrackingProblem& problem, const control::ControlLaw& law,
@@ -41,9 +106,8 @@ Verification verify(const TrackingProblem& problem, const control::ControlLaw& l
       verification.failure = "the closed loop is not stable";
       return verification;
     }
-    verification.lyapunov =
-        control::lyapunov_rms(problem.plant, law, problem.delay,
-                              fit_wind_filter(problem), whole.noise);
+    verification.lyapunov = control::lyapunov_rms(problem.plant, law, problem.delay,
+                                                  fit_wind_filter(problem), whole.noise);
   } catch (const NumericalFailure& error) {
     verification.failure = error.what();
     return verification;
@@ -61,6 +125,14 @@ Verification verify(const TrackingProblem& problem, const control::ControlLaw& l
   if (effort > goals.valve_effort * (1.0 + 1e-5)) {
     verification.failure = fmt::format("noise-driven valve effort {:.6f} rad/s above {:g}", effort,
                                        goals.valve_effort);
+  }
+  if (goals.ask_for_margins()) {
+    const std::string missed = missed_margin(problem, law, goals);
+    if (!missed.empty()) verification.failure = missed;
+  }
+  if (goals.ask_for_gusts()) {
+    const std::string missed = missed_gusts(problem, law, goals);
+    if (!missed.empty()) verification.failure = missed;
   }
   if (!(verification.rms_disagreement < 0.005)) {
     verification.failure = fmt::format("Lyapunov and spectral rms are {:.2g} % apart",
@@ -90,18 +162,7 @@ Design finish(const DesignTask& task, TuningResult tuning) {
   design.wind_rms = std::sqrt(evaluation.wind_variance) / problem.gear_ratio;
   design.noise_rms = std::sqrt(evaluation.noise_variance) / problem.gear_ratio;
   design.valve_effort = std::sqrt(evaluation.effort_variance);
-  TrackingProblem coarse = problem;
-  coarse.points_per_decade = 100;
-  const Eigen::ArrayXd grid = analysis_grid(coarse);
-  const plant::PointResponse response(problem.plant);
-  for (std::size_t b = 0; b < control::loop_breaks.size(); ++b) {
-    design.margins[b] = control::margins(
-        [&](double w) {
-          return control::loop_gain(response(w), w, design.tuning.law, problem.delay,
-                                    control::loop_breaks[b]);
-        },
-        grid);
-  }
+  design.margins = margins_of(problem, design.tuning.law);
   return design;
 }
 

@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-#include <boresight/control/closed_loop.hpp>
+#include <boresight/design/judged_plant.hpp>
 #include <boresight/design/parallel_loop.hpp>
 #include <boresight/design/plant_ensemble.hpp>
 #include <boresight/plant/error.hpp>
@@ -14,14 +14,14 @@ namespace boresight::design {
 namespace {
 
 MemberResult judge_member(TrackingProblem problem, const EnsembleMember& member,
-                          const control::ControlLaw& law, const HardGoals& goals) {
+                          const control::ControlLaw& law, const HardGoals& goals,
+                          const WindTable& wind) {
   problem.plant = member.plant;
-  control::LoopEvaluator evaluator = make_evaluator(problem);
+  JudgedPlant plant(member.name, problem, goals, wind);
+  const PlantJudgement& judgement = plant.judge(law, false);
   MemberResult result;
   result.name = member.name;
-  result.stable =
-      control::stability(problem.plant, law, problem.delay, evaluator.response().frequency)
-          .stable();
+  result.stable = judgement.stable && plant.stable_by_eigenvalues(law);
   if (!result.stable) {
     const double none = std::numeric_limits<double>::quiet_NaN();
     result.beam_rms = result.valve_effort = none;
@@ -29,13 +29,13 @@ MemberResult judge_member(TrackingProblem problem, const EnsembleMember& member,
     result.worst_goal_ratio = std::numeric_limits<double>::infinity();
     return result;
   }
-  const control::LoopEvaluation evaluation = evaluator.evaluate(law, false);
+  const control::LoopEvaluation& evaluation = judgement.evaluation;
   result.beam_rms = std::sqrt(evaluation.beam_variance()) / problem.gear_ratio;
   result.valve_effort = std::sqrt(evaluation.effort_variance);
   for (std::size_t b = 0; b < control::loop_breaks.size(); ++b) {
     result.sensitivity_peaks[b] = evaluation.highest_peak(control::loop_breaks[b]);
   }
-  result.worst_goal_ratio = worst_goal_ratio(evaluation, goals);
+  result.worst_goal_ratio = judgement.worst_ratio();
   return result;
 }
 
@@ -112,8 +112,9 @@ EnsembleResult judge(const TrackingProblem& problem, const std::vector<EnsembleM
   control::validate(law);
   EnsembleResult result;
   result.members.resize(members.size());
+  const WindTable wind(problem);
   for_each_index(members.size(), threads, [&](std::size_t i) {
-    result.members[i] = judge_member(problem, members[i], law, goals);
+    result.members[i] = judge_member(problem, members[i], law, goals, wind);
   });
 
   // A goal met to the last digit by the tuner is met.

@@ -259,6 +259,18 @@ TEST(Tune, HoldsMarginsBandwidthAndGusts) {
   EXPECT_EQ(held.status, TuningStatus::optimal);
   EXPECT_GE(phase(held.law), *goals.phase_margin[2] * (1.0 - 1e-6));
   EXPECT_GT(held.soft_rms, free.soft_rms);
+  // By the verification's own crossovers too, which the free law fails.
+  EXPECT_TRUE(verify(problem, held.law, goals).passed);
+  EXPECT_THAT(verify(problem, free.law, goals).failure, HasSubstr("phase margin at position loop"));
+  HardGoals others;
+  others.gain_margin[1] = 3.0;
+  EXPECT_THAT(verify(problem, free.law, others).failure, HasSubstr("gain margin at valve command"));
+  others = {};
+  others.bandwidth = 50.0;
+  EXPECT_THAT(verify(problem, free.law, others).failure, HasSubstr("bandwidth: |S|"));
+  others = {};
+  others.gust_torque = 1.0;
+  EXPECT_THAT(verify(problem, free.law, others).failure, HasSubstr("motor torque in gusts: "));
 
   HardGoals gusts;
   gusts.gust_demand = 1e3;

@@ -29,7 +29,7 @@ TEST(PlantEnsemble, JudgesTheNominalPlantAsAnEvaluationDoes) {
   const TrackingProblem problem = coarse_problem();
   const auto law = reference::cautious_law();
   const auto result = judge(problem, {{"nominal", problem.plant}}, law, {}, 1);
-  control::LoopEvaluator evaluator = make_evaluator(problem);
+  auto evaluator = make_adaptive_evaluator(problem, WindTable(problem));
   const auto evaluation = evaluator.evaluate(law, false);
   ASSERT_EQ(result.members.size(), 1u);
   EXPECT_TRUE(result.members[0].stable);

@@ -334,7 +334,10 @@ SlewResult slew(const SimulatedLoop& loop, const NonlinearVerificationOptions& o
   for (Index k = 0; k < after.size(); ++k) {
     if (std::abs(after[k]) > options.settled_error) out = k;
   }
-  if (out + 1 < after.size()) {
+  // Not one that hunts through the bound and happens to be within it at the end.
+  const Index long_enough =
+      whole_samples(std::min(10.0, 0.5 * options.settling_watched), loop.sample_time);
+  if (after.size() - (out + 1) >= long_enough) {
     result.settling_time = loop.sample_time * static_cast<double>(out + 1);
     // Far behind on the way, but it arrived.
     result.status = RunStatus::complete;

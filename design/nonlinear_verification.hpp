@@ -99,7 +99,8 @@ struct SlewResult {
   double command_time = 0.0;      // s
   double largest_error = 0.0;     // rad, of the encoder from the command, while it moves
   double overshoot = 0.0;         // rad, beyond the target
-  /// s from the end of the command; none if not settled by the end of the run.
+  /// s from the end of the command; none if not settled for the last 10 s (or half of what is
+  /// watched).
   std::optional<double> settling_time;
   double at_command_limit = 0.0;  // share of samples
 };

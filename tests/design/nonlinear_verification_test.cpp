@@ -136,6 +136,28 @@ TEST(NonlinearVerification, EveryDifferenceFromThePredictionHasAName) {
               control::least_move_time(result.slew->limits, 1000.0 * mdeg), 0.07);
 }
 
+TEST(NonlinearVerification, ASlewThatHuntsThroughItsBoundHasNotSettled) {
+  const auto problem = reference::tracking_problem();
+  // Hunts by some 7 mdeg at rest.
+  const control::ControlLaw law{control::LoopStructure::pi_with_lag(),
+                                {0.1587, 0.42067, 2.6279, 10.258, 1.2}};
+  const auto loop = loop_with_coulomb_friction(problem, law, 10.0);
+  auto wanted = options();
+  wanted.explain = false;
+  wanted.wind_duration = 1.0;
+  wanted.settling = 5.0;
+  const auto settling = [&](double bound) {
+    wanted.settled_error = bound;
+    const auto result = verify_in_time(problem, loop, wanted);
+    return result.slew ? result.slew->settling_time : std::nullopt;
+  };
+  // A bound that the swing passes through twice a period: the last seconds may lie within.
+  for (const double bound : {0.5 * mdeg, 2.0 * mdeg, 6.0 * mdeg}) {
+    EXPECT_FALSE(settling(bound).has_value()) << bound / mdeg;
+  }
+  EXPECT_TRUE(settling(60.0 * mdeg).has_value());
+}
+
 TEST(NonlinearVerification, SameBytesWhateverTheThreads) {
   const auto loop = reference_loop();
   const auto problem = reference::tracking_problem();

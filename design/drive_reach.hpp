@@ -11,7 +11,8 @@ double attainable_rate(const plant::NonlinearAntenna& antenna, double wanted);
 
 /// Rate and acceleration (rad/s, rad/s2 of motor) that leave the drive a reserve: the wanted ones,
 /// or four fifths of the rate that the supply can hold if that is less, and half of what the torque
-/// left at that rate gives the whole antenna, of `inertia` kg m2, if that is less.
+/// left at that rate gives the whole antenna, of `inertia` kg m2, if that is less. A rate
+/// or acceleration of 0 or less: the supply cannot move the antenna against its friction.
 control::CommandLimits within_reach(const plant::NonlinearAntenna& antenna, double inertia,
                                     const control::CommandLimits& wanted);
 

@@ -148,7 +148,7 @@ class LoopEvaluator {
   /// tolerance, however lightly its closed loop is damped. Frequencies that one law asked for are
   /// at hand for the next; no value depends on what was evaluated before. `channels`: the response
   /// at a frequency in rad/s; `wind_spectrum`: one-sided, (N m)^2/Hz at the motor shaft, at a
-  /// frequency in Hz; both smooth.
+  /// frequency in Hz; both smooth: what has kinks is better served on a grid.
   /// @throws InvalidInput for bands that are not in order or do not meet, or a tolerance or panel
   /// width that is not positive; NumericalFailure for a response or spectrum that is not finite.
   LoopEvaluator(std::function<plant::ResponsePoint(double frequency)> channels, double delay,
@@ -233,6 +233,7 @@ class LoopEvaluator {
   void use_first_panels();
   void make_panels(const LoopQuadrature& quadrature);
   void add_resolved(double from, double to, const LoopQuadrature& quadrature);
+  double panel_weight(const Panel& panel, std::size_t lane) const;
   std::uint32_t add_panel(double from, double to);
   void keep_first_panels();
   void choose_leaves(const Sweep& sweep);

@@ -16,8 +16,11 @@ using ChannelValues = std::array<Complex, plant::pack_size>;
 constexpr double two_pi = 2.0 * std::numbers::pi;
 // In ln w: what turns within less is taken for an undamped pole, which nothing would resolve.
 constexpr double narrowest_panel = 1e-7;
-// Panels that evaluations may add before they are made anew.
-constexpr std::size_t most_panels = 20000;
+// In ln w: of the panel that carries what lies below it.
+constexpr double lowest_panel = 1e-3;
+// Panels kept between evaluations, some 2.5 kB each, and those of one evaluation.
+constexpr std::size_t most_panels = 4000;
+constexpr std::size_t most_leaves = 4000;
 
 void check(const LoopQuadrature& quadrature, const SensorNoise& noise) {
   const auto& [lowest, highest] = quadrature.analysis;
@@ -72,6 +75,14 @@ LoopEvaluator::LoopEvaluator(std::function<plant::ResponsePoint(double)> channel
   make_panels(quadrature);
 }
 
+// Hz. The lowest panel stands for all below it, with the density of its own frequencies.
+double LoopEvaluator::panel_weight(const Panel& panel, std::size_t lane) const {
+  const PanelRule& rule = panel_rule();
+  if (panel.from == lowest_place_) return 0.5 * rule.weight[lane] * std::exp(panel.to) / two_pi;
+  const double w = std::exp(panel.centre() + panel.half_width() * rule.node[lane]);
+  return panel.half_width() * rule.weight[lane] * w / two_pi;
+}
+
 // Adds the panel; its values come from the plant.
 std::uint32_t LoopEvaluator::add_panel(double from, double to) {
   const double half_width = 0.5 * (to - from), centre = 0.5 * (from + to);
@@ -82,9 +93,7 @@ std::uint32_t LoopEvaluator::add_panel(double from, double to) {
     const double hertz = w / two_pi;
     const plant::ResponsePoint response = channels_.at(w);
     pack.set(lane, w, response, delay_);
-    double weight = half_width * rule.weight[lane] * hertz;
-    // What lies below all panels, its spectral density taken for that of the lowest frequency.
-    if (lane == 0 && from == lowest_place_) weight += std::exp(lowest_place_) / two_pi;
+    const double weight = panel_weight({from, to, 0}, lane);
     // Edges of the bands are edges of panels.
     const bool within = hertz > band_.lowest && hertz < band_.highest;
     const double spectrum = within ? wind_spectrum_(hertz) : 0.0;
@@ -135,8 +144,11 @@ void LoopEvaluator::make_panels(const LoopQuadrature& quadrature) {
   for (const double edge : {lowest, highest, band_.lowest, band_.highest, noise_.bandwidth}) {
     if (edge >= lowest && edge <= highest) edges.push_back(std::log(two_pi * edge));
   }
+  if (band_.lowest < lowest) {
+    lowest_place_ = std::log(two_pi * lowest);
+    edges.push_back(lowest_place_ + lowest_panel);
+  }
   std::sort(edges.begin(), edges.end());
-  if (band_.lowest < lowest) lowest_place_ = edges.front();
   for (std::size_t e = 0; e + 1 < edges.size(); ++e) {
     const double width = edges[e + 1] - edges[e];
     if (width < narrowest_panel) continue;
@@ -175,7 +187,7 @@ bool LoopEvaluator::close_enough(std::uint32_t i, const Limits& limits) const {
   const double half_width = panel.half_width();
   if (half_width < narrowest_panel) return true;
   const LoopValues& values = values_[i];
-  // The lowest panel carries all below it.
+  // The lowest panel is smooth: it is narrow.
   if (packs_[i].weighted && panel.from != lowest_place_) {
     // The narrower the panel, the further in it a gain moves a pole: the gradient's error against
     // the variance's grows.
@@ -218,7 +230,7 @@ void LoopEvaluator::choose_leaves(const Sweep& sweep) {
     waiting[0] = first;
     while (count > 0) {
       const std::uint32_t i = waiting[--count];
-      if (count + 2 > waiting.size() || close_enough(i, limits)) {
+      if (count + 2 > waiting.size() || leaves_.size() > most_leaves || close_enough(i, limits)) {
         leaves_.push_back(i);
         continue;
       }
@@ -259,14 +271,13 @@ void LoopEvaluator::use_first_panels() {
         &response.encoder_wind, &response.beam_wind}) {
     channel->resize(count);
   }
-  const PanelRule& rule = panel_rule();
   for (Eigen::Index k = 0; k < count; ++k) {
     const auto i = static_cast<std::size_t>(k) / plant::pack_size;
     const auto lane = static_cast<std::size_t>(k) % plant::pack_size;
     const GridPack& pack = packs_[i];
     const double w = pack.frequency[lane], hertz = w / two_pi;
     const bool within = hertz > band_.lowest && hertz < band_.highest;
-    weight_[k] = within ? panels_[i].half_width() * rule.weight[lane] * hertz : 0.0;
+    weight_[k] = within ? panel_weight(panels_[i], lane) : 0.0;
     response.frequency[k] = w;
     const Complex advance = std::polar(1.0, w * delay_);
     const auto value = [&](const plant::ComplexPack& channel) {

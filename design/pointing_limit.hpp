@@ -108,8 +108,9 @@ struct PointingLimitOptions {
 /// judged from its closed loop: eigenvalues, covariance, response. The result does not depend on
 /// the number of threads. Without members about a second; the robust search takes some 0.3 s a
 /// member.
-/// @throws InvalidInput for a sensor without noise, a sample time that is not positive, laws that
-/// are not valid; NumericalFailure for a plant that cannot be controlled or observed.
+/// @throws InvalidInput for an encoder or tachometer without noise, a sample time that is not
+/// positive, laws that are not valid; NumericalFailure for a plant that cannot be controlled or
+/// observed.
 PointingLimit pointing_limit(const TrackingProblem& problem, const HardGoals& goals,
                              const std::vector<EnsembleMember>& members,
                              const std::vector<NamedLaw>& laws,

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <boresight/control/antenna_in_wind.hpp>
+#include <boresight/control/h2_norm.hpp>
 #include <boresight/control/lyapunov.hpp>
 #include <boresight/design/sampled_setting.hpp>
 #include <boresight/plant/dense_response.hpp>
@@ -53,6 +54,14 @@ Eigen::ArrayXXcd responses(const plant::StateSpace& system, const Eigen::ArrayXd
   return result;
 }
 
+// Share of the wind's torque that the torque's noise is where none is stated: laws that feed torque
+// back hear none then, and an LQG that hears so little is as good as without.
+constexpr double least_torque_noise = 1e-3;
+
+double wind_torque_rms(const plant::ShapingFilter& wind) {
+  return control::h2_norm(plant::to_state_space(wind, "wind_torque")).value;
+}
+
 Eigen::MatrixXd steady_covariance(const Eigen::MatrixXd& a, const Eigen::MatrixXd& jolts) {
   return control::solve_discrete_lyapunov(a, jolts, {.estimate_condition = false}).covariance;
 }
@@ -68,9 +77,11 @@ SampledSetting::SampledSetting(std::string name, const plant::AntennaPlant& plan
   problem_.measured = sensors();
   problem_.sample_time = problem_.computation_delay = sample_time;
   problem_.disturbance_intensity = {{"wind_white_noise", 1.0}};
+  const double torque_rms =
+      noise.torque_rms == 0.0 ? least_torque_noise * wind_torque_rms(wind) : noise.torque_rms;
   for (const auto& [sensor, rms] :
        {std::pair("tachometer", noise.tachometer_rms), std::pair("encoder", noise.encoder_rms),
-        std::pair("motor_torque", noise.torque_rms)}) {
+        std::pair("motor_torque", torque_rms)}) {
     if (!(rms > 0.0)) {
       throw InvalidInput(
           fmt::format("pointing limit: expected noise of the {} above 0, found {}: state it, a "

@@ -35,8 +35,9 @@ struct SampledPeak {
 class SampledSetting {
  public:
   /// `frequency`: rad/s, rising, where peaks are looked for (below the Nyquist frequency).
-  /// @throws InvalidInput for a noise that is not positive (a sensor without noise leaves nothing
-  /// to estimate), and as control::sampled_problem.
+  /// Torque noise of 0 (not stated) counts as a thousandth of the wind's torque.
+  /// @throws InvalidInput for another noise that is not positive (such a sensor leaves nothing to
+  /// estimate), and as control::sampled_problem.
   SampledSetting(std::string name, const plant::AntennaPlant& plant,
                  const plant::ShapingFilter& wind, const control::SensorNoise& noise,
                  double sample_time, Eigen::ArrayXd frequency);

@@ -193,11 +193,28 @@ TEST(PointingLimit, SaysOfALawThatIsUnstableOnlyThat) {
   EXPECT_TRUE(std::isnan(judged.valve_effort));
 }
 
+TEST(SampledSetting, TakesTorqueWithoutStatedNoiseForNextToExact) {
+  TrackingProblem problem = problem_with_torque_noise();
+  const auto filter = fit_wind_filter(problem);
+  const Eigen::ArrayXd some = Eigen::ArrayXd::LinSpaced(30, 0.1, 150.0);
+  const auto variance = [&](double torque_noise) {
+    problem.noise.torque_rms = torque_noise;
+    return SampledSetting("own", problem.plant, filter, problem.noise, 0.02, some)
+        .problem()
+        .measurement_variance.at("motor_torque");
+  };
+  EXPECT_DOUBLE_EQ(variance(0.5), 0.25);
+  // The wind: 13.9 N m above 1e-4 Hz, and what its filter adds below.
+  EXPECT_GT(std::sqrt(variance(0.0)), 1e-3 * 13.9);
+  EXPECT_LT(std::sqrt(variance(0.0)), 1.5e-3 * 13.9);
+}
+
 TEST(PointingLimit, RefusesWhatItCannotJudge) {
-  TrackingProblem problem = reference::tracking_problem();
+  TrackingProblem problem = problem_with_torque_noise();
+  problem.noise.tachometer_rms = 0.0;
   EXPECT_THAT([&] { pointing_limit(problem, {}, {}, {}); },
-              ThrowsMessage<InvalidInput>(HasSubstr("expected noise of the motor_torque above 0")));
-  problem.noise.torque_rms = 0.5;
+              ThrowsMessage<InvalidInput>(HasSubstr("expected noise of the tachometer above 0")));
+  problem = problem_with_torque_noise();
   EXPECT_THAT([&] { pointing_limit(problem, {}, {}, {}, {.sample_time = 0.0}); },
               ThrowsMessage<InvalidInput>(HasSubstr("expected a sample time above 0, found 0 s")));
   NamedLaw law = tuned_laws().front();

@@ -282,7 +282,10 @@ LoopRun run_loop(const SimulatedLoop& loop, const LoopCourse& course,
     reference.array() += start.encoder - lead - course.reference[0];
   } catch (const NumericalFailure& failure) {
     run.status = RunStatus::failed;
-    run.message = failure.what();
+    run.message = fmt::format(
+        "no steady motion to start from at {:.3g} rad/s of motor against {:.4g} N m of "
+        "wind: {}",
+        course.reference_rate[0], course.wind_torque[0], failure.what());
     return run;
   }
   if (straight) {

@@ -128,6 +128,11 @@ std::vector<double> FeasibleSearch::random_point(std::mt19937_64& generator) con
 
 std::vector<double> FeasibleSearch::retreat(const std::vector<double>& from,
                                             const std::vector<double>& towards) {
+  if (from.size() != towards.size()) {
+    throw InvalidInput(
+        fmt::format("FeasibleSearch: expected two points of one size, found {} and {}", from.size(),
+                    towards.size()));
+  }
   std::vector<double> point = from;
   for (int step = 0; step < options_.retreat_steps; ++step) {
     for (std::size_t k = 0; k < point.size(); ++k) {

@@ -80,6 +80,7 @@ class FeasibleSearch {
   std::vector<double> random_point(std::mt19937_64& generator) const;
 
   /// The first defined point on the straight way from `from` to `towards` (itself if none is).
+  /// @throws InvalidInput for points of different sizes.
   std::vector<double> retreat(const std::vector<double>& from, const std::vector<double>& towards);
 
   /// Searches from a start: best feasible point seen from there, if any. A start without a feasible

@@ -180,6 +180,8 @@ void describe_limits(std::vector<JudgedPlant>& plants, const EnsembleSearch& ens
       if (goal.ratio > threshold * (1.0 - 1e-4)) active.push_back({goal, plant.name(), 0.0});
     }
   }
+  // Nothing to price where the winding and the eigenvalues differ on a member.
+  if (!feasible && active.empty()) return;
   const auto row = [&](const std::array<double, control::most_gains>& gradient) {
     return Eigen::Map<const Eigen::RowVectorXd>(gradient.data(), size);
   };

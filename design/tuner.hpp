@@ -84,7 +84,8 @@ struct TuningResult {
   bool interrupted = false;
 };
 
-/// The largest of quantity/limit over the hard goals; infinity for an unstable loop.
+/// The largest of quantity/limit over the goals of sensitivity peaks and valve effort; infinity for
+/// an unstable loop. JudgedPlant looks at all goals.
 double worst_goal_ratio(const control::LoopEvaluation& evaluation, const HardGoals& goals);
 
 /// Least beam rms under the hard goals: sequential quadratic programming on the logarithms of the

@@ -299,6 +299,11 @@ TEST(FeasibleSearch, SaysWhatItExpects) {
   FeasibleSearch search(two_discs());
   EXPECT_THAT([&] { search.evaluate({1.0}); },
               ThrowsMessage<InvalidInput>(HasSubstr("2 variables, found 1")));
+  EXPECT_THAT(
+      [&] {
+        search.retreat({1.0, 1.0}, {1.0});
+      },
+      ThrowsMessage<InvalidInput>(HasSubstr("one size, found 2 and 1")));
 }
 
 }  // namespace

@@ -1,0 +1,160 @@
+#include <cmath>
+#include <numbers>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <boresight/app/report/measured_report.hpp>
+#include <boresight/app/report/sky_units.hpp>
+#include <boresight/app/report/text_layout.hpp>
+
+namespace boresight::app {
+namespace {
+
+using design::MeasuredTuningStatus;
+using Rows = std::vector<std::vector<std::string>>;
+constexpr double two_pi = 2.0 * std::numbers::pi;
+
+std::string mdeg(const MeasuredTuneSection& section, double motor_angle) {
+  return fmt::format("{:.4f}", motor_angle / section.gear_ratio / millidegree);
+}
+
+bool has_law(const MeasuredLaw& law) {
+  return law.tuning.status != MeasuredTuningStatus::unstable;
+}
+
+std::string peak_text(const design::MeasuredPeak& peak) {
+  return fmt::format("{:.3f} / {:.3f}{}", peak.measured.magnitude, peak.within_confidence.magnitude,
+                     peak.basis == control::ResponseBasis::measured ? "" : "*");
+}
+
+std::string record_text(const MeasuredTuneSection& section) {
+  const control::MeasuredChannels& channels = *section.channels;
+  std::string text = wrapped(
+      fmt::format("Record {}: {:.1f} s from {:.1f} s on, at {:.3g} rad/s of motor. The valve "
+                  "command excites {:.3g} to {:.3g} Hz; {} frequencies from {:.3g} to {:.3g} Hz "
+                  "are usable, {} left out as not coherent; they resolve {:.0f} % of the band.",
+                  section.record, section.length, section.start, section.mean_rate,
+                  section.lowest_excited, section.highest_excited, channels.frequency().size(),
+                  channels.lowest_frequency() / two_pi, channels.highest_frequency() / two_pi,
+                  channels.points_left_out(), 100.0 * channels.resolved_share()),
+      "  ");
+  if (!section.encoder_column.empty() && !channels.encoder_assumed().empty()) {
+    text += wrapped(
+        fmt::format("The encoder ({}) is not coherent from {:.3g} Hz on at places: "
+                    "there it is taken to follow the motor, uncertain by all of itself.",
+                    section.encoder_column, channels.encoder_assumed().front().lowest / two_pi),
+        "  ");
+  }
+  return text + wrapped(fmt::format("Lowest frequencies: inertia {:.4g} kg.m2 and friction {:.3g} "
+                                    "N.m.s/rad at the motor shaft.",
+                                    channels.low_end_inertia(), channels.low_end_friction()),
+                        "  ");
+}
+
+std::string laws_text(const MeasuredTuneSection& section) {
+  Rows rows{{"structure", "rms mdeg", "wind", "noise", "S rate", "S valve", "S pos.",
+             "effort rad/s", "assumed", "check"}};
+  for (const auto& law : section.laws) {
+    if (!has_law(law)) {
+      rows.push_back({law.structure});
+      rows.back().insert(rows.back().end(), 8, "-");
+      rows.back().emplace_back("no stable law");
+      continue;
+    }
+    const auto& tuning = law.tuning;
+    rows.push_back({law.structure, mdeg(section, tuning.rms), mdeg(section, tuning.wind_rms),
+                    mdeg(section, tuning.noise_rms)});
+    for (const auto& peak : tuning.verification.peaks) rows.back().push_back(peak_text(peak));
+    rows.back().push_back(fmt::format("{:.3f}", tuning.valve_effort));
+    rows.back().push_back(fmt::format("{:.1f} %", 100.0 * tuning.wind_share.total()));
+    rows.back().emplace_back(tuning.status == MeasuredTuningStatus::confident ? "verified"
+                             : tuning.status == MeasuredTuningStatus::nominal ? "not confident"
+                                                                              : "misses goals");
+  }
+  return table(rows, "l") +
+         wrapped(
+             "S: peak of the sensitivity as measured / within the confidence, with the loop cut "
+             "at rate loop alone, valve command, position loop; *: at a frequency that was not "
+             "measured. assumed: share of the wind's variance from such frequencies.",
+             "  ");
+}
+
+std::string gains_text(const MeasuredLaw& law) {
+  std::vector<std::string> gains;
+  const auto& descriptions = control::gain_descriptions(law.tuning.law.structure);
+  for (std::size_t k = 0; k < descriptions.size(); ++k) {
+    gains.push_back(fmt::format("{} {:.5g}{}", descriptions[k].symbol, law.tuning.law.gains[k],
+                                descriptions[k].unit == "1" ? "" : " " + descriptions[k].unit));
+  }
+  return wrapped(fmt::format("{}: {}.", law.structure, fmt::join(gains, ", ")), "  ", "  ");
+}
+
+std::string verdict_text(const MeasuredLaw& law) {
+  const auto& tuning = law.tuning;
+  const auto& check = tuning.verification;
+  std::string text = fmt::format(
+      "{}: {}{}. Confidence {:g} % at each frequency; the response's errors move 1 + L by at most "
+      "{:.0f} % of it. |L| at the highest measured frequency is {:.2g} (rate loop alone) and "
+      "{:.2g}: "
+      "a resonance above it that raises the response {:.2g} times is not judged. The confidence "
+      "costs {:.1f} % of rms. 1 % more oil stiffness would change the rms by {:+.2f} %, 1 % more "
+      "loss by {:+.2f} %.",
+      law.structure, design::to_string(tuning.status),
+      check.failure.empty() ? "" : ": " + check.failure, 100.0 * tuning.confidence,
+      100.0 * check.largest_error, check.gain_at_highest[0], check.gain_at_highest[1],
+      1.0 / std::max(check.gain_at_highest[0], check.gain_at_highest[1]),
+      100.0 * (tuning.rms / tuning.nominal_rms - 1.0), tuning.by_stiffness, tuning.by_loss_rate);
+  const auto& on_case = law.peaks_on_case;
+  text +=
+      law.stable_on_case
+          ? fmt::format(
+                " On the case's linear plant the same gains have peaks of {:.2f}, {:.2f} "
+                "and {:.2f}.",
+                on_case[0], on_case[1], on_case[2])
+          : " On the case's linear plant, of another motion, the same gains are UNSTABLE: not to "
+            "be used before a record at tracking speed.";
+  if (!tuning.active_goals.empty()) {
+    text += fmt::format(" Limited by {}.", fmt::join(tuning.active_goals, "; "));
+  }
+  if (!tuning.gains_at_bound.empty()) {
+    text += fmt::format(" At the bound of the search: {}.", fmt::join(tuning.gains_at_bound, ", "));
+  }
+  return wrapped(text, "  ", "  ");
+}
+
+}  // namespace
+
+std::string to_text(const MeasuredTuneSection& section) {
+  std::string text = heading(
+      fmt::format("Loops tuned on the measured response, wind {:g} m/s", section.wind_speed));
+  text += record_text(section) + "\n" + laws_text(section);
+  text += heading("Gains, SI at the motor shaft");
+  for (const auto& law : section.laws) {
+    if (has_law(law)) text += gains_text(law);
+  }
+  text += heading("What the verdicts rest on");
+  for (const auto& law : section.laws) {
+    if (has_law(law)) text += verdict_text(law);
+  }
+  for (const auto& note : section.notes) text += wrapped("- " + note + ".", "  ", "  ");
+  return text;
+}
+
+std::vector<std::string> conclude(const MeasuredTuneSection& section) {
+  std::vector<std::string> sentences;
+  for (const auto& law : section.laws) {
+    const auto& tuning = law.tuning;
+    sentences.push_back(
+        has_law(law)
+            ? fmt::format(
+                  "{} on the measured response: encoder rms {} mdeg in {:g} m/s for wind at "
+                  "the motor shaft, {}.",
+                  law.structure, mdeg(section, tuning.rms), section.wind_speed,
+                  design::to_string(tuning.status))
+            : fmt::format("{} on the measured response: no stable law found.", law.structure));
+  }
+  return sentences;
+}
+
+}  // namespace boresight::app

@@ -43,6 +43,16 @@ TEST(PeerTuning, FindsItFromNearlyEveryStart) {
   EXPECT_GE(reached, 198);
 }
 
+TEST(PeerTuning, KnowsAnotherOptimumAtTheBoundOfTheRateIntegral) {
+  const auto tuning = reference::tune_peer(5, {0.5, 1e-3, 3.7, 17.0});
+  ASSERT_TRUE(tuning.has_value());
+  const auto judged = reference::judge_peer(5, tuning->gains);
+  EXPECT_LT(judged.abscissa, 0.0);
+  EXPECT_GT(judged.abscissa, -0.01);
+  EXPECT_LT(judged.peak, reference::peer_peak_limit * (1.0 + 1e-6));
+  EXPECT_LT(relative_error(judged.rms, 2.44083), 1e-5);
+}
+
 TEST(PeerTuning, WithFiveHundredModesEndsAtItsLimit) {
   const auto tuning = reference::tune_peer(500);
   ASSERT_TRUE(tuning.has_value());

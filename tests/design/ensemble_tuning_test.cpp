@@ -180,6 +180,15 @@ TEST(Tune, SaysWhatRelaxingAGoalBuys) {
     const TuningResult result = tune(problem, structure, {}, {});
     EXPECT_LT(result.gradient_residual, 1e-3);
     ASSERT_FALSE(result.limits.empty());
+    EXPECT_THAT(result.limits.front().description(), HasSubstr("sensitivity peak at "));
+    EXPECT_THAT(result.limits.front().description(), HasSubstr(" Hz: 1 % more buys 0."));
+    // DPF's lag would go on beyond its bound of 300 rad/s.
+    EXPECT_EQ(result.limiting_bounds.empty(), structure == LoopStructure::pi_with_lag());
+    for (const LimitingBound& bound : result.limiting_bounds) {
+      EXPECT_EQ(bound.gain, "rate lag corner");
+      EXPECT_TRUE(bound.upper);
+      EXPECT_EQ(bound.gain, result.gains_at_bound.front());
+    }
     for (std::size_t b = 0; b < control::loop_breaks.size(); ++b) {
       double price = 0.0;
       for (const LimitingGoal& limit : result.limits) {

@@ -29,6 +29,7 @@ std::string peak_text(const design::MeasuredPeak& peak) {
 }
 
 std::string record_text(const MeasuredTuneSection& section) {
+  if (!section.channels) return {};
   const control::MeasuredChannels& channels = *section.channels;
   std::string text = wrapped(
       fmt::format("Record {}: {:.1f} s from {:.1f} s on, at {:.3g} rad/s of motor. The valve "

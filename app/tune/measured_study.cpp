@@ -270,8 +270,8 @@ MeasuredTuneSection tune_measured(const Case& antenna, const MeasuredStudyOption
   section.goals = {goals.sensitivity_peak, goals.valve_effort};
   add_notes(antenna, section);
 
-  const design::MeasuredProblem measured{*section.channels, problem.gear_ratio, problem.delay,
-                                         problem.noise,     problem.wind,       problem.rms_band};
+  const design::MeasuredProblem measured{channels,      problem.gear_ratio, problem.delay,
+                                         problem.noise, problem.wind,       problem.rms_band};
   design::MeasuredTuningOptions tuning;
   tuning.seed = options.seed;
   tuning.stop = options.interrupted;

@@ -265,7 +265,9 @@ MeasuredTuneSection tune_measured(const Case& antenna, const MeasuredStudyOption
   section.wind_speed = problem.wind.mean_speed;
   control::MeasuredPlant measured_response = measured_plant(estimate, encoder.has_value());
   if (!encoder) assume_encoder(problem.plant, measured_response);
-  section.channels.emplace(measured_response, section.oil, problem.plant.drive.tachometer_corner);
+  const control::MeasuredChannels channels(measured_response, section.oil,
+                                           problem.plant.drive.tachometer_corner);
+  section.channels = channels;
   const auto goals = make_goals(antenna);
   section.goals = {goals.sensitivity_peak, goals.valve_effort};
   add_notes(antenna, section);

@@ -1,22 +1,12 @@
 #include <algorithm>
-#include <atomic>
 #include <cmath>
-#include <cstddef>
-#include <exception>
-#include <filesystem>
-#include <set>
-#include <thread>
 
 #include <fmt/format.h>
 
 #include <boresight/app/identify/campaign.hpp>
-#include <boresight/app/identify/raw_record.hpp>
+#include <boresight/app/identify/loaded_record.hpp>
 #include <boresight/app/io/field.hpp>
-#include <boresight/app/io/record_columns.hpp>
-#include <boresight/app/io/record_file.hpp>
-#include <boresight/app/io/wording.hpp>
 #include <boresight/app/redesign/antenna_model.hpp>
-#include <boresight/identification/test_recognition.hpp>
 #include <boresight/plant/gear_train.hpp>
 
 namespace boresight::app {
@@ -25,108 +15,8 @@ namespace {
 using identification::TestKind;
 using identification::Uncertain;
 
-constexpr std::pair<const char*, TestKind> tests[] = {{"slosh", TestKind::slosh},
-                                                      {"fast-ramp", TestKind::fast_ramp},
-                                                      {"slow-ramp", TestKind::slow_ramp},
-                                                      {"constant-speed", TestKind::constant_speed},
-                                                      {"valve-steps", TestKind::valve_steps},
-                                                      {"valve-chirp", TestKind::valve_chirp},
-                                                      {"other", TestKind::other}};
-
 Uncertain uncertain(const Quantity& quantity) {
   return {quantity.value, quantity.standard_uncertainty};
-}
-
-std::string resolved(const Case& antenna, const std::string& file) {
-  const std::filesystem::path path(file);
-  if (path.is_absolute()) return file;
-  return (std::filesystem::path(antenna.path).parent_path() / path).string();
-}
-
-/// A record on its way from file to campaign.
-struct Work {
-  RecordNotes notes;
-  std::vector<RecordColumn> columns;  // without their values
-  identification::RawRecord raw;
-  identification::CleanRecord clean;
-  std::exception_ptr failure;
-};
-
-void load(const Case& antenna, const RecordEntry& entry, Work& work) {
-  RecordNotes& notes = work.notes;
-  notes.name = entry.name;
-  notes.description = entry.description;
-  notes.path = resolved(antenna, entry.file);
-  const RecordTable table = read_record(notes.path);
-  notes.format = table.format;
-  notes.bytes = table.bytes;
-  notes.checksum = record_checksum(notes.path);
-  notes.remarks = table.remarks;
-  for (const auto& column : table.columns) work.columns.push_back({column.name, column.unit, {}});
-  work.raw = raw_record(antenna, table, notes);
-  work.raw.name = entry.name;
-  for (const auto& [name, test] : tests) {
-    if (entry.test == name) work.raw.test = test;
-  }
-  work.raw.rate_loop_closed = entry.rate_loop == "closed";
-  work.clean = identification::clean_record(work.raw);
-}
-
-// Each record on a thread of its own, as many at once as there are processors. Nothing depends on
-// their order.
-std::vector<Work> load_all(const Case& antenna) {
-  const auto& entries = antenna.campaign.records;
-  std::vector<Work> works(entries.size());
-  std::atomic<std::size_t> next{0};
-  const auto take = [&] {
-    for (std::size_t i = next++; i < works.size(); i = next++) {
-      try {
-        load(antenna, entries[i], works[i]);
-      } catch (...) {
-        works[i].failure = std::current_exception();
-      }
-    }
-  };
-  std::vector<std::jthread> threads;
-  const std::size_t most = std::max(1U, std::thread::hardware_concurrency());
-  for (std::size_t i = 1; i < std::min(most, works.size()); ++i) threads.emplace_back(take);
-  take();
-  threads.clear();
-  for (const Work& work : works) {
-    if (work.failure) std::rethrow_exception(work.failure);
-  }
-  return works;
-}
-
-// A record may lack a column that the case names, but not every record: that is a misspelt name.
-void check_names(const Case& antenna, const std::vector<Work>& works) {
-  RecordTable all;  // of all records' columns, one of each name
-  std::set<std::string> seen;
-  std::vector<std::string_view> names;
-  for (const Work& work : works) {
-    for (const RecordColumn& column : work.columns) {
-      all.columns.push_back(column);
-      if (!seen.insert(column.name).second) all.columns.pop_back();
-    }
-  }
-  for (const RecordColumn& column : all.columns) names.push_back(column.name);
-  const auto check = [&](const std::string& name, const Location& location,
-                         const std::string& key) {
-    for (const Work& work : works) {
-      for (const RecordColumn& column : work.columns) {
-        if (is_named(column, name)) return;
-      }
-    }
-    refuse_at(location, key,
-              fmt::format("expected a column of one record at least, found {}{} where they have {}",
-                          app::quoted(name), did_you_mean(name, names), columns_of(all)));
-  };
-  const RecordColumnsEntry& entry = antenna.campaign.columns;
-  for (const auto* command : {&entry.rate_command, &entry.valve_command}) {
-    if (*command) check((*command)->name, (*command)->location, (*command)->key);
-  }
-  for (const std::string& name : entry.reversed)
-    check(name, entry.reversed_location, "record_columns.reversed");
 }
 
 identification::Instruments make_instruments(const Case& antenna, CampaignNotes& notes) {
@@ -180,22 +70,26 @@ double spread_of_means(const identification::RawRecord& raw,
 
 // A sum over n motors of which k are the mean of the others has more of the others' errors, and
 // does not know what sets the k apart.
-void raise_for_replaced(const Work& work, identification::Instruments& instruments,
+void raise_for_replaced(const LoadedRecord& work, identification::Instruments& instruments,
                         const identification::Instruments& stated) {
   const auto motors = static_cast<double>(work.raw.inlet.size());
   double variance = 0.0;  // of the sum of all channels, in those of one
   double unknown = 0.0;
+  double zeros = 0.0;  // of the sum of all channels, what the dead ones' zeros would have added
   for (const auto* replaced : {&work.clean.replaced_inlets, &work.clean.replaced_outlets}) {
     const auto dead = static_cast<double>(replaced->size());
     variance += motors * motors / (motors - dead);
     const auto& side = replaced == &work.clean.replaced_inlets ? work.raw.inlet : work.raw.outlet;
-    unknown += dead * std::pow(spread_of_means(work.raw, side, *replaced), 2);
+    const double apart = spread_of_means(work.raw, side, *replaced);
+    unknown += dead * std::pow(apart, 2);
+    zeros += std::pow(std::max(apart, stated.pressure_zero), 2) * dead * motors / (motors - dead);
   }
   const double growth = std::sqrt(variance / (2.0 * motors));
   instruments.pressure_gain = std::max(instruments.pressure_gain, growth * stated.pressure_gain);
   instruments.pressure_zero =
       std::max(instruments.pressure_zero,
                std::hypot(growth * stated.pressure_zero, std::sqrt(unknown / (2.0 * motors))));
+  instruments.unknown_pressure_sum = std::max(instruments.unknown_pressure_sum, std::sqrt(zeros));
 }
 
 // A closed rate loop follows its command: with the valve amplifier driven by the command, valve
@@ -205,7 +99,9 @@ bool loop_seems_closed(const identification::DriveRecord& record) {
   if (record.test != TestKind::fast_ramp && record.test != TestKind::other) return false;
   if (!record.rate_command) return false;
   const Eigen::VectorXd& command = record.rate_command->values;
-  if (record.valve_command) {
+  // Nothing was asked of the loop.
+  if (!(command.norm() > 0.0)) return false;
+  if (record.valve_command && record.valve_command->values.norm() > 0.0) {
     const Eigen::VectorXd& valve = record.valve_command->values;
     const double alike = command.dot(valve) / (command.norm() * valve.norm());
     return !(alike > 0.9995);
@@ -215,12 +111,6 @@ bool loop_seems_closed(const identification::DriveRecord& record) {
 }
 
 }  // namespace
-
-std::string to_string(TestKind test) {
-  const auto* const found = std::find_if(std::begin(tests), std::end(tests),
-                                         [test](const auto& one) { return one.second == test; });
-  return found->first;
-}
 
 identification::DriveKnowledge drive_knowledge(const Case& antenna, CampaignNotes& notes) {
   identification::DriveKnowledge knowledge;
@@ -276,11 +166,26 @@ identification::DriveKnowledge drive_knowledge(const Case& antenna, CampaignNote
   } else {
     notes.assumptions.emplace_back("no drive.return_pressure: taken as zero");
   }
+  if (!(knowledge.supply_pressure > knowledge.return_pressure)) {
+    const Quantity& supply = antenna.drive.supply_pressure;
+    refuse_at(supply.location, supply.key,
+              fmt::format("expected a supply pressure above the return's, {:.4g} Pa, found {} "
+                          "({:.4g} Pa)",
+                          knowledge.return_pressure, supply.text, supply.value));
+  }
+  if (!antenna.oil.efficiency_in_stiffness) {
+    notes.assumptions.push_back(fmt::format(
+        "oil.efficiency_in_stiffness = false: what records show is K with both efficiencies, since "
+        "torque counts with one and flow with the other; K = beta D^2 (1/V1 + 1/V2) alone would be "
+        "{:.4f} times the oil stiffness found here",
+        1.0 / (knowledge.torque_efficiency.value * knowledge.volumetric_efficiency.value)));
+  }
   knowledge.tracking_rate = antenna.drive.tracking_rate.value * gear_ratio(antenna);
   return knowledge;
 }
 
-identification::Campaign make_campaign(const Case& antenna, CampaignNotes& notes) {
+identification::Campaign make_campaign(const Case& antenna, CampaignNotes& notes,
+                                       unsigned threads) {
   const auto& entries = antenna.campaign.records;
   if (entries.empty()) {
     throw InvalidInput(
@@ -290,24 +195,12 @@ identification::Campaign make_campaign(const Case& antenna, CampaignNotes& notes
   campaign.knowledge = drive_knowledge(antenna, notes);
   campaign.instruments = make_instruments(antenna, notes);
   const identification::Instruments stated = campaign.instruments;
-  std::vector<Work> works = load_all(antenna);
-  check_names(antenna, works);
-  std::vector<const identification::DriveRecord*> all;
-  for (const Work& work : works) {
-    if (work.clean.record) all.push_back(&*work.clean.record);
-  }
-  const double fastest = identification::fastest_motion(all);
-  for (std::size_t i = 0; i < works.size(); ++i) {
-    auto& clean = works[i].clean;
-    if (!clean.record || !entries[i].test.empty()) continue;
-    works[i].notes.test_guessed = true;
-    clean.record->test = identification::recognised_test(*clean.record, fastest);
-    if (clean.record->test == TestKind::slosh) identification::mask_replaced(clean);
-  }
-
+  std::vector<LoadedRecord> works = load_records(antenna, threads);
+  recognise(antenna, works);
+  settle_conflicts(antenna, works);
   std::string replaced;  // names of records
   for (std::size_t i = 0; i < works.size(); ++i) {
-    Work& work = works[i];
+    LoadedRecord& work = works[i];
     RecordNotes& note = work.notes;
     note.defects = work.clean.defects;
     note.refusal = work.clean.refusal;
@@ -331,14 +224,22 @@ identification::Campaign make_campaign(const Case& antenna, CampaignNotes& notes
   if (!replaced.empty()) {
     notes.assumptions.push_back(fmt::format(
         "a dead pressure was replaced by the mean of the other motors', which hang on the same "
-        "common line ({}); the pressures' uncertainties were raised for it",
+        "common line ({}), and so was one of the wrong sign or port; the pressures' uncertainties "
+        "were raised for it",
         replaced));
   }
-  if (campaign.records.empty()) {
+  // What is said of one record is mostly the columns' fault, and then that of all.
+  std::string refused;
+  std::size_t count = 0;
+  for (const RecordNotes& note : notes.records) {
+    if (note.refusal.empty()) continue;
+    ++count;
+    refused += fmt::format("; {}: {}", note.name, note.refusal);
+  }
+  if (2 * count > notes.records.size()) {
     throw InvalidInput(
-        fmt::format("{}: record: expected one record at least that can be used, "
-                    "found none: {}: {}",
-                    antenna.path, notes.records.front().name, notes.records.front().refusal));
+        fmt::format("{}: record: expected most of {} records to be of use, found {} that are not{}",
+                    antenna.path, notes.records.size(), count, refused));
   }
   return campaign;
 }

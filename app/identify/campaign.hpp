@@ -58,9 +58,15 @@ struct CampaignNotes {
 /// A motor whose pressure transducer is dead has the mean of the others' at the same common line
 /// instead: the instruments' standard uncertainties are raised to what the sum over the motors then
 /// has, and the assumption is noted.
+/// Columns that most records contradict in name or sign are handled as
+/// identification::column_conflicts says.
+/// `threads`: records read at a time; 0: as many as the machine has. The result is the same.
 /// @throws InvalidInput if the case has no records or no instruments, for a file that cannot be
-/// read, a column, unit or scale that is missing or of the wrong kind, and if no record is left.
-identification::Campaign make_campaign(const Case& antenna, CampaignNotes& notes);
+/// read, a column, unit or scale that is missing or of the wrong kind, for columns whose names or
+/// signs the records contradict beyond repair, and if most records are
+/// refused.
+identification::Campaign make_campaign(const Case& antenna, CampaignNotes& notes,
+                                       unsigned threads = 0);
 
 /// The part of it that needs no files. Assumptions are added to the notes.
 identification::DriveKnowledge drive_knowledge(const Case& antenna, CampaignNotes& notes);

@@ -107,14 +107,103 @@ TEST(MakeCampaign, TurnsOnlyTheSignsItIsTold) {
   OneRecord record("full", "slow_ramp");
   const auto before = record.make().records.at(0);
   record.antenna.campaign.columns.reversed = {"TACH"};
+  EXPECT_THAT(record.refusal(), HasSubstr("case.toml: record_columns: inlet above outlet drives "
+                                          "against the tachometer in 1 of 1 records in motion"));
+  // With inlets and outlets exchanged beside it, all is in order but for the command.
+  std::swap(record.antenna.campaign.columns.inlet, record.antenna.campaign.columns.outlet);
   const auto after = record.make().records.at(0);
   EXPECT_EQ(after.motor_rate.values, -before.motor_rate.values);
-  EXPECT_EQ(after.inlet_pressure[0].values, before.inlet_pressure[0].values);
-  bool suspected = false;
+  EXPECT_EQ(after.outlet_pressure[0].values, before.inlet_pressure[0].values);
+  EXPECT_TRUE(before.rate_command);
+  EXPECT_FALSE(after.rate_command);
+  bool said = false;
   for (const auto& defect : record.notes.records[0].defects) {
-    suspected = suspected || defect.kind == DefectKind::reversed_sign;
+    said = said || (defect.kind == DefectKind::reversed_sign &&
+                    defect.handling == identification::DefectHandling::left_out);
   }
-  EXPECT_TRUE(suspected);
+  EXPECT_TRUE(said);
+}
+
+TEST(MakeCampaign, TakesACommandOfZerosForAnOpenLoop) {
+  OneRecord record("small-dish", "fast_ramp");
+  record.antenna.campaign.records[0].rate_loop = "";
+  std::stringstream lines(record.text);
+  std::string line;
+  std::getline(lines, line);
+  const auto names = line;
+  std::size_t column = 0;
+  for (std::size_t at = 0; (at = names.find(',', at)) != std::string::npos; ++at) {
+    if (names.compare(at + 1, 12, "rate_command") == 0) break;
+    ++column;
+  }
+  std::string edited = line + "\n";
+  while (std::getline(lines, line)) {
+    std::size_t at = 0;
+    for (std::size_t i = 0; i <= column; ++i) at = line.find(',', at) + 1;
+    const std::size_t end = std::min(line.find(',', at), line.size());
+    edited += line.substr(0, at) + "0.0" + line.substr(end) + "\n";
+  }
+  record.text = edited;
+  EXPECT_FALSE(record.make().records.at(0).rate_loop_closed);
+}
+
+TEST(MakeCampaign, LeavesAMotorOutWhosePortsAreExchanged) {
+  OneRecord four("full", "slow_ramp");
+  const auto before = four.make();
+  std::swap(four.antenna.campaign.columns.inlet[1], four.antenna.campaign.columns.outlet[1]);
+  const auto after = four.make();
+  const auto torque = [](const identification::Campaign& campaign) {
+    return identification::recorded_torque(campaign.records[0], campaign.knowledge);
+  };
+  const double scale = torque(before).cwiseAbs().maxCoeff();
+  EXPECT_LT((torque(after) - torque(before)).cwiseAbs().maxCoeff(), 0.1 * scale);
+  EXPECT_GT(after.instruments.pressure_zero, before.instruments.pressure_zero);
+  EXPECT_GT(after.instruments.unknown_pressure_sum, 0.0);
+  OneRecord two("small-dish", "constant_speed_0.14deg_s");
+  std::swap(two.antenna.campaign.columns.inlet[1], two.antenna.campaign.columns.outlet[1]);
+  EXPECT_THAT(two.refusal(), HasSubstr("which motors have their inlet and outlet exchanged"));
+}
+
+TEST(MakeCampaign, SaysOfEveryRecordWhyItIsOfNoUse) {
+  OneRecord record("full", "slow_ramp");
+  record.replace("tach [V]", "tach [V],unused [V]");
+  std::stringstream lines(record.text);
+  std::string line;
+  std::getline(lines, line);
+  std::string edited = line + "\n";
+  // Before the tachometer's column a dead one, which then is it.
+  while (std::getline(lines, line)) {
+    std::size_t at = 0;
+    for (int column = 0; column < 9; ++column) at = line.find(',', at) + 1;
+    edited += line.substr(0, at) + "0.0," + line.substr(at) + "\n";
+  }
+  record.text = edited;
+  EXPECT_THAT(record.refusal(),
+              HasSubstr("found 1 that are not; slow_ramp: expected a tachometer"));
+}
+
+TEST(MakeCampaign, RecognisesASloshTestWithoutTachometer) {
+  OneRecord record("full", "slosh");
+  record.antenna.campaign.records[0].test = "";
+  record.replace("tach [V]", "tach [V],unused [V]");
+  std::stringstream lines(record.text);
+  std::string line;
+  std::getline(lines, line);
+  std::string edited = line + "\n";
+  while (std::getline(lines, line)) {
+    std::size_t at = 0;
+    for (int column = 0; column < 9; ++column) at = line.find(',', at) + 1;
+    edited += line.substr(0, at) + "0.0," + line.substr(at) + "\n";
+  }
+  record.text = edited;
+  EXPECT_EQ(to_string(record.make().records.at(0).test), "slosh");
+}
+
+TEST(MakeCampaign, RefusesASupplyBelowTheReturnAtItsPlace) {
+  OneRecord record("full", "slow_ramp");
+  record.antenna.drive.supply_pressure.value = 2e5;
+  EXPECT_THAT(record.refusal(),
+              HasSubstr("drive.supply_pressure: expected a supply pressure above the return"));
 }
 
 TEST(MakeCampaign, RaisesUncertaintiesForADeadTransducer) {

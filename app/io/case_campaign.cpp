@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <array>
 #include <filesystem>
 #include <set>
 
@@ -81,20 +80,31 @@ RecordColumnsEntry read_columns(TableReader& table, long motors) {
   return entry;
 }
 
-// A rate per recorded unit, whatever that unit is.
+// The number and unit of a quantity, a text or a table's `value`.
+std::string quantity_text(TableReader& table, const std::string& key) {
+  try {
+    return table.text(key);
+  } catch (const InvalidInput&) {
+    return table.table(key).text("value");
+  }
+}
+
+// A rate per recorded unit, whatever that unit is: the unit tells the kind, and what else is wrong
+// with the quantity is then said of that kind.
 std::optional<Quantity> read_scale(TableReader& table, const std::string& key) {
   if (!may_have(table, key)) return std::nullopt;
-  constexpr std::array kinds{Kind::tachometer_scale, Kind::rate_per_current, Kind::angular_rate};
-  for (const Kind kind : kinds) {
+  const std::string text = quantity_text(table, key);
+  for (const Kind kind : {Kind::tachometer_scale, Kind::rate_per_current, Kind::angular_rate}) {
     try {
-      return table.quantity(key, kind, Range::positive());
-    } catch (const InvalidInput&) {
-      if (kind != kinds.back()) continue;
+      parse_quantity(text, kind);
+    } catch (const UnitError&) {
+      continue;
     }
+    return table.quantity(key, kind, Range::positive());
   }
-  table.refuse(key,
-               "expected a rate per recorded volt, ampere or 1, above 0 (such as 14 "
-               "rad/(s.V), 2 rad/(s.mA), 150 rad/s), found something else");
+  table.refuse(key, fmt::format("expected a rate per recorded volt, ampere or 1, above 0 (such as "
+                                "14 rad/(s.V), 2 rad/(s.mA), 150 rad/s), found {}",
+                                app::quoted(text)));
 }
 
 InstrumentsEntry read_instruments(TableReader& table) {

@@ -57,6 +57,15 @@ TEST(CaseCampaign, RefusesColumns) {
 TEST(CaseCampaign, RefusesScalesAndShafts) {
   EXPECT_THAT(refusal("\"11 rad/(s.V)\"", "\"11 N.m\""),
               HasSubstr("instruments.valve_command_scale: expected a rate per recorded volt"));
+  EXPECT_THAT(refusal("\"11 rad/(s.V)\"", "\"-11 rad/(s.V)\""), HasSubstr("above 0"));
+  // What else is wrong with it is said as of any quantity.
+  EXPECT_THAT(refusal("\"11 rad/(s.V)\", uncertainty = \"3 %\"",
+                      "\"11 rad/(s.V)\", uncertainty = \"3 foo\""),
+              HasSubstr("instruments.valve_command_scale.uncertainty"));
+  EXPECT_THAT(refusal("\"11 rad/(s.V)\", uncertainty = \"3 %\", basis = \"published\"",
+                      "\"11 rad/(s.V)\", basis = \"guess\""),
+              HasSubstr("instruments.valve_command_scale.basis: expected one of"));
+  EXPECT_THAT(refusal("\"11 rad/(s.V)\"", "\"11 N.m\""), HasSubstr("found '11 N.m'"));
   for (const std::string scale : {"11 rad/(s.V)", "2 rad/(s.mA)", "150 rad/s"}) {
     EXPECT_EQ(refusal("\"11 rad/(s.V)\"", "\"" + scale + "\""), "taken") << scale;
   }

@@ -4,10 +4,12 @@
 #include <fmt/format.h>
 
 #include <boresight/app/identify/campaign_comparison.hpp>
+#include <boresight/identification/chi_squared.hpp>
 
 namespace boresight::app {
 
 using identification::Interval;
+using identification::Uncertain;
 
 std::optional<Interval> reconciled(const CampaignSection& section, const std::string& quantity) {
   if (section.grey_box) return section.grey_box->quantity(quantity).posterior;
@@ -72,6 +74,39 @@ std::vector<QuantityRow> quantity_rows(const CampaignSection& section) {
   return rows;
 }
 
+void average_methods(CampaignSection& section) {
+  const auto& knowledge = section.knowledge;
+  const double motors = knowledge.motor_count * knowledge.motor_inertia.value;
+  std::vector<Uncertain> estimates{
+      {motors + knowledge.gear_inertia.value + knowledge.antenna_inertia.value,
+       std::hypot(knowledge.motor_count * knowledge.motor_inertia.standard_uncertainty,
+                  knowledge.gear_inertia.standard_uncertainty,
+                  knowledge.antenna_inertia.standard_uncertainty)}};
+  std::string names = fmt::format("mass properties {:.4g}", estimates.front().value);
+  const auto add = [&](const char* method, const Interval& inertia) {
+    estimates.push_back({inertia.value, inertia.standard_uncertainty});
+    names += fmt::format(", {} {:.4g}", method, inertia.value);
+  };
+  if (section.resonance && section.resonance->best) {
+    add("resonance", section.resonance->best->inertia);
+  }
+  if (section.impulse && section.impulse->best) {
+    add("impulse", section.impulse->estimates[*section.impulse->best].inertia);
+  }
+  names += " kg m2";
+  std::erase_if(estimates, [](const Uncertain& one) { return !(one.standard_uncertainty > 0.0); });
+  if (estimates.size() < 2) return;
+  const auto mean = identification::reconcile(estimates, motors);
+  if (mean.heterogeneity > identification::chi_squared_999(mean.degrees_of_freedom)) {
+    section.contradiction = fmt::format(
+        "The methods contradict one another (Cochran's Q {:.1f} on {} degrees of freedom, between "
+        "{}): no mean of them is an inertia. Look at the columns, units and stated numbers first.",
+        mean.heterogeneity, mean.degrees_of_freedom, names);
+    return;
+  }
+  section.mean_of_methods = mean;
+}
+
 std::vector<FrictionRow> friction_rows(const CampaignSection& section,
                                        const identification::Campaign& campaign) {
   std::vector<FrictionRow> rows;
@@ -126,17 +161,66 @@ std::vector<FrictionRow> friction_rows(const CampaignSection& section,
 
 std::string verdict(const CampaignSection& section,
                     const identification::GreyBoxQuantity& quantity) {
+  if (section.grey_box && section.grey_box->conflict.widening > 1.0) return "contradicts the case";
   if (quantity.identified) return "identified";
   const bool oil = quantity.name == "bulk modulus" || quantity.name == "oil stiffness";
-  if (oil && !section.bulk_modulus_stated) return "slosh";
-  return quantity.prior_from_drawings ? "drawings" : "not identifiable";
+  const bool slosh = oil && !section.bulk_modulus_stated;
+  if (!slosh && !quantity.prior_from_drawings) return "not identifiable";
+  const std::string origin = slosh ? "slosh" : "drawings";
+  constexpr double away = 2.5;  // of the prior's uncertainties
+  const double apart = std::abs(quantity.posterior.value - quantity.prior.value);
+  return apart > away * quantity.prior.standard_uncertainty ? "contradicts " + origin : origin;
 }
+
+std::string contradiction_with_case(const identification::GreyBoxResult& found) {
+  const auto& conflict = found.conflict;
+  if (!conflict.beyond_chance()) return {};
+  std::string text = fmt::format(
+      "The records and the stated numbers contradict one another: the squares of the distances of "
+      "{} of them, in their uncertainties, add up to {:.0f} where chance makes {} and hardly ever "
+      "{:.0f}; the {} is {:.1f} uncertainties off.",
+      conflict.count, conflict.sum, conflict.count, conflict.limit, conflict.largest,
+      std::abs(conflict.departure));
+  if (conflict.widening > 1.0) {
+    text += fmt::format(
+        " The intervals below were widened {:.1f} times for it and hold only if this number is "
+        "what "
+        "is wrong: look for a wrong number, unit, column or sign first.",
+        std::sqrt(conflict.widening));
+  }
+  return text;
+}
+
+namespace {
+
+// Whether a slosh test has given the lines' frequencies.
+bool lines_rang(const CampaignSection& section) {
+  return std::any_of(section.slosh.begin(), section.slosh.end(),
+                     [](const SloshTest& test) { return !test.result.lines.empty(); });
+}
+
+// What besides the records' length keeps friction and offset apart from each other, or does not.
+std::string why_not_identifiable(const identification::GreyBoxResult& found,
+                                 const identification::GreyBoxQuantity& quantity) {
+  const bool level = quantity.name == "Coulomb level";
+  if (found.posterior.one_way != 0.0 && (level || quantity.name == "offset torque as recorded")) {
+    return "the drive moves one way only, where friction's level and the offset are one number";
+  }
+  if (level && found.posterior.unsaturated > 0.0) {
+    return fmt::format("at {:.3g} rad/s at most the drive is too slow for friction to saturate",
+                       found.motion.highest_rate);
+  }
+  return fmt::format("{:.0f} % of its variance learnt", 100.0 * quantity.learnt);
+}
+
+}  // namespace
 
 std::vector<std::string> not_identifiable(const CampaignSection& section) {
   std::vector<std::string> sentences;
   const auto add = [&](const std::string& what, const std::string& why) {
     sentences.push_back(fmt::format("{} is not identifiable from these records: {}", what, why));
   };
+  if (!section.contradiction.empty()) sentences.push_back(section.contradiction);
   if (section.grey_box) {
     for (const auto& q : section.grey_box->quantities) {
       const std::string origin = verdict(section, q);
@@ -147,22 +231,36 @@ std::vector<std::string> not_identifiable(const CampaignSection& section) {
             "The {} comes from drawings and data sheets, not from the records ({:.0f} % of its "
             "variance learnt): {}.",
             q.name, 100.0 * q.learnt, range));
-      } else if (origin == "not identifiable") {
+      } else if (origin == "contradicts drawings" || origin == "contradicts slosh") {
         sentences.push_back(fmt::format(
-            "The {} is not identifiable from these records ({:.0f} % of its variance learnt): {} "
-            "is a wide guess, do not build on it.",
-            q.name, 100.0 * q.learnt, range));
+            "The {} that fits the records, {}, contradicts {} ({:.4g} to {:.4g}), and the records "
+            "alone do not tell it ({:.0f} % of its variance learnt).",
+            q.name, range,
+            origin == "contradicts slosh" ? "what the slosh test gives"
+                                          : "drawings and data sheets",
+            q.prior.lower, q.prior.upper, 100.0 * q.learnt));
+      } else if (!q.identified && !q.prior_from_drawings && origin != "slosh") {
+        sentences.push_back(fmt::format(
+            "The {} is not identifiable from these records ({}): {} is a wide guess, do not build "
+            "on it.",
+            q.name, why_not_identifiable(*section.grey_box, q), range));
       }
     }
-  } else {
+  } else if (section.mean_of_methods) {
     sentences.emplace_back(
         "No model explains all records at once (see below): the reconciled inertia is a mean of "
         "methods that differ in what they leave out.");
+  } else {
+    sentences.emplace_back(
+        "No model explains all records at once (see below), and there is no reconciled inertia.");
   }
   if (section.bulk_modulus_stated) {
     sentences.push_back(fmt::format(
-        "No slosh test shows the lines ringing: methods that need the oil's bulk modulus take what "
+        "{}: methods that need the oil's bulk modulus take what "
         "the case states, {:.4g} +- {:.2g} GPa.",
+        lines_rang(section)
+            ? "Without the lines' lengths (oil.line) their ringing gives no bulk modulus"
+            : "No slosh test shows the lines ringing",
         1e-9 * section.bulk_modulus.value, 1e-9 * section.bulk_modulus.standard_uncertainty));
   }
   if (section.resonance && !section.resonance->rings && section.resonance->responses.empty()) {

@@ -61,6 +61,20 @@ class Records {
     const auto best = reconciled(section_, "bulk modulus");
     return best ? *best : section_.bulk_modulus;
   }
+  // Who says so.
+  const char* by_bulk_modulus() const {
+    return section_.bulk_modulus_stated ? "grey box" : "slosh";
+  }
+  // By the case's convention about efficiencies in it.
+  std::optional<Interval> oil_stiffness(bool efficiency) const {
+    auto found = quantity("oil stiffness");
+    if (!found || efficiency) return found;
+    const auto& knowledge = section_.knowledge;
+    const double factor =
+        1.0 / (knowledge.torque_efficiency.value * knowledge.volumetric_efficiency.value);
+    return Interval{found->value * factor, found->standard_uncertainty * factor,
+                    found->lower * factor, found->upper * factor};
+  }
   std::optional<Interval> frequency() const {
     return section_.resonance ? section_.resonance->frequency : std::nullopt;
   }
@@ -153,9 +167,9 @@ void compare_stated(const Case& antenna, const Records& records, const CampaignS
     } else if (id == "motor_to_load_ratio" || id == "resonance.motor_to_load_ratio") {
       compare("1", records.quantity("motor to load ratio"), "grey box");
     } else if (id == "bulk_modulus") {
-      compare("Pa", records.bulk_modulus(), "slosh");
+      compare("Pa", records.bulk_modulus(), records.by_bulk_modulus());
     } else if (id == "oil_stiffness") {
-      compare("N m/rad", records.quantity("oil stiffness"), "grey box");
+      compare("N m/rad", records.oil_stiffness(antenna.oil.efficiency_in_stiffness), "grey box");
     } else if (id == "resonance.frequency") {
       compare("Hz", records.frequency(), "rings after valve steps");
     } else if (id == "friction.slow_ramp.coulomb") {
@@ -204,7 +218,8 @@ std::vector<Contradiction> contradictions(const CampaignSection& section, const 
   const Records records(section);
   contradictions.compare(antenna.resonance_frequency, "Hz", records.frequency(),
                          "rings after valve steps");
-  contradictions.compare(antenna.oil.bulk_modulus, "Pa", records.bulk_modulus(), "slosh");
+  contradictions.compare(antenna.oil.bulk_modulus, "Pa", records.bulk_modulus(),
+                         records.by_bulk_modulus());
   contradictions.compare(antenna.drive.leakage_rate, antenna.drive.leakage_rate.key, "1/s",
                          records.quantity("leakage rate"), "grey box");
   compare_stated(antenna, records, section, contradictions);

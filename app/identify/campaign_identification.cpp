@@ -69,14 +69,17 @@ void run_slosh(const Campaign& campaign, CampaignSection& section) {
   }
 }
 
+bool is_vouched_for(const std::optional<Quantity>& stated) {
+  return stated && stated->uncertainty_given && stated->basis != Basis::assumed;
+}
+
 // What the case says where no line was heard to ring. A number that nobody vouches for may be off
 // by the air in the oil.
 Interval stated_bulk_modulus(const Case& antenna) {
   const double value = bulk_modulus(antenna);
   constexpr double by_air = 0.15;
   double uncertainty = by_air * value;
-  if (const auto& stated = antenna.oil.bulk_modulus;
-      stated && stated->uncertainty_given && stated->basis != Basis::assumed) {
+  if (const auto& stated = antenna.oil.bulk_modulus; is_vouched_for(stated)) {
     uncertainty = stated->standard_uncertainty;
   }
   return identification::normal_interval(value, uncertainty);
@@ -91,6 +94,7 @@ void choose_bulk_modulus(const Case& antenna, CampaignSection& section) {
     }
   }
   section.bulk_modulus_stated = best == nullptr;
+  section.bulk_modulus_guessed = best == nullptr && !is_vouched_for(antenna.oil.bulk_modulus);
   section.bulk_modulus = best != nullptr ? *best : stated_bulk_modulus(antenna);
 }
 
@@ -145,9 +149,8 @@ void run_grey_box(const Campaign& campaign, const StudyOptions& options, SharedP
       progress.tell(SharedProgress::grey_box, share);
       return true;
     };
-    std::optional<Interval> prior;
-    if (!section.bulk_modulus_stated) prior = section.bulk_modulus;
-    section.grey_box = identification::fit_grey_box(campaign, prior, grey);
+    grey.bulk_modulus_guessed = section.bulk_modulus_guessed;
+    section.grey_box = identification::fit_grey_box(campaign, section.bulk_modulus, grey);
   });
   progress.tell(SharedProgress::grey_box, 1.0);
 }
@@ -178,40 +181,24 @@ void run_hold_out(const Campaign& campaign, const StudyOptions& options, SharedP
         progress.tell(SharedProgress::hold_out, share);
         return true;
       };
-      std::optional<Interval> prior;
-      if (!section.bulk_modulus_stated) prior = section.bulk_modulus;
+      grey.bulk_modulus_guessed = section.bulk_modulus_guessed;
       section.hold_out = HoldOut{
-          record->name, identification::hold_out_record(campaign, record->name, prior, grey)};
+          record->name,
+          identification::hold_out_record(campaign, record->name, section.bulk_modulus, grey)};
     });
   }
   progress.tell(SharedProgress::hold_out, 1.0);
-}
-
-// Where the grey box has failed: one estimate a method.
-void average_methods(CampaignSection& section) {
-  const auto& knowledge = section.knowledge;
-  const double motors = knowledge.motor_count * knowledge.motor_inertia.value;
-  std::vector<Uncertain> estimates{
-      {motors + knowledge.gear_inertia.value + knowledge.antenna_inertia.value,
-       std::hypot(knowledge.motor_count * knowledge.motor_inertia.standard_uncertainty,
-                  knowledge.gear_inertia.standard_uncertainty,
-                  knowledge.antenna_inertia.standard_uncertainty)}};
-  const auto add = [&](const Interval& inertia) {
-    estimates.push_back({inertia.value, inertia.standard_uncertainty});
-  };
-  if (section.resonance && section.resonance->best) add(section.resonance->best->inertia);
-  if (section.impulse && section.impulse->best) {
-    add(section.impulse->estimates[*section.impulse->best].inertia);
-  }
-  std::erase_if(estimates, [](const Uncertain& one) { return !(one.standard_uncertainty > 0.0); });
-  if (estimates.size() < 2) return;
-  section.mean_of_methods = identification::reconcile(estimates, motors);
 }
 
 void require_something(const CampaignSection& section) {
   const bool resonance = section.resonance && section.resonance->best;
   if (section.grey_box || section.impulse || resonance) return;
   std::string reasons;
+  for (const auto& record : section.notes.records) {
+    if (!record.refusal.empty()) {
+      reasons += fmt::format("; {} not used: {}", record.name, record.refusal);
+    }
+  }
   for (const auto& failure : section.failures) {
     reasons += fmt::format("; {}: {}", failure.method, failure.reason);
   }
@@ -224,7 +211,7 @@ void require_something(const CampaignSection& section) {
 CampaignSection identify_campaign(const Case& antenna, const StudyOptions& options) {
   CampaignSection section;
   SharedProgress progress(options);
-  const Campaign campaign = make_campaign(antenna, section.notes);
+  const Campaign campaign = make_campaign(antenna, section.notes, options.threads);
   section.knowledge = campaign.knowledge;
   section.instruments = campaign.instruments;
   progress.tell(SharedProgress::reading, 0.5);
@@ -255,6 +242,7 @@ CampaignSection identify_campaign(const Case& antenna, const StudyOptions& optio
     average_methods(section);
   }
   progress.tell(SharedProgress::ranking, 1.0);
+  if (section.grey_box) section.contradiction = contradiction_with_case(*section.grey_box);
   section.inertia = inertia_rows(section, antenna);
   section.quantities = quantity_rows(section);
   section.friction = friction_rows(section, campaign);

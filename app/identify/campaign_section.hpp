@@ -96,15 +96,21 @@ struct CampaignSection {
   /// `bulk_modulus_stated`.
   identification::Interval bulk_modulus;  // Pa
   bool bulk_modulus_stated = false;
+  /// Stated, but nobody vouches for it: records may contradict it.
+  bool bulk_modulus_guessed = false;
   std::optional<identification::ResonanceResult> resonance;
   std::optional<identification::ImpulseMomentum> impulse;
   /// The reconciled estimate: one model that explains all records. A plant ensemble takes its
   /// draws.
   std::optional<identification::GreyBoxResult> grey_box;
-  /// In its place where it could not be had: the random-effects mean of the methods.
+  /// In its place where it could not be had: the random-effects mean of the methods,
+  /// unless they contradict one another beyond chance.
   std::optional<identification::ReconciledInertia> mean_of_methods;
   std::optional<HoldOut> hold_out;  // where a record has a valve command and others are left
   std::vector<MethodFailure> failures;
+  /// Why all of this is to be doubted: records against stated numbers, or methods against one
+  /// another, beyond chance. Empty if nothing is; otherwise the first of the sentences below.
+  std::string contradiction;
   /// What these records cannot tell, plainly.
   std::vector<std::string> not_identifiable;
   std::vector<InertiaRow> inertia;

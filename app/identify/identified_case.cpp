@@ -52,6 +52,8 @@ void set_oil(Case& antenna, Replacement& replace, const identification::DriveEst
     antenna.oil.bulk_modulus->key = "oil.bulk_modulus";
   }
   replace.set(*antenna.oil.bulk_modulus, estimate.bulk_modulus);
+  // The plant takes the case's convention about efficiencies, motion shows K with both: the volumes
+  // make up for either.
   const double scale = oil_stiffness(antenna) / estimate.oil_stiffness;
   for (Quantity* volume : {&antenna.oil.volume_1, &antenna.oil.volume_2}) {
     replace.set(*volume, volume->value * scale);
@@ -88,6 +90,13 @@ void set_structure(Case& antenna, Replacement& replace,
 }  // namespace
 
 Case with_identified(const Case& antenna, const identification::DriveEstimate& estimate) {
+  if (estimate.contradicted) {
+    throw NumericalFailure(fmt::format(
+        "{}: the records contradict the stated numbers that inertia and stiffness rest on: there "
+        "is "
+        "no drive to design for until the wrong one is found; `boresight identify` names it",
+        antenna.path));
+  }
   Case identified = antenna;
   Replacement replace(identified);
   set_inertias(identified, replace, estimate);

@@ -14,7 +14,8 @@ namespace boresight::app {
 /// meet the stiffness), leakage, friction curve, offset torque and bristles where the case has
 /// them, and all structural frequencies in proportion to the lowest of the locked rotor. These
 /// numbers then have the basis "measured".
-/// @throws NumericalFailure for an estimate that leaves the antenna no inertia.
+/// @throws NumericalFailure for an estimate that leaves the antenna no inertia, and for one that
+/// the records' contradiction with the case makes none (DriveEstimate::contradicted).
 Case with_identified(const Case& antenna, const identification::DriveEstimate& estimate);
 
 /// Plants of the identified distribution, at most `count`, named "draw 1" and so on. Draws that

@@ -27,9 +27,7 @@ std::string reconciled_text(const CampaignSection& section) {
                     ".. {:.4g}; R = {:.3f}. Cochran's Q {:.1f} on {} degrees of freedom{}.",
                     mean.degrees_of_freedom + 1, mean.value, mean.lower, mean.upper,
                     mean.motor_to_load_ratio, mean.heterogeneity, mean.degrees_of_freedom,
-                    mean.heterogeneity > 2.0 * mean.degrees_of_freedom
-                        ? ": the methods contradict one another"
-                        : ""),
+                    mean.heterogeneity > 2.0 * mean.degrees_of_freedom ? ": they differ much" : ""),
         "  ");
   }
   if (!section.grey_box) return {};
@@ -152,10 +150,11 @@ std::string friction_text(const CampaignSection& section) {
     rows.push_back(std::move(cells));
   }
   text += table(rows, "rrrrrrrl");
+  const bool tested = section.impulse && section.impulse->constant_speed;
   text += wrapped(
-      "Curve fit: one curve through windows of all tests. t: the tracking rate. x: slower or "
-      "faster "
-      "than the constant-speed tests.",
+      fmt::format("Curve fit: one curve through windows of all tests. t: the tracking rate. x: "
+                  "slower or faster than the {}.",
+                  tested ? "constant-speed tests" : "speeds that the curve was fitted over"),
       "  ");
   std::string levels;
   if (section.impulse && section.impulse->constant_speed &&

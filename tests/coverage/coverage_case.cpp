@@ -60,9 +60,8 @@ Identified identify(const identification::Campaign& campaign, const CoverageSett
     options.further_starts = setting.further_starts;
     options.draws = setting.draws;
     options.threads = 1;
-    std::optional<Interval> bulk;
-    if (heard) bulk = found.bulk_modulus;
-    found.grey_box = identification::fit_grey_box(campaign, bulk, options);
+    options.bulk_modulus_guessed = !heard;
+    found.grey_box = identification::fit_grey_box(campaign, found.bulk_modulus, options);
   });
   return found;
 }

@@ -31,7 +31,7 @@ struct RecordedDesign {
 };
 
 std::vector<RecordedDesign> recorded_designs() {
-  std::ifstream file(std::string(BORESIGHT_SOURCE_DIR) + "/docs/reference-designs.md");
+  std::ifstream file(BORESIGHT_SOURCE_DIR "/docs/reference-designs.md");
   std::vector<RecordedDesign> designs;
   std::string line, section;
   while (std::getline(file, line)) {

@@ -115,7 +115,10 @@ double offset_discrepancy(const GreyBoxObjective& objective, const GreyBoxPoster
     square += record.torque.squaredNorm();
     samples += static_cast<double>(record.samples());
   }
-  const double balance = samples > 0.0 ? torque_balance * std::sqrt(square / samples) : 0.0;
+  const double balance =
+      samples > 0.0
+          ? torque_balance * std::sqrt(square / samples / static_cast<double>(records.size()))
+          : 0.0;
   const double unit = parameters.list()[P::offset_torque].spread;
   return std::hypot(unit * std::sqrt(beyond), balance, unknown_torque);
 }

@@ -55,7 +55,8 @@ void add_motion_doubts(GreyBoxPosterior& posterior, const GreyBoxParameters& par
 ///    observation, by what its prediction errors alone would move the offset (a sandwich, clustered
 ///    by records; K.-Y. Liang and S. L. Zeger, Biometrika 73(1), 1986);
 ///  - the torque balance's discrepancy of the records' rms torque: friction that is not alike both
-///    ways looks like an offset;
+///    ways, at a record's place and temperature, looks like an offset. Each record is one draw of
+///    it, so that campaigns of few records are the less sure;
 ///  - pressures that stand for others whose zeros are not known, `unknown_torque` (N m).
 double offset_discrepancy(const GreyBoxObjective& objective, const GreyBoxPosterior& posterior,
                           const std::vector<GreyBoxRecord>& records,

@@ -43,7 +43,8 @@ struct DriveEstimate {
 /// of engineering judgement, kept apart from what the fit says.
 struct GreyBoxDiscrepancy {
   /// Of the torque balance, relative: friction that changes with load or place, oil torque that is
-  /// not in proportion to pressure. Widens inertia and friction, and frequencies by half of it.
+  /// not in proportion to pressure. Widens inertia and friction, frequencies by half of it, and the
+  /// offset by its share of the torque over the root of the number of records.
   double torque_balance = 0.003;
   /// Of the flow balance, relative to the flow: valve and lines other than modelled. Widens the
   /// leakage, which is a small part of the flow.

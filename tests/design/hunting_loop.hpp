@@ -3,7 +3,7 @@
 #include <complex>
 #include <numbers>
 
-#include "reference_nonlinear_antenna.hpp"
+#include "../reference_nonlinear_antenna.hpp"
 #include "reference_problem.hpp"
 #include <boresight/control/control_law.hpp>
 #include <boresight/plant/state_space.hpp>

@@ -108,7 +108,6 @@ control::LoopEvaluator make_adaptive_evaluator(const TrackingProblem& problem,
   control::LoopQuadrature quadrature;
   quadrature.analysis = analysis_band(problem);
   quadrature.band = problem.rms_band;
-  quadrature.tolerance = 1e-8;
   return {plant::PointResponse(problem.plant), problem.delay, problem.noise,
           [wind](double hertz) { return wind.spectrum(two_pi * hertz); }, quadrature};
 }

@@ -310,7 +310,7 @@ TEST(Tune, KeepsTheBestLawWhenItIsStopped) {
     options.stop = [&] { return ++asked > calls; };
     const TuningResult result = tune(problem, LoopStructure::pi(), {}, options);
     EXPECT_TRUE(result.interrupted);
-    EXPECT_LT(result.evaluations, calls + 20);
+    EXPECT_LT(result.evaluations, calls + 60) << "what judging the found laws takes besides";
     if (result.status == TuningStatus::optimal) {
       EXPECT_LE(result.worst_goal_ratio, 1.0 + 1e-9);
       EXPECT_TRUE(verify(problem, result.law, {}).passed);

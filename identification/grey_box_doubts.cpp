@@ -89,7 +89,10 @@ void add_motion_doubts(GreyBoxPosterior& posterior, const GreyBoxParameters& par
     const double way = motion.upward >= motion.downward ? 1.0 : -1.0;
     posterior.one_way = way * parameters.list()[P::offset_torque].spread;
   }
-  if (motion.highest_rate < saturated * values(P::saturating_rate)) {
+  // A slope that makes more than the level is no slope above it: the rise itself was fitted.
+  const double level = values(P::coulomb_torque) + values(P::saturating_torque);
+  if (motion.highest_rate < saturated * values(P::saturating_rate) ||
+      values(P::viscous_friction) * motion.highest_rate > level) {
     posterior.unsaturated = parameters.list()[P::saturating_torque].spread;
   }
 }

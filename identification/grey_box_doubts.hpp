@@ -46,7 +46,7 @@ GreyBoxMotion motion_of(const std::vector<GreyBoxRecord>& records);
 
 /// Tells the posterior what the motion cannot tell apart: offset and Coulomb level where the drive
 /// moves one way, friction's level and the rate at which it saturates where the drive is never
-/// faster than two and a half such rates.
+/// faster than two and a half such rates, or its friction still rises by more than the level.
 void add_motion_doubts(GreyBoxPosterior& posterior, const GreyBoxParameters& parameters,
                        const GreyBoxMotion& motion);
 

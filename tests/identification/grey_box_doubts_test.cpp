@@ -142,6 +142,14 @@ TEST(FitGreyBox, DoesNotTellALevelThatTheDriveIsTooSlowToReach) {
   fast.unsaturated = 0.0;
   add_motion_doubts(fast, truth.parameters, motion_of({synthetic::glance()}));
   EXPECT_EQ(fast.unsaturated, 0.0);
+  // Faster than what a fit takes for saturation, friction rises on: 25 rad/s at 1 N m s/rad, over a
+  // level of 18 N m.
+  fast.point = synthetic::point_of(truth.parameters, {{P::coulomb_torque, 4.0},
+                                                      {P::saturating_torque, 14.0},
+                                                      {P::saturating_rate, 1.5},
+                                                      {P::viscous_friction, 1.0}});
+  add_motion_doubts(fast, truth.parameters, motion_of({synthetic::glance()}));
+  EXPECT_GT(fast.unsaturated, 0.5);
 }
 
 TEST(FitGreyBox, TakesWindThatLastsForOneObservationARecord) {

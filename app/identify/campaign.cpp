@@ -43,10 +43,16 @@ identification::Instruments make_instruments(const Case& antenna, CampaignNotes&
   return instruments;
 }
 
-// Of the motors' means, how far they are from one another (Pa, standard deviation).
-double spread_of_means(const identification::RawRecord& raw,
-                       const std::vector<identification::RawChannel>& side,
-                       const std::vector<std::size_t>& replaced) {
+// Of the motors' means over a record, theirs and how far they are from one another (Pa, standard
+// deviation).
+struct MeanPressures {
+  double mean = 0.0;
+  double spread = 0.0;
+};
+
+MeanPressures mean_pressures(const identification::RawRecord& raw,
+                             const std::vector<identification::RawChannel>& side,
+                             const std::vector<std::size_t>& replaced) {
   std::vector<double> means;
   for (std::size_t motor = 0; motor < side.size(); ++motor) {
     if (std::find(replaced.begin(), replaced.end(), motor) != replaced.end()) continue;
@@ -59,13 +65,14 @@ double spread_of_means(const identification::RawRecord& raw,
     }
     if (count > 0.0) means.push_back(sum / count);
   }
-  if (means.size() < 2) return 0.0;
+  if (means.empty()) return {};
   const double mean =
       Eigen::Map<const Eigen::VectorXd>(means.data(), static_cast<Eigen::Index>(means.size()))
           .mean();
+  if (means.size() < 2) return {mean, 0.0};
   double square = 0.0;
   for (const double value : means) square += (value - mean) * (value - mean);
-  return std::sqrt(square / static_cast<double>(means.size() - 1));
+  return {mean, std::sqrt(square / static_cast<double>(means.size() - 1))};
 }
 
 // A sum over n motors of which k are the mean of the others has more of the others' errors, and
@@ -75,14 +82,18 @@ void raise_for_replaced(const LoadedRecord& work, identification::Instruments& i
   const auto motors = static_cast<double>(work.raw.inlet.size());
   double variance = 0.0;  // of the sum of all channels, in those of one
   double unknown = 0.0;
-  double zeros = 0.0;  // of the sum of all channels, what the dead ones' zeros would have added
+  double zeros =
+      0.0;  // of the sum of all channels, what the dead ones' own errors would have added
   for (const auto* replaced : {&work.clean.replaced_inlets, &work.clean.replaced_outlets}) {
     const auto dead = static_cast<double>(replaced->size());
     variance += motors * motors / (motors - dead);
     const auto& side = replaced == &work.clean.replaced_inlets ? work.raw.inlet : work.raw.outlet;
-    const double apart = spread_of_means(work.raw, side, *replaced);
-    unknown += dead * std::pow(apart, 2);
-    zeros += std::pow(std::max(apart, stated.pressure_zero), 2) * dead * motors / (motors - dead);
+    const MeanPressures others = mean_pressures(work.raw, side, *replaced);
+    unknown += dead * std::pow(others.spread, 2);
+    // Where too few are left to show how unlike they are, what zeros and gains make of it.
+    const double apart = std::max(
+        others.spread, std::hypot(stated.pressure_zero, stated.pressure_gain * others.mean));
+    zeros += std::pow(apart, 2) * dead * motors / (motors - dead);
   }
   const double growth = std::sqrt(variance / (2.0 * motors));
   instruments.pressure_gain = std::max(instruments.pressure_gain, growth * stated.pressure_gain);

@@ -12,6 +12,7 @@
 #include <boresight/app/commands/command_line.hpp>
 #include <boresight/app/commands/progress_line.hpp>
 #include <boresight/app/commands/simulate_command.hpp>
+#include <boresight/app/commands/tune_command.hpp>
 #include <boresight/app/identify/campaign_identification.hpp>
 #include <boresight/app/identify/identified_case.hpp>
 #include <boresight/app/redesign/sections.hpp>
@@ -77,6 +78,11 @@ void fill_redesign(const Case& antenna, const StudyOptions& options, Report& rep
     report.plant->records = report.campaign->grey_box->records.size();
   }
   redesign(designed, options, report);
+  if (report.tuning && report.tuning->design.tuning.status == design::TuningStatus::optimal) {
+    const auto& law = report.tuning->design.tuning.law;
+    report.time_domain = verify_in_time_domain(designed, make_problem(designed), law,
+                                               law.structure.name(), options.seed, options.threads);
+  }
   if (report.campaign && report.campaign->grey_box && report.tuning) {
     report.tuning->ensemble =
         judge_identified(antenna, designed, *report.campaign->grey_box, *report.tuning, options);
@@ -104,11 +110,6 @@ const std::vector<Command>& commands() {
       {"model", "the linear plant: parameters, poles, what each mode is",
        [](const Case& antenna, const StudyOptions&, Report& report) {
          report.plant = describe_plant(antenna);
-       }},
-      {"tune", "tune the loops for the least beam rms in wind, verified, from eight seeds",
-       [](const Case& antenna, const StudyOptions& options, Report& report) {
-         report.tuning = tune_loops(antenna, options);
-         report.conclusions = conclude(report);
        }},
       {"match", "re-tune at each number of flywheel disks and at ratio 1",
        [](const Case& antenna, const StudyOptions& options, Report& report) {
@@ -184,6 +185,31 @@ int run(const SimulateArguments& arguments) {
   return outcome.report.interrupted ? interrupted : done;
 }
 
+int run(TuneArguments arguments) {
+  if (arguments.threads == 0) arguments.threads = std::max(1U, std::thread::hardware_concurrency());
+  std::signal(SIGINT, request_interrupt);
+  const Report report = tune_case(arguments, [] { return interrupt_requested != 0; });
+  if (arguments.json_path == "-") {
+    fmt::print("{}", to_json(report));
+  } else {
+    if (!arguments.json_path.empty()) write_atomically(arguments.json_path, to_json(report));
+    fmt::print("{}", to_text(report));
+  }
+  if (std::fflush(stdout) != 0) throw InvalidInput(unwritable_output);
+  if (report.interrupted) return interrupted;
+  if (!report.tuned) return internal_error;
+  for (const auto& shortfall : report.tuned->shortfalls) {
+    fmt::print(stderr, "boresight: {}: {} {}\n", arguments.case_path, shortfall.infeasible,
+               shortfall.closest);
+  }
+  if (!report.tuned->shortfalls.empty()) return infeasible;
+  if (report.tuned->unverified) {
+    fmt::print(stderr, "boresight: no law that meets its goals passes its verification\n");
+    return numerical;
+  }
+  return done;
+}
+
 void add_seed(CLI::App* sub, std::uint64_t& seed) {
   sub->add_option("--seed", seed, "first seed of the searches and draws")
       ->check(CLI::Range(0.0, 1e15))
@@ -211,6 +237,32 @@ CLI::App* add_simulate(CLI::App& program, SimulateArguments& arguments) {
   return sub;
 }
 
+CLI::App* add_tune(CLI::App& program, TuneArguments& arguments) {
+  CLI::App* sub = program.add_subcommand(
+      "tune", "tune loop structures for the least beam rms in wind, robustly and verified");
+  sub->add_option("CASE", arguments.case_path, "case file (TOML), see docs/case-file.md")
+      ->required();
+  sub->add_option("--structure", arguments.structures,
+                  "what to tune, one or several: PI-0, PI, DPF, LL, FULL, with +N (notch) and +C "
+                  "(compliance compensation) behind it, or a [[loop]] of the case")
+      ->expected(1, 100);
+  sub->add_option("--goal", arguments.goals,
+                  "KEY=VALUE of [goals] in the place of the case's, one or several")
+      ->expected(1, 100);
+  sub->add_option("--speed", arguments.speeds,
+                  "mean wind speeds to tune for, such as \"10 m/s\" (default: the design speed)")
+      ->expected(1, 100);
+  sub->add_option("--starts", arguments.starts, "random starts of each search")
+      ->check(CLI::Range(1, 100000));
+  sub->add_option("--json", arguments.json_path,
+                  "also write the report as JSON to this file; '-' writes JSON only, to standard "
+                  "output");
+  add_seed(sub, arguments.seed);
+  sub->add_option("--threads", arguments.threads,
+                  "threads to work on; results do not depend on it (default: all)");
+  return sub;
+}
+
 }  // namespace
 
 int run_command_line(int argc, char** argv) {
@@ -235,6 +287,8 @@ int run_command_line(int argc, char** argv) {
   }
   SimulateArguments simulation;
   const CLI::App* simulate = add_simulate(program, simulation);
+  TuneArguments tuning;
+  const CLI::App* tune = add_tune(program, tuning);
   try {
     program.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
@@ -242,6 +296,7 @@ int run_command_line(int argc, char** argv) {
   }
   try {
     if (simulate->parsed()) return run(simulation);
+    if (tune->parsed()) return run(tuning);
     for (const auto& command : commands()) {
       if (program.got_subcommand(command.name)) return run(command, arguments);
     }

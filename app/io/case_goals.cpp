@@ -34,6 +34,9 @@ void read_optional_goals(TableReader& table, GoalsEntry& goals) {
       if (kind == to_string(known)) goals.soft_goal = known;
     }
   }
+  if (table.has("rms_over") || table.optional_text("rms_over")) {
+    goals.over_climate = table.choice("rms_over", {"design_speed", "climate"}) == "climate";
+  }
   if (const auto quantile =
           table.optional_quantity("quantile", Kind::number, Range::between(0.5, 0.999))) {
     if (goals.soft_goal != SoftGoalKind::quantile) {

@@ -47,6 +47,8 @@ struct GoalsEntry {
   std::optional<Quantity> beam_rms;      // rad
   SoftGoalKind soft_goal = SoftGoalKind::nominal;
   double quantile = 0.95;
+  /// The rms made least is that over the site's wind climate in the place of the design's speed.
+  bool over_climate = false;
 };
 
 /// A range that members of the ensemble are drawn from, both ends SI.

@@ -212,10 +212,55 @@ design::TrackingProblem make_problem(const Case& antenna, const PlantVariant& va
 }
 
 design::HardGoals make_goals(const Case& antenna) {
+  const GoalsEntry& entry = antenna.goals;
   design::HardGoals goals;
-  goals.sensitivity_peak.fill(antenna.goals.sensitivity_peak.value);
-  goals.valve_effort = antenna.goals.valve_effort.value;
+  for (std::size_t b = 0; b < goals.sensitivity_peak.size(); ++b) {
+    const auto& own = entry.peak_at_break.at(b);
+    goals.sensitivity_peak.at(b) = own ? own->value : entry.sensitivity_peak.value;
+  }
+  goals.valve_effort = entry.valve_effort.value;
+  if (entry.gain_margin) goals.gain_margin.fill(std::pow(10.0, entry.gain_margin->value / 20.0));
+  if (entry.phase_margin) goals.phase_margin.fill(entry.phase_margin->value);
+  if (entry.bandwidth) goals.bandwidth = entry.bandwidth->value;
+  if (entry.crest_factor) {
+    goals.crest_factor = entry.crest_factor->value;
+    goals.gust_torque = supply_torque(antenna);
+    goals.gust_demand = antenna.simulation ? antenna.simulation->valve_stroke.value
+                                           : antenna.drive.slew_rate.value * gear_ratio(antenna);
+  }
   return goals;
+}
+
+design::SoftGoal make_soft_goal(const Case& antenna) {
+  design::SoftGoal soft;
+  soft.quantile = antenna.goals.quantile;
+  switch (antenna.goals.soft_goal) {
+    case SoftGoalKind::nominal:
+      break;
+    case SoftGoalKind::expected:
+      soft.kind = design::SoftGoalKind::expected;
+      break;
+    case SoftGoalKind::worst_case:
+      soft.kind = design::SoftGoalKind::worst_case;
+      break;
+    case SoftGoalKind::quantile:
+      soft.kind = design::SoftGoalKind::quantile;
+      break;
+  }
+  return soft;
+}
+
+std::vector<design::WeightedWind> make_climate(const Case& antenna) {
+  design::WindCondition wind = make_problem(antenna).wind;
+  if (antenna.wind.climate_torque_coefficient) {
+    wind.site.torque_coefficient = *antenna.wind.climate_torque_coefficient;
+  }
+  std::vector<design::WeightedWind> winds;
+  for (const auto& one : antenna.wind.climate) {
+    wind.mean_speed = one.speed;
+    winds.push_back({wind, one.weight});
+  }
+  return winds;
 }
 
 identification::DriveEvidence make_evidence(const Case& antenna) {
@@ -267,7 +312,8 @@ std::vector<PointingBand> make_bands(const Case& antenna) {
   for (const auto& band : antenna.bands) {
     bands.push_back({band.name, band.frequency.value,
                      design::half_power_beamwidth(band.beamwidth_factor.value, band.frequency.value,
-                                                  antenna.antenna.dish_diameter.value)});
+                                                  antenna.antenna.dish_diameter.value),
+                     band.illumination});
   }
   return bands;
 }
@@ -279,6 +325,7 @@ std::vector<PointingBudget> make_budgets(const Case& antenna) {
     PointingBudget budget;
     budget.name = entry.name;
     budget.band = entry.band;
+    if (entry.wind_speed) budget.wind_speed = entry.wind_speed->value;
     for (const auto& band : bands) {
       if (band.name == entry.band) budget.beamwidth = band.beamwidth;
     }

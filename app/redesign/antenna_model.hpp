@@ -45,23 +45,30 @@ plant::FrictionCurve friction_curve(const Case& antenna);
 /// Slope of the friction curve at the tracking rate (N m s/rad of motor).
 double tracking_friction(const Case& antenna);
 design::TrackingProblem make_problem(const Case& antenna, const PlantVariant& variant = {});
+/// Goals against saturation: valve demand within the valve's stroke (without a [simulation], what
+/// the slew rate takes) and torque within the supply's.
 design::HardGoals make_goals(const Case& antenna);
+design::SoftGoal make_soft_goal(const Case& antenna);
+/// The winds of the site by their share of the time; empty if the case does not state them.
+std::vector<design::WeightedWind> make_climate(const Case& antenna);
 identification::DriveEvidence make_evidence(const Case& antenna);
 
 /// A pointing budget as rms error an axis (rad).
 struct PointingBudget {
   std::string name;
   std::string band;
-  double beamwidth = 0.0;  // rad
-  double rms = 0.0;        // rad
-  std::string convention;  // in words
+  double beamwidth = 0.0;            // rad
+  double rms = 0.0;                  // rad
+  std::string convention;            // in words
+  std::optional<double> wind_speed;  // m/s, up to which it must be met
 };
 std::vector<PointingBudget> make_budgets(const Case& antenna);
 
 struct PointingBand {
   std::string name;
-  double frequency = 0.0;  // Hz
-  double beamwidth = 0.0;  // rad
+  double frequency = 0.0;    // Hz
+  double beamwidth = 0.0;    // rad
+  std::string illumination;  // that the beamwidth rests on; empty if its factor is stated
 };
 std::vector<PointingBand> make_bands(const Case& antenna);
 

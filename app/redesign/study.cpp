@@ -263,12 +263,6 @@ std::vector<design::DesignTask> tasks_of(const std::vector<Choice>& choices) {
 
 }  // namespace
 
-TuningSection tune_loops(const Case& antenna, const StudyOptions& options) {
-  return tuning_section(
-      antenna, options,
-      design::solve_all(tuning_tasks(antenna, options), options.threads, options.progress));
-}
-
 MatchingSection match_inertia(const Case& antenna, const StudyOptions& options) {
   MatchingPlan plan = plan_matching(antenna, options);
   auto designs = design::solve_all(plan.tasks, options.threads, options.progress);

@@ -1,22 +1,19 @@
 #include <cmath>
 #include <numbers>
 
-#include <nlohmann/json.hpp>
-
 #include <boresight/app/report/json_audit.hpp>
 #include <boresight/app/report/json_campaign.hpp>
+#include <boresight/app/report/json_design.hpp>
+#include <boresight/app/report/json_limit.hpp>
 #include <boresight/app/report/json_report.hpp>
+#include <boresight/app/report/json_time_domain.hpp>
+#include <boresight/app/report/json_tune.hpp>
 #include <boresight/app/report/sky_units.hpp>
 
 namespace boresight::app {
 namespace {
 
-using Json = nlohmann::ordered_json;
 constexpr double two_pi = 2.0 * std::numbers::pi;
-
-Json number(double value) {
-  return std::isfinite(value) ? Json(value) : Json(nullptr);
-}
 
 Json propagated(const identification::PropagatedResult& result, const std::string& unit) {
   Json json{{"name", result.name},
@@ -37,10 +34,6 @@ Json list(const std::vector<identification::PropagatedResult>& results, const st
   Json json = Json::array();
   for (const auto& result : results) json.push_back(propagated(result, unit));
   return json;
-}
-
-Json text_or_null(const std::string& text) {
-  return text.empty() ? Json(nullptr) : Json(text);
 }
 
 Json identification_json(const IdentificationSection& section) {
@@ -90,15 +83,6 @@ Json identification_json(const IdentificationSection& section) {
   return json;
 }
 
-Json mode_json(const plant::PlantMode& mode) {
-  return {{"description", mode.description},
-          {"frequency_Hz", number(mode.frequency)},
-          {"damping_ratio_1", number(mode.damping_ratio)},
-          {"pole_real_rad_per_s", number(mode.pole.real())},
-          {"pole_imaginary_rad_per_s", number(mode.pole.imag())},
-          {"participation_1", number(mode.participation)}};
-}
-
 Json plant_json(const PlantSection& section) {
   const auto& drive = section.plant.drive;
   Json modes = Json::array();
@@ -120,87 +104,6 @@ Json plant_json(const PlantSection& section) {
           {"rigid_hydraulic_frequency_Hz", section.rigid_frequency},
           {"hydraulic_mode", mode_json(section.hydraulic)},
           {"modes", std::move(modes)}};
-}
-
-Json margins_json(const control::Margins& margins) {
-  const auto decibel = [](double factor) {
-    return factor > 0.0 ? number(20.0 * std::log10(factor)) : Json(nullptr);
-  };
-  return {{"phase_margin_deg", number(margins.phase_margin_deg)},
-          {"increasing_gain_margin_dB", decibel(margins.increasing_gain_margin)},
-          {"decreasing_gain_margin_dB", decibel(margins.decreasing_gain_margin)},
-          {"delay_margin_s", number(margins.delay_margin)}};
-}
-
-std::string gain_key(const control::GainDescription& gain) {
-  std::string key(gain.name);
-  for (char& c : key) {
-    if (c == ' ') c = '_';
-  }
-  return key + (gain.unit == "1" ? "_1" : gain.unit == "1/s" ? "_per_s" : "_rad_per_s");
-}
-
-Json design_json(const design::Design& design) {
-  Json gains;
-  const auto& law = design.tuning.law;
-  const auto& descriptions = control::gain_descriptions(law.structure);
-  for (std::size_t i = 0; i < law.gains.size(); ++i) {
-    gains[gain_key(descriptions[i])] = law.gains[i];
-  }
-  Json breaks = Json::array();
-  for (std::size_t b = 0; b < control::loop_breaks.size(); ++b) {
-    const auto& peak = design.verification.peaks[b];
-    breaks.push_back({{"loop_break", control::to_string(control::loop_breaks[b])},
-                      {"sensitivity_peak_1", number(peak.upper)},
-                      {"sensitivity_peak_lower_bound_1", number(peak.lower)},
-                      {"sensitivity_peak_frequency_Hz", number(peak.frequency / two_pi)},
-                      {"margins", margins_json(design.margins[b])}});
-  }
-  const auto& check = design.verification;
-  return {{"structure", control::to_string(law.structure)},
-          {"feasible", design.tuning.status == design::TuningStatus::optimal},
-          {"verified", check.passed},
-          {"verification_failure", text_or_null(check.failure)},
-          {"gains", std::move(gains)},
-          {"beam_rms_mdeg", number(design.beam_rms / millidegree)},
-          {"wind_rms_mdeg", number(design.wind_rms / millidegree)},
-          {"noise_rms_mdeg", number(design.noise_rms / millidegree)},
-          {"valve_effort_rad_per_s", number(design.valve_effort)},
-          {"loop_breaks", std::move(breaks)},
-          {"hydraulic_mode", mode_json(design.hydraulic_mode)},
-          {"active_goals", design.tuning.active_goals},
-          {"gains_at_bound", design.tuning.gains_at_bound},
-          {"worst_goal_ratio_1", number(design.tuning.worst_goal_ratio)},
-          {"starts", design.tuning.starts},
-          {"starts_at_optimum", design.tuning.starts_at_optimum},
-          {"evaluations", design.tuning.evaluations},
-          {"verification",
-           {{"rate_loop_abscissa_per_s", number(check.stability.rate_loop_abscissa)},
-            {"closed_loop_abscissa_per_s", number(check.stability.closed_loop_abscissa)},
-            {"dead_time_residue_1", number(check.stability.dead_time_residue)},
-            {"lyapunov_to_spectral_rms_1", number(check.lyapunov.total / check.spectral_rms)}}}};
-}
-
-Json ensemble_json(const design::EnsembleResult& ensemble) {
-  Json members = Json::array();
-  for (const auto& member : ensemble.members) {
-    Json peaks = Json::array();
-    for (const double peak : member.sensitivity_peaks) peaks.push_back(number(peak));
-    members.push_back({{"name", member.name},
-                       {"stable", member.stable},
-                       {"beam_rms_mdeg", number(member.beam_rms / millidegree)},
-                       {"sensitivity_peaks_1", std::move(peaks)},
-                       {"valve_effort_rad_per_s", number(member.valve_effort)},
-                       {"worst_goal_ratio_1", number(member.worst_goal_ratio)}});
-  }
-  return {{"stable", ensemble.stable},
-          {"within_goals", ensemble.within_goals},
-          {"least_beam_rms_mdeg", number(ensemble.least_rms / millidegree)},
-          {"median_beam_rms_mdeg", number(ensemble.median_rms / millidegree)},
-          {"quantile_95_beam_rms_mdeg", number(ensemble.high_rms / millidegree)},
-          {"largest_beam_rms_mdeg", number(ensemble.largest_rms / millidegree)},
-          {"worst", ensemble.members[ensemble.worst].name},
-          {"members", std::move(members)}};
 }
 
 Json tuning_json(const TuningSection& section) {
@@ -314,6 +217,9 @@ std::string to_json(const Report& report) {
   if (report.audit) json["audit"] = audit_json(*report.audit);
   if (report.plant) json["plant"] = plant_json(*report.plant);
   if (report.tuning) json["tuning"] = tuning_json(*report.tuning);
+  if (report.tuned) json["tuned"] = tune_json(*report.tuned);
+  if (report.time_domain) json["time_domain"] = time_domain_json(*report.time_domain);
+  if (report.limit) json["limit"] = limit_json(*report.limit);
   if (!report.choices.empty()) json["choices"] = choices_json(report.choices);
   if (report.matching) json["matching"] = matching_json(*report.matching);
   json["assumed_inputs"] = assumed_json(report.assumed);

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <boresight/app/report/text_layout.hpp>
+#include <boresight/app/report/text_limit.hpp>
 #include <boresight/app/report/text_report.hpp>
 
 namespace boresight::app {
@@ -48,6 +49,9 @@ std::string to_text(const Report& report) {
   }
   if (report.plant) text += to_text(*report.plant);
   if (report.tuning) text += to_text(*report.tuning);
+  if (report.tuned) text += to_text(*report.tuned);
+  if (report.limit) text += to_text(*report.limit);
+  if (report.time_domain) text += to_text(*report.time_domain);
   if (!report.choices.empty()) text += choices_text(report.choices);
   if (report.matching) text += to_text(*report.matching);
   if (report.command != "audit") text += assumed_text(report.assumed);

@@ -22,6 +22,8 @@ std::string to_text(const AuditReport& report);
 std::string audit_summary(const AuditReport& report);
 std::string to_text(const PlantSection& section);
 std::string to_text(const TuningSection& section);
+/// The table of tuned laws, gains before and after, what limits each, what cannot be reached.
+std::string to_text(const TuneSection& section);
 std::string choices_text(const std::vector<ChoiceResult>& choices);
 std::string to_text(const MatchingSection& section);
 std::string assumed_text(const std::vector<Quantity>& assumed);

@@ -112,22 +112,6 @@ TEST(CommandLine, DoesNotReplaceAFolder) {
   EXPECT_EQ(folder.entries(), 1U);
 }
 
-// A peak of 1.05 leaves a loop no gain to speak of, and 1e-9 rad/s no noise to pass.
-TEST(CommandLine, ReportsTheNearestLawToInfeasibleGoals) {
-  EditedCase edited;
-  edited.replace("sensitivity_peak = { value = \"2\"", "sensitivity_peak = { value = \"1.05\"");
-  edited.replace("\"0.6 rad/s\"", "\"1e-9 rad/s\"");
-  const ScratchFolder folder;
-  const std::string path = folder.write("case.toml", edited.text());
-  const std::string json = folder.file("report.json");
-  const ProgramResult result = run_program({"tune", path, "--json", json});
-  EXPECT_EQ(result.exit_code, 3);
-  EXPECT_EQ(result.errors, "boresight: no control law meets the hard goals of " + path + "\n");
-  EXPECT_THAT(result.output, HasSubstr("Tuned loops"));
-  EXPECT_THAT(result.output, ContainsRegex("No PI with lag law meets the hard goals; the nearest"));
-  EXPECT_THAT(content_of(json), HasSubstr("\"feasible\": false"));
-}
-
 TEST(CommandLine, ListsEveryAssumedInput) {
   for (const std::string antenna : {"dss14-70m", "dss14-64m"}) {
     const ProgramResult model = run_program({"model", case_path(antenna)});

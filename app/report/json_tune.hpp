@@ -1,0 +1,11 @@
+#pragma once
+
+#include <boresight/app/report/json_design.hpp>
+#include <boresight/app/tune/tune_section.hpp>
+
+namespace boresight::app {
+
+/// "tuned" of docs/report.schema.json.
+Json tune_json(const TuneSection& section);
+
+}  // namespace boresight::app

@@ -1,0 +1,234 @@
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <boresight/app/report/sky_units.hpp>
+#include <boresight/app/report/text_layout.hpp>
+#include <boresight/app/report/text_report.hpp>
+
+namespace boresight::app {
+namespace {
+
+using design::TuningStatus;
+using Rows = std::vector<std::vector<std::string>>;
+
+std::string mdeg(double angle) {
+  return std::isfinite(angle) ? fmt::format("{:.4f}", angle / millidegree) : "-";
+}
+
+std::string fixed(double value, int decimals) {
+  return std::isfinite(value) ? fmt::format("{:.{}f}", value, decimals) : "-";
+}
+
+std::string decibel(double factor) {
+  return std::isfinite(factor) && factor > 0.0 ? fmt::format("{:.1f}", 20.0 * std::log10(factor))
+                                               : "none";
+}
+
+std::string speed(double limit) {
+  if (std::isnan(limit)) return "-";
+  return std::isfinite(limit) ? fmt::format("{:.2f}", limit) : "> 60";
+}
+
+std::string loss(double rms, const PointingBand& band) {
+  const double decibels =
+      design::pointing_loss_db(rms, band.beamwidth, design::LossConvention::mean_loss_two_axes);
+  return fixed(decibels, 4);
+}
+
+std::string verdict(const TunedLaw& row) {
+  if (!row.stable()) return "no stable law";
+  if (!row.goals_met) return row.design.tuning.interrupted ? "not finished" : "misses goals";
+  return row.design.verification.passed ? "verified" : "NOT VERIFIED";
+}
+
+std::vector<std::string> first_cells(const TunedLaw& row) {
+  return {row.structure, std::string(to_string(row.tuned_for)),
+          fmt::format("{:g}", row.wind_speed)};
+}
+
+std::string pointing_text(const TuneSection& section) {
+  const bool climate = std::ranges::any_of(
+      section.laws, [](const TunedLaw& row) { return row.climate_rms.has_value(); });
+  Rows rows{{"structure", "tuned for", "m/s", "rms mdeg", "worst plant"}};
+  for (const auto& band : section.bands) rows[0].push_back(fmt::format("dB {}", band.name));
+  if (climate) {
+    rows[0].emplace_back("climate mdeg");
+    for (const auto& band : section.bands) {
+      rows[0].push_back(fmt::format("climate dB {}", band.name));
+    }
+  }
+  for (std::size_t i = 0; i < section.budgets.size(); ++i) {
+    rows[0].push_back(fmt::format("({}) m/s", i + 1));
+  }
+  rows[0].emplace_back("check");
+  for (const auto& row : section.laws) {
+    auto cells = first_cells(row);
+    cells.push_back(mdeg(row.beam_rms));
+    const bool all_stable =
+        row.ensemble && row.ensemble->stable == static_cast<int>(row.ensemble->members.size());
+    cells.push_back(!row.ensemble ? "-"
+                    : all_stable  ? mdeg(row.ensemble->largest_rms)
+                                  : "unstable");
+    for (const auto& band : section.bands) cells.push_back(loss(row.beam_rms, band));
+    if (climate) {
+      const double rms = row.climate_rms.value_or(std::nan(""));
+      cells.push_back(mdeg(rms));
+      for (const auto& band : section.bands) cells.push_back(loss(rms, band));
+    }
+    for (const double limit : row.speed_limits) cells.push_back(speed(limit));
+    cells.push_back(verdict(row));
+    rows.push_back(std::move(cells));
+  }
+  std::string text = table(rows, "ll");
+  for (std::size_t i = 0; i < section.budgets.size(); ++i) {
+    const auto& budget = section.budgets[i];
+    text += fmt::format(
+        "  ({}) {}, band {}, {}: {} mdeg, met up to that mean wind speed{}\n", i + 1, budget.name,
+        budget.band, budget.convention, mdeg(budget.rms),
+        budget.wind_speed ? fmt::format("; {:g} m/s asked for", *budget.wind_speed) : "");
+  }
+  for (const auto& band : section.bands) {
+    text +=
+        fmt::format("  dB {}: mean loss over two equal axes, beamwidth {:.3f} mdeg at {:g} GHz{}\n",
+                    band.name, band.beamwidth / millidegree, band.frequency / 1e9,
+                    band.illumination.empty() ? "" : ", " + band.illumination);
+  }
+  return text;
+}
+
+std::string robustness_text(const TuneSection& section) {
+  constexpr std::size_t valve = 1, position = 2;
+  Rows rows{{"structure", "tuned for", "m/s", "S rate", "S valve", "S pos.", "PM valve", "GM valve",
+             "PM pos.", "GM pos.", "effort rad/s", "stable plants", "within goals",
+             "active goals"}};
+  for (const auto& row : section.laws) {
+    auto cells = first_cells(row);
+    if (!row.stable()) {
+      cells.insert(cells.end(), 11, "-");
+      rows.push_back(std::move(cells));
+      continue;
+    }
+    const auto& design = row.design;
+    for (const auto& peak : design.verification.peaks) cells.push_back(fixed(peak.upper, 3));
+    for (const std::size_t loop : {valve, position}) {
+      cells.push_back(fixed(design.margins.at(loop).phase_margin_deg, 1));
+      cells.push_back(decibel(design.margins.at(loop).increasing_gain_margin));
+    }
+    cells.push_back(fixed(design.valve_effort, 3));
+    const auto of_all = [&](int count) {
+      return row.ensemble ? fmt::format("{}/{}", count, row.ensemble->members.size()) : "-";
+    };
+    cells.push_back(of_all(row.ensemble ? row.ensemble->stable : 0));
+    cells.push_back(of_all(row.ensemble ? row.ensemble->within_goals : 0));
+    cells.push_back(fmt::format("{}", design.tuning.limits.size()));
+    rows.push_back(std::move(cells));
+  }
+  return table(rows, "ll") +
+         wrapped(
+             "S: peak of the sensitivity with the loop cut at rate loop alone, valve command, "
+             "position loop; PM, GM: phase margin in degrees, gain margin in dB.",
+             "  ");
+}
+
+// One table a structure and wind speed: the gains before and after.
+std::string gains_text(const TuneSection& section) {
+  std::string text;
+  for (std::size_t i = 0; i < section.laws.size(); ++i) {
+    const auto same = [&](const TunedLaw& row) {
+      return row.structure == section.laws[i].structure &&
+             row.wind_speed == section.laws[i].wind_speed;
+    };
+    const auto before = section.laws.begin() + static_cast<std::ptrdiff_t>(i);
+    if (std::any_of(section.laws.begin(), before, same)) continue;
+    const auto& descriptions = section.laws[i].design.tuning.law.structure.gains();
+    Rows rows{{"gain", "searched, SI"}};
+    for (const auto& gain : descriptions) {
+      rows.push_back({fmt::format("{} {}", gain.symbol, gain.name),
+                      fmt::format("{:g} .. {:g} {}", gain.lower, gain.upper,
+                                  gain.unit == "1" ? "" : gain.unit)});
+    }
+    for (const auto& row : section.laws) {
+      if (!same(row)) continue;
+      rows[0].emplace_back(to_string(row.tuned_for));
+      for (std::size_t k = 0; k < descriptions.size(); ++k) {
+        rows[k + 1].push_back(k < row.gains.size() ? row.gains[k] : "-");
+      }
+    }
+    text +=
+        fmt::format("\n  {} at {:g} m/s\n", section.laws[i].structure, section.laws[i].wind_speed) +
+        table(rows, "ll");
+  }
+  return text;
+}
+
+std::string limits_text(const TuneSection& section) {
+  std::string text;
+  for (const auto& row : section.laws) {
+    const auto& tuning = row.design.tuning;
+    if (row.tuned_for == TunedFor::present || !row.stable()) continue;
+    std::vector<std::string> limits;
+    for (const auto& limit : tuning.limits) limits.push_back(limit.description());
+    if (limits.empty()) limits = tuning.active_goals;
+    if (limits.empty()) limits.emplace_back("no goal");
+    text += wrapped(fmt::format("{}, {}, {:g} m/s: {}.{}", row.structure, to_string(row.tuned_for),
+                                row.wind_speed, fmt::join(limits, "; "),
+                                tuning.gains_at_bound.empty()
+                                    ? ""
+                                    : fmt::format(" At the bound of the search: {}.",
+                                                  fmt::join(tuning.gains_at_bound, ", "))),
+                    "  ", "  ");
+  }
+  return text;
+}
+
+std::string goals_text(const TuneSection& section) {
+  const design::HardGoals& goals = section.goals;
+  const auto& peaks = goals.sensitivity_peak;
+  std::string text = fmt::format(
+      "Hard goals: peak of S at most {:g} (rate loop alone), {:g} (valve command), {:g} (position "
+      "loop); noise-driven valve effort at most {:g} rad/s",
+      peaks[0], peaks[1], peaks[2], goals.valve_effort);
+  if (goals.gain_margin[0])
+    text += fmt::format("; gain margin {} dB", decibel(*goals.gain_margin[0]));
+  if (goals.phase_margin[0]) {
+    text +=
+        fmt::format("; phase margin {:.4g} deg", *goals.phase_margin[0] * 180.0 / std::numbers::pi);
+  }
+  if (goals.bandwidth) {
+    text += fmt::format("; bandwidth {:.4g} Hz", *goals.bandwidth / (2.0 * std::numbers::pi));
+  }
+  if (goals.gust_torque && goals.gust_demand) {
+    text += fmt::format("; {:g} times rms in gusts within {:.4g} N.m and {:.4g} rad/s",
+                        goals.crest_factor, *goals.gust_torque, *goals.gust_demand);
+  }
+  if (section.beam_rms_goal)
+    text += fmt::format("; beam rms {} mdeg", mdeg(*section.beam_rms_goal));
+  return wrapped(fmt::format("{}. Least: {} rms of the beam{}. Robust laws keep the hard goals on "
+                             "{} plants, {}. {} starts.",
+                             text, design::to_string(section.soft_goal.kind),
+                             section.minimises_climate ? " over the site's wind climate" : "",
+                             section.ensemble_size, section.ensemble_source, section.starts),
+                 "  ");
+}
+
+}  // namespace
+
+std::string to_text(const TuneSection& section) {
+  std::string text =
+      heading(fmt::format("Tuned loops: {}, wind model {}", fmt::join(section.structures, ", "),
+                          plant::to_string(section.wind_model)));
+  text += goals_text(section) + "\n";
+  if (!section.not_run.empty()) {
+    text += wrapped(fmt::format("Not run: {}.", fmt::join(section.not_run, "; ")), "  ");
+  }
+  text += pointing_text(section) + "\n" + robustness_text(section);
+  text += heading("Gains, before and after") + gains_text(section);
+  text += heading("What limits each law, and what 1 % more of the limit would buy");
+  return text + limits_text(section);
+}
+
+}  // namespace boresight::app

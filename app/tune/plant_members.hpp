@@ -1,0 +1,29 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include <boresight/app/io/case_file.hpp>
+#include <boresight/design/tracking_problem.hpp>
+
+namespace boresight::app {
+
+/// The ends of what the plant is drawn from; factors on the case's structure frequencies (modes and
+/// locked rotor) and oil stiffness, the rest SI.
+struct MemberRanges {
+  struct Ends {
+    double lower = 1.0, upper = 1.0;
+  };
+  Ends structure_frequency, oil_stiffness, leakage_rate, viscous_friction;
+};
+
+/// Those of the case's [ensemble]; what it leaves out: 0.95 to 1.05, 0.8 to 1.33, 0.3 times to once
+/// the case's leakage rate, and 0 to the friction slope at the tracking rate.
+MemberRanges member_ranges(const Case& antenna);
+
+/// Plants that may be the true one: the case's own ("nominal"), five corners with one end of one
+/// range each (both of structure and oil, the lower of leakage) and a Latin hypercube of
+/// ensemble.draws (24 unless stated) over all four ranges, the same for a seed.
+std::vector<design::EnsembleMember> plant_members(const Case& antenna, std::uint64_t seed);
+
+}  // namespace boresight::app

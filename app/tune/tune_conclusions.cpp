@@ -1,0 +1,124 @@
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <boresight/app/report/sky_units.hpp>
+#include <boresight/app/tune/tune_study.hpp>
+
+namespace boresight::app {
+namespace {
+
+std::string mdeg(double angle) {
+  return fmt::format("{:.4f} mdeg", angle / millidegree);
+}
+
+const TunedLaw* find(const TuneSection& section, const TunedLaw& like, TunedFor purpose) {
+  for (const auto& row : section.laws) {
+    if (row.structure == like.structure && row.wind_speed == like.wind_speed &&
+        row.tuned_for == purpose) {
+      return &row;
+    }
+  }
+  return nullptr;
+}
+
+std::string limits_of(const TunedLaw& row) {
+  std::vector<std::string> texts;
+  for (const auto& limit : row.design.tuning.limits) texts.push_back(limit.description());
+  if (texts.empty()) texts = row.design.tuning.active_goals;
+  return texts.empty() ? "no goal" : fmt::format("{}", fmt::join(texts, "; "));
+}
+
+// The best usable law of each purpose.
+void conclude_best(const TuneSection& section, std::vector<std::string>& sentences) {
+  for (const double speed : section.wind_speeds) {
+    for (const auto purpose : {TunedFor::nominal, TunedFor::robust}) {
+      const TunedLaw* best = nullptr;
+      for (const auto& row : section.laws) {
+        if (row.tuned_for != purpose || row.wind_speed != speed || !row.usable()) continue;
+        if (best == nullptr || row.beam_rms < best->beam_rms) best = &row;
+      }
+      if (best == nullptr) continue;
+      sentences.push_back(fmt::format(
+          "At {:g} m/s the best {} is {} with {} rms. Limited by {}.", speed,
+          purpose == TunedFor::robust ? "law that keeps its goals on every plant" : "nominal law",
+          best->structure, mdeg(best->beam_rms), limits_of(*best)));
+    }
+  }
+}
+
+void conclude_before_and_after(const TuneSection& section, std::vector<std::string>& sentences) {
+  for (const auto& row : section.laws) {
+    if (row.tuned_for != TunedFor::present) continue;
+    const TunedLaw* after = find(section, row, TunedFor::nominal);
+    if (!row.stable()) {
+      sentences.push_back(
+          fmt::format("The present gains of {} do not stabilise this antenna at "
+                      "{:g} m/s, by the case's plant.",
+                      row.structure, row.wind_speed));
+      continue;
+    }
+    std::string text = fmt::format(
+        "The present gains of {} point within {} in {:g} m/s{}", row.structure, mdeg(row.beam_rms),
+        row.wind_speed,
+        row.goals_met ? "" : fmt::format(" and miss a goal ({})", row.design.verification.failure));
+    if (after != nullptr && after->usable()) {
+      text += fmt::format("; tuned, {} does so within {} ({:+.1f} %)", row.structure,
+                          mdeg(after->beam_rms), 100.0 * (after->beam_rms / row.beam_rms - 1.0));
+    }
+    sentences.push_back(text + ".");
+  }
+}
+
+// Laws that are good for the nominal plant only, and what it costs to be good for all.
+void conclude_robustness(const TuneSection& section, std::vector<std::string>& sentences) {
+  for (const auto& row : section.laws) {
+    if (row.tuned_for != TunedFor::nominal || !row.usable() || !row.ensemble) continue;
+    const auto& ensemble = *row.ensemble;
+    const auto all = static_cast<int>(ensemble.members.size());
+    if (ensemble.within_goals == all) continue;
+    const auto& worst = ensemble.members[ensemble.worst];
+    std::string text = fmt::format(
+        "Tuned for the nominal plant, {} at {:g} m/s keeps its goals on {} of {} plants; the "
+        "worst, "
+        "{}, {}",
+        row.structure, row.wind_speed, ensemble.within_goals, all, worst.name,
+        worst.stable
+            ? fmt::format("exceeds one by {:.0f} %", 100.0 * (worst.worst_goal_ratio - 1.0))
+            : "is not stable");
+    const TunedLaw* robust = find(section, row, TunedFor::robust);
+    if (robust != nullptr && robust->usable()) {
+      text += fmt::format(". Keeping them on every plant costs {:+.1f} % of rms ({})",
+                          100.0 * (robust->beam_rms / row.beam_rms - 1.0), mdeg(robust->beam_rms));
+    } else if (robust != nullptr && robust->stable()) {
+      text += fmt::format(
+          ". No law of {} found keeps them on every plant; the nearest is {:.1f} % "
+          "off",
+          row.structure, 100.0 * (robust->design.tuning.worst_goal_ratio - 1.0));
+    }
+    sentences.push_back(text + ".");
+  }
+}
+
+}  // namespace
+
+std::vector<std::string> conclude(const TuneSection& section) {
+  std::vector<std::string> sentences;
+  for (const auto& shortfall : section.shortfalls) {
+    sentences.push_back("INFEASIBLE: " + shortfall.infeasible + " " + shortfall.closest);
+  }
+  if (section.unverified) {
+    sentences.emplace_back(
+        "No law that meets its goals passes its verification: nothing is "
+        "concluded.");
+    return sentences;
+  }
+  conclude_best(section, sentences);
+  conclude_before_and_after(section, sentences);
+  conclude_robustness(section, sentences);
+  return sentences;
+}
+
+}  // namespace boresight::app

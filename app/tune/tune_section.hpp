@@ -1,0 +1,66 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <boresight/app/redesign/antenna_model.hpp>
+#include <boresight/design/design_study.hpp>
+#include <boresight/design/plant_ensemble.hpp>
+
+namespace boresight::app {
+
+/// What a law of the table was tuned for.
+enum class TunedFor {
+  present,  // not tuned: the gains the antenna runs on now
+  nominal,  // the case's plant alone
+  robust,   // every hard goal on every member of the ensemble
+};
+std::string_view to_string(TunedFor purpose);
+
+/// One row of the table: a law, judged.
+struct TunedLaw {
+  std::string structure;  // as the user names it
+  TunedFor tuned_for = TunedFor::nominal;
+  double wind_speed = 0.0;  // m/s, of the design
+  design::Design design;    // on the case's plant
+  /// Every hard goal is met: by a robust law on every member, by others on the case's plant.
+  bool goals_met = false;
+  std::vector<std::string> gains;     // in the engineer's units, in the structure's order
+  double beam_rms = 0.0;              // rad at the design's wind speed; NaN without a stable law
+  std::optional<double> climate_rms;  // rad, root of the mean square over the site's wind climate
+  std::vector<double> speed_limits;   // m/s, one a budget
+  std::optional<design::EnsembleResult> ensemble;
+
+  bool stable() const { return design.tuning.status != design::TuningStatus::unstable; }
+  bool usable() const { return goals_met && design.verification.passed; }
+};
+
+/// What cannot be reached, and what comes closest.
+struct Shortfall {
+  std::string infeasible;
+  std::string closest;
+};
+
+/// What `boresight tune` found.
+struct TuneSection {
+  std::vector<std::string> structures;
+  std::vector<double> wind_speeds;  // m/s: the design's and those that budgets ask for
+  plant::WindModel wind_model = plant::WindModel::coherence;
+  design::HardGoals goals;
+  design::SoftGoal soft_goal;
+  std::optional<double> beam_rms_goal;  // rad
+  bool minimises_climate = false;       // the climate's mean square in the place of one speed's
+  std::vector<PointingBand> bands;
+  std::vector<PointingBudget> budgets;
+  std::string ensemble_source;  // what its members were drawn from
+  std::size_t ensemble_size = 0;
+  int starts = 0;
+  std::vector<TunedLaw> laws;
+  std::vector<std::string> not_run;  // tunings that an interrupt left out
+  std::vector<Shortfall> shortfalls;
+  /// No tuned law that meets all it must passes its verification.
+  bool unverified = false;
+};
+
+}  // namespace boresight::app

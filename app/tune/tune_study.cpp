@@ -1,0 +1,295 @@
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <mutex>
+
+#include <fmt/format.h>
+
+#include <boresight/app/tune/engineer_units.hpp>
+#include <boresight/app/tune/tune_study.hpp>
+#include <boresight/design/parallel_loop.hpp>
+#include <boresight/plant/error.hpp>
+#include <boresight/plant/point_response.hpp>
+
+namespace boresight::app {
+namespace {
+
+using design::TuningStatus;
+
+// Of every structure and wind speed: no tuning, or a nominal and a robust one.
+struct Unit {
+  std::string name;
+  control::LoopStructure structure;
+  double wind_speed = 0.0;
+  std::optional<control::ControlLaw> present;
+  std::vector<TunedLaw> laws;
+  std::vector<std::string> not_run;
+};
+
+class Study {
+ public:
+  Study(const Case& antenna, const PlantEnsemble& ensemble, const TuneOptions& options,
+        const TuneSection& section)
+      : antenna_(antenna),
+        ensemble_(ensemble),
+        options_(options),
+        section_(section),
+        problem_(make_problem(antenna)),
+        climate_(make_climate(antenna)) {
+    if (section.minimises_climate && climate_.empty()) {
+      throw InvalidInput(
+          "tune: expected [[wind.climate]] in the case for the goal rms_over = "
+          "climate, found none");
+    }
+  }
+
+  void run(Unit& unit) const {
+    if (unit.present) {
+      TunedLaw row = new_row(unit, TunedFor::present);
+      row.design = design_of(problem_at(unit.wind_speed), *unit.present);
+      finish(row);
+      row.goals_met = row.stable() && row.design.tuning.status == TuningStatus::optimal;
+      unit.laws.push_back(std::move(row));
+      return;
+    }
+    design::DesignTask task;
+    task.name = unit.name;
+    task.problem = problem_at(unit.wind_speed);
+    task.structure = unit.structure;
+    task.goals = section_.goals;
+    task.options.seed = options_.seed;
+    task.options.starts = section_.starts;
+    task.options.stop = options_.interrupted;
+    for (const auto& law : present_laws(antenna_)) {
+      if (law.structure == unit.structure) task.options.warm_starts.push_back(law.gains);
+    }
+    tune(unit, TunedFor::nominal, task);
+    if (!unit.laws.empty() && unit.laws.front().stable()) {
+      task.options.warm_starts.push_back(unit.laws.front().design.tuning.law.gains);
+    }
+    task.options.members = ensemble_.members;
+    task.options.soft_goal = section_.soft_goal;
+    tune(unit, TunedFor::robust, task);
+  }
+
+ private:
+  design::TrackingProblem problem_at(double wind_speed) const {
+    design::TrackingProblem problem = problem_;
+    problem.wind.mean_speed = wind_speed;
+    if (section_.minimises_climate) problem.climate = climate_;
+    return problem;
+  }
+
+  static TunedLaw new_row(const Unit& unit, TunedFor purpose) {
+    TunedLaw row;
+    row.structure = unit.name;
+    row.tuned_for = purpose;
+    row.wind_speed = unit.wind_speed;
+    return row;
+  }
+
+  void tune(Unit& unit, TunedFor purpose, const design::DesignTask& task) const {
+    if (options_.interrupted && options_.interrupted()) {
+      unit.not_run.push_back(
+          fmt::format("{}, {}, {:g} m/s", unit.name, to_string(purpose), unit.wind_speed));
+      return;
+    }
+    TunedLaw row = new_row(unit, purpose);
+    row.design = design::solve(task);
+    finish(row);
+    const bool every_member = !row.ensemble || row.ensemble->within_goals ==
+                                                   static_cast<int>(row.ensemble->members.size());
+    row.goals_met = row.design.tuning.status == TuningStatus::optimal &&
+                    (purpose == TunedFor::nominal || every_member);
+    unit.laws.push_back(std::move(row));
+  }
+
+  // What a law means at the sky and on the ensemble.
+  void finish(TunedLaw& row) const {
+    const control::ControlLaw& law = row.design.tuning.law;
+    row.gains = in_engineers_units(antenna_, law);
+    if (!row.stable()) {
+      row.gains.clear();
+      row.beam_rms = std::numeric_limits<double>::quiet_NaN();
+      row.speed_limits.assign(section_.budgets.size(), row.beam_rms);
+      return;
+    }
+    design::TrackingProblem problem = problem_;
+    problem.wind.mean_speed = row.wind_speed;
+    control::LoopEvaluator evaluator = design::make_evaluator(problem);
+    const auto evaluation = evaluator.evaluate(law, false);
+    row.beam_rms = std::sqrt(evaluation.beam_variance()) / problem.gear_ratio;
+    for (const auto& budget : section_.budgets) {
+      row.speed_limits.push_back(
+          design::wind_speed_limit(problem, evaluator, law, evaluation.noise_variance, budget.rms));
+    }
+    if (!climate_.empty()) {
+      problem.climate = climate_;
+      row.climate_rms =
+          std::sqrt(design::make_evaluator(problem).evaluate(law, false).beam_variance()) /
+          problem.gear_ratio;
+    }
+    if (!ensemble_.members.empty()) {
+      row.ensemble =
+          design::judge(problem_at(row.wind_speed), ensemble_.members, law, section_.goals, 1);
+    }
+  }
+
+  // Gains that nobody tuned, looked at as a tuned law is.
+  design::Design design_of(const design::TrackingProblem& problem,
+                           const control::ControlLaw& law) const {
+    design::Design design;
+    design.tuning.law = law;
+    design.hydraulic_mode = plant::hydraulic_mode(plant::plant_modes(problem.plant));
+    design.reflected_inertia = plant::reflected_inertia(problem.plant);
+    control::LoopEvaluator evaluator = design::make_evaluator(problem);
+    const auto verdict =
+        control::stability(problem.plant, law, problem.delay, evaluator.response().frequency);
+    if (!verdict.stable()) {
+      design.tuning.status = TuningStatus::unstable;
+      design.tuning.worst_goal_ratio = std::numeric_limits<double>::infinity();
+      design.beam_rms = design.wind_rms = design.noise_rms = design.valve_effort =
+          std::numeric_limits<double>::quiet_NaN();
+      return design;
+    }
+    design.tuning.evaluation = evaluator.evaluate(law, false);
+    const auto& evaluation = design.tuning.evaluation;
+    design.tuning.worst_goal_ratio = design::worst_goal_ratio(evaluation, section_.goals);
+    design.verification = design::verify(problem, law, section_.goals);
+    design.tuning.status =
+        design.verification.passed ? TuningStatus::optimal : TuningStatus::infeasible;
+    design.beam_rms = std::sqrt(evaluation.beam_variance()) / problem.gear_ratio;
+    design.wind_rms = std::sqrt(evaluation.wind_variance) / problem.gear_ratio;
+    design.noise_rms = std::sqrt(evaluation.noise_variance) / problem.gear_ratio;
+    design.valve_effort = std::sqrt(evaluation.effort_variance);
+    const Eigen::ArrayXd grid = evaluator.response().frequency;
+    const plant::PointResponse response(problem.plant);
+    for (std::size_t b = 0; b < control::loop_breaks.size(); ++b) {
+      design.margins.at(b) = control::margins(
+          [&](double w) {
+            return control::loop_gain(response(w), w, law, problem.delay,
+                                      control::loop_breaks.at(b));
+          },
+          grid);
+    }
+    return design;
+  }
+
+  const Case& antenna_;
+  const PlantEnsemble& ensemble_;
+  const TuneOptions& options_;
+  const TuneSection& section_;
+  design::TrackingProblem problem_;
+  std::vector<design::WeightedWind> climate_;
+};
+
+std::vector<std::string> structures_of(const Case& antenna, const TuneOptions& options) {
+  std::vector<std::string> names = options.structures;
+  if (names.empty()) names = antenna.tuning.structures;
+  if (names.empty()) {
+    names = {"PI", "DPF", "LL", "FULL", "PI+C", "DPF+C"};
+    for (const auto& loop : antenna.loops) names.push_back(loop.structure.name());
+  }
+  for (const auto& name : names) {
+    if (std::ranges::count(names, name) != 1) {
+      throw InvalidInput(fmt::format("tune: expected each structure once, found '{}' again", name));
+    }
+  }
+  return names;
+}
+
+// The speeds asked for, or the design's, and those of budgets that must be met.
+std::vector<double> speeds_of(const Case& antenna, const TuneOptions& options) {
+  std::vector<double> speeds = options.wind_speeds;
+  if (speeds.empty()) speeds.push_back(antenna.wind.design_speed.value);
+  for (const auto& budget : antenna.budgets) {
+    if (budget.wind_speed) speeds.push_back(budget.wind_speed->value);
+  }
+  std::vector<double> once;
+  for (const double speed : speeds) {
+    if (!(speed >= 0.1 && speed <= 60.0)) {
+      throw InvalidInput(
+          fmt::format("tune: expected wind speeds of 0.1 to 60 m/s, found {:g} m/s", speed));
+    }
+    if (std::ranges::find(once, speed) == once.end()) once.push_back(speed);
+  }
+  return once;
+}
+
+// As --structure takes it: a usual structure's short name, else the own one's.
+std::string short_name(const control::LoopStructure& structure) {
+  for (const auto* base : {"PI-0", "PI", "DPF", "LL", "FULL"}) {
+    for (const auto* added : {"", "+N", "+C", "+N+C"}) {
+      const std::string name = std::string(base) + added;
+      if (control::LoopStructure::named(name) == structure) return name;
+    }
+  }
+  return structure.name();
+}
+
+std::vector<Unit> units_of(const Case& antenna, const TuneSection& section) {
+  std::vector<Unit> units;
+  for (const double speed : section.wind_speeds) {
+    for (const auto& law : present_laws(antenna)) {
+      units.push_back({short_name(law.structure), law.structure, speed, law, {}, {}});
+    }
+    for (const auto& name : section.structures) {
+      units.push_back({name, loop_structure(antenna.loops, name), speed, std::nullopt, {}, {}});
+    }
+  }
+  return units;
+}
+
+// Whether a tuned law is good for everything but for its verification.
+bool only_unverified(const std::vector<TunedLaw>& laws) {
+  const auto tuned = [](const TunedLaw& row) { return row.tuned_for != TunedFor::present; };
+  return std::ranges::any_of(laws, [&](const auto& row) { return tuned(row) && row.goals_met; }) &&
+         std::ranges::none_of(laws, [&](const auto& row) { return tuned(row) && row.usable(); });
+}
+
+}  // namespace
+
+std::string_view to_string(TunedFor purpose) {
+  static constexpr std::array names{"present", "nominal", "robust"};
+  return names.at(static_cast<std::size_t>(purpose));
+}
+
+TuneSection tune_structures(const Case& antenna, const PlantEnsemble& ensemble,
+                            const TuneOptions& options) {
+  TuneSection section;
+  section.structures = structures_of(antenna, options);
+  section.wind_speeds = speeds_of(antenna, options);
+  section.goals = make_goals(antenna);
+  design::validate(section.goals);
+  section.soft_goal = make_soft_goal(antenna);
+  if (antenna.goals.beam_rms) section.beam_rms_goal = antenna.goals.beam_rms->value;
+  section.minimises_climate = antenna.goals.over_climate;
+  section.bands = make_bands(antenna);
+  section.budgets = make_budgets(antenna);
+  section.ensemble_source = ensemble.source;
+  section.ensemble_size = ensemble.members.size();
+  section.starts = options.starts;
+  if (section.starts == 0) section.starts = static_cast<int>(antenna.tuning.starts);
+  if (section.starts == 0) section.starts = design::TuningOptions{}.starts;
+
+  const Study study(antenna, ensemble, options, section);
+  section.wind_model = make_problem(antenna).wind.model;
+  auto units = units_of(antenna, section);
+  std::size_t done = 0;
+  std::mutex mutex;
+  design::for_each_index(units.size(), options.threads, [&](std::size_t i) {
+    study.run(units[i]);
+    const std::lock_guard lock(mutex);
+    ++done;
+    if (options.progress) options.progress(done, units.size());
+  });
+  for (auto& unit : units) {
+    std::ranges::move(unit.laws, std::back_inserter(section.laws));
+    std::ranges::move(unit.not_run, std::back_inserter(section.not_run));
+  }
+  section.unverified = only_unverified(section.laws);
+  section.shortfalls = find_shortfalls(section);
+  return section;
+}
+
+}  // namespace boresight::app

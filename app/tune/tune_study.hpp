@@ -1,0 +1,47 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include <boresight/app/tune/tune_section.hpp>
+
+namespace boresight::app {
+
+/// What to tune; empty and 0: as the case has it.
+struct TuneOptions {
+  std::vector<std::string> structures;
+  std::vector<double> wind_speeds;  // m/s
+  int starts = 0;
+  std::uint64_t seed = 1;
+  unsigned threads = 1;
+  /// Called with tasks done and all tasks; may be empty.
+  std::function<void(std::size_t, std::size_t)> progress;
+  /// Asked now and then, from any thread; true ends the work with the best laws found so far.
+  std::function<bool()> interrupted;
+};
+
+/// Plants that may be the true one, and what they were drawn from.
+struct PlantEnsemble {
+  std::string source;
+  std::vector<design::EnsembleMember> members;
+};
+
+/// Tunes each structure at each wind speed, for the case's plant alone and for every member of the
+/// ensemble, judges them and the present gains, and says what cannot be reached. The same for any
+/// number of threads.
+/// @throws InvalidInput for a structure that is none or asked for twice, a speed outside 0.1 to 60
+/// m/s, and goals that design::validate or the case's tables do not allow.
+TuneSection tune_structures(const Case& antenna, const PlantEnsemble& ensemble,
+                            const TuneOptions& options);
+
+/// What of the goals, budgets and plant the laws of a finished study do not reach, with the closest
+/// that they do. Empty if every wind speed has a law that meets everything.
+std::vector<Shortfall> find_shortfalls(const TuneSection& section);
+
+/// A few sentences that say what the table means: the best law, before and after, the price of
+/// robustness, what limits.
+std::vector<std::string> conclude(const TuneSection& section);
+
+}  // namespace boresight::app

@@ -1,0 +1,183 @@
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <boresight/app/report/sky_units.hpp>
+#include <boresight/app/tune/tune_study.hpp>
+
+namespace boresight::app {
+namespace {
+
+using design::GoalKind;
+using design::GoalRatio;
+using design::TuningStatus;
+
+constexpr double met = 1.0 + 1e-6;
+
+bool tuned(const TunedLaw& row) {
+  return row.tuned_for != TunedFor::present;
+}
+
+std::vector<const TunedLaw*> rows_at(const TuneSection& section, double wind_speed) {
+  std::vector<const TunedLaw*> rows;
+  for (const auto& row : section.laws) {
+    if (tuned(row) && row.wind_speed == wind_speed) rows.push_back(&row);
+  }
+  return rows;
+}
+
+// A goal's limit and what the law has instead, in the units of reports.
+std::string found_and_limit(const GoalRatio& goal, const design::HardGoals& goals) {
+  const std::size_t b = goal.loop_break ? static_cast<std::size_t>(*goal.loop_break) : 0;
+  const auto most = [&](double limit, const char* unit) {
+    return fmt::format("{:.4g}{} where at most {:.4g} is asked", limit * goal.ratio, unit, limit);
+  };
+  const auto least = [&](double limit, double found, const char* unit) {
+    return fmt::format("{:.4g}{} where at least {:.4g} is asked", found, unit, limit);
+  };
+  constexpr double degrees = 180.0 / std::numbers::pi;
+  switch (goal.kind) {
+    case GoalKind::sensitivity_peak:
+      return most(goals.sensitivity_peak.at(b), "");
+    case GoalKind::valve_effort:
+      return most(goals.valve_effort, " rad/s");
+    case GoalKind::gain_margin: {
+      const double limit = goals.gain_margin.at(b).value_or(1.0);
+      return least(20.0 * std::log10(limit), 20.0 * std::log10(limit / goal.ratio), " dB");
+    }
+    case GoalKind::phase_margin: {
+      const double limit = goals.phase_margin.at(b).value_or(0.0) * degrees;
+      return least(limit, limit / goal.ratio, " deg");
+    }
+    case GoalKind::bandwidth: {
+      const double limit = goals.bandwidth.value_or(0.0) / (2.0 * std::numbers::pi);
+      return least(limit, limit / goal.ratio, " Hz");
+    }
+    case GoalKind::gust_demand:
+      return most(goals.gust_demand.value_or(0.0), " rad/s");
+    case GoalKind::gust_torque:
+      return most(goals.gust_torque.value_or(0.0), " N.m");
+  }
+  return "";
+}
+
+// Every goal that stands in the way, once.
+std::string standing_goals(const TunedLaw& row, const design::HardGoals& goals) {
+  std::vector<std::string> texts;
+  for (const auto& limit : row.design.tuning.limits) {
+    std::string text = fmt::format("{}{}: {}", design::describe(limit.goal),
+                                   limit.member.empty() ? "" : ", on " + limit.member,
+                                   found_and_limit(limit.goal, goals));
+    if (std::ranges::find(texts, text) == texts.end()) texts.push_back(std::move(text));
+  }
+  if (texts.empty()) texts = row.design.tuning.active_goals;
+  return fmt::format("{}", fmt::join(texts, "; "));
+}
+
+std::string label(const TunedLaw& row) {
+  return fmt::format("{} ({})", row.structure, to_string(row.tuned_for));
+}
+
+// Goals that no law of one wind speed and purpose meets.
+void find_unmet_goals(const TuneSection& section, double speed, TunedFor purpose,
+                      std::vector<Shortfall>& shortfalls) {
+  const TunedLaw* nearest = nullptr;
+  std::vector<std::string> names;
+  bool any = false;
+  for (const auto* row : rows_at(section, speed)) {
+    if (row->tuned_for != purpose) continue;
+    any = true;
+    if (row->goals_met) return;
+    names.push_back(row->structure);
+    if (row->stable() && (nearest == nullptr || row->design.tuning.worst_goal_ratio <
+                                                    nearest->design.tuning.worst_goal_ratio)) {
+      nearest = row;
+    }
+  }
+  if (!any) return;
+  const bool robust = purpose == TunedFor::robust;
+  const auto plants =
+      robust ? fmt::format("all {} plants of the ensemble", section.ensemble_size) : "this antenna";
+  if (nearest == nullptr) {
+    shortfalls.push_back(
+        {fmt::format("No law of {} within the bounds of the search stabilises {}.",
+                     fmt::join(names, ", "), plants),
+         "None was stable, so that nothing is near: widen the bounds of the gains, or look at dead "
+         "time and structural modes."});
+    return;
+  }
+  const auto standing = nearest->design.tuning.limits.size();
+  shortfalls.push_back(
+      {fmt::format("No law of {} meets every hard goal at {:g} m/s{}{}.", fmt::join(names, ", "),
+                   speed, robust ? " on " + plants : "",
+                   standing > 1 ? ": the goals contradict one another" : ""),
+       fmt::format("{} comes nearest, {:.1f} % off its worst goals: {}.", label(*nearest),
+                   100.0 * (nearest->design.tuning.worst_goal_ratio - 1.0),
+                   standing_goals(*nearest, section.goals))});
+}
+
+const TunedLaw* least_rms(const TuneSection& section, double speed) {
+  const TunedLaw* best = nullptr;
+  for (const auto* row : rows_at(section, speed)) {
+    if (!row->goals_met) continue;
+    if (best == nullptr || row->beam_rms < best->beam_rms) best = row;
+  }
+  return best;
+}
+
+void find_unreached_rms(const TuneSection& section, std::vector<Shortfall>& shortfalls) {
+  for (std::size_t i = 0; i < section.budgets.size(); ++i) {
+    const PointingBudget& budget = section.budgets[i];
+    if (!budget.wind_speed) continue;
+    const TunedLaw* best = least_rms(section, *budget.wind_speed);
+    if (best == nullptr || best->beam_rms <= met * budget.rms) continue;
+    double limit = 0.0;
+    for (const auto* row : rows_at(section, *budget.wind_speed)) {
+      if (row->goals_met) limit = std::max(limit, row->speed_limits[i]);
+    }
+    shortfalls.push_back(
+        {fmt::format("The budget '{}' in band {} ({:.4f} mdeg) cannot be met up to {:g} m/s.",
+                     budget.name, budget.band, budget.rms / millidegree, *budget.wind_speed),
+         fmt::format("{} comes nearest with {:.4f} mdeg, {:.3g} dB on two equal axes in band {}; "
+                     "the budget is met up to {:.2f} m/s.",
+                     label(*best), best->beam_rms / millidegree,
+                     design::pointing_loss_db(best->beam_rms, budget.beamwidth,
+                                              design::LossConvention::mean_loss_two_axes),
+                     budget.band, limit)});
+  }
+  if (!section.beam_rms_goal) return;
+  const double speed = section.wind_speeds.front();
+  const TunedLaw* best = least_rms(section, speed);
+  if (best == nullptr || best->beam_rms <= met * *section.beam_rms_goal) return;
+  shortfalls.push_back({fmt::format("A beam rms of {:.4f} mdeg cannot be met at {:g} m/s.",
+                                    *section.beam_rms_goal / millidegree, speed),
+                        fmt::format("{} comes nearest with {:.4f} mdeg.", label(*best),
+                                    best->beam_rms / millidegree)});
+}
+
+}  // namespace
+
+std::vector<Shortfall> find_shortfalls(const TuneSection& section) {
+  std::vector<Shortfall> shortfalls;
+  // Of unfinished work nobody knows.
+  if (!section.not_run.empty()) return shortfalls;
+  for (const auto& row : section.laws) {
+    if (row.design.tuning.interrupted) return shortfalls;
+  }
+  for (const double speed : section.wind_speeds) {
+    const std::size_t before = shortfalls.size();
+    find_unmet_goals(section, speed, TunedFor::nominal, shortfalls);
+    // A soft goal over the ensemble asks for its hard goals there.
+    const bool asked = section.soft_goal.kind != design::SoftGoalKind::nominal;
+    if (asked && shortfalls.size() == before) {
+      find_unmet_goals(section, speed, TunedFor::robust, shortfalls);
+    }
+  }
+  find_unreached_rms(section, shortfalls);
+  return shortfalls;
+}
+
+}  // namespace boresight::app

@@ -1,0 +1,223 @@
+#include <chrono>
+#include <csignal>
+#include <filesystem>
+#include <set>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "edited_case.hpp"
+#include <boresight/app/tune/engineer_units.hpp>
+#include <boresight/app/tune/plant_members.hpp>
+#include <boresight/app/tune/tune_study.hpp>
+
+namespace boresight::app {
+namespace {
+
+using testing::ContainsRegex;
+using testing::HasSubstr;
+using testing::Not;
+
+std::string tables() {
+  return content_of(BORESIGHT_SOURCE_DIR "/tests/data/tuning/tables.toml");
+}
+
+// With a small ensemble, so that a tuning takes a moment.
+std::string small_case(const ScratchFolder& folder, const std::string& more = "") {
+  return folder.write("case.toml", EditedCase().text() + "\n[ensemble]\ndraws = 1\n" + more);
+}
+
+ProgramResult tune(const std::string& path, std::vector<std::string> more = {}) {
+  std::vector<std::string> arguments{"tune", path, "--starts", "3", "--threads", "1"};
+  if (std::ranges::find(more, "--structure") == more.end()) {
+    arguments.insert(arguments.end(), {"--structure", "PI-0"});
+  }
+  arguments.insert(arguments.end(), more.begin(), more.end());
+  return run_program(arguments);
+}
+
+TEST(PlantMembers, HasTheReferenceEnsemblesRanges) {
+  const Case antenna = parse_case(EditedCase().text(), "case.toml");
+  const auto members = plant_members(antenna, 1);
+  ASSERT_EQ(members.size(), 30U);
+  const auto own = make_plant(antenna);
+  EXPECT_EQ(members[0].name, "nominal");
+  EXPECT_DOUBLE_EQ(members[0].plant.drive.oil_stiffness, own.drive.oil_stiffness);
+  EXPECT_DOUBLE_EQ(members[3].plant.drive.oil_stiffness, 0.8 * own.drive.oil_stiffness);
+  EXPECT_DOUBLE_EQ(members[4].plant.drive.oil_stiffness, 1.33 * own.drive.oil_stiffness);
+  EXPECT_NEAR(members[5].plant.drive.leakage_rate, 0.366, 1e-3);
+  EXPECT_LT(members[1].plant.structure.gear_stiffness, own.structure.gear_stiffness);
+  // Of 24 draws each of 24 equal parts of the range has one.
+  std::set<int> parts;
+  for (std::size_t i = 6; i < members.size(); ++i) {
+    const double factor = members[i].plant.drive.oil_stiffness / own.drive.oil_stiffness;
+    parts.insert(static_cast<int>(24.0 * (factor - 0.8) / (1.33 - 0.8)));
+    EXPECT_GE(members[i].plant.drive.viscous_friction, 0.0);
+    EXPECT_LE(members[i].plant.drive.viscous_friction, tracking_friction(antenna));
+  }
+  EXPECT_EQ(parts.size(), 24U);
+  EXPECT_EQ(*parts.begin(), 0);
+  EXPECT_EQ(*parts.rbegin(), 23);
+}
+
+TEST(PlantMembers, RepeatWithTheSeedAndTakeTheCasesRanges) {
+  const Case antenna = parse_case(EditedCase().text() + "\n" + tables(), "case.toml");
+  const auto first = plant_members(antenna, 1), again = plant_members(antenna, 1);
+  const auto other = plant_members(antenna, 2);
+  ASSERT_EQ(first.size(), 9U);
+  for (std::size_t i = 0; i < first.size(); ++i) {
+    EXPECT_EQ(first[i].plant.drive.leakage_rate, again[i].plant.drive.leakage_rate);
+  }
+  EXPECT_NE(first[6].plant.drive.leakage_rate, other[6].plant.drive.leakage_rate);
+  EXPECT_DOUBLE_EQ(first[5].plant.drive.leakage_rate, 0.366);
+}
+
+TEST(EngineersUnits, AreThoseThatTheCaseWrites) {
+  const Case antenna = parse_case(EditedCase().text() + "\n" + tables(), "case.toml");
+  const auto laws = present_laws(antenna);
+  ASSERT_EQ(laws.size(), 2U);
+  const auto written = in_engineers_units(antenna, laws[1]);
+  EXPECT_THAT(written,
+              testing::ElementsAre("0.2", "0.127 Hz", "0.95 Hz", "40 Hz", "0.2 1/s", "0.02 rad/s"));
+  EXPECT_EQ(in_engineers_units(antenna, {control::LoopStructure::pi(), {0.5, 1.0, 2.0, 0.25}})[1],
+            "1 rad/s");
+}
+
+TEST(Tune, TunesVerifiesAndSetsBeforeBesideAfter) {
+  const ScratchFolder folder;
+  const std::string json = folder.file("report.json");
+  const ProgramResult result = tune(
+      small_case(folder,
+                 "[gains]\nstructure = 'PI-0'\nkr = 0.2\nwi = '0.127 Hz'\nkp = '0.2 1/s'\nwip = "
+                 "'0.02 rad/s'\n"),
+      {"--json", json});
+  EXPECT_EQ(result.exit_code, 0) << result.errors;
+  EXPECT_EQ(result.errors, "");
+  EXPECT_THAT(result.output, ContainsRegex("PI-0 +present +10 +[0-9.]+"));
+  EXPECT_THAT(result.output, ContainsRegex("PI-0 +nominal +10 +[0-9.]+.* verified"));
+  EXPECT_THAT(result.output, ContainsRegex("PI-0 +robust +10 +[0-9.]+"));
+  EXPECT_THAT(result.output, ContainsRegex("wi rate integral corner .* 0.127 Hz +[0-9.]+ Hz"));
+  EXPECT_THAT(result.output, HasSubstr("The present gains of PI-0 point within"));
+  EXPECT_THAT(content_of(json), HasSubstr("\"tuned_for\": \"robust\""));
+}
+
+TEST(Tune, TakesStructuresSpeedsAndGoalsFromTheCommandLine) {
+  const ScratchFolder folder;
+  const ProgramResult result =
+      tune(small_case(folder), {"--structure", "PI-0", "PI", "--speed", "5 m/s", "36 km/h",
+                                "--goal", "sensitivity_peak=1.9"});
+  EXPECT_EQ(result.exit_code, 0) << result.errors;
+  for (const auto* row : {"PI-0 +nominal +5 ", "PI-0 +nominal +10 ", "PI +robust +5 "}) {
+    EXPECT_THAT(result.output, ContainsRegex(row));
+  }
+  EXPECT_THAT(result.output, HasSubstr("peak of S at most 1.9"));
+}
+
+TEST(Tune, RefusesWhatItCannotRead) {
+  const ScratchFolder folder;
+  const std::string path = small_case(folder);
+  const std::pair<std::vector<std::string>, const char*> wrong[] = {
+      {{"--structure", "PID"}, "--structure: expected PI-0, PI, DPF, LL or FULL"},
+      {{"--structure", "PI", "PI"}, "expected each structure once, found 'PI' again"},
+      {{"--speed", "10"}, "--speed '10': expected a speed"},
+      {{"--speed", "100 m/s"}, "expected wind speeds of 0.1 to 60 m/s, found 100 m/s"},
+      {{"--goal", "peak=2"}, "--goal:1:1: peak: expected one of the keys"},
+      {{"--goal", "rms_over=climate"}, "expected [[wind.climate]] in the case"},
+      {{"--json", folder.file("none/report.json")}, "expected a place to write to"}};
+  for (const auto& [arguments, message] : wrong) {
+    const ProgramResult result = tune(path, arguments);
+    EXPECT_EQ(result.exit_code, 2) << message;
+    EXPECT_EQ(result.output, "");
+    EXPECT_THAT(result.errors, HasSubstr(message));
+  }
+  EXPECT_EQ(run_program({"tune", path, "--starts", "0"}).exit_code, 2);
+  const std::string empty = folder.write(
+      "empty.toml",
+      EditedCase().text() + "\n[ensemble.leakage_rate]\nlower = '2 1/s'\nupper = '1 1/s'\n");
+  EXPECT_THAT(tune(empty).errors, HasSubstr("ensemble.leakage_rate.upper: expected at least"));
+}
+
+TEST(Tune, SaysThatABudgetIsOutOfReach) {
+  const ScratchFolder folder;
+  EditedCase edited;
+  edited.replace("name = \"stated Ka-band need\"\n",
+                 "name = \"stated Ka-band need\"\nwind_speed = \"25 m/s\"\n");
+  const std::string path = folder.write("case.toml", edited.text() + "\n[ensemble]\ndraws = 1\n");
+  const std::string json = folder.file("report.json");
+  const ProgramResult result = tune(path, {"--json", json});
+  EXPECT_EQ(result.exit_code, 3);
+  EXPECT_THAT(
+      result.errors,
+      ContainsRegex("The budget 'stated Ka-band need' in band Ka \\(2.0000 mdeg\\) cannot be "
+                    "met up to 25 m/s. PI-0 \\((nominal|robust)\\) comes nearest with "
+                    "[0-9.]+ mdeg.*; the budget is met up to [0-9.]+ m/s"));
+  EXPECT_THAT(result.output, HasSubstr("INFEASIBLE: The budget"));
+  EXPECT_THAT(content_of(json), HasSubstr("\"infeasible\": \"The budget"));
+}
+
+TEST(Tune, SaysThatAnRmsIsOutOfReach) {
+  const ScratchFolder folder;
+  const ProgramResult result = tune(small_case(folder), {"--goal", "beam_rms=0.01 mdeg"});
+  EXPECT_EQ(result.exit_code, 3);
+  EXPECT_THAT(result.errors,
+              ContainsRegex("A beam rms of 0.0100 mdeg cannot be met at 10 m/s. PI-0 "
+                            "\\(.*\\) comes nearest with [0-9.]+ mdeg"));
+}
+
+// A wide loop and a small peak: each alone can be had.
+TEST(Tune, SaysWhichGoalsContradictEachOther) {
+  const ScratchFolder folder;
+  const std::string path = small_case(folder);
+  const ProgramResult result = tune(path, {"--goal", "sensitivity_peak=1.2", "bandwidth=0.2 Hz"});
+  EXPECT_EQ(result.exit_code, 3);
+  EXPECT_THAT(result.errors, HasSubstr("No law of PI-0 meets every hard goal at 10 m/s: the goals "
+                                       "contradict one another"));
+  EXPECT_THAT(result.errors, ContainsRegex("bandwidth.*: [0-9.]+ Hz where at least 0.2 is asked"));
+  EXPECT_THAT(result.errors,
+              ContainsRegex("sensitivity peak at .*: 1.[0-9]+ where at most 1.2 is"));
+  EXPECT_EQ(tune(path, {"--goal", "sensitivity_peak=1.2"}).exit_code, 0);
+}
+
+// Gains so high that no loop with 30 ms of dead time stands them.
+TEST(Tune, SaysThatNoStructureStabilisesThePlant) {
+  const ScratchFolder folder;
+  const std::string path =
+      small_case(folder,
+                 "[[loop]]\nname = 'hot'\n[[loop.block]]\npath = 'rate'\nkind = "
+                 "'gain'\ngain = { lower = 50, upper = 100 }\n"
+                 "[[loop.block]]\npath = 'position'\nkind = 'gain'\ngain = { "
+                 "lower = '20 1/s', upper = '30 1/s' }\n");
+  const std::string json = folder.file("report.json");
+  const ProgramResult result = tune(path, {"--structure", "hot", "--json", json});
+  EXPECT_EQ(result.exit_code, 3);
+  EXPECT_THAT(result.errors, HasSubstr("No law of hot within the bounds of the search stabilises "
+                                       "this antenna. None was stable"));
+  EXPECT_THAT(content_of(json), HasSubstr("\"status\": \"no stable law\""));
+}
+
+TEST(Tune, KeepsTheBestFoundWhenInterrupted) {
+  using namespace std::chrono_literals;
+  for (const auto delay : {20ms, 400ms, 1500ms}) {
+    const ScratchFolder folder;
+    const std::string json = folder.file("report.json");
+    const ProgramRun run({"tune", small_case(folder), "--starts", "5000", "--structure", "PI",
+                          "DPF", "--threads", "2", "--json", json});
+    std::this_thread::sleep_for(delay);
+    run.signal(SIGINT);
+    const ProgramResult result = run.wait();
+    EXPECT_THAT(result.exit_code, testing::AnyOf(-1, 130));
+    EXPECT_EQ(result.errors, "");
+    if (result.exit_code != 130) continue;
+    EXPECT_THAT(result.output, HasSubstr("INTERRUPTED"));
+    EXPECT_THAT(result.output, Not(HasSubstr("INFEASIBLE")));
+    EXPECT_THAT(content_of(json), HasSubstr("\"interrupted\": true"));
+    EXPECT_THAT(content_of(json), testing::EndsWith("}\n"));
+    EXPECT_THAT(content_of(json), HasSubstr("\"tuned\""));
+  }
+}
+
+}  // namespace
+}  // namespace boresight::app

@@ -77,7 +77,7 @@ TEST(MakeCampaign, RefusesColumnsAndUnitsThatDoNotFit) {
   EXPECT_THAT(refused([](auto& r) { r.antenna.campaign.records.clear(); }),
               HasSubstr("record: expected a list of tables [[record]], found none"));
   EXPECT_THAT(refused([](auto& r) { r.text.resize(3000); }),
-              HasSubstr("expected one record at least that can be used, found none: slow_ramp: "
+              HasSubstr("expected most of 1 records to be of use, found 1 that are not; slow_ramp: "
                         "expected at least 200 samples"));
 }
 

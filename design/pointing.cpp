@@ -86,8 +86,8 @@ std::string_view to_string(IlluminationShape shape) {
 }
 
 double beamwidth_factor(const Illumination& illumination) {
-  if (!(illumination.edge_taper_db >= 0.0 && illumination.edge_taper_db <= 60.0) ||
-      !(illumination.exponent >= 0.5 && illumination.exponent <= 8.0)) {
+  if (!(illumination.edge_taper_db >= 0.0) || !(illumination.edge_taper_db <= 60.0) ||
+      !(illumination.exponent >= 0.5) || !(illumination.exponent <= 8.0)) {
     throw InvalidInput(fmt::format(
         "beamwidth_factor: expected an edge taper of 0 to 60 dB and an exponent of 0.5 to 8, found "
         "{} dB and {}",

@@ -54,7 +54,7 @@ std::vector<WeightedSpeed> climate_speeds(const WeibullClimate& climate) {
 std::vector<WeightedSpeed> climate_speeds(const std::vector<WeightedSpeed>& table) {
   double sum = 0.0;
   for (const auto& [speed, weight] : table) {
-    if (!(speed > 0.0 && std::isfinite(speed)) || !(weight >= 0.0 && std::isfinite(weight))) {
+    if (!(speed > 0.0) || !std::isfinite(speed) || !(weight >= 0.0) || !std::isfinite(weight)) {
       throw InvalidInput(fmt::format(
           "climate_speeds: expected speeds above 0 and weights of at least 0, found {} m/s of "
           "weight {}",

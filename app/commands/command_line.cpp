@@ -197,6 +197,11 @@ int run(TuneArguments arguments) {
   }
   if (std::fflush(stdout) != 0) throw InvalidInput(unwritable_output);
   if (report.interrupted) return interrupted;
+  if (report.measured) {
+    if (report.measured->any_confident()) return done;
+    fmt::print(stderr, "boresight: no law meets its goals within the measurement's confidence\n");
+    return infeasible;
+  }
   if (!report.tuned) return internal_error;
   for (const auto& shortfall : report.tuned->shortfalls) {
     fmt::print(stderr, "boresight: {}: {} {}\n", arguments.case_path, shortfall.infeasible,
@@ -252,6 +257,9 @@ CLI::App* add_tune(CLI::App& program, TuneArguments& arguments) {
   sub->add_option("--speed", arguments.speeds,
                   "mean wind speeds to tune for, such as \"10 m/s\" (default: the design speed)")
       ->expected(1, 100);
+  sub->add_option("--measured", arguments.measured_record,
+                  "tune on the response that this record of the case shows, without a model: see "
+                  "docs/measured-tuning.md");
   sub->add_option("--starts", arguments.starts, "random starts of each search")
       ->check(CLI::Range(1, 100000));
   sub->add_option("--json", arguments.json_path,

@@ -6,6 +6,7 @@
 #include <boresight/app/identify/identified_case.hpp>
 #include <boresight/app/io/wording.hpp>
 #include <boresight/app/report/json_report.hpp>
+#include <boresight/app/report/measured_report.hpp>
 #include <boresight/app/tune/plant_members.hpp>
 #include <boresight/app/tune/tune_limit.hpp>
 #include <boresight/app/tune/tune_study.hpp>
@@ -71,6 +72,19 @@ Report tune_case(const TuneArguments& arguments, const std::function<bool()>& in
   report.axis = antenna.axis;
   report.case_path = arguments.case_path;
   report.seed = arguments.seed;
+  if (!arguments.measured_record.empty()) {
+    MeasuredStudyOptions study;
+    study.record = arguments.measured_record;
+    study.structures = arguments.structures;
+    study.starts = arguments.starts;
+    study.seed = arguments.seed;
+    study.interrupted = interrupted;
+    report.measured = tune_measured(antenna, study);
+    report.conclusions = conclude(*report.measured);
+    report.assumed = assumed_inputs(antenna);
+    report.interrupted = interrupted && interrupted();
+    return report;
+  }
   ProgressLine progress("tuning and verifying");
   PlantEnsemble ensemble;
   if (antenna.campaign.records.empty()) {

@@ -18,6 +18,8 @@ struct TuneArguments {
   int starts = 0;                       // 0: as the case has it
   std::uint64_t seed = 1;
   unsigned threads = 0;  // 0: all
+  /// A record of the case whose response takes the model's place; empty: none.
+  std::string measured_record;
 };
 
 /// Tunes and judges. With records the plant is the one they show and the ensemble is drawn from

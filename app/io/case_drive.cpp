@@ -142,6 +142,8 @@ void read_sensors(TableReader& file, Case& antenna) {
   sensors.encoder_noise = table.quantity("encoder_noise", Kind::angle, Range::not_negative(0.1));
   sensors.tachometer_noise =
       table.quantity("tachometer_noise", Kind::angular_rate, Range::not_negative());
+  sensors.torque_noise =
+      table.optional_quantity("torque_noise", Kind::torque, Range::not_negative());
   sensors.noise_bandwidth =
       table.quantity("noise_bandwidth", Kind::frequency, Range::positive(1e6));
   sensors.tachometer_frequency =

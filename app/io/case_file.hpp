@@ -166,6 +166,7 @@ struct StructureEntry {
 
 struct SensorsEntry {
   Quantity encoder_noise, tachometer_noise, noise_bandwidth, tachometer_frequency;
+  std::optional<Quantity> torque_noise;  // of the torque that a law feeds back
 };
 
 /// Where the wind comes from less where the dish points, and the dish's elevation, at which the

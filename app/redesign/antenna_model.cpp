@@ -200,7 +200,8 @@ design::TrackingProblem make_problem(const Case& antenna, const PlantVariant& va
   problem.gear_ratio = gear_ratio(antenna);
   problem.delay = antenna.controller_delay.value;
   problem.noise = {antenna.sensors.encoder_noise.value * problem.gear_ratio,
-                   antenna.sensors.tachometer_noise.value, antenna.sensors.noise_bandwidth.value};
+                   antenna.sensors.tachometer_noise.value, antenna.sensors.noise_bandwidth.value,
+                   antenna.sensors.torque_noise ? antenna.sensors.torque_noise->value : 0.0};
   const WindEntry& wind = antenna.wind;
   problem.wind = {{wind.air_density.value, wind.gusts.surface_drag, wind.torque_coefficient.value,
                    wind.gradient_coefficient.value, wind.coherence_decay.value,

@@ -8,6 +8,7 @@
 #include <boresight/app/report/json_report.hpp>
 #include <boresight/app/report/json_time_domain.hpp>
 #include <boresight/app/report/json_tune.hpp>
+#include <boresight/app/report/measured_report.hpp>
 #include <boresight/app/report/sky_units.hpp>
 
 namespace boresight::app {
@@ -217,6 +218,7 @@ std::string to_json(const Report& report) {
   if (report.audit) json["audit"] = audit_json(*report.audit);
   if (report.plant) json["plant"] = plant_json(*report.plant);
   if (report.tuning) json["tuning"] = tuning_json(*report.tuning);
+  if (report.measured) json["measured_tuning"] = measured_tuning_json(*report.measured);
   if (report.tuned) json["tuned"] = tune_json(*report.tuned);
   if (report.time_domain) json["time_domain"] = time_domain_json(*report.time_domain);
   if (report.limit) json["limit"] = limit_json(*report.limit);

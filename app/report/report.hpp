@@ -9,6 +9,7 @@
 #include <boresight/app/identify/campaign_section.hpp>
 #include <boresight/app/redesign/antenna_model.hpp>
 #include <boresight/app/simulate/time_domain.hpp>
+#include <boresight/app/tune/measured_study.hpp>
 #include <boresight/app/tune/tune_section.hpp>
 #include <boresight/design/plant_ensemble.hpp>
 #include <boresight/design/pointing_limit.hpp>
@@ -130,6 +131,7 @@ struct Report {
   std::optional<IdentificationSection> identification;
   std::optional<PlantSection> plant;
   std::optional<TuningSection> tuning;
+  std::optional<MeasuredTuneSection> measured;   // of tune --measured
   std::optional<TuneSection> tuned;              // of the command tune
   std::optional<TimeDomainSection> time_domain;  // of the best tuned law
   std::optional<design::PointingLimit> limit;  // of the command tune, at the best law's wind speed

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <boresight/app/report/measured_report.hpp>
 #include <boresight/app/report/text_layout.hpp>
 #include <boresight/app/report/text_limit.hpp>
 #include <boresight/app/report/text_report.hpp>
@@ -49,6 +50,7 @@ std::string to_text(const Report& report) {
   }
   if (report.plant) text += to_text(*report.plant);
   if (report.tuning) text += to_text(*report.tuning);
+  if (report.measured) text += to_text(*report.measured);
   if (report.tuned) text += to_text(*report.tuned);
   if (report.limit) text += to_text(*report.limit);
   if (report.time_domain) text += to_text(*report.time_domain);

@@ -304,7 +304,7 @@ TEST(LoopPanels, TakeTheDensityBelowTheirBandForConstant) {
               1e-6);
     return found;
   };
-  const auto near = from(1e-5), far = from(1e-7);
+  const auto near = from(1e-5), far = from(1e-6);
   EXPECT_LT(relative_error(near.wind_variance, far.wind_variance), 1e-7);
   EXPECT_NEAR(near.wind_log_gradient[2], far.wind_log_gradient[2], 1e-6 * far.wind_variance);
 }

@@ -84,6 +84,25 @@ TEST(RealSchur, OfMatricesThatAreHardOnTheIteration) {
   }
 }
 
+TEST(RealSchur, OfManyEqualEigenvaluesFarBelowTheNorm) {
+  // As an observer's copies of its plant bring them. Rounding of the norm's size stands in the
+  // place of subdiagonal elements that would have to fall to that of the eigenvalues.
+  for (std::uint64_t seed = 500; seed < 560; ++seed) {
+    reference::RandomNumbers random(seed);
+    constexpr Index copies = 6, size = 8, n = copies * size;
+    const MatrixXd one = 0.05 * random.matrix(size, size);
+    MatrixXd a = MatrixXd::Zero(n, n);
+    for (Index i = 0; i < copies; ++i) a.block(size * i, size * i, size, size) = one;
+    a(0, n - 1) = 20.0;
+    for (int turn = 0; turn < 8; ++turn) {
+      const Eigen::VectorXd v = random.matrix(n, 1).normalized();
+      a -= 2.0 * v * (v.transpose() * a).eval();
+      a -= 2.0 * (a * v).eval() * v.transpose();
+    }
+    expect_schur_form(a);
+  }
+}
+
 TEST(RealSchur, OfSizesNearTheLimitsOfNumbers) {
   reference::RandomNumbers random(43);
   const MatrixXd any = random.matrix(7, 7);

@@ -206,7 +206,27 @@ SensitivityPeak LoopEvaluator::polish(const ControlLaw& law, LoopBreak loop_brea
       const LogPoint top = climb(left, middle, right, value);
       const SensitivityPeak peak = peak_at(law, loop_break, std::exp(top.place));
       const double error = 2.0 * std::log(peak.magnitude) - top.value;
-      if (std::abs(error) < agreement) return peak;
+      if (std::abs(error) < agreement) {
+        // That the polynomial is right here does not make this the top: it may end here, or slope
+        // the wrong way.
+        constexpr double enough = 4e-9;  // of ln|S|^2
+        const auto exact = [&](double place) {
+          const double w = std::exp(place);
+          return LogPoint{place,
+                          2.0 * std::log(sensitivity(loop_point(channels_.at(w), law, w, delay_),
+                                                     loop_break))};
+        };
+        const double aside = 0.1 * std::min(middle.place - left.place, right.place - middle.place);
+        const LogPoint here{top.place, 2.0 * std::log(peak.magnitude)};
+        const LogPoint before = exact(top.place - aside), after = exact(top.place + aside);
+        if (here.value < before.value || here.value < after.value) break;
+        if (vertex(before, here, after).rise < enough) return peak;
+        // A parabola through points so close together has its top where the curve has.
+        const LogPoint found = climb(before, here, after, [&](double place) {
+          return exact(place).value;
+        });
+        return peak_at(law, loop_break, std::exp(found.place));
+      }
       const Interpolation there = interpolate(loop_break, i, top.place);
       if (there.product == 0.0) break;
       factor = (there.leaf == corrected_leaf ? factor : 0.0) + error / there.product;

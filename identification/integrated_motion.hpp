@@ -48,8 +48,8 @@ Eigen::Index shortest_speed_window(double sample_time, double smoothing_time);
 /// speed (rad/s), `rate_change` the integral of (dw/dt)^2, and friction's integral over speed, F
 /// dw, depends on the two rates alone: over a path that returns to its first speed friction and
 /// offset cancel, however fast each speed is passed. The window's taper is not used.
-/// @throws InvalidInput as integrate_motion, or for a smoothing that is not positive or a window shorter than
-/// shortest_speed_window.
+/// @throws InvalidInput as integrate_motion, or for a smoothing that is not positive or a window
+/// shorter than shortest_speed_window.
 IntegratedMotion integrate_over_speed(const DriveRecord& record, const MotionWindow& window,
                                       double from_rate, double to_rate, double smoothing_time);
 

@@ -35,7 +35,7 @@ UNITS = ("1", "kg_m2", "Pa", "N_m", "N_m_per_rad", "N_m_s_per_rad", "Hz", "s", "
 COUNTS = {"seed", "degrees_of_freedom", "starts", "starts_at_optimum", "evaluations",
           "seeds_within_1_percent", "checked_numbers", "bytes", "rows", "first_sample", "samples",
           "events", "counted", "outliers", "iterations", "rank", "varied", "motor", "harmonic",
-          "ensemble_members"}
+          "ensemble_members", "stable", "stable_members", "within_goals"}
 
 
 def refuse_constant(name):

@@ -242,6 +242,30 @@ TEST(LoopPanels, AgreeWithTheTrapezoidRuleOnAGridOfThousands) {
   }
 }
 
+TEST(LoopPanels, StandOnTheTopOfEveryPeak) {
+  LoopEvaluator evaluator = antenna_evaluator(reference_quadrature());
+  const plant::PointResponse exact(reference::antenna());
+  reference::RandomNumbers random(220);
+  for (const auto& structure : reference::loop_structures()) {
+    for (int trial = 0; trial < 40; ++trial) {
+      const ControlLaw law = reference::sound_law(random, evaluator, structure, 3.0);
+      const auto found = evaluator.evaluate(law, false);
+      for (std::size_t b = 0; b < loop_breaks.size(); ++b) {
+        if (found.peaks[b].empty()) continue;
+        const SensitivityPeak& peak = found.peaks[b].front();
+        double highest = 0.0;
+        for (int k = -40; k <= 40; ++k) {
+          const double w = peak.frequency * std::exp(2.5e-4 * k);
+          const auto gain = loop_gain(exact(w), w, law, reference::delay, loop_breaks[b]);
+          highest = std::max(highest, 1.0 / std::abs(1.0 + gain));
+        }
+        EXPECT_LT(highest, peak.magnitude * (1.0 + 5e-9))
+            << to_string(structure) << ", " << to_string(loop_breaks[b]);
+      }
+    }
+  }
+}
+
 TEST(LoopPanels, GiveTheSameWhateverWasEvaluatedBefore) {
   reference::RandomNumbers random(218);
   LoopEvaluator evaluator = antenna_evaluator(reference_quadrature());

@@ -172,6 +172,23 @@ Design solve(const DesignTask& task) {
   return finish(task, tune(task.problem, task.structure, task.goals, task.options));
 }
 
+Design assess(const TrackingProblem& problem, const control::ControlLaw& law,
+              const HardGoals& goals) {
+  TuningResult given;
+  given.law = law;
+  control::LoopEvaluator evaluator = make_evaluator(problem);
+  given.evaluation = evaluator.evaluate(law, false);
+  given.worst_goal_ratio = worst_goal_ratio(given.evaluation, goals);
+  if (!control::stability(problem.plant, law, problem.delay, evaluator.response().frequency)
+           .stable()) {
+    given.status = TuningStatus::unstable;
+    given.worst_goal_ratio = std::numeric_limits<double>::infinity();
+  }
+  Design design = finish({{}, problem, law.structure, goals, {}}, std::move(given));
+  if (design.verification.passed) design.tuning.status = TuningStatus::optimal;
+  return design;
+}
+
 void improve_along(const std::vector<DesignTask>& tasks, std::vector<Design>& designs) {
   if (tasks.size() != designs.size()) {
     throw InvalidInput(

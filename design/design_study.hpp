@@ -60,6 +60,12 @@ struct Design {
 /// Tunes and verifies one task. @throws as tune.
 Design solve(const DesignTask& task);
 
+/// Gains that nobody tuned, looked at as a tuned law is: `tuning.status` is optimal where the
+/// verification passes, infeasible where it does not, unstable where the loop is.
+/// @throws InvalidInput as control::validate(law).
+Design assess(const TrackingProblem& problem, const control::ControlLaw& law,
+              const HardGoals& goals);
+
 /// Warm-starts each design of a series (one plant changing step by step) from its neighbour's
 /// gains, forwards, then backwards, and keeps what is better and verified: an optimum that random
 /// starts missed at one point is found from the next. @throws InvalidInput for sizes that differ.

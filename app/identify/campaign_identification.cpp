@@ -69,8 +69,8 @@ void run_slosh(const Campaign& campaign, CampaignSection& section) {
   }
 }
 
-bool is_vouched_for(const std::optional<Quantity>& stated) {
-  return stated && stated->uncertainty_given && stated->basis != Basis::assumed;
+bool is_vouched_for(const Quantity& stated) {
+  return stated.uncertainty_given && stated.basis != Basis::assumed;
 }
 
 // What the case says where no line was heard to ring. A number that nobody vouches for may be off
@@ -79,7 +79,7 @@ Interval stated_bulk_modulus(const Case& antenna) {
   const double value = bulk_modulus(antenna);
   constexpr double by_air = 0.15;
   double uncertainty = by_air * value;
-  if (const auto& stated = antenna.oil.bulk_modulus; is_vouched_for(stated)) {
+  if (const auto& stated = antenna.oil.bulk_modulus; stated && is_vouched_for(*stated)) {
     uncertainty = stated->standard_uncertainty;
   }
   return identification::normal_interval(value, uncertainty);
@@ -94,7 +94,9 @@ void choose_bulk_modulus(const Case& antenna, CampaignSection& section) {
     }
   }
   section.bulk_modulus_stated = best == nullptr;
-  section.bulk_modulus_guessed = best == nullptr && !is_vouched_for(antenna.oil.bulk_modulus);
+  const auto& stated = antenna.oil.bulk_modulus;
+  const bool vouched_for = stated && is_vouched_for(*stated);
+  section.bulk_modulus_guessed = best == nullptr && !vouched_for;
   section.bulk_modulus = best != nullptr ? *best : stated_bulk_modulus(antenna);
 }
 

@@ -46,7 +46,7 @@ class Study {
   void run(Unit& unit) const {
     if (unit.present) {
       TunedLaw row = new_row(unit, TunedFor::present);
-      row.design = design_of(problem_at(unit.wind_speed), *unit.present);
+      row.design = design::assess(problem_at(unit.wind_speed), *unit.present, section_.goals);
       finish(row);
       row.goals_met = row.stable() && row.design.tuning.status == TuningStatus::optimal;
       unit.laws.push_back(std::move(row));
@@ -133,46 +133,6 @@ class Study {
       row.ensemble =
           design::judge(problem_at(row.wind_speed), ensemble_.members, law, section_.goals, 1);
     }
-  }
-
-  // Gains that nobody tuned, looked at as a tuned law is.
-  design::Design design_of(const design::TrackingProblem& problem,
-                           const control::ControlLaw& law) const {
-    design::Design design;
-    design.tuning.law = law;
-    design.hydraulic_mode = plant::hydraulic_mode(plant::plant_modes(problem.plant));
-    design.reflected_inertia = plant::reflected_inertia(problem.plant);
-    control::LoopEvaluator evaluator = design::make_evaluator(problem);
-    const auto verdict =
-        control::stability(problem.plant, law, problem.delay, evaluator.response().frequency);
-    if (!verdict.stable()) {
-      design.tuning.status = TuningStatus::unstable;
-      design.tuning.worst_goal_ratio = std::numeric_limits<double>::infinity();
-      design.beam_rms = design.wind_rms = design.noise_rms = design.valve_effort =
-          std::numeric_limits<double>::quiet_NaN();
-      return design;
-    }
-    design.tuning.evaluation = evaluator.evaluate(law, false);
-    const auto& evaluation = design.tuning.evaluation;
-    design.tuning.worst_goal_ratio = design::worst_goal_ratio(evaluation, section_.goals);
-    design.verification = design::verify(problem, law, section_.goals);
-    design.tuning.status =
-        design.verification.passed ? TuningStatus::optimal : TuningStatus::infeasible;
-    design.beam_rms = std::sqrt(evaluation.beam_variance()) / problem.gear_ratio;
-    design.wind_rms = std::sqrt(evaluation.wind_variance) / problem.gear_ratio;
-    design.noise_rms = std::sqrt(evaluation.noise_variance) / problem.gear_ratio;
-    design.valve_effort = std::sqrt(evaluation.effort_variance);
-    const Eigen::ArrayXd grid = evaluator.response().frequency;
-    const plant::PointResponse response(problem.plant);
-    for (std::size_t b = 0; b < control::loop_breaks.size(); ++b) {
-      design.margins.at(b) = control::margins(
-          [&](double w) {
-            return control::loop_gain(response(w), w, law, problem.delay,
-                                      control::loop_breaks.at(b));
-          },
-          grid);
-    }
-    return design;
   }
 
   const Case& antenna_;

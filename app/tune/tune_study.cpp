@@ -167,7 +167,7 @@ std::vector<double> speeds_of(const Case& antenna, const TuneOptions& options) {
   }
   std::vector<double> once;
   for (const double speed : speeds) {
-    if (!(speed >= 0.1 && speed <= 60.0)) {
+    if (!(speed >= 0.1) || !(speed <= 60.0)) {
       throw InvalidInput(
           fmt::format("tune: expected wind speeds of 0.1 to 60 m/s, found {:g} m/s", speed));
     }

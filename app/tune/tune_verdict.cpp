@@ -13,7 +13,6 @@ namespace {
 
 using design::GoalKind;
 using design::GoalRatio;
-using design::TuningStatus;
 
 constexpr double met = 1.0 + 1e-6;
 

@@ -12,7 +12,6 @@
 namespace boresight::app {
 namespace {
 
-using design::TuningStatus;
 using Rows = std::vector<std::vector<std::string>>;
 
 std::string mdeg(double angle) {

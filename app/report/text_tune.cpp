@@ -191,11 +191,11 @@ std::string goals_text(const TuneSection& section) {
       "Hard goals: peak of S at most {:g} (rate loop alone), {:g} (valve command), {:g} (position "
       "loop); noise-driven valve effort at most {:g} rad/s",
       peaks[0], peaks[1], peaks[2], goals.valve_effort);
-  if (goals.gain_margin[0])
-    text += fmt::format("; gain margin {} dB", decibel(*goals.gain_margin[0]));
-  if (goals.phase_margin[0]) {
-    text +=
-        fmt::format("; phase margin {:.4g} deg", *goals.phase_margin[0] * 180.0 / std::numbers::pi);
+  const auto& gain_margin = goals.gain_margin[0];
+  const auto& phase_margin = goals.phase_margin[0];
+  if (gain_margin) text += fmt::format("; gain margin {} dB", decibel(*gain_margin));
+  if (phase_margin) {
+    text += fmt::format("; phase margin {:.4g} deg", *phase_margin * 180.0 / std::numbers::pi);
   }
   if (goals.bandwidth) {
     text += fmt::format("; bandwidth {:.4g} Hz", *goals.bandwidth / (2.0 * std::numbers::pi));

@@ -247,7 +247,9 @@ MeasuredTuneSection tune_measured(const Case& antenna, const MeasuredStudyOption
                     quoted(options.record), section.length, part.samples));
   }
   section.mean_rate = record.motor_rate.values.segment(part.first, part.samples).mean();
-  const Eigen::VectorXd command = record.valve_command->values.segment(part.first, part.samples);
+  const auto& valve = record.valve_command;
+  if (!valve) throw InvalidInput(fmt::format("--measured {}: no valve command", options.record));
+  const Eigen::VectorXd command = valve->values.segment(part.first, part.samples);
   const control::FrequencyBand band = excited_band(command, step);
   section.lowest_excited = band.lowest;
   section.highest_excited = band.highest;

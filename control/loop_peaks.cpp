@@ -212,9 +212,9 @@ SensitivityPeak LoopEvaluator::polish(const ControlLaw& law, LoopBreak loop_brea
         constexpr double enough = 4e-9;  // of ln|S|^2
         const auto exact = [&](double place) {
           const double w = std::exp(place);
-          return LogPoint{place,
-                          2.0 * std::log(sensitivity(loop_point(channels_.at(w), law, w, delay_),
-                                                     loop_break))};
+          return LogPoint{
+              place,
+              2.0 * std::log(sensitivity(loop_point(channels_.at(w), law, w, delay_), loop_break))};
         };
         const double aside = 0.1 * std::min(middle.place - left.place, right.place - middle.place);
         const LogPoint here{top.place, 2.0 * std::log(peak.magnitude)};
@@ -222,9 +222,8 @@ SensitivityPeak LoopEvaluator::polish(const ControlLaw& law, LoopBreak loop_brea
         if (here.value < before.value || here.value < after.value) break;
         if (vertex(before, here, after).rise < enough) return peak;
         // A parabola through points so close together has its top where the curve has.
-        const LogPoint found = climb(before, here, after, [&](double place) {
-          return exact(place).value;
-        });
+        const LogPoint found =
+            climb(before, here, after, [&](double place) { return exact(place).value; });
         return peak_at(law, loop_break, std::exp(found.place));
       }
       const Interpolation there = interpolate(loop_break, i, top.place);

@@ -73,9 +73,7 @@ void integrate_rate(const DriveRecord& record, IntegratedMotion& motion) {
     return;
   }
   const double flank_time = static_cast<double>(taper) * record.sample_time;
-  const auto difference = [&](Eigen::Index i) {
-    return rate(last - i) - rate(first + i);
-  };
+  const auto difference = [&](Eigen::Index i) { return rate(last - i) - rate(first + i); };
   double slope = 0.0, jerk = 0.0, slope_sum = 0.0, jerk_sum = 0.0;
   for (Eigen::Index i = 1; i < taper; ++i) {
     const double x = static_cast<double>(i) / static_cast<double>(taper);

@@ -128,6 +128,7 @@ Report tune_case(const TuneArguments& arguments, const std::function<bool()>& in
         verify_in_time_domain(antenna, problem, best->design.tuning.law,
                               fmt::format("{}, {}", best->structure, to_string(best->tuned_for)),
                               arguments.seed, arguments.threads);
+    if (report.time_domain) report.conclusions.push_back(conclude(*report.time_domain));
   }
   return report;
 }

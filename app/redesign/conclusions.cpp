@@ -209,6 +209,7 @@ std::vector<std::string> conclude(const Report& report) {
     conclude_identification(*report.identification, sentences);
   }
   if (report.tuning) conclude_tuning(*report.tuning, sentences);
+  if (report.time_domain) sentences.push_back(conclude(*report.time_domain));
   if (report.matching) conclude_matching(*report.matching, sentences);
   if (report.tuning && !report.assumed.empty()) {
     sentences.push_back(

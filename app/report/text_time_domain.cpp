@@ -149,10 +149,12 @@ std::string to_text(const TimeDomainSection& section) {
          wind_text(section) + hunting_text(section) + reversal_text(section) + slew_text(section) +
          wrapped(fmt::format("The controller: sampled every {:g} s with one sample of computing, "
                              "feedforward of rate and acceleration, commands shaped to the limits "
-                             "above, anti-windup. Encoder steps of {} mdeg, those whose rounding "
-                             "is the case's encoder noise. Differences are of the rms with and "
+                             "above, anti-windup. Assumed, not in the case: {:g} deg/s2 of command "
+                             "acceleration, and encoder steps of {} mdeg, those whose rounding is "
+                             "the case's encoder noise. Differences are of the rms with and "
                              "without each influence, the others on.",
-                             section.sample_time, mdeg(section.encoder_resolution)),
+                             section.sample_time, section.options.limits.acceleration / degree,
+                             mdeg(section.encoder_resolution)),
                  "  ");
 }
 

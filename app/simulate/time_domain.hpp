@@ -34,5 +34,7 @@ std::optional<TimeDomainSection> verify_in_time_domain(const Case& antenna,
 
 /// The section of the terminal's report.
 std::string to_text(const TimeDomainSection& section);
+/// What it means beside the linear figures, in a paragraph.
+std::string conclude(const TimeDomainSection& section);
 
 }  // namespace boresight::app

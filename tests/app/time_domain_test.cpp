@@ -103,6 +103,22 @@ TEST(TimeDomain, TextSaysWhyThereAreNoNumbers) {
   EXPECT_THAT(to_text(slow), HasSubstr("within 0.5270 mdeg 40 s after"));
 }
 
+TEST(TimeDomain, ConcludesWhatTheLinearFigureIsWorth) {
+  const std::string text = conclude(section());
+  EXPECT_THAT(text, HasSubstr("points within 0.600 mdeg in 10 m/s, where the linear plant says "
+                              "0.500; friction alone is worth 0.080."));
+  EXPECT_THAT(text, HasSubstr("with less than 20 % to spare is not met."));
+  EXPECT_THAT(text, HasSubstr("At rest it hunts by +-0.29 mdeg."));
+  EXPECT_THAT(text, Not(HasSubstr("At the tracking rate it hunts")));
+  EXPECT_THAT(text, HasSubstr("errs by up to 5.0 mdeg."));
+  auto calm = section();
+  calm.result.wind.beam_rms = 0.49 * mdeg;
+  EXPECT_THAT(conclude(calm), Not(HasSubstr("to spare")));
+  auto lost = section();
+  lost.result.wind.status = design::RunStatus::lost;
+  EXPECT_THAT(conclude(lost), HasSubstr("was not seen to hold in 10 m/s of wind (lost)"));
+}
+
 TEST(TimeDomain, JsonAloneGivesTheDifferenceFromThePrediction) {
   const auto json = time_domain_json(section());
   const auto& wind = json.at("wind");

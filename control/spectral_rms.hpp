@@ -21,7 +21,7 @@ struct SpectralRmsOptions {
   std::size_t most_evaluations = 200000;
   /// One-sided spectrum of the noise per Hz at a frequency in Hz, for noise that no filter within
   /// the system makes. Default: white noise of unit intensity, 2 per Hz.
-  std::function<double(double)> spectrum;
+  std::function<double(double)> spectrum = {};
 };
 
 /// rms of the output for stationary noise at the input: sqrt(1/pi integral |H(j w)|^2 dw) for white

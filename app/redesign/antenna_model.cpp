@@ -68,16 +68,16 @@ identification::Uncertain assembly_inertia(const Case& antenna, const RotatingAs
   return sum;
 }
 
-plant::Structure make_structure(const Case& antenna) {
+plant::Structure make_structure(const Case& antenna, double frequency_scale) {
   const StructureEntry& structure = antenna.structure;
   plant::StructureSpecification specification;
   specification.antenna_inertia = antenna_inertia(antenna);
   specification.bull_gear_wind_fraction = structure.bull_gear_wind_fraction.value;
   specification.bull_gear_beam_weight = structure.bull_gear_beam_weight.value;
-  specification.locked_rotor_frequency = structure.locked_rotor_frequency.value;
+  specification.locked_rotor_frequency = structure.locked_rotor_frequency.value * frequency_scale;
   specification.gear_damping_ratio = structure.gear_damping_ratio.value;
   for (const auto& mode : structure.modes) {
-    specification.modes.push_back({mode.frequency.value, mode.damping_ratio.value,
+    specification.modes.push_back({mode.frequency.value * frequency_scale, mode.damping_ratio.value,
                                    mode.inertia_fraction.value, mode.wind_fraction.value,
                                    mode.beam_weight.value});
   }
@@ -165,16 +165,17 @@ plant::AntennaPlant make_plant(const Case& antenna, const PlantVariant& variant)
   plant::AntennaPlant plant;
   const double disks = variant.flywheel_disks.value_or(antenna.motor.flywheel_disks);
   plant.drive.oil_stiffness = variant.oil_stiffness.value_or(oil_stiffness(antenna));
-  plant.drive.leakage_rate = antenna.drive.leakage_rate.value;
+  plant.drive.leakage_rate = variant.leakage_rate.value_or(antenna.drive.leakage_rate.value);
   plant.drive.viscous_friction =
       variant.viscous_friction.value_or(antenna.drive.viscous_friction.value);
   plant.drive.motor_inertia =
-      variant.inertia_scale * (motor_inertia(antenna, disks) + gear_train_inertia(antenna));
+      variant.inertia_scale *
+      (variant.motor_inertia_scale * motor_inertia(antenna, disks) + gear_train_inertia(antenna));
   plant.drive.valve_corner = two_pi * antenna.drive.valve_frequency.value;
   plant.drive.valve_damping = antenna.drive.valve_damping.value;
   plant.drive.tachometer_corner = two_pi * antenna.sensors.tachometer_frequency.value;
 
-  plant.structure = make_structure(antenna);
+  plant.structure = make_structure(antenna, variant.structure_frequency_scale);
   const double lighter = variant.inertia_scale *
                          variant.antenna_inertia.value_or(antenna_inertia(antenna)) /
                          antenna_inertia(antenna);

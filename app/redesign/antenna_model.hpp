@@ -19,8 +19,13 @@ struct PlantVariant {
   std::optional<double> viscous_friction = std::nullopt;
   std::optional<double> antenna_inertia = std::nullopt;
   std::optional<double> oil_stiffness = std::nullopt;
+  std::optional<double> leakage_rate = std::nullopt;
   /// Multiplies every inertia, motors' and antenna's.
   double inertia_scale = 1.0;
+  /// Multiplies the motors' inertia, flywheels included.
+  double motor_inertia_scale = 1.0;
+  /// Multiplies the frequencies of locked rotor and modes.
+  double structure_frequency_scale = 1.0;
 };
 
 double gear_ratio(const Case& antenna);

@@ -18,12 +18,10 @@ struct Draw {
 };
 
 plant::AntennaPlant plant_of(const Case& antenna, const Draw& draw) {
-  Case changed = antenna;
-  changed.structure.locked_rotor_frequency.value *= draw.structure_frequency;
-  for (auto& mode : changed.structure.modes) mode.frequency.value *= draw.structure_frequency;
-  changed.drive.leakage_rate.value = draw.leakage_rate;
-  return make_plant(changed, {.viscous_friction = draw.viscous_friction,
-                              .oil_stiffness = draw.oil_stiffness * oil_stiffness(antenna)});
+  return make_plant(antenna, {.viscous_friction = draw.viscous_friction,
+                              .oil_stiffness = draw.oil_stiffness * oil_stiffness(antenna),
+                              .leakage_rate = draw.leakage_rate,
+                              .structure_frequency_scale = draw.structure_frequency});
 }
 
 // Uniform within [0, 1), number `index` of a stream.

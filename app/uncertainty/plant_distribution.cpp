@@ -1,0 +1,219 @@
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <optional>
+
+#include <Eigen/Cholesky>
+#include <boost/math/special_functions/erf.hpp>
+#include <fmt/format.h>
+
+#include <boresight/app/tune/plant_members.hpp>
+#include <boresight/app/uncertainty/plant_distribution.hpp>
+#include <boresight/plant/error.hpp>
+#include <boresight/plant/normal_numbers.hpp>
+
+namespace boresight::app {
+namespace {
+
+constexpr std::size_t place(UncertainInput input) {
+  return static_cast<std::size_t>(input);
+}
+
+// Uniform within (0, 1), both ends left out.
+double uniform(std::uint64_t state, std::uint64_t index) {
+  constexpr double unit = 0x1p-53;
+  return (static_cast<double>(plant::splitmix64(state, index) >> 12U) + 0.5) * 2.0 * unit;
+}
+
+// Streams of a seed: shares of uniform inputs, normal numbers of the others.
+constexpr std::uint64_t uniform_stream = 0x5eed0001;
+constexpr std::uint64_t normal_stream = 0x5eed0002;
+
+double relative_uncertainty(const Quantity& quantity) {
+  return quantity.value != 0.0 ? quantity.standard_uncertainty / std::abs(quantity.value) : 0.0;
+}
+
+// Logarithms of a draw's factors against the estimate's case, in the order of PlantDraw::values;
+// the friction slope's stays 0. Nothing where it leaves the antenna no inertia.
+std::optional<Eigen::VectorXd> log_factors(const Case& identified,
+                                           const identification::DriveEstimate& draw) {
+  const double antenna = draw.inertia - draw.motor_inertia - gear_train_inertia(identified);
+  if (!(antenna > 0.0)) return std::nullopt;
+  using enum UncertainInput;
+  Eigen::VectorXd logs = Eigen::VectorXd::Zero(uncertain_inputs);
+  const auto set = [&](UncertainInput input, double value, double of_case) {
+    if (value > 0.0 && of_case > 0.0) {
+      logs(static_cast<Eigen::Index>(place(input))) = std::log(value / of_case);
+    }
+  };
+  set(structure_frequency, draw.lowest_frequency,
+      identified.structure.locked_rotor_frequency.value);
+  set(oil_stiffness, draw.oil_stiffness, app::oil_stiffness(identified));
+  set(leakage_rate, draw.leakage_rate, identified.drive.leakage_rate.value);
+  set(antenna_inertia, antenna, app::antenna_inertia(identified));
+  set(motor_inertia, draw.motor_inertia,
+      app::motor_inertia(identified, identified.motor.flywheel_disks));
+  return logs;
+}
+
+}  // namespace
+
+std::string_view to_string(UncertainInput input) {
+  static constexpr std::array<std::string_view, uncertain_inputs> names{
+      "structure frequency", "oil stiffness",   "leakage rate",
+      "friction slope",      "antenna inertia", "motor inertia"};
+  return names.at(place(input));
+}
+
+PlantVariant variant_of(const Case& antenna, const PlantDraw& draw) {
+  using enum UncertainInput;
+  return {.viscous_friction = draw[friction_slope],
+          .antenna_inertia = draw[antenna_inertia] * app::antenna_inertia(antenna),
+          .oil_stiffness = draw[oil_stiffness] * app::oil_stiffness(antenna),
+          .leakage_rate = draw[leakage_rate] * antenna.drive.leakage_rate.value,
+          .motor_inertia_scale = draw[motor_inertia],
+          .structure_frequency_scale = draw[structure_frequency]};
+}
+
+plant::AntennaPlant make_plant(const Case& antenna, const PlantDraw& draw) {
+  return make_plant(antenna, variant_of(antenna, draw));
+}
+
+double PlantDistribution::Marginal::at(double share) const {
+  if (uniform) return lower + share * (upper - lower);
+  return std::exp(centre - deviation * std::numbers::sqrt2 * boost::math::erfc_inv(2.0 * share));
+}
+
+void PlantDistribution::list_inputs() {
+  for (std::size_t i = 0; i < uncertain_inputs; ++i) {
+    const Marginal& marginal = marginals_.at(i);
+    const bool varies =
+        marginal.uniform ? marginal.upper > marginal.lower : marginal.deviation > 0.0;
+    if (varies) inputs_.push_back(static_cast<UncertainInput>(i));
+  }
+}
+
+PlantDistribution PlantDistribution::of_ranges(const Case& antenna) {
+  const MemberRanges ranges = member_ranges(antenna);
+  const double leakage = antenna.drive.leakage_rate.value;
+  PlantDistribution distribution;
+  using enum UncertainInput;
+  const auto uniform_within = [&](UncertainInput input, double lower, double upper) {
+    Marginal& marginal = distribution.marginals_.at(place(input));
+    marginal.lower = lower;
+    marginal.upper = upper;
+  };
+  uniform_within(structure_frequency, ranges.structure_frequency.lower,
+                 ranges.structure_frequency.upper);
+  uniform_within(oil_stiffness, ranges.oil_stiffness.lower, ranges.oil_stiffness.upper);
+  if (leakage > 0.0) {
+    uniform_within(leakage_rate, ranges.leakage_rate.lower / leakage,
+                   ranges.leakage_rate.upper / leakage);
+  }
+  uniform_within(friction_slope, ranges.viscous_friction.lower, ranges.viscous_friction.upper);
+  distribution.factor_ = Eigen::MatrixXd::Zero(uncertain_inputs, uncertain_inputs);
+  for (const auto& [input, quantity] : {std::pair{antenna_inertia, &antenna.antenna.inertia},
+                                        std::pair{motor_inertia, &antenna.motor.inertia}}) {
+    Marginal& marginal = distribution.marginals_.at(place(input));
+    marginal.uniform = false;
+    marginal.deviation = relative_uncertainty(*quantity);
+    const auto i = static_cast<Eigen::Index>(place(input));
+    distribution.factor_(i, i) = marginal.deviation;
+  }
+  distribution.source_ = "independent draws from the ranges and uncertainties of the case";
+  distribution.list_inputs();
+  return distribution;
+}
+
+PlantDistribution PlantDistribution::of_records(
+    const Case& identified, const std::vector<identification::DriveEstimate>& draws) {
+  constexpr Eigen::Index least = 20;
+  Eigen::MatrixXd logs(static_cast<Eigen::Index>(draws.size()), uncertain_inputs);
+  Eigen::Index kept = 0;
+  for (const auto& draw : draws) {
+    if (const auto row = log_factors(identified, draw)) logs.row(kept++) = row->transpose();
+  }
+  if (kept < least) {
+    throw InvalidInput(fmt::format(
+        "PlantDistribution: expected {} draws or more that leave the antenna an inertia, found {}",
+        least, kept));
+  }
+  logs.conservativeResize(kept, Eigen::NoChange);
+  const Eigen::RowVectorXd mean = logs.colwise().mean();
+  const Eigen::MatrixXd centred = logs.rowwise() - mean;
+  const Eigen::MatrixXd covariance = centred.transpose() * centred / static_cast<double>(kept - 1);
+  PlantDistribution distribution;
+  // Inputs that the records say nothing of have rows of zeros: a diagonal of rounding's size keeps
+  // the factor defined and their draws where they are.
+  const Eigen::MatrixXd lifted =
+      covariance + 1e-24 * Eigen::MatrixXd::Identity(uncertain_inputs, uncertain_inputs);
+  distribution.factor_ = lifted.llt().matrixL();
+  for (std::size_t i = 0; i < uncertain_inputs; ++i) {
+    const auto row = static_cast<Eigen::Index>(i);
+    Marginal& marginal = distribution.marginals_.at(i);
+    marginal.uniform = false;
+    marginal.centre = mean(row);
+    marginal.deviation = covariance(row, row) > 1e-20 ? std::sqrt(covariance(row, row)) : 0.0;
+  }
+  Marginal& friction = distribution.marginals_.at(place(UncertainInput::friction_slope));
+  friction = {};
+  friction.lower = 0.0;
+  friction.upper = tracking_friction(identified);
+  distribution.source_ = "draws from what the records leave open, with their correlations";
+  distribution.list_inputs();
+  return distribution;
+}
+
+PlantDraw PlantDistribution::draw(std::uint64_t seed, std::uint64_t index) const {
+  const plant::NormalNumbers normals(seed, normal_stream);
+  constexpr std::uint64_t pairs = (uncertain_inputs + 1) / 2;
+  std::array<double, 2 * pairs> standard{};
+  for (std::uint64_t k = 0; k < pairs; ++k) {
+    const auto pair = normals.pair(index * pairs + k);
+    standard.at(2 * k) = pair.real();
+    standard.at(2 * k + 1) = pair.imag();
+  }
+  const std::uint64_t shares = plant::splitmix64(seed, uniform_stream);
+  PlantDraw draw;
+  for (std::size_t i = 0; i < uncertain_inputs; ++i) {
+    const Marginal& marginal = marginals_.at(i);
+    if (marginal.uniform) {
+      draw.values.at(i) = marginal.at(uniform(shares, index * uncertain_inputs + i));
+      continue;
+    }
+    double sum = marginal.centre;
+    for (std::size_t k = 0; k <= i; ++k) {
+      sum += factor_(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(k)) * standard.at(k);
+    }
+    draw.values.at(i) = std::exp(sum);
+  }
+  return draw;
+}
+
+PlantDraw PlantDistribution::at_shares(const std::vector<double>& shares) const {
+  if (shares.size() != inputs_.size()) {
+    throw InvalidInput(fmt::format("PlantDistribution::at_shares: expected {} shares, found {}",
+                                   inputs_.size(), shares.size()));
+  }
+  PlantDraw draw = median();
+  for (std::size_t k = 0; k < shares.size(); ++k) {
+    if (!(shares[k] > 0.0) || !(shares[k] < 1.0)) {
+      throw InvalidInput(fmt::format(
+          "PlantDistribution::at_shares: expected shares within (0, 1), found {:g}", shares[k]));
+    }
+    draw.values.at(place(inputs_[k])) = marginals_.at(place(inputs_[k])).at(shares[k]);
+  }
+  return draw;
+}
+
+PlantDraw PlantDistribution::median() const {
+  PlantDraw draw;
+  for (std::size_t i = 0; i < uncertain_inputs; ++i) {
+    const Marginal& marginal = marginals_.at(i);
+    draw.values.at(i) =
+        marginal.uniform ? 0.5 * (marginal.lower + marginal.upper) : std::exp(marginal.centre);
+  }
+  return draw;
+}
+
+}  // namespace boresight::app

@@ -1,8 +1,10 @@
 #include <algorithm>
 #include <exception>
 #include <filesystem>
+#include <memory>
 #include <system_error>
 
+#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 #include <boresight/app/commands/progress_line.hpp>
@@ -141,6 +143,39 @@ class Campaign {
 SimulateOutcome simulate_tests(const SimulateArguments& arguments,
                                const std::function<bool()>& interrupted) {
   return Campaign(arguments, interrupted).run();
+}
+
+namespace {
+
+int run(const SimulateArguments& arguments) {
+  watch_for_interrupt();
+  const auto outcome = simulate_tests(arguments, interrupt_requested);
+  deliver(
+      arguments.json_path, [&] { return to_text(outcome.report); },
+      [&] { return to_json(outcome.report); });
+  if (outcome.failure) std::rethrow_exception(outcome.failure);
+  return outcome.report.interrupted ? interrupted : done;
+}
+
+}  // namespace
+
+Subcommand add_simulate(CLI::App& program) {
+  const auto arguments = std::make_shared<SimulateArguments>();
+  CLI::App* sub = program.add_subcommand(
+      "simulate", "run tests on the nonlinear antenna and write what its recorder would");
+  add_case(*sub, arguments->case_path);
+  sub->add_option("TEST", arguments->tests,
+                  fmt::format("what to run: {}", fmt::join(simulated_test_names(), ", ")))
+      ->required();
+  add_json(*sub, arguments->json_path);
+  sub->add_option("--folder", arguments->folder, "where records TEST.csv are written")
+      ->capture_default_str();
+  sub->add_option("--sample-rate", arguments->sample_rate,
+                  "samples a second of the records (default: as the case has it); slosh is sampled "
+                  "at 1000 or more")
+      ->check(CLI::Range(1.0, 1e5));
+  add_seed(*sub, arguments->seed);
+  return {sub, [arguments] { return run(*arguments); }};
 }
 
 }  // namespace boresight::app

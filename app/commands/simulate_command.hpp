@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include <boresight/app/commands/subcommand.hpp>
 #include <boresight/app/simulate/simulation_report.hpp>
 
 namespace boresight::app {
@@ -31,5 +32,7 @@ struct SimulateOutcome {
 /// be written to, and a case without what simulations need: before anything is run.
 SimulateOutcome simulate_tests(const SimulateArguments& arguments,
                                const std::function<bool()>& interrupted);
+
+Subcommand add_simulate(CLI::App& program);
 
 }  // namespace boresight::app

@@ -1,3 +1,6 @@
+#include <memory>
+
+#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 #include <boresight/app/commands/progress_line.hpp>
@@ -7,6 +10,7 @@
 #include <boresight/app/io/wording.hpp>
 #include <boresight/app/report/json_report.hpp>
 #include <boresight/app/report/measured_report.hpp>
+#include <boresight/app/report/text_report.hpp>
 #include <boresight/app/tune/plant_members.hpp>
 #include <boresight/app/tune/tune_limit.hpp>
 #include <boresight/app/tune/tune_study.hpp>
@@ -23,7 +27,7 @@ std::vector<double> read_speeds(const std::vector<std::string>& texts) {
     try {
       speeds.push_back(parse_quantity(text, Kind::speed).value);
     } catch (const InvalidInput& error) {
-      throw InvalidInput(fmt::format("--speed {}: {}", quoted(text), error.what()));
+      throw InvalidInput(fmt::format("--speed {}: {}", app::quoted(text), error.what()));
     }
   }
   return speeds;
@@ -131,6 +135,61 @@ Report tune_case(const TuneArguments& arguments, const std::function<bool()>& in
     if (report.time_domain) report.conclusions.push_back(conclude(*report.time_domain));
   }
   return report;
+}
+
+namespace {
+
+int run(TuneArguments arguments) {
+  arguments.threads = all_or(arguments.threads);
+  watch_for_interrupt();
+  const Report report = tune_case(arguments, interrupt_requested);
+  deliver(
+      arguments.json_path, [&] { return to_text(report); }, [&] { return to_json(report); });
+  if (report.interrupted) return interrupted;
+  if (report.measured) {
+    if (report.measured->any_confident()) return done;
+    fmt::print(stderr, "boresight: no law meets its goals within the measurement's confidence\n");
+    return infeasible;
+  }
+  if (!report.tuned) return internal_error;
+  for (const auto& shortfall : report.tuned->shortfalls) {
+    fmt::print(stderr, "boresight: {}: {} {}\n", arguments.case_path, shortfall.infeasible,
+               shortfall.closest);
+  }
+  if (!report.tuned->shortfalls.empty()) return infeasible;
+  if (report.tuned->unverified) {
+    fmt::print(stderr, "boresight: no law that meets its goals passes its verification\n");
+    return numerical;
+  }
+  return done;
+}
+
+}  // namespace
+
+Subcommand add_tune(CLI::App& program) {
+  const auto arguments = std::make_shared<TuneArguments>();
+  CLI::App* sub = program.add_subcommand(
+      "tune", "tune loop structures for the least beam rms in wind, robustly and verified");
+  add_case(*sub, arguments->case_path);
+  sub->add_option("--structure", arguments->structures,
+                  "what to tune, one or several: PI-0, PI, DPF, LL, FULL, with +N (notch) and +C "
+                  "(compliance compensation) behind it, or a [[loop]] of the case")
+      ->expected(1, 100);
+  sub->add_option("--goal", arguments->goals,
+                  "KEY=VALUE of [goals] in the place of the case's, one or several")
+      ->expected(1, 100);
+  sub->add_option("--speed", arguments->speeds,
+                  "mean wind speeds to tune for, such as \"10 m/s\" (default: the design speed)")
+      ->expected(1, 100);
+  sub->add_option("--measured", arguments->measured_record,
+                  "tune on the response that this record of the case shows, without a model: see "
+                  "docs/measured-tuning.md");
+  sub->add_option("--starts", arguments->starts, "random starts of each search")
+      ->check(CLI::Range(1, 100000));
+  add_json(*sub, arguments->json_path);
+  add_seed(*sub, arguments->seed);
+  add_threads(*sub, arguments->threads);
+  return {sub, [arguments] { return run(*arguments); }};
 }
 
 }  // namespace boresight::app

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include <boresight/app/commands/subcommand.hpp>
 #include <boresight/app/report/report.hpp>
 
 namespace boresight::app {
@@ -27,5 +28,7 @@ struct TuneArguments {
 /// report holds the best laws found so far.
 /// @throws InvalidInput for arguments and cases that cannot be worked on: before anything is tuned.
 Report tune_case(const TuneArguments& arguments, const std::function<bool()>& interrupted);
+
+Subcommand add_tune(CLI::App& program);
 
 }  // namespace boresight::app

@@ -1,0 +1,153 @@
+#include <functional>
+#include <memory>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include <boresight/app/commands/progress_line.hpp>
+#include <boresight/app/commands/report_commands.hpp>
+#include <boresight/app/identify/campaign_identification.hpp>
+#include <boresight/app/identify/identified_case.hpp>
+#include <boresight/app/redesign/sections.hpp>
+#include <boresight/app/report/json_report.hpp>
+#include <boresight/app/report/text_report.hpp>
+
+namespace boresight::app {
+namespace {
+
+struct Arguments {
+  std::string case_path;
+  std::string json_path;
+  std::uint64_t seed = 1;
+  unsigned threads = 0;
+};
+
+using Section = std::function<void(const Case&, const StudyOptions&, Report&)>;
+
+struct Command {
+  const char* name = "";
+  const char* description = "";
+  Section run;
+  const char* work = "tuning and verifying";  // as its progress line begins
+};
+
+void fill_identification(const Case& antenna, const StudyOptions& options, Report& report) {
+  report.identification = identify(antenna, options);
+  if (!antenna.campaign.records.empty()) report.campaign = identify_campaign(antenna, options);
+}
+
+void fill_redesign(const Case& antenna, const StudyOptions& options, Report& report) {
+  fill_identification(antenna, options, report);
+  report.audit = audit(antenna);
+  // With records the redesign is of the drive that they show, and is judged on what they leave
+  // open.
+  Case designed = antenna;
+  if (report.campaign && report.campaign->grey_box) {
+    designed = with_identified(antenna, report.campaign->grey_box->estimate);
+    report.assumed = assumed_inputs(designed);
+  }
+  report.plant = describe_plant(designed);
+  if (report.campaign && report.campaign->grey_box) {
+    report.plant->records = report.campaign->grey_box->records.size();
+  }
+  redesign(designed, options, report);
+  if (report.tuning && report.tuning->design.tuning.status == design::TuningStatus::optimal) {
+    const auto& law = report.tuning->design.tuning.law;
+    report.time_domain = verify_in_time_domain(designed, make_problem(designed), law,
+                                               law.structure.name(), options.seed, options.threads);
+  }
+  if (report.campaign && report.campaign->grey_box && report.tuning) {
+    report.tuning->ensemble =
+        judge_identified(antenna, designed, *report.campaign->grey_box, *report.tuning, options);
+  }
+  report.conclusions = conclude(report);
+}
+
+const std::vector<Command>& commands() {
+  static const std::vector<Command> list{
+      {"redesign", "identify, audit, model, tune, match and conclude: the whole report",
+       fill_redesign},
+      {"audit", "recompute every derived number the case states; list what does not follow",
+       [](const Case& antenna, const StudyOptions&, Report& report) {
+         report.audit = audit(antenna);
+         if (antenna.campaign.records.empty()) return;
+         report.conclusions.push_back(fmt::format(
+             "The case has {} records, which an audit does not open: `boresight identify {}` lists "
+             "the numbers that they contradict.",
+             antenna.campaign.records.size(), report.case_path));
+       }},
+      {"identify",
+       "inertia and motor-to-load ratio by each method, with intervals; of a case with records all "
+       "that they say of the drive",
+       fill_identification, "identifying"},
+      {"model", "the linear plant: parameters, poles, what each mode is",
+       [](const Case& antenna, const StudyOptions&, Report& report) {
+         report.plant = describe_plant(antenna);
+       }},
+      {"match", "re-tune at each number of flywheel disks and at ratio 1",
+       [](const Case& antenna, const StudyOptions& options, Report& report) {
+         report.matching = match_inertia(antenna, options);
+         report.conclusions = conclude(report);
+       }}};
+  return list;
+}
+
+int run(const Command& command, const Arguments& arguments) {
+  const Case antenna = read_case(arguments.case_path);
+  require_json_path(arguments.json_path);
+  StudyOptions options;
+  options.seed = arguments.seed;
+  options.threads = all_or(arguments.threads);
+  Report report;
+  report.command = command.name;
+  report.title = antenna.title;
+  report.axis = antenna.axis;
+  report.case_path = arguments.case_path;
+  report.seed = arguments.seed;
+  report.assumed = assumed_inputs(antenna);
+  {
+    ProgressLine progress(command.work);
+    options.progress = [&](std::size_t finished, std::size_t all) {
+      progress.show(finished, all);
+      if (interrupt_requested()) throw Interrupted("interrupted by the user");
+    };
+    watch_for_interrupt();
+    try {
+      command.run(antenna, options, report);
+    } catch (const Interrupted&) {
+      report.interrupted = true;
+    }
+  }
+  deliver(
+      arguments.json_path, [&] { return to_text(report); }, [&] { return to_json(report); });
+  if (report.interrupted) return interrupted;
+  if (report.tuning && report.tuning->design.tuning.status != design::TuningStatus::optimal) {
+    fmt::print(stderr, "boresight: no control law meets the hard goals of {}\n",
+               arguments.case_path);
+    return infeasible;
+  }
+  if (report.tuning && !report.tuning->design.verification.passed) {
+    fmt::print(stderr, "boresight: the best law found fails its verification: {}\n",
+               report.tuning->design.verification.failure);
+    return numerical;
+  }
+  return done;
+}
+
+}  // namespace
+
+std::vector<Subcommand> add_report_commands(CLI::App& program) {
+  std::vector<Subcommand> added;
+  for (const auto& command : commands()) {
+    const auto arguments = std::make_shared<Arguments>();
+    CLI::App* options = program.add_subcommand(command.name, command.description);
+    add_case(*options, arguments->case_path);
+    add_json(*options, arguments->json_path);
+    add_seed(*options, arguments->seed);
+    add_threads(*options, arguments->threads);
+    added.push_back({options, [&command, arguments] { return run(command, *arguments); }});
+  }
+  return added;
+}
+
+}  // namespace boresight::app

@@ -1,0 +1,74 @@
+#include <algorithm>
+#include <csignal>
+#include <cstdio>
+#include <thread>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include <boresight/app/commands/subcommand.hpp>
+#include <boresight/app/report/json_report.hpp>
+#include <boresight/plant/error.hpp>
+
+namespace boresight::app {
+namespace {
+
+// A signal handler can reach nothing else.
+// NOLINTNEXTLINE(cppcoreguidelines-avoid-non-const-global-variables)
+volatile std::sig_atomic_t interrupt_seen = 0;
+
+void see_interrupt(int /*signal*/) {
+  interrupt_seen = 1;
+}
+
+}  // namespace
+
+void add_case(CLI::App& command, std::string& path) {
+  command.add_option("CASE", path, "case file (TOML), see docs/case-file.md")->required();
+}
+
+void add_json(CLI::App& command, std::string& path) {
+  command.add_option("--json", path,
+                     "also write the report as JSON to this file; '-' writes JSON only, to "
+                     "standard output");
+}
+
+void add_seed(CLI::App& command, std::uint64_t& seed) {
+  command.add_option("--seed", seed, "first seed of the searches and draws")
+      ->check(CLI::Range(0.0, 1e15))
+      ->capture_default_str();
+}
+
+void add_threads(CLI::App& command, unsigned& threads) {
+  command.add_option("--threads", threads,
+                     "threads to work on; results do not depend on it (default: all)");
+}
+
+unsigned all_or(unsigned threads) {
+  return threads != 0 ? threads : std::max(1U, std::thread::hardware_concurrency());
+}
+
+void watch_for_interrupt() {
+  std::signal(SIGINT, see_interrupt);
+}
+
+bool interrupt_requested() {
+  return interrupt_seen != 0;
+}
+
+void require_json_path(const std::string& path) {
+  if (!path.empty() && path != "-") require_writable(path);
+}
+
+void deliver(const std::string& json_path, const std::function<std::string()>& text,
+             const std::function<std::string()>& json) {
+  if (json_path == "-") {
+    fmt::print("{}", json());
+  } else {
+    if (!json_path.empty()) write_atomically(json_path, json());
+    fmt::print("{}", text());
+  }
+  if (std::fflush(stdout) != 0) throw InvalidInput("standard output: cannot be written to");
+}
+
+}  // namespace boresight::app

@@ -59,6 +59,42 @@ function values = sampling(system)
   values = [norm(held.a, "fro"), norm(held.b, "fro")];
 end
 
+% Four gains for the least rms with the peak of S at most 2, by sqp on norms (central differences
+% of its own): rms, peak, gains.
+function values = tuned(wind, command)
+  x = sqp(log([0.2; 1.2; 0.3; 0.03]), @(x) norms_of(wind, command, x)(1), [],
+          @(x) 2 - norms_of(wind, command, x)(2), log(1e-3) * ones(4, 1), log(1e2) * ones(4, 1),
+          500, 1e-7);
+  values = [norms_of(wind, command, x), exp(x')];
+end
+
+% rms and peak of S of the loop closed with gains exp(x); far away where it is unstable.
+function values = norms_of(wind, command, x)
+  persistent last = [] found = []
+  if isequal(x, last)
+    values = found;
+    return
+  end
+  gains = exp(x);
+  [a, noise, seen] = ssdata(wind);
+  [~, valve] = ssdata(command);
+  % States 6, 7 and 8: tachometer, integral of the rate error, integral of minus the motor's angle.
+  rate_error = gains(3) * a(8, :);
+  rate_error(8) += gains(4);
+  rate_error(6) -= 1;
+  row = gains(1) * rate_error;
+  row(7) += gains(2);
+  a(7, :) = rate_error;
+  a += valve * row;
+  if max(real(eig(a))) >= -1e-6
+    values = [100, 10];
+  else
+    values = [norm(ss(a, noise, seen, 0), 2), norm(ss(a, valve, row, 1), inf, 1e-7)];
+  end
+  last = x;
+  found = values;
+end
+
 arguments = argv();
 folder = arguments{end - 2};
 modes = str2double(arguments{end - 1});
@@ -97,6 +133,12 @@ switch item
   case "riccati"
     [a, b, c] = ssdata(read_system(place, "regulator"));
     report(item, "care", modes, @() trace(care(a, b, c' * c, 1)));
+  case "tune"
+    if modes <= 20
+      wind = read_system(place, "without_gains_wind");
+      command = read_system(place, "without_gains_command");
+      report(item, "sqp on norm", modes, @() tuned(wind, command));
+    end
   case "discrete_riccati"
     [a, b, c] = ssdata(read_system(place, "sampled"));
     report(item, "dare", modes, @() trace(dare(a, b, c' * c, 1)));

@@ -47,6 +47,9 @@ int main(int count, char** arguments) try {
     write(modes, "wind", channel(closed, "t", "y"));
     write(modes, "sensitivity", channel(closed, "d", "u"));
     write(modes, "regulator", channel(closed, "d", "y"));
+    const StateSpace open = peer_closed_loop(std::stoi(arguments[i]), {0.0, 0.0, 0.0, 0.0});
+    write(modes, "without_gains_wind", channel(open, "n", "y"));
+    write(modes, "without_gains_command", channel(open, "d", "u"));
     write(modes, "loop", peer_open_loop(std::stoi(arguments[i])));
     if (closed.a.rows() <= 30) {
       write(modes, "sampled", zero_order_hold(channel(closed, "d", "y"), peer_regulator_period));

@@ -1,8 +1,9 @@
 #pragma once
 
 #include <array>
-#include <cstddef>
 #include <memory>
+
+#include <Eigen/Core>
 
 #include <boresight/control/closed_loop.hpp>
 #include <boresight/design/goals.hpp>
@@ -13,7 +14,8 @@ namespace boresight::design {
 /// How closely a held law is looked at on each plant.
 struct HeldGainsOptions {
   /// Of a variance: what one panel of frequencies may be wrong by, over the root of its width
-  /// (control::LoopQuadrature). At the default, rms values are within 1e-5 of the tuner's.
+  /// (control::LoopQuadrature). At the default a beam rms is within 1e-5 of the tuner's, valve
+  /// effort and peaks within 1e-4.
   double tolerance = 1e-7;
   /// Plants with a sensitivity peak above this are judged by eigenvalues, not by the winding alone.
   double confirm_peak = 4.0;
@@ -62,11 +64,11 @@ class HeldGainsEvaluator {
   bool near_the_axis(const HeldGainsValues& values) const;
   /// Eigenvalues of the closed loop, position loop open and closed, about 1 ms.
   /// @throws NumericalFailure as plant::eigenvalues.
-  control::StabilityVerdict confirm(const plant::AntennaPlant& plant) const;
+  control::StabilityVerdict confirm(const plant::AntennaPlant& plant);
 
   const control::ControlLaw& law() const;
-  /// Frequencies that the last plant took.
-  std::size_t frequencies_used() const;
+  /// Frequencies (rad/s, rising) that the last plant took.
+  Eigen::ArrayXd frequencies() const;
 
  private:
   struct State;

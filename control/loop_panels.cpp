@@ -261,16 +261,9 @@ void LoopEvaluator::keep_first_panels() {
 
 // What others read of the grid.
 void LoopEvaluator::use_first_panels() {
-  plant::PlantResponse& response = channels_.response;
   const auto count = static_cast<Eigen::Index>(packs_.size() * plant::pack_size);
   weight_.resize(count);
-  response.frequency.resize(count);
-  for (auto* channel :
-       {&response.tachometer_command, &response.torque_command, &response.encoder_command,
-        &response.beam_command, &response.tachometer_wind, &response.torque_wind,
-        &response.encoder_wind, &response.beam_wind}) {
-    channel->resize(count);
-  }
+  channels_.response = plant::unset_response(Eigen::ArrayXd(count));
   for (Eigen::Index k = 0; k < count; ++k) {
     const auto i = static_cast<std::size_t>(k) / plant::pack_size;
     const auto lane = static_cast<std::size_t>(k) % plant::pack_size;
@@ -278,19 +271,16 @@ void LoopEvaluator::use_first_panels() {
     const double w = pack.frequency[lane], hertz = w / two_pi;
     const bool within = hertz > band_.lowest && hertz < band_.highest;
     weight_[k] = within ? panel_weight(panels_[i], lane) : 0.0;
-    response.frequency[k] = w;
+    channels_.response.frequency[k] = w;
     const Complex advance = std::polar(1.0, w * delay_);
     const auto value = [&](const plant::ComplexPack& channel) {
       return Complex{channel.re[lane], channel.im[lane]};
     };
-    response.tachometer_command[k] = value(pack.tachometer_command) * advance;
-    response.torque_command[k] = value(pack.torque_command) * advance;
-    response.encoder_command[k] = value(pack.encoder_command) * advance;
-    response.beam_command[k] = value(pack.beam_command) * advance;
-    response.tachometer_wind[k] = value(pack.tachometer_wind);
-    response.torque_wind[k] = value(pack.torque_wind);
-    response.encoder_wind[k] = value(pack.encoder_wind);
-    response.beam_wind[k] = value(pack.beam_wind);
+    plant::set_point(channels_.response, k,
+                     {value(pack.tachometer_command) * advance,
+                      value(pack.torque_command) * advance, value(pack.encoder_command) * advance,
+                      value(pack.beam_command) * advance, value(pack.tachometer_wind),
+                      value(pack.torque_wind), value(pack.encoder_wind), value(pack.beam_wind)});
   }
 }
 

@@ -186,26 +186,9 @@ double MeasuredChannels::low_end_friction() const {
 
 LoopChannels sampled_on(const Eigen::ArrayXd& grid,
                         std::function<plant::ResponsePoint(double frequency)> at) {
-  const Index count = grid.size();
   LoopChannels channels;
-  plant::PlantResponse& response = channels.response;
-  response.frequency = grid;
-  for (auto* array : {&response.tachometer_command, &response.torque_command,
-                      &response.encoder_command, &response.beam_command, &response.tachometer_wind,
-                      &response.torque_wind, &response.encoder_wind, &response.beam_wind}) {
-    array->resize(count);
-  }
-  for (Index i = 0; i < count; ++i) {
-    const plant::ResponsePoint point = at(grid[i]);
-    response.tachometer_command[i] = point.tachometer_command;
-    response.torque_command[i] = point.torque_command;
-    response.encoder_command[i] = point.encoder_command;
-    response.beam_command[i] = point.beam_command;
-    response.tachometer_wind[i] = point.tachometer_wind;
-    response.torque_wind[i] = point.torque_wind;
-    response.encoder_wind[i] = point.encoder_wind;
-    response.beam_wind[i] = point.beam_wind;
-  }
+  channels.response = plant::unset_response(grid);
+  for (Index i = 0; i < grid.size(); ++i) plant::set_point(channels.response, i, at(grid[i]));
   channels.at = std::move(at);
   return channels;
 }

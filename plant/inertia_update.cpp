@@ -60,16 +60,7 @@ ResponsePoint with_motor_inertia(const ResponsePoint& response, const Drive& dri
 PlantResponse with_motor_inertia(PlantResponse response, const Drive& drive, double motor_inertia) {
   check(motor_inertia);
   for (Eigen::Index i = 0; i < response.frequency.size(); ++i) {
-    const ResponsePoint updated =
-        update(point(response, i), drive, motor_inertia, response.frequency[i]);
-    response.tachometer_command[i] = updated.tachometer_command;
-    response.torque_command[i] = updated.torque_command;
-    response.encoder_command[i] = updated.encoder_command;
-    response.beam_command[i] = updated.beam_command;
-    response.tachometer_wind[i] = updated.tachometer_wind;
-    response.torque_wind[i] = updated.torque_wind;
-    response.encoder_wind[i] = updated.encoder_wind;
-    response.beam_wind[i] = updated.beam_wind;
+    set_point(response, i, update(point(response, i), drive, motor_inertia, response.frequency[i]));
   }
   return response;
 }

@@ -75,13 +75,7 @@ ResponsePoint drive_on_structure(const Drive& drive, const StructurePoint& struc
 
 PlantResponse plant_response(const StructureResponse& structure, const Drive& drive) {
   const Eigen::Index count = structure.frequency.size();
-  PlantResponse response;
-  response.frequency = structure.frequency;
-  for (auto* array : {&response.tachometer_command, &response.torque_command,
-                      &response.encoder_command, &response.beam_command, &response.tachometer_wind,
-                      &response.torque_wind, &response.encoder_wind, &response.beam_wind}) {
-    array->resize(count);
-  }
+  PlantResponse response = unset_response(structure.frequency);
   for (Eigen::Index i = 0; i < count; ++i) {
     const ResponsePoint point =
         drive_on_structure(drive,
@@ -89,14 +83,7 @@ PlantResponse plant_response(const StructureResponse& structure, const Drive& dr
                             structure.wind_at_bull_gear[i], structure.beam_per_bull_gear[i],
                             structure.beam_per_wind[i]},
                            structure.frequency[i]);
-    response.tachometer_command[i] = point.tachometer_command;
-    response.torque_command[i] = point.torque_command;
-    response.encoder_command[i] = point.encoder_command;
-    response.beam_command[i] = point.beam_command;
-    response.tachometer_wind[i] = point.tachometer_wind;
-    response.torque_wind[i] = point.torque_wind;
-    response.encoder_wind[i] = point.encoder_wind;
-    response.beam_wind[i] = point.beam_wind;
+    set_point(response, i, point);
   }
   return response;
 }

@@ -9,6 +9,29 @@ ResponsePoint point(const PlantResponse& response, Eigen::Index i) {
           response.encoder_wind[i],       response.beam_wind[i]};
 }
 
+void set_point(PlantResponse& response, Eigen::Index i, const ResponsePoint& point) {
+  response.tachometer_command[i] = point.tachometer_command;
+  response.torque_command[i] = point.torque_command;
+  response.encoder_command[i] = point.encoder_command;
+  response.beam_command[i] = point.beam_command;
+  response.tachometer_wind[i] = point.tachometer_wind;
+  response.torque_wind[i] = point.torque_wind;
+  response.encoder_wind[i] = point.encoder_wind;
+  response.beam_wind[i] = point.beam_wind;
+}
+
+PlantResponse unset_response(const Eigen::ArrayXd& frequency) {
+  PlantResponse response;
+  response.frequency = frequency;
+  for (auto* channel :
+       {&response.tachometer_command, &response.torque_command, &response.encoder_command,
+        &response.beam_command, &response.tachometer_wind, &response.torque_wind,
+        &response.encoder_wind, &response.beam_wind}) {
+    channel->resize(frequency.size());
+  }
+  return response;
+}
+
 PointResponse::PointResponse(const AntennaPlant& plant)
     : drive_(plant.drive),
       structure_(plant.structure),

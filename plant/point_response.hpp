@@ -17,6 +17,9 @@ struct ResponsePoint {
 
 /// One point of a response on a grid.
 ResponsePoint point(const PlantResponse& response, Eigen::Index i);
+void set_point(PlantResponse& response, Eigen::Index i, const ResponsePoint& point);
+/// A response at these frequencies (rad/s) whose points are still to be set.
+PlantResponse unset_response(const Eigen::ArrayXd& frequency);
 
 /// StructureResponse at one frequency.
 struct StructurePoint {

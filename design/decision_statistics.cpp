@@ -15,8 +15,12 @@ namespace {
 constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double no_number = std::numeric_limits<double>::quiet_NaN();
 
+bool within_unit(double share) {
+  return share > 0.0 && share < 1.0;
+}
+
 void check_confidence(const char* function, double confidence) {
-  if (!(confidence > 0.0 && confidence < 1.0)) {
+  if (!within_unit(confidence)) {
     throw InvalidInput(
         fmt::format("{}: expected a confidence within (0, 1), found {}", function, confidence));
   }
@@ -40,13 +44,14 @@ void check(const Eigen::MatrixXd& outcomes, const DecisionOptions& options) {
     }
   }
   check_confidence("compare_options", options.confidence);
-  if (!(options.tie_tolerance >= 0.0 && options.tie_tolerance < infinity)) {
+  const bool tolerable = options.tie_tolerance >= 0.0 && options.tie_tolerance < infinity;
+  if (!tolerable) {
     throw InvalidInput(
         fmt::format("compare_options: expected a tie tolerance of at least 0, found {}",
                     options.tie_tolerance));
   }
   for (const double share : options.quantile_shares) {
-    if (!(share > 0.0 && share < 1.0)) {
+    if (!within_unit(share)) {
       throw InvalidInput(
           fmt::format("compare_options: expected quantile shares within (0, 1), found {}", share));
     }

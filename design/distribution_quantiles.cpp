@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 
 #include <boost/math/special_functions/beta.hpp>
@@ -12,7 +13,8 @@ namespace {
 
 void check(const char* function, double share, double first, double second) {
   const auto positive = [](double x) { return std::isfinite(x) && x > 0.0; };
-  if (!(share > 0.0 && share < 1.0)) {
+  const bool within = share > 0.0 && share < 1.0;
+  if (!within) {
     throw InvalidInput(
         fmt::format("{}: expected a share within (0, 1), found {}: a probability is "
                     "meant, not per cent",

@@ -55,7 +55,8 @@ void check(std::size_t inputs, std::size_t outputs, const SobolOptions& options)
                     "interval from their scatter, found {}",
                     options.randomisations));
   }
-  if (!(options.confidence > 0.0 && options.confidence < 1.0)) {
+  const bool within = options.confidence > 0.0 && options.confidence < 1.0;
+  if (!within) {
     throw InvalidInput(fmt::format("sobol_indices: expected a confidence within (0, 1), found {}",
                                    options.confidence));
   }

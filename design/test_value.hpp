@@ -41,9 +41,9 @@ struct TestValue {
 /// better. The value of one input alone by regression of the losses' differences on it (M. Strong,
 /// J. E. Oakley, A. Brennan, Med. Decis. Making 34(3), 2014): natural cubic splines in the input
 /// with knots at its quantiles (straight beyond the outer ones; F. E. Harrell, Regression Modeling
-/// Strategies, 2001), of 0, 1, 2, 4 or 6 pieces' worth of curvature. Standard errors are those of
-/// the gain of the rule found, over the draws. Inputs that do not vary are worth 0. O(draws x
-/// inputs x options).
+/// Strategies, 2001): a constant, a straight line, or a line and 1, 2, 4 or 6 curved columns.
+/// Standard errors are those of the gain of the rule found, over the draws. Inputs that do not vary
+/// are worth 0. O(draws x inputs x options).
 /// @throws InvalidInput for fewer than 100 draws, fewer than 2 options, sizes that differ, or
 /// numbers that are not finite.
 TestValue test_value(const Eigen::MatrixXd& inputs, const Eigen::MatrixXd& losses);

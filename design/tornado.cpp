@@ -11,7 +11,8 @@ namespace boresight::design {
 Tornado tornado(std::size_t inputs,
                 const std::function<double(const std::vector<double>& shares)>& function,
                 double low, double high) {
-  if (inputs < 1 || !(low > 0.0 && low < 0.5 && high > 0.5 && high < 1.0)) {
+  const bool in_order = low > 0.0 && low < 0.5 && high > 0.5 && high < 1.0;
+  if (inputs < 1 || !in_order) {
     throw InvalidInput(
         fmt::format("tornado: expected at least one input and shares 0 < low < 0.5 "
                     "< high < 1, found {} inputs, low {}, high {}",

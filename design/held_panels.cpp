@@ -102,15 +102,16 @@ HeldPanels::HeldPanels(const TrackingProblem& problem, const control::ControlLaw
       noise_(problem.noise),
       delay_(problem.delay),
       law_(law),
-      gusts_(gusts) {
+      gusts_(gusts),
+      climate_(!problem.climate.empty()) {
   for (const auto& block : law.structure.blocks()) {
     if (block.kind != control::BlockKind::integral) continue;
     ++(block.path == control::LoopPath::rate ? rate_integrators_ : position_integrators_);
   }
   TrackingProblem at_speed = problem;
   at_speed.climate.clear();
-  wind_table_.emplace(at_speed);
-  if (!problem.climate.empty()) climate_table_.emplace(problem);
+  winds_.emplace_back(at_speed);
+  if (climate_) winds_.emplace_back(problem);
   const auto [lowest, highest] = analysis_band(problem);
   std::vector<double> edges;
   for (const double edge : {lowest, highest, band_.lowest, band_.highest, noise_.bandwidth}) {
@@ -151,12 +152,12 @@ std::uint32_t HeldPanels::add_panel(double from, double to) {
     put(panel.position, lane, position * dead_time);
     put(panel.bending, lane, law.compliance);
     // Edges of the bands are edges of panels.
-    if (!(hertz > band_.lowest && hertz < band_.highest)) continue;
+    if (hertz <= band_.lowest || hertz >= band_.highest) continue;
     const double weight = half_width * rule.weight[lane] * hertz;
-    panel.wind.set(lane, weight * wind_table_->spectrum(w));
-    if (climate_table_) panel.climate.set(lane, weight * climate_table_->spectrum(w));
+    panel.wind.set(lane, weight * winds_[0].spectrum(w));
+    if (climate_) panel.climate.set(lane, weight * winds_[1].spectrum(w));
     panel.weighted = true;
-    if (!(hertz < noise_.bandwidth)) continue;
+    if (hertz >= noise_.bandwidth) continue;
     const double demand =
         noise_.tachometer_rms * noise_.tachometer_rms * std::norm(law.rate) +
         noise_.encoder_rms * noise_.encoder_rms * std::norm(position) +
@@ -178,7 +179,6 @@ void HeldPanels::evaluate(const plant::AntennaPlant& plant, const std::uint32_t*
   const auto& rule = panel_rule();
   const auto& [drive, structure] = plant;
   const double wv = drive.valve_corner, wt = drive.tachometer_corner;
-  const bool climate = climate_table_.has_value();
   for (std::size_t n = 0; n < count; ++n) {
     const Panel& panel = panels_[panels[n]];
     Values& values = values_[panels[n]];
@@ -242,7 +242,7 @@ void HeldPanels::evaluate(const plant::AntennaPlant& plant, const std::uint32_t*
     values.noise = values.effort * plant::square(beam_command);
     values.tail =
         tails(rule.first_tail, values.wind + values.noise, rule.second_tail, values.effort);
-    if (climate) {
+    if (climate_) {
       values.climate = panel.climate * beam_square;
       values.climate_tail =
           tails(rule.first_tail, values.climate, rule.second_tail, values.climate);
@@ -276,7 +276,7 @@ bool HeldPanels::close_enough(std::uint32_t i, const Limits& limits) const {
   if (panel.weighted) {
     if (!within(values.tail, 0, limits.beam)) return false;
     if (panel.noisy && !within(values.tail, 4, limits.effort)) return false;
-    if (climate_table_ && !within(values.climate_tail, 0, limits.climate)) return false;
+    if (climate_ && !within(values.climate_tail, 0, limits.climate)) return false;
     if (gusts_ && (!within(values.gust_tail, 0, limits.demand) ||
                    !within(values.gust_tail, 4, limits.torque))) {
       return false;
@@ -303,7 +303,7 @@ void HeldPanels::sweep(const plant::AntennaPlant& plant, double tolerance) {
     sums.wind += plant::sum(values.wind);
     sums.noise += plant::sum(values.noise);
     sums.effort += plant::sum(values.effort);
-    if (climate_table_) sums.climate += plant::sum(values.climate);
+    if (climate_) sums.climate += plant::sum(values.climate);
     if (gusts_) {
       sums.demand += plant::sum(values.demand);
       sums.torque += plant::sum(values.torque);

@@ -2,7 +2,6 @@
 
 #include <array>
 #include <cstdint>
-#include <optional>
 #include <vector>
 
 #include <boresight/control/panel_rule.hpp>
@@ -65,7 +64,8 @@ class HeldPanels {
   control::ControlLaw law_;
   bool gusts_;
   int rate_integrators_ = 0, position_integrators_ = 0;
-  std::optional<WindTable> wind_table_, climate_table_;
+  std::vector<WindTable> winds_;  // at the design's speed; of the climate where there is one
+  bool climate_ = false;
   std::vector<Panel> panels_;
   std::vector<Values> values_;        // by panel
   std::vector<std::uint32_t> first_;  // that every plant starts from, rising

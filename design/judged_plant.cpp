@@ -12,13 +12,13 @@ double PlantJudgement::worst_ratio() const {
 }
 
 JudgedPlant::JudgedPlant(std::string name, const TrackingProblem& problem, const HardGoals& goals,
-                         const WindTable& wind)
+                         const WindTable& wind, double tolerance)
     : name_(std::move(name)),
       plant_(problem.plant),
       delay_(problem.delay),
       goals_(goals),
       frequency_(analysis_grid(problem)),
-      evaluator_(make_adaptive_evaluator(problem, wind)) {
+      evaluator_(make_adaptive_evaluator(problem, wind, tolerance)) {
   if (goals.ask_for_gusts()) {
     const auto& drive = problem.plant.drive;
     mean_.torque =

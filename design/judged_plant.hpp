@@ -24,9 +24,10 @@ struct PlantJudgement {
 /// between threads.
 class JudgedPlant {
  public:
-  /// The problem's own plant. `wind` must be of the problem.
+  /// The problem's own plant. `wind` must be of the problem. `tolerance`: as of
+  /// make_adaptive_evaluator.
   JudgedPlant(std::string name, const TrackingProblem& problem, const HardGoals& goals,
-              const WindTable& wind);
+              const WindTable& wind, double tolerance = control::LoopQuadrature{}.tolerance);
 
   /// Good until the next call. @throws InvalidInput as control::validate(law).
   const PlantJudgement& judge(const control::ControlLaw& law, bool with_gradients);

@@ -104,8 +104,9 @@ control::LoopEvaluator make_evaluator(const TrackingProblem& problem) {
 }
 
 control::LoopEvaluator make_adaptive_evaluator(const TrackingProblem& problem,
-                                               const WindTable& wind) {
+                                               const WindTable& wind, double tolerance) {
   control::LoopQuadrature quadrature;
+  quadrature.tolerance = tolerance;
   quadrature.analysis = analysis_band(problem);
   quadrature.band = problem.rms_band;
   return {plant::PointResponse(problem.plant), problem.delay, problem.noise,

@@ -78,10 +78,12 @@ class WindTable {
 /// laws.
 control::LoopEvaluator make_evaluator(const TrackingProblem& problem);
 
-/// The same on frequencies that the laws ask for (control::LoopQuadrature), in the wind the table
-/// was made of: a few hundred frequencies an evaluation, and its error is held to 1e-8.
-control::LoopEvaluator make_adaptive_evaluator(const TrackingProblem& problem,
-                                               const WindTable& wind);
+/// The same on frequencies that the laws ask for, in the wind the table was made of: a few hundred
+/// frequencies an evaluation, and its error is held to 1e-8. `tolerance`: of LoopQuadrature; larger
+/// for studies of many plants, where frequencies cost memory and time.
+control::LoopEvaluator make_adaptive_evaluator(
+    const TrackingProblem& problem, const WindTable& wind,
+    double tolerance = control::LoopQuadrature{}.tolerance);
 
 /// Order-6 shaping filter of the motor wind torque, fitted from 5e-4 to 5 Hz. Order 4 is enough for
 /// the coherence model at 10 m/s; other models and speeds need two more for 0.5 % of the rms.

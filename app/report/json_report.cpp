@@ -1,6 +1,7 @@
 #include <cmath>
 #include <numbers>
 
+#include <boresight/app/report/evaluate_report.hpp>
 #include <boresight/app/report/json_audit.hpp>
 #include <boresight/app/report/json_campaign.hpp>
 #include <boresight/app/report/json_design.hpp>
@@ -224,6 +225,7 @@ std::string to_json(const Report& report) {
   if (report.limit) json["limit"] = limit_json(*report.limit);
   if (!report.choices.empty()) json["choices"] = choices_json(report.choices);
   if (report.matching) json["matching"] = matching_json(*report.matching);
+  if (report.evaluated) json["evaluated"] = evaluate_json(*report.evaluated);
   json["assumed_inputs"] = assumed_json(report.assumed);
   json["conclusions"] = report.conclusions;
   return json.dump(2) + "\n";

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include <boresight/app/audit/audit_report.hpp>
+#include <boresight/app/evaluate/evaluate_section.hpp>
 #include <boresight/app/identify/campaign_section.hpp>
 #include <boresight/app/redesign/antenna_model.hpp>
 #include <boresight/app/simulate/time_domain.hpp>
@@ -137,6 +138,7 @@ struct Report {
   std::optional<design::PointingLimit> limit;  // of the command tune, at the best law's wind speed
   std::vector<ChoiceResult> choices;
   std::optional<MatchingSection> matching;
+  std::optional<EvaluateSection> evaluated;  // of the command evaluate
   std::vector<Quantity> assumed;
   std::vector<std::string> conclusions;
   /// The user stopped the work: the sections here are whole, others are missing.

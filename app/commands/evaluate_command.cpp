@@ -1,0 +1,149 @@
+#include <algorithm>
+#include <memory>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include <boresight/app/commands/evaluate_command.hpp>
+#include <boresight/app/commands/progress_line.hpp>
+#include <boresight/app/evaluate/evaluate_study.hpp>
+#include <boresight/app/identify/campaign_identification.hpp>
+#include <boresight/app/identify/identified_case.hpp>
+#include <boresight/app/report/json_report.hpp>
+#include <boresight/app/report/text_report.hpp>
+
+namespace boresight::app {
+namespace {
+
+// What the records leave open; the case becomes the one they show. Nothing if they show none.
+std::optional<PlantUncertainty> of_records(Case& antenna, const EvaluateArguments& arguments,
+                                           const std::function<bool()>& interrupted) {
+  StudyOptions study;
+  study.seed = arguments.seed;
+  study.threads = arguments.threads;
+  study.progress = [&](std::size_t, std::size_t) {
+    if (interrupted && interrupted()) throw Interrupted("interrupted by the user");
+  };
+  const CampaignSection campaign = identify_campaign(antenna, study);
+  if (!campaign.grey_box) return std::nullopt;
+  antenna = with_identified(antenna, campaign.grey_box->estimate);
+  return PlantUncertainty{PlantDistribution::of_records(antenna, campaign.grey_box->draws), true};
+}
+
+// Numbers that the proposals assume, beside the case's.
+void add_assumed(const std::vector<Proposal>& proposals, std::vector<Quantity>& assumed) {
+  const auto add = [&](const Proposal& proposal, const Quantity& quantity, const std::string& key) {
+    const bool uncertainty = quantity.uncertainty_source.starts_with("assumed");
+    if (quantity.basis != Basis::assumed && !uncertainty) return;
+    assumed.push_back(quantity);
+    assumed.back().key = fmt::format("{}: {}", proposal.name, key);
+  };
+  for (const auto& proposal : proposals) {
+    add(proposal, proposal.cost.amount, "cost.amount");
+    for (const auto& change : proposal.changes) add(proposal, change.stated(), change.key);
+  }
+}
+
+int run(EvaluateArguments arguments) {
+  arguments.threads = all_or(arguments.threads);
+  watch_for_interrupt();
+  const Report report = evaluate_case(arguments, interrupt_requested);
+  deliver(
+      arguments.json_path, [&] { return to_text(report); }, [&] { return to_json(report); });
+  if (report.interrupted) return interrupted;
+  if (!report.evaluated) return internal_error;
+  int code = done;
+  for (const auto& candidate : report.evaluated->candidates) {
+    if (candidate.feasible()) continue;
+    const bool met = candidate.chosen && candidate.laws[*candidate.chosen].goals_met;
+    fmt::print(stderr, "boresight: {}: {}\n", candidate.name,
+               !candidate.chosen ? "no structure has a stable law"
+               : met             ? "no law that meets its goals passes its verification"
+                                 : "no law meets the hard goals on every plant");
+    if (code != infeasible) code = met ? numerical : infeasible;
+  }
+  return code;
+}
+
+}  // namespace
+
+Report evaluate_case(const EvaluateArguments& arguments, const std::function<bool()>& interrupted) {
+  Case antenna = read_case(arguments.case_path);
+  change_goals(antenna.goals, arguments.goals);
+  std::vector<Proposal> proposals;
+  for (const auto& path : arguments.proposals) proposals.push_back(read_proposal(path));
+  check_proposals(antenna, proposals);
+  EvaluateOptions options;
+  options.structures = arguments.structures;
+  options.draws = arguments.draws;
+  options.starts = arguments.starts;
+  options.seed = arguments.seed;
+  options.threads = arguments.threads;
+  options.interrupted = interrupted;
+  for (const auto& name : options.structures) {
+    try {
+      loop_structure(antenna.loops, name);
+    } catch (const InvalidInput& error) {
+      throw InvalidInput(fmt::format("--structure: {}", error.what()));
+    }
+    if (std::ranges::count(options.structures, name) != 1) {
+      throw InvalidInput(
+          fmt::format("--structure: expected each structure once, found '{}' again", name));
+    }
+  }
+  require_json_path(arguments.json_path);
+
+  Report report;
+  report.command = "evaluate";
+  report.title = antenna.title;
+  report.axis = antenna.axis;
+  report.case_path = arguments.case_path;
+  report.seed = arguments.seed;
+  ProgressLine progress("tuning and comparing proposals");
+  std::optional<PlantUncertainty> uncertainty;
+  if (!antenna.campaign.records.empty()) {
+    try {
+      uncertainty = of_records(antenna, arguments, interrupted);
+    } catch (const Interrupted&) {
+      report.interrupted = true;
+      report.assumed = assumed_inputs(antenna);
+      return report;
+    }
+  }
+  if (!uncertainty) uncertainty = PlantUncertainty{PlantDistribution::of_ranges(antenna), false};
+  report.assumed = assumed_inputs(antenna);
+  add_assumed(proposals, report.assumed);
+  options.progress = [&](std::size_t done, std::size_t all) { progress.show(done, all); };
+  report.evaluated = evaluate_proposals(antenna, proposals, *uncertainty, options);
+  report.interrupted = interrupted && interrupted();
+  report.conclusions = conclude(*report.evaluated);
+  return report;
+}
+
+Subcommand add_evaluate(CLI::App& program) {
+  const auto arguments = std::make_shared<EvaluateArguments>();
+  CLI::App* sub = program.add_subcommand(
+      "evaluate", "compare proposals of hardware and software, each re-tuned, with their chances");
+  add_case(*sub, arguments->case_path);
+  sub->add_option("PROPOSAL", arguments->proposals, "proposal files (TOML), see docs/proposals.md")
+      ->required()
+      ->expected(1, 1000);
+  sub->add_option("--structure", arguments->structures,
+                  "loop structures of the antenna as it is and of proposals that name none, one or "
+                  "several, as `tune` takes them (default: PI)")
+      ->expected(1, 100);
+  sub->add_option("--goal", arguments->goals,
+                  "KEY=VALUE of [goals] in the place of the case's, one or several")
+      ->expected(1, 100);
+  sub->add_option("--draws", arguments->draws, "plants that chances are taken over")
+      ->check(CLI::Range(100, 1000000))
+      ->capture_default_str();
+  sub->add_option("--starts", arguments->starts, "random starts of each search")
+      ->check(CLI::Range(1, 100000));
+  add_json(*sub, arguments->json_path);
+  add_seed(*sub, arguments->seed);
+  add_threads(*sub, arguments->threads);
+  return {sub, [arguments] { return run(*arguments); }};
+}
+
+}  // namespace boresight::app

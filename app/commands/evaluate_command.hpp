@@ -1,0 +1,33 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include <boresight/app/commands/subcommand.hpp>
+#include <boresight/app/report/report.hpp>
+
+namespace boresight::app {
+
+struct EvaluateArguments {
+  std::string case_path;
+  std::vector<std::string> proposals;   // files
+  std::string json_path;                // of the report, "-" for standard output; empty: none
+  std::vector<std::string> structures;  // empty: PI
+  std::vector<std::string> goals;       // changes of [goals], KEY=VALUE
+  std::size_t draws = 2000;
+  int starts = 0;  // 0: as the case has it
+  std::uint64_t seed = 1;
+  unsigned threads = 0;  // 0: all
+};
+
+/// Tunes the antenna as it is and with each proposal, and compares them. With records the antenna
+/// is the one that they show, and what they leave open is what is uncertain.
+/// @throws InvalidInput for arguments, cases and proposals that cannot be worked on: before
+/// anything is tuned.
+Report evaluate_case(const EvaluateArguments& arguments, const std::function<bool()>& interrupted);
+
+Subcommand add_evaluate(CLI::App& program);
+
+}  // namespace boresight::app

@@ -1,0 +1,26 @@
+#pragma once
+
+#include <functional>
+#include <vector>
+
+#include <boresight/app/io/case_file.hpp>
+
+namespace boresight::app {
+
+/// A number of a case that proposals may change, in a table of the same name.
+struct ChangeableNumber {
+  const char* table = "";
+  const char* key = "";
+  Kind kind = Kind::number;
+  Range range;  // of the number once changed
+  /// Where it stands in a case; none where the case has no such table.
+  Quantity* (*in)(Case& antenna) = nullptr;
+
+  std::string path() const { return std::string(table) + "." + key; }
+};
+
+/// All of them but those that need more than a place in the case: counts, teeth, assemblies, lines,
+/// shares of modes, the sampling rate.
+const std::vector<ChangeableNumber>& changeable_numbers();
+
+}  // namespace boresight::app

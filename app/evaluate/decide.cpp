@@ -1,0 +1,255 @@
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <memory>
+#include <mutex>
+
+#include <fmt/format.h>
+
+#include <boresight/app/evaluate/evaluate_study.hpp>
+#include <boresight/app/report/sky_units.hpp>
+#include <boresight/design/held_gains_evaluator.hpp>
+#include <boresight/design/parallel_loop.hpp>
+#include <boresight/design/pareto_front.hpp>
+#include <boresight/plant/error.hpp>
+
+namespace boresight::app {
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+// A candidate's chosen law with its gains held, on plant after plant. Not to be shared between
+// threads: copies are independent.
+class HeldCandidate {
+ public:
+  HeldCandidate(const Case& as_is, const Case& antenna, const control::ControlLaw& law)
+      : as_is_(&as_is),
+        antenna_(&antenna),
+        problem_(problem_of(antenna)),
+        goals_(make_goals(antenna)),
+        evaluator_(problem_, law, goals_) {}
+
+  struct Outcome {
+    double rms = 0.0;  // mdeg; infinite if unstable
+    bool within_goals = false;
+  };
+
+  Outcome judge(const PlantDraw& draw) {
+    const auto plant = proposed_plant(*as_is_, *antenna_, draw);
+    const auto values = evaluator_.evaluate(plant);
+    const bool stable =
+        evaluator_.near_the_axis(values) ? evaluator_.confirm(plant).stable() : values.stable;
+    if (!stable) return {infinity, false};
+    const double wind = problem_.climate.empty() ? values.wind_variance : values.climate_variance;
+    Outcome outcome;
+    outcome.rms = std::sqrt(wind + values.noise_variance) / problem_.gear_ratio / millidegree;
+    outcome.within_goals = std::sqrt(values.effort_variance) <= goals_.valve_effort;
+    for (std::size_t b = 0; b < values.sensitivity_peaks.size(); ++b) {
+      if (values.sensitivity_peaks.at(b) > goals_.sensitivity_peak.at(b)) {
+        outcome.within_goals = false;
+      }
+    }
+    return outcome;
+  }
+
+ private:
+  static design::TrackingProblem problem_of(const Case& antenna) {
+    auto problem = make_problem(antenna);
+    if (antenna.goals.over_climate) problem.climate = make_climate(antenna);
+    return problem;
+  }
+
+  const Case* as_is_;
+  const Case* antenna_;
+  design::TrackingProblem problem_;
+  design::HardGoals goals_;
+  design::HeldGainsEvaluator evaluator_;
+};
+
+// Pairs of candidates, each in one thread's hands at a time.
+class Pool {
+ public:
+  struct Pair {
+    HeldCandidate best, second;
+  };
+
+  Pool(const HeldCandidate& best, const HeldCandidate& second) : pattern_{best, second} {}
+
+  std::unique_ptr<Pair> take() {
+    {
+      const std::lock_guard lock(mutex_);
+      if (!idle_.empty()) {
+        auto pair = std::move(idle_.back());
+        idle_.pop_back();
+        return pair;
+      }
+    }
+    return std::make_unique<Pair>(pattern_);
+  }
+
+  void give(std::unique_ptr<Pair> pair) {
+    const std::lock_guard lock(mutex_);
+    idle_.push_back(std::move(pair));
+  }
+
+ private:
+  Pair pattern_;
+  std::mutex mutex_;
+  std::vector<std::unique_ptr<Pair>> idle_;
+};
+
+design::Probability share_of(const Eigen::ArrayXd& indicator) {
+  return design::mean_score(indicator, design::DecisionOptions{}.confidence);
+}
+
+class Decision {
+ public:
+  Decision(const std::vector<Candidate>& candidates, const std::vector<Case>& cases,
+           const PlantDistribution& distribution, const EvaluateOptions& options)
+      : candidates_(candidates), distribution_(distribution), options_(options) {
+    for (std::size_t i = 0; i < candidates.size(); ++i) {
+      if (!candidates[i].chosen) {
+        section_.notes.push_back(
+            fmt::format("{} has no stable law and is left out.", candidates[i].name));
+        continue;
+      }
+      section_.candidates.push_back({i, {}, {}});
+      held_.emplace_back(cases.front(), cases[i],
+                         candidates[i].laws[*candidates[i].chosen].design.tuning.law);
+    }
+    for (const auto input : distribution.inputs()) section_.inputs.emplace_back(to_string(input));
+  }
+
+  DecisionSection run() {
+    if (held_.size() < 2 || !judge_draws()) return {};
+    summarise();
+    if (!stopped()) find_what_decides();
+    if (!stopped()) value_tests();
+    if (stopped()) return {};
+    return std::move(section_);
+  }
+
+ private:
+  bool stopped() const { return options_.interrupted && options_.interrupted(); }
+
+  // All candidates on the same draws. False if interrupted.
+  bool judge_draws() {
+    const auto draws = static_cast<Eigen::Index>(options_.draws);
+    const auto columns = static_cast<Eigen::Index>(held_.size());
+    rms_ = Eigen::MatrixXd::Constant(draws, columns, infinity);
+    outside_ = Eigen::ArrayXXd::Ones(draws, columns);
+    constexpr Eigen::Index block = 100;
+    const Eigen::Index blocks = (draws + block - 1) / block;
+    design::for_each_index(
+        static_cast<std::size_t>(blocks * columns), options_.threads, [&](std::size_t task) {
+          if (stopped()) return;
+          const auto index = static_cast<Eigen::Index>(task);
+          const Eigen::Index column = index / blocks;
+          const Eigen::Index first = (index % blocks) * block;
+          HeldCandidate held = held_[static_cast<std::size_t>(column)];
+          for (Eigen::Index d = first; d < std::min(draws, first + block); ++d) {
+            const auto outcome =
+                held.judge(distribution_.draw(options_.seed, static_cast<std::uint64_t>(d)));
+            rms_(d, column) = outcome.rms;
+            outside_(d, column) = outcome.within_goals ? 0.0 : 1.0;
+          }
+        });
+    return !stopped();
+  }
+
+  void summarise() {
+    section_.draws = options_.draws;
+    section_.source = distribution_.source();
+    for (std::size_t i = 0; i < section_.candidates.size(); ++i) {
+      const auto column = static_cast<Eigen::Index>(i);
+      auto& one = section_.candidates[i];
+      one.unstable = share_of(rms_.col(column).array().isInf().cast<double>());
+      one.outside_goals = share_of(outside_.col(column));
+    }
+    section_.statistics = design::compare_options(rms_);
+    std::vector<double> costs;
+    for (const auto& one : section_.candidates) costs.push_back(candidates_[one.candidate].cost);
+    section_.front_shares = design::front_shares(costs, rms_);
+    const auto& options = section_.statistics.options;
+    std::vector<std::size_t> order(options.size());
+    for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
+    std::ranges::stable_sort(order, {}, [&](std::size_t i) { return options[i].mean; });
+    section_.best = order[0];
+    section_.second = order[1];
+  }
+
+  double difference(HeldCandidate& best, HeldCandidate& second,
+                    const std::vector<double>& shares) const {
+    const auto draw = distribution_.at_shares(shares);
+    return second.judge(draw).rms - best.judge(draw).rms;
+  }
+
+  void find_what_decides() {
+    const std::size_t inputs = distribution_.inputs().size();
+    if (inputs == 0) {
+      section_.notes.emplace_back("Nothing of the plant is uncertain: no input decides anything.");
+      return;
+    }
+    try {
+      HeldCandidate best = held_[section_.best], second = held_[section_.second];
+      section_.tornado = design::tornado(inputs, [&](const std::vector<double>& shares) {
+        return difference(best, second, shares);
+      });
+      design::SobolOptions sobol;
+      sobol.points = 64;
+      sobol.seed = options_.seed;
+      sobol.threads = options_.threads;
+      Pool pool(held_[section_.best], held_[section_.second]);
+      const auto function = [&](const std::vector<double>& shares, Eigen::VectorXd& out) {
+        if (stopped()) {
+          out(0) = shares[0];
+          return;
+        }
+        auto pair = pool.take();
+        out(0) = difference(pair->best, pair->second, shares);
+        pool.give(std::move(pair));
+      };
+      section_.sobol = design::sobol_indices(inputs, 1, function, sobol);
+    } catch (const NumericalFailure& error) {
+      section_.tornado.reset();
+      section_.notes.push_back(
+          fmt::format("What decides between the two best is not known: {}", error.what()));
+    }
+  }
+
+  void value_tests() {
+    if (section_.inputs.empty()) return;
+    if (!rms_.allFinite()) {
+      section_.notes.emplace_back(
+          "Tests are not valued: a candidate is unstable on some draws, and no finite loss can "
+          "stand "
+          "for that.");
+      return;
+    }
+    Eigen::MatrixXd inputs(rms_.rows(), static_cast<Eigen::Index>(section_.inputs.size()));
+    for (Eigen::Index d = 0; d < rms_.rows(); ++d) {
+      const auto draw = distribution_.draw(options_.seed, static_cast<std::uint64_t>(d));
+      for (Eigen::Index k = 0; k < inputs.cols(); ++k) {
+        inputs(d, k) = draw[distribution_.inputs()[static_cast<std::size_t>(k)]];
+      }
+    }
+    section_.tests = design::test_value(inputs, rms_);
+  }
+
+  const std::vector<Candidate>& candidates_;
+  const PlantDistribution& distribution_;
+  const EvaluateOptions& options_;
+  std::vector<HeldCandidate> held_;
+  Eigen::MatrixXd rms_;  // mdeg, draws x candidates
+  Eigen::ArrayXXd outside_;
+  DecisionSection section_;
+};
+
+}  // namespace
+
+DecisionSection decide(const std::vector<Candidate>& candidates, const std::vector<Case>& cases,
+                       const PlantDistribution& distribution, const EvaluateOptions& options) {
+  return Decision(candidates, cases, distribution, options).run();
+}
+
+}  // namespace boresight::app

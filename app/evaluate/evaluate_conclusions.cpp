@@ -1,0 +1,205 @@
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <boresight/app/evaluate/evaluate_section.hpp>
+#include <boresight/app/report/sky_units.hpp>
+
+namespace boresight::app {
+namespace {
+
+const CandidateLaw& law_of(const Candidate& candidate) {
+  return candidate.laws[*candidate.chosen];
+}
+
+std::string share(const design::Probability& probability) {
+  return fmt::format("{:.2f} [{:.2f}, {:.2f}]", probability.value, probability.lower,
+                     probability.upper);
+}
+
+const std::string& name_of(const EvaluateSection& section, std::size_t place) {
+  return section.candidates[section.decision->candidates[place].candidate].name;
+}
+
+std::string against_as_it_is(const EvaluateSection& section) {
+  const Candidate& base = section.candidates.front();
+  if (!base.path.empty() || !base.chosen || !std::isfinite(law_of(base).member_rms)) return "";
+  std::vector<std::string> better, worse;
+  for (const auto& candidate : section.candidates) {
+    if (candidate.path.empty() || !candidate.feasible()) continue;
+    const double change = law_of(candidate).member_rms / law_of(base).member_rms - 1.0;
+    auto& list = change < 0.0 ? better : worse;
+    list.push_back(fmt::format("{} {:+.1f} %", candidate.name, 100.0 * change));
+  }
+  std::string text = fmt::format(
+      "Conditions: {} loops on the antenna as it is, {} wind at {:g} m/s, gains re-tuned for each "
+      "proposal. Root-mean-square beam error over the plants against the antenna as it is, "
+      "re-tuned ({:.4f} mdeg): ",
+      law_of(base).structure, plant::to_string(section.wind_model), section.wind_speed,
+      law_of(base).member_rms / millidegree);
+  text +=
+      better.empty() ? "nothing lowers it" : fmt::format("lower by {}", fmt::join(better, ", "));
+  if (!worse.empty()) text += fmt::format("; not lower by {}", fmt::join(worse, ", "));
+  return text + ".";
+}
+
+std::string on_the_front(const EvaluateSection& section) {
+  if (section.front.empty()) return "";
+  std::vector<std::string> steps;
+  for (std::size_t k = 0; k < section.front.size(); ++k) {
+    const auto& candidate = section.candidates[section.front[k]];
+    std::string step = fmt::format("{} ({:g} {}, {:.4f} mdeg)", candidate.name, candidate.cost,
+                                   section.currency, law_of(candidate).member_rms / millidegree);
+    if (k > 0) {
+      const auto& before = section.candidates[section.front[k - 1]];
+      const double gained =
+          (law_of(before).member_rms - law_of(candidate).member_rms) / millidegree;
+      const double paid = candidate.cost - before.cost;
+      if (gained > 0.0 && paid > 0.0) {
+        step += fmt::format(", {:.0f} {} for each mdeg more", paid / gained, section.currency);
+      }
+    }
+    steps.push_back(std::move(step));
+  }
+  const bool assumed = std::ranges::any_of(
+      section.candidates, [](const auto& candidate) { return candidate.cost_assumed; });
+  return fmt::format(
+      "Only these are worth their cost, each better than all that cost less: {}.{} A proposal off "
+      "the front is dearer and no better than one on it.",
+      fmt::join(steps, "; "), assumed ? " Costs marked as assumed were quoted by nobody." : "");
+}
+
+std::string chances(const EvaluateSection& section) {
+  const auto& decision = *section.decision;
+  const auto& options = decision.statistics.options;
+  const auto pair = std::ranges::find_if(decision.statistics.pairs, [&](const auto& one) {
+    return (one.first == decision.best && one.second == decision.second) ||
+           (one.first == decision.second && one.second == decision.best);
+  });
+  if (pair == decision.statistics.pairs.end()) return "";
+  const bool turned = pair->first != decision.best;
+  const design::Probability better =
+      turned ? design::Probability{1.0 - pair->better.value, 1.0 - pair->better.upper,
+                                   1.0 - pair->better.lower}
+             : pair->better;
+  const double gain = (turned ? -1.0 : 1.0) * pair->mean_gain;
+  std::string text = fmt::format(
+      "Least mean rms with the gains held: {}, {:.4f} mdeg; it is the best of all with probability "
+      "{} and better than {} with probability {}, by {:.4f} +- {:.4f} mdeg on average. Choosing it "
+      "loses {:.4f} mdeg on average against whoever knew the plant.",
+      name_of(section, decision.best), options[decision.best].mean,
+      share(options[decision.best].best), name_of(section, decision.second), share(better), gain,
+      pair->gain_error, options[decision.best].expected_regret);
+  text += fmt::format(
+      " The intervals are those of {} draws ({}); another view of what is uncertain may move the "
+      "probabilities farther than that.",
+      decision.draws, decision.source);
+  return text;
+}
+
+std::string what_decides(const EvaluateSection& section) {
+  const auto& decision = *section.decision;
+  if (!decision.sobol || decision.sobol->outputs.front().constant) return "";
+  const auto& indices = decision.sobol->outputs.front();
+  std::vector<std::size_t> order(indices.inputs.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::ranges::stable_sort(order, std::greater{},
+                           [&](std::size_t i) { return indices.inputs[i].total.value; });
+  std::vector<std::string> named;
+  for (const std::size_t i : order) {
+    if (named.size() == 3 || indices.inputs[i].total.value < 0.02) break;
+    named.push_back(fmt::format("{} ({:.0f} % of the variance, with its interactions)",
+                                decision.inputs[i], 100.0 * indices.inputs[i].total.value));
+  }
+  std::string text = fmt::format("The difference between {} and {} depends most on {}.",
+                                 name_of(section, decision.second), name_of(section, decision.best),
+                                 fmt::join(named, ", "));
+  if (decision.tornado) {
+    const auto turns = std::ranges::find_if(decision.tornado->bars, [&](const auto& bar) {
+      return std::min(bar.at_low, bar.at_high) < 0.0;
+    });
+    text += turns == decision.tornado->bars.end()
+                ? " No input turns it round alone within its middle 90 %."
+                : fmt::format(
+                      " Alone, {} turns it round: {:.4f} mdeg at its 5 % share, {:.4f} at "
+                      "its 95 % share.",
+                      decision.inputs[turns->input], turns->at_low, turns->at_high);
+  }
+  return text;
+}
+
+std::string what_to_test(const EvaluateSection& section) {
+  const auto& decision = *section.decision;
+  if (!decision.tests) return "";
+  const auto& tests = *decision.tests;
+  const auto best =
+      std::ranges::max_element(tests.inputs, {}, [](const auto& one) { return one.held_out_gain; });
+  const double mean = tests.mean_loss[tests.choice];
+  const auto& choice = name_of(section, tests.choice);
+  if (best == tests.inputs.end() || best->held_out_gain <= 2.0 * best->held_out_error ||
+      best->held_out_gain < 1e-4 * mean) {
+    return fmt::format(
+        "No test of one input would change the choice of {} for the better by more than chance "
+        "could feign; knowing everything would lower the expected rms by {:.4f} mdeg ({:.2f} %). "
+        "What tests are worth for the tuning itself is not in this figure: gains are held here.",
+        choice, tests.perfect.gain, 100.0 * tests.perfect.gain / mean);
+  }
+  const auto input = static_cast<std::size_t>(best - tests.inputs.begin());
+  return fmt::format(
+      "Test first: {}. Known before the choice between the proposals, it lowers the expected rms "
+      "by "
+      "{:.4f} to {:.4f} mdeg (held out and fitted) of the {:.4f} mdeg that knowing everything "
+      "would.",
+      decision.inputs[input], best->held_out_gain, best->fitted.gain, tests.perfect.gain);
+}
+
+std::string out_of_reach(const EvaluateSection& section) {
+  std::vector<std::string> infeasible, slow;
+  for (const auto& candidate : section.candidates) {
+    if (!candidate.feasible()) infeasible.push_back(candidate.name);
+    if (!candidate.figures) continue;
+    const auto& figures = *candidate.figures;
+    if (figures.slew_stroke_margin && *figures.slew_stroke_margin < 1.0) {
+      slow.push_back(fmt::format("{} (stroke {:.2f} of what the slew rate takes)", candidate.name,
+                                 *figures.slew_stroke_margin));
+    }
+  }
+  std::string text;
+  if (!infeasible.empty()) {
+    text += fmt::format(
+        "Not to be built as they stand: no law of {} meets every hard goal on every plant and "
+        "passes its verification; their rows show what comes closest. ",
+        fmt::join(infeasible, ", "));
+  }
+  if (!slow.empty()) {
+    text += fmt::format(
+        "Their valves' stroke does not reach the slew rate of today: {}. Pumps and valves would "
+        "have to grow with them, at a cost that is not in these files.",
+        fmt::join(slow, "; "));
+  }
+  return text;
+}
+
+}  // namespace
+
+std::vector<std::string> conclude(const EvaluateSection& section) {
+  std::vector<std::string> sentences;
+  const auto add = [&](std::string text) {
+    if (!text.empty()) sentences.push_back(std::move(text));
+  };
+  if (section.candidates.empty()) return sentences;
+  add(against_as_it_is(section));
+  add(on_the_front(section));
+  if (section.decision) {
+    add(chances(section));
+    add(what_decides(section));
+    add(what_to_test(section));
+  }
+  add(out_of_reach(section));
+  return sentences;
+}
+
+}  // namespace boresight::app

@@ -1,0 +1,124 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <boresight/app/evaluate/proposed_case.hpp>
+#include <boresight/app/redesign/antenna_model.hpp>
+#include <boresight/app/uncertainty/plant_distribution.hpp>
+#include <boresight/design/decision_statistics.hpp>
+#include <boresight/design/plant_ensemble.hpp>
+#include <boresight/design/sobol_indices.hpp>
+#include <boresight/design/test_value.hpp>
+#include <boresight/design/tornado.hpp>
+
+namespace boresight::app {
+
+/// One loop structure tuned robustly on what a proposal makes of the antenna. Rms at the sky, rad.
+struct CandidateLaw {
+  std::string structure;  // as the user names it
+  design::Design design;  // on the proposal's nominal plant
+  /// Every hard goal on the nominal plant and every member of the ensemble.
+  bool goals_met = false;
+  std::vector<std::string> gains;  // in the engineer's units
+  /// With the gains held on every member; none without a stable law.
+  std::optional<design::EnsembleResult> ensemble;
+  /// Root of the mean square over the members; infinite if one is unstable.
+  double member_rms = 0.0;
+
+  bool stable() const { return design.tuning.status != design::TuningStatus::unstable; }
+  bool usable() const { return goals_met && design.verification.passed; }
+};
+
+/// A slew of `distance` from rest to rest with what the drive can do, with its reserve
+/// (design::within_reach). Angles at the sky, rad.
+struct SlewFigures {
+  double distance = 0.0;
+  double rate = 0.0, acceleration = 0.0;  // 0: the supply cannot move it against its friction
+  double rate_asked = 0.0;
+  std::optional<double> time;  // s
+};
+
+/// What the chosen law and the drive do, at the design's wind speed with the mean of the plant.
+struct CandidateFigures {
+  std::vector<double> losses;                // dB, one a band
+  std::optional<double> climate_rms;         // rad
+  std::vector<double> climate_losses;        // dB, one a band; empty without a climate
+  std::vector<double> speed_limits;          // m/s, one a budget
+  double supply_margin = 0.0;                // supply torque over the largest in gusts
+  double demand_margin = 0.0;                // valve stroke over the largest demand in gusts
+  std::optional<double> slew_stroke_margin;  // valve stroke over the slew rate at the motor
+  std::optional<SlewFigures> slew;           // of cases with a [simulation]
+};
+
+/// The antenna as it is, or as a proposal makes it.
+struct Candidate {
+  std::string name;
+  std::string path;  // of the proposal; empty for the antenna as it is
+  std::string description;
+  double cost = 0.0, cost_uncertainty = 0.0;
+  bool cost_assumed = false;
+  std::vector<std::string> risks;
+  std::vector<ChangeRow> changes;
+  std::vector<DerivedChange> consequences;
+  double motor_inertia = 0.0;  // kg m2, all motors
+  double reflected_inertia = 0.0;
+  double motor_to_load_ratio = 0.0;
+  std::vector<CandidateLaw> laws;  // one a structure
+  /// The law that stands for it: of those that meet all goals and pass their verification the one
+  /// of least member_rms, else the one nearest to that; none if no structure is stable.
+  std::optional<std::size_t> chosen;
+  std::optional<CandidateFigures> figures;  // of the chosen law
+
+  bool feasible() const { return chosen && laws[*chosen].usable(); }
+};
+
+/// What the draws say of one candidate with its gains held.
+struct CandidateDraws {
+  std::size_t candidate = 0;
+  design::Probability unstable;       // by the winding, confirmed by eigenvalues
+  design::Probability outside_goals;  // unstable, or a peak or the valve effort beyond its goal
+};
+
+/// Chances, regrets and what they rest on. Losses are beam rms in mdeg.
+struct DecisionSection {
+  std::size_t draws = 0;
+  std::string source;                      // of the draws
+  std::vector<CandidateDraws> candidates;  // those with a stable law, in the table's order
+  design::DecisionStatistics statistics;   // options in the same order
+  std::vector<double> front_shares;        // of draws in which it is on the front of cost and rms
+  std::vector<std::string> inputs;         // that vary
+  /// The two of least expected rms, as places in `candidates`.
+  std::size_t best = 0, second = 0;
+  /// Of rms of second less best, mdeg.
+  std::optional<design::Tornado> tornado;
+  std::optional<design::SobolResult> sobol;
+  std::optional<design::TestValue> tests;  // mdeg
+  std::vector<std::string> notes;          // what is missing, and why
+};
+
+/// What `boresight evaluate` found.
+struct EvaluateSection {
+  double wind_speed = 0.0;  // m/s
+  plant::WindModel wind_model = plant::WindModel::coherence;
+  bool climate = false;  // the case has one
+  bool minimises_climate = false;
+  std::string currency;  // empty: no proposal costs anything
+  std::string ensemble_source;
+  std::size_t ensemble_size = 0;
+  int starts = 0;
+  std::vector<PointingBand> bands;
+  std::vector<PointingBudget> budgets;
+  std::vector<Candidate> candidates;  // the antenna as it is first
+  /// On the front of cost and expected rms, as places in `candidates`, in rising cost.
+  std::vector<std::size_t> front;
+  std::optional<DecisionSection> decision;
+  std::vector<std::string> not_run;  // what an interrupt left out
+};
+
+/// A few paragraphs that say what the section means, with its conditions.
+std::vector<std::string> conclude(const EvaluateSection& section);
+
+}  // namespace boresight::app

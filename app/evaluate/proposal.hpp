@@ -1,0 +1,53 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <boresight/app/io/quantity.hpp>
+
+namespace boresight::app {
+
+/// A number of a case that a proposal replaces or multiplies: exactly one of the two.
+struct ProposedChange {
+  /// In the case's words: "motor.displacement", "gear_train.stage[3].driven_teeth" (counted from
+  /// the motors, from 1), "gear_train.assembly[J3].inertia".
+  std::string key;
+  std::optional<Quantity> value;
+  std::optional<Quantity> factor;
+
+  const Quantity& stated() const { return value ? *value : *factor; }
+};
+
+struct ProposedCost {
+  Quantity amount;
+  std::string currency;
+};
+
+/// What a proposal file says: changes of an antenna as its case describes it.
+struct Proposal {
+  std::string path;
+  std::string name;
+  Location name_location;
+  std::string description;
+  ProposedCost cost;
+  Location cost_location;
+  std::vector<std::string> risks;
+  /// Loop structures to tune it with; empty: those of the antenna as it is.
+  std::vector<std::string> structures;
+  Location structures_location;
+  std::vector<ProposedChange> changes;  // in the order of docs/proposals.md
+
+  /// The change of that key, or none.
+  const ProposedChange* find(std::string_view key) const;
+};
+
+/// Reads a proposal file (docs/proposals.md). @throws InvalidInput with one message: file, line,
+/// column, key, what was expected and what was found. Whether it fits a case is
+/// apply_proposal's to say.
+Proposal read_proposal(const std::string& path);
+/// Same, of a text.
+Proposal parse_proposal(std::string_view text, const std::string& path);
+
+}  // namespace boresight::app

@@ -1,0 +1,17 @@
+#pragma once
+
+#include <string>
+
+#include <boresight/app/evaluate/evaluate_section.hpp>
+#include <boresight/app/report/json_design.hpp>
+
+namespace boresight::app {
+
+/// The section of the terminal's report.
+std::string to_text(const EvaluateSection& section);
+/// Its part about chances, regrets and tests.
+std::string to_text(const EvaluateSection& section, const DecisionSection& decision);
+Json evaluate_json(const EvaluateSection& section);
+Json decision_json(const EvaluateSection& section, const DecisionSection& decision);
+
+}  // namespace boresight::app

@@ -1,0 +1,128 @@
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include <boresight/app/report/evaluate_report.hpp>
+#include <boresight/app/report/text_layout.hpp>
+
+namespace boresight::app {
+namespace {
+
+using Rows = std::vector<std::vector<std::string>>;
+
+std::string fixed(double value, int decimals) {
+  return std::isfinite(value) ? fmt::format("{:.{}f}", value, decimals) : "infinite";
+}
+
+std::string share(const design::Probability& probability) {
+  return fmt::format("{:.3f} [{:.3f}, {:.3f}]", probability.value, probability.lower,
+                     probability.upper);
+}
+
+std::string chances_table(const EvaluateSection& section, const DecisionSection& decision) {
+  Rows rows{{"proposal", "mean mdeg", "+-", "5 %", "50 %", "95 %", "is the best", "regret mdeg",
+             "+-", "on the front", "outside goals", "unstable"}};
+  for (std::size_t i = 0; i < decision.candidates.size(); ++i) {
+    const auto& one = decision.candidates[i];
+    const auto& statistics = decision.statistics.options[i];
+    std::vector<std::string> cells{section.candidates[one.candidate].name,
+                                   fixed(statistics.mean, 4), fixed(statistics.standard_error, 4)};
+    for (const auto& quantile : statistics.quantiles) cells.push_back(fixed(quantile.value, 4));
+    cells.push_back(share(statistics.best));
+    cells.push_back(fixed(statistics.expected_regret, 4));
+    cells.push_back(fixed(statistics.regret_error, 4));
+    cells.push_back(fixed(decision.front_shares[i], 3));
+    cells.push_back(share(one.outside_goals));
+    cells.push_back(share(one.unstable));
+    rows.push_back(std::move(cells));
+  }
+  return table(rows, "l");
+}
+
+std::string pairs_table(const EvaluateSection& section, const DecisionSection& decision) {
+  Rows rows{{"is better than", ""}};
+  for (std::size_t k = 0; k < decision.candidates.size(); ++k) {
+    rows[0].push_back(fmt::format("{}", k + 1));
+  }
+  for (std::size_t i = 0; i < decision.candidates.size(); ++i) {
+    rows.push_back(
+        {fmt::format("{}", i + 1), section.candidates[decision.candidates[i].candidate].name});
+    rows.back().resize(2 + decision.candidates.size(), "-");
+  }
+  for (const auto& pair : decision.statistics.pairs) {
+    rows[pair.first + 1][pair.second + 2] = share(pair.better);
+    rows[pair.second + 1][pair.first + 2] =
+        share({1.0 - pair.better.value, 1.0 - pair.better.upper, 1.0 - pair.better.lower});
+  }
+  return table(rows, "ll");
+}
+
+std::string inputs_table(const EvaluateSection& section, const DecisionSection& decision) {
+  if (!decision.tornado || !decision.sobol) return "";
+  const auto& best = section.candidates[decision.candidates[decision.best].candidate].name;
+  const auto& second = section.candidates[decision.candidates[decision.second].candidate].name;
+  const auto& indices = decision.sobol->outputs.front();
+  Rows rows{{"input", "at 5 %", "at 95 %", "swing", "first order", "", "total", ""}};
+  const auto interval = [](const design::EstimatedIndex& index) {
+    return fmt::format("[{:.3f}, {:.3f}]", index.lower, index.upper);
+  };
+  for (const auto& bar : decision.tornado->bars) {
+    const auto& one = indices.inputs[bar.input];
+    rows.push_back({decision.inputs[bar.input], fixed(bar.at_low, 4), fixed(bar.at_high, 4),
+                    fixed(bar.swing, 4), fixed(one.first_order.value, 3), interval(one.first_order),
+                    fixed(one.total.value, 3), interval(one.total)});
+  }
+  std::string text = "\n";
+  text += wrapped(
+      fmt::format("What decides between the two of least mean rms: rms of '{}' less that of '{}', "
+                  "mdeg, {:.4f} with every input at its median, standard deviation {:.4f}; gains "
+                  "held. One input at its 5 % and 95 % share, the others at their median; shares "
+                  "of the difference's variance by Sobol' (of independent inputs, {} evaluations).",
+                  second, best, decision.tornado->at_median, std::sqrt(indices.variance),
+                  decision.sobol->evaluations),
+      "  ");
+  return text + table(rows, "l");
+}
+
+std::string tests_table(const EvaluateSection& section, const DecisionSection& decision) {
+  if (!decision.tests) return "";
+  const auto& tests = *decision.tests;
+  Rows rows{{"knowing", "lowers the rms by", "+-", "held out", "+-"}};
+  for (std::size_t k = 0; k < tests.inputs.size(); ++k) {
+    const auto& one = tests.inputs[k];
+    rows.push_back({decision.inputs[k], fixed(one.fitted.gain, 5),
+                    fixed(one.fitted.standard_error, 5), fixed(one.held_out_gain, 5),
+                    fixed(one.held_out_error, 5)});
+  }
+  rows.push_back({"everything", fixed(tests.perfect.gain, 5),
+                  fixed(tests.perfect.standard_error, 5), "-", "-"});
+  const auto& choice = section.candidates[decision.candidates[tests.choice].candidate].name;
+  return "\n" +
+         wrapped(
+             fmt::format("What tests are worth before the choice, whatever it costs: by how many "
+                         "mdeg the expected rms falls below that of '{}', the choice of today, "
+                         "if one input is known exactly. Fitted is biased high, held out low.",
+                         choice),
+             "  ") +
+         table(rows, "l");
+}
+
+}  // namespace
+
+std::string to_text(const EvaluateSection& section, const DecisionSection& decision) {
+  std::string text =
+      heading(fmt::format("Chances, by {} draws with the gains held", decision.draws));
+  text +=
+      wrapped(fmt::format("Beam rms in mdeg, {}, the same for all proposals. Intervals: 95 % for "
+                          "the number of draws; they say nothing of the ranges drawn from.",
+                          decision.source),
+              "  ");
+  text += chances_table(section, decision) + "\n";
+  text += wrapped("Chance that the row's rms is below the column's, ties counted half:", "  ");
+  text += pairs_table(section, decision);
+  text += inputs_table(section, decision) + tests_table(section, decision);
+  for (const auto& note : decision.notes) text += wrapped("Note: " + note, "  ");
+  return text;
+}
+
+}  // namespace boresight::app

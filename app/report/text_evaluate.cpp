@@ -1,0 +1,229 @@
+#include <cmath>
+#include <numbers>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <boresight/app/report/evaluate_report.hpp>
+#include <boresight/app/report/sky_units.hpp>
+#include <boresight/app/report/text_layout.hpp>
+
+namespace boresight::app {
+namespace {
+
+using Rows = std::vector<std::vector<std::string>>;
+
+constexpr double degree = std::numbers::pi / 180.0;
+
+std::string mdeg(double angle) {
+  return std::isfinite(angle) ? fmt::format("{:.4f}", angle / millidegree) : "-";
+}
+
+std::string fixed(double value, int decimals) {
+  return std::isfinite(value) ? fmt::format("{:.{}f}", value, decimals) : "-";
+}
+
+std::string speed(double limit) {
+  if (std::isnan(limit)) return "-";
+  return std::isfinite(limit) ? fmt::format("{:.1f}", limit) : "> 60";
+}
+
+std::string verdict(const Candidate& candidate) {
+  if (!candidate.chosen) return "no stable law";
+  const auto& law = candidate.laws[*candidate.chosen];
+  if (!law.goals_met) return "misses goals";
+  return law.design.verification.passed ? "verified" : "NOT VERIFIED";
+}
+
+std::string cost_text(const Candidate& candidate) {
+  if (candidate.cost_uncertainty > 0.0) {
+    return fmt::format("{:g} +- {:g}", candidate.cost, candidate.cost_uncertainty);
+  }
+  return fmt::format("{:g}", candidate.cost);
+}
+
+void fill(std::vector<std::string>& cells, std::size_t columns) {
+  cells.resize(std::max(cells.size(), columns), "-");
+}
+
+std::string loop_table(const EvaluateSection& section) {
+  Rows rows{{"proposal", "loops", "cost", "J kg.m2", "ratio", "hydr. Hz", "zeta", "rms mdeg",
+             "over plants", "worst", "worst plant", "check"}};
+  for (const auto& candidate : section.candidates) {
+    std::vector<std::string> cells{candidate.name, "-", cost_text(candidate),
+                                   fixed(candidate.reflected_inertia, 3),
+                                   fixed(candidate.motor_to_load_ratio, 2)};
+    if (candidate.chosen) {
+      const auto& law = candidate.laws[*candidate.chosen];
+      cells[1] = law.structure;
+      cells.push_back(fixed(law.design.hydraulic_mode.frequency, 3));
+      cells.push_back(fixed(law.design.hydraulic_mode.damping_ratio, 3));
+      cells.push_back(mdeg(law.design.beam_rms));
+      cells.push_back(mdeg(law.member_rms));
+      if (law.ensemble) {
+        const bool all = law.ensemble->stable == static_cast<int>(law.ensemble->members.size());
+        cells.push_back(all ? mdeg(law.ensemble->largest_rms) : "unstable");
+        cells.push_back(law.ensemble->members[law.ensemble->worst].name);
+      }
+    }
+    fill(cells, rows[0].size() - 1);
+    cells.push_back(verdict(candidate));
+    rows.push_back(std::move(cells));
+  }
+  return table(rows, "ll") +
+         wrapped(fmt::format(
+                     "cost in {}; rms of the beam on the nominal plant, over plants: root of the "
+                     "mean square over the {} plants of the ensemble, worst: the largest of them; "
+                     "worst plant: the one farthest from its hard goals. hydr. and zeta: frequency "
+                     "and damping of the oil's mode with the structure bending, no loop closed.",
+                     section.currency, section.ensemble_size),
+                 "  ");
+}
+
+std::string service_table(const EvaluateSection& section) {
+  Rows rows{{"proposal"}};
+  for (const auto& band : section.bands) rows[0].push_back(fmt::format("dB {}", band.name));
+  if (section.climate) {
+    for (const auto& band : section.bands) {
+      rows[0].push_back(fmt::format("climate dB {}", band.name));
+    }
+  }
+  for (std::size_t i = 0; i < section.budgets.size(); ++i) {
+    rows[0].push_back(fmt::format("({}) m/s", i + 1));
+  }
+  for (const char* name :
+       {"torque margin", "stroke, gusts", "stroke, slew", "slew deg/s", "10 deg s"}) {
+    rows[0].emplace_back(name);
+  }
+  for (const auto& candidate : section.candidates) {
+    std::vector<std::string> cells{candidate.name};
+    if (candidate.figures) {
+      const auto& figures = *candidate.figures;
+      for (const double loss : figures.losses) cells.push_back(fixed(loss, 4));
+      for (const double loss : figures.climate_losses) cells.push_back(fixed(loss, 4));
+      for (const double limit : figures.speed_limits) cells.push_back(speed(limit));
+      cells.push_back(fixed(figures.supply_margin, 2));
+      cells.push_back(fixed(figures.demand_margin, 1));
+      cells.push_back(figures.slew_stroke_margin ? fixed(*figures.slew_stroke_margin, 2) : "-");
+      if (figures.slew) {
+        cells.push_back(fixed(figures.slew->rate / degree, 3));
+        cells.push_back(figures.slew->time ? fixed(*figures.slew->time, 1) : "never");
+      }
+    }
+    fill(cells, rows[0].size());
+    rows.push_back(std::move(cells));
+  }
+  std::string text = table(rows, "l");
+  for (std::size_t i = 0; i < section.budgets.size(); ++i) {
+    const auto& budget = section.budgets[i];
+    text += fmt::format("  ({}) {}, band {}, {}: {} mdeg, met up to that mean wind speed\n", i + 1,
+                        budget.name, budget.band, budget.convention, mdeg(budget.rms));
+  }
+  return text +
+         wrapped(
+             "dB: mean loss over two equal axes on the nominal plant. torque margin: supply torque "
+             "over mean wind torque and the gusts' crest, friction left out; stroke, gusts: valve "
+             "stroke over the demand in the same; stroke, slew: valve stroke over the slew rate, "
+             "below 1 the rate is out of reach. slew: rate and time of a 10 deg move from rest to "
+             "rest that the drive has reserve for against friction, at 0.2 deg/s2 at most.",
+             "  ");
+}
+
+std::string changes_text(const EvaluateSection& section) {
+  std::string text;
+  for (const auto& candidate : section.candidates) {
+    if (candidate.path.empty()) continue;
+    text += "\n" + wrapped(fmt::format("{} ({}): {}", candidate.name, candidate.path,
+                                       candidate.description),
+                           "  ", "  ");
+    if (!candidate.changes.empty() || !candidate.consequences.empty()) {
+      Rows rows{{"changes", "from", "to", "because"}};
+      for (const auto& change : candidate.changes) {
+        rows.push_back(
+            {change.key, change.before, change.after,
+             change.basis == Basis::assumed ? "assumed: " + change.source : change.source});
+      }
+      for (const auto& one : candidate.consequences) {
+        const std::string unit = one.unit == "1" ? "" : " " + one.unit;
+        rows.push_back({"  " + one.quantity, fmt::format("{:.5g}{}", one.before, unit),
+                        fmt::format("{:.5g}{}", one.after, unit),
+                        "follows from " + one.follows_from});
+      }
+      text += table(rows, "llll");
+    }
+    for (const auto& risk : candidate.risks) text += wrapped("Risk: " + risk, "  ", "  ");
+  }
+  return text;
+}
+
+std::string laws_text(const EvaluateSection& section) {
+  Rows rows{{"proposal", "loops", "rms mdeg", "over plants", "within goals", "S rate", "S valve",
+             "S pos.", "effort rad/s", "starts", "gains"}};
+  for (const auto& candidate : section.candidates) {
+    for (const auto& law : candidate.laws) {
+      std::vector<std::string> cells{candidate.name, law.structure};
+      if (law.stable() && law.ensemble) {
+        cells.push_back(mdeg(law.design.beam_rms));
+        cells.push_back(mdeg(law.member_rms));
+        cells.push_back(
+            fmt::format("{}/{}", law.ensemble->within_goals, law.ensemble->members.size()));
+        for (const auto& peak : law.design.verification.peaks) {
+          cells.push_back(fixed(peak.upper, 3));
+        }
+        cells.push_back(fixed(law.design.valve_effort, 3));
+        cells.push_back(
+            fmt::format("{}/{}", law.design.tuning.starts_at_optimum, law.design.tuning.starts));
+        const auto& gains = law.design.tuning.law.structure.gains();
+        std::string list;
+        for (std::size_t k = 0; k < law.gains.size(); ++k) {
+          list += fmt::format("{}{} {}", k == 0 ? "" : ", ", gains[k].symbol, law.gains[k]);
+        }
+        cells.push_back(std::move(list));
+      }
+      fill(cells, rows[0].size());
+      rows.push_back(std::move(cells));
+    }
+  }
+  return table(rows, "llrrrrrrrrl") +
+         wrapped(
+             "S: peak of the sensitivity with the loop cut at rate loop alone, valve command, "
+             "position loop, on the nominal plant; starts: searches that ended within 1 % of "
+             "the best.",
+             "  ");
+}
+
+}  // namespace
+
+std::string to_text(const EvaluateSection& section) {
+  std::string text = heading(fmt::format("Proposals, re-tuned: wind model {}, {:g} m/s",
+                                         plant::to_string(section.wind_model), section.wind_speed));
+  text += wrapped(
+      fmt::format("Each with loops of its own, tuned so that every hard goal holds on the nominal "
+                  "plant and on each of {} plants, {}, the same draws for all. {}",
+                  section.ensemble_size, section.ensemble_source,
+                  section.minimises_climate ? "The rms made least is that over the wind climate."
+                  : section.climate
+                      ? "The rms made least is that at the design's wind speed; the climate's loss "
+                        "stands beside it."
+                      : "The case states no wind climate: losses are at one speed, not over the "
+                        "site's winds."),
+      "  ");
+  if (!section.not_run.empty()) {
+    text += wrapped(fmt::format("Not run: {}.", fmt::join(section.not_run, "; ")), "  ");
+  }
+  text += "\n" + loop_table(section) + "\n" + service_table(section);
+  std::vector<std::string> names;
+  for (const std::size_t i : section.front) {
+    const auto& candidate = section.candidates[i];
+    names.push_back(fmt::format("{} ({:g}, {} mdeg)", candidate.name, candidate.cost,
+                                mdeg(candidate.laws[*candidate.chosen].member_rms)));
+  }
+  text += "\n" + wrapped(fmt::format("Front of cost ({}) and rms over the plants: {}.",
+                                     section.currency, fmt::join(names, "; ")),
+                         "  ");
+  if (section.decision) text += to_text(section, *section.decision);
+  text += heading("What each proposal changes, and what follows") + changes_text(section);
+  return text + heading("The loops behind the table") + laws_text(section);
+}
+
+}  // namespace boresight::app

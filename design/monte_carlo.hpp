@@ -55,7 +55,7 @@ struct MonteCarlo {
   std::function<plant::AntennaPlant(std::uint64_t index)> plant;
   HeldGainsOptions held = {};
   /// Besides those near the axis, every so manyth plant's stability is confirmed by eigenvalues.
-  std::uint64_t confirm_every = 200;
+  std::uint64_t confirm_every = 100;
   /// Tunes a law for each plant as well, from the held one (TuningOptions::warm_starts), for the
   /// same goals and, if `retune_over_climate`, the rms over the climate: some ms a plant.
   bool retune = false;

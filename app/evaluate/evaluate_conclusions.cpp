@@ -32,7 +32,7 @@ std::string against_as_it_is(const EvaluateSection& section) {
     if (candidate.path.empty() || !candidate.feasible()) continue;
     const double change = law_of(candidate).member_rms / law_of(base).member_rms - 1.0;
     auto& list = change < 0.0 ? better : worse;
-    list.push_back(fmt::format("{} {:+.1f} %", candidate.name, 100.0 * change));
+    list.push_back(fmt::format("{:.1f} % by {}", 100.0 * std::abs(change), candidate.name));
   }
   std::string text = fmt::format(
       "Conditions: {} loops on the antenna as it is, {} wind at {:g} m/s, gains re-tuned for each "
@@ -40,9 +40,8 @@ std::string against_as_it_is(const EvaluateSection& section) {
       "re-tuned ({:.4f} mdeg): ",
       law_of(base).structure, plant::to_string(section.wind_model), section.wind_speed,
       law_of(base).member_rms / millidegree);
-  text +=
-      better.empty() ? "nothing lowers it" : fmt::format("lower by {}", fmt::join(better, ", "));
-  if (!worse.empty()) text += fmt::format("; not lower by {}", fmt::join(worse, ", "));
+  text += better.empty() ? "nothing lowers it" : fmt::format("lowered {}", fmt::join(better, ", "));
+  if (!worse.empty()) text += fmt::format("; raised or left {}", fmt::join(worse, ", "));
   return text + ".";
 }
 

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <boresight/app/evaluate/changeable_numbers.hpp>
+#include <boresight/app/evaluate/following_changes.hpp>
 #include <boresight/app/evaluate/proposed_case.hpp>
 #include <boresight/app/io/field.hpp>
 #include <boresight/app/io/wording.hpp>
@@ -13,53 +14,8 @@
 namespace boresight::app {
 namespace {
 
-[[noreturn]] void refuse(const ProposedChange& change, const std::string& message) {
-  refuse_at(change.stated().location, change.key, message);
-}
-
 std::string after_text(const ProposedChange& change) {
   return change.value ? change.value->text : "x " + change.factor->text;
-}
-
-double changed(const ProposedChange& change, double before) {
-  return change.value ? change.value->value : change.factor->value * before;
-}
-
-// A number of a case with the change's word in the place of its own.
-Quantity changed(const ProposedChange& change, const Quantity& before) {
-  if (change.value) return *change.value;
-  Quantity after = before;
-  const double factor = change.factor->value;
-  after.value *= factor;
-  after.standard_uncertainty *= std::abs(factor);
-  after.half_unit *= std::abs(factor);
-  after.text = fmt::format("{} x {}", before.text, change.factor->text);
-  after.also.clear();
-  return after;
-}
-
-void check_range(const ProposedChange& change, Kind kind, const Range& range, double value) {
-  const bool within = range.minimum_excluded ? value > range.minimum : value >= range.minimum;
-  if (within && value <= range.maximum) return;
-  const std::string unit(kind == Kind::number ? std::string_view("") : describe(kind).si_unit);
-  refuse(change,
-         fmt::format("expected a result {} {:g}{} to {:g} {}, found {:g} {}",
-                     range.minimum_excluded ? "above" : "from", range.minimum,
-                     range.minimum_excluded ? " and up" : "", range.maximum, unit, value, unit));
-}
-
-// What the file must say beside the change that is there.
-double motors_displacement(const Case& antenna) {
-  return static_cast<double>(antenna.motor.count) * antenna.motor.displacement.value;
-}
-
-double compliance_of_sides(const Case& antenna) {
-  return 1.0 / antenna.oil.volume_1.value + 1.0 / antenna.oil.volume_2.value;
-}
-
-double no_load_pressure(const Case& antenna) {
-  const double returned = antenna.simulation ? antenna.simulation->return_pressure.value : 0.0;
-  return antenna.drive.supply_pressure.value - returned;
 }
 
 class Application {
@@ -74,10 +30,12 @@ class Application {
     apply_numbers();
     apply_modes();
     apply_motor();
-    apply_sampling();
-    follow_gear();
-    follow_drive();
-    follow_ensemble();
+    if (const auto* rate = proposal_.find("controller.sample_rate")) {
+      note_before(rate->key,
+                  fmt::format("{:.4g} Hz by the delay", 1.5 / before_.controller_delay.value));
+    }
+    follow_sampling(before_, proposal_, after_);
+    follow_drive(before_, proposal_, after_);
     check_friction();
     for (const auto& change : proposal_.changes) add_row(change);
     check_any_change();
@@ -121,8 +79,8 @@ class Application {
     if (modulus != nullptr) {
       note_before("oil.bulk_modulus", after_.oil.bulk_modulus->text);
       after_.oil.bulk_modulus = changed(*modulus, *after_.oil.bulk_modulus);
-      check_range(*modulus, Kind::pressure, Range::between(1e7, 1e10),
-                  after_.oil.bulk_modulus->value);
+      check_changed_range(*modulus, Kind::pressure, Range::between(1e7, 1e10),
+                          after_.oil.bulk_modulus->value);
     }
     if (lengths == nullptr) return;
     const double factor = lengths->factor->value;
@@ -135,24 +93,24 @@ class Application {
     const bool stated =
         proposal_.find("oil.volume_1") != nullptr || proposal_.find("oil.volume_2") != nullptr;
     if (share != nullptr && stated) {
-      refuse(*share,
-             "expected either line_share, from which the volumes follow, or volume_1 and "
-             "volume_2, found both");
+      refuse_change(*share,
+                    "expected either line_share, from which the volumes follow, or volume_1 and "
+                    "volume_2, found both");
     }
     if (share != nullptr) {
       const double kept = 1.0 - share->value->value + share->value->value * factor;
       if (!(kept > 0.0)) {
-        refuse(*share, "expected volumes to be left when the lines are gone, found none");
+        refuse_change(*share, "expected volumes to be left when the lines are gone, found none");
       }
       for (Quantity* volume : {&after_.oil.volume_1, &after_.oil.volume_2}) volume->value *= kept;
     } else if (!stated) {
-      refuse(*lengths,
-             "expected line_share (the share of each volume that is lines) or the volumes "
-             "beside it, found neither: volumes must follow the lines");
+      refuse_change(*lengths,
+                    "expected line_share (the share of each volume that is lines) or the volumes "
+                    "beside it, found neither: volumes must follow the lines");
     } else {
       for (const char* key : {"oil.volume_1", "oil.volume_2"}) {
         if (proposal_.find(key) == nullptr) {
-          refuse(*lengths, fmt::format("expected both volumes beside it, found no {}", key));
+          refuse_change(*lengths, fmt::format("expected both volumes beside it, found no {}", key));
         }
       }
     }
@@ -165,7 +123,7 @@ class Application {
     const double least = std::min(1.0, factor) * before, most = std::max(1.0, factor) * before;
     constexpr double rounding = 1e-3;
     if (after < least * (1.0 - rounding) || after > most * (1.0 + rounding)) {
-      refuse(
+      refuse_change(
           change,
           fmt::format("expected {:.4g} to {:.4g} m3, all that lines of {:g} times the length can "
                       "make of {:.4g} m3, found {:.4g} m3: oil.line_lengths contradicts it",
@@ -179,8 +137,8 @@ class Application {
       if (change.key.starts_with("gear_train.stage[")) {
         const auto number = static_cast<std::size_t>(std::stoul(change.key.substr(17)));
         if (number > train.stages.size()) {
-          refuse(change, fmt::format("expected a stage from 1 to {}, the case's, found {}",
-                                     train.stages.size(), number));
+          refuse_change(change, fmt::format("expected a stage from 1 to {}, the case's, found {}",
+                                            train.stages.size(), number));
         }
         GearStageEntry& stage = train.stages[number - 1];
         Quantity& teeth =
@@ -188,7 +146,8 @@ class Application {
         note_before(change.key, teeth.text);
         teeth = changed(change, teeth);
         if (std::abs(teeth.value - std::round(teeth.value)) > 1e-9) {
-          refuse(change, fmt::format("expected a whole number of teeth, found {:g}", teeth.value));
+          refuse_change(change,
+                        fmt::format("expected a whole number of teeth, found {:g}", teeth.value));
         }
       } else if (change.key.starts_with("gear_train.assembly[")) {
         change_assembly(change);
@@ -204,13 +163,14 @@ class Application {
     if (found == assemblies.end()) {
       std::vector<std::string_view> known;
       for (const auto& assembly : assemblies) known.emplace_back(assembly.name);
-      refuse(change, fmt::format("expected an assembly of the case ({}), found {}{}",
-                                 quoted_list(known), quoted(name), did_you_mean(name, known)));
+      refuse_change(change,
+                    fmt::format("expected an assembly of the case ({}), found {}{}",
+                                quoted_list(known), quoted(name), did_you_mean(name, known)));
     }
     if (!found->inertia && change.factor) {
-      refuse(change,
-             "expected an inertia, since the case sums this one from its parts, found a "
-             "factor");
+      refuse_change(change,
+                    "expected an inertia, since the case sums this one from its parts, found a "
+                    "factor");
     }
     note_before(change.key, found->inertia ? found->inertia->text : "of its parts");
     found->inertia = change.value ? *change.value : changed(change, *found->inertia);
@@ -223,12 +183,13 @@ class Application {
       Quantity* quantity = number.in(after_);
       const Quantity* own = number.in(original_);
       if (quantity == nullptr || own == nullptr) {
-        refuse(*change, fmt::format("expected a number that the case has, found none of it in {}",
-                                    before_.path));
+        refuse_change(*change,
+                      fmt::format("expected a number that the case has, found none of it in {}",
+                                  before_.path));
       }
       note_before(change->key, own->text);
       *quantity = changed(*change, *quantity);
-      check_range(*change, number.kind, number.range, quantity->value);
+      check_changed_range(*change, number.kind, number.range, quantity->value);
       if (number.kind == Kind::volume) check_volume(*change, own->value, quantity->value);
     }
   }
@@ -242,7 +203,8 @@ class Application {
       note_before(change->key, "the case's");
       for (auto& mode : after_.structure.modes) {
         mode.damping_ratio = changed(*change, mode.damping_ratio);
-        check_range(*change, Kind::number, Range::between(0.0, 1.0), mode.damping_ratio.value);
+        check_changed_range(*change, Kind::number, Range::between(0.0, 1.0),
+                            mode.damping_ratio.value);
       }
     }
     const auto* modes = proposal_.find("structure.mode_frequencies");
@@ -255,7 +217,7 @@ class Application {
           "spring can only lower a mode), found {:.4g} Hz and a mode of {:.4g} Hz",
           rotor, mode.frequency.value);
       if (locked != nullptr || modes != nullptr)
-        refuse(locked != nullptr ? *locked : *modes, message);
+        refuse_change(locked != nullptr ? *locked : *modes, message);
     }
   }
 
@@ -266,7 +228,7 @@ class Application {
     if (const auto* change = proposal_.find("motor.count")) {
       const double count = changed(*change, static_cast<double>(own.count));
       if (count < 1.0 || std::abs(count - std::round(count)) > 1e-9) {
-        refuse(*change, fmt::format("expected a whole number of motors, found {:g}", count));
+        refuse_change(*change, fmt::format("expected a whole number of motors, found {:g}", count));
       }
       motor.count = std::lround(count);
       note_before(change->key, fmt::format("{}", own.count));
@@ -285,7 +247,7 @@ class Application {
     const bool parts = disks != nullptr || proposal_.find("motor.disk_inertia") != nullptr ||
                        proposal_.find("motor.rotor_inertia") != nullptr;
     if (inertia != nullptr && parts && std::abs(motor.inertia.value - follows) > 0.01 * follows) {
-      refuse(
+      refuse_change(
           *inertia,
           fmt::format("expected the {:.5g} kg.m2 that {:g} disks make of the case's motor, within "
                       "1 %, found {:.5g} kg.m2: motor.flywheel_disks and its parts contradict it",
@@ -293,8 +255,9 @@ class Application {
     }
     if (inertia == nullptr && parts) {
       if (!(follows > 0.0)) {
-        refuse(disks != nullptr ? *disks : *first_of({"motor.disk_inertia", "motor.rotor_inertia"}),
-               fmt::format("expected a motor with some inertia left, found {:.4g} kg.m2", follows));
+        refuse_change(
+            disks != nullptr ? *disks : *first_of({"motor.disk_inertia", "motor.rotor_inertia"}),
+            fmt::format("expected a motor with some inertia left, found {:.4g} kg.m2", follows));
       }
       motor.inertia.value = follows;
       motor.inertia.text = fmt::format("{:.6g} kg.m2", follows);
@@ -308,109 +271,13 @@ class Application {
     return nullptr;
   }
 
-  void apply_sampling() {
-    const auto* rate = proposal_.find("controller.sample_rate");
-    const auto* delay = proposal_.find("controller.delay");
-    if (rate != nullptr) {
-      const double sample = 1.0 / rate->value->value;
-      note_before(rate->key,
-                  fmt::format("{:.4g} Hz by the delay", 1.5 / before_.controller_delay.value));
-      if (delay == nullptr) {
-        after_.controller_delay.value = 1.5 * sample;
-        after_.controller_delay.text = fmt::format("{:.4g} s", 1.5 * sample);
-      } else if (after_.controller_delay.value < 0.5 * sample) {
-        refuse(*delay, fmt::format("expected at least the {:.4g} s that holding a sample takes at "
-                                   "controller.sample_rate, found {:.4g} s",
-                                   0.5 * sample, after_.controller_delay.value));
-      }
-      if (proposal_.find("sensors.noise_bandwidth") == nullptr) {
-        after_.sensors.noise_bandwidth.value = 0.5 * rate->value->value;
-        after_.sensors.noise_bandwidth.text = fmt::format("{:g} Hz", 0.5 * rate->value->value);
-      }
-    }
-    // The fastest thing a loop must see: below half the rate, or it comes back as another
-    // frequency.
-    double fastest = after_.structure.locked_rotor_frequency.value;
-    for (const auto& mode : after_.structure.modes) {
-      fastest = std::max(fastest, mode.frequency.value);
-    }
-    const double sampled =
-        rate != nullptr ? rate->value->value : 1.5 / after_.controller_delay.value;
-    const auto* slow = rate != nullptr ? rate : delay;
-    if (slow != nullptr && sampled < 2.0 * fastest) {
-      refuse(*slow,
-             fmt::format("expected a sampling of at least {:.4g} Hz, twice the fastest mode of "
-                         "the structure ({:.4g} Hz), found {:.4g} Hz{}: the loops cannot see "
-                         "what lies above half of it",
-                         2.0 * fastest, fastest, sampled,
-                         rate != nullptr ? "" : " by the delay of one and a half samples"));
-    }
-  }
-
-  void follow_gear() {
-    const double up = gear_ratio(after_) / gear_ratio(before_);
-    if (up == 1.0 || !after_.simulation) return;
-    auto& simulation = *after_.simulation;
-    if (simulation.backlash) simulation.backlash->value *= up;
-    simulation.offset_torque.value /= up;
-    if (simulation.offset_cosine) simulation.offset_cosine->value /= up;
-    if (simulation.offset_sine) simulation.offset_sine->value /= up;
-  }
-
-  void follow_drive() {
-    const auto& own = before_.motor;
-    for (auto& assembly : after_.gear_train.assemblies) {
-      if (assembly.count == own.count) assembly.count = after_.motor.count;
-    }
-    const double displaced = motors_displacement(after_) / motors_displacement(before_);
-    const double opened = std::sqrt(no_load_pressure(after_) / no_load_pressure(before_));
-    if (!(no_load_pressure(after_) > 0.0)) {
-      refuse(*proposal_.find("drive.supply_pressure"),
-             fmt::format("expected more than simulation.return_pressure, found {:.4g} Pa",
-                         after_.drive.supply_pressure.value));
-    }
-    const auto stated = [&](std::string_view key) {
-      const auto* change = proposal_.find(key);
-      return change != nullptr && change->value.has_value();
-    };
-    if (after_.sensors.torque_noise && !stated("sensors.torque_noise")) {
-      after_.sensors.torque_noise->value *= displaced;
-    }
-    if (!stated("drive.leakage_rate")) {
-      after_.drive.leakage_rate.value *=
-          bulk_modulus(after_) / bulk_modulus(before_) * compliance_of_sides(after_) /
-          compliance_of_sides(before_) * static_cast<double>(after_.motor.count) /
-          static_cast<double>(own.count);
-    }
-    double stroke = opened / displaced;
-    if (after_.simulation) {
-      if (!stated("simulation.valve_stroke")) after_.simulation->valve_stroke.value *= stroke;
-      stroke = after_.simulation->valve_stroke.value / before_.simulation->valve_stroke.value;
-    }
-    after_.goals.valve_effort.value *= stroke;
-  }
-
-  void follow_ensemble() {
-    const auto scale = [](std::optional<RangeEntry>& range, double factor) {
-      if (!range) return;
-      range->lower.value *= factor;
-      range->upper.value *= factor;
-    };
-    scale(after_.ensemble.leakage_rate,
-          after_.drive.leakage_rate.value / before_.drive.leakage_rate.value);
-    const double friction = tracking_friction(before_);
-    if (friction > 0.0) {
-      scale(after_.ensemble.viscous_friction, tracking_friction(after_) / friction);
-    }
-  }
-
   void check_friction() const {
     const auto& curve = after_.friction_curve;
     const auto* change = first_of({"friction_curve.breakaway", "friction_curve.coulomb"});
     if (change != nullptr && curve.breakaway.value < curve.coulomb.value) {
-      refuse(*change, fmt::format("expected friction_curve.breakaway of at least "
-                                  "friction_curve.coulomb, found {:g} N.m and {:g} N.m",
-                                  curve.breakaway.value, curve.coulomb.value));
+      refuse_change(*change, fmt::format("expected friction_curve.breakaway of at least "
+                                         "friction_curve.coulomb, found {:g} N.m and {:g} N.m",
+                                         curve.breakaway.value, curve.coulomb.value));
     }
   }
 
@@ -424,7 +291,7 @@ class Application {
                                after_text(change), change.stated().basis, change.stated().source});
   }
 
-  void check_any_change() const {
+  void check_any_change() {
     const bool any = std::ranges::any_of(proposal_.changes, [&](const auto& change) {
       if (change.factor) return change.factor->value != 1.0;
       return change.key != "oil.line_share" && !same_as_before(change);
@@ -437,7 +304,7 @@ class Application {
                               : "that every change leaves the case's number as it is"));
   }
 
-  bool same_as_before(const ProposedChange& change) const {
+  bool same_as_before(const ProposedChange& change) {
     for (const auto& number : changeable_numbers()) {
       if (change.key != number.path()) continue;
       const Quantity* own = number.in(original_);
@@ -461,8 +328,7 @@ class Application {
   const Proposal& proposal_;
   ProposedCase result_;
   Case& after_;
-  // Places of numbers are told of a case that may be written to.
-  mutable Case original_ = before_;
+  Case original_ = before_;  // places of numbers are told of a case that may be written to
   std::vector<Before> befores_;
 };
 

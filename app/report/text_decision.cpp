@@ -39,22 +39,24 @@ std::string chances_table(const EvaluateSection& section, const DecisionSection&
   return table(rows, "l");
 }
 
+// Each pair with the one that is more often better first.
 std::string pairs_table(const EvaluateSection& section, const DecisionSection& decision) {
-  Rows rows{{"is better than", ""}};
-  for (std::size_t k = 0; k < decision.candidates.size(); ++k) {
-    rows[0].push_back(fmt::format("{}", k + 1));
-  }
-  for (std::size_t i = 0; i < decision.candidates.size(); ++i) {
-    rows.push_back(
-        {fmt::format("{}", i + 1), section.candidates[decision.candidates[i].candidate].name});
-    rows.back().resize(2 + decision.candidates.size(), "-");
-  }
+  const auto name = [&](std::size_t place) {
+    return section.candidates[decision.candidates[place].candidate].name;
+  };
+  Rows rows{{"proposal", "is better than", "with probability", "by mdeg", "+-", "dominance"}};
   for (const auto& pair : decision.statistics.pairs) {
-    rows[pair.first + 1][pair.second + 2] = share(pair.better);
-    rows[pair.second + 1][pair.first + 2] =
-        share({1.0 - pair.better.value, 1.0 - pair.better.upper, 1.0 - pair.better.lower});
+    const bool turned = pair.better.value < 0.5;
+    const auto& better = pair.better;
+    const auto dominance = turned ? pair.second_over_first : pair.first_over_second;
+    rows.push_back({name(turned ? pair.second : pair.first),
+                    name(turned ? pair.first : pair.second),
+                    turned ? share({1.0 - better.value, 1.0 - better.upper, 1.0 - better.lower})
+                           : share(better),
+                    fixed((turned ? -1.0 : 1.0) * pair.mean_gain, 4), fixed(pair.gain_error, 4),
+                    std::string(design::to_string(dominance))});
   }
-  return table(rows, "ll");
+  return table(rows, "llrrrl");
 }
 
 std::string inputs_table(const EvaluateSection& section, const DecisionSection& decision) {
@@ -118,7 +120,12 @@ std::string to_text(const EvaluateSection& section, const DecisionSection& decis
                           decision.source),
               "  ");
   text += chances_table(section, decision) + "\n";
-  text += wrapped("Chance that the row's rms is below the column's, ties counted half:", "  ");
+  text += wrapped(
+      "Pairs: the chance that the first has the lower rms on the same plant, ties counted half, "
+      "and "
+      "by how much on average; dominance of its losses: in every draw, by every quantile (first "
+      "order), for whoever dislikes risk (second order).",
+      "  ");
   text += pairs_table(section, decision);
   text += inputs_table(section, decision) + tests_table(section, decision);
   for (const auto& note : decision.notes) text += wrapped("Note: " + note, "  ");

@@ -1,0 +1,160 @@
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include <boresight/app/evaluate/following_changes.hpp>
+#include <boresight/app/io/field.hpp>
+#include <boresight/app/redesign/antenna_model.hpp>
+
+namespace boresight::app {
+namespace {
+
+double motors_displacement(const Case& antenna) {
+  return static_cast<double>(antenna.motor.count) * antenna.motor.displacement.value;
+}
+
+double compliance_of_sides(const Case& antenna) {
+  return 1.0 / antenna.oil.volume_1.value + 1.0 / antenna.oil.volume_2.value;
+}
+
+double no_load_pressure(const Case& antenna) {
+  const double returned = antenna.simulation ? antenna.simulation->return_pressure.value : 0.0;
+  return antenna.drive.supply_pressure.value - returned;
+}
+
+void follow_gear(const Case& before, Case& after) {
+  const double up = gear_ratio(after) / gear_ratio(before);
+  if (up == 1.0 || !after.simulation) return;
+  auto& simulation = *after.simulation;
+  if (simulation.backlash) simulation.backlash->value *= up;
+  simulation.offset_torque.value /= up;
+  if (simulation.offset_cosine) simulation.offset_cosine->value /= up;
+  if (simulation.offset_sine) simulation.offset_sine->value /= up;
+}
+
+void follow_ensemble(const Case& before, Case& after) {
+  const auto scale = [](std::optional<RangeEntry>& range, double factor) {
+    if (!range) return;
+    range->lower.value *= factor;
+    range->upper.value *= factor;
+  };
+  scale(after.ensemble.leakage_rate,
+        after.drive.leakage_rate.value / before.drive.leakage_rate.value);
+  const double friction = tracking_friction(before);
+  if (friction > 0.0) {
+    scale(after.ensemble.viscous_friction, tracking_friction(after) / friction);
+  }
+}
+
+}  // namespace
+
+void refuse_change(const ProposedChange& change, const std::string& message) {
+  refuse_at(change.stated().location, change.key, message);
+}
+
+double changed(const ProposedChange& change, double before) {
+  return change.value ? change.value->value : change.factor->value * before;
+}
+
+// A number of a case with the change's word in the place of its own.
+Quantity changed(const ProposedChange& change, const Quantity& before) {
+  if (change.value) return *change.value;
+  Quantity after = before;
+  const double factor = change.factor->value;
+  after.value *= factor;
+  after.standard_uncertainty *= std::abs(factor);
+  after.half_unit *= std::abs(factor);
+  after.text = fmt::format("{} x {}", before.text, change.factor->text);
+  after.also.clear();
+  return after;
+}
+
+void check_changed_range(const ProposedChange& change, Kind kind, const Range& range,
+                         double value) {
+  const bool within = range.minimum_excluded ? value > range.minimum : value >= range.minimum;
+  if (within && value <= range.maximum) return;
+  const std::string unit(kind == Kind::number ? std::string_view("") : describe(kind).si_unit);
+  refuse_change(change, fmt::format("expected a result {} {:g}{} to {:g} {}, found {:g} {}",
+                                    range.minimum_excluded ? "above" : "from", range.minimum,
+                                    range.minimum_excluded ? " and up" : "", range.maximum, unit,
+                                    value, unit));
+}
+
+void follow_sampling(const Case& before, const Proposal& proposal, Case& after) {
+  const auto* rate = proposal.find("controller.sample_rate");
+  const auto* delay = proposal.find("controller.delay");
+  if (rate != nullptr) {
+    const double sample = 1.0 / rate->value->value;
+    if (delay == nullptr) {
+      after.controller_delay.value = 1.5 * sample;
+      after.controller_delay.text = fmt::format("{:.4g} s", 1.5 * sample);
+    } else if (after.controller_delay.value < 0.5 * sample) {
+      refuse_change(*delay,
+                    fmt::format("expected at least the {:.4g} s that holding a sample takes at "
+                                "controller.sample_rate, found {:.4g} s",
+                                0.5 * sample, after.controller_delay.value));
+    }
+    if (proposal.find("sensors.noise_bandwidth") == nullptr) {
+      after.sensors.noise_bandwidth.value = 0.5 * rate->value->value;
+      after.sensors.noise_bandwidth.text = fmt::format("{:g} Hz", 0.5 * rate->value->value);
+    }
+  }
+  // The fastest thing a loop must see: below half the rate, or it comes back as another
+  // frequency.
+  double fastest = after.structure.locked_rotor_frequency.value;
+  for (const auto& mode : after.structure.modes) {
+    fastest = std::max(fastest, mode.frequency.value);
+  }
+  const double sampled = rate != nullptr ? rate->value->value : 1.5 / after.controller_delay.value;
+  const auto* slow = rate != nullptr ? rate : delay;
+  const bool slower = sampled < 1.5 / before.controller_delay.value;
+  if (slow != nullptr && slower && sampled < 2.0 * fastest) {
+    refuse_change(
+        *slow, fmt::format("expected a sampling of at least {:.4g} Hz, twice the fastest mode of "
+                           "the structure ({:.4g} Hz), found {:.4g} Hz{}: the loops cannot see "
+                           "what lies above half of it",
+                           2.0 * fastest, fastest, sampled,
+                           rate != nullptr ? "" : " by the delay of one and a half samples"));
+  }
+}
+
+void follow_drive(const Case& before, const Proposal& proposal, Case& after) {
+  const auto& own = before.motor;
+  for (auto& assembly : after.gear_train.assemblies) {
+    if (assembly.count == own.count) assembly.count = after.motor.count;
+  }
+  const double displaced = motors_displacement(after) / motors_displacement(before);
+  double opened = 1.0;
+  if (const auto* pressure = proposal.find("drive.supply_pressure")) {
+    if (no_load_pressure(after) <= 0.0) {
+      refuse_change(*pressure,
+                    fmt::format("expected more than simulation.return_pressure, found {:.4g} Pa",
+                                after.drive.supply_pressure.value));
+    }
+    opened = std::sqrt(no_load_pressure(after) / no_load_pressure(before));
+  }
+  const auto stated = [&](std::string_view key) {
+    const auto* change = proposal.find(key);
+    return change != nullptr && change->value.has_value();
+  };
+  if (after.sensors.torque_noise && !stated("sensors.torque_noise")) {
+    after.sensors.torque_noise->value *= displaced;
+  }
+  if (!stated("drive.leakage_rate")) {
+    after.drive.leakage_rate.value *= bulk_modulus(after) / bulk_modulus(before) *
+                                      compliance_of_sides(after) / compliance_of_sides(before) *
+                                      static_cast<double>(after.motor.count) /
+                                      static_cast<double>(own.count);
+  }
+  double stroke = opened / displaced;
+  if (after.simulation) {
+    if (!stated("simulation.valve_stroke")) after.simulation->valve_stroke.value *= stroke;
+    stroke = after.simulation->valve_stroke.value / before.simulation->valve_stroke.value;
+  }
+  after.goals.valve_effort.value *= stroke;
+  follow_gear(before, after);
+  follow_ensemble(before, after);
+}
+
+}  // namespace boresight::app

@@ -1,0 +1,26 @@
+#pragma once
+
+#include <string>
+
+#include <boresight/app/evaluate/proposal.hpp>
+#include <boresight/app/io/case_file.hpp>
+
+namespace boresight::app {
+
+/// "FILE:LINE:COLUMN: KEY: MESSAGE" of a change. @throws InvalidInput always
+[[noreturn]] void refuse_change(const ProposedChange& change, const std::string& message);
+
+/// What a change makes of a number.
+double changed(const ProposedChange& change, double before);
+Quantity changed(const ProposedChange& change, const Quantity& before);
+/// Refuses a number that a change has taken out of its range.
+void check_changed_range(const ProposedChange& change, Kind kind, const Range& range, double value);
+
+/// Dead time and noise bandwidth after the sampling rate; refuses a delay that contradicts it, and
+/// a sampling slower than before that is too slow for the structure's modes.
+void follow_sampling(const Case& before, const Proposal& proposal, Case& after);
+/// What gear ratio, displacement, count, volumes, bulk modulus and supply pressure bring with them,
+/// as proposed_case.hpp says; ranges of the ensemble.
+void follow_drive(const Case& before, const Proposal& proposal, Case& after);
+
+}  // namespace boresight::app

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include <boresight/app/commands/command_line.hpp>
+#include <boresight/app/commands/evaluate_command.hpp>
 #include <boresight/app/commands/report_commands.hpp>
 #include <boresight/app/commands/simulate_command.hpp>
 #include <boresight/app/commands/tune_command.hpp>
@@ -24,6 +25,7 @@ int run_command_line(int argc, char** argv) {
   std::vector<Subcommand> commands = add_report_commands(program);
   commands.push_back(add_simulate(program));
   commands.push_back(add_tune(program));
+  commands.push_back(add_evaluate(program));
   try {
     program.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

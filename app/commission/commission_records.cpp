@@ -1,0 +1,102 @@
+#include <algorithm>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <boresight/app/commission/commission_study.hpp>
+#include <boresight/app/identify/loaded_record.hpp>
+#include <boresight/plant/error.hpp>
+
+namespace boresight::app {
+namespace {
+
+using identification::DriveRecord;
+using identification::Signal;
+
+const DriveRecord& find_record(const std::vector<LoadedRecord>& records, const std::string& name) {
+  std::vector<std::string> known;
+  for (const auto& one : records) {
+    if (one.notes.name == name) {
+      if (one.clean.record) return *one.clean.record;
+      throw InvalidInput(
+          fmt::format("commission: the record '{}' cannot be used: {}", name, one.clean.refusal));
+    }
+    known.push_back(one.notes.name);
+  }
+  throw InvalidInput(fmt::format("commission: expected a record of the case, {}, found '{}'",
+                                 fmt::join(known, ", "), name));
+}
+
+std::vector<bool> both(const std::vector<bool>& one, const std::vector<bool>& other) {
+  if (one.empty()) return other;
+  std::vector<bool> result = one;
+  for (std::size_t i = 0; i < other.size(); ++i) result[i] = result[i] && other[i];
+  return result;
+}
+
+design::RecordedChannel channel(const Eigen::VectorXd& values, const std::vector<bool>& valid,
+                                double sample_time) {
+  return {values, valid, sample_time};
+}
+
+design::RecordedChannel torque_of(const DriveRecord& record,
+                                  const identification::DriveKnowledge& knowledge) {
+  std::vector<bool> valid;
+  for (const auto& signal : record.inlet_pressure) valid = both(valid, signal.valid);
+  for (const auto& signal : record.outlet_pressure) valid = both(valid, signal.valid);
+  return channel(identification::recorded_torque(record, knowledge), valid, record.sample_time);
+}
+
+design::RecordedChannel rate_error(const DriveRecord& record) {
+  const Signal& command = record.rate_command.value();
+  return channel(record.motor_rate.values - command.values,
+                 both(record.motor_rate.valid, command.valid), record.sample_time);
+}
+
+design::RecordedChannel of(const Signal& signal, double sample_time) {
+  return channel(signal.values, signal.valid, sample_time);
+}
+
+}  // namespace
+
+std::vector<ChannelComparison> compare_case_records(const Case& antenna, const std::string& before,
+                                                    const std::string& after, unsigned threads) {
+  if (antenna.campaign.records.empty()) {
+    throw InvalidInput(fmt::format(
+        "{}: expected [[record]]s to compare, found none: name both records in the case",
+        antenna.path));
+  }
+  if (before == after) {
+    throw InvalidInput(
+        fmt::format("commission: expected two records to compare, found '{}' twice", before));
+  }
+  const auto records = load_records(antenna, threads);
+  const DriveRecord& first = find_record(records, before);
+  const DriveRecord& second = find_record(records, after);
+  CampaignNotes notes;
+  const auto knowledge = drive_knowledge(antenna, notes);
+  std::vector<ChannelComparison> result;
+  const auto add = [&](const char* name, const char* unit, const design::RecordedChannel& one,
+                       const design::RecordedChannel& other) {
+    ChannelComparison comparison;
+    comparison.channel = name;
+    comparison.unit = unit;
+    comparison.comparison = design::compare_records(one, other);
+    result.push_back(std::move(comparison));
+  };
+  if (first.rate_command && second.rate_command) {
+    add("motor rate less its command", "rad/s", rate_error(first), rate_error(second));
+  }
+  add("motor rate", "rad/s", of(first.motor_rate, first.sample_time),
+      of(second.motor_rate, second.sample_time));
+  if (!first.inlet_pressure.empty() && !second.inlet_pressure.empty()) {
+    add("torque", "N.m", torque_of(first, knowledge), torque_of(second, knowledge));
+  }
+  if (first.valve_command && second.valve_command) {
+    add("valve command", "rad/s", of(*first.valve_command, first.sample_time),
+        of(*second.valve_command, second.sample_time));
+  }
+  return result;
+}
+
+}  // namespace boresight::app

@@ -1,0 +1,332 @@
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <boresight/app/commission/commission_study.hpp>
+#include <boresight/app/io/wording.hpp>
+#include <boresight/app/redesign/sections.hpp>
+#include <boresight/app/report/sky_units.hpp>
+#include <boresight/app/tune/engineer_units.hpp>
+#include <boresight/plant/error.hpp>
+
+namespace boresight::app {
+namespace {
+
+using design::PlantBand;
+using design::StageKind;
+
+// Of the valve's stroke and the supply's torque that a step takes at most.
+constexpr double step_share = 0.2;
+// A move that any antenna makes: a twentieth of the slew rate, reached in two seconds.
+constexpr double move_share = 0.05;
+constexpr double move_ramp = 2.0;
+// Steps of commands are no larger than this at the sky.
+constexpr double largest_angle_step = 100.0 * millidegree;
+
+control::ControlLaw given_law(const Case& antenna, const CommissionOptions& options) {
+  control::ControlLaw law{loop_structure(antenna.loops, options.structure), {}};
+  std::vector<std::string> known;
+  for (const auto& block : law.structure.blocks()) {
+    for (std::size_t i = 0; i < block.gains.size(); ++i) {
+      const std::string& symbol = block.gains[i].symbol;
+      known.push_back(symbol);
+      const auto text = std::ranges::find_if(
+          options.gains, [&](const std::string& one) { return one.starts_with(symbol + "="); });
+      if (text == options.gains.end()) {
+        throw InvalidInput(fmt::format("--gains: expected a value for {} ({}) of {}, found none",
+                                       symbol, block.gains[i].name, options.structure));
+      }
+      try {
+        law.gains.push_back(
+            parse_quantity(text->substr(symbol.size() + 1), gain_kind(block.path, block.kind, i))
+                .value);
+      } catch (const InvalidInput& error) {
+        throw InvalidInput(fmt::format("--gains {}: {}", quoted(*text), error.what()));
+      }
+    }
+  }
+  for (const auto& text : options.gains) {
+    const std::string symbol = text.substr(0, text.find('='));
+    if (std::ranges::find(known, symbol) == known.end()) {
+      throw InvalidInput(fmt::format("--gains {}: expected KEY=VALUE with a key of {}, found none",
+                                     quoted(text), fmt::join(known, ", ")));
+    }
+  }
+  control::validate(law);
+  return law;
+}
+
+control::ControlLaw tuned_law(const Case& antenna, const PlantEnsemble& ensemble,
+                              const CommissionOptions& options) {
+  TuneOptions tuning;
+  tuning.structures = {options.structure};
+  tuning.wind_speeds = {antenna.wind.design_speed.value};
+  tuning.starts = options.starts;
+  tuning.seed = options.seed;
+  tuning.threads = options.threads;
+  tuning.interrupted = options.interrupted;
+  const TuneSection section = tune_structures(antenna, ensemble, tuning);
+  if (options.interrupted && options.interrupted()) throw Interrupted("interrupted by the user");
+  for (const auto& row : section.laws) {
+    if (row.tuned_for == TunedFor::robust && row.usable() &&
+        row.wind_speed == antenna.wind.design_speed.value) {
+      return row.design.tuning.law;
+    }
+  }
+  throw InfeasibleRequirement(fmt::format(
+      "commission: no law of {} meets its goals on every plant that may be the true one{}",
+      options.structure,
+      section.shortfalls.empty()
+          ? std::string()
+          : ": " + section.shortfalls[0].infeasible + " " + section.shortfalls[0].closest));
+}
+
+// 1, 2 or 5 times a power of ten, no larger.
+double round_down(double value) {
+  const double decade = std::pow(10.0, std::floor(std::log10(value)));
+  for (const double step : {5.0, 2.0}) {
+    if (step * decade <= value * (1.0 + 1e-12)) return step * decade;
+  }
+  return decade;
+}
+
+double largest_demand(const Case& antenna) {
+  return antenna.simulation ? antenna.simulation->valve_stroke.value
+                            : antenna.drive.slew_rate.value * gear_ratio(antenna);
+}
+
+// In rad/s or rad at the sky, a round number of mdeg.
+double step_of(const Case& antenna, const design::CommissioningStage& stage) {
+  const double by_valve =
+      step_share * largest_demand(antenna) / stage.expected.largest_demand.largest;
+  const double by_torque =
+      step_share * supply_torque(antenna) / stage.expected.largest_torque.largest;
+  const double largest =
+      stage.law.position_open ? step_share * antenna.drive.slew_rate.value : largest_angle_step;
+  const double step =
+      std::min({by_valve / gear_ratio(antenna), by_torque / gear_ratio(antenna), largest});
+  return std::isfinite(step) ? millidegree * round_down(step / millidegree) : std::nan("");
+}
+
+std::string range(const PlantBand& band, double unit, int digits) {
+  return fmt::format("{:.{}g} ({:.{}g} to {:.{}g})", band.nominal / unit, digits, band.lower / unit,
+                     digits, band.upper / unit, digits);
+}
+
+std::string settling(const PlantBand& band) {
+  return std::isfinite(band.upper) ? "settles into 5 % in " + range(band, 1.0, 3) + " s"
+                                   : "settles slowly";
+}
+
+void describe_check(const Case& antenna, StageSheet& sheet) {
+  const auto& expected = sheet.stage.expected;
+  const double gear = gear_ratio(antenna);
+  const double sky = gear * millidegree;
+  if (expected.stable < expected.plants) {
+    sheet.check = fmt::format("Nothing: as the plants have it, {} of {} are unstable.",
+                              expected.plants - expected.stable, expected.plants);
+    return;
+  }
+  const bool open = sheet.stage.law.position_open;
+  if (sheet.stage.kind == StageKind::feedforward) {
+    sheet.check = "Largest encoder error of the move: " + range(expected.move_error, sky, 3) +
+                  " mdeg. The step as in the stage before. ";
+  } else {
+    sheet.check = fmt::format(
+        "Step of the {} command of {:.3g} mdeg{} at the sky: rises (10 % to 90 %) in {} s, "
+        "overshoots by {} %, {}. ",
+        open ? "rate" : "position", sheet.step / millidegree, open ? "/s" : "",
+        range(expected.rise_time, 1.0, 3), range(expected.overshoot, 0.01, 3),
+        settling(expected.settling_time));
+  }
+  sheet.check +=
+      fmt::format("Crossover {} Hz. ", range(expected.crossover, 2.0 * std::numbers::pi, 3));
+  sheet.check +=
+      "In still air, rms of the valve command " + range(expected.still_valve, 1.0, 3) + " rad/s";
+  sheet.check += open
+                     ? ", of the tachometer " + range(expected.still_tachometer, 1.0, 3) + " rad/s."
+                     : ", of the encoder error " + range(expected.still_encoder, sky, 3) +
+                           " mdeg. Beam rms in the design wind " +
+                           range(expected.beam_rms, sky, 3) + " mdeg.";
+}
+
+void describe_abort(const Case& antenna, StageSheet& sheet, const CommissionReport& report) {
+  const auto& abort = sheet.stage.abort;
+  sheet.abort = fmt::format(
+      "Overshoot above {:.0f} %, or in still air rms of the valve command above {:.3g} rad/s",
+      100.0 * abort.overshoot, abort.still_valve_rms);
+  if (!sheet.stage.law.position_open) {
+    sheet.abort += fmt::format(" or of the encoder error above {:.3g} mdeg",
+                               abort.still_encoder_rms / (gear_ratio(antenna) * millidegree));
+  }
+  sheet.abort += ", or any ringing that does not die out. ";
+  sheet.abort += std::isfinite(abort.gain_reserve)
+                     ? fmt::format(
+                           "The peak of S reaches {:g} on the worst plant ({}) with {:.2f} "
+                           "times this loop gain.",
+                           report.options.abort_peak, abort.worst_plant, abort.gain_reserve)
+                     : fmt::format(
+                           "The peak of S stays below {:g} on every plant even with 8 times "
+                           "this loop gain.",
+                           report.options.abort_peak);
+}
+
+void describe_way_back(const StageSheet* before, StageSheet& sheet) {
+  const auto kind = sheet.stage.kind;
+  if (before == nullptr || before->stage.kind == StageKind::as_found) {
+    sheet.way_back = "Brakes on, then the gains as found.";
+    if (before == nullptr) sheet.way_back = "Brakes on; nothing has been changed yet.";
+  } else if (kind == StageKind::feedforward) {
+    sheet.way_back = "Switch feedforward off: the loops are as they were.";
+  } else if (sheet.stage.law.position_open) {
+    sheet.way_back = "Rate command to zero, then the gains of the stage before.";
+  } else if (before->stage.law.position_open) {
+    sheet.way_back = "Open the position loop (rate command zero); the rate loop keeps its gains.";
+  } else {
+    sheet.way_back = "Open the position loop, set the gains of the stage before, close it again.";
+  }
+}
+
+std::vector<StageSheet> make_sheets(const Case& antenna, const CommissionReport& report) {
+  std::vector<StageSheet> sheets;
+  sheets.reserve(report.plan.stages.size());
+  for (const auto& stage : report.plan.stages) {
+    const StageSheet* before = sheets.empty() ? nullptr : &sheets.back();
+    StageSheet sheet;
+    sheet.stage = stage;
+    sheet.gains = in_engineers_units(antenna, stage.law.law);
+    for (std::size_t i = 0; i < sheet.gains.size(); ++i) {
+      sheet.symbols.push_back(stage.law.law.structure.gains()[i].symbol);
+      bool same = false;
+      for (std::size_t k = 0; before != nullptr && k < before->symbols.size(); ++k) {
+        same = same || (before->symbols[k] == sheet.symbols[i] &&
+                        before->stage.law.law.gains[k] == stage.law.law.gains[i]);
+      }
+      sheet.changed.push_back(before != nullptr && !same);
+    }
+    sheet.step = step_of(antenna, stage);
+    describe_check(antenna, sheet);
+    describe_abort(antenna, sheet, report);
+    describe_way_back(before, sheet);
+    sheets.push_back(std::move(sheet));
+  }
+  return sheets;
+}
+
+// What the plan says the ratio of rms should be, if it knows what the antenna runs on now.
+void predict(const design::CommissioningPlan& plan, ChannelComparison& channel) {
+  if (plan.stages.empty() || plan.stages.front().kind != StageKind::as_found) return;
+  const auto& first = plan.stages.front().expected;
+  const auto& last = plan.stages.back().expected;
+  const auto set = [&](const PlantBand& before, const PlantBand& after) {
+    if (!std::isfinite(before.upper) || !std::isfinite(after.upper)) return;
+    channel.predicted = after.nominal / before.nominal;
+    channel.predicted_lower = after.lower / before.upper;
+    channel.predicted_upper = after.upper / before.lower;
+    channel.agrees = channel.comparison.whole.lower <= *channel.predicted_upper &&
+                     *channel.predicted_lower <= channel.comparison.whole.upper;
+  };
+  if (channel.channel == "motor rate") set(first.windy_tachometer, last.windy_tachometer);
+  if (channel.channel == "torque") set(first.windy_torque, last.windy_torque);
+  if (channel.channel == "valve command") set(first.windy_valve, last.windy_valve);
+}
+
+std::vector<std::string> conclude(const CommissionReport& report, const Case& antenna) {
+  std::vector<std::string> sentences;
+  const auto& first = report.plan.stages.front();
+  const auto& last = report.plan.stages.back();
+  const double sky = gear_ratio(antenna) * millidegree;
+  sentences.push_back(fmt::format(
+      "{} stages lead to {}; no gain changes by more than a factor of {:.3g} at once, and the peak "
+      "of "
+      "S is at most {:.2f} on each of {} plants at every one of them.",
+      report.plan.stages.size() - (first.kind == StageKind::as_found ? 1 : 0), report.structure,
+      report.plan.largest_step,
+      std::ranges::max(report.plan.stages, {},
+                       [](const design::CommissioningStage& stage) {
+                         return stage.kind == StageKind::as_found ? 0.0
+                                                                  : stage.expected.peak.largest;
+                       })
+          .expected.peak.largest,
+      last.expected.plants));
+  if (first.kind == StageKind::as_found && std::isfinite(first.expected.beam_rms.upper)) {
+    sentences.push_back(fmt::format(
+        "Beam rms, one axis, at {:g} m/s ({} wind): {} mdeg as found, {} mdeg at the end.",
+        report.wind_speed, report.wind_model, range(first.expected.beam_rms, sky, 3),
+        range(last.expected.beam_rms, sky, 3)));
+  } else {
+    sentences.push_back(
+        fmt::format("Beam rms, one axis, at {:g} m/s ({} wind) at the end: {} mdeg.",
+                    report.wind_speed, report.wind_model, range(last.expected.beam_rms, sky, 3)));
+  }
+  for (const auto& channel : report.comparisons) {
+    const auto& whole = channel.comparison.whole;
+    std::string sentence = fmt::format(
+        "{}, {:.3g} to {:.3g} Hz: rms after is {:.3g} times that before ({:.3g} to {:.3g}): {}.",
+        channel.channel, whole.lowest, whole.highest, whole.ratio, whole.lower, whole.upper,
+        to_string(whole.change));
+    sentence[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(sentence[0])));
+    if (channel.predicted) {
+      sentence +=
+          fmt::format(" The plan predicts {:.3g} ({:.3g} to {:.3g}) in the design wind: {}.",
+                      *channel.predicted, *channel.predicted_lower, *channel.predicted_upper,
+                      channel.agrees ? "they agree" : "they do not agree");
+    }
+    sentences.push_back(std::move(sentence));
+  }
+  return sentences;
+}
+
+}  // namespace
+
+CommissionReport plan_commission(const Case& antenna, const PlantEnsemble& ensemble,
+                                 const CommissionOptions& options) {
+  if (options.before.empty() != options.after.empty()) {
+    throw InvalidInput(
+        "commission: expected both --before and --after, or neither: one record alone shows no "
+        "change");
+  }
+  const design::TrackingProblem problem = make_problem(antenna);
+  CommissionReport report;
+  report.case_path = antenna.path;
+  report.title = antenna.title;
+  report.axis = antenna.axis;
+  report.seed = options.seed;
+  report.structure = options.structure;
+  report.tuned = options.gains.empty();
+  report.ensemble_source = ensemble.source;
+  report.ensemble_size = ensemble.members.size();
+  report.wind_speed = problem.wind.mean_speed;
+  report.wind_model = antenna.wind.model;
+  report.gear_ratio = problem.gear_ratio;
+  report.before = options.before;
+  report.after = options.after;
+  report.assumed = assumed_inputs(antenna);
+  report.options.largest_step = options.largest_step;
+  report.options.threads = options.threads;
+  report.options.stop = options.interrupted;
+  const double rate = move_share * antenna.drive.slew_rate.value * problem.gear_ratio;
+  report.move = {rate, rate / move_ramp};
+  loop_structure(antenna.loops, options.structure);
+  if (!options.before.empty()) {
+    report.comparisons =
+        compare_case_records(antenna, options.before, options.after, options.threads);
+  }
+  const control::ControlLaw target =
+      report.tuned ? tuned_law(antenna, ensemble, options) : given_law(antenna, options);
+  std::optional<control::ControlLaw> found;
+  const auto present = present_laws(antenna);
+  if (!present.empty()) found = present.front();
+  report.plan = design::plan_commissioning(problem, ensemble.members, found, target, report.move,
+                                           report.options);
+  for (auto& channel : report.comparisons) predict(report.plan, channel);
+  report.sheets = make_sheets(antenna, report);
+  report.conclusions = conclude(report, antenna);
+  return report;
+}
+
+}  // namespace boresight::app

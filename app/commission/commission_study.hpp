@@ -1,0 +1,90 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <boresight/app/redesign/antenna_model.hpp>
+#include <boresight/app/tune/tune_study.hpp>
+#include <boresight/design/commissioning.hpp>
+#include <boresight/design/commissioning_records.hpp>
+
+namespace boresight::app {
+
+/// What to plan for.
+struct CommissionOptions {
+  std::string structure = "DPF";
+  /// The law's gains, KEY=VALUE as [gains] has them; empty: tuned.
+  std::vector<std::string> gains;
+  double largest_step = 2.0;  // factor on a gain from stage to stage
+  int starts = 0;             // of the tuning; 0: as the case has it
+  std::uint64_t seed = 1;
+  unsigned threads = 1;
+  /// Names of records of the case, both or none.
+  std::string before, after;
+  std::function<bool()> interrupted;
+};
+
+/// One stage as an engineer reads it.
+struct StageSheet {
+  design::CommissioningStage stage;
+  std::vector<std::string> symbols, gains;  // of the stage's law, in the case's units
+  std::vector<bool> changed;                // against the stage before
+  double step = 0.0;     // of the command to make: rad/s or rad at the sky, within saturation
+  std::string check;     // what to measure, and the values to be expected
+  std::string abort;     // beyond what to go back
+  std::string way_back;  // how
+};
+
+/// One channel of two records of the case.
+struct ChannelComparison {
+  std::string channel;  // "motor rate less its command", "motor rate", "torque", "valve command"
+  std::string unit;     // "rad/s", "N.m"
+  design::RecordComparison comparison;
+  /// Of the rms, after over before, that the plan's first and last stage predict in the design
+  /// wind, and over the plants; none where the gains found are not known or the channel is not
+  /// predicted.
+  std::optional<double> predicted, predicted_lower, predicted_upper;
+  bool agrees = false;  // the two intervals meet
+};
+
+struct CommissionReport {
+  std::string case_path, title, axis;
+  std::uint64_t seed = 1;
+  std::string structure;
+  bool tuned = false;  // else the gains were given
+  std::string ensemble_source;
+  std::size_t ensemble_size = 0;
+  double wind_speed = 0.0;
+  std::string wind_model;
+  double gear_ratio = 1.0;
+  design::CommandedMove move;  // at the motor
+  design::CommissioningOptions options;
+  design::CommissioningPlan plan;
+  std::vector<StageSheet> sheets;
+  std::string before, after;
+  std::vector<ChannelComparison> comparisons;
+  std::vector<std::string> conclusions;
+  std::vector<Quantity> assumed;
+};
+
+/// Plans the way to the robustly tuned law of a structure, or to the gains given, and compares two
+/// records where asked. `antenna`: the plant the ensemble is about.
+/// @throws InvalidInput for a structure, gains or records that there are none of;
+/// InfeasibleRequirement if no law of the structure meets the goals on every plant, or no path to
+/// it was found; Interrupted.
+CommissionReport plan_commission(const Case& antenna, const PlantEnsemble& ensemble,
+                                 const CommissionOptions& options);
+
+/// The comparison of two records of a case by its channels. @throws InvalidInput for a name that no
+/// usable record has.
+std::vector<ChannelComparison> compare_case_records(const Case& antenna, const std::string& before,
+                                                    const std::string& after, unsigned threads);
+
+std::string to_text(const CommissionReport& report);
+/// As docs/commission.schema.json: keys end in their unit, null stands for what there is none of.
+std::string to_json(const CommissionReport& report);
+
+}  // namespace boresight::app

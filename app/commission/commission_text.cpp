@@ -1,0 +1,146 @@
+#include <cmath>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <boresight/app/commission/commission_study.hpp>
+#include <boresight/app/report/sky_units.hpp>
+#include <boresight/app/report/text_layout.hpp>
+#include <boresight/app/report/text_report.hpp>
+
+namespace boresight::app {
+namespace {
+
+using Rows = std::vector<std::vector<std::string>>;
+using design::PlantBand;
+
+std::string number(double value, const char* form) {
+  return std::isfinite(value) ? fmt::format(fmt::runtime(form), value) : "-";
+}
+
+std::string stage_name(const design::CommissioningStage& stage) {
+  const auto kind = to_string(stage.kind);
+  return stage.steps == 1 ? std::string(kind)
+                          : fmt::format("{}, {} of {}", kind, stage.step, stage.steps);
+}
+
+std::string overview(const CommissionReport& report) {
+  Rows rows{{"stage", "", "position", "peak of S", "crossover Hz", "rise s", "overshoot %",
+             "valve rms rad/s", "beam rms mdeg", "stable plants"}};
+  const double sky = report.gear_ratio * millidegree;
+  for (std::size_t i = 0; i < report.sheets.size(); ++i) {
+    const auto& stage = report.sheets[i].stage;
+    const auto& expected = stage.expected;
+    rows.push_back({fmt::format("{}", i + 1), stage_name(stage),
+                    stage.law.position_open ? "open" : "closed",
+                    number(expected.peak.largest, "{:.2f}"),
+                    number(expected.crossover.nominal / (2.0 * std::numbers::pi), "{:.4f}"),
+                    number(expected.rise_time.nominal, "{:.2f}"),
+                    number(100.0 * expected.overshoot.nominal, "{:.0f}"),
+                    number(expected.still_valve.nominal, "{:.4f}"),
+                    number(expected.beam_rms.nominal / sky, "{:.4f}"),
+                    fmt::format("{}/{}", expected.stable, expected.plants)});
+  }
+  return table(rows, "rll") +
+         wrapped(
+             "Peak of S: the largest over all plants and the loops that are closed. The rest: on "
+             "the case's own plant; valve rms in still air, beam rms in the design wind.",
+             "  ");
+}
+
+std::string sheets(const CommissionReport& report) {
+  std::string text;
+  for (std::size_t i = 0; i < report.sheets.size(); ++i) {
+    const auto& sheet = report.sheets[i];
+    text += fmt::format("\n  {} {}{}\n", i + 1, stage_name(sheet.stage),
+                        sheet.stage.law.position_open ? ", position loop open" : "");
+    std::vector<std::string> gains;
+    for (std::size_t k = 0; k < sheet.gains.size(); ++k) {
+      gains.push_back(
+          fmt::format("{} = {}{}", sheet.symbols[k], sheet.gains[k], sheet.changed[k] ? " *" : ""));
+    }
+    text += wrapped(fmt::format("gains  {}", fmt::join(gains, "; ")), "    ", "       ");
+    text += wrapped("check  " + sheet.check, "    ", "       ");
+    text += wrapped("abort  " + sheet.abort, "    ", "       ");
+    text += wrapped("back   " + sheet.way_back, "    ", "       ");
+  }
+  return text;
+}
+
+std::string comparison_text(const CommissionReport& report) {
+  if (report.comparisons.empty()) return "";
+  std::string text =
+      heading(fmt::format("Before and after: '{}' and '{}'", report.before, report.after));
+  for (const auto& channel : report.comparisons) {
+    Rows rows{{channel.channel, "Hz", "before " + channel.unit, "after " + channel.unit, "ratio",
+               "from", "to", "freedom before", "after", "verdict"}};
+    const auto add = [&](const design::BandComparison& band, const std::string& name) {
+      rows.push_back({name, fmt::format("{:.3g} .. {:.3g}", band.lowest, band.highest),
+                      fmt::format("{:.4g}", band.rms_before), fmt::format("{:.4g}", band.rms_after),
+                      fmt::format("{:.3f}", band.ratio), fmt::format("{:.3f}", band.lower),
+                      fmt::format("{:.3f}", band.upper), fmt::format("{:.0f}", band.freedom_before),
+                      fmt::format("{:.0f}", band.freedom_after),
+                      std::string(to_string(band.change))});
+    };
+    add(channel.comparison.whole, "whole");
+    for (const auto& band : channel.comparison.bands) add(band, "");
+    text += table(rows, "ll") + "\n";
+  }
+  return text +
+         wrapped(
+             "Rms about a straight line in each segment; ratio: after over before, with its 95 % "
+             "interval for two stationary records under the same disturbance, which the records "
+             "themselves do not show: note wind and elevation of both. Freedom: of how many "
+             "independent squares a mean square is worth.",
+             "  ");
+}
+
+}  // namespace
+
+std::string to_text(const CommissionReport& report) {
+  std::string text = fmt::format("{}\n{}\ncase {}, seed {}\n", report.title, report.axis,
+                                 report.case_path, report.seed);
+  text += heading("Commissioning plan for " + report.structure);
+  text += wrapped(
+      fmt::format(
+          "The gains at the end are {}. {} plants that may be the true one, {}; wind {:g} "
+          "m/s, {} model. Values in brackets: where one more such plant would lie with {:g} %.",
+          report.tuned ? "those of the robust tuning" : "those given", report.ensemble_size,
+          report.ensemble_source, report.wind_speed, report.wind_model,
+          100.0 * report.options.confidence),
+      "  ");
+  if (report.plan.detuning) {
+    text += wrapped(
+        fmt::format(
+            "ASSUMED start: the gains of the antenna as found are not used. The plan begins "
+            "with the law's own without pressure feedback and compliance compensation, its "
+            "rate and position gains and position integral corner divided by {:g}: the "
+            "least power of two at which every plant keeps its peaks of S below {:g}.",
+            *report.plan.detuning, report.options.sensitivity_limit),
+        "  ");
+  }
+  for (const auto& remark : report.plan.remarks) text += wrapped(remark, "  ");
+  text += wrapped(
+      fmt::format(
+          "All of this is the linear plant's: make steps from a slow steady motion, clear of "
+          "breakaway, in still air, at most as large as stated (a fifth of the valve's stroke and "
+          "of "
+          "the supply's torque). The move: up to {:.3g} mdeg/s in {:.3g} s, steady, and down "
+          "again. "
+          "A stage counts as passed when every value lies in its brackets; go back when one is "
+          "beyond its abort limit ({:g} of the step beyond the brackets for overshoots, {:g} times "
+          "for an rms, or less where the peak of S would come to {:g}); between the two, find out "
+          "why before going on.",
+          report.move.rate / (report.gear_ratio * millidegree),
+          report.move.rate / report.move.acceleration, report.options.overshoot_allowance,
+          report.options.rms_allowance, report.options.abort_peak),
+      "  ");
+  text += "\n" + overview(report);
+  text += heading("Stages (* changed against the stage before)") + sheets(report);
+  text += comparison_text(report);
+  text += heading("Conclusions");
+  for (const auto& sentence : report.conclusions) text += wrapped("- " + sentence, "  ", "  ");
+  return text + assumed_text(report.assumed);
+}
+
+}  // namespace boresight::app

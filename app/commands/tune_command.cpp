@@ -47,6 +47,19 @@ const TunedLaw* best_law(const TuneSection& section) {
   return best;
 }
 
+// The usable laws tuned for the same purpose and wind speed.
+std::vector<DescribedLaw> alternatives(const TuneSection& section, const TunedLaw& best) {
+  std::vector<DescribedLaw> laws;
+  for (const auto& row : section.laws) {
+    if (row.tuned_for != best.tuned_for || row.wind_speed != best.wind_speed || !row.usable()) {
+      continue;
+    }
+    laws.push_back(
+        {fmt::format("{}, {}", row.structure, to_string(row.tuned_for)), row.design.tuning.law});
+  }
+  return laws;
+}
+
 }  // namespace
 
 Report tune_case(const TuneArguments& arguments, const std::function<bool()>& interrupted) {
@@ -128,10 +141,8 @@ Report tune_case(const TuneArguments& arguments, const std::function<bool()>& in
         pointing_limit_of(antenna, *report.tuned, ensemble, best->wind_speed, arguments.threads);
     auto problem = make_problem(antenna);
     problem.wind.mean_speed = best->wind_speed;
-    report.time_domain =
-        verify_in_time_domain(antenna, problem, best->design.tuning.law,
-                              fmt::format("{}, {}", best->structure, to_string(best->tuned_for)),
-                              arguments.seed, arguments.threads);
+    report.time_domain = choose_in_time_domain(antenna, problem, alternatives(*report.tuned, *best),
+                                               arguments.seed, arguments.threads);
     if (report.time_domain) report.conclusions.push_back(conclude(*report.time_domain));
   }
   return report;

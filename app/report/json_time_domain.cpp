@@ -86,12 +86,29 @@ Json slew_json(const design::SlewResult& slew, double settled_error) {
           {"at_command_limit_1", slew.at_command_limit}};
 }
 
+Json candidate_json(const TimeDomainSection::Candidate& candidate, double settled_error) {
+  const design::NonlinearVerification& result = candidate.result;
+  Json hunting = Json::array();
+  for (const auto& one : result.hunting) hunting.push_back(hunting_json(one));
+  return {{"law", candidate.law},
+          {"status", design::to_string(result.wind.status)},
+          {"beam_rms_mdeg", mdeg(result.wind.beam_rms)},
+          {"predicted_rms_mdeg", mdeg(result.wind.predicted_rms)},
+          {"hunting", std::move(hunting)},
+          {"reversal", result.reversal ? reversal_json(*result.reversal) : Json(nullptr)},
+          {"slew", result.slew ? slew_json(*result.slew, settled_error) : Json(nullptr)}};
+}
+
 }  // namespace
 
 nlohmann::ordered_json time_domain_json(const TimeDomainSection& section) {
   const auto& result = section.result;
   Json hunting = Json::array();
   for (const auto& one : result.hunting) hunting.push_back(hunting_json(one));
+  Json candidates = Json::array();
+  for (const auto& one : section.candidates) {
+    candidates.push_back(candidate_json(one, section.options.settled_error));
+  }
   return {{"law", section.law},
           {"wind_speed_m_per_s", section.wind_speed},
           {"sample_time_s", section.sample_time},
@@ -100,7 +117,8 @@ nlohmann::ordered_json time_domain_json(const TimeDomainSection& section) {
           {"hunting", std::move(hunting)},
           {"reversal", result.reversal ? reversal_json(*result.reversal) : Json(nullptr)},
           {"slew",
-           result.slew ? slew_json(*result.slew, section.options.settled_error) : Json(nullptr)}};
+           result.slew ? slew_json(*result.slew, section.options.settled_error) : Json(nullptr)},
+          {"candidates", std::move(candidates)}};
 }
 
 }  // namespace boresight::app

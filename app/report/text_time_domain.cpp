@@ -142,6 +142,38 @@ std::string slew_text(const TimeDomainSection& section) {
   return wrapped(text, "  ", "  ");
 }
 
+std::string candidates_text(const TimeDomainSection& section) {
+  if (section.candidates.empty()) return "";
+  Rows rows{{"law", "linear rms mdeg", "simulated", "hunting at rest", "when tracking",
+             "reversal error", "slew settled s"}};
+  for (const auto& [law, result] : section.candidates) {
+    const auto amplitude = [&](bool at_rest) -> std::string {
+      for (const auto& hunting : result.hunting) {
+        if ((hunting.rate == 0.0) != at_rest) continue;
+        if (hunting.status != RunStatus::complete) {
+          return std::string(design::to_string(hunting.status));
+        }
+        return hunting.limit_cycle ? "+-" + mdeg(hunting.beam_amplitude) : "none";
+      }
+      return "-";
+    };
+    const auto& slew = result.slew;
+    rows.push_back(
+        {law, mdeg(result.wind.predicted_rms),
+         result.wind.status == RunStatus::complete
+             ? mdeg(result.wind.beam_rms)
+             : std::string(design::to_string(result.wind.status)),
+         amplitude(true), amplitude(false),
+         result.reversal ? mdeg(result.reversal->beam_error) : "-",
+         slew && slew->settling_time ? fmt::format("{:.2f}", *slew->settling_time) : "-"});
+  }
+  return "\n" + table(rows, "l") +
+         wrapped(
+             "Beam in mdeg at the sky, one record of wind; the law of the least simulated rms is "
+             "the one above.",
+             "  ");
+}
+
 }  // namespace
 
 std::string to_text(const TimeDomainSection& section) {
@@ -155,7 +187,8 @@ std::string to_text(const TimeDomainSection& section) {
                              "without each influence, the others on.",
                              section.sample_time, section.options.limits.acceleration / degree,
                              mdeg(section.encoder_resolution)),
-                 "  ");
+                 "  ") +
+         candidates_text(section);
 }
 
 }  // namespace boresight::app

@@ -4,6 +4,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include <boresight/app/io/case_file.hpp>
 #include <boresight/design/nonlinear_verification.hpp>
@@ -19,6 +20,13 @@ struct TimeDomainSection {
   double encoder_resolution = 0.0;
   design::NonlinearVerificationOptions options;
   design::NonlinearVerification result;
+  /// The laws that this one was chosen from, itself included, influences not told apart; empty
+  /// where there was no choice.
+  struct Candidate {
+    std::string law;
+    design::NonlinearVerification result;
+  };
+  std::vector<Candidate> candidates;
 };
 
 /// Simulates the law of a problem made from the case (make_problem): 300 s of wind with every
@@ -30,6 +38,21 @@ std::optional<TimeDomainSection> verify_in_time_domain(const Case& antenna,
                                                        const design::TrackingProblem& problem,
                                                        const control::ControlLaw& law,
                                                        std::string_view description,
+                                                       std::uint64_t seed, unsigned threads);
+
+/// A tuned law and what it is called.
+struct DescribedLaw {
+  std::string description;
+  control::ControlLaw law;
+};
+
+/// The law of least beam rms in wind on the nonlinear antenna, verified as above; the others'
+/// results stand among its candidates. A law whose run does not complete is never the one, unless
+/// none completes. None for a case without a [simulation] table.
+/// @throws InvalidInput without laws; as design::verify_in_time.
+std::optional<TimeDomainSection> choose_in_time_domain(const Case& antenna,
+                                                       const design::TrackingProblem& problem,
+                                                       const std::vector<DescribedLaw>& laws,
                                                        std::uint64_t seed, unsigned threads);
 
 /// The section of the terminal's report.

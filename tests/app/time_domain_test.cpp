@@ -119,6 +119,42 @@ TEST(TimeDomain, ConcludesWhatTheLinearFigureIsWorth) {
   EXPECT_THAT(conclude(lost), HasSubstr("was not seen to hold in 10 m/s of wind (lost)"));
 }
 
+TEST(TimeDomain, SaysWhyAnotherLawThanTheLinearlyBestIsChosen) {
+  auto chosen = section();
+  chosen.candidates = {{chosen.law, chosen.result}, {"quick", chosen.result}};
+  EXPECT_THAT(conclude(chosen), Not(HasSubstr("first")));
+  auto& quick = chosen.candidates[1].result;
+  quick.wind.predicted_rms = 0.3 * mdeg;
+  quick.wind.beam_rms = 0.7 * mdeg;
+  EXPECT_THAT(conclude(chosen),
+              HasSubstr("The linear plant puts quick first (0.300 mdeg); on the nonlinear antenna "
+                        "it points within 0.700 and hunts by +-0.29: " +
+                        chosen.law + " is better. "));
+  quick.wind.status = design::RunStatus::lost;
+  EXPECT_THAT(conclude(chosen), HasSubstr("it does not hold (lost)"));
+  EXPECT_THAT(to_text(chosen), HasSubstr("quick"));
+  const auto json = time_domain_json(chosen);
+  ASSERT_EQ(json.at("candidates").size(), 2U);
+  EXPECT_DOUBLE_EQ(json.at("candidates")[1].at("predicted_rms_mdeg").get<double>(), 0.3);
+}
+
+TEST(TimeDomain, ChoosesTheLeastSimulatedRms) {
+  const Case antenna = read_case(BORESIGHT_SOURCE_DIR "/cases/dss14-70m/case.toml");
+  const auto problem = make_problem(antenna);
+  const control::LoopStructure& pi = control::LoopStructure::pi_with_lag();
+  const std::vector<DescribedLaw> laws{{"slow", {pi, {0.1, 0.42, 2.6, 3.0, 0.2}}},
+                                       {"tuned", {pi, {0.15873, 0.42068, 2.6277, 10.257, 0.23532}}},
+                                       {"loses it", {pi, {5.0, 0.42, 2.6, 30.0, 0.2}}}};
+  const auto chosen = choose_in_time_domain(antenna, problem, laws, 1, 2);
+  ASSERT_TRUE(chosen);
+  EXPECT_EQ(chosen->law, "tuned");
+  ASSERT_EQ(chosen->candidates.size(), 3U);
+  EXPECT_LT(chosen->candidates[1].result.wind.beam_rms, chosen->candidates[0].result.wind.beam_rms);
+  EXPECT_EQ(chosen->candidates[1].result.wind.beam_rms, chosen->result.wind.beam_rms);
+  EXPECT_FALSE(chosen->result.wind.influences.empty());
+  EXPECT_THROW(choose_in_time_domain(antenna, problem, {}, 1, 1), InvalidInput);
+}
+
 TEST(TimeDomain, JsonAloneGivesTheDifferenceFromThePrediction) {
   const auto json = time_domain_json(section());
   const auto& wind = json.at("wind");

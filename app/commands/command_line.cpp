@@ -7,6 +7,7 @@
 
 #include <boresight/app/commands/command_line.hpp>
 #include <boresight/app/commands/evaluate_command.hpp>
+#include <boresight/app/commands/montecarlo_command.hpp>
 #include <boresight/app/commands/report_commands.hpp>
 #include <boresight/app/commands/simulate_command.hpp>
 #include <boresight/app/commands/tune_command.hpp>
@@ -25,6 +26,7 @@ int run_command_line(int argc, char** argv) {
   std::vector<Subcommand> commands = add_report_commands(program);
   commands.push_back(add_simulate(program));
   commands.push_back(add_tune(program));
+  commands.push_back(add_montecarlo(program));
   commands.push_back(add_evaluate(program));
   try {
     program.parse(argc, argv);

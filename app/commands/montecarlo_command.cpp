@@ -1,0 +1,63 @@
+#include <exception>
+#include <memory>
+
+#include <CLI/CLI.hpp>
+
+#include <boresight/app/commands/montecarlo_command.hpp>
+#include <boresight/app/montecarlo/montecarlo_study.hpp>
+#include <boresight/app/report/json_report.hpp>
+#include <boresight/plant/error.hpp>
+
+namespace boresight::app {
+namespace {
+
+int run(MonteCarloArguments arguments) {
+  Ranks ranks;
+  arguments.threads = all_or(arguments.threads);
+  watch_for_interrupt();
+  if (!ranks.first()) {
+    // Rank 0 has the same error, and says so.
+    try {
+      run_montecarlo(arguments, ranks, interrupt_requested);
+    } catch (const std::exception&) {
+      return done;
+    }
+    return done;
+  }
+  const MonteCarloOutcome outcome = run_montecarlo(arguments, ranks, interrupt_requested);
+  if (!arguments.csv_path.empty()) write_atomically(arguments.csv_path, to_csv(outcome));
+  deliver(
+      arguments.json_path, [&] { return to_text(outcome.section); },
+      [&] { return to_json(outcome.section); });
+  return outcome.section.interrupted ? interrupted : done;
+}
+
+}  // namespace
+
+Subcommand add_montecarlo(CLI::App& program) {
+  const auto arguments = std::make_shared<MonteCarloArguments>();
+  CLI::App* sub = program.add_subcommand(
+      "montecarlo", "judge one law on thousands of plants that may be the true one");
+  add_case(*sub, arguments->case_path);
+  sub->add_option("--plants", arguments->plants, "how many plants are drawn")
+      ->check(CLI::Range(1.0, 1e8))
+      ->capture_default_str();
+  sub->add_option("--gains", arguments->gains,
+                  "the law: 'tuned' (the best robust one of a structure, tuned now), 'case' (that "
+                  "the antenna runs on now), or a report of tune or redesign in JSON")
+      ->capture_default_str();
+  sub->add_option("--structure", arguments->structure,
+                  "its structure, as `boresight tune` takes it (default: the first of the case's "
+                  "[tuning], else PI; of a report: any)");
+  sub->add_flag("--retune", arguments->retune,
+                "also tune a law for each plant alone: what holding one for all costs");
+  sub->add_option("--csv", arguments->csv_path, "write every plant to this file");
+  sub->add_option("--checkpoint", arguments->checkpoint_path,
+                  "take the run up from this file if it is there, and write it every few seconds");
+  add_json(*sub, arguments->json_path);
+  add_seed(*sub, arguments->seed);
+  add_threads(*sub, arguments->threads);
+  return {sub, [arguments] { return run(*arguments); }};
+}
+
+}  // namespace boresight::app

@@ -1,0 +1,38 @@
+#pragma once
+
+#include <functional>
+#include <string>
+
+#include <boresight/app/io/case_file.hpp>
+#include <boresight/app/tune/tune_study.hpp>
+#include <boresight/control/control_law.hpp>
+
+namespace boresight::app {
+
+/// A law and where its gains come from, in words.
+struct HeldLaw {
+  control::ControlLaw law;
+  std::string structure;  // as the user names it
+  std::string source;
+};
+
+/// A structure by the name that a HeldLaw or a report has for it: in full ("PI with lag"), short
+/// ("PI"), one of the case's own, or that of its present gains. @throws InvalidInput as
+/// loop_structure.
+control::LoopStructure structure_named(const Case& antenna, const std::string& name);
+
+/// The law that the antenna runs on now: of [gains], or of the [[loop]] named `structure`.
+/// @throws InvalidInput if the case has none.
+HeldLaw present_law(const Case& antenna, const std::string& structure);
+
+/// The best law of a report that `boresight tune` or `redesign` wrote as JSON: of `structure`
+/// unless that is empty; robust before nominal, then goals met before missed, then the least rms.
+/// @throws InvalidInput naming the file if there is none.
+HeldLaw law_of_report(const Case& antenna, const std::string& path, const std::string& structure);
+
+/// The best robust law of a structure, tuned now.
+/// @throws InfeasibleRequirement if no stable law is found; Interrupted.
+HeldLaw tuned_law(const Case& antenna, const PlantEnsemble& ensemble, const std::string& structure,
+                  std::uint64_t seed, unsigned threads, const std::function<bool()>& interrupted);
+
+}  // namespace boresight::app

@@ -1,0 +1,54 @@
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <string>
+
+#include <boresight/app/montecarlo/montecarlo_section.hpp>
+#include <boresight/app/montecarlo/ranks.hpp>
+
+namespace boresight::app {
+
+struct MonteCarloArguments {
+  std::string case_path;
+  std::string json_path;        // "-" for standard output; empty: none
+  std::string csv_path;         // of every plant; empty: none
+  std::string checkpoint_path;  // empty: none
+  std::uint64_t plants = 10000;
+  std::string structure;        // empty: the first of the case's [tuning], or PI
+  std::string gains = "tuned";  // "tuned", "case", or the path of a report in JSON
+  bool retune = false;
+  std::uint64_t seed = 1;
+  unsigned threads = 1;
+};
+
+/// A finished or interrupted run: every plant and what they amount to.
+struct MonteCarloOutcome {
+  std::shared_ptr<const PlantDistribution> distribution;
+  std::unique_ptr<design::MonteCarloRun> run;
+  MonteCarloSection section;
+};
+
+/// Draws plants from what the case's records leave open, or from its ranges, and judges one law on
+/// all of them, shared out over threads and ranks; takes up the checkpoint if there is one and
+/// writes it every few seconds. The same for any number of threads and ranks, and however often it
+/// was interrupted. The outcome is rank 0's; an error of one rank comes out of every one.
+/// @throws InvalidInput for arguments and cases that cannot be worked on; InfeasibleRequirement if
+/// no stable law is found; Interrupted if there is no whole block yet; NumericalFailure for a plant
+/// that cannot be judged.
+MonteCarloOutcome run_montecarlo(const MonteCarloArguments& arguments, Ranks& ranks,
+                                 const std::function<bool()>& interrupted);
+
+/// What the plants that were judged amount to. Fills all but law, case and source of a section.
+void summarise(const design::MonteCarloRun& run, const PlantDistribution& distribution,
+               MonteCarloSection& section);
+
+/// A few sentences that say what the numbers mean.
+std::vector<std::string> conclude(const MonteCarloSection& section);
+
+/// The report for a terminal; as JSON (docs/montecarlo.schema.json); every plant as CSV.
+std::string to_text(const MonteCarloSection& section);
+std::string to_json(const MonteCarloSection& section);
+std::string to_csv(const MonteCarloOutcome& outcome);
+
+}  // namespace boresight::app

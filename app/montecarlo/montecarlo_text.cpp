@@ -1,0 +1,198 @@
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <boresight/app/montecarlo/montecarlo_study.hpp>
+#include <boresight/app/report/sky_units.hpp>
+#include <boresight/app/report/text_layout.hpp>
+#include <boresight/app/report/text_report.hpp>
+
+namespace boresight::app {
+namespace {
+
+using Rows = std::vector<std::vector<std::string>>;
+using design::DistributionSummary;
+using design::EstimatedNumber;
+
+std::string fixed(double value, int decimals) {
+  return std::isfinite(value) ? fmt::format("{:.{}f}", value, decimals) : "-";
+}
+
+std::string with_interval(const EstimatedNumber& estimate, double unit, int decimals) {
+  return fmt::format("{} [{}, {}]", fixed(estimate.value / unit, decimals),
+                     fixed(estimate.lower / unit, decimals),
+                     fixed(estimate.upper / unit, decimals));
+}
+
+std::string per_cent(const EstimatedNumber& estimate) {
+  return fmt::format("{:.3f} % [{:.3f}, {:.3f}]", 100.0 * estimate.value, 100.0 * estimate.lower,
+                     100.0 * estimate.upper);
+}
+
+void add_distribution(Rows& rows, const std::string& name, const DistributionSummary& summary,
+                      double unit, int decimals) {
+  std::vector<std::string> row{name, with_interval(summary.mean, unit, decimals),
+                               fixed(summary.standard_deviation.value / unit, decimals)};
+  for (const auto& [share, value] : summary.quantiles) {
+    if (share < 0.05 || share == 0.25 || share == 0.75) continue;
+    row.push_back(with_interval(value, unit, decimals));
+  }
+  row.push_back(fixed(summary.largest / unit, decimals));
+  rows.push_back(std::move(row));
+}
+
+std::string distributions_text(const MonteCarloSection& section) {
+  Rows rows{{"", "mean", "sd", "5 %", "50 %", "95 %", "99 %", "largest"}};
+  add_distribution(rows, "beam rms, mdeg", section.beam_rms, millidegree, 4);
+  for (const auto& [band, loss, climate_loss] : section.losses) {
+    add_distribution(rows, fmt::format("loss {}, dB", band.name), loss, 1.0, 4);
+  }
+  if (section.climate_rms) {
+    add_distribution(rows, "climate rms, mdeg", *section.climate_rms, millidegree, 4);
+    for (const auto& [band, loss, climate_loss] : section.losses) {
+      if (climate_loss) {
+        add_distribution(rows, fmt::format("climate loss {}, dB", band.name), *climate_loss, 1.0,
+                         4);
+      }
+    }
+  }
+  if (section.retuned) {
+    add_distribution(rows, "rms re-tuned, mdeg", section.retuned->beam_rms, millidegree, 4);
+    add_distribution(rows, "price of one law, %", section.retuned->price, 0.01, 2);
+  }
+  std::string text = heading("Distribution over the plants that are stable");
+  text += table(rows, "l");
+  text += wrapped(
+      fmt::format("[ ]: 95 % intervals of the sampling alone, by {} stable plants; the "
+                  "distribution that plants are drawn from is taken as it is. Losses: mean of two "
+                  "equal axes of a Gaussian beam. One axis, linear, wind model {}, mean speed {:g} "
+                  "m/s{}.",
+                  section.stable, plant::to_string(section.wind_model), section.wind_speed,
+                  section.climate ? "; climate: the mean square over the site's wind climate" : ""),
+      "  ");
+  if (section.retuned) {
+    text += wrapped(
+        fmt::format(
+            "Re-tuned: a law of the same structure for each plant alone, from the held one; "
+            "found for {} of {} plants, {} of which the held law does not keep stable. "
+            "Price: held over re-tuned rms, less 1.",
+            section.retuned->found, section.plants, section.retuned->only_retuned),
+        "  ");
+  }
+  return text;
+}
+
+std::string probabilities_text(const MonteCarloSection& section) {
+  Rows rows{{"", "probability"}};
+  rows.push_back({"not stable", per_cent(section.instability)});
+  for (const auto& [budget, met] : section.budgets) {
+    rows.push_back({fmt::format("budget met: {} ({}, {:.4f} mdeg)", budget.name, budget.band,
+                                budget.rms / millidegree),
+                    per_cent(met)});
+  }
+  for (const auto& [goal, broken] : section.goals_broken) {
+    rows.push_back({fmt::format("goal broken: {}", goal), per_cent(broken)});
+  }
+  rows.push_back({"all hard goals met", per_cent(section.all_goals_met)});
+  std::string text = heading("Probabilities");
+  text += table(rows, "l");
+  text += wrapped(
+      fmt::format("Of {} plants, with 95 % intervals (Clopper and Pearson). A plant that is not "
+                  "stable meets no budget; goals broken are those of stable plants, by more than "
+                  "0.01 % of the limit.",
+                  section.plants),
+      "  ");
+  return text;
+}
+
+std::string stability_text(const MonteCarloSection& section) {
+  std::string text = heading("Stability");
+  text += wrapped(
+      fmt::format("{} plants stable, {} unstable, {} undecided. By closed-loop eigenvalues for the "
+                  "{} with a sensitivity peak above {:g}, unstable along the frequencies, or of a "
+                  "number that {} divides; they contradicted the winding along the frequencies {} "
+                  "times. The others by the winding alone.",
+                  section.stable, section.unstable, section.undecided, section.confirmed,
+                  section.confirm_peak, section.confirm_every, section.contradicted),
+      "  ");
+  return text;
+}
+
+std::string plants_text(const MonteCarloSection& section, const std::vector<NotablePlant>& plants,
+                        std::size_t most) {
+  Rows rows{{"plant"}};
+  for (const auto input : section.inputs) rows[0].emplace_back(to_string(input));
+  for (const auto* name : {"rms mdeg", "S rate", "S valve", "S pos.", "effort rad/s"}) {
+    rows[0].emplace_back(name);
+  }
+  for (const auto& plant : plants) {
+    if (rows.size() > most) break;
+    std::vector<std::string> row{fmt::format("{}", plant.index)};
+    for (const auto input : section.inputs) row.push_back(fmt::format("{:.4f}", plant.draw[input]));
+    row.push_back(fixed(plant.outcome.beam_rms / millidegree, 4));
+    for (const double peak : plant.outcome.sensitivity_peaks) row.push_back(fixed(peak, 3));
+    row.push_back(fixed(plant.outcome.valve_effort, 3));
+    rows.push_back(std::move(row));
+  }
+  return table(rows, "r");
+}
+
+}  // namespace
+
+std::string to_text(const MonteCarloSection& section) {
+  std::string text =
+      fmt::format("Boresight {} montecarlo: {} ({} axis)\ncase {}, seed {}\n", BORESIGHT_VERSION,
+                  section.title, section.axis, section.case_path, section.seed);
+  if (section.interrupted) {
+    text += fmt::format("INTERRUPTED: {} of {} plants were judged; what follows is of these.\n",
+                        section.plants, section.plants_asked);
+  }
+  text += heading("Law and plants");
+  text += wrapped(fmt::format("{}: {}.", section.structure, section.law_source), "  ");
+  Rows gains{{"gain", "value"}};
+  for (std::size_t i = 0; i < section.gains.size(); ++i) {
+    gains.push_back({section.law.structure.gains()[i].name, section.gains[i]});
+  }
+  text += table(gains, "ll");
+  std::vector<std::string_view> names;
+  for (const auto input : section.inputs) names.push_back(to_string(input));
+  text += wrapped(fmt::format("{} plants, {}: {}.", section.plants, section.distribution,
+                              fmt::join(names, ", ")),
+                  "  ");
+  text += distributions_text(section);
+  text += probabilities_text(section);
+  text += stability_text(section);
+  if (!section.unstable_plants.empty()) {
+    constexpr std::size_t most = 10;
+    text += heading("Plants that are not stable");
+    text += plants_text(section, section.unstable_plants, most);
+    if (section.unstable + section.undecided > most) {
+      text +=
+          wrapped(fmt::format("The first {} of {}; --json lists {}, --csv all.", most,
+                              section.unstable + section.undecided, section.unstable_plants.size()),
+                  "  ");
+    }
+  }
+  text += heading("Worst stable plants");
+  text += plants_text(section, section.worst, section.worst.size());
+  text += wrapped(
+      "Inputs: factors on the numbers of the case (identified, where there are records), friction "
+      "slope in N m s/rad at the motor shaft.",
+      "  ");
+  text += heading("What moves the rms");
+  Rows rows{{"input", "rank correlation"}};
+  for (const auto& [input, with_rms] : section.correlations) {
+    rows.push_back(
+        {std::string(to_string(input)), fmt::format("{:+.3f} [{:+.3f}, {:+.3f}]", with_rms.value,
+                                                    with_rms.lower, with_rms.upper)});
+  }
+  text += table(rows, "l");
+  text += assumed_text(section.assumed);
+  text += heading("What the numbers mean");
+  for (const auto& sentence : section.conclusions) text += wrapped(sentence, "  ") + "\n";
+  return text;
+}
+
+}  // namespace boresight::app

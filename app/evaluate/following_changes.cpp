@@ -74,11 +74,13 @@ void check_changed_range(const ProposedChange& change, Kind kind, const Range& r
                          double value) {
   const bool within = range.minimum_excluded ? value > range.minimum : value >= range.minimum;
   if (within && value <= range.maximum) return;
-  const std::string unit(kind == Kind::number ? std::string_view("") : describe(kind).si_unit);
-  refuse_change(change, fmt::format("expected a result {} {:g}{} to {:g} {}, found {:g} {}",
-                                    range.minimum_excluded ? "above" : "from", range.minimum,
-                                    range.minimum_excluded ? " and up" : "", range.maximum, unit,
-                                    value, unit));
+  const std::string unit = kind == Kind::number ? "" : fmt::format(" {}", describe(kind).si_unit);
+  const std::string least =
+      fmt::format("{} {:g}{}", range.minimum_excluded ? "above" : "from", range.minimum, unit);
+  const std::string most =
+      range.maximum < 1e299 ? fmt::format(" to {:g}{}", range.maximum, unit) : "";
+  refuse_change(change,
+                fmt::format("expected a result {}{}, found {:g}{}", least, most, value, unit));
 }
 
 void follow_sampling(const Case& before, const Proposal& proposal, Case& after) {

@@ -1,0 +1,287 @@
+// What follows from a proposal's changes, and changes that contradict one another.
+#include <numbers>
+#include <string>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "edited_case.hpp"
+#include <boresight/app/evaluate/evaluate_study.hpp>
+#include <boresight/app/evaluate/proposed_case.hpp>
+#include <boresight/app/tune/plant_members.hpp>
+#include <boresight/plant/error.hpp>
+
+namespace boresight::app {
+namespace {
+
+using ::testing::HasSubstr;
+
+const std::string head = "name = 'a'\ndescription = 'b'\n[cost]\namount = 1\ncurrency = 'kUSD'\n";
+
+const Case& as_is() {
+  static const Case antenna = read_case(case_path("dss14-70m"));
+  return antenna;
+}
+
+ProposedCase with(const std::string& text) {
+  return apply_proposal(as_is(), parse_proposal(head + text, "p.toml"));
+}
+
+std::string refusal(const std::string& text) {
+  try {
+    with(text);
+  } catch (const InvalidInput& error) {
+    return error.what();
+  }
+  return "accepted";
+}
+
+double leakage(const Case& antenna) {
+  return antenna.drive.leakage_rate.value;
+}
+
+const DerivedChange* find(const ProposedCase& proposed, const std::string& quantity) {
+  for (const auto& one : proposed.consequences) {
+    if (one.quantity == quantity) return &one;
+  }
+  return nullptr;
+}
+
+TEST(ProposedCase, LeakageRateFollowsVolumesAndBulkModulus) {
+  const Case volumes =
+      with("[oil]\nvolume_1 = { factor = '0.5' }\nvolume_2 = { factor = '0.25' }\n").antenna;
+  const auto& oil = as_is().oil;
+  const double sides = (2.0 / oil.volume_1.value + 4.0 / oil.volume_2.value) /
+                       (1.0 / oil.volume_1.value + 1.0 / oil.volume_2.value);
+  EXPECT_NEAR(leakage(volumes) / leakage(as_is()), sides, 1e-12);
+  EXPECT_NEAR(oil_stiffness(volumes) / oil_stiffness(as_is()), sides, 1e-12);
+  const Case stiff = with("[oil]\nbulk_modulus = { factor = '1.3' }\n").antenna;
+  EXPECT_NEAR(leakage(stiff) / leakage(as_is()), 1.3, 1e-12);
+  for (const Case* one : {&volumes, &stiff}) {
+    EXPECT_NEAR(oil_stiffness(*one) / leakage(*one), oil_stiffness(as_is()) / leakage(as_is()),
+                1e-10);
+  }
+}
+
+TEST(ProposedCase, StatedLeakageIsTheChangedDrives) {
+  const Case stated =
+      with("[oil]\nbulk_modulus = { factor = '1.3' }\n[drive]\nleakage_rate = '2 1/s'\n").antenna;
+  EXPECT_DOUBLE_EQ(leakage(stated), 2.0);
+  // A factor is one on the hardware's coefficient, on top of what follows.
+  const Case factor =
+      with("[oil]\nbulk_modulus = { factor = '1.3' }\n[drive]\nleakage_rate = { factor = '0.5' }\n")
+          .antenna;
+  EXPECT_NEAR(leakage(factor) / leakage(as_is()), 0.65, 1e-12);
+}
+
+TEST(ProposedCase, DisplacementChangesAllThatPressureAndFlowDo) {
+  const auto proposed = with("[motor]\ndisplacement = { factor = '1.41' }\n");
+  const Case& larger = proposed.antenna;
+  EXPECT_NEAR(oil_stiffness(larger) / oil_stiffness(as_is()), 1.41 * 1.41, 1e-12);
+  EXPECT_NEAR(supply_torque(larger) / supply_torque(as_is()), 1.41, 1e-12);
+  EXPECT_DOUBLE_EQ(leakage(larger), leakage(as_is()));
+  EXPECT_NEAR(larger.sensors.torque_noise->value / as_is().sensors.torque_noise->value, 1.41,
+              1e-12);
+  EXPECT_NEAR(larger.simulation->valve_stroke.value / as_is().simulation->valve_stroke.value,
+              1.0 / 1.41, 1e-12);
+  EXPECT_NEAR(larger.goals.valve_effort.value / as_is().goals.valve_effort.value, 1.0 / 1.41,
+              1e-12);
+  ASSERT_NE(find(proposed, "oil stiffness K"), nullptr);
+  EXPECT_THAT(find(proposed, "oil stiffness K")->follows_from, HasSubstr("D^2"));
+  ASSERT_NE(find(proposed, "leakage damper K/lambda"), nullptr);
+  EXPECT_EQ(find(proposed, "leakage rate"), nullptr);
+}
+
+TEST(ProposedCase, MoreMotorsCountInEverything) {
+  const Case more = with("[motor]\ncount = 8\n").antenna;
+  EXPECT_NEAR(oil_stiffness(more) / oil_stiffness(as_is()), 4.0, 1e-12);
+  EXPECT_NEAR(supply_torque(more) / supply_torque(as_is()), 2.0, 1e-12);
+  EXPECT_NEAR(motor_inertia(more, 24) / motor_inertia(as_is(), 24), 2.0, 1e-12);
+  EXPECT_NEAR(gear_train_inertia(more) / gear_train_inertia(as_is()), 2.0, 1e-12);
+  EXPECT_NEAR(leakage(more) / leakage(as_is()), 2.0, 1e-12);
+}
+
+TEST(ProposedCase, GearRatioChangesEveryReflection) {
+  const auto proposed = with("[[gear_train.stage]]\nnumber = 5\ndriven_teeth = '1508'\n");
+  const Case& geared = proposed.antenna;
+  EXPECT_NEAR(gear_ratio(geared) / gear_ratio(as_is()), 2.0, 1e-12);
+  EXPECT_NEAR(antenna_inertia(geared) / antenna_inertia(as_is()), 0.25, 1e-12);
+  // All bodies stand before the last stage.
+  EXPECT_NEAR(gear_train_inertia(geared) / gear_train_inertia(as_is()), 1.0, 1e-12);
+  const auto before = make_problem(as_is()), after = make_problem(geared);
+  EXPECT_NEAR(after.noise.encoder_rms / before.noise.encoder_rms, 2.0, 1e-12);
+  EXPECT_NEAR(after.noise.tachometer_rms / before.noise.tachometer_rms, 1.0, 1e-12);
+  // The gear spring turns with the antenna: its frequency with the rotor locked stays.
+  EXPECT_NEAR(after.plant.structure.gear_stiffness / before.plant.structure.gear_stiffness, 0.25,
+              1e-9);
+  const Eigen::ArrayXd frequency = Eigen::ArrayXd::Constant(1, 1.0);
+  EXPECT_NEAR(design::motor_wind_spectrum(after, frequency)(0) /
+                  design::motor_wind_spectrum(before, frequency)(0),
+              0.25, 1e-9);
+  EXPECT_NEAR(geared.simulation->backlash->value / as_is().simulation->backlash->value, 2.0, 1e-12);
+  EXPECT_NEAR(geared.simulation->offset_torque.value / as_is().simulation->offset_torque.value, 0.5,
+              1e-12);
+  EXPECT_LT(tracking_friction(geared), tracking_friction(as_is()));
+  for (const char* quantity : {"slew rate at the motor", "tracking rate at the motor",
+                               "friction level at the sky", "encoder noise at the motor"}) {
+    ASSERT_NE(find(proposed, quantity), nullptr) << quantity;
+    EXPECT_NEAR(find(proposed, quantity)->after / find(proposed, quantity)->before, 2.0, 1e-12)
+        << quantity;
+  }
+}
+
+TEST(ProposedCase, FirstStageLeavesTheMotorsAlone) {
+  const Case geared = with("[[gear_train.stage]]\nnumber = 1\ndriven_teeth = '268'\n").antenna;
+  const auto& assemblies = as_is().gear_train.assemblies;
+  const double at_motors =
+      static_cast<double>(assemblies.back().count) * assemblies.back().inertia->value;
+  EXPECT_NEAR(gear_train_inertia(geared) - at_motors,
+              0.25 * (gear_train_inertia(as_is()) - at_motors), 1e-12);
+}
+
+TEST(ProposedCase, FlywheelsChangeTheMotorsInertiaOnly) {
+  const Case bare = with("[motor]\nflywheel_disks = 0\n").antenna;
+  const auto& motor = as_is().motor;
+  EXPECT_NEAR(motor_inertia(bare, bare.motor.flywheel_disks), motor_inertia(as_is(), 0.0), 1e-12);
+  EXPECT_NEAR(bare.motor.inertia.value, motor.inertia.value - 24.0 * motor.disk_inertia.value,
+              1e-12);
+  EXPECT_DOUBLE_EQ(oil_stiffness(bare), oil_stiffness(as_is()));
+  const auto plant = make_plant(bare), own = make_plant(as_is(), {.flywheel_disks = 0.0});
+  EXPECT_NEAR(plant.drive.motor_inertia, own.drive.motor_inertia, 1e-12);
+}
+
+TEST(ProposedCase, LinesCarryTheirShareOfTheVolumes) {
+  const Case near = with("[oil]\nline_lengths = { factor = '0.1' }\nline_share = '0.9'\n").antenna;
+  EXPECT_NEAR(near.oil.volume_1.value / as_is().oil.volume_1.value, 0.19, 1e-12);
+  EXPECT_NEAR(leakage(near) / leakage(as_is()), 1.0 / 0.19, 1e-9);
+  // The lines' pressure waves are faster, the oil the same.
+  EXPECT_NEAR(near.oil.lines[0].slosh_frequency.value / as_is().oil.lines[0].slosh_frequency.value,
+              10.0, 1e-12);
+  EXPECT_NEAR(bulk_modulus(near), bulk_modulus(as_is()), 1e-3);
+}
+
+TEST(ProposedCase, PressureFeedsTheValve) {
+  const Case strong = with("[drive]\nsupply_pressure = { factor = '1.5' }\n").antenna;
+  EXPECT_NEAR(supply_torque(strong) / supply_torque(as_is()), 1.5, 1e-12);
+  const double returned = as_is().simulation->return_pressure.value;
+  const double supply = as_is().drive.supply_pressure.value;
+  EXPECT_NEAR(strong.simulation->valve_stroke.value / as_is().simulation->valve_stroke.value,
+              std::sqrt((1.5 * supply - returned) / (supply - returned)), 1e-12);
+}
+
+TEST(ProposedCase, SamplingSetsDeadTimeAndNoiseBandwidth) {
+  const Case fast = with("[controller]\nsample_rate = '200 Hz'\n").antenna;
+  EXPECT_NEAR(fast.controller_delay.value, 1.5 / 200.0, 1e-15);
+  EXPECT_NEAR(fast.sensors.noise_bandwidth.value, 100.0, 1e-12);
+}
+
+TEST(ProposedCase, StatedRangesOfTheEnsembleFollow) {
+  EditedCase edited;
+  const Case ranged = parse_case(
+      edited.text() + "[ensemble]\nleakage_rate = { lower = '0.5 1/s', upper = '1.5 1/s' }\n",
+      case_path("dss14-70m"));
+  const auto proposed = apply_proposal(
+      ranged, parse_proposal(head + "[oil]\nbulk_modulus = { factor = '2' }\n", "p"));
+  const auto before = member_ranges(ranged), after = member_ranges(proposed.antenna);
+  EXPECT_NEAR(after.leakage_rate.lower / before.leakage_rate.lower, 2.0, 1e-12);
+  EXPECT_NEAR(after.leakage_rate.upper / before.leakage_rate.upper, 2.0, 1e-12);
+}
+
+TEST(ProposedCase, DrawsAreFactorsOnWhatTheProposalMakes) {
+  const Case stiff = with("[oil]\nbulk_modulus = { factor = '2' }\n").antenna;
+  const auto draw = PlantDistribution::of_ranges(as_is()).draw(1, 5);
+  const auto before = proposed_plant(as_is(), as_is(), draw);
+  const auto after = proposed_plant(as_is(), stiff, draw);
+  EXPECT_NEAR(after.drive.oil_stiffness / before.drive.oil_stiffness, 2.0, 1e-12);
+  EXPECT_NEAR(after.drive.leakage_rate / before.drive.leakage_rate, 2.0, 1e-12);
+  EXPECT_DOUBLE_EQ(after.drive.viscous_friction, before.drive.viscous_friction);
+  // The friction slope is that of the same curve at another rate of the motor.
+  const Case geared = with("[[gear_train.stage]]\nnumber = 5\ndriven_teeth = '1508'\n").antenna;
+  EXPECT_NEAR(
+      proposed_plant(as_is(), geared, draw).drive.viscous_friction / before.drive.viscous_friction,
+      tracking_friction(geared) / tracking_friction(as_is()), 1e-12);
+}
+
+TEST(ProposedCase, RefusesContradictions) {
+  const std::array<std::pair<const char*, const char*>, 19> refusals{{
+      {"[motor]\nflywheel_disks = 12\ninertia = '0.3007 kg.m2'\n",
+       "p.toml:8:11: motor.inertia: expected the 0.1524 kg.m2 that 12 disks make of the case's "
+       "motor, within 1 %, found 0.3007 kg.m2: motor.flywheel_disks and its parts contradict it"},
+      {"[motor]\ncount = { factor = 0.3 }\n", "motor.count: expected a whole number of motors"},
+      {"[motor]\ndisplacement = { factor = 0 }\n", "motor.displacement: expected a result"},
+      {"[oil]\nline_lengths = { factor = 0.1 }\n",
+       "oil.line_lengths: expected line_share (the share of each volume that is lines) or "
+       "the volumes beside it, found neither"},
+      {"[oil]\nline_lengths = { factor = 0.1 }\nvolume_1 = '0.02 m3'\n",
+       "expected both volumes beside it, found no oil.volume_2"},
+      {"[oil]\nline_lengths = { factor = 0.5 }\nvolume_1 = '0.03 m3'\nvolume_2 = '0.02 m3'\n",
+       "oil.volume_1: expected 0.01227 to 0.02455 m3, all that lines of 0.5 times the length can "
+       "make of 0.02455 m3, found 0.03 m3: oil.line_lengths contradicts it"},
+      {"[oil]\nline_lengths = { factor = 0.5 }\nline_share = 0.5\nvolume_1 = '0.02 m3'\n",
+       "oil.line_share: expected either line_share, from which the volumes follow, or volume_1 and "
+       "volume_2, found both"},
+      {"[[gear_train.stage]]\nnumber = 6\ndriven_teeth = 100\n",
+       "expected a stage from 1 to 5, the case's, found 6"},
+      {"[[gear_train.stage]]\nnumber = 1\ndriven_teeth = { factor = 1.41 }\n",
+       "expected a whole number of teeth, found 188.94"},
+      {"[[gear_train.assembly]]\nname = 'J6'\ninertia = '1 kg.m2'\n",
+       "expected an assembly of the case ('J1', 'J2', 'J3', 'J4', 'Jct'), found 'J6'"},
+      {"[structure]\nmode_frequencies = { factor = 0.8 }\n",
+       "structure.mode_frequencies: expected a locked-rotor frequency below every mode"},
+      {"[structure]\nlocked_rotor_frequency = '3 Hz'\n",
+       "structure.locked_rotor_frequency: expected a locked-rotor frequency below every mode"},
+      {"[structure]\nmode_damping_ratios = { factor = 200 }\n",
+       "structure.mode_damping_ratios: expected a result from 0 to 1, found 2"},
+      {"[controller]\nsample_rate = '10 Hz'\n",
+       "controller.sample_rate: expected a sampling of at least 12.4 Hz, twice the fastest mode of "
+       "the structure (6.2 Hz), found 10 Hz"},
+      {"[controller]\ndelay = '0.2 s'\n",
+       "controller.delay: expected a sampling of at least 12.4 Hz, twice the fastest mode of the "
+       "structure (6.2 Hz), found 7.5 Hz by the delay of one and a half samples"},
+      {"[controller]\nsample_rate = '20 Hz'\ndelay = '0.02 s'\n",
+       "controller.delay: expected at least the 0.025 s that holding a sample takes"},
+      {"[drive]\nsupply_pressure = '50 psi'\n",
+       "drive.supply_pressure: expected more than simulation.return_pressure"},
+      {"[friction_curve]\nbreakaway = '5 N.m'\n",
+       "friction_curve.breakaway: expected friction_curve.breakaway of at least "
+       "friction_curve.coulomb, found 5 N.m and 10.33 N.m"},
+      {"", "name: expected a proposal that changes something, found no change and no structures"},
+  }};
+  for (const auto& [text, expected] : refusals) {
+    EXPECT_THAT(refusal(text), HasSubstr(expected)) << text;
+  }
+}
+
+TEST(ProposedCase, RefusesToChangeNothingInManyWords) {
+  for (const char* text :
+       {"[motor]\nflywheel_disks = 24\n", "[motor]\ndisplacement = { factor = 1 }\n",
+        "[motor]\ncount = 4\n", "[drive]\nvalve_damping = 0.7\n",
+        "[[gear_train.stage]]\nnumber = 1\ndriven_teeth = 134\n",
+        "[controller]\nsample_rate = '50 Hz'\n"}) {
+    EXPECT_THAT(refusal(text),
+                HasSubstr("found that every change leaves the case's number as it is"))
+        << text;
+  }
+}
+
+TEST(ProposedCase, RefusesStructuresAndNumbersThatTheCaseHasNot) {
+  const auto proposal = parse_proposal("structures = ['PIDD']\n" + head, "p.toml");
+  try {
+    apply_proposal(as_is(), proposal);
+    FAIL();
+  } catch (const InvalidInput& error) {
+    EXPECT_THAT(error.what(),
+                HasSubstr("p.toml:1:14: structures: expected loop structures, found 'PIDD'"));
+  }
+  const Case small = read_case(case_path("dss14-64m"));
+  try {
+    apply_proposal(small, parse_proposal(head + "[simulation]\nvalve_stroke = '100 rad/s'\n", "p"));
+    if (!small.simulation) FAIL();
+  } catch (const InvalidInput& error) {
+    EXPECT_THAT(error.what(),
+                HasSubstr("simulation.valve_stroke: expected a number that the case has"));
+  }
+}
+
+}  // namespace
+}  // namespace boresight::app

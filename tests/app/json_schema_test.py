@@ -26,13 +26,16 @@ RECORDED = "recorded"
 RECORDS = ("slosh", "fast_ramp", "constant_speed_0.14deg_s", "valve_steps")
 CHEAP = ("audit", "identify", "model")
 SECTIONS = {"audit": "audit", "identify": "identification", "model": "plant", "match": "matching"}
+# Cheap to evaluate: what is checked is the report, not the search.
+PROPOSALS = [*(f"cases/{BIG}/proposals/{name}.toml" for name in
+               ("half-flywheels", "pressure-feedback")), "--draws", "100", "--starts", "2"]
 # The 70-m case with the tables that only tuning reads: its own loop, present gains, wind climate.
 TUNED = "tuned"
 
 # A number's key ends in one of these; only whole counts have none.
 UNITS = ("1", "kg_m2", "Pa", "N_m", "N_m_per_rad", "N_m_s_per_rad", "Hz", "s", "per_s", "rad_per_s",
          "rad_per_s_V", "rad_per_s_N_m", "rad_per_N_m", "m_per_s", "deg", "mdeg", "dB", "si")
-COUNTS = {"seed", "degrees_of_freedom", "starts", "starts_at_optimum", "evaluations",
+COUNTS = {"seed", "draws", "degrees_of_freedom", "starts", "starts_at_optimum", "evaluations",
           "seeds_within_1_percent", "checked_numbers", "bytes", "rows", "first_sample", "samples",
           "events", "counted", "outliers", "iterations", "rank", "varied", "motor", "harmonic",
           "ensemble_members", "stable", "stable_members", "within_goals"}
@@ -66,7 +69,8 @@ def run(command, case, threads=2, seed=1):
             case_path.write_text(recorded_case() if case == RECORDED else tuned_case(),
                                  encoding="utf-8")
         process = subprocess.run(
-            [PROGRAM, command, str(case_path), "--json", str(path), "--threads",
+            [PROGRAM, command, str(case_path), *(PROPOSALS if command == "evaluate" else ()),
+             "--json", str(path), "--threads",
              str(threads), "--seed", str(seed)],
             cwd=SOURCE, capture_output=True, text=True, check=True)
         assert process.stderr == "", process.stderr
@@ -81,6 +85,7 @@ def every_report():
     for command in (*CHEAP, "redesign"):
         yield command, BIG, report(command)
     yield "tune", TUNED, report("tune", TUNED)
+    yield "evaluate", BIG, report("evaluate")
     yield "match", BIG, report("match", threads=1)
     for command in CHEAP:
         yield command, SMALL, report(command, SMALL)

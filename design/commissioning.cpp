@@ -150,9 +150,9 @@ class Plants {
   }
 
   // Where the band ends, with what is allowed for measuring; or earlier where the worst plant is at
-  // the peak to give up at, if that is beyond the band.
+  // the peak to give up at, if that is beyond the band by half of what is allowed.
   static double earlier(const PlantBand& expected, double allowed, double at_peak) {
-    return at_peak > expected.upper ? std::min(allowed, at_peak) : allowed;
+    return at_peak > 0.5 * (expected.upper + allowed) ? std::min(allowed, at_peak) : allowed;
   }
 
   void limit(CommissioningStage& stage) {

@@ -51,7 +51,8 @@ struct PlantBand {
 
 /// Beyond any of these: back to the stage before. Each is where the band over the plants ends, with
 /// the allowance for measuring, or earlier: what the worst plant would show with its loop gain
-/// raised until the peak of S is the one to give up at, where that lies beyond the band.
+/// raised until the peak of S is the one to give up at, where that lies beyond the band by half of
+/// the allowance or more.
 struct AbortLimits {
   double overshoot = 0.0;          // share of the step
   double still_valve_rms = 0.0;    // rad/s, in still air

@@ -50,13 +50,12 @@ Json expected_json(const design::StageExpectation& expected, double sky) {
 
 Json sheet_json(const StageSheet& sheet, double sky) {
   Json gains = Json::array();
-  const auto& law = sheet.stage.law.law;
-  for (std::size_t i = 0; i < sheet.gains.size(); ++i) {
-    gains.push_back({{"symbol", sheet.symbols[i]},
-                     {"name", law.structure.gains()[i].name},
-                     {"value", sheet.gains[i]},
-                     {"value_SI", number(law.gains[i])},
-                     {"changed", static_cast<bool>(sheet.changed[i])}});
+  for (const auto& gain : sheet.gains) {
+    gains.push_back({{"symbol", gain.symbol},
+                     {"name", gain.name},
+                     {"value", gain.text},
+                     {"value_SI", number(gain.value)},
+                     {"changed", gain.changed}});
   }
   const auto& abort = sheet.stage.abort;
   return {{"kind", to_string(sheet.stage.kind)},

@@ -117,6 +117,11 @@ std::string range(const PlantBand& band, double unit, int digits) {
                      digits, band.upper / unit, digits);
 }
 
+std::string percent(const PlantBand& band) {
+  return fmt::format("{:.1f} ({:.1f} to {:.1f}) %", 100.0 * band.nominal, 100.0 * band.lower,
+                     100.0 * band.upper);
+}
+
 std::string settling(const PlantBand& band) {
   return std::isfinite(band.upper) ? "settles into 5 % in " + range(band, 1.0, 3) + " s"
                                    : "settles slowly";
@@ -138,9 +143,9 @@ void describe_check(const Case& antenna, StageSheet& sheet) {
   } else {
     sheet.check = fmt::format(
         "Step of the {} command of {:.3g} mdeg{} at the sky: rises (10 % to 90 %) in {} s, "
-        "overshoots by {} %, {}. ",
+        "overshoots by {}, {}. ",
         open ? "rate" : "position", sheet.step / millidegree, open ? "/s" : "",
-        range(expected.rise_time, 1.0, 3), range(expected.overshoot, 0.01, 3),
+        range(expected.rise_time, 1.0, 3), percent(expected.overshoot),
         settling(expected.settling_time));
   }
   sheet.check +=
@@ -191,6 +196,28 @@ void describe_way_back(const StageSheet* before, StageSheet& sheet) {
   }
 }
 
+std::vector<StageGain> acting_gains(const Case& antenna, const design::StageLaw& stage,
+                                    const StageSheet* before) {
+  const auto texts = in_engineers_units(antenna, stage.law);
+  std::vector<StageGain> gains;
+  std::size_t index = 0;
+  for (const auto& block : stage.law.structure.blocks()) {
+    const bool outer =
+        block.path == control::LoopPath::position || block.path == control::LoopPath::compliance;
+    for (const auto& description : block.gains) {
+      StageGain gain{description.symbol, description.name, texts[index], stage.law.gains[index]};
+      ++index;
+      if (outer && stage.position_open) continue;
+      const auto same = [&](const StageGain& other) {
+        return other.symbol == gain.symbol && other.value == gain.value;
+      };
+      gain.changed = before != nullptr && std::ranges::none_of(before->gains, same);
+      gains.push_back(std::move(gain));
+    }
+  }
+  return gains;
+}
+
 std::vector<StageSheet> make_sheets(const Case& antenna, const CommissionReport& report) {
   std::vector<StageSheet> sheets;
   sheets.reserve(report.plan.stages.size());
@@ -198,16 +225,7 @@ std::vector<StageSheet> make_sheets(const Case& antenna, const CommissionReport&
     const StageSheet* before = sheets.empty() ? nullptr : &sheets.back();
     StageSheet sheet;
     sheet.stage = stage;
-    sheet.gains = in_engineers_units(antenna, stage.law.law);
-    for (std::size_t i = 0; i < sheet.gains.size(); ++i) {
-      sheet.symbols.push_back(stage.law.law.structure.gains()[i].symbol);
-      bool same = false;
-      for (std::size_t k = 0; before != nullptr && k < before->symbols.size(); ++k) {
-        same = same || (before->symbols[k] == sheet.symbols[i] &&
-                        before->stage.law.law.gains[k] == stage.law.law.gains[i]);
-      }
-      sheet.changed.push_back(before != nullptr && !same);
-    }
+    sheet.gains = acting_gains(antenna, stage.law, before);
     sheet.step = step_of(antenna, stage);
     describe_check(antenna, sheet);
     describe_abort(antenna, sheet, report);

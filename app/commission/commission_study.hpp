@@ -27,11 +27,18 @@ struct CommissionOptions {
   std::function<bool()> interrupted;
 };
 
+/// A gain of a stage.
+struct StageGain {
+  std::string symbol, name;
+  std::string text;      // in the case's units
+  double value = 0.0;    // SI
+  bool changed = false;  // against the stage before
+};
+
 /// One stage as an engineer reads it.
 struct StageSheet {
   design::CommissioningStage stage;
-  std::vector<std::string> symbols, gains;  // of the stage's law, in the case's units
-  std::vector<bool> changed;                // against the stage before
+  std::vector<StageGain> gains;  // those that act
   double step = 0.0;     // of the command to make: rad/s or rad at the sky, within saturation
   std::string check;     // what to measure, and the values to be expected
   std::string abort;     // beyond what to go back

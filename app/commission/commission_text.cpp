@@ -55,9 +55,8 @@ std::string sheets(const CommissionReport& report) {
     text += fmt::format("\n  {} {}{}\n", i + 1, stage_name(sheet.stage),
                         sheet.stage.law.position_open ? ", position loop open" : "");
     std::vector<std::string> gains;
-    for (std::size_t k = 0; k < sheet.gains.size(); ++k) {
-      gains.push_back(
-          fmt::format("{} = {}{}", sheet.symbols[k], sheet.gains[k], sheet.changed[k] ? " *" : ""));
+    for (const auto& gain : sheet.gains) {
+      gains.push_back(fmt::format("{} = {}{}", gain.symbol, gain.text, gain.changed ? " *" : ""));
     }
     text += wrapped(fmt::format("gains  {}", fmt::join(gains, "; ")), "    ", "       ");
     text += wrapped("check  " + sheet.check, "    ", "       ");
@@ -112,10 +111,11 @@ std::string to_text(const CommissionReport& report) {
   if (report.plan.detuning) {
     text += wrapped(
         fmt::format(
-            "ASSUMED start: the gains of the antenna as found are not used. The plan begins "
-            "with the law's own without pressure feedback and compliance compensation, its "
-            "rate and position gains and position integral corner divided by {:g}: the "
-            "least power of two at which every plant keeps its peaks of S below {:g}.",
+            "ASSUMED start: the case gives no gains as found that this law could be reached from "
+            "([gains]). The plan begins with the law's own without pressure feedback and "
+            "compliance compensation, its rate and position gains and position integral corner "
+            "divided by {:g}: the least power of two at which every plant keeps its peaks of S "
+            "below {:g}.",
             *report.plan.detuning, report.options.sensitivity_limit),
         "  ");
   }
@@ -123,16 +123,22 @@ std::string to_text(const CommissionReport& report) {
   text += wrapped(
       fmt::format(
           "All of this is the linear plant's: make steps from a slow steady motion, clear of "
-          "breakaway, in still air, at most as large as stated (a fifth of the valve's stroke and "
-          "of "
-          "the supply's torque). The move: up to {:.3g} mdeg/s in {:.3g} s, steady, and down "
-          "again. "
-          "A stage counts as passed when every value lies in its brackets; go back when one is "
-          "beyond its abort limit ({:g} of the step beyond the brackets for overshoots, {:g} times "
-          "for an rms, or less where the peak of S would come to {:g}); between the two, find out "
-          "why before going on.",
+          "breakaway, in still air, no larger than stated (a fifth of the valve's stroke and of "
+          "the "
+          "supply's torque). The move: up to {:.3g} mdeg/s in {:.3g} s, steady, and down again. "
+          "The "
+          "rms in still air rest on the case's sensor noise: hold the first stage's against a "
+          "record and scale the others by what it shows.",
           report.move.rate / (report.gear_ratio * millidegree),
-          report.move.rate / report.move.acceleration, report.options.overshoot_allowance,
+          report.move.rate / report.move.acceleration),
+      "  ");
+  text += wrapped(
+      fmt::format(
+          "A stage is passed when every value lies in its brackets, an rms within {:g} times them. "
+          "Go back when one is beyond its abort limit: {:.0f} % of the step above the brackets for "
+          "an overshoot, {:g} times the brackets for an rms, or less where the worst plant's peak "
+          "of S would be {:g}. Between the two, find out why before going on.",
+          report.options.rms_allowance, 100.0 * report.options.overshoot_allowance,
           report.options.rms_allowance, report.options.abort_peak),
       "  ");
   text += "\n" + overview(report);

@@ -282,6 +282,11 @@ CourseScore ControlledCourse::score(TorqueCourse course, const CourseOptions& op
       }
     }
   }
+  // Where the beam only comes near its end there is no peak to be timed.
+  if (result.peak <= std::abs(result.final_value) * (1.0 + 1e-9)) {
+    result.peak = std::abs(result.final_value);
+    result.time_of_peak = std::numeric_limits<double>::infinity();
+  }
   const double band = options.return_share * result.peak;
   const auto error = [&](Index k) {
     return (courses[static_cast<std::size_t>(k)].array() - result.final_value).abs().maxCoeff();

@@ -19,7 +19,7 @@ enum class TorqueCourse { step, impulse };
 struct CourseScore {
   double final_value = 0.0;    // rad per N m (N m s)
   double peak = 0.0;           // largest magnitude of the beam, rad
-  double time_of_peak = 0.0;   // s
+  double time_of_peak = 0.0;   // s; infinite where the beam only approaches its final value
   double largest_error = 0.0;  // largest magnitude less the final value, rad
   /// s, after which the beam stays within `share` of `peak` around the final value; none if it does
   /// not within `horizon`.

@@ -204,6 +204,9 @@ TEST(ControlledCourse, StaticComplianceWithoutIntegralIsLeakageOverTheGains) {
       plant.drive.leakage_rate / (plant.drive.oil_stiffness * kr * kp) + bending;
   const auto score = course.score(TorqueCourse::step);
   EXPECT_NEAR(score.final_value, expected, 1e-9 * expected);
+  // A loop as slow as this one creeps to its end and has no peak.
+  EXPECT_NEAR(score.peak, expected, 1e-9 * expected);
+  EXPECT_EQ(score.time_of_peak, std::numeric_limits<double>::infinity());
   ControlledAntenna loop(plant, law, delay);
   EXPECT_NEAR(loop.at(1e-6).beam_by_wind.real(), expected, 1e-6 * expected);
 }

@@ -1,0 +1,88 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <boresight/app/io/case_file.hpp>
+#include <boresight/app/redesign/antenna_model.hpp>
+#include <boresight/app/simulate/time_domain.hpp>
+#include <boresight/design/rejection_benchmark.hpp>
+
+namespace boresight::app {
+
+/// What is benchmarked: a controller as control::antenna_state_space_controller takes it.
+struct BenchmarkedController {
+  plant::StateSpace system;
+  std::string description;
+  /// The law that the system is the state space of, if it is one: what is not linear is run of laws
+  /// only.
+  std::optional<control::ControlLaw> law;
+  std::vector<std::string> remarks;
+};
+
+/// One quantity of two score sheets.
+struct ComparedQuantity {
+  std::string quantity;  // its place in the JSON score, unit included
+  std::optional<double> own, other;
+};
+
+/// A score sheet of `boresight benchmark`.
+struct BenchmarkReport {
+  std::string case_path, title, axis;
+  std::uint64_t seed = 1;
+  BenchmarkedController controller;
+  double dead_time = 0.0;  // s, of a continuous controller; one sample time of a sampled one
+  double gear_ratio = 1.0;
+  design::WindCondition wind;
+  control::FrequencyBand rms_band;
+  design::HardGoals goals;
+  std::string attitudes;  // which were judged, in words
+  std::string ensemble_source;
+  std::vector<PointingBudget> budgets;
+  design::RejectionScore score;
+  std::optional<TimeDomainSection> time_domain;
+  std::string no_time_domain;  // why there is none
+  std::vector<Quantity> assumed;
+  std::string compared_with;  // description of the other sheet; empty: none
+  std::vector<ComparedQuantity> comparison;
+  bool interrupted = false;
+};
+
+struct BenchmarkOptions {
+  std::uint64_t seed = 1;
+  unsigned threads = 1;
+  std::function<bool()> interrupted;
+  /// Called between parts with those done and all.
+  std::function<void(std::size_t, std::size_t)> progress;
+};
+
+/// The controller of a law: continuous, or in the sampled form that the antenna's computer runs
+/// (sample_time above 0). @throws as control::sampled_law.
+BenchmarkedController controller_of(const control::ControlLaw& law, const std::string& description,
+                                    double sample_time);
+
+/// The time between samples that the case's delay, one and a half of it, speaks of (s).
+double case_sample_time(const Case& antenna);
+
+/// Scores a controller on a case by the protocol. The plant and its ensemble are those that the
+/// case states, its records are not looked into. @throws as design::rejection_benchmark and
+/// verify_in_time_domain.
+BenchmarkReport benchmark(const Case& antenna, const BenchmarkedController& controller,
+                          const BenchmarkOptions& options);
+
+std::string to_text(const BenchmarkReport& report);
+/// docs/benchmark.schema.json.
+std::string to_json(const BenchmarkReport& report);
+
+/// Puts another score sheet (JSON of this command) beside the report's. @throws InvalidInput for
+/// what is no score sheet, one of an unstable loop and one of another protocol.
+void compare_with(BenchmarkReport& report, const std::string& other_json, const std::string& name);
+
+/// Writes compliance.csv, step.csv, impulse.csv and winds.csv into a folder, made if it is not
+/// there, each whole or not at all. @throws InvalidInput if it cannot be written to.
+void write_curves(const BenchmarkReport& report, const Case& antenna, const std::string& folder);
+
+}  // namespace boresight::app

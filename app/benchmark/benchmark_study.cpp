@@ -1,0 +1,201 @@
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <numbers>
+#include <system_error>
+
+#include <fmt/format.h>
+
+#include <boresight/app/benchmark/benchmark_report.hpp>
+#include <boresight/app/io/csv_table.hpp>
+#include <boresight/app/redesign/sections.hpp>
+#include <boresight/app/report/json_report.hpp>
+#include <boresight/app/report/sky_units.hpp>
+#include <boresight/app/tune/plant_members.hpp>
+#include <boresight/control/sampled_law.hpp>
+#include <boresight/control/state_space_controller.hpp>
+#include <boresight/plant/error.hpp>
+
+namespace boresight::app {
+namespace {
+
+constexpr double degree = std::numbers::pi / 180.0;
+constexpr double meganewton = 1e6;
+
+// Attitudes of the protocol that the table covers: every 45 degrees of yaw at every 20 of elevation
+// from 10.
+std::vector<design::WindAttitudeCoefficient> attitudes_of(const Case& antenna) {
+  std::vector<design::WindAttitudeCoefficient> attitudes;
+  if (!antenna.wind.torque_table) return attitudes;
+  for (int elevation = 10; elevation <= 90; elevation += 20) {
+    for (int yaw = -135; yaw <= 180; yaw += 45) {
+      try {
+        attitudes.push_back({fmt::format("yaw {} deg, elevation {} deg", yaw, elevation),
+                             antenna.wind.torque_table->at(yaw * degree, elevation * degree)});
+      } catch (const InvalidInput&) {
+        continue;  // outside the table
+      }
+    }
+  }
+  return attitudes;
+}
+
+Eigen::VectorXd column(std::size_t size) {
+  return Eigen::VectorXd(static_cast<Eigen::Index>(size));
+}
+
+CsvTable course_table(const std::vector<control::CoursePoint>& course, const std::string& unit,
+                      double factor, const std::string& comment) {
+  CsvTable table;
+  table.comments = {comment};
+  Eigen::VectorXd time = column(course.size()), beam = time;
+  for (std::size_t i = 0; i < course.size(); ++i) {
+    time[static_cast<Eigen::Index>(i)] = course[i].time;
+    beam[static_cast<Eigen::Index>(i)] = course[i].beam * factor;
+  }
+  table.columns = {{"time", "s", 6, time}, {"beam", unit, 9, beam}};
+  return table;
+}
+
+}  // namespace
+
+BenchmarkedController controller_of(const control::ControlLaw& law, const std::string& description,
+                                    double sample_time) {
+  BenchmarkedController controller;
+  controller.law = law;
+  controller.description = description;
+  controller.system = control::antenna_state_space_controller(
+      sample_time > 0.0 ? control::sampled_law(law, sample_time) : control::to_state_space(law));
+  return controller;
+}
+
+double case_sample_time(const Case& antenna) {
+  return antenna.controller_delay.value / 1.5;
+}
+
+BenchmarkReport benchmark(const Case& antenna, const BenchmarkedController& controller,
+                          const BenchmarkOptions& options) {
+  const design::TrackingProblem problem = make_problem(antenna);
+  BenchmarkReport report;
+  report.case_path = antenna.path;
+  report.title = antenna.title;
+  report.axis = antenna.axis;
+  report.seed = options.seed;
+  report.controller = controller;
+  const double sample_time = controller.system.sample_time;
+  report.dead_time = sample_time > 0.0 ? sample_time : problem.delay;
+  report.gear_ratio = problem.gear_ratio;
+  report.wind = problem.wind;
+  report.rms_band = problem.rms_band;
+  report.goals = make_goals(antenna);
+  report.budgets = make_budgets(antenna);
+  report.assumed = assumed_inputs(antenna);
+  report.ensemble_source = "drawn from the ranges of the case";
+  const double expected = case_sample_time(antenna);
+  if (sample_time > 0.0 && std::abs(sample_time - expected) > 1e-6 * expected) {
+    report.controller.remarks.push_back(
+        fmt::format("warning: the controller samples every {:g} s, the case's delay of {:g} s "
+                    "speaks of {:g} s (one and a half samples); the controller's own is used, with "
+                    "one sample of computation",
+                    sample_time, problem.delay, expected));
+  }
+
+  design::RejectionOptions scoring;
+  scoring.attitudes = attitudes_of(antenna);
+  scoring.members = plant_members(antenna, options.seed);
+  for (const auto& budget : report.budgets) scoring.budgets.push_back(budget.rms);
+  scoring.sample_time = expected;
+  scoring.threads = options.threads;
+  constexpr std::size_t parts = 5;  // four of the score, and the time domain
+  std::size_t done = 0;
+  scoring.stop = [&] {
+    if (options.progress) options.progress(done, parts);
+    ++done;
+    return options.interrupted && options.interrupted();
+  };
+  report.attitudes =
+      scoring.attitudes.empty()
+          ? fmt::format(
+                "one torque coefficient of {:g} for every attitude: the case has no table "
+                "over yaw and elevation",
+                antenna.wind.torque_coefficient.value)
+          : fmt::format(
+                "{} attitudes of the case's table of torque coefficients, and the case's "
+                "own",
+                scoring.attitudes.size());
+  report.score =
+      design::rejection_benchmark(problem, report.goals, report.controller.system, scoring);
+  report.interrupted = !report.score.left_out.empty();
+  if (!report.score.stable) {
+    report.no_time_domain = "the linear loop is unstable";
+  } else if (scoring.stop()) {
+    report.interrupted = true;
+    report.no_time_domain = "interrupted";
+  } else if (!report.controller.law) {
+    report.no_time_domain =
+        "run for laws of Boresight's structures only: a given state space has no stated limits and "
+        "anti-windup";
+  } else if (!antenna.simulation) {
+    report.no_time_domain = "the case has no [simulation]";
+  } else {
+    report.time_domain =
+        verify_in_time_domain(antenna, problem, *report.controller.law,
+                              report.controller.description, options.seed, options.threads);
+  }
+  return report;
+}
+
+void write_curves(const BenchmarkReport& report, const Case& antenna, const std::string& folder) {
+  std::error_code failure;
+  std::filesystem::create_directories(folder, failure);
+  if (failure) {
+    throw InvalidInput(fmt::format("{}: expected a folder to write to, found none ({})", folder,
+                                   failure.message()));
+  }
+  const auto write = [&](const char* name, const CsvTable& table) {
+    write_atomically((std::filesystem::path(folder) / name).string(), to_csv(table));
+  };
+  const std::string who =
+      fmt::format("{}, protocol {}", report.controller.description, design::rejection_protocol);
+  if (!report.score.stable) return;
+  const auto& compliance = report.score.compliance;
+  Eigen::VectorXd frequency = column(compliance.size()), values = frequency;
+  for (std::size_t i = 0; i < compliance.size(); ++i) {
+    frequency[static_cast<Eigen::Index>(i)] = compliance[i].frequency;
+    values[static_cast<Eigen::Index>(i)] = compliance[i].compliance / millidegree * meganewton;
+  }
+  CsvTable table;
+  table.comments = {who};
+  table.columns = {{"frequency", "Hz", 9, frequency}, {"compliance", "mdeg/(MN.m)", 9, values}};
+  write("compliance.csv", table);
+
+  const design::TrackingProblem problem = make_problem(antenna);
+  const control::ControlledCourse course(problem.plant, report.controller.system, problem.delay);
+  constexpr double longest = 120.0;  // s
+  const double factor = meganewton / millidegree / std::pow(report.gear_ratio, 2);
+  const double shown = std::min(longest, report.score.step.horizon);
+  write("step.csv",
+        course_table(course.beam(control::TorqueCourse::step, shown), "mdeg/(MN.m)", factor, who));
+  write("impulse.csv", course_table(course.beam(control::TorqueCourse::impulse, shown),
+                                    "mdeg/(MN.m.s)", factor, who));
+  const auto& winds = report.score.winds;
+  Eigen::VectorXd speed = column(winds.size()), coefficient = speed, model = speed, torque = speed,
+                  wind = speed, beam = speed;
+  for (std::size_t i = 0; i < winds.size(); ++i) {
+    const auto k = static_cast<Eigen::Index>(i);
+    speed[k] = winds[i].mean_speed;
+    coefficient[k] = winds[i].torque_coefficient;
+    model[k] = static_cast<double>(winds[i].model);
+    torque[k] = winds[i].torque_rms;
+    wind[k] = winds[i].wind_rms / millidegree;
+    beam[k] = winds[i].beam_rms / millidegree;
+  }
+  CsvTable ladder;
+  ladder.comments = {who, "wind model: 0 uniform, 1 vickery, 2 coherence"};
+  ladder.columns = {{"speed", "m/s", 3, speed},    {"coefficient", "1", 6, coefficient},
+                    {"model", "1", 0, model},      {"torque_rms", "N.m", 3, torque},
+                    {"wind_rms", "mdeg", 9, wind}, {"beam_rms", "mdeg", 9, beam}};
+  write("winds.csv", ladder);
+}
+
+}  // namespace boresight::app

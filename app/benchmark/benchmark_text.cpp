@@ -1,0 +1,252 @@
+#include <cmath>
+#include <numbers>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <boresight/app/benchmark/benchmark_report.hpp>
+#include <boresight/app/report/sky_units.hpp>
+#include <boresight/app/report/text_layout.hpp>
+#include <boresight/app/report/text_report.hpp>
+
+namespace boresight::app {
+namespace {
+
+constexpr double two_pi = 2.0 * std::numbers::pi;
+constexpr double per_meganewton = 1e6 / millidegree;
+
+std::string value(double number, const char* format = "{:.4g}") {
+  return std::isfinite(number) ? fmt::format(fmt::runtime(format), number) : "-";
+}
+
+std::string decibel(double factor) {
+  return factor > 0.0 && std::isfinite(factor) ? fmt::format("{:.1f}", 20.0 * std::log10(factor))
+                                               : "none";
+}
+
+std::string limit_text(double speed) {
+  if (speed == 0.0) return "noise alone exceeds it";
+  return std::isfinite(speed) ? fmt::format("{:.1f} m/s", speed) : "beyond 60 m/s";
+}
+
+std::string course_text(const char* name, const char* unit, const control::CourseScore& course,
+                        double torque) {
+  const std::string returned =
+      course.return_time
+          ? fmt::format("back within 5 % of it for good after {:.3g} s", *course.return_time)
+          : fmt::format("not back within 5 % of it for good in {:.3g} s", course.horizon);
+  const std::string timed = std::isfinite(course.time_of_peak)
+                                ? fmt::format("at {:.3g} s", course.time_of_peak)
+                                : "which it only approaches";
+  return wrapped(
+      fmt::format("{}: peak {:.4g} mdeg/{} {}, {}; ends at {:.4g} mdeg/{}; integral of the "
+                  "squared error {:.4g} mdeg2 s/{}2. At the design wind's torque rms, {:.4g} kN m, "
+                  "the peak is {:.4g} mdeg{}.",
+                  name, course.peak * per_meganewton, unit, timed, returned,
+                  course.final_value * per_meganewton, unit,
+                  course.integral_squared_error * std::pow(per_meganewton, 2), unit, torque / 1e3,
+                  course.peak * torque / millidegree,
+                  unit == std::string("(MN m s)") ? " for 1 s of it" : ""),
+      "  ", "  ");
+}
+
+std::string margins_text(const design::RejectionScore& score) {
+  std::vector<std::vector<std::string>> rows{{"loop cut at", "peak of |S|", "at Hz", "gain up dB",
+                                              "gain down dB", "phase deg", "delay ms"}};
+  for (const auto& one : score.breaks) {
+    std::vector<std::string> row{std::string(control::to_string(one.loop_break))};
+    if (!one.margins) {
+      row.insert(row.end(), {"no such loop", "-", "-", "-", "-", "-"});
+    } else {
+      const auto& margins = *one.margins;
+      row.insert(
+          row.end(),
+          {value(margins.sensitivity.magnitude, "{:.3f}"),
+           value(margins.sensitivity.frequency / two_pi, "{:.3g}"),
+           decibel(margins.increasing_gain_margin), decibel(margins.decreasing_gain_margin),
+           value(margins.phase_margin_deg, "{:.1f}"), value(margins.delay_margin * 1e3, "{:.1f}")});
+    }
+    rows.push_back(std::move(row));
+  }
+  return table(rows);
+}
+
+std::string ladder_text(const std::vector<design::WindScore>& winds) {
+  // A row a model and attitude, a column a speed.
+  std::vector<std::vector<std::string>> rows{{"beam rms, mdeg"}};
+  for (const double speed : design::rejection_speeds)
+    rows[0].push_back(fmt::format("{:g} m/s", speed));
+  std::string before;
+  for (const auto& wind : winds) {
+    const std::string name = fmt::format("{}{}{}", plant::to_string(wind.model),
+                                         wind.attitude.empty() ? "" : ", ", wind.attitude);
+    if (name != before) rows.push_back({name});
+    before = name;
+    rows.back().push_back(value(wind.beam_rms / millidegree, "{:.3f}"));
+  }
+  return table(rows);
+}
+
+std::string reference_text(const BenchmarkReport& report) {
+  const auto& reference = *report.score.reference;
+  const double rms = report.score.design_wind.beam_rms;
+  std::string text = fmt::format(
+      "Beam rms {:.4g} mdeg is {:.3f} times the bending that no encoder sees ({:.4g} mdeg with the "
+      "encoder held perfectly still; no bound, a loop can move the encoder against it)",
+      rms / millidegree, rms / reference.encoder_held_rms,
+      reference.encoder_held_rms / millidegree);
+  if (reference.least_rms && reference.least_rms_at_own_effort &&
+      *reference.least_rms_at_own_effort > 0.0) {
+    text += fmt::format(
+        ", {:.3f} times the least of any linear sampled controller with the goal's valve effort "
+        "({:.4g} mdeg) and {:.3f} times that with its own effort ({:.4g} mdeg), whatever their "
+        "margins.",
+        rms / *reference.least_rms, *reference.least_rms / millidegree,
+        rms / *reference.least_rms_at_own_effort, *reference.least_rms_at_own_effort / millidegree);
+  } else {
+    text += "; the least of any controller is not known for sensors without stated noise.";
+  }
+  return wrapped(text, "  ", "  ");
+}
+
+std::string nonlinear_text(const TimeDomainSection& section) {
+  std::string text;
+  for (const auto& one : section.result.hunting) {
+    const std::string motion = one.rate == 0.0 ? "At rest" : "At the tracking rate";
+    if (one.status != design::RunStatus::complete) {
+      text += fmt::format("{}: run {}. ", motion, design::to_string(one.status));
+    } else if (one.limit_cycle) {
+      text += fmt::format("{}: limit cycle of +-{:.3g} mdeg at the beam{}. ", motion,
+                          one.beam_amplitude / millidegree,
+                          one.frequency ? fmt::format(", {:.3g} Hz", *one.frequency) : "");
+    } else {
+      text += fmt::format("{}: no limit cycle above the encoder's resolution. ", motion);
+    }
+  }
+  const auto& reversal = section.result.reversal;
+  if (reversal && reversal->status == design::RunStatus::complete) {
+    text +=
+        fmt::format("Reversal at the tracking rate: beam error {:.3g} mdeg, encoder {:.3g} mdeg. ",
+                    reversal->beam_error / millidegree, reversal->encoder_error / millidegree);
+  }
+  text += fmt::format(
+      "One record of the design wind on the nonlinear antenna: {:.4g} mdeg rms, {:.4g} predicted "
+      "by "
+      "the linear loop. Sampled every {:g} s; friction as the case states it.",
+      section.result.wind.beam_rms / millidegree, section.result.wind.predicted_rms / millidegree,
+      section.sample_time);
+  return wrapped(text, "  ", "  ");
+}
+
+std::string comparison_text(const BenchmarkReport& report) {
+  std::vector<std::vector<std::string>> rows{{"quantity", "this", "other", "this/other"}};
+  for (const auto& row : report.comparison) {
+    const bool both = row.own && row.other && *row.other != 0.0;
+    rows.push_back({row.quantity, row.own ? value(*row.own, "{:.5g}") : "-",
+                    row.other ? value(*row.other, "{:.5g}") : "-",
+                    both ? value(*row.own / *row.other, "{:.4f}") : "-"});
+  }
+  return heading("Beside another score sheet") + wrapped(report.compared_with, "  ", "  ") + "\n" +
+         table(rows);
+}
+
+}  // namespace
+
+std::string to_text(const BenchmarkReport& report) {
+  const design::RejectionScore& score = report.score;
+  const auto& system = report.controller.system;
+  std::vector<std::string> read = system.inputs;
+  std::erase(read, "rate_disturbance");
+  std::string text = fmt::format("{}\n{}\n", report.title, report.case_path);
+  text += heading(fmt::format("Disturbance rejection, protocol {}", design::rejection_protocol));
+  text += wrapped(
+      fmt::format("Controller: {}; {}, {} states, reads {}.", report.controller.description,
+                  system.sample_time > 0.0
+                      ? fmt::format("sampled every {:g} s with one sample of computation",
+                                    system.sample_time)
+                      : fmt::format("continuous with a dead time of {:g} s", report.dead_time),
+                  system.a.rows(), fmt::join(read, ", ")),
+      "  ", "  ");
+  for (const auto& remark : report.controller.remarks) text += wrapped(remark, "  ", "  ");
+  text += wrapped(
+      fmt::format(
+          "Linear plant as the case states it; wind model {}, design wind {:g} m/s, "
+          "{}; rms of one axis over {:g} to {:g} Hz about the mean. Torques at the antenna's "
+          "axis, angles at the sky.",
+          plant::to_string(report.wind.model), report.wind.mean_speed, report.attitudes,
+          report.rms_band.lowest, report.rms_band.highest),
+      "  ", "  ");
+  if (!score.stable) {
+    text += wrapped(
+        fmt::format(
+            "The closed loop is UNSTABLE: slowest pole at {:+.4g} 1/s (dead time exact). An "
+            "unstable loop has no score.",
+            score.abscissa),
+        "  ", "  ");
+    return text + assumed_text(report.assumed);
+  }
+  text += fmt::format("  Stable: slowest pole at {:.4g} 1/s.{}\n", score.abscissa,
+                      !score.rate_loop_stable   ? " No rate loop of its own."
+                      : *score.rate_loop_stable ? " Rate loop alone stable."
+                                                : " Rate loop alone UNSTABLE.");
+  text += heading("Torque at the dish");
+  text += course_text("Step", "(MN m)", score.step, score.design_wind.torque_rms);
+  text += course_text("Impulse", "(MN m s)", score.impulse, score.design_wind.torque_rms);
+  const std::string bracket =
+      score.worst.closed
+          ? fmt::format("{:.6g} to {:.6g} mdeg/(MN m), no frequency has more",
+                        score.worst.lower * per_meganewton, score.worst.upper * per_meganewton)
+          : fmt::format("at least {:.6g} mdeg/(MN m), no upper bound certified",
+                        score.worst.lower * per_meganewton);
+  text += wrapped(
+      fmt::format("Worst frequency {:.4g} Hz: {}; that is {:.3g} times the structure's own bending "
+                  "with the encoder held, {:.4g} mdeg/(MN m). Static: {:.4g} mdeg/(MN m).",
+                  score.worst.frequency / two_pi, bracket,
+                  score.worst.lower / score.encoder_held_compliance,
+                  score.encoder_held_compliance * per_meganewton,
+                  score.static_compliance * per_meganewton),
+      "  ", "  ");
+  text += heading("Margins");
+  text += margins_text(score);
+  text += heading("Wind");
+  text += wrapped(
+      fmt::format("At the design wind: beam {:.4g} mdeg rms ({:.4g} by Lyapunov equations with the "
+                  "wind's filter), wind {:.4g}, sensor noise {:.4g}; valve effort by noise {:.4g} "
+                  "rad/s of the goal's {:g}.",
+                  score.design_wind.beam_rms / millidegree, score.lyapunov_rms / millidegree,
+                  score.design_wind.wind_rms / millidegree, score.noise_rms / millidegree,
+                  score.valve_effort, report.goals.valve_effort),
+      "  ", "  ");
+  if (score.reference) text += reference_text(report);
+  if (!score.winds.empty()) text += "\n" + ladder_text(score.winds);
+  if (!score.budget_speeds.empty()) {
+    std::vector<std::vector<std::string>> rows{{"budget", "rms mdeg", "met up to"}};
+    for (std::size_t i = 0; i < score.budget_speeds.size(); ++i) {
+      rows.push_back({fmt::format("{} ({})", report.budgets[i].name, report.budgets[i].band),
+                      value(report.budgets[i].rms / millidegree, "{:.3f}"),
+                      limit_text(score.budget_speeds[i])});
+    }
+    text += "\n" + table(rows);
+  }
+  if (score.ensemble) {
+    const auto& ensemble = *score.ensemble;
+    text += heading("Other plants");
+    text += wrapped(
+        fmt::format(
+            "Of {} plants {}, {} are stable and {} keep peaks of |S| and valve effort within "
+            "the goals; the largest beam rms of the stable ones is {:.4g} mdeg.",
+            ensemble.members.size(), report.ensemble_source, ensemble.stable, ensemble.within_goals,
+            ensemble.largest_rms / millidegree),
+        "  ", "  ");
+  }
+  text += heading("Nonlinear antenna");
+  text += report.time_domain ? nonlinear_text(*report.time_domain)
+                             : wrapped("Not judged: " + report.no_time_domain + ".", "  ", "  ");
+  for (const auto& part : score.left_out) {
+    text += fmt::format("  Interrupted before: {}\n", part);
+  }
+  if (!report.compared_with.empty()) text += comparison_text(report);
+  return text + assumed_text(report.assumed);
+}
+
+}  // namespace boresight::app

@@ -1,0 +1,133 @@
+#include <fstream>
+#include <memory>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include <boresight/app/commands/benchmark_command.hpp>
+#include <boresight/app/commands/progress_line.hpp>
+#include <boresight/app/io/controller_file.hpp>
+#include <boresight/app/report/json_report.hpp>
+#include <boresight/app/tune/engineer_units.hpp>
+#include <boresight/plant/error.hpp>
+
+namespace boresight::app {
+namespace {
+
+std::vector<std::string> names_in(const std::string& text) {
+  std::vector<std::string> names;
+  std::size_t from = 0;
+  while (from < text.size()) {
+    const auto end = std::min(text.find(',', from), text.size());
+    if (end > from) names.push_back(text.substr(from, end - from));
+    from = end + 1;
+  }
+  return names;
+}
+
+BenchmarkedController chosen_controller(const BenchmarkArguments& arguments, const Case& antenna) {
+  const double sample_time = arguments.sampled ? case_sample_time(antenna) : 0.0;
+  if (!arguments.controller_path.empty()) {
+    if (!arguments.gains_path.empty() || arguments.sampled) {
+      throw InvalidInput(
+          "benchmark: expected either --controller or gains (--gains, --sampled), found both");
+    }
+    const auto file = read_controller(arguments.controller_path, gear_ratio(antenna),
+                                      {names_in(arguments.inputs), names_in(arguments.outputs)});
+    return {file.system, "controller of " + arguments.controller_path, std::nullopt, file.remarks};
+  }
+  if (!arguments.gains_path.empty()) {
+    const auto gains = read_gains_file(arguments.gains_path, antenna, arguments.structure);
+    return controller_of(gains.law, gains.description, sample_time);
+  }
+  const auto present = present_laws(antenna);
+  if (present.empty()) {
+    throw InvalidInput(
+        fmt::format("{}: expected [gains] in the case, or gains by --gains FILE (such as the JSON "
+                    "report of boresight tune), or --controller FILE, found none",
+                    arguments.case_path));
+  }
+  return controller_of(present.front(), present.front().structure.name() + ", present gains",
+                       sample_time);
+}
+
+std::string text_of(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  std::string text{std::istreambuf_iterator<char>(file), {}};
+  if (!file) throw InvalidInput(fmt::format("{}: expected a readable file, found none", path));
+  return text;
+}
+
+}  // namespace
+
+BenchmarkReport benchmark_case(const BenchmarkArguments& arguments,
+                               const std::function<bool()>& interrupted) {
+  const Case antenna = read_case(arguments.case_path);
+  require_json_path(arguments.json_path);
+  if (!arguments.export_path.empty()) require_writable(arguments.export_path);
+  const BenchmarkedController controller = chosen_controller(arguments, antenna);
+  const std::string other =
+      arguments.compare_path.empty() ? std::string() : text_of(arguments.compare_path);
+  if (!arguments.export_path.empty()) write_controller(arguments.export_path, controller.system);
+  ProgressLine progress("scoring");
+  BenchmarkOptions options;
+  options.seed = arguments.seed;
+  options.threads = arguments.threads;
+  options.interrupted = interrupted;
+  options.progress = [&](std::size_t done, std::size_t all) { progress.show(done, all); };
+  BenchmarkReport report = benchmark(antenna, controller, options);
+  if (!arguments.compare_path.empty()) compare_with(report, other, arguments.compare_path);
+  if (!arguments.curves_folder.empty()) write_curves(report, antenna, arguments.curves_folder);
+  return report;
+}
+
+namespace {
+
+int run(BenchmarkArguments arguments) {
+  arguments.threads = all_or(arguments.threads);
+  watch_for_interrupt();
+  const BenchmarkReport report = benchmark_case(arguments, interrupt_requested);
+  deliver(
+      arguments.json_path, [&] { return to_text(report); }, [&] { return to_json(report); });
+  if (report.interrupted) return interrupted;
+  if (!report.score.stable) {
+    // What is sure is no failure of the numbers: a goal, stability, that this controller misses.
+    fmt::print(stderr, "boresight: {}: the closed loop is unstable, slowest pole at {:+.4g} 1/s\n",
+               report.controller.description, report.score.abscissa);
+    return infeasible;
+  }
+  return done;
+}
+
+}  // namespace
+
+Subcommand add_benchmark(CLI::App& program) {
+  const auto arguments = std::make_shared<BenchmarkArguments>();
+  CLI::App* sub = program.add_subcommand(
+      "benchmark", "score the closed loop's disturbance rejection by a fixed protocol");
+  add_case(*sub, arguments->case_path);
+  sub->add_option("--gains", arguments->gains_path,
+                  "gains in the place of the case's: TOML with the keys of [gains], or the JSON "
+                  "report of boresight tune");
+  sub->add_option("--structure", arguments->structure, "which law of a report of boresight tune");
+  sub->add_flag("--sampled", arguments->sampled,
+                "score the gains in the sampled form that the antenna's computer runs");
+  sub->add_option("--controller", arguments->controller_path,
+                  "any linear controller as state space, MAT (version 5) or JSON: see "
+                  "docs/benchmark-protocol.md");
+  sub->add_option("--inputs", arguments->inputs,
+                  "names of the controller's inputs where its file has none, comma between");
+  sub->add_option("--outputs", arguments->outputs, "names of its outputs");
+  sub->add_option("--export-controller", arguments->export_path,
+                  "write the controller in use as state space to FILE.mat or FILE.json");
+  sub->add_option("--compare", arguments->compare_path,
+                  "put another score sheet (--json of this command) beside this one");
+  sub->add_option("--curves", arguments->curves_folder,
+                  "write compliance, responses and winds as CSV into this folder");
+  add_json(*sub, arguments->json_path);
+  add_seed(*sub, arguments->seed);
+  add_threads(*sub, arguments->threads);
+  return {sub, [arguments] { return run(*arguments); }};
+}
+
+}  // namespace boresight::app

@@ -1,0 +1,34 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <string>
+
+#include <boresight/app/benchmark/benchmark_report.hpp>
+#include <boresight/app/commands/subcommand.hpp>
+
+namespace boresight::app {
+
+struct BenchmarkArguments {
+  std::string case_path;
+  std::string json_path;        // of the score sheet, "-" for standard output; empty: none
+  std::string gains_path;       // TOML or the JSON of tune; empty: [gains] of the case
+  std::string structure;        // of a tune report: which law; empty: the best
+  std::string controller_path;  // MAT or JSON; empty: none
+  std::string inputs, outputs;  // names, where the controller's file has none, comma between
+  std::string export_path;      // where the controller in use is written; empty: nowhere
+  std::string compare_path;     // another score sheet; empty: none
+  std::string curves_folder;    // empty: none
+  bool sampled = false;         // the law in its sampled form
+  std::uint64_t seed = 1;
+  unsigned threads = 0;  // 0: all
+};
+
+/// Scores the controller asked for. After `interrupted` said yes the report holds what was whole.
+/// @throws InvalidInput for arguments, cases and files that cannot be worked on.
+BenchmarkReport benchmark_case(const BenchmarkArguments& arguments,
+                               const std::function<bool()>& interrupted);
+
+Subcommand add_benchmark(CLI::App& program);
+
+}  // namespace boresight::app

@@ -1,0 +1,256 @@
+#include <algorithm>
+#include <cstdint>
+#include <cstring>
+
+#include <fmt/format.h>
+
+#include <boresight/app/io/controller_file.hpp>
+#include <boresight/app/io/mat_elements.hpp>
+#include <boresight/app/io/wording.hpp>
+#include <boresight/plant/error.hpp>
+
+namespace boresight::app {
+namespace {
+
+constexpr std::size_t head_size = 128;
+constexpr int deepest = 4;
+constexpr std::uint64_t most_numbers = 1000000;
+constexpr std::uint64_t most_letters = 10000;
+
+std::string trimmed(const std::string& text) {
+  const auto from = text.find_first_not_of(" \t");
+  if (from == std::string::npos) return {};
+  return text.substr(from, text.find_last_not_of(" \t") - from + 1);
+}
+
+// Names apart at commas, semicolons and blanks.
+void append_names(const std::string& text, const char* separators,
+                  std::vector<std::string>& names) {
+  std::size_t from = 0;
+  while (from <= text.size()) {
+    const auto end = std::min(text.find_first_of(separators, from), text.size());
+    const std::string name = trimmed(text.substr(from, end - from));
+    if (!name.empty()) names.push_back(name);
+    from = end + 1;
+  }
+}
+
+class ControllerCollector {
+ public:
+  ControllerCollector(bool swapped, const std::string& file) : swapped_(swapped), file_(file) {}
+
+  void take(const MatElement& element, const std::string& field, int depth) {
+    if (element.type != mat_matrix) return;
+    MatArray array = read_mat_array(element, swapped_, file_);
+    const std::string name = field.empty() ? array.name : field;
+    if (name == "A") take_matrix(array, "A", text_.a, has_a_);
+    if (name == "B") take_matrix(array, "B", text_.b, has_b_);
+    if (name == "C") take_matrix(array, "C", text_.c, has_c_);
+    if (name == "D") take_matrix(array, "D", text_.d, has_d_);
+    if (name == "Ts" || name == "sample_time") {
+      Eigen::MatrixXd number;
+      bool read = false;
+      take_matrix(array, name.c_str(), number, read);
+      if (number.size() != 1) {
+        throw InvalidInput(fmt::format("{}: {}: expected one number, found {} x {}", file_, name,
+                                       number.rows(), number.cols()));
+      }
+      text_.sample_time = number(0, 0);
+    }
+    if (name == "inputs" || name == "InputName") text_.inputs = names_of(array, ",; ");
+    if (name == "outputs" || name == "OutputName") text_.outputs = names_of(array, ",; ");
+    if (name == "input_units") text_.input_units = names_of(array, ",;");
+    if (name == "output_units") text_.output_units = names_of(array, ",;");
+    if (name == "angles") {
+      const auto words = names_of(array, ",;");
+      text_.angles = words.empty() ? "" : words.front();
+    }
+    if (array.kind == MatArray::Class::structure && depth < deepest) take_fields(array, depth);
+  }
+
+  ControllerText text() && {
+    if (!has_d_) {
+      throw InvalidInput(fmt::format(
+          "{}: expected matrices A, B, C, D (of a state space; an object such as ss is to be taken "
+          "apart first: [A, B, C, D, Ts] = ssdata(sys)), found no D",
+          file_));
+    }
+    if (!has_b_ || text_.b.size() == 0)
+      text_.b = Eigen::MatrixXd::Zero(text_.a.rows(), text_.d.cols());
+    if (!has_c_ || text_.c.size() == 0)
+      text_.c = Eigen::MatrixXd::Zero(text_.d.rows(), text_.a.cols());
+    return std::move(text_);
+  }
+
+ private:
+  void take_matrix(MatArray& array, const char* name, Eigen::MatrixXd& matrix, bool& read) const {
+    if (array.kind != MatArray::Class::number || array.complex || array.dimensions.size() != 2 ||
+        array.elements > most_numbers) {
+      throw InvalidInput(
+          fmt::format("{}: {}: expected a full real matrix, found something else", file_, name));
+    }
+    std::vector<double> values;
+    if (array.elements > 0) values = array.rest.numbers(array.rest.next());
+    if (values.size() != array.elements) {
+      array.rest.refuse(fmt::format("{} numbers in {} that should have {}", values.size(),
+                                    app::quoted(name), array.elements));
+    }
+    if (read)
+      throw InvalidInput(fmt::format("{}: {}: expected it once, found it again", file_, name));
+    matrix = Eigen::Map<const Eigen::MatrixXd>(values.data(),
+                                               static_cast<Eigen::Index>(array.dimensions[0]),
+                                               static_cast<Eigen::Index>(array.dimensions[1]));
+    read = true;
+  }
+
+  // A text, rows of texts or cells of texts.
+  std::vector<std::string> names_of(MatArray& array, const char* separators) const {
+    std::vector<std::string> names;
+    if (array.elements == 0) return names;
+    if (array.elements > most_letters) {
+      throw InvalidInput(fmt::format("{}: expected names of at most {} letters, found {}", file_,
+                                     most_letters, array.elements));
+    }
+    if (array.kind == MatArray::Class::text) {
+      MatElement element = array.rest.next();
+      if (element.type == 16) element.type = 2;  // UTF-8
+      if (element.type == 17) element.type = 4;  // UTF-16
+      const std::vector<double> codes = array.rest.numbers(element);
+      const auto rows = static_cast<std::size_t>(array.dimensions[0]);
+      for (std::size_t i = 0; i < rows; ++i) {
+        std::string row;
+        for (std::size_t k = i; k < codes.size(); k += rows) {
+          row += codes[k] >= 32.0 && codes[k] < 127.0
+                     ? static_cast<char>(static_cast<unsigned char>(codes[k]))
+                     : '?';
+        }
+        append_names(row, separators, names);
+      }
+    } else if (array.kind == MatArray::Class::other) {
+      for (std::uint64_t i = 0; i < array.elements && !array.rest.at_end(); ++i) {
+        const MatElement cell = array.rest.next();
+        if (cell.type != mat_matrix) break;
+        MatArray inner = read_mat_array(cell, swapped_, file_);
+        if (inner.kind != MatArray::Class::text) continue;
+        for (auto& name : names_of(inner, separators)) names.push_back(std::move(name));
+      }
+    }
+    return names;
+  }
+
+  void take_fields(MatArray& array, int depth) {
+    const std::vector<std::int64_t> length = array.rest.integers(array.rest.next());
+    const std::string_view names = array.rest.next().bytes;
+    if (length.empty() || length[0] < 1 || length[0] > 1024) {
+      array.rest.refuse("a structure whose field names have no length");
+    }
+    if (array.elements != 1) return;
+    const auto step = static_cast<std::size_t>(length[0]);
+    for (std::size_t begin = 0; begin + step <= names.size(); begin += step) {
+      const std::string_view padded = names.substr(begin, step);
+      take(array.rest.next(), std::string(padded.substr(0, std::min(padded.find('\0'), step))),
+           depth + 1);
+    }
+  }
+
+  bool swapped_;
+  const std::string& file_;
+  ControllerText text_;
+  bool has_a_ = false, has_b_ = false, has_c_ = false, has_d_ = false;
+};
+
+void append_word(std::string& bytes, std::uint32_t word) {
+  char raw[sizeof word];
+  std::memcpy(raw, &word, sizeof word);
+  bytes.append(raw, sizeof word);
+}
+
+// Padded to a multiple of eight bytes.
+void append_element(std::string& bytes, std::uint32_t type, std::string_view content) {
+  append_word(bytes, type);
+  append_word(bytes, static_cast<std::uint32_t>(content.size()));
+  bytes += content;
+  bytes.append((8 - content.size() % 8) % 8, '\0');
+}
+
+std::string array_bytes(std::uint32_t array_class, const std::string& name, Eigen::Index rows,
+                        Eigen::Index columns, std::uint32_t type, std::string_view content) {
+  std::string flags, dimensions, whole;
+  append_word(flags, array_class);
+  append_word(flags, 0);
+  append_word(dimensions, static_cast<std::uint32_t>(rows));
+  append_word(dimensions, static_cast<std::uint32_t>(columns));
+  append_element(whole, 6, flags);
+  append_element(whole, 5, dimensions);
+  append_element(whole, mat_int8, name);
+  append_element(whole, type, content);
+  std::string bytes;
+  append_element(bytes, mat_matrix, whole);
+  return bytes;
+}
+
+std::string matrix_bytes(const std::string& name, const Eigen::MatrixXd& matrix) {
+  constexpr std::uint32_t double_class = 6, double_type = 9;
+  const auto size = static_cast<std::size_t>(matrix.size()) * sizeof(double);
+  std::string content(size, '\0');
+  if (size > 0) std::memcpy(content.data(), matrix.data(), size);
+  return array_bytes(double_class, name, matrix.rows(), matrix.cols(), double_type, content);
+}
+
+std::string names_bytes(const std::string& name, const std::vector<std::string>& names) {
+  constexpr std::uint32_t char_class = 4, utf16_type = 17;
+  std::string joined;
+  for (const auto& one : names) joined += (joined.empty() ? "" : ",") + one;
+  std::string content;
+  for (const char letter : joined) {
+    content += letter;
+    content += '\0';
+  }
+  return array_bytes(char_class, name, 1, static_cast<Eigen::Index>(joined.size()), utf16_type,
+                     content);
+}
+
+}  // namespace
+
+ControllerText controller_from_mat(std::string_view content, const std::string& name) {
+  const auto refuse = [&](const std::string& found) {
+    throw InvalidInput(fmt::format("{}: expected a MAT file of version 5, found {}", name, found));
+  };
+  if (content.starts_with("MATLAB 7.3") || content.starts_with("\x89HDF")) {
+    refuse("version 7.3 (save it with `save -v7`)");
+  }
+  if (content.size() < head_size) refuse(fmt::format("{} bytes", content.size()));
+  const std::string_view order = content.substr(126, 2);
+  if (order != "IM" && order != "MI") refuse("another version (save it with `save -v7`)");
+  const bool swapped = order == "MI";
+  MatCursor cursor(content.substr(head_size), swapped, name);
+  ControllerCollector collector(swapped, name);
+  while (!cursor.at_end()) {
+    const MatElement element = cursor.next();
+    if (element.type != mat_compressed) {
+      collector.take(element, "", 0);
+      continue;
+    }
+    const std::string bytes = inflate_mat(element, swapped, name);
+    MatCursor inner(bytes, swapped, name);
+    collector.take(inner.next(), "", 0);
+  }
+  return std::move(collector).text();
+}
+
+std::string controller_mat(const plant::StateSpace& controller) {
+  std::string bytes = "MATLAB 5.0 MAT-file, controller of an antenna by boresight";
+  bytes.resize(124, ' ');
+  bytes += std::string("\x00\x01IM", 4);
+  bytes += matrix_bytes("A", controller.a);
+  bytes += matrix_bytes("B", controller.b);
+  bytes += matrix_bytes("C", controller.c);
+  bytes += matrix_bytes("D", controller.d);
+  bytes += matrix_bytes("Ts", Eigen::MatrixXd::Constant(1, 1, controller.sample_time));
+  bytes += names_bytes("inputs", controller.inputs);
+  bytes += names_bytes("outputs", controller.outputs);
+  bytes += names_bytes("angles", {"motor"});
+  return bytes;
+}
+
+}  // namespace boresight::app

@@ -5,6 +5,7 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include <boresight/app/commands/benchmark_command.hpp>
 #include <boresight/app/commands/command_line.hpp>
 #include <boresight/app/commands/evaluate_command.hpp>
 #include <boresight/app/commands/montecarlo_command.hpp>
@@ -25,6 +26,7 @@ int run_command_line(int argc, char** argv) {
       "Example: boresight redesign cases/dss14-70m/case.toml --json report.json");
   std::vector<Subcommand> commands = add_report_commands(program);
   commands.push_back(add_simulate(program));
+  commands.push_back(add_benchmark(program));
   commands.push_back(add_tune(program));
   commands.push_back(add_montecarlo(program));
   commands.push_back(add_evaluate(program));

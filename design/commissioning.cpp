@@ -208,11 +208,16 @@ ControlLaw assumed_start(Plants& plants, const ControlLaw& target, double limit,
                          CommissioningPlan& plan) {
   const ControlLaw plain = without_torque_paths(target);
   for (double factor = 2.0; factor <= largest_detuning; factor *= 2.0) {
-    ControlLaw start = detuned(plain, factor);
-    if (plants.worst_peak({start, true, false}) <= limit &&
-        plants.worst_peak({start, false, false}) <= limit) {
-      plan.detuning = factor;
-      return start;
+    // A law whose position loop does the rate loop's work must keep its rate loop: slower, its
+    // integral would reach into the position loop.
+    for (const double rate_factor : {factor, 1.0}) {
+      ControlLaw start = detuned(plain, rate_factor, factor);
+      if (plants.worst_peak({start, true, false}) <= limit &&
+          plants.worst_peak({start, false, false}) <= limit) {
+        plan.detuning = factor;
+        plan.rate_detuned = rate_factor > 1.0;
+        return start;
+      }
     }
   }
   throw InfeasibleRequirement(fmt::format(

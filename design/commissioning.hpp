@@ -85,8 +85,10 @@ struct CommissioningPlan {
   std::vector<CommissioningStage> stages;  // the first is as found where that is known
   /// Where no gains were given (or none from which this law can be reached): what the plan starts
   /// from are the law's own without pressure feedback and compliance compensation, the gains of
-  /// rate and position path and the position integral's corner divided by this factor.
+  /// rate and position path and the position integral's corner divided by this factor; the rate
+  /// gain only if `rate_detuned`.
   std::optional<double> detuning;
+  bool rate_detuned = false;
   /// What the plan had to do otherwise than asked, a sentence each.
   std::vector<std::string> remarks;
   double largest_step = 0.0;  // the factor kept to; smaller than asked for where that was too much

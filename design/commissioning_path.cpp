@@ -281,14 +281,15 @@ ControlLaw without_torque_paths(const ControlLaw& law) {
   return law_of(reduced(law.structure, false, false), gains_of(law));
 }
 
-ControlLaw detuned(const ControlLaw& law, double factor) {
+ControlLaw detuned(const ControlLaw& law, double rate_factor, double position_factor) {
   ControlLaw result = law;
   std::size_t first = 0;
   for (const auto& block : law.structure.blocks()) {
-    const bool gain = block.kind == BlockKind::gain &&
-                      (block.path == LoopPath::rate || block.path == LoopPath::position);
-    const bool corner = block.kind == BlockKind::integral && block.path == LoopPath::position;
-    if (gain || corner) result.gains[first] /= factor;
+    const bool gain = block.kind == BlockKind::gain;
+    if (block.path == LoopPath::rate && gain) result.gains[first] /= rate_factor;
+    if (block.path == LoopPath::position && (gain || block.kind == BlockKind::integral)) {
+      result.gains[first] /= position_factor;
+    }
     first += block.gains.size();
   }
   return result;

@@ -24,9 +24,10 @@ std::optional<control::ControlLaw> law_within(const control::ControlLaw& found,
 /// The law without its pressure and compliance path.
 control::ControlLaw without_torque_paths(const control::ControlLaw& law);
 
-/// The law with the gains of its rate and position path and the position path's integral corner
-/// divided by a factor: both loops slower by about as much, one inside the other as they were.
-control::ControlLaw detuned(const control::ControlLaw& law, double factor);
+/// The law with the gain of its rate path divided by one factor, gain and integral corner of its
+/// position path by another. The same for both leaves one loop inside the other as it was.
+control::ControlLaw detuned(const control::ControlLaw& law, double rate_factor,
+                            double position_factor);
 
 /// The order of work of plan_commissioning, from `start` (a law within the target's structure) to
 /// `target`, both left out but for the start with its position loop open and the target. `allowed`:

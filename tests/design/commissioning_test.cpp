@@ -156,7 +156,7 @@ TEST(CommissioningPath, PutsWhatIsNotThereWhereItDoesNothing) {
   EXPECT_NEAR(std::abs(other.rate / one.rate), 1.0, 0.01);
   EXPECT_EQ(one.position, other.position);
   EXPECT_FALSE(law_within(compliance_law(), pi).has_value());
-  EXPECT_EQ(detuned(pi, 2.0).gains, (std::vector<double>{0.1, 1.0, 0.15, 0.025}));
+  EXPECT_EQ(detuned(pi, 2.0, 4.0).gains, (std::vector<double>{0.1, 1.0, 0.075, 0.0125}));
 }
 
 void expect_orderly(const CommissioningPlan& plan, const ControlLaw& target, double limit) {

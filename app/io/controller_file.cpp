@@ -229,12 +229,11 @@ namespace {
 
 control::ControlLaw law_from(TableReader& table, const Case& antenna) {
   control::ControlLaw law;
+  const std::string name = table.text("structure");
   try {
-    law.structure = loop_structure(antenna.loops, table.text("structure"));
+    law.structure = loop_structure(antenna.loops, name);
   } catch (const InvalidInput& error) {
-    const std::string message = error.what();
-    if (message.find("structure") != std::string::npos) throw;
-    table.refuse("structure", message);
+    table.refuse("structure", error.what());
   }
   for (const auto& block : law.structure.blocks()) {
     for (std::size_t i = 0; i < block.gains.size(); ++i) {

@@ -93,17 +93,19 @@ Json band_json(const design::BandComparison& band) {
 Json comparison_json(const ChannelComparison& channel) {
   Json bands = Json::array();
   for (const auto& band : channel.comparison.bands) bands.push_back(band_json(band));
-  return {{"channel", channel.channel},
-          {"unit", channel.unit},
-          {"whole", band_json(channel.comparison.whole)},
-          {"bands", std::move(bands)},
-          {"predicted_ratio_1", number(channel.predicted)},
-          {"predicted_ratio_lower_1", number(channel.predicted_lower)},
-          {"predicted_ratio_upper_1", number(channel.predicted_upper)},
-          {"agrees", channel.predicted ? Json(channel.agrees) : Json(nullptr)},
-          {"frequency_Hz", channel.comparison.frequency},
-          {"density_before_per_Hz", channel.comparison.density_before},
-          {"density_after_per_Hz", channel.comparison.density_after}};
+  return {
+      {"channel", channel.channel},
+      {"unit", channel.unit},
+      {"not_compared", channel.not_compared.empty() ? Json(nullptr) : Json(channel.not_compared)},
+      {"whole", band_json(channel.comparison.whole)},
+      {"bands", std::move(bands)},
+      {"predicted_ratio_1", number(channel.predicted)},
+      {"predicted_ratio_lower_1", number(channel.predicted_lower)},
+      {"predicted_ratio_upper_1", number(channel.predicted_upper)},
+      {"agrees", channel.predicted ? Json(channel.agrees) : Json(nullptr)},
+      {"frequency_Hz", channel.comparison.frequency},
+      {"density_before_per_Hz", channel.comparison.density_before},
+      {"density_after_per_Hz", channel.comparison.density_after}};
 }
 
 }  // namespace

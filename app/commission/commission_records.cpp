@@ -81,7 +81,12 @@ std::vector<ChannelComparison> compare_case_records(const Case& antenna, const s
     ChannelComparison comparison;
     comparison.channel = name;
     comparison.unit = unit;
-    comparison.comparison = design::compare_records(one, other);
+    try {
+      comparison.comparison = design::compare_records(one, other);
+    } catch (const NumericalFailure& failure) {
+      // Clipped too often; other channels may serve.
+      comparison.not_compared = failure.what();
+    }
     result.push_back(std::move(comparison));
   };
   if (first.rate_command && second.rate_command) {

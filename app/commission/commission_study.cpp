@@ -237,7 +237,7 @@ std::vector<StageSheet> make_sheets(const Case& antenna, const CommissionReport&
 
 // What the plan says the ratio of rms should be, if it knows what the antenna runs on now.
 void predict(const design::CommissioningPlan& plan, ChannelComparison& channel) {
-  if (plan.stages.empty() || plan.stages.front().kind != StageKind::as_found) return;
+  if (!channel.not_compared.empty() || plan.stages.front().kind != StageKind::as_found) return;
   const auto& first = plan.stages.front().expected;
   const auto& last = plan.stages.back().expected;
   const auto set = [&](const PlantBand& before, const PlantBand& after) {
@@ -282,6 +282,7 @@ std::vector<std::string> conclude(const CommissionReport& report, const Case& an
                     report.wind_speed, report.wind_model, range(last.expected.beam_rms, sky, 3)));
   }
   for (const auto& channel : report.comparisons) {
+    if (!channel.not_compared.empty()) continue;
     const auto& whole = channel.comparison.whole;
     std::string sentence = fmt::format(
         "{}, {:.3g} to {:.3g} Hz: rms after is {:.3g} times that before ({:.3g} to {:.3g}): {}.",

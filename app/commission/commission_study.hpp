@@ -49,6 +49,8 @@ struct StageSheet {
 struct ChannelComparison {
   std::string channel;  // "motor rate less its command", "motor rate", "torque", "valve command"
   std::string unit;     // "rad/s", "N.m"
+  /// Why it could not be compared; empty if it was.
+  std::string not_compared;
   design::RecordComparison comparison;
   /// Of the rms, after over before, that the plan's first and last stage predict in the design
   /// wind, and over the plants; none where the gains found are not known or the channel is not

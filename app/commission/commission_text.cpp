@@ -71,6 +71,11 @@ std::string comparison_text(const CommissionReport& report) {
   std::string text =
       heading(fmt::format("Before and after: '{}' and '{}'", report.before, report.after));
   for (const auto& channel : report.comparisons) {
+    if (!channel.not_compared.empty()) {
+      text += wrapped(
+          fmt::format("{}: cannot be compared: {}", channel.channel, channel.not_compared), "  ");
+      continue;
+    }
     Rows rows{{channel.channel, "Hz", "before " + channel.unit, "after " + channel.unit, "ratio",
                "from", "to", "freedom before", "after", "verdict"}};
     const auto add = [&](const design::BandComparison& band, const std::string& name) {
@@ -113,10 +118,10 @@ std::string to_text(const CommissionReport& report) {
         fmt::format(
             "ASSUMED start: the case gives no gains as found that this law could be reached from "
             "([gains]). The plan begins with the law's own without pressure feedback and "
-            "compliance compensation, its rate and position gains and position integral corner "
-            "divided by {:g}: the least power of two at which every plant keeps its peaks of S "
-            "below {:g}.",
-            *report.plan.detuning, report.options.sensitivity_limit),
+            "compliance compensation, its {}position gain and position integral corner divided by "
+            "{:g}: the least power of two at which every plant keeps its peaks of S below {:g}.",
+            report.plan.rate_detuned ? "rate gain, " : "", *report.plan.detuning,
+            report.options.sensitivity_limit),
         "  ");
   }
   for (const auto& remark : report.plan.remarks) text += wrapped(remark, "  ");

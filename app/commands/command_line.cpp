@@ -7,6 +7,7 @@
 
 #include <boresight/app/commands/benchmark_command.hpp>
 #include <boresight/app/commands/command_line.hpp>
+#include <boresight/app/commands/commission_command.hpp>
 #include <boresight/app/commands/evaluate_command.hpp>
 #include <boresight/app/commands/montecarlo_command.hpp>
 #include <boresight/app/commands/report_commands.hpp>
@@ -30,6 +31,7 @@ int run_command_line(int argc, char** argv) {
   commands.push_back(add_tune(program));
   commands.push_back(add_montecarlo(program));
   commands.push_back(add_evaluate(program));
+  commands.push_back(add_commission(program));
   try {
     program.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

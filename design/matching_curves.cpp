@@ -3,6 +3,7 @@
 #include <limits>
 #include <mutex>
 #include <numbers>
+#include <numeric>
 #include <optional>
 #include <random>
 
@@ -83,7 +84,7 @@ struct Cell {
   std::vector<HeldLaw> history;  // each better than the one before
   std::vector<std::size_t> carried{0};
   unsigned version = 0;
-  std::vector<unsigned> tried;      // versions of: left, right, then the structures
+  std::vector<unsigned> tried;      // versions of: left, right, the structures, left and right
   std::vector<double> start_costs;  // ln rms of what each random start ended at
   double best_cold = std::numeric_limits<double>::infinity();  // ln rms
   int warm_starts = 0;
@@ -122,7 +123,7 @@ class Column {
       plants_.emplace_back(member.name, problem, task.goals, wind, quadrature_tolerance);
     }
     cells_.resize(task.structures.size());
-    for (auto& cell : cells_) cell.tried.assign(2 + task.structures.size(), 0);
+    for (auto& cell : cells_) cell.tried.assign(3 + task.structures.size(), 0);
   }
 
   bool stopped() const { return search_.stop && search_.stop(); }
@@ -164,6 +165,14 @@ class Column {
     };
     if (left != nullptr) try_once(0, *left, left->point);
     if (right != nullptr) try_once(1, *right, right->point);
+    // Between both: a search that gets stuck from either may get through from the middle.
+    if (left != nullptr && right != nullptr && !left->point.empty() && !right->point.empty()) {
+      std::vector<double> middle = left->point;
+      for (std::size_t k = 0; k < middle.size(); ++k) {
+        middle[k] = std::midpoint(middle[k], right->point[k]);
+      }
+      try_once(2 + cells_.size(), {middle, left->version + right->version}, middle);
+    }
     for (const std::size_t other : parts_[structure]) {
       const Seen from = seen(other);
       if (from.point.empty()) continue;

@@ -9,6 +9,7 @@
 #include <boresight/app/commands/command_line.hpp>
 #include <boresight/app/commands/commission_command.hpp>
 #include <boresight/app/commands/evaluate_command.hpp>
+#include <boresight/app/commands/match_command.hpp>
 #include <boresight/app/commands/montecarlo_command.hpp>
 #include <boresight/app/commands/report_commands.hpp>
 #include <boresight/app/commands/simulate_command.hpp>
@@ -29,6 +30,7 @@ int run_command_line(int argc, char** argv) {
   commands.push_back(add_simulate(program));
   commands.push_back(add_benchmark(program));
   commands.push_back(add_tune(program));
+  commands.push_back(add_match(program));
   commands.push_back(add_montecarlo(program));
   commands.push_back(add_evaluate(program));
   commands.push_back(add_commission(program));

@@ -83,11 +83,6 @@ const std::vector<Command>& commands() {
       {"model", "the linear plant: parameters, poles, what each mode is",
        [](const Case& antenna, const StudyOptions&, Report& report) {
          report.plant = describe_plant(antenna);
-       }},
-      {"match", "re-tune at each number of flywheel disks and at ratio 1",
-       [](const Case& antenna, const StudyOptions& options, Report& report) {
-         report.matching = match_inertia(antenna, options);
-         report.conclusions = conclude(report);
        }}};
   return list;
 }

@@ -9,6 +9,7 @@
 #include <boresight/app/report/json_report.hpp>
 #include <boresight/app/report/json_time_domain.hpp>
 #include <boresight/app/report/json_tune.hpp>
+#include <boresight/app/report/match_report.hpp>
 #include <boresight/app/report/measured_report.hpp>
 #include <boresight/app/report/sky_units.hpp>
 
@@ -225,6 +226,7 @@ std::string to_json(const Report& report) {
   if (report.limit) json["limit"] = limit_json(*report.limit);
   if (!report.choices.empty()) json["choices"] = choices_json(report.choices);
   if (report.matching) json["matching"] = matching_json(*report.matching);
+  if (report.matched) json["matched"] = match_json(*report.matched);
   if (report.evaluated) json["evaluated"] = evaluate_json(*report.evaluated);
   json["assumed_inputs"] = assumed_json(report.assumed);
   json["conclusions"] = report.conclusions;

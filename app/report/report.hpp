@@ -8,6 +8,7 @@
 #include <boresight/app/audit/audit_report.hpp>
 #include <boresight/app/evaluate/evaluate_section.hpp>
 #include <boresight/app/identify/campaign_section.hpp>
+#include <boresight/app/match/match_section.hpp>
 #include <boresight/app/redesign/antenna_model.hpp>
 #include <boresight/app/simulate/time_domain.hpp>
 #include <boresight/app/tune/measured_study.hpp>
@@ -138,6 +139,7 @@ struct Report {
   std::optional<design::PointingLimit> limit;  // of the command tune, at the best law's wind speed
   std::vector<ChoiceResult> choices;
   std::optional<MatchingSection> matching;
+  std::optional<MatchSection> matched;  // of the command match
   std::optional<EvaluateSection> evaluated;  // of the command evaluate
   std::vector<Quantity> assumed;
   std::vector<std::string> conclusions;

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <boresight/app/report/evaluate_report.hpp>
+#include <boresight/app/report/match_report.hpp>
 #include <boresight/app/report/measured_report.hpp>
 #include <boresight/app/report/text_layout.hpp>
 #include <boresight/app/report/text_limit.hpp>
@@ -57,6 +58,7 @@ std::string to_text(const Report& report) {
   if (report.time_domain) text += to_text(*report.time_domain);
   if (!report.choices.empty()) text += choices_text(report.choices);
   if (report.matching) text += to_text(*report.matching);
+  if (report.matched) text += to_text(*report.matched);
   if (report.evaluated) text += to_text(*report.evaluated);
   if (report.command != "audit") text += assumed_text(report.assumed);
   if (!report.conclusions.empty()) {

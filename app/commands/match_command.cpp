@@ -1,0 +1,129 @@
+#include <map>
+#include <memory>
+#include <optional>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include <boresight/app/commands/match_command.hpp>
+#include <boresight/app/commands/progress_line.hpp>
+#include <boresight/app/match/match_study.hpp>
+#include <boresight/app/redesign/sections.hpp>
+#include <boresight/app/report/json_report.hpp>
+#include <boresight/app/report/text_report.hpp>
+#include <boresight/app/tune/plant_members.hpp>
+
+namespace boresight::app {
+namespace {
+
+struct Arguments {
+  std::string case_path;
+  std::string json_path;
+  MatchOptions options;
+  /// Of the ensemble's draws; apart from that of the searches, which should make no difference.
+  std::uint64_t ensemble_seed = 1;
+  bool nominal = false;
+  bool no_variants = false;
+};
+
+int run(const Arguments& arguments) {
+  const Case antenna = read_case(arguments.case_path);
+  require_json_path(arguments.json_path);
+  MatchOptions options = arguments.options;
+  options.threads = all_or(options.threads);
+  options.interrupted = interrupt_requested;
+  options.variants = !arguments.no_variants;
+  Report report;
+  report.command = "match";
+  report.title = antenna.title;
+  report.axis = antenna.axis;
+  report.case_path = arguments.case_path;
+  report.seed = options.seed;
+  report.assumed =
+      assumed_inputs(antenna, antenna.simulation && options.time_runs != MatchTimeRuns::none);
+  watch_for_interrupt();
+  std::vector<design::EnsembleMember> members;
+  if (!arguments.nominal) members = plant_members(antenna, arguments.ensemble_seed);
+  {
+    std::optional<ProgressLine> line;
+    std::string_view working;
+    options.progress = [&](std::string_view work, std::size_t finished, std::size_t all) {
+      if (work != working) line.emplace(std::string(work));
+      working = work;
+      line->show(finished, all);
+    };
+    report.matched = match_motors(antenna, members, options);
+  }
+  report.interrupted = interrupt_requested();
+  report.conclusions = conclude(*report.matched);
+  deliver(
+      arguments.json_path, [&] { return to_text(report); }, [&] { return to_json(report); });
+  if (report.interrupted) return interrupted;
+  bool met = false, verified = false;
+  for (const auto& series : report.matched->series) {
+    for (const auto& value : series.values) {
+      met = met || value.found;
+      verified = verified || (value.found && value.verification.passed);
+    }
+  }
+  if (!met) {
+    fmt::print(stderr, "boresight: {}: no structure meets the goals at any motor inertia\n",
+               arguments.case_path);
+    return infeasible;
+  }
+  if (!verified) {
+    fmt::print(stderr, "boresight: no law that meets its goals passes its verification\n");
+    return numerical;
+  }
+  return done;
+}
+
+}  // namespace
+
+Subcommand add_match(CLI::App& program) {
+  const auto arguments = std::make_shared<Arguments>();
+  CLI::App* sub = program.add_subcommand(
+      "match",
+      "re-tune every loop structure at every motor inertia, robustly, and judge the rules");
+  MatchOptions& options = arguments->options;
+  add_case(*sub, arguments->case_path);
+  sub->add_option("--structure", options.structures,
+                  "what to tune, one or several, as of `boresight tune`")
+      ->expected(1, 100);
+  sub->add_option(
+         "--points", options.points,
+         "numbers of flywheel disks, evenly spaced from 0; ratio 1 and as built come beside "
+         "them")
+      ->check(CLI::Range(4, 1000))
+      ->capture_default_str();
+  sub->add_option("--most-disks", options.most_disks,
+                  "the largest number of disks (default: most_disks of the case)")
+      ->check(CLI::Range(0.1, 1e4));
+  sub->add_option("--starts", options.starts, "random starts of each law")
+      ->check(CLI::Range(1, 100000))
+      ->capture_default_str();
+  const std::map<std::string, MatchTimeRuns> runs{
+      {"none", MatchTimeRuns::none}, {"few", MatchTimeRuns::few}, {"all", MatchTimeRuns::all}};
+  sub->add_option(
+         "--time-domain", options.time_runs,
+         "where laws run on the nonlinear antenna: none; few (0 disks, ratio 1, as built), "
+         "the default; all")
+      ->transform(CLI::CheckedTransformer(runs, CLI::ignore_case).description("none, few, all"))
+      ->default_str("few");
+  sub->add_option("--ensemble-seed", arguments->ensemble_seed,
+                  "seed of the ensemble's draws (--seed is that of the searches: it should make no "
+                  "difference)")
+      ->check(CLI::Range(0.0, 1e15))
+      ->capture_default_str();
+  sub->add_flag("--nominal", arguments->nominal,
+                "tune on the case's plant alone, not for every member of the ensemble");
+  sub->add_flag(
+      "--no-variants", arguments->no_variants,
+      "leave out what moves the optimum: leakage, friction, structure, wind, conventions");
+  add_json(*sub, arguments->json_path);
+  add_seed(*sub, options.seed);
+  add_threads(*sub, options.threads);
+  return {sub, [arguments] { return run(*arguments); }};
+}
+
+}  // namespace boresight::app

@@ -1,0 +1,245 @@
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include <boresight/app/match/match_study.hpp>
+#include <boresight/app/report/sky_units.hpp>
+
+namespace boresight::app {
+namespace {
+
+// Differences below this are not worth flywheels.
+constexpr double worth_saying = 0.02;
+
+std::string per_cent(double share) {
+  return fmt::format("{:+.1f} %", 100.0 * share);
+}
+
+std::optional<std::size_t> labelled(const MatchSection& section, std::string_view label) {
+  for (std::size_t i = 0; i < section.points.size(); ++i) {
+    if (section.points[i].label.find(label) != std::string::npos) return i;
+  }
+  return std::nullopt;
+}
+
+std::string feedback_of(const MatchSeries& series) {
+  const bool pressure = series.curve.structure.has(control::LoopPath::pressure);
+  const bool compliance = series.curve.structure.has(control::LoopPath::compliance);
+  if (pressure && compliance) return "pressure feedback and compliance compensation";
+  if (pressure) return "pressure feedback";
+  if (compliance) return "compliance compensation";
+  return "loops that feed back no torque";
+}
+
+std::string best_of(const MatchSection& section, const MatchSeries& series) {
+  const std::size_t best = series.best.value_or(0);
+  const double least = series.values[best].beam_rms;
+  std::string text = fmt::format(
+      "With {} ({}) the rms is least, {:.4f} mdeg, at {:.3g} disks (R = {:.2f}){}; within 1 % of "
+      "it "
+      "from {:.1f} to {:.1f} disks, within 5 % from {:.1f} to {:.1f}.",
+      series.name, feedback_of(series), least / millidegree, section.points[best].disks,
+      section.points[best].motor_to_load_ratio,
+      series.best_at_end ? ", an end of the range looked at" : "", series.within_1_percent.lowest,
+      series.within_1_percent.highest, series.within_5_percent.lowest,
+      series.within_5_percent.highest);
+  const auto at = [&](const char* label, const char* words) {
+    const auto point = labelled(section, label);
+    if (!point || !series.values[*point].found) return;
+    text +=
+        fmt::format(" {} costs {}.", words, per_cent(series.values[*point].beam_rms / least - 1.0));
+  };
+  at("as built", "As built");
+  at("ratio 1", "One to one");
+  return text;
+}
+
+// What the axis does to a structure, and what the structure does at one inertia.
+void conclude_weight(const MatchSection& section, std::vector<std::string>& sentences) {
+  double widest = 0.0;
+  const MatchSeries* worst = nullptr;
+  for (const auto& series : section.series) {
+    double least = HUGE_VAL, largest = 0.0;
+    for (const auto& value : series.values) {
+      if (!value.found) continue;
+      least = std::min(least, value.beam_rms);
+      largest = std::max(largest, value.beam_rms);
+    }
+    if (largest > 0.0 && largest / least - 1.0 > widest) {
+      widest = largest / least - 1.0;
+      worst = &series;
+    }
+  }
+  const auto built = labelled(section, "as built");
+  if (worst == nullptr || !built) return;
+  double least = HUGE_VAL, largest = 0.0;
+  std::string first, last;
+  for (const auto& series : section.series) {
+    const auto& value = series.values[*built];
+    if (!value.found) continue;
+    if (value.beam_rms < least) {
+      least = value.beam_rms;
+      first = series.name;
+    }
+    if (value.beam_rms > largest) {
+      largest = value.beam_rms;
+      last = series.name;
+    }
+  }
+  if (!(largest > 0.0)) return;
+  const double structures = largest / least - 1.0;
+  sentences.push_back(fmt::format(
+      "Over all inertias looked at the rms changes most with {}, by {:.0f} %; at the inertia as "
+      "built the choice of structure changes it by {:.0f} % ({} against {}): {} matters more.",
+      worst->name, 100.0 * widest, 100.0 * structures, first, last,
+      structures > widest ? "the structure" : "the inertia"));
+}
+
+void conclude_variants(const MatchSection& section, std::vector<std::string>& sentences) {
+  for (const auto& variants : section.variants) {
+    std::string moved;
+    const auto& own = variants.variants.front();
+    if (!own.best) continue;
+    for (const auto& variant : variants.variants) {
+      if (!variant.best) {
+        moved += fmt::format("; with {} no law holds its goals", variant.name);
+        continue;
+      }
+      const double now = variant.rms[*variant.best];
+      const double kept = variant.rms[*own.best];
+      if (std::isfinite(kept) && kept / now - 1.0 < worth_saying) continue;
+      moved += fmt::format("; with {} it is at {:.3g} disks", variant.name,
+                           variants.disks[*variant.best]);
+    }
+    sentences.push_back(fmt::format(
+        "With {}, tuned on single plants, the least rms is at {:.3g} disks{}{}.",
+        variants.structure, variants.disks[*own.best], moved,
+        moved.empty() ? fmt::format(", and no variant makes that more than {:.0f} % worse than its "
+                                    "own best",
+                                    100.0 * worth_saying)
+                      : ""));
+  }
+  for (const auto& one : section.thresholds) {
+    const std::string told = fmt::format(
+        "({:.0f} % between the best and the worst number of disks with the linear plant's {:.3g} "
+        "N.m.s/rad, {:.0f} % with the {:.3g} of the friction curve at the tracking rate; tuned on "
+        "single plants)",
+        100.0 * one.spread_at_nominal, section.friction, 100.0 * one.spread_at_tracking,
+        section.tracking_friction);
+    if (one.slope && one.spread_at_nominal < one.spread) {
+      sentences.push_back(
+          fmt::format("With {}, the inertia matters less than {:.0f} % already with the friction "
+                      "slope of the linear plant {}.",
+                      one.structure, 100.0 * one.spread, told));
+    } else if (one.slope) {
+      sentences.push_back(
+          fmt::format("With {}, if the friction slope at the tracking speed exceeds {:.3g} "
+                      "N.m.s/rad at the motors, the inertia matters less than {:.0f} % {}.",
+                      one.structure, *one.slope, 100.0 * one.spread, told));
+    } else {
+      sentences.push_back(
+          fmt::format("With {}, no friction slope up to {:.3g} N.m.s/rad at the motors makes the "
+                      "inertia matter less than {:.0f} % {}.",
+                      one.structure, one.searched_to, 100.0 * one.spread, told));
+    }
+  }
+}
+
+void conclude_rules(const MatchSection& section, std::vector<std::string>& sentences) {
+  for (const auto& rule : section.rules) {
+    if (!rule.disks) {
+      sentences.push_back(
+          fmt::format("The rule \"{}\" asks for R = {:.2f}, less than the motors have without "
+                      "flywheels.",
+                      rule.rule, rule.motor_to_load_ratio));
+      continue;
+    }
+    double least = HUGE_VAL, largest = -HUGE_VAL;
+    std::string cheapest, dearest;
+    for (std::size_t s = 0; s < rule.cost.size(); ++s) {
+      if (!std::isfinite(rule.cost[s])) continue;
+      if (rule.cost[s] < least) {
+        least = rule.cost[s];
+        cheapest = section.series[s].name;
+      }
+      if (rule.cost[s] > largest) {
+        largest = rule.cost[s];
+        dearest = section.series[s].name;
+      }
+    }
+    if (cheapest.empty()) continue;
+    sentences.push_back(fmt::format(
+        "The rule \"{}\" (R = {:.2f}, {:.1f} disks) costs {} of rms with {} and {} with {}, "
+        "against "
+        "each structure's own best: {}.",
+        rule.rule, rule.motor_to_load_ratio, *rule.disks, per_cent(least), cheapest,
+        per_cent(largest), dearest,
+        largest < worth_saying ? "a good rule here" : "no rule for every structure here"));
+  }
+  const auto built = labelled(section, "as built");
+  if (!built) return;
+  const auto& now = section.points[*built];
+  const auto& bare = section.points.front();
+  if (!(now.acceleration > 0.0) || bare.disks >= now.disks) return;
+  sentences.push_back(fmt::format(
+      "At this gear ratio less inertia always accelerates more: without flywheels the supply's "
+      "torque gives {:.2f} times the acceleration as built. Over the gear ratio the most for given "
+      "torque is at R = 1; as built the motors reach {:.0f} % of it, without flywheels {:.0f} %.",
+      bare.acceleration / now.acceleration, 100.0 * now.acceleration_of_best_ratio,
+      100.0 * bare.acceleration_of_best_ratio));
+}
+
+void conclude_friction(const MatchSection& section, std::vector<std::string>& sentences) {
+  for (const auto& series : section.series) {
+    double least = HUGE_VAL, largest = 0.0;
+    std::string hunting;
+    for (std::size_t i = 0; i < section.points.size(); ++i) {
+      const auto& run = series.values[i].time_domain;
+      if (!run) continue;
+      if (run->reversal && run->reversal->status == design::RunStatus::complete) {
+        least = std::min(least, run->reversal->encoder_error);
+        largest = std::max(largest, run->reversal->encoder_error);
+      }
+      for (const auto& one : run->hunting) {
+        if (one.limit_cycle && one.status == design::RunStatus::complete) {
+          hunting +=
+              fmt::format("{}{:.3g} disks {}", hunting.empty() ? "" : ", ", section.points[i].disks,
+                          one.rate == 0.0 ? "at rest" : "at the tracking rate");
+        }
+      }
+    }
+    if (!(largest > 0.0)) continue;
+    sentences.push_back(fmt::format(
+        "On the nonlinear antenna {} errs by {:.2f} to {:.2f} mdeg (encoder, largest) when the "
+        "sidereal rate reverses, over the inertias simulated; limit cycles: {}.",
+        series.name, least / millidegree, largest / millidegree,
+        hunting.empty() ? "none seen" : hunting));
+  }
+}
+
+}  // namespace
+
+std::vector<std::string> conclude(const MatchSection& section) {
+  std::vector<std::string> sentences;
+  sentences.push_back(fmt::format(
+      "All of this is for wind by the {} model at {:g} m/s, the case's goals held on each of {} "
+      "plants, at the case's gear ratio and oil; the inputs listed as assumed set the scale.",
+      plant::to_string(section.wind_model), section.wind_speed,
+      std::max<std::size_t>(section.members, 1)));
+  for (const auto& series : section.series) {
+    if (series.best) {
+      sentences.push_back(best_of(section, series));
+    } else {
+      sentences.push_back(
+          fmt::format("No law of {} found holds its goals at any inertia.", series.name));
+    }
+  }
+  conclude_weight(section, sentences);
+  conclude_rules(section, sentences);
+  conclude_variants(section, sentences);
+  conclude_friction(section, sentences);
+  return sentences;
+}
+
+}  // namespace boresight::app

@@ -1,0 +1,15 @@
+#pragma once
+
+#include <string>
+
+#include <boresight/app/match/match_section.hpp>
+#include <boresight/app/report/json_design.hpp>
+
+namespace boresight::app {
+
+/// The section of the terminal's report.
+std::string to_text(const MatchSection& section);
+/// "matched" of docs/report.schema.json.
+Json match_json(const MatchSection& section);
+
+}  // namespace boresight::app

@@ -1,0 +1,254 @@
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include <boresight/app/report/match_report.hpp>
+#include <boresight/app/report/sky_units.hpp>
+#include <boresight/app/report/text_layout.hpp>
+
+namespace boresight::app {
+namespace {
+
+constexpr double degree = 1e3 * millidegree;
+using Rows = std::vector<std::vector<std::string>>;
+
+std::string mdeg(double angle) {
+  return std::isfinite(angle) ? fmt::format("{:.4f}", angle / millidegree) : "-";
+}
+
+std::string decibel(double gain) {
+  return std::isfinite(gain) && gain > 0.0 ? fmt::format("{:.1f}", 20.0 * std::log10(gain)) : "-";
+}
+
+std::string motors_text(const MatchSection& section) {
+  Rows rows{{"disks", "R", "J kg.m2", "hydr. Hz", "zeta", "deg/s2", "slew s", "rule zeta",
+             "of best a", ""}};
+  for (const auto& point : section.points) {
+    rows.push_back({fmt::format("{:.2f}", point.disks),
+                    fmt::format("{:.3f}", point.motor_to_load_ratio),
+                    fmt::format("{:.3f}", point.reflected_inertia),
+                    fmt::format("{:.3f}", point.hydraulic.frequency),
+                    fmt::format("{:.3f}", point.hydraulic.damping_ratio),
+                    fmt::format("{:.3f}", point.acceleration / degree),
+                    std::isfinite(point.slew_time) ? fmt::format("{:.1f}", point.slew_time) : "-",
+                    fmt::format("{:.2f}", point.two_mass_damping),
+                    fmt::format("{:.2f}", point.acceleration_of_best_ratio), point.label});
+  }
+  return table(rows, "rrrrrrrrrl") +
+         wrapped(
+             fmt::format(
+                 "R: motors over gear train and antenna. deg/s2: at the sky, by what the "
+                 "supply's torque leaves beyond friction at {:.3g} deg/s, the case's slew rate "
+                 "or four fifths of what the supply holds. slew: {:.3g} deg at that rate and "
+                 "acceleration. rule zeta: 1/2 sqrt(J_L/J_m). of best a: acceleration for given "
+                 "torque over the most at any gear ratio.",
+                 section.slew_rate / degree, section.slew_distance / degree),
+             "  ");
+}
+
+std::string rms_text(const MatchSection& section) {
+  Rows rows{{"disks", "R"}};
+  std::string alignment = "rr";
+  for (const auto& series : section.series) {
+    rows.front().push_back(series.name);
+    alignment += 'r';
+  }
+  rows.front().emplace_back();
+  for (std::size_t i = 0; i < section.points.size(); ++i) {
+    const auto& point = section.points[i];
+    std::vector<std::string> row{fmt::format("{:.2f}", point.disks),
+                                 fmt::format("{:.3f}", point.motor_to_load_ratio)};
+    for (const auto& series : section.series) {
+      const auto& value = series.values[i];
+      std::string text = mdeg(value.beam_rms);
+      if (!value.found && std::isfinite(value.beam_rms)) text += '!';
+      if (series.best == i) text += '*';
+      row.push_back(text);
+    }
+    row.push_back(point.label);
+    rows.push_back(std::move(row));
+  }
+  return table(rows, alignment + "l") +
+         wrapped("*: least of its column. !: misses a goal on some plant; -: no stable law found.",
+                 "  ");
+}
+
+std::string best_text(const MatchSection& section) {
+  Rows rows{{"structure", "disks", "R", "mdeg", "within 1 %", "within 5 %", "kinks", "3rd diff.",
+             "at kinks"}};
+  for (const auto& series : section.series) {
+    std::vector<std::string> row{series.name};
+    if (series.best) {
+      const auto& point = section.points[*series.best];
+      row.insert(row.end(),
+                 {fmt::format("{:.2f}{}", point.disks, series.best_at_end ? " (end)" : ""),
+                  fmt::format("{:.2f}", point.motor_to_load_ratio),
+                  mdeg(series.values[*series.best].beam_rms),
+                  fmt::format("{:.1f}..{:.1f}", series.within_1_percent.lowest,
+                              series.within_1_percent.highest),
+                  fmt::format("{:.1f}..{:.1f}", series.within_5_percent.lowest,
+                              series.within_5_percent.highest)});
+    } else {
+      row.insert(row.end(), 5, "-");
+    }
+    const auto& smooth = series.smoothness;
+    row.push_back(fmt::format("{}", smooth.kinks.size()));
+    row.push_back(smooth.even_stretches == 0
+                      ? "-"
+                      : fmt::format("{:.1e} ({})", smooth.largest_even, smooth.even_stretches));
+    row.push_back(fmt::format("{:.1e}", smooth.largest_at_kinks));
+    rows.push_back(std::move(row));
+  }
+  return table(rows, "lrrrrrrrr") +
+         wrapped(
+             fmt::format(
+                 "Ranges in disks. 3rd diff.: the largest third difference of ln rms over "
+                 "stretches of four points along which the same goals hold the laws (how many), "
+                 "to be below 3 x {:g}, three times the tuner's tolerance; at kinks: where "
+                 "other goals, plants or laws take over, so that the curve bends in truth.",
+                 section.tolerance),
+             "  ");
+}
+
+std::vector<std::size_t> shown_points(const MatchSection& section, const MatchSeries& series) {
+  std::vector<std::size_t> shown;
+  for (std::size_t i = 0; i < section.points.size(); ++i) {
+    if (i == 0 || !section.points[i].label.empty() || series.best == i) shown.push_back(i);
+  }
+  return shown;
+}
+
+std::string margins_text(const MatchSection& section) {
+  Rows rows{{"structure", "disks", "wind", "noise", "dB up", "dB down", "deg", "ms", "Hz", "s2",
+             "effort", "demand", "N.m", "check"}};
+  for (const auto& series : section.series) {
+    for (const std::size_t i : shown_points(section, series)) {
+      const auto& value = series.values[i];
+      if (!std::isfinite(value.beam_rms)) continue;
+      double up = HUGE_VAL, down = 0.0, phase = 180.0, delay = HUGE_VAL;
+      for (const auto& margins : value.margins) {
+        up = std::min(up, margins.increasing_gain_margin);
+        down = std::max(down, margins.decreasing_gain_margin);
+        phase = std::min(phase, margins.phase_margin_deg);
+        delay = std::min(delay, margins.delay_margin);
+      }
+      rows.push_back(
+          {series.name, fmt::format("{:.2f}", section.points[i].disks), mdeg(value.wind_rms),
+           mdeg(value.noise_rms), decibel(up), decibel(down), fmt::format("{:.1f}", phase),
+           fmt::format("{:.1f}", 1e3 * delay), fmt::format("{:.3f}", value.bandwidth),
+           fmt::format("{:.3g}", value.acceleration_error),
+           fmt::format("{:.3f}", value.valve_effort), fmt::format("{:.2f}", value.gust_demand),
+           fmt::format("{:.0f}", value.gust_torque),
+           value.verification.passed ? "passed" : value.verification.failure});
+    }
+  }
+  return table(rows, "lrrrrrrrrrrrrl") +
+         wrapped(
+             fmt::format(
+                 "On the case's plant. wind, noise: rms, mdeg. dB, deg, ms: the least gain, "
+                 "phase and delay margin over the three breaks (each alone in the JSON report). "
+                 "Hz: where the position loop's |S| reaches 0.71. s2: mdeg of steady error per "
+                 "mdeg/s2 of constant acceleration that is not fed forward. effort: rms of the "
+                 "valve demand by noise, rad/s. demand (rad/s), N.m: valve and motors in the "
+                 "mean wind and {:g} times the rms of its gusts. check: eigenvalues, peaks and "
+                 "rms confirmed apart from the tuner.",
+                 section.goals.crest_factor),
+             "  ");
+}
+
+std::string hunting_text(const std::vector<design::HuntingResult>& hunting, std::size_t which) {
+  if (which >= hunting.size()) return "-";
+  const auto& one = hunting[which];
+  if (one.status != design::RunStatus::complete) return std::string(to_string(one.status));
+  return one.limit_cycle ? fmt::format("{:.3f}", one.encoder_amplitude / millidegree) : "none";
+}
+
+std::string time_text(const MatchSection& section) {
+  Rows rows{{"structure", "disks", "cycle at rest", "at tracking rate", "reversal encoder", "beam",
+             "without friction"}};
+  for (const auto& series : section.series) {
+    for (std::size_t i = 0; i < section.points.size(); ++i) {
+      const auto& run = series.values[i].time_domain;
+      if (!run) continue;
+      std::vector<std::string> row{series.name, fmt::format("{:.2f}", section.points[i].disks),
+                                   hunting_text(run->hunting, 0), hunting_text(run->hunting, 1)};
+      if (run->reversal) {
+        row.insert(row.end(), {mdeg(run->reversal->encoder_error), mdeg(run->reversal->beam_error),
+                               mdeg(run->reversal->encoder_error_without_friction)});
+      }
+      rows.push_back(std::move(row));
+    }
+  }
+  if (rows.size() == 1) return {};
+  return "\n" + table(rows, "lrrrrrr") +
+         wrapped(
+             fmt::format("On the nonlinear antenna in still air, mdeg: limit cycles (amplitude, "
+                         "encoder) and the largest error after reversals of {:.4g} mdeg/s.",
+                         section.tracking_rate / millidegree),
+             "  ");
+}
+
+std::string variants_text(const MatchSection& section) {
+  std::string text;
+  for (const auto& variants : section.variants) {
+    text += fmt::format("\n  {}, tuned on single plants: rms (mdeg) at so many disks\n",
+                        variants.structure);
+    std::vector<std::string> header{"with"};
+    for (const double disks : variants.disks) header.push_back(fmt::format("{:.3g}", disks));
+    header.insert(header.end(), {"best", "within 5 %"});
+    Rows rows{std::move(header)};
+    for (const auto& variant : variants.variants) {
+      std::vector<std::string> row{variant.name};
+      for (const double rms : variant.rms) row.push_back(mdeg(rms));
+      row.push_back(variant.best ? fmt::format("{:.3g}", variants.disks[*variant.best]) : "-");
+      row.push_back(fmt::format("{:.1f}..{:.1f}", variant.within_5_percent.lowest,
+                                variant.within_5_percent.highest));
+      rows.push_back(std::move(row));
+    }
+    text += table(rows, "l");
+  }
+  return text;
+}
+
+std::string rules_text(const MatchSection& section) {
+  std::vector<std::string> header{"rule", "R", "disks"};
+  for (const auto& series : section.series) header.push_back(series.name);
+  Rows rows{std::move(header)};
+  for (const auto& rule : section.rules) {
+    std::vector<std::string> row{rule.rule, fmt::format("{:.2f}", rule.motor_to_load_ratio),
+                                 rule.disks ? fmt::format("{:.2f}", *rule.disks) : "-"};
+    for (const double cost : rule.cost) {
+      row.push_back(std::isfinite(cost) ? fmt::format("{:+.1f} %", 100.0 * cost) : "-");
+    }
+    rows.push_back(std::move(row));
+  }
+  return "\n" + table(rows, "l") +
+         wrapped("Cost: rms over each structure's own least, between points by straight lines.",
+                 "  ");
+}
+
+}  // namespace
+
+std::string to_text(const MatchSection& section) {
+  std::string text = heading("Inertia matching");
+  text += wrapped(
+      fmt::format("Each structure tuned at each motor inertia for the least beam rms in wind of "
+                  "{:g} m/s ({} model), every goal held on {} plants ({} rms is made least); {} "
+                  "random starts each and {} rounds of warm starts{}, {} evaluations.",
+                  section.wind_speed, plant::to_string(section.wind_model),
+                  std::max<std::size_t>(section.members, 1), to_string(section.soft_goal.kind),
+                  section.starts, section.rounds,
+                  section.settled ? " until none gained" : ", not settled", section.evaluations),
+      "  ");
+  text += "\n" + motors_text(section);
+  text += "\n" + rms_text(section);
+  text += "\n" + best_text(section);
+  text += "\n" + margins_text(section);
+  text += time_text(section);
+  text += variants_text(section);
+  text += rules_text(section);
+  return text;
+}
+
+}  // namespace boresight::app

@@ -260,7 +260,8 @@ class Work {
   std::uint64_t digest_;
   std::function<bool()> interrupted_;
   ProgressLine progress_;
-  Clock::time_point saved_ = Clock::now();
+  // The first after a second: what is lost then is least missed, and least work to keep.
+  Clock::time_point saved_ = Clock::now() - std::chrono::seconds(2);
   Clock::duration saving_{};
 };
 

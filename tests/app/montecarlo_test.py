@@ -172,7 +172,7 @@ class MonteCarlo(unittest.TestCase):
 
 
 class Interruption(unittest.TestCase):
-    PLANTS = "60000"
+    PLANTS = "100000"
 
     def kill_when_saved(self, folder, how):
         """Starts a run and ends it once its checkpoint is there."""

@@ -9,6 +9,7 @@
 #include <boresight/app/evaluate/evaluate_study.hpp>
 #include <boresight/app/identify/campaign_identification.hpp>
 #include <boresight/app/identify/identified_case.hpp>
+#include <boresight/app/redesign/sections.hpp>
 #include <boresight/app/report/json_report.hpp>
 #include <boresight/app/report/text_report.hpp>
 
@@ -40,7 +41,7 @@ void add_assumed(const std::vector<Proposal>& proposals, std::vector<Quantity>& 
   };
   for (const auto& proposal : proposals) {
     add(proposal, proposal.cost.amount, "cost.amount");
-    for (const auto& change : proposal.changes) add(proposal, change.stated(), change.key);
+    for (const auto& change : proposal.changes) add(proposal, change.number, change.key);
   }
 }
 

@@ -16,7 +16,7 @@ const CandidateLaw& law_of(const Candidate& candidate) {
 }
 
 std::string share(const design::Probability& probability) {
-  return fmt::format("{:.2f} [{:.2f}, {:.2f}]", probability.value, probability.lower,
+  return fmt::format("{:.3f} [{:.3f}, {:.3f}]", probability.value, probability.lower,
                      probability.upper);
 }
 
@@ -96,6 +96,12 @@ std::string chances(const EvaluateSection& section) {
       " The intervals are those of {} draws ({}); another view of what is uncertain may move the "
       "probabilities farther than that.",
       decision.draws, decision.source);
+  const auto& outside = decision.candidates[decision.best].outside_goals;
+  text += fmt::format(
+      " Its hard goals hold on the {} plants it was tuned for; of the draws, which move more "
+      "inputs "
+      "and all at once, a share of {} breaks one.",
+      section.ensemble_size, share(outside));
   return text;
 }
 
@@ -144,7 +150,8 @@ std::string what_to_test(const EvaluateSection& section) {
         "No test of one input would change the choice of {} for the better by more than chance "
         "could feign; knowing everything would lower the expected rms by {:.4f} mdeg ({:.2f} %). "
         "What tests are worth for the tuning itself is not in this figure: gains are held here.",
-        choice, tests.perfect.gain, 100.0 * tests.perfect.gain / mean);
+        choice, std::max(0.0, tests.perfect.gain),
+        100.0 * std::max(0.0, tests.perfect.gain) / mean);
   }
   const auto input = static_cast<std::size_t>(best - tests.inputs.begin());
   return fmt::format(

@@ -50,22 +50,22 @@ void follow_ensemble(const Case& before, Case& after) {
 }  // namespace
 
 void refuse_change(const ProposedChange& change, const std::string& message) {
-  refuse_at(change.stated().location, change.key, message);
+  refuse_at(change.number.location, change.key, message);
 }
 
 double changed(const ProposedChange& change, double before) {
-  return change.value ? change.value->value : change.factor->value * before;
+  return change.multiplies ? change.number.value * before : change.number.value;
 }
 
 // A number of a case with the change's word in the place of its own.
 Quantity changed(const ProposedChange& change, const Quantity& before) {
-  if (change.value) return *change.value;
+  if (!change.multiplies) return change.number;
   Quantity after = before;
-  const double factor = change.factor->value;
+  const double factor = change.number.value;
   after.value *= factor;
   after.standard_uncertainty *= std::abs(factor);
   after.half_unit *= std::abs(factor);
-  after.text = fmt::format("{} x {}", before.text, change.factor->text);
+  after.text = fmt::format("{} x {}", before.text, change.number.text);
   after.also.clear();
   return after;
 }
@@ -87,7 +87,7 @@ void follow_sampling(const Case& before, const Proposal& proposal, Case& after) 
   const auto* rate = proposal.find("controller.sample_rate");
   const auto* delay = proposal.find("controller.delay");
   if (rate != nullptr) {
-    const double sample = 1.0 / rate->value->value;
+    const double sample = 1.0 / rate->number.value;
     if (delay == nullptr) {
       after.controller_delay.value = 1.5 * sample;
       after.controller_delay.text = fmt::format("{:.4g} s", 1.5 * sample);
@@ -98,8 +98,8 @@ void follow_sampling(const Case& before, const Proposal& proposal, Case& after) 
                                 0.5 * sample, after.controller_delay.value));
     }
     if (proposal.find("sensors.noise_bandwidth") == nullptr) {
-      after.sensors.noise_bandwidth.value = 0.5 * rate->value->value;
-      after.sensors.noise_bandwidth.text = fmt::format("{:g} Hz", 0.5 * rate->value->value);
+      after.sensors.noise_bandwidth.value = 0.5 * rate->number.value;
+      after.sensors.noise_bandwidth.text = fmt::format("{:g} Hz", 0.5 * rate->number.value);
     }
   }
   // The fastest thing a loop must see: below half the rate, or it comes back as another
@@ -108,7 +108,7 @@ void follow_sampling(const Case& before, const Proposal& proposal, Case& after) 
   for (const auto& mode : after.structure.modes) {
     fastest = std::max(fastest, mode.frequency.value);
   }
-  const double sampled = rate != nullptr ? rate->value->value : 1.5 / after.controller_delay.value;
+  const double sampled = rate != nullptr ? rate->number.value : 1.5 / after.controller_delay.value;
   const auto* slow = rate != nullptr ? rate : delay;
   const bool slower = sampled < 1.5 / before.controller_delay.value;
   if (slow != nullptr && slower && sampled < 2.0 * fastest) {
@@ -138,7 +138,7 @@ void follow_drive(const Case& before, const Proposal& proposal, Case& after) {
   }
   const auto stated = [&](std::string_view key) {
     const auto* change = proposal.find(key);
-    return change != nullptr && change->value.has_value();
+    return change != nullptr && !change->multiplies;
   };
   if (after.sensors.torque_noise && !stated("sensors.torque_noise")) {
     after.sensors.torque_noise->value *= displaced;

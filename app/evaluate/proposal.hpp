@@ -1,6 +1,5 @@
 #pragma once
 
-#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -9,15 +8,13 @@
 
 namespace boresight::app {
 
-/// A number of a case that a proposal replaces or multiplies: exactly one of the two.
+/// A number of a case that a proposal replaces, or multiplies.
 struct ProposedChange {
   /// In the case's words: "motor.displacement", "gear_train.stage[3].driven_teeth" (counted from
   /// the motors, from 1), "gear_train.assembly[J3].inertia".
   std::string key;
-  std::optional<Quantity> value;
-  std::optional<Quantity> factor;
-
-  const Quantity& stated() const { return value ? *value : *factor; }
+  Quantity number;
+  bool multiplies = false;  // the number is a factor
 };
 
 struct ProposedCost {

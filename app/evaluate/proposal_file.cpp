@@ -44,7 +44,7 @@ class ChangeTable {
     const TomlNode* found = node_.find(key);
     if (found == nullptr || found->type != TomlType::table || found->find("factor") == nullptr) {
       if (auto value = reader_.optional_quantity(key, kind, range)) {
-        changes.push_back({path, std::move(value), std::nullopt});
+        changes.push_back({path, std::move(*value), false});
       }
       return;
     }
@@ -62,13 +62,13 @@ class ChangeTable {
     factor.uncertainty_source = details.optional_text("uncertainty_source").value_or("");
     factor = read_factor(details, std::move(factor));
     details.finish();
-    changes.push_back({path, std::nullopt, std::move(factor)});
+    changes.push_back({path, std::move(factor), true});
   }
 
   void whole_number(const ProposedChange& change, const char* key) const {
-    if (change.value && change.value->value != std::round(change.value->value)) {
+    if (!change.multiplies && change.number.value != std::round(change.number.value)) {
       reader_.refuse(key,
-                     fmt::format("expected a whole number, found {}", quoted(change.value->text)));
+                     fmt::format("expected a whole number, found {}", quoted(change.number.text)));
     }
   }
 
@@ -231,7 +231,7 @@ class ProposalReader {
                         const char* of_what) {
     const std::size_t before = proposal_.changes.size();
     table.read(key, path, Kind::number, Range::positive(largest_factor), proposal_.changes);
-    if (proposal_.changes.size() > before && !proposal_.changes.back().factor) {
+    if (proposal_.changes.size() > before && !proposal_.changes.back().multiplies) {
       table.reader().refuse(
           key, fmt::format("expected {{ factor = \"...\" }}, which multiplies {}, found a value",
                            of_what));
@@ -249,7 +249,7 @@ class ProposalReader {
     table->read("line_share", "oil.line_share", Kind::number, Range::between(0.0, 1.0),
                 proposal_.changes);
     if (const auto* share = proposal_.find("oil.line_share"); share != nullptr) {
-      if (share->factor) {
+      if (share->multiplies) {
         table->reader().refuse("line_share", "expected a share within 0 to 1, found a factor");
       }
       if (!lines) {
@@ -278,7 +278,7 @@ class ProposalReader {
     const std::size_t before = proposal_.changes.size();
     table->read("sample_rate", "controller.sample_rate", Kind::frequency, Range::positive(1e6),
                 proposal_.changes);
-    if (proposal_.changes.size() > before && proposal_.changes.back().factor) {
+    if (proposal_.changes.size() > before && proposal_.changes.back().multiplies) {
       table->reader().refuse("sample_rate",
                              "expected a frequency such as \"100 Hz\", found a "
                              "factor (a case states the delay only)");

@@ -15,7 +15,7 @@ namespace boresight::app {
 namespace {
 
 std::string after_text(const ProposedChange& change) {
-  return change.value ? change.value->text : "x " + change.factor->text;
+  return change.multiplies ? "x " + change.number.text : change.number.text;
 }
 
 class Application {
@@ -42,7 +42,7 @@ class Application {
     result_.consequences = consequences_of(before_, after_);
     std::erase_if(result_.consequences, [&](const DerivedChange& one) {
       const auto* named = proposal_.find(one.key);
-      return named != nullptr && named->value;
+      return named != nullptr && !named->multiplies;
     });
     return std::move(result_);
   }
@@ -67,23 +67,21 @@ class Application {
     if (modulus != nullptr || lengths != nullptr) {
       // A case may have the modulus from its lines' pressure waves: it is the oil's, not the
       // lines'.
-      if (!after_.oil.bulk_modulus) {
-        Quantity mean;
-        mean.value = bulk_modulus(before_);
-        mean.kind = Kind::pressure;
-        mean.text = fmt::format("{:.6g} Pa", mean.value);
-        mean.key = "oil.bulk_modulus";
-        after_.oil.bulk_modulus = mean;
+      Quantity mean;
+      mean.value = bulk_modulus(before_);
+      mean.kind = Kind::pressure;
+      mean.text = fmt::format("{:.6g} Pa", mean.value);
+      mean.key = "oil.bulk_modulus";
+      Quantity own = after_.oil.bulk_modulus.value_or(mean);
+      if (modulus != nullptr) {
+        note_before("oil.bulk_modulus", own.text);
+        own = changed(*modulus, own);
+        check_changed_range(*modulus, Kind::pressure, Range::between(1e7, 1e10), own.value);
       }
-    }
-    if (modulus != nullptr) {
-      note_before("oil.bulk_modulus", after_.oil.bulk_modulus->text);
-      after_.oil.bulk_modulus = changed(*modulus, *after_.oil.bulk_modulus);
-      check_changed_range(*modulus, Kind::pressure, Range::between(1e7, 1e10),
-                          after_.oil.bulk_modulus->value);
+      after_.oil.bulk_modulus = own;
     }
     if (lengths == nullptr) return;
-    const double factor = lengths->factor->value;
+    const double factor = lengths->number.value;
     for (auto& line : after_.oil.lines) {
       line.length.value *= factor;
       line.slosh_frequency.value /= factor;
@@ -98,7 +96,7 @@ class Application {
                     "volume_2, found both");
     }
     if (share != nullptr) {
-      const double kept = 1.0 - share->value->value + share->value->value * factor;
+      const double kept = 1.0 - share->number.value + share->number.value * factor;
       if (!(kept > 0.0)) {
         refuse_change(*share, "expected volumes to be left when the lines are gone, found none");
       }
@@ -119,7 +117,7 @@ class Application {
   void check_volume(const ProposedChange& change, double before, double after) const {
     const auto* lengths = proposal_.find("oil.line_lengths");
     if (lengths == nullptr) return;
-    const double factor = lengths->factor->value;
+    const double factor = lengths->number.value;
     const double least = std::min(1.0, factor) * before, most = std::max(1.0, factor) * before;
     constexpr double rounding = 1e-3;
     if (after < least * (1.0 - rounding) || after > most * (1.0 + rounding)) {
@@ -167,13 +165,13 @@ class Application {
                     fmt::format("expected an assembly of the case ({}), found {}{}",
                                 quoted_list(known), quoted(name), did_you_mean(name, known)));
     }
-    if (!found->inertia && change.factor) {
+    if (!found->inertia && change.multiplies) {
       refuse_change(change,
                     "expected an inertia, since the case sums this one from its parts, found a "
                     "factor");
     }
     note_before(change.key, found->inertia ? found->inertia->text : "of its parts");
-    found->inertia = change.value ? *change.value : changed(change, *found->inertia);
+    found->inertia = changed(change, found->inertia.value_or(change.number));
   }
 
   void apply_numbers() {
@@ -288,12 +286,12 @@ class Application {
   void add_row(const ProposedChange& change) {
     const auto found = std::ranges::find(befores_, change.key, &Before::first);
     result_.changes.push_back({change.key, found != befores_.end() ? found->second : "-",
-                               after_text(change), change.stated().basis, change.stated().source});
+                               after_text(change), change.number.basis, change.number.source});
   }
 
   void check_any_change() {
     const bool any = std::ranges::any_of(proposal_.changes, [&](const auto& change) {
-      if (change.factor) return change.factor->value != 1.0;
+      if (change.multiplies) return change.number.value != 1.0;
       return change.key != "oil.line_share" && !same_as_before(change);
     });
     if (any || !proposal_.structures.empty()) return;
@@ -308,9 +306,9 @@ class Application {
     for (const auto& number : changeable_numbers()) {
       if (change.key != number.path()) continue;
       const Quantity* own = number.in(original_);
-      return own != nullptr && own->value == change.value->value;
+      return own != nullptr && own->value == change.number.value;
     }
-    const double value = change.value->value;
+    const double value = change.number.value;
     if (change.key == "motor.count") return value == static_cast<double>(before_.motor.count);
     if (change.key == "motor.flywheel_disks") return value == before_.motor.flywheel_disks;
     if (change.key == "oil.bulk_modulus") return value == bulk_modulus(before_);

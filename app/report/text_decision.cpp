@@ -11,7 +11,12 @@ namespace {
 using Rows = std::vector<std::vector<std::string>>;
 
 std::string fixed(double value, int decimals) {
-  return std::isfinite(value) ? fmt::format("{:.{}f}", value, decimals) : "infinite";
+  if (!std::isfinite(value)) return "infinite";
+  const std::string text = fmt::format("{:.{}f}", value, decimals);
+  // Rounded to nothing, a number has no sign.
+  return text.find_first_of("123456789") == std::string::npos && text.starts_with('-')
+             ? text.substr(1)
+             : text;
 }
 
 std::string share(const design::Probability& probability) {

@@ -88,7 +88,8 @@ BandComparison compare_band(const identification::SpectralMatrix& before,
                     "spectra, found none from {:g} to {:g} Hz",
                     from, to));
   }
-  if (!(first.mean_square > 0.0 && second.mean_square > 0.0)) {
+  const bool moving = first.mean_square > 0.0 && second.mean_square > 0.0;
+  if (!moving) {
     throw InvalidInput(fmt::format(
         "compare_records: expected records that move, found nothing from {:g} to {:g} Hz in the "
         "record {}",

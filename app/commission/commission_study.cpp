@@ -245,8 +245,8 @@ void predict(const design::CommissioningPlan& plan, ChannelComparison& channel) 
     channel.predicted = after.nominal / before.nominal;
     channel.predicted_lower = after.lower / before.upper;
     channel.predicted_upper = after.upper / before.lower;
-    channel.agrees = channel.comparison.whole.lower <= *channel.predicted_upper &&
-                     *channel.predicted_lower <= channel.comparison.whole.upper;
+    channel.agrees = channel.comparison.whole.lower <= after.upper / before.lower &&
+                     after.lower / before.upper <= channel.comparison.whole.upper;
   };
   if (channel.channel == "motor rate") set(first.windy_tachometer, last.windy_tachometer);
   if (channel.channel == "torque") set(first.windy_torque, last.windy_torque);
@@ -289,7 +289,7 @@ std::vector<std::string> conclude(const CommissionReport& report, const Case& an
         channel.channel, whole.lowest, whole.highest, whole.ratio, whole.lower, whole.upper,
         to_string(whole.change));
     sentence[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(sentence[0])));
-    if (channel.predicted) {
+    if (channel.predicted && channel.predicted_lower && channel.predicted_upper) {
       sentence +=
           fmt::format(" The plan predicts {:.3g} ({:.3g} to {:.3g}) in the design wind: {}.",
                       *channel.predicted, *channel.predicted_lower, *channel.predicted_upper,

@@ -4,15 +4,11 @@
 #include <fmt/format.h>
 
 #include <boresight/app/commands/commission_command.hpp>
-#include <boresight/app/identify/campaign_identification.hpp>
-#include <boresight/app/identify/identified_case.hpp>
-#include <boresight/app/tune/plant_members.hpp>
+#include <boresight/app/uncertainty/designed_antenna.hpp>
 #include <boresight/plant/error.hpp>
 
 namespace boresight::app {
 namespace {
-
-constexpr std::size_t identified_members = 30;
 
 int run(CommissionArguments arguments) {
   arguments.options.threads = all_or(arguments.options.threads);
@@ -34,29 +30,11 @@ int run(CommissionArguments arguments) {
 
 CommissionReport commission_case(const CommissionArguments& arguments,
                                  const std::function<bool()>& interrupted) {
-  Case antenna = read_case(arguments.case_path);
   CommissionOptions options = arguments.options;
   options.interrupted = interrupted;
-  PlantEnsemble ensemble;
-  if (!antenna.campaign.records.empty()) {
-    StudyOptions study;
-    study.seed = options.seed;
-    study.threads = options.threads;
-    study.progress = [&](std::size_t, std::size_t) {
-      if (interrupted && interrupted()) throw Interrupted("interrupted by the user");
-    };
-    const CampaignSection campaign = identify_campaign(antenna, study);
-    if (campaign.grey_box) {
-      const Case stated = antenna;
-      antenna = with_identified(stated, campaign.grey_box->estimate);
-      ensemble = {"drawn from what the records leave open",
-                  identified_ensemble(stated, campaign.grey_box->draws, identified_members)};
-    }
-  }
-  if (ensemble.members.empty()) {
-    ensemble = {"drawn from the ranges of the case", plant_members(antenna, options.seed)};
-  }
-  return plan_commission(antenna, ensemble, options);
+  const DesignedAntenna designed =
+      designed_antenna(read_case(arguments.case_path), options.seed, options.threads, interrupted);
+  return plan_commission(designed.antenna, designed.ensemble, options);
 }
 
 Subcommand add_commission(CLI::App& program) {

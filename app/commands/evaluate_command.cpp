@@ -7,29 +7,14 @@
 #include <boresight/app/commands/evaluate_command.hpp>
 #include <boresight/app/commands/progress_line.hpp>
 #include <boresight/app/evaluate/evaluate_study.hpp>
-#include <boresight/app/identify/campaign_identification.hpp>
-#include <boresight/app/identify/identified_case.hpp>
 #include <boresight/app/redesign/sections.hpp>
 #include <boresight/app/report/json_report.hpp>
 #include <boresight/app/report/text_report.hpp>
+#include <boresight/app/uncertainty/designed_antenna.hpp>
+#include <boresight/plant/error.hpp>
 
 namespace boresight::app {
 namespace {
-
-// What the records leave open; the case becomes the one they show. Nothing if they show none.
-std::optional<PlantUncertainty> of_records(Case& antenna, const EvaluateArguments& arguments,
-                                           const std::function<bool()>& interrupted) {
-  StudyOptions study;
-  study.seed = arguments.seed;
-  study.threads = arguments.threads;
-  study.progress = [&](std::size_t, std::size_t) {
-    if (interrupted && interrupted()) throw Interrupted("interrupted by the user");
-  };
-  const CampaignSection campaign = identify_campaign(antenna, study);
-  if (!campaign.grey_box) return std::nullopt;
-  antenna = with_identified(antenna, campaign.grey_box->estimate);
-  return PlantUncertainty{PlantDistribution::of_records(antenna, campaign.grey_box->draws), true};
-}
 
 // Numbers that the proposals assume, beside the case's.
 void add_assumed(const std::vector<Proposal>& proposals, std::vector<Quantity>& assumed) {
@@ -102,16 +87,16 @@ Report evaluate_case(const EvaluateArguments& arguments, const std::function<boo
   report.seed = arguments.seed;
   ProgressLine progress("tuning and comparing proposals");
   std::optional<PlantUncertainty> uncertainty;
-  if (!antenna.campaign.records.empty()) {
-    try {
-      uncertainty = of_records(antenna, arguments, interrupted);
-    } catch (const Interrupted&) {
-      report.interrupted = true;
-      report.assumed = assumed_inputs(antenna);
-      return report;
-    }
+  try {
+    DesignedAntenna designed =
+        designed_antenna(antenna, arguments.seed, arguments.threads, interrupted);
+    antenna = std::move(designed.antenna);
+    uncertainty = PlantUncertainty{std::move(designed.distribution), designed.from_records};
+  } catch (const Interrupted&) {
+    report.interrupted = true;
+    report.assumed = assumed_inputs(antenna);
+    return report;
   }
-  if (!uncertainty) uncertainty = PlantUncertainty{PlantDistribution::of_ranges(antenna), false};
   report.assumed = assumed_inputs(antenna);
   add_assumed(proposals, report.assumed);
   options.progress = [&](std::size_t done, std::size_t all) { progress.show(done, all); };

@@ -11,7 +11,8 @@
 #include <boresight/app/redesign/sections.hpp>
 #include <boresight/app/report/json_report.hpp>
 #include <boresight/app/report/text_report.hpp>
-#include <boresight/app/tune/plant_members.hpp>
+#include <boresight/app/uncertainty/designed_antenna.hpp>
+#include <boresight/plant/error.hpp>
 
 namespace boresight::app {
 namespace {
@@ -27,7 +28,7 @@ struct Arguments {
 };
 
 int run(const Arguments& arguments) {
-  const Case antenna = read_case(arguments.case_path);
+  Case antenna = read_case(arguments.case_path);
   require_json_path(arguments.json_path);
   MatchOptions options = arguments.options;
   options.threads = all_or(options.threads);
@@ -39,11 +40,19 @@ int run(const Arguments& arguments) {
   report.axis = antenna.axis;
   report.case_path = arguments.case_path;
   report.seed = options.seed;
-  report.assumed =
-      assumed_inputs(antenna, antenna.simulation && options.time_runs != MatchTimeRuns::none);
   watch_for_interrupt();
   std::vector<design::EnsembleMember> members;
-  if (!arguments.nominal) members = plant_members(antenna, arguments.ensemble_seed);
+  try {
+    DesignedAntenna designed =
+        designed_antenna(antenna, arguments.ensemble_seed, options.threads, interrupt_requested);
+    antenna = std::move(designed.antenna);
+    if (!arguments.nominal) members = std::move(designed.ensemble.members);
+  } catch (const Interrupted&) {
+    fmt::print(stderr, "boresight: interrupted before the records were identified\n");
+    return interrupted;
+  }
+  report.assumed =
+      assumed_inputs(antenna, antenna.simulation && options.time_runs != MatchTimeRuns::none);
   {
     std::optional<ProgressLine> line;
     std::string_view working;

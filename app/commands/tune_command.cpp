@@ -5,21 +5,18 @@
 
 #include <boresight/app/commands/progress_line.hpp>
 #include <boresight/app/commands/tune_command.hpp>
-#include <boresight/app/identify/campaign_identification.hpp>
-#include <boresight/app/identify/identified_case.hpp>
 #include <boresight/app/io/wording.hpp>
+#include <boresight/app/redesign/sections.hpp>
 #include <boresight/app/report/json_report.hpp>
 #include <boresight/app/report/measured_report.hpp>
 #include <boresight/app/report/text_report.hpp>
-#include <boresight/app/tune/plant_members.hpp>
 #include <boresight/app/tune/tune_limit.hpp>
 #include <boresight/app/tune/tune_study.hpp>
+#include <boresight/app/uncertainty/designed_antenna.hpp>
+#include <boresight/plant/error.hpp>
 
 namespace boresight::app {
 namespace {
-
-// As many as the reference ensemble has.
-constexpr std::size_t identified_members = 30;
 
 std::vector<double> read_speeds(const std::vector<std::string>& texts) {
   std::vector<double> speeds;
@@ -104,31 +101,15 @@ Report tune_case(const TuneArguments& arguments, const std::function<bool()>& in
   }
   ProgressLine progress("tuning and verifying");
   PlantEnsemble ensemble;
-  if (antenna.campaign.records.empty()) {
-    ensemble = {"drawn from the ranges of the case", plant_members(antenna, arguments.seed)};
-  } else {
-    StudyOptions study;
-    study.seed = arguments.seed;
-    study.threads = arguments.threads;
-    study.progress = [&](std::size_t, std::size_t) {
-      if (interrupted && interrupted()) throw Interrupted("interrupted by the user");
-    };
-    try {
-      const CampaignSection campaign = identify_campaign(antenna, study);
-      if (campaign.grey_box) {
-        const Case stated = antenna;
-        antenna = with_identified(stated, campaign.grey_box->estimate);
-        ensemble = {"drawn from what the records leave open",
-                    identified_ensemble(stated, campaign.grey_box->draws, identified_members)};
-      }
-    } catch (const Interrupted&) {
-      report.interrupted = true;
-      report.assumed = assumed_inputs(antenna);
-      return report;
-    }
-    if (ensemble.members.empty()) {
-      ensemble = {"drawn from the ranges of the case", plant_members(antenna, arguments.seed)};
-    }
+  try {
+    DesignedAntenna designed =
+        designed_antenna(antenna, arguments.seed, arguments.threads, interrupted);
+    antenna = std::move(designed.antenna);
+    ensemble = std::move(designed.ensemble);
+  } catch (const Interrupted&) {
+    report.interrupted = true;
+    report.assumed = assumed_inputs(antenna);
+    return report;
   }
   report.assumed = assumed_inputs(antenna);
   options.progress = [&](std::size_t done, std::size_t all) { progress.show(done, all); };

@@ -7,15 +7,13 @@
 #include <fmt/format.h>
 
 #include <boresight/app/commands/progress_line.hpp>
-#include <boresight/app/identify/campaign_identification.hpp>
-#include <boresight/app/identify/identified_case.hpp>
 #include <boresight/app/montecarlo/checkpoint.hpp>
 #include <boresight/app/montecarlo/held_law.hpp>
 #include <boresight/app/montecarlo/montecarlo_study.hpp>
 #include <boresight/app/redesign/sections.hpp>
 #include <boresight/app/report/json_report.hpp>
 #include <boresight/app/tune/engineer_units.hpp>
-#include <boresight/app/tune/plant_members.hpp>
+#include <boresight/app/uncertainty/designed_antenna.hpp>
 #include <boresight/plant/error.hpp>
 
 namespace boresight::app {
@@ -23,45 +21,8 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-// The case that plants are drawn about, with what they are drawn from.
-struct Population {
-  std::shared_ptr<const Case> antenna;
-  std::shared_ptr<const PlantDistribution> distribution;
-  PlantEnsemble ensemble;  // that a law is tuned over
-};
-
-// As many as the reference ensemble has.
-constexpr std::size_t identified_members = 30;
-
-Population make_population(Case antenna, const MonteCarloArguments& arguments,
-                           const std::function<bool()>& interrupted) {
-  Population population;
-  if (!antenna.campaign.records.empty()) {
-    StudyOptions study;
-    study.seed = arguments.seed;
-    study.threads = arguments.threads;
-    study.progress = [&](std::size_t, std::size_t) {
-      if (interrupted && interrupted()) throw Interrupted("interrupted while identifying");
-    };
-    const CampaignSection campaign = identify_campaign(antenna, study);
-    if (campaign.grey_box) {
-      const auto& draws = campaign.grey_box->draws;
-      population.antenna =
-          std::make_shared<Case>(with_identified(antenna, campaign.grey_box->estimate));
-      population.distribution = std::make_shared<PlantDistribution>(
-          PlantDistribution::of_records(*population.antenna, draws));
-      population.ensemble = {"drawn from what the records leave open",
-                             identified_ensemble(antenna, draws, identified_members)};
-      return population;
-    }
-  }
-  population.distribution =
-      std::make_shared<PlantDistribution>(PlantDistribution::of_ranges(antenna));
-  population.ensemble = {"drawn from the ranges of the case",
-                         plant_members(antenna, arguments.seed)};
-  population.antenna = std::make_shared<Case>(std::move(antenna));
-  return population;
-}
+// What plants are drawn from, shared with the function that makes them.
+using Population = std::shared_ptr<const DesignedAntenna>;
 
 // Anything that goes wrong on one rank, on every one, by its kind. Kinds in the order of exit
 // codes.
@@ -164,7 +125,7 @@ HeldLaw law_from(const std::string& text, const Case& antenna) {
 
 HeldLaw make_law(const MonteCarloArguments& arguments, const Population& population,
                  const std::function<bool()>& interrupted) {
-  const Case& antenna = *population.antenna;
+  const Case& antenna = population->antenna;
   if (arguments.gains == "case") return present_law(antenna, arguments.structure);
   if (arguments.gains != "tuned") {
     return law_of_report(antenna, arguments.gains, arguments.structure);
@@ -173,7 +134,7 @@ HeldLaw make_law(const MonteCarloArguments& arguments, const Population& populat
   if (structure.empty() && !antenna.tuning.structures.empty()) {
     structure = antenna.tuning.structures.front();
   }
-  return tuned_law(antenna, population.ensemble, structure.empty() ? "PI" : structure,
+  return tuned_law(antenna, population->ensemble, structure.empty() ? "PI" : structure,
                    arguments.seed, arguments.threads, interrupted);
 }
 
@@ -267,7 +228,7 @@ class Work {
 
 design::MonteCarlo make_study(const MonteCarloArguments& arguments, const Population& population,
                               const control::ControlLaw& law) {
-  const Case& antenna = *population.antenna;
+  const Case& antenna = population->antenna;
   design::MonteCarlo study;
   study.problem = make_problem(antenna);
   study.problem.climate = make_climate(antenna);
@@ -276,9 +237,8 @@ design::MonteCarlo make_study(const MonteCarloArguments& arguments, const Popula
   study.plants = arguments.plants;
   study.retune = arguments.retune;
   study.retune_over_climate = antenna.goals.over_climate;
-  study.plant = [shared = population.antenna, distribution = population.distribution,
-                 seed = arguments.seed](std::uint64_t index) {
-    return make_plant(*shared, distribution->draw(seed, index));
+  study.plant = [population, seed = arguments.seed](std::uint64_t index) {
+    return make_plant(population->antenna, population->distribution.draw(seed, index));
   };
   return study;
 }
@@ -329,7 +289,8 @@ MonteCarloOutcome run_montecarlo(const MonteCarloArguments& arguments, Ranks& ra
         throw InvalidInput(fmt::format("--structure: {}", error.what()));
       }
     }
-    population = make_population(std::move(antenna), arguments, interrupted);
+    population = std::make_shared<DesignedAntenna>(
+        designed_antenna(antenna, arguments.seed, arguments.threads, interrupted));
     if (ranks.first()) {
       held = make_law(arguments, population, interrupted);
       law_text = law_bytes(held);
@@ -338,11 +299,11 @@ MonteCarloOutcome run_montecarlo(const MonteCarloArguments& arguments, Ranks& ra
   law_text = ranks.broadcast(law_text);
   std::uint64_t digest = 0;
   on_all(ranks, [&] {
-    if (!ranks.first()) held = law_from(law_text, *population.antenna);
+    if (!ranks.first()) held = law_from(law_text, population->antenna);
     study = make_study(arguments, population, held.law);
     outcome.run = std::make_unique<design::MonteCarloRun>(study);
     if (arguments.checkpoint_path.empty() || !ranks.first()) return;
-    digest = digest_of(arguments, *population.distribution, study);
+    digest = digest_of(arguments, population->distribution, study);
     if (read_checkpoint(arguments.checkpoint_path, digest, *outcome.run) > 0) {
       fmt::print(stderr, "boresight: {} of {} plants taken up from {}\n",
                  outcome.run->plants_done(), arguments.plants, arguments.checkpoint_path);
@@ -350,11 +311,11 @@ MonteCarloOutcome run_montecarlo(const MonteCarloArguments& arguments, Ranks& ra
   });
   Work work(arguments, ranks, *outcome.run, digest, interrupted);
   work.run();
-  outcome.distribution = population.distribution;
+  outcome.distribution = {population, &population->distribution};
   if (!ranks.first()) return outcome;
 
   MonteCarloSection& section = outcome.section;
-  section = new_section(arguments, *population.antenna, study, held);
+  section = new_section(arguments, population->antenna, study, held);
   summarise(*outcome.run, *outcome.distribution, section);
   section.conclusions = conclude(section);
   return outcome;

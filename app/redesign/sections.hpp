@@ -15,11 +15,9 @@ struct StudyOptions {
 
 IdentificationSection identify(const Case& antenna, const StudyOptions& options);
 PlantSection describe_plant(const Case& antenna);
-/// Re-tunes at the case's flywheel counts and at ratio 1, with and without lag, with the linear
-/// plant's friction and with the curve's slope at the tracking rate.
-MatchingSection match_inertia(const Case& antenna, const StudyOptions& options);
-/// Tuning from eight seeds, starting with options.seed, choices and matching in one pool of work;
-/// fills the report's sections.
+/// Tuning from eight seeds, starting with options.seed, choices, and matching at the case's
+/// flywheel counts and at ratio 1, with and without lag, with the linear plant's friction and with
+/// the curve's slope at the tracking rate: in one pool of work. Fills the report's sections.
 void redesign(const Case& antenna, const StudyOptions& options, Report& report);
 
 /// Quantities of basis `assumed`, and those whose uncertainty is; those that only simulated tests

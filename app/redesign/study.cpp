@@ -263,12 +263,6 @@ std::vector<design::DesignTask> tasks_of(const std::vector<Choice>& choices) {
 
 }  // namespace
 
-MatchingSection match_inertia(const Case& antenna, const StudyOptions& options) {
-  MatchingPlan plan = plan_matching(antenna, options);
-  auto designs = design::solve_all(plan.tasks, options.threads, options.progress);
-  return finish_matching(std::move(plan), designs.begin(), options.threads);
-}
-
 void redesign(const Case& antenna, const StudyOptions& options, Report& report) {
   const auto tuning = tuning_tasks(antenna, options);
   std::vector<Choice> choices = plan_choices(antenna, options);

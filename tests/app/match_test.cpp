@@ -46,7 +46,9 @@ TEST(Match, PutsRatioOneAndAsBuiltAmongTheEvenlySpacedDisks) {
   int on_grid = 0;
   for (const auto& point : points) {
     on_grid += point.on_grid ? 1 : 0;
-    if (point.label == "ratio 1") EXPECT_NEAR(point.motor_to_load_ratio, 1.0, 1e-9);
+    if (point.label == "ratio 1") {
+      EXPECT_NEAR(point.motor_to_load_ratio, 1.0, 1e-9);
+    }
   }
   EXPECT_EQ(on_grid, 4);
   EXPECT_EQ(points.front().disks, 0.0);

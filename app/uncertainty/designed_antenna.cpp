@@ -1,0 +1,38 @@
+#include <boresight/app/identify/campaign_identification.hpp>
+#include <boresight/app/identify/identified_case.hpp>
+#include <boresight/app/tune/plant_members.hpp>
+#include <boresight/app/uncertainty/designed_antenna.hpp>
+#include <boresight/plant/error.hpp>
+
+namespace boresight::app {
+
+DesignedAntenna designed_antenna(const Case& stated, std::uint64_t seed, unsigned threads,
+                                 const std::function<bool()>& interrupted) {
+  // As many as the reference ensemble has.
+  constexpr std::size_t members = 30;
+  if (!stated.campaign.records.empty()) {
+    StudyOptions study;
+    study.seed = seed;
+    study.threads = threads;
+    study.progress = [&](std::size_t, std::size_t) {
+      if (interrupted && interrupted()) throw Interrupted("interrupted by the user");
+    };
+    const CampaignSection campaign = identify_campaign(stated, study);
+    if (campaign.grey_box) {
+      const auto& draws = campaign.grey_box->draws;
+      const Case identified = with_identified(stated, campaign.grey_box->estimate);
+      PlantEnsemble ensemble{"drawn from what the records leave open",
+                             identified_ensemble(stated, draws, members)};
+      if (!ensemble.members.empty()) {
+        return {identified, std::move(ensemble), PlantDistribution::of_records(identified, draws),
+                true};
+      }
+    }
+  }
+  return {stated,
+          {"drawn from the ranges of the case", plant_members(stated, seed)},
+          PlantDistribution::of_ranges(stated),
+          false};
+}
+
+}  // namespace boresight::app

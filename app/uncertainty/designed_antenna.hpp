@@ -1,0 +1,28 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+
+#include <boresight/app/tune/tune_study.hpp>
+#include <boresight/app/uncertainty/plant_distribution.hpp>
+
+namespace boresight::app {
+
+/// The antenna that a study works on, and the plants that may be the true one.
+struct DesignedAntenna {
+  /// The case as stated; with records that show a drive, the case with that one.
+  Case antenna;
+  /// As many as the reference ensemble has, drawn from what the records leave open, else from the
+  /// ranges of the case.
+  PlantEnsemble ensemble;
+  PlantDistribution distribution;  // that of the ensemble's draws
+  bool from_records = false;
+};
+
+/// Identifies a case's records, if it has any. The same for any number of threads.
+/// @throws Interrupted once `interrupted` (may be empty) said yes, as identify_campaign and
+/// with_identified.
+DesignedAntenna designed_antenna(const Case& stated, std::uint64_t seed, unsigned threads,
+                                 const std::function<bool()>& interrupted);
+
+}  // namespace boresight::app

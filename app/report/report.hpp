@@ -139,7 +139,7 @@ struct Report {
   std::optional<design::PointingLimit> limit;  // of the command tune, at the best law's wind speed
   std::vector<ChoiceResult> choices;
   std::optional<MatchingSection> matching;
-  std::optional<MatchSection> matched;  // of the command match
+  std::optional<MatchSection> matched;       // of the command match
   std::optional<EvaluateSection> evaluated;  // of the command evaluate
   std::vector<Quantity> assumed;
   std::vector<std::string> conclusions;

@@ -10,6 +10,7 @@
 #include <boresight/app/redesign/sections.hpp>
 #include <boresight/app/report/json_report.hpp>
 #include <boresight/app/report/text_report.hpp>
+#include <boresight/app/tune/asked_structures.hpp>
 #include <boresight/app/uncertainty/designed_antenna.hpp>
 #include <boresight/plant/error.hpp>
 
@@ -66,17 +67,7 @@ Report evaluate_case(const EvaluateArguments& arguments, const std::function<boo
   options.seed = arguments.seed;
   options.threads = arguments.threads;
   options.interrupted = interrupted;
-  for (const auto& name : options.structures) {
-    try {
-      loop_structure(antenna.loops, name);
-    } catch (const InvalidInput& error) {
-      throw InvalidInput(fmt::format("--structure: {}", error.what()));
-    }
-    if (std::ranges::count(options.structures, name) != 1) {
-      throw InvalidInput(
-          fmt::format("--structure: expected each structure once, found '{}' again", name));
-    }
-  }
+  if (!options.structures.empty()) asked_structures(antenna, options.structures);
   require_json_path(arguments.json_path);
 
   Report report;

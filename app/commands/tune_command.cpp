@@ -10,6 +10,7 @@
 #include <boresight/app/report/json_report.hpp>
 #include <boresight/app/report/measured_report.hpp>
 #include <boresight/app/report/text_report.hpp>
+#include <boresight/app/tune/asked_structures.hpp>
 #include <boresight/app/tune/tune_limit.hpp>
 #include <boresight/app/tune/tune_study.hpp>
 #include <boresight/app/uncertainty/designed_antenna.hpp>
@@ -69,16 +70,8 @@ Report tune_case(const TuneArguments& arguments, const std::function<bool()>& in
   options.seed = arguments.seed;
   options.threads = arguments.threads;
   options.interrupted = interrupted;
-  for (const auto& name : options.structures) {
-    try {
-      loop_structure(antenna.loops, name);
-    } catch (const InvalidInput& error) {
-      throw InvalidInput(fmt::format("--structure: {}", error.what()));
-    }
-  }
-  if (!arguments.json_path.empty() && arguments.json_path != "-") {
-    require_writable(arguments.json_path);
-  }
+  if (!options.structures.empty()) asked_structures(antenna, options.structures);
+  require_json_path(arguments.json_path);
 
   Report report;
   report.command = "tune";

@@ -8,6 +8,7 @@
 
 #include <boresight/app/match/match_study.hpp>
 #include <boresight/app/simulate/nonlinear_model.hpp>
+#include <boresight/app/tune/asked_structures.hpp>
 #include <boresight/design/parallel_loop.hpp>
 #include <boresight/plant/antenna_parameters.hpp>
 #include <boresight/plant/error.hpp>
@@ -18,22 +19,6 @@ namespace {
 constexpr double two_pi = 2.0 * std::numbers::pi;
 constexpr double degree = std::numbers::pi / 180.0;
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-
-std::vector<std::string> names_of(const Case& antenna, const MatchOptions& options) {
-  std::vector<std::string> names = options.structures;
-  if (names.empty()) names = antenna.tuning.structures;
-  if (names.empty()) {
-    names = {"PI", "DPF", "LL", "FULL", "PI+C", "DPF+C"};
-    for (const auto& loop : antenna.loops) names.push_back(loop.structure.name());
-  }
-  for (const auto& name : names) {
-    if (std::ranges::count(names, name) != 1) {
-      throw InvalidInput(
-          fmt::format("match: expected each structure once, found '{}' again", name));
-    }
-  }
-  return names;
-}
 
 // Evenly spaced disks, and between them ratio 1 and as built.
 std::vector<MatchPoint> points_of(const Case& antenna, const MatchOptions& options) {
@@ -243,7 +228,7 @@ FlatRange flat_range(const std::vector<double>& axis, const std::vector<double>&
 
 MatchSection match_motors(const Case& antenna, const std::vector<design::EnsembleMember>& members,
                           const MatchOptions& options) {
-  const auto names = names_of(antenna, options);
+  const auto names = asked_structures(antenna, options.structures);
   MatchSection section;
   section.slew_rate = rate_within_reach(antenna);
   section.slew_distance = 10.0 * degree;

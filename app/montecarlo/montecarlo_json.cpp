@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <boresight/app/montecarlo/montecarlo_study.hpp>
+#include <boresight/app/report/json_assumed.hpp>
 #include <boresight/app/report/json_design.hpp>
 #include <boresight/app/report/sky_units.hpp>
 
@@ -98,18 +99,6 @@ Json inputs_json(const MonteCarloSection& section) {
   Json list = Json::array();
   for (const auto input : section.inputs) list.push_back(to_string(input));
   return list;
-}
-
-Json assumed_json(const std::vector<Quantity>& assumed) {
-  Json json = Json::array();
-  for (const auto& quantity : assumed) {
-    const bool value = quantity.basis == Basis::assumed;
-    json.push_back({{"key", quantity.key},
-                    {"value", quantity.text},
-                    {"assumed", value ? "value" : "uncertainty"},
-                    {"source", value ? quantity.source : quantity.uncertainty_source}});
-  }
-  return json;
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 #include <numbers>
 
 #include <boresight/app/report/evaluate_report.hpp>
+#include <boresight/app/report/json_assumed.hpp>
 #include <boresight/app/report/json_audit.hpp>
 #include <boresight/app/report/json_campaign.hpp>
 #include <boresight/app/report/json_design.hpp>
@@ -190,18 +191,6 @@ Json matching_json(const MatchingSection& section) {
                     {"friction", series.friction},
                     {"viscous_friction_N_m_s_per_rad", series.viscous_friction},
                     {"points", std::move(points)}});
-  }
-  return json;
-}
-
-Json assumed_json(const std::vector<Quantity>& assumed) {
-  Json json = Json::array();
-  for (const auto& quantity : assumed) {
-    const bool value = quantity.basis == Basis::assumed;
-    json.push_back({{"key", quantity.key},
-                    {"value", quantity.text},
-                    {"assumed", value ? "value" : "uncertainty"},
-                    {"source", value ? quantity.source : quantity.uncertainty_source}});
   }
   return json;
 }

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include <boresight/app/tune/asked_structures.hpp>
 #include <boresight/app/tune/engineer_units.hpp>
 #include <boresight/app/tune/tune_study.hpp>
 #include <boresight/design/parallel_loop.hpp>
@@ -143,21 +144,6 @@ class Study {
   std::vector<design::WeightedWind> climate_;
 };
 
-std::vector<std::string> structures_of(const Case& antenna, const TuneOptions& options) {
-  std::vector<std::string> names = options.structures;
-  if (names.empty()) names = antenna.tuning.structures;
-  if (names.empty()) {
-    names = {"PI", "DPF", "LL", "FULL", "PI+C", "DPF+C"};
-    for (const auto& loop : antenna.loops) names.push_back(loop.structure.name());
-  }
-  for (const auto& name : names) {
-    if (std::ranges::count(names, name) != 1) {
-      throw InvalidInput(fmt::format("tune: expected each structure once, found '{}' again", name));
-    }
-  }
-  return names;
-}
-
 // The speeds asked for, or the design's, and those of budgets that must be met.
 std::vector<double> speeds_of(const Case& antenna, const TuneOptions& options) {
   std::vector<double> speeds = options.wind_speeds;
@@ -217,7 +203,7 @@ std::string_view to_string(TunedFor purpose) {
 TuneSection tune_structures(const Case& antenna, const PlantEnsemble& ensemble,
                             const TuneOptions& options) {
   TuneSection section;
-  section.structures = structures_of(antenna, options);
+  section.structures = asked_structures(antenna, options.structures);
   section.wind_speeds = speeds_of(antenna, options);
   section.goals = make_goals(antenna);
   design::validate(section.goals);

@@ -158,7 +158,7 @@ TEST(Match, AnInterruptLeavesWhatWasWhole) {
 TEST(Match, SaysWhatItCannotWorkOn) {
   MatchOptions options = small_options();
   options.structures = {"PI", "PI"};
-  EXPECT_EQ(message_of(options), "match: expected each structure once, found 'PI' again");
+  EXPECT_EQ(message_of(options), "--structure: expected each structure once, found 'PI' again");
   options = small_options();
   options.points = 3;
   EXPECT_EQ(message_of(options), "match: expected at least 4 points, found 3");

@@ -172,7 +172,7 @@ void flatten(const Json& json, const std::string& place, std::vector<std::string
     if (numbers.emplace(place, json.get<double>()).second) order.push_back(place);
   } else if (json.is_object()) {
     for (const auto& [key, value] : json.items()) {
-      flatten(value, place.empty() ? key : place + "." + key, order, numbers);
+      flatten(value, place.empty() ? key : fmt::format("{}.{}", place, key), order, numbers);
     }
   } else if (json.is_array()) {
     std::size_t index = 0;

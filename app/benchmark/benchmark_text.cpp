@@ -88,6 +88,7 @@ std::string ladder_text(const std::vector<design::WindScore>& winds) {
 }
 
 std::string reference_text(const BenchmarkReport& report) {
+  if (!report.score.reference) return "";
   const auto& reference = *report.score.reference;
   const double rms = report.score.design_wind.beam_rms;
   std::string text = fmt::format(

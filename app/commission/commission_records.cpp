@@ -47,8 +47,7 @@ design::RecordedChannel torque_of(const DriveRecord& record,
   return channel(identification::recorded_torque(record, knowledge), valid, record.sample_time);
 }
 
-design::RecordedChannel rate_error(const DriveRecord& record) {
-  const Signal& command = record.rate_command.value();
+design::RecordedChannel rate_error(const DriveRecord& record, const Signal& command) {
   return channel(record.motor_rate.values - command.values,
                  both(record.motor_rate.valid, command.valid), record.sample_time);
 }
@@ -90,7 +89,8 @@ std::vector<ChannelComparison> compare_case_records(const Case& antenna, const s
     result.push_back(std::move(comparison));
   };
   if (first.rate_command && second.rate_command) {
-    add("motor rate less its command", "rad/s", rate_error(first), rate_error(second));
+    add("motor rate less its command", "rad/s", rate_error(first, *first.rate_command),
+        rate_error(second, *second.rate_command));
   }
   add("motor rate", "rad/s", of(first.motor_rate, first.sample_time),
       of(second.motor_rate, second.sample_time));

@@ -12,7 +12,6 @@ namespace boresight::app {
 namespace {
 
 using Rows = std::vector<std::vector<std::string>>;
-using design::PlantBand;
 
 std::string number(double value, const char* form) {
   return std::isfinite(value) ? fmt::format(fmt::runtime(form), value) : "-";

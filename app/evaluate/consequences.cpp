@@ -35,10 +35,10 @@ double sky_friction(const Case& antenna) {
 }
 
 struct Derived {
-  const char* quantity;
-  const char* unit;
-  double (*value)(const Case&);
-  const char* follows_from;
+  const char* quantity = "";
+  const char* unit = "";
+  double (*value)(const Case&) = nullptr;
+  const char* follows_from = "";
   const char* key = "";  // of the case's own number, where it is one
 };
 

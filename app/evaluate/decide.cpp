@@ -108,14 +108,14 @@ class Decision {
            const PlantDistribution& distribution, const EvaluateOptions& options)
       : candidates_(candidates), distribution_(distribution), options_(options) {
     for (std::size_t i = 0; i < candidates.size(); ++i) {
-      if (!candidates[i].chosen) {
+      const CandidateLaw* law = candidates[i].chosen_law();
+      if (law == nullptr) {
         section_.notes.push_back(
             fmt::format("{} has no stable law and is left out.", candidates[i].name));
         continue;
       }
       section_.candidates.push_back({i, {}, {}});
-      held_.emplace_back(cases.front(), cases[i],
-                         candidates[i].laws[*candidates[i].chosen].design.tuning.law);
+      held_.emplace_back(cases.front(), cases[i], law->design.tuning.law);
     }
     for (const auto input : distribution.inputs()) section_.inputs.emplace_back(to_string(input));
   }

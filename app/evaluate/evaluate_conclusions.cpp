@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
 
 #include <fmt/format.h>
@@ -11,8 +12,10 @@
 namespace boresight::app {
 namespace {
 
-const CandidateLaw& law_of(const Candidate& candidate) {
-  return candidate.laws[*candidate.chosen];
+// NaN without a stable law.
+double rms_of(const Candidate& candidate) {
+  const CandidateLaw* law = candidate.chosen_law();
+  return law == nullptr ? std::numeric_limits<double>::quiet_NaN() : law->member_rms;
 }
 
 std::string share(const design::Probability& probability) {
@@ -20,17 +23,19 @@ std::string share(const design::Probability& probability) {
                      probability.upper);
 }
 
-const std::string& name_of(const EvaluateSection& section, std::size_t place) {
-  return section.candidates[section.decision->candidates[place].candidate].name;
+const std::string& name_of(const EvaluateSection& section, const DecisionSection& decision,
+                           std::size_t place) {
+  return section.candidates[decision.candidates[place].candidate].name;
 }
 
 std::string against_as_it_is(const EvaluateSection& section) {
   const Candidate& base = section.candidates.front();
-  if (!base.path.empty() || !base.chosen || !std::isfinite(law_of(base).member_rms)) return "";
+  const CandidateLaw* law = base.chosen_law();
+  if (!base.path.empty() || law == nullptr || !std::isfinite(law->member_rms)) return "";
   std::vector<std::string> better, worse;
   for (const auto& candidate : section.candidates) {
     if (candidate.path.empty() || !candidate.feasible()) continue;
-    const double change = law_of(candidate).member_rms / law_of(base).member_rms - 1.0;
+    const double change = rms_of(candidate) / rms_of(base) - 1.0;
     auto& list = change < 0.0 ? better : worse;
     list.push_back(fmt::format("{:.1f} % by {}", 100.0 * std::abs(change), candidate.name));
   }
@@ -38,8 +43,8 @@ std::string against_as_it_is(const EvaluateSection& section) {
       "Conditions: {} loops on the antenna as it is, {} wind at {:g} m/s, gains re-tuned for each "
       "proposal. Root-mean-square beam error over the plants against the antenna as it is, "
       "re-tuned ({:.4f} mdeg): ",
-      law_of(base).structure, plant::to_string(section.wind_model), section.wind_speed,
-      law_of(base).member_rms / millidegree);
+      law->structure, plant::to_string(section.wind_model), section.wind_speed,
+      rms_of(base) / millidegree);
   text += better.empty() ? "nothing lowers it" : fmt::format("lowered {}", fmt::join(better, ", "));
   if (!worse.empty()) text += fmt::format("; raised or left {}", fmt::join(worse, ", "));
   return text + ".";
@@ -51,11 +56,10 @@ std::string on_the_front(const EvaluateSection& section) {
   for (std::size_t k = 0; k < section.front.size(); ++k) {
     const auto& candidate = section.candidates[section.front[k]];
     std::string step = fmt::format("{} ({:g} {}, {:.4f} mdeg)", candidate.name, candidate.cost,
-                                   section.currency, law_of(candidate).member_rms / millidegree);
+                                   section.currency, rms_of(candidate) / millidegree);
     if (k > 0) {
       const auto& before = section.candidates[section.front[k - 1]];
-      const double gained =
-          (law_of(before).member_rms - law_of(candidate).member_rms) / millidegree;
+      const double gained = (rms_of(before) - rms_of(candidate)) / millidegree;
       const double paid = candidate.cost - before.cost;
       if (gained > 0.0 && paid > 0.0) {
         step += fmt::format(", {:.0f} {} for each mdeg more", paid / gained, section.currency);
@@ -71,8 +75,7 @@ std::string on_the_front(const EvaluateSection& section) {
       fmt::join(steps, "; "), assumed ? " Costs marked as assumed were quoted by nobody." : "");
 }
 
-std::string chances(const EvaluateSection& section) {
-  const auto& decision = *section.decision;
+std::string chances(const EvaluateSection& section, const DecisionSection& decision) {
   const auto& options = decision.statistics.options;
   const auto pair = std::ranges::find_if(decision.statistics.pairs, [&](const auto& one) {
     return (one.first == decision.best && one.second == decision.second) ||
@@ -89,9 +92,9 @@ std::string chances(const EvaluateSection& section) {
       "Least mean rms with the gains held: {}, {:.4f} mdeg; it is the best of all with probability "
       "{} and better than {} with probability {}, by {:.4f} +- {:.4f} mdeg on average. Choosing it "
       "loses {:.4f} mdeg on average against whoever knew the plant.",
-      name_of(section, decision.best), options[decision.best].mean,
-      share(options[decision.best].best), name_of(section, decision.second), share(better), gain,
-      pair->gain_error, options[decision.best].expected_regret);
+      name_of(section, decision, decision.best), options[decision.best].mean,
+      share(options[decision.best].best), name_of(section, decision, decision.second),
+      share(better), gain, pair->gain_error, options[decision.best].expected_regret);
   text += fmt::format(
       " The intervals are those of {} draws ({}); another view of what is uncertain may move the "
       "probabilities farther than that.",
@@ -105,8 +108,7 @@ std::string chances(const EvaluateSection& section) {
   return text;
 }
 
-std::string what_decides(const EvaluateSection& section) {
-  const auto& decision = *section.decision;
+std::string what_decides(const EvaluateSection& section, const DecisionSection& decision) {
   if (!decision.sobol || decision.sobol->outputs.front().constant) return "";
   const auto& indices = decision.sobol->outputs.front();
   std::vector<std::size_t> order(indices.inputs.size());
@@ -120,8 +122,8 @@ std::string what_decides(const EvaluateSection& section) {
                                 decision.inputs[i], 100.0 * indices.inputs[i].total.value));
   }
   std::string text = fmt::format("The difference between {} and {} depends most on {}.",
-                                 name_of(section, decision.second), name_of(section, decision.best),
-                                 fmt::join(named, ", "));
+                                 name_of(section, decision, decision.second),
+                                 name_of(section, decision, decision.best), fmt::join(named, ", "));
   if (decision.tornado) {
     const auto turns = std::ranges::find_if(decision.tornado->bars, [&](const auto& bar) {
       return std::min(bar.at_low, bar.at_high) < 0.0;
@@ -136,14 +138,13 @@ std::string what_decides(const EvaluateSection& section) {
   return text;
 }
 
-std::string what_to_test(const EvaluateSection& section) {
-  const auto& decision = *section.decision;
+std::string what_to_test(const EvaluateSection& section, const DecisionSection& decision) {
   if (!decision.tests) return "";
   const auto& tests = *decision.tests;
   const auto best =
       std::ranges::max_element(tests.inputs, {}, [](const auto& one) { return one.held_out_gain; });
   const double mean = tests.mean_loss[tests.choice];
-  const auto& choice = name_of(section, tests.choice);
+  const auto& choice = name_of(section, decision, tests.choice);
   if (best == tests.inputs.end() || best->held_out_gain <= 2.0 * best->held_out_error ||
       best->held_out_gain < 1e-4 * mean) {
     return fmt::format(
@@ -200,9 +201,9 @@ std::vector<std::string> conclude(const EvaluateSection& section) {
   add(against_as_it_is(section));
   add(on_the_front(section));
   if (section.decision) {
-    add(chances(section));
-    add(what_decides(section));
-    add(what_to_test(section));
+    add(chances(section, *section.decision));
+    add(what_decides(section, *section.decision));
+    add(what_to_test(section, *section.decision));
   }
   add(out_of_reach(section));
   return sentences;

@@ -72,6 +72,8 @@ struct Candidate {
   std::optional<std::size_t> chosen;
   std::optional<CandidateFigures> figures;  // of the chosen law
 
+  /// None if no structure is stable.
+  const CandidateLaw* chosen_law() const { return chosen ? &laws[*chosen] : nullptr; }
   bool feasible() const { return chosen && laws[*chosen].usable(); }
 };
 

@@ -253,9 +253,10 @@ std::vector<std::size_t> front_of(const std::vector<Candidate>& candidates) {
   std::vector<std::size_t> places;
   std::vector<design::CostPoint> points;
   for (std::size_t i = 0; i < candidates.size(); ++i) {
-    if (!candidates[i].feasible()) continue;
+    const CandidateLaw* law = candidates[i].chosen_law();
+    if (law == nullptr || !law->usable()) continue;
     places.push_back(i);
-    points.push_back({candidates[i].cost, candidates[i].laws[*candidates[i].chosen].member_rms});
+    points.push_back({candidates[i].cost, law->member_rms});
   }
   std::vector<std::size_t> front;
   for (const std::size_t i : design::pareto_front(points)) front.push_back(places[i]);

@@ -150,7 +150,7 @@ void follow_drive(const Case& before, const Proposal& proposal, Case& after) {
                                       static_cast<double>(own.count);
   }
   double stroke = opened / displaced;
-  if (after.simulation) {
+  if (after.simulation && before.simulation) {
     if (!stated("simulation.valve_stroke")) after.simulation->valve_stroke.value *= stroke;
     stroke = after.simulation->valve_stroke.value / before.simulation->valve_stroke.value;
   }

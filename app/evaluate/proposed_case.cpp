@@ -170,8 +170,9 @@ class Application {
                     "expected an inertia, since the case sums this one from its parts, found a "
                     "factor");
     }
-    note_before(change.key, found->inertia ? found->inertia->text : "of its parts");
-    found->inertia = changed(change, found->inertia.value_or(change.number));
+    std::optional<Quantity>& inertia = found->inertia;
+    note_before(change.key, inertia ? inertia->text : "of its parts");
+    inertia = changed(change, inertia ? *inertia : change.number);
   }
 
   void apply_numbers() {

@@ -94,7 +94,7 @@ void summarise_losses(const Judged& judged, MonteCarloSection& section) {
     section.climate_rms = design::summarise(climate_rms, shares());
   }
   for (auto& [band, loss, climate_loss] : section.losses) {
-    const auto in_band = [&band = band](double value) { return mean_loss(value, band); };
+    const auto in_band = [&named = band](double value) { return mean_loss(value, named); };
     loss = design::summarise(mapped(rms, in_band), shares());
     if (section.climate) {
       climate_loss = design::summarise(mapped(climate_rms, in_band), shares());

@@ -1,9 +1,10 @@
 // How often the 95 % intervals of identify hold the truth, over campaigns of random antennas
 // simulated by the nonlinear model:
-//   boresight_coverage [--campaigns N] [--first K] [--seed S] [--threads T] [--details CSV]
-//                      [DOCUMENT]
-// writes the table to DOCUMENT (else to standard output). The result depends on campaigns and seed
-// alone. Fails if J, K or the Coulomb level is covered in less than 90 % or more than 99 %.
+//   boresight_coverage [--campaigns N] [--first K] [--seed S] [--seeds M] [--threads T]
+//                      [--details CSV] [DOCUMENT]
+// writes the table of N campaigns of each of M seeds to DOCUMENT (else to standard output). The
+// result depends on campaigns and seeds alone. Fails if J, K or the Coulomb level is covered in
+// less than 90 % or more than 99 %.
 #include <charconv>
 #include <cstdint>
 #include <cstdio>
@@ -30,6 +31,7 @@ struct Arguments {
   std::uint64_t campaigns = 120;
   std::uint64_t first = 1;
   std::uint64_t seed = 1;
+  std::uint64_t seeds = 2;
   unsigned threads = 2;
   std::string details;
   std::string document;
@@ -61,25 +63,29 @@ Arguments parse(const std::vector<std::string_view>& words) {
       arguments.first = number<std::uint64_t>(option, words[i]);
     } else if (option == "--seed") {
       arguments.seed = number<std::uint64_t>(option, words[i]);
+    } else if (option == "--seeds") {
+      arguments.seeds = number<std::uint64_t>(option, words[i]);
     } else if (option == "--threads") {
       arguments.threads = number<unsigned>(option, words[i]);
     } else if (option == "--details") {
       arguments.details = words[i];
     } else {
       throw std::runtime_error(fmt::format(
-          "expected --campaigns, --first, --seed, --threads or --details, found {}", option));
+          "expected --campaigns, --first, --seed, --seeds, --threads or --details, found {}",
+          option));
     }
   }
   return arguments;
 }
 
 std::vector<CoverageCase> run(const Arguments& arguments) {
-  std::vector<CoverageCase> cases(arguments.campaigns);
+  std::vector<CoverageCase> cases(arguments.campaigns * arguments.seeds);
   boresight::app::ProgressLine line("campaigns");
   std::mutex mutex;
   std::size_t done = 0;
   boresight::design::for_each_index(cases.size(), arguments.threads, [&](std::size_t i) {
-    cases[i] = coverage_case(arguments.seed, arguments.first + i, {});
+    cases[i] = coverage_case(arguments.seed + i / arguments.campaigns,
+                             arguments.first + i % arguments.campaigns, {});
     const std::lock_guard lock(mutex);
     line.show(++done, cases.size());
   });
@@ -90,8 +96,8 @@ std::string document(const Arguments& arguments, const std::vector<CoverageCase>
   const CoverageSetting setting;
   return fmt::format(R"(## Coverage of identified intervals
 
-How often the 95 % intervals hold the truth: campaigns {} to {} of seed {}, written by
-`./dev coverage`. Each is another antenna (2 to 4 motors, 0.3 to 3 kg m2 at the motor shaft, its
+How often the 95 % intervals hold the truth: campaigns {} to {} of each of the
+seeds {} to {}, written by `./dev coverage`. Each is another antenna (2 to 4 motors, 0.3 to 3 kg m2 at the motor shaft, its
 hydraulic mode at 0.7 to 1.6 Hz, 3 to 5 structural modes), whose tests the nonlinear model runs:
 slosh, fast ramp into clipping, slow ramp, six constant speeds, valve steps and sweep, six
 minutes in all. Random errors of transducers, tachometer, valve scale and of every number of the
@@ -110,7 +116,7 @@ starts of the grey box and {} draws.
 
 )",
                      arguments.first, arguments.first + arguments.campaigns - 1, arguments.seed,
-                     setting.further_starts, setting.draws) +
+                     arguments.seed + arguments.seeds - 1, setting.further_starts, setting.draws) +
          markdown(cases);
 }
 

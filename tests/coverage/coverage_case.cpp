@@ -137,6 +137,7 @@ void judge_simple_methods(const RandomDrive& drive, const SimulatedCampaign& sim
 CoverageCase coverage_case(std::uint64_t seed, std::uint64_t number,
                            const CoverageSetting& setting) {
   CoverageCase result;
+  result.seed = seed;
   result.number = number;
   const RandomDrive drive = random_drive(seed, number);
   SimulatedCampaign simulated;

@@ -19,7 +19,8 @@ struct Judged {
 
 /// One campaign: always the same rows in the same order.
 struct CoverageCase {
-  std::uint64_t number = 0;
+  std::uint64_t seed = 0;
+  std::uint64_t number = 0;  // of the seed's
   std::vector<Judged> rows;
   std::vector<std::string> failures;  // methods that gave nothing, and why
   double largest_departure = 0.0;     // of the grey box's parameters of drawings, in their spreads

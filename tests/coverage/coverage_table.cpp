@@ -75,7 +75,7 @@ std::string markdown(const std::vector<CoverageCase>& cases) {
   std::string failures;
   for (const auto& one : cases) {
     for (const auto& failure : one.failures) {
-      failures += fmt::format("- campaign {}: {}\n", one.number, failure);
+      failures += fmt::format("- campaign {} of seed {}: {}\n", one.number, one.seed, failure);
     }
   }
   text += failures.empty() ? "\nEvery method gave a result in every campaign.\n"
@@ -85,16 +85,17 @@ std::string markdown(const std::vector<CoverageCase>& cases) {
 
 std::string details(const std::vector<CoverageCase>& cases) {
   std::string text =
-      "campaign,quantity,method,truth,value,standard_uncertainty,lower,upper,covered,"
+      "seed,campaign,quantity,method,truth,value,standard_uncertainty,lower,upper,covered,"
       "largest_departure\n";
   for (const auto& one : cases) {
     for (const auto& row : one.rows) {
       if (!row.interval) continue;
       const auto& i = *row.interval;
       fmt::format_to(std::back_inserter(text),
-                     "{},{},\"{}\",{:.9g},{:.9g},{:.9g},{:.9g},{:.9g},{},{:.3g}\n", one.number,
-                     row.quantity, row.method, row.truth, i.value, i.standard_uncertainty, i.lower,
-                     i.upper, covers(i, row.truth) ? 1 : 0, one.largest_departure);
+                     "{},{},{},\"{}\",{:.9g},{:.9g},{:.9g},{:.9g},{:.9g},{},{:.3g}\n", one.seed,
+                     one.number, row.quantity, row.method, row.truth, i.value,
+                     i.standard_uncertainty, i.lower, i.upper, covers(i, row.truth) ? 1 : 0,
+                     one.largest_departure);
     }
   }
   return text;

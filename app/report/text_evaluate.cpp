@@ -215,8 +215,10 @@ std::string to_text(const EvaluateSection& section) {
   std::vector<std::string> names;
   for (const std::size_t i : section.front) {
     const auto& candidate = section.candidates[i];
-    names.push_back(fmt::format("{} ({:g}, {} mdeg)", candidate.name, candidate.cost,
-                                mdeg(candidate.laws[*candidate.chosen].member_rms)));
+    const CandidateLaw* law = candidate.chosen_law();
+    if (law == nullptr) continue;
+    names.push_back(
+        fmt::format("{} ({:g}, {} mdeg)", candidate.name, candidate.cost, mdeg(law->member_rms)));
   }
   text += "\n" + wrapped(fmt::format("Front of cost ({}) and rms over the plants: {}.",
                                      section.currency, fmt::join(names, "; ")),

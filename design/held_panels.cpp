@@ -81,7 +81,7 @@ control::PanelTail tail(const RealPack& coefficients, std::size_t first) {
 // The last two coefficients of a complex function, squared.
 double last_coefficients(const RealPack& coefficients) {
   double sum = 0.0;
-  for (const std::size_t k : {2, 3, 6, 7}) sum += coefficients[k] * coefficients[k];
+  for (const unsigned k : {2U, 3U, 6U, 7U}) sum += coefficients[k] * coefficients[k];
   return sum;
 }
 

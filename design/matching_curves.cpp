@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <memory>
 #include <mutex>
 #include <numbers>
 #include <numeric>
@@ -156,7 +157,8 @@ class Column {
   bool improve(std::size_t structure, const Seen* left, const Seen* right) {
     Cell& cell = cells_[structure];
     const unsigned before = cell.version;
-    const auto try_once = [&](std::size_t source, const Seen& seen, std::vector<double> point) {
+    const auto try_once = [&](std::size_t source, const Seen& seen,
+                              const std::vector<double>& point) {
       if (point.empty() || cell.tried[source] == seen.version || stopped()) return;
       cell.tried[source] = seen.version;
       cell.searched = true;
@@ -266,7 +268,7 @@ class Column {
           search.retreat(from, anchors[static_cast<std::size_t>(i) % anchors.size()]);
       if (auto end = search.search_from(start)) ends.push_back(std::move(*end));
     }
-    if (ends.empty() && search.nearest()) ends.push_back(*search.nearest());
+    if (const auto& nearest = search.nearest(); ends.empty() && nearest) ends.push_back(*nearest);
     evaluations_ += search.evaluations() * static_cast<long>(carried.size());
     std::ranges::stable_sort(ends, {}, &SearchPoint::cost);
     // Ends far above the best, or copies of it, are not worth holding on every plant.
@@ -376,7 +378,7 @@ MatchingCurves match_motors(const MatchingTask& task, const MatchingOptions& opt
   const std::size_t structures = task.structures.size();
   const WindTable wind(task.problem);
   const auto parts = parts_of(task.structures);
-  std::vector<std::optional<Column>> made(columns);
+  std::vector<std::unique_ptr<Column>> made(columns);
 
   // Certain steps: making and starting, one round, finishing.
   std::size_t done = 0, all = 3 * columns * structures;
@@ -387,7 +389,7 @@ MatchingCurves match_motors(const MatchingTask& task, const MatchingOptions& opt
     if (options.progress) options.progress(done, all);
   };
   for_each_index(columns, options.threads, [&](std::size_t i) {
-    made[i].emplace(task, options, wind, parts, i);
+    made[i] = std::make_unique<Column>(task, options, wind, parts, i);
     for (std::size_t s = 0; s < structures; ++s) {
       made[i]->start(s, options.starts);
       step();

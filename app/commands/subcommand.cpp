@@ -40,6 +40,7 @@ void add_seed(CLI::App& command, std::uint64_t& seed) {
 }
 
 void add_threads(CLI::App& command, unsigned& threads) {
+  threads = 0;
   command.add_option("--threads", threads,
                      "threads to work on; results do not depend on it (default: all)");
 }

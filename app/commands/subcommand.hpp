@@ -30,7 +30,7 @@ struct Subcommand {
 void add_case(CLI::App& command, std::string& path);
 void add_json(CLI::App& command, std::string& path);
 void add_seed(CLI::App& command, std::uint64_t& seed);
-/// 0, the default: all; see all_or.
+/// Sets the number to 0, the default: all; see all_or.
 void add_threads(CLI::App& command, unsigned& threads);
 /// The number of threads asked for, of the machine's for 0.
 unsigned all_or(unsigned threads);

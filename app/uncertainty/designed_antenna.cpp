@@ -1,3 +1,5 @@
+#include <fmt/format.h>
+
 #include <boresight/app/identify/campaign_identification.hpp>
 #include <boresight/app/identify/identified_case.hpp>
 #include <boresight/app/tune/plant_members.hpp>
@@ -19,14 +21,14 @@ DesignedAntenna designed_antenna(const Case& stated, std::uint64_t seed, unsigne
     };
     const CampaignSection campaign = identify_campaign(stated, study);
     if (campaign.grey_box) {
-      const auto& draws = campaign.grey_box->draws;
       const Case identified = with_identified(stated, campaign.grey_box->estimate);
-      PlantEnsemble ensemble{"drawn from what the records leave open",
-                             identified_ensemble(stated, draws, members)};
-      if (!ensemble.members.empty()) {
-        return {identified, std::move(ensemble), PlantDistribution::of_records(identified, draws),
-                true};
+      const auto distribution = PlantDistribution::of_records(identified, campaign.grey_box->draws);
+      PlantEnsemble ensemble{"drawn from what the records leave open", {}};
+      for (std::size_t i = 0; i < members; ++i) {
+        ensemble.members.push_back(
+            {fmt::format("draw {}", i + 1), make_plant(identified, distribution.draw(seed, i))});
       }
+      return {identified, std::move(ensemble), distribution, true};
     }
   }
   return {stated,

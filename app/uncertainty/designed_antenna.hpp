@@ -12,10 +12,10 @@ namespace boresight::app {
 struct DesignedAntenna {
   /// The case as stated; with records that show a drive, the case with that one.
   Case antenna;
-  /// As many as the reference ensemble has, drawn from what the records leave open, else from the
-  /// ranges of the case.
+  /// As many as the reference ensemble has: draws of the distribution where records leave it open,
+  /// else tune/plant_members.hpp.
   PlantEnsemble ensemble;
-  PlantDistribution distribution;  // that of the ensemble's draws
+  PlantDistribution distribution;
   bool from_records = false;
 };
 

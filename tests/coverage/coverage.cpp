@@ -97,9 +97,9 @@ std::string document(const Arguments& arguments, const std::vector<CoverageCase>
   return fmt::format(R"(## Coverage of identified intervals
 
 How often the 95 % intervals hold the truth: campaigns {} to {} of each of the
-seeds {} to {}, written by `./dev coverage`. Each is another antenna (2 to 4 motors, 0.3 to 3 kg m2 at the motor shaft, its
-hydraulic mode at 0.7 to 1.6 Hz, 3 to 5 structural modes), whose tests the nonlinear model runs:
-slosh, fast ramp into clipping, slow ramp, six constant speeds, valve steps and sweep, six
+seeds {} to {}, written by `./dev coverage`. Each is another antenna (2 to 4 motors, 0.3 to
+3 kg m2 at the motor shaft, its hydraulic mode at 0.7 to 1.6 Hz, 3 to 5 structural modes), whose
+tests the nonlinear model runs: slosh, fast ramp into clipping, slow ramp, six constant speeds, valve steps and sweep, six
 minutes in all. Random errors of transducers, tachometer, valve scale and of every number of the
 drawings, by the standard uncertainties that identify is told. What the fitted model does not have:
 wind, ripple of the tachometer, air in the oil, backlash under preload, the valve's second order and

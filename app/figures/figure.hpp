@@ -1,0 +1,73 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace boresight::app {
+
+enum class AxisScale { linear, logarithmic };
+
+struct FigureAxis {
+  std::string label;  // "frequency"
+  std::string unit;   // "Hz"; empty: a plain number
+  AxisScale scale = AxisScale::linear;
+  /// Names at 0, 1, 2, ... in place of numbers; empty: numbers.
+  std::vector<std::string> categories;
+};
+
+enum class SeriesStyle { line, dashed, steps, points, line_and_points, bars };
+
+/// One curve or set of points. `x` and `y` are of one length; NaN in either leaves a gap.
+struct FigureSeries {
+  std::string name;
+  SeriesStyle style = SeriesStyle::line;
+  std::vector<double> x, y;
+  /// Intervals about the points, empty or of the length of `x`: about lines of y a band, about
+  /// points bars; of style `bars` what the bar spans (without them it spans 0 to the value, along x
+  /// where the y axis has categories, along y otherwise).
+  std::vector<double> x_lower, x_upper, y_lower, y_upper;
+  /// What a point is called, empty or of the length of `x`.
+  std::vector<std::string> labels;
+};
+
+/// A point of the plane that is named: a peak, a crossover, an optimum.
+struct FigureMark {
+  double x = 0.0, y = 0.0;
+  std::string label;
+};
+
+/// A line across the whole panel: a budget, a limit, a rule.
+struct FigureLine {
+  enum class Direction { horizontal, vertical };
+  Direction direction = Direction::horizontal;
+  double at = 0.0;
+  std::string label;
+};
+
+/// A circle in the plane of a panel: a disk margin.
+struct FigureCircle {
+  double x = 0.0, y = 0.0, radius = 0.0;
+  std::string label;
+};
+
+struct FigurePanel {
+  FigureAxis y;
+  std::vector<FigureSeries> series;
+  std::vector<FigureMark> marks;
+  std::vector<FigureLine> lines;
+  std::vector<FigureCircle> circles;
+};
+
+/// A plot of one or more panels, one above the other on the same x axis. Values are in the unit
+/// that the axis names: those a reader sees, not SI.
+struct Figure {
+  std::string id;       // of [a-z0-9-], unique in a report: file name, anchor
+  std::string section;  // heading of the report's section under which it is shown
+  std::string title;
+  std::string caption;  // what is seen under which conditions, in a sentence or two
+  FigureAxis x;
+  std::vector<FigurePanel> panels;
+  bool equal_scales = false;  // one unit of x as long as one of y: a Nyquist plot
+};
+
+}  // namespace boresight::app

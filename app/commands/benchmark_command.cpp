@@ -7,6 +7,7 @@
 #include <boresight/app/commands/benchmark_command.hpp>
 #include <boresight/app/commands/progress_line.hpp>
 #include <boresight/app/io/controller_file.hpp>
+#include <boresight/app/io/input_files.hpp>
 #include <boresight/app/report/json_report.hpp>
 #include <boresight/app/tune/engineer_units.hpp>
 #include <boresight/plant/error.hpp>
@@ -32,8 +33,9 @@ BenchmarkedController chosen_controller(const BenchmarkArguments& arguments, con
       throw InvalidInput(
           "benchmark: expected either --controller or gains (--gains, --sampled), found both");
     }
-    const auto file = read_controller(arguments.controller_path, gear_ratio(antenna),
-                                      {names_in(arguments.inputs), names_in(arguments.outputs)});
+    const auto file = read_controller(
+        arguments.controller_path, gear_ratio(antenna),
+        {names_in(arguments.controller_inputs), names_in(arguments.controller_outputs)});
     return {file.system, "controller of " + arguments.controller_path, std::nullopt, file.remarks};
   }
   if (!arguments.gains_path.empty()) {
@@ -55,6 +57,7 @@ std::string text_of(const std::string& path) {
   std::ifstream file(path, std::ios::binary);
   std::string text{std::istreambuf_iterator<char>(file), {}};
   if (!file) throw InvalidInput(fmt::format("{}: expected a readable file, found none", path));
+  note_input(path, text);
   return text;
 }
 
@@ -63,7 +66,7 @@ std::string text_of(const std::string& path) {
 BenchmarkReport benchmark_case(const BenchmarkArguments& arguments,
                                const std::function<bool()>& interrupted) {
   const Case antenna = read_case(arguments.case_path);
-  require_json_path(arguments.json_path);
+  arguments.outputs.require_writable();
   if (!arguments.export_path.empty()) require_writable(arguments.export_path);
   const BenchmarkedController controller = chosen_controller(arguments, antenna);
   const std::string other =
@@ -87,8 +90,8 @@ int run(BenchmarkArguments arguments) {
   arguments.threads = all_or(arguments.threads);
   watch_for_interrupt();
   const BenchmarkReport report = benchmark_case(arguments, interrupt_requested);
-  deliver(
-      arguments.json_path, [&] { return to_text(report); }, [&] { return to_json(report); });
+  arguments.outputs.deliver(
+      {.text = [&] { return to_text(report); }, .json = [&] { return to_json(report); }});
   if (report.interrupted) return interrupted;
   if (!report.score.stable) {
     // What is sure is no failure of the numbers: a goal, stability, that this controller misses.
@@ -115,16 +118,16 @@ Subcommand add_benchmark(CLI::App& program) {
   sub->add_option("--controller", arguments->controller_path,
                   "any linear controller as state space, MAT (version 5) or JSON: see "
                   "docs/benchmark-protocol.md");
-  sub->add_option("--inputs", arguments->inputs,
+  sub->add_option("--inputs", arguments->controller_inputs,
                   "names of the controller's inputs where its file has none, comma between");
-  sub->add_option("--outputs", arguments->outputs, "names of its outputs");
+  sub->add_option("--outputs", arguments->controller_outputs, "names of its outputs");
   sub->add_option("--export-controller", arguments->export_path,
                   "write the controller in use as state space to FILE.mat or FILE.json");
   sub->add_option("--compare", arguments->compare_path,
                   "put another score sheet (--json of this command) beside this one");
   sub->add_option("--curves", arguments->curves_folder,
                   "write compliance, responses and winds as CSV into this folder");
-  add_json(*sub, arguments->json_path);
+  add_outputs(*sub, arguments->outputs);
   add_seed(*sub, arguments->seed);
   add_threads(*sub, arguments->threads);
   return {sub, [arguments] { return run(*arguments); }};

@@ -11,15 +11,16 @@ namespace boresight::app {
 
 struct BenchmarkArguments {
   std::string case_path;
-  std::string json_path;        // of the score sheet, "-" for standard output; empty: none
+  Outputs outputs;
   std::string gains_path;       // TOML or the JSON of tune; empty: [gains] of the case
   std::string structure;        // of a tune report: which law; empty: the best
   std::string controller_path;  // MAT or JSON; empty: none
-  std::string inputs, outputs;  // names, where the controller's file has none, comma between
-  std::string export_path;      // where the controller in use is written; empty: nowhere
-  std::string compare_path;     // another score sheet; empty: none
-  std::string curves_folder;    // empty: none
-  bool sampled = false;         // the law in its sampled form
+  // Names, where the controller's file has none, comma between.
+  std::string controller_inputs, controller_outputs;
+  std::string export_path;    // where the controller in use is written; empty: nowhere
+  std::string compare_path;   // another score sheet; empty: none
+  std::string curves_folder;  // empty: none
+  bool sampled = false;       // the law in its sampled form
   std::uint64_t seed = 1;
   unsigned threads = 0;  // 0: all
 };

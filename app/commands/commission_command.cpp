@@ -12,12 +12,12 @@ namespace {
 
 int run(CommissionArguments arguments) {
   arguments.options.threads = all_or(arguments.options.threads);
-  require_json_path(arguments.json_path);
+  arguments.outputs.require_writable();
   watch_for_interrupt();
   try {
     const CommissionReport report = commission_case(arguments, interrupt_requested);
-    deliver(
-        arguments.json_path, [&] { return to_text(report); }, [&] { return to_json(report); });
+    arguments.outputs.deliver(
+        {.text = [&] { return to_text(report); }, .json = [&] { return to_json(report); }});
   } catch (const Interrupted&) {
     // Half a plan is none.
     fmt::print(stderr, "boresight: interrupted before the plan was whole\n");
@@ -59,7 +59,7 @@ Subcommand add_commission(CLI::App& program) {
   sub->add_option("--after", options.after, "one made after it, to be compared with that");
   sub->add_option("--starts", options.starts, "random starts of the tuning")
       ->check(CLI::Range(1, 100000));
-  add_json(*sub, arguments->json_path);
+  add_outputs(*sub, arguments->outputs);
   add_seed(*sub, options.seed);
   add_threads(*sub, options.threads);
   return {sub, [arguments] { return run(*arguments); }};

@@ -10,7 +10,7 @@ namespace boresight::app {
 
 struct CommissionArguments {
   std::string case_path;
-  std::string json_path;  // of the report, "-" for standard output; empty: none
+  Outputs outputs;
   CommissionOptions options;
 };
 

@@ -35,8 +35,8 @@ int run(EvaluateArguments arguments) {
   arguments.threads = all_or(arguments.threads);
   watch_for_interrupt();
   const Report report = evaluate_case(arguments, interrupt_requested);
-  deliver(
-      arguments.json_path, [&] { return to_text(report); }, [&] { return to_json(report); });
+  arguments.outputs.deliver(
+      {.text = [&] { return to_text(report); }, .json = [&] { return to_json(report); }});
   if (report.interrupted) return interrupted;
   if (!report.evaluated) return internal_error;
   int code = done;
@@ -68,7 +68,7 @@ Report evaluate_case(const EvaluateArguments& arguments, const std::function<boo
   options.threads = arguments.threads;
   options.interrupted = interrupted;
   if (!options.structures.empty()) asked_structures(antenna, options.structures);
-  require_json_path(arguments.json_path);
+  arguments.outputs.require_writable();
 
   Report report;
   report.command = "evaluate";
@@ -117,7 +117,7 @@ Subcommand add_evaluate(CLI::App& program) {
       ->capture_default_str();
   sub->add_option("--starts", arguments->starts, "random starts of each search")
       ->check(CLI::Range(1, 100000));
-  add_json(*sub, arguments->json_path);
+  add_outputs(*sub, arguments->outputs);
   add_seed(*sub, arguments->seed);
   add_threads(*sub, arguments->threads);
   return {sub, [arguments] { return run(*arguments); }};

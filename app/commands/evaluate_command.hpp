@@ -12,8 +12,8 @@ namespace boresight::app {
 
 struct EvaluateArguments {
   std::string case_path;
-  std::vector<std::string> proposals;   // files
-  std::string json_path;                // of the report, "-" for standard output; empty: none
+  std::vector<std::string> proposals;  // files
+  Outputs outputs;
   std::vector<std::string> structures;  // empty: PI
   std::vector<std::string> goals;       // changes of [goals], KEY=VALUE
   std::size_t draws = 2000;

@@ -19,7 +19,7 @@ namespace {
 
 struct Arguments {
   std::string case_path;
-  std::string json_path;
+  Outputs outputs;
   MatchOptions options;
   /// Of the ensemble's draws; apart from that of the searches, which should make no difference.
   std::uint64_t ensemble_seed = 1;
@@ -29,7 +29,7 @@ struct Arguments {
 
 int run(const Arguments& arguments) {
   Case antenna = read_case(arguments.case_path);
-  require_json_path(arguments.json_path);
+  arguments.outputs.require_writable();
   MatchOptions options = arguments.options;
   options.threads = all_or(options.threads);
   options.interrupted = interrupt_requested;
@@ -65,8 +65,8 @@ int run(const Arguments& arguments) {
   }
   report.interrupted = interrupt_requested();
   report.conclusions = conclude(*report.matched);
-  deliver(
-      arguments.json_path, [&] { return to_text(report); }, [&] { return to_json(report); });
+  arguments.outputs.deliver(
+      {.text = [&] { return to_text(report); }, .json = [&] { return to_json(report); }});
   if (report.interrupted) return interrupted;
   bool met = false, verified = false;
   for (const auto& series : report.matched->series) {
@@ -129,7 +129,7 @@ Subcommand add_match(CLI::App& program) {
   sub->add_flag(
       "--no-variants", arguments->no_variants,
       "leave out what moves the optimum: leakage, friction, structure, wind, conventions");
-  add_json(*sub, arguments->json_path);
+  add_outputs(*sub, arguments->outputs);
   add_seed(*sub, options.seed);
   add_threads(*sub, options.threads);
   return {sub, [arguments] { return run(*arguments); }};

@@ -26,9 +26,8 @@ int run(MonteCarloArguments arguments) {
   }
   const MonteCarloOutcome outcome = run_montecarlo(arguments, ranks, interrupt_requested);
   if (!arguments.csv_path.empty()) write_atomically(arguments.csv_path, to_csv(outcome));
-  deliver(
-      arguments.json_path, [&] { return to_text(outcome.section); },
-      [&] { return to_json(outcome.section); });
+  arguments.outputs.deliver({.text = [&] { return to_text(outcome.section); },
+                             .json = [&] { return to_json(outcome.section); }});
   return outcome.section.interrupted ? interrupted : done;
 }
 
@@ -54,7 +53,7 @@ Subcommand add_montecarlo(CLI::App& program) {
   sub->add_option("--csv", arguments->csv_path, "write every plant to this file");
   sub->add_option("--checkpoint", arguments->checkpoint_path,
                   "take the run up from this file if it is there, and write it every few seconds");
-  add_json(*sub, arguments->json_path);
+  add_outputs(*sub, arguments->outputs);
   add_seed(*sub, arguments->seed);
   add_threads(*sub, arguments->threads);
   return {sub, [arguments] { return run(*arguments); }};

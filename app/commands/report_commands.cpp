@@ -17,7 +17,7 @@ namespace {
 
 struct Arguments {
   std::string case_path;
-  std::string json_path;
+  Outputs outputs;
   std::uint64_t seed = 1;
   unsigned threads = 0;
 };
@@ -89,7 +89,7 @@ const std::vector<Command>& commands() {
 
 int run(const Command& command, const Arguments& arguments) {
   const Case antenna = read_case(arguments.case_path);
-  require_json_path(arguments.json_path);
+  arguments.outputs.require_writable();
   StudyOptions options;
   options.seed = arguments.seed;
   options.threads = all_or(arguments.threads);
@@ -113,8 +113,8 @@ int run(const Command& command, const Arguments& arguments) {
       report.interrupted = true;
     }
   }
-  deliver(
-      arguments.json_path, [&] { return to_text(report); }, [&] { return to_json(report); });
+  arguments.outputs.deliver(
+      {.text = [&] { return to_text(report); }, .json = [&] { return to_json(report); }});
   if (report.interrupted) return interrupted;
   if (report.tuning && report.tuning->design.tuning.status != design::TuningStatus::optimal) {
     fmt::print(stderr, "boresight: no control law meets the hard goals of {}\n",
@@ -137,7 +137,7 @@ std::vector<Subcommand> add_report_commands(CLI::App& program) {
     const auto arguments = std::make_shared<Arguments>();
     CLI::App* options = program.add_subcommand(command.name, command.description);
     add_case(*options, arguments->case_path);
-    add_json(*options, arguments->json_path);
+    add_outputs(*options, arguments->outputs);
     add_seed(*options, arguments->seed);
     add_threads(*options, arguments->threads);
     added.push_back({options, [&command, arguments] { return run(command, *arguments); }});

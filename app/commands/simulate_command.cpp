@@ -57,9 +57,7 @@ class Campaign {
     report_.axis = antenna_.axis;
     report_.seed = arguments.seed;
     report_.assumed = assumed_inputs(antenna_, true);
-    if (!arguments.json_path.empty() && arguments.json_path != "-") {
-      require_writable(arguments.json_path);
-    }
+    arguments.outputs.require_writable();
     for (const auto& name : arguments.tests) {
       const auto tests = drive_tests(antenna_, name);
       if (tests.empty()) require_writable((folder_ / (name + ".csv")).string());
@@ -150,9 +148,8 @@ namespace {
 int run(const SimulateArguments& arguments) {
   watch_for_interrupt();
   const auto outcome = simulate_tests(arguments, interrupt_requested);
-  deliver(
-      arguments.json_path, [&] { return to_text(outcome.report); },
-      [&] { return to_json(outcome.report); });
+  arguments.outputs.deliver({.text = [&] { return to_text(outcome.report); },
+                             .json = [&] { return to_json(outcome.report); }});
   if (outcome.failure) std::rethrow_exception(outcome.failure);
   return outcome.report.interrupted ? interrupted : done;
 }
@@ -167,7 +164,7 @@ Subcommand add_simulate(CLI::App& program) {
   sub->add_option("TEST", arguments->tests,
                   fmt::format("what to run: {}", fmt::join(simulated_test_names(), ", ")))
       ->required();
-  add_json(*sub, arguments->json_path);
+  add_outputs(*sub, arguments->outputs);
   sub->add_option("--folder", arguments->folder, "where records TEST.csv are written")
       ->capture_default_str();
   sub->add_option("--sample-rate", arguments->sample_rate,

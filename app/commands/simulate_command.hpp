@@ -15,7 +15,7 @@ struct SimulateArguments {
   std::string case_path;
   std::vector<std::string> tests;  // as simulated_test_names()
   std::string folder = ".";        // where records go
-  std::string json_path;           // of the report, "-" for standard output; empty: none
+  Outputs outputs;
   std::uint64_t seed = 1;
   double sample_rate = 0.0;  // Hz, of the records; 0: as the case has it
 };

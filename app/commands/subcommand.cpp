@@ -27,8 +27,8 @@ void add_case(CLI::App& command, std::string& path) {
   command.add_option("CASE", path, "case file (TOML), see docs/case-file.md")->required();
 }
 
-void add_json(CLI::App& command, std::string& path) {
-  command.add_option("--json", path,
+void add_outputs(CLI::App& command, Outputs& outputs) {
+  command.add_option("--json", outputs.json_path,
                      "also write the report as JSON to this file; '-' writes JSON only, to "
                      "standard output");
 }
@@ -57,17 +57,16 @@ bool interrupt_requested() {
   return interrupt_seen != 0;
 }
 
-void require_json_path(const std::string& path) {
-  if (!path.empty() && path != "-") require_writable(path);
+void Outputs::require_writable() const {
+  if (!json_path.empty() && json_path != "-") app::require_writable(json_path);
 }
 
-void deliver(const std::string& json_path, const std::function<std::string()>& text,
-             const std::function<std::string()>& json) {
+void Outputs::deliver(const Findings& findings) const {
   if (json_path == "-") {
-    fmt::print("{}", json());
+    fmt::print("{}", findings.json());
   } else {
-    if (!json_path.empty()) write_atomically(json_path, json());
-    fmt::print("{}", text());
+    if (!json_path.empty()) write_atomically(json_path, findings.json());
+    fmt::print("{}", findings.text());
   }
   if (std::fflush(stdout) != 0) throw InvalidInput("standard output: cannot be written to");
 }

@@ -28,7 +28,6 @@ struct Subcommand {
 
 // Options that commands share.
 void add_case(CLI::App& command, std::string& path);
-void add_json(CLI::App& command, std::string& path);
 void add_seed(CLI::App& command, std::uint64_t& seed);
 /// Sets the number to 0, the default: all; see all_or.
 void add_threads(CLI::App& command, unsigned& threads);
@@ -39,13 +38,24 @@ unsigned all_or(unsigned threads);
 void watch_for_interrupt();
 bool interrupt_requested();
 
-/// Whether a report's JSON goes to a file; @throws InvalidInput if it cannot be written to. To be
-/// asked before the work, not after it.
-void require_json_path(const std::string& path);
-/// The text to standard output, the JSON also to a file; or, for the path "-", the JSON alone to
-/// standard output. Each is made only if it is written. @throws InvalidInput if one cannot be
-/// written.
-void deliver(const std::string& json_path, const std::function<std::string()>& text,
-             const std::function<std::string()>& json);
+/// What a command found, in each form that may be asked for; made only if it is.
+struct Findings {
+  std::function<std::string()> text, json;
+};
+
+/// Where what a command found goes, beside standard output.
+struct Outputs {
+  std::string json_path;  // "-": to standard output, in the place of the text; empty: nowhere
+
+  /// @throws InvalidInput if one of them cannot be written to. To be asked before the work, not
+  /// after it.
+  void require_writable() const;
+  /// The text to standard output, or the JSON for the path "-"; the rest where it is asked for.
+  /// @throws InvalidInput if one cannot be written.
+  void deliver(const Findings& findings) const;
+};
+
+/// The options that fill `outputs`: the same of every command.
+void add_outputs(CLI::App& command, Outputs& outputs);
 
 }  // namespace boresight::app

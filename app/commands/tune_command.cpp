@@ -71,7 +71,7 @@ Report tune_case(const TuneArguments& arguments, const std::function<bool()>& in
   options.threads = arguments.threads;
   options.interrupted = interrupted;
   if (!options.structures.empty()) asked_structures(antenna, options.structures);
-  require_json_path(arguments.json_path);
+  arguments.outputs.require_writable();
 
   Report report;
   report.command = "tune";
@@ -128,8 +128,8 @@ int run(TuneArguments arguments) {
   arguments.threads = all_or(arguments.threads);
   watch_for_interrupt();
   const Report report = tune_case(arguments, interrupt_requested);
-  deliver(
-      arguments.json_path, [&] { return to_text(report); }, [&] { return to_json(report); });
+  arguments.outputs.deliver(
+      {.text = [&] { return to_text(report); }, .json = [&] { return to_json(report); }});
   if (report.interrupted) return interrupted;
   if (report.measured) {
     if (report.measured->any_confident()) return done;
@@ -171,7 +171,7 @@ Subcommand add_tune(CLI::App& program) {
                   "docs/measured-tuning.md");
   sub->add_option("--starts", arguments->starts, "random starts of each search")
       ->check(CLI::Range(1, 100000));
-  add_json(*sub, arguments->json_path);
+  add_outputs(*sub, arguments->outputs);
   add_seed(*sub, arguments->seed);
   add_threads(*sub, arguments->threads);
   return {sub, [arguments] { return run(*arguments); }};

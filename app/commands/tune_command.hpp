@@ -12,7 +12,7 @@ namespace boresight::app {
 
 struct TuneArguments {
   std::string case_path;
-  std::string json_path;                // of the report, "-" for standard output; empty: none
+  Outputs outputs;
   std::vector<std::string> structures;  // empty: as the case has it
   std::vector<std::string> goals;       // changes of [goals], KEY=VALUE
   std::vector<std::string> speeds;      // of the wind, with unit; empty: the case's design speed

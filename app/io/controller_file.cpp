@@ -12,6 +12,7 @@
 #include <nlohmann/json.hpp>
 
 #include <boresight/app/io/controller_file.hpp>
+#include <boresight/app/io/input_files.hpp>
 #include <boresight/app/io/record_mat.hpp>
 #include <boresight/app/io/table_reader.hpp>
 #include <boresight/app/io/wording.hpp>
@@ -145,6 +146,7 @@ std::string content_of_file(const std::string& path) {
     throw InvalidInput(fmt::format("{}: expected a readable file, found none ({})", path,
                                    std::generic_category().message(errno)));
   }
+  note_input(path, text);
   return text;
 }
 

@@ -13,6 +13,7 @@
 #include <unistd.h>
 #include <zlib.h>
 
+#include <boresight/app/io/input_files.hpp>
 #include <boresight/app/io/record_file.hpp>
 #include <boresight/app/io/record_mat.hpp>
 #include <boresight/app/io/record_text.hpp>
@@ -83,6 +84,7 @@ RecordTable read_record(const std::string& path) {
   const auto bytes = large_block(file.size());
   file.read_bytes(bytes.get(), file.size());
   const std::string_view content(bytes.get(), file.size());
+  note_input(path, content);
   for (const auto& [magic, kind] :
        {std::pair{"\x1F\x8B", "a gzip file"}, std::pair{"PK\x03\x04", "a zip or spreadsheet file"},
         std::pair{"\xD0\xCF\x11\xE0", "a spreadsheet file"}}) {

@@ -14,6 +14,7 @@
 #include <fmt/format.h>
 
 #include <boresight/app/io/field.hpp>
+#include <boresight/app/io/input_files.hpp>
 #include <boresight/app/io/table_reader.hpp>
 #include <boresight/app/io/toml_tree.hpp>
 #include <boresight/app/io/wording.hpp>
@@ -165,6 +166,7 @@ TableReader TableReader::open(const std::string& path) {
     throw InvalidInput(fmt::format("{}: expected a readable file, found none ({})", path,
                                    std::generic_category().message(errno)));
   }
+  note_input(path, text);
   return parse(text, path);
 }
 

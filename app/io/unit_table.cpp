@@ -10,6 +10,7 @@
 
 #include <fmt/format.h>
 
+#include <boresight/app/io/input_files.hpp>
 #include <boresight/app/io/unit_table.hpp>
 #include <boresight/app/io/wording.hpp>
 
@@ -59,6 +60,7 @@ std::string content(const std::string& path) {
   std::ifstream file(path, std::ios::binary);
   std::string text{std::istreambuf_iterator<char>(file), {}};
   if (!file) throw InvalidInput(fmt::format("{}: expected a readable table file", path));
+  note_input(path, text);
   return text;
 }
 

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include <boresight/app/io/input_files.hpp>
 #include <boresight/app/montecarlo/held_law.hpp>
 #include <boresight/app/tune/engineer_units.hpp>
 #include <boresight/plant/error.hpp>
@@ -70,9 +71,11 @@ HeldLaw present_law(const Case& antenna, const std::string& structure) {
 
 HeldLaw law_of_report(const Case& antenna, const std::string& path, const std::string& structure) {
   std::ifstream file(path, std::ios::binary);
+  const std::string text{std::istreambuf_iterator<char>(file), {}};
   if (!file) refuse(path, "no file that can be read");
+  note_input(path, text);
   try {
-    const Json report = Json::parse(file);
+    const Json report = Json::parse(text);
     if (report.contains("tuned")) {
       const Json* best = nullptr;
       const auto rank = [](const Json& row) {

@@ -265,8 +265,9 @@ MonteCarloSection new_section(const MonteCarloArguments& arguments, const Case& 
 
 // Before the work, not after it.
 void require_outputs(const MonteCarloArguments& arguments) {
-  for (const auto* path : {&arguments.json_path, &arguments.csv_path, &arguments.checkpoint_path}) {
-    if (!path->empty() && *path != "-") require_writable(*path);
+  arguments.outputs.require_writable();
+  for (const auto* path : {&arguments.csv_path, &arguments.checkpoint_path}) {
+    if (!path->empty()) require_writable(*path);
   }
 }
 

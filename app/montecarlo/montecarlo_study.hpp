@@ -4,6 +4,7 @@
 #include <memory>
 #include <string>
 
+#include <boresight/app/commands/subcommand.hpp>
 #include <boresight/app/montecarlo/montecarlo_section.hpp>
 #include <boresight/app/montecarlo/ranks.hpp>
 
@@ -11,7 +12,7 @@ namespace boresight::app {
 
 struct MonteCarloArguments {
   std::string case_path;
-  std::string json_path;        // "-" for standard output; empty: none
+  Outputs outputs;
   std::string csv_path;         // of every plant; empty: none
   std::string checkpoint_path;  // empty: none
   std::uint64_t plants = 10000;

@@ -1,0 +1,4 @@
+#include <boresight/design/tuner.hpp>
+#include <boresight/python/bindings.hpp>
+#include <pybind11/pybind11.h>
+#include <toml++/toml.h>

@@ -8,6 +8,7 @@
 
 #include <boresight/app/benchmark/benchmark_report.hpp>
 #include <boresight/app/io/csv_table.hpp>
+#include <boresight/app/redesign/assumed_inputs.hpp>
 #include <boresight/app/redesign/sections.hpp>
 #include <boresight/app/report/json_report.hpp>
 #include <boresight/app/report/sky_units.hpp>
@@ -89,7 +90,6 @@ BenchmarkReport benchmark(const Case& antenna, const BenchmarkedController& cont
   report.rms_band = problem.rms_band;
   report.goals = make_goals(antenna);
   report.budgets = make_budgets(antenna);
-  report.assumed = assumed_inputs(antenna);
   report.ensemble_source = "drawn from the ranges of the case";
   const double expected = case_sample_time(antenna);
   if (sample_time > 0.0 && std::abs(sample_time - expected) > 1e-6 * expected) {
@@ -142,6 +142,7 @@ BenchmarkReport benchmark(const Case& antenna, const BenchmarkedController& cont
         verify_in_time_domain(antenna, problem, *report.controller.law,
                               report.controller.description, options.seed, options.threads);
   }
+  report.assumed = assumed_inputs(antenna, {.time_runs = report.time_domain.has_value()});
   return report;
 }
 

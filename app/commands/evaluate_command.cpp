@@ -7,6 +7,7 @@
 #include <boresight/app/commands/evaluate_command.hpp>
 #include <boresight/app/commands/progress_line.hpp>
 #include <boresight/app/evaluate/evaluate_study.hpp>
+#include <boresight/app/redesign/assumed_inputs.hpp>
 #include <boresight/app/redesign/sections.hpp>
 #include <boresight/app/report/json_report.hpp>
 #include <boresight/app/report/text_report.hpp>
@@ -88,7 +89,7 @@ Report evaluate_case(const EvaluateArguments& arguments, const std::function<boo
     report.assumed = assumed_inputs(antenna);
     return report;
   }
-  report.assumed = assumed_inputs(antenna);
+  report.assumed = assumed_inputs(antenna, {.steady_motion = true});
   add_assumed(proposals, report.assumed);
   options.progress = [&](std::size_t done, std::size_t all) { progress.show(done, all); };
   report.evaluated = evaluate_proposals(antenna, proposals, *uncertainty, options);

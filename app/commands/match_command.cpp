@@ -8,6 +8,7 @@
 #include <boresight/app/commands/match_command.hpp>
 #include <boresight/app/commands/progress_line.hpp>
 #include <boresight/app/match/match_study.hpp>
+#include <boresight/app/redesign/assumed_inputs.hpp>
 #include <boresight/app/redesign/sections.hpp>
 #include <boresight/app/report/json_report.hpp>
 #include <boresight/app/report/text_report.hpp>
@@ -52,7 +53,7 @@ int run(const Arguments& arguments) {
     return interrupted;
   }
   report.assumed =
-      assumed_inputs(antenna, antenna.simulation && options.time_runs != MatchTimeRuns::none);
+      assumed_inputs(antenna, {.time_runs = options.time_runs != MatchTimeRuns::none});
   {
     std::optional<ProgressLine> line;
     std::string_view working;

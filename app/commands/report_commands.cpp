@@ -8,6 +8,7 @@
 #include <boresight/app/commands/report_commands.hpp>
 #include <boresight/app/identify/campaign_identification.hpp>
 #include <boresight/app/identify/identified_case.hpp>
+#include <boresight/app/redesign/assumed_inputs.hpp>
 #include <boresight/app/redesign/sections.hpp>
 #include <boresight/app/report/json_report.hpp>
 #include <boresight/app/report/text_report.hpp>
@@ -44,17 +45,18 @@ void fill_redesign(const Case& antenna, const StudyOptions& options, Report& rep
   Case designed = antenna;
   if (report.campaign && report.campaign->grey_box) {
     designed = with_identified(antenna, report.campaign->grey_box->estimate);
-    report.assumed = assumed_inputs(designed);
   }
   report.plant = describe_plant(designed);
   if (report.campaign && report.campaign->grey_box) {
     report.plant->records = report.campaign->grey_box->records.size();
   }
+  report.assumed = assumed_inputs(designed);
   redesign(designed, options, report);
   if (report.tuning && report.tuning->design.tuning.status == design::TuningStatus::optimal) {
     const auto& law = report.tuning->design.tuning.law;
     report.time_domain = verify_in_time_domain(designed, make_problem(designed), law,
                                                law.structure.name(), options.seed, options.threads);
+    report.assumed = assumed_inputs(designed, {.time_runs = report.time_domain.has_value()});
   }
   if (report.campaign && report.campaign->grey_box && report.tuning) {
     report.tuning->ensemble =

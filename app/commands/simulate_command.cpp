@@ -9,6 +9,7 @@
 
 #include <boresight/app/commands/progress_line.hpp>
 #include <boresight/app/commands/simulate_command.hpp>
+#include <boresight/app/redesign/assumed_inputs.hpp>
 #include <boresight/app/redesign/sections.hpp>
 #include <boresight/app/report/json_report.hpp>
 #include <boresight/app/simulate/antenna_tests.hpp>
@@ -56,13 +57,18 @@ class Campaign {
     report_.title = antenna_.title;
     report_.axis = antenna_.axis;
     report_.seed = arguments.seed;
-    report_.assumed = assumed_inputs(antenna_, true);
     arguments.outputs.require_writable();
+    NonlinearInputs inputs{.time_runs = true};
     for (const auto& name : arguments.tests) {
       const auto tests = drive_tests(antenna_, name);
+      // What follows the loop of the antenna's computer is written without a recorder's errors.
+      inputs.recorder = inputs.recorder || !tests.empty();
+      inputs.rate_loop =
+          inputs.rate_loop || std::ranges::any_of(tests, &AntennaTest::rate_loop_closed);
       if (tests.empty()) require_writable((folder_ / (name + ".csv")).string());
       for (const auto& test : tests) require_writable((folder_ / (test.name + ".csv")).string());
     }
+    report_.assumed = assumed_inputs(antenna_, inputs);
   }
 
   SimulateOutcome run() {

@@ -6,6 +6,7 @@
 #include <boresight/app/commands/progress_line.hpp>
 #include <boresight/app/commands/tune_command.hpp>
 #include <boresight/app/io/wording.hpp>
+#include <boresight/app/redesign/assumed_inputs.hpp>
 #include <boresight/app/redesign/sections.hpp>
 #include <boresight/app/report/json_report.hpp>
 #include <boresight/app/report/measured_report.hpp>
@@ -117,7 +118,10 @@ Report tune_case(const TuneArguments& arguments, const std::function<bool()>& in
     problem.wind.mean_speed = best->wind_speed;
     report.time_domain = choose_in_time_domain(antenna, problem, alternatives(*report.tuned, *best),
                                                arguments.seed, arguments.threads);
-    if (report.time_domain) report.conclusions.push_back(conclude(*report.time_domain));
+    if (report.time_domain) {
+      report.assumed = assumed_inputs(antenna, {.time_runs = true});
+      report.conclusions.push_back(conclude(*report.time_domain));
+    }
   }
   return report;
 }

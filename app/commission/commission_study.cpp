@@ -8,6 +8,7 @@
 
 #include <boresight/app/commission/commission_study.hpp>
 #include <boresight/app/io/wording.hpp>
+#include <boresight/app/redesign/assumed_inputs.hpp>
 #include <boresight/app/redesign/sections.hpp>
 #include <boresight/app/report/sky_units.hpp>
 #include <boresight/app/tune/engineer_units.hpp>
@@ -324,7 +325,7 @@ CommissionReport plan_commission(const Case& antenna, const PlantEnsemble& ensem
   report.gear_ratio = problem.gear_ratio;
   report.before = options.before;
   report.after = options.after;
-  report.assumed = assumed_inputs(antenna);
+  report.assumed = assumed_inputs(antenna, {.valve_stroke = true});
   report.options.largest_step = options.largest_step;
   report.options.threads = options.threads;
   report.options.stop = options.interrupted;

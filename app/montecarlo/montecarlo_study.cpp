@@ -10,6 +10,7 @@
 #include <boresight/app/montecarlo/checkpoint.hpp>
 #include <boresight/app/montecarlo/held_law.hpp>
 #include <boresight/app/montecarlo/montecarlo_study.hpp>
+#include <boresight/app/redesign/assumed_inputs.hpp>
 #include <boresight/app/redesign/sections.hpp>
 #include <boresight/app/report/json_report.hpp>
 #include <boresight/app/tune/engineer_units.hpp>

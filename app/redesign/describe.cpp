@@ -144,17 +144,4 @@ PlantSection describe_plant(const Case& antenna) {
   return section;
 }
 
-std::vector<Quantity> assumed_inputs(const Case& antenna, bool simulated) {
-  std::vector<Quantity> assumed;
-  for (const auto& quantity : antenna.quantities) {
-    const bool of_simulation =
-        quantity.key.starts_with("simulation.") || quantity.key.starts_with("recorder.");
-    if (of_simulation && !simulated) continue;
-    if (quantity.basis == Basis::assumed || quantity.uncertainty_source.starts_with("assumed")) {
-      assumed.push_back(quantity);
-    }
-  }
-  return assumed;
-}
-
 }  // namespace boresight::app

@@ -20,9 +20,6 @@ PlantSection describe_plant(const Case& antenna);
 /// the curve's slope at the tracking rate: in one pool of work. Fills the report's sections.
 void redesign(const Case& antenna, const StudyOptions& options, Report& report);
 
-/// Quantities of basis `assumed`, and those whose uncertainty is; those that only simulated tests
-/// rest on if `simulated`.
-std::vector<Quantity> assumed_inputs(const Case& antenna, bool simulated = false);
 /// A few sentences that say what the numbers mean, from the numbers.
 std::vector<std::string> conclude(const Report& report);
 

@@ -36,6 +36,11 @@ ProgramResult benchmark(const std::string& path, std::vector<std::string> more =
   return run_program(arguments);
 }
 
+bool assumes(const Json& sheet, const std::string& key) {
+  return std::ranges::any_of(sheet.at("assumed_inputs"),
+                             [&](const Json& input) { return input.at("key") == key; });
+}
+
 // Every number of both, by place.
 void expect_close(const Json& one, const Json& other, double tolerance, const std::string& place) {
   ASSERT_EQ(one.type() == Json::value_t::null, other.type() == Json::value_t::null) << place;
@@ -164,7 +169,10 @@ TEST(Benchmark, IsTheSameForAnyNumberOfThreadsAndWritesItsCurves) {
   const std::string path = small_case(folder, gains(), true);
   const auto one = benchmark(path, {"--json", "-", "--curves", folder.file("curves")});
   ASSERT_EQ(one.exit_code, 0) << one.errors;
-  EXPECT_EQ(Json::parse(one.output).at("score").at("nonlinear").at("hunting").size(), 2U);
+  const Json sheet = Json::parse(one.output);
+  EXPECT_EQ(sheet.at("score").at("nonlinear").at("hunting").size(), 2U);
+  EXPECT_TRUE(assumes(sheet, "simulation.bristle_stiffness"));
+  EXPECT_FALSE(assumes(sheet, "recorder.sample_rate"));
   const auto two = run_program({"benchmark", path, "--threads", "3", "--json", "-"});
   EXPECT_EQ(one.output, two.output);
   for (const char* name : {"compliance.csv", "step.csv", "impulse.csv", "winds.csv"}) {

@@ -14,8 +14,10 @@
 namespace boresight::app {
 namespace {
 
+using ::testing::Contains;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
+using ::testing::Not;
 using ::testing::StartsWith;
 
 std::string proposal_path(const std::string& name) {
@@ -44,6 +46,14 @@ std::string proposal_text(const std::string& name, const std::string& rest,
                           const std::string& currency = "kUSD") {
   return "name = '" + name + "'\ndescription = 'd'\n[cost]\namount = 1\ncurrency = '" + currency +
          "'\n" + rest;
+}
+
+TEST(Evaluate, ListsWhatSlewingRestsOn) {
+  std::vector<std::string> keys;
+  for (const auto& quantity : two_proposals().assumed) keys.push_back(quantity.key);
+  EXPECT_THAT(keys, Contains("simulation.valve_stroke"));
+  EXPECT_THAT(keys, Not(Contains("simulation.bristle_stiffness")));
+  EXPECT_THAT(keys, Not(Contains(StartsWith("recorder."))));
 }
 
 TEST(Evaluate, PutsTheAntennaAsItIsFirst) {

@@ -207,6 +207,17 @@ class Numbers(unittest.TestCase):
         for assumed in found["assumed_inputs"]:
             self.assertRegex(text, rf"{re.escape(assumed['key'])} +{re.escape(assumed['value'])} ")
 
+    def test_list_the_assumptions_that_their_numbers_rest_on(self):
+        for found in (report("redesign"), report("tune", TUNED), report("model")):
+            keys = [assumed["key"] for assumed in found["assumed_inputs"]]
+            simulated = found.get("time_domain") is not None
+            with self.subTest(command=found["command"]):
+                self.assertEqual(found["command"] != "model", simulated)
+                self.assertEqual("simulation.bristle_stiffness" in keys, simulated)
+                self.assertEqual("simulation.backlash" in keys, simulated)
+                self.assertNotIn("simulation.rate_loop_gain", keys)
+                self.assertFalse([key for key in keys if key.startswith("recorder.")])
+
     def test_go_to_standard_output_alone_on_request(self):
         shown = subprocess.run([PROGRAM, "model", f"cases/{BIG}/case.toml", "--json", "-"],
                                cwd=SOURCE, capture_output=True, check=True)

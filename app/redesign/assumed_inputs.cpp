@@ -1,0 +1,60 @@
+#include <algorithm>
+#include <array>
+#include <string_view>
+
+#include <boresight/app/redesign/assumed_inputs.hpp>
+
+namespace boresight::app {
+namespace {
+
+using namespace std::string_view_literals;
+
+constexpr std::array steady_keys{
+    "return_pressure"sv, "null_leakage_share"sv, "case_leakage_share"sv, "valve_stroke"sv,
+    "valve_overlap"sv,   "makeup_pressure"sv,    "air_fraction"sv,       "offset_torque"sv,
+    "offset_cosine"sv,   "offset_sine"sv};
+// What identification takes of [recorder] where there are no [instruments].
+constexpr std::array instrument_keys{"pressure_gain"sv, "pressure_zero"sv, "tachometer_gain"sv};
+
+bool rests_on_simulation(const Case& antenna, std::string_view name, const NonlinearInputs& uses) {
+  const bool records = !antenna.campaign.records.empty() && !antenna.campaign.return_pressure;
+  if (name == "return_pressure" && records) return true;
+  if (name == "valve_stroke" && (uses.valve_stroke || antenna.goals.crest_factor)) return true;
+  if (name.starts_with("rate_loop_")) return uses.rate_loop;
+  if (std::ranges::find(steady_keys, name) != steady_keys.end()) {
+    return uses.steady_motion || uses.time_runs;
+  }
+  const bool loose_gears = antenna.simulation && antenna.simulation->backlash;
+  return uses.time_runs && (name != "preload_torque" || loose_gears);
+}
+
+bool rests_on_recorder(const Case& antenna, std::string_view name, const NonlinearInputs& uses) {
+  const bool records = !antenna.campaign.records.empty() && !antenna.campaign.instruments;
+  return uses.recorder ||
+         (records && std::ranges::find(instrument_keys, name) != instrument_keys.end());
+}
+
+bool rests_on(const Case& antenna, std::string_view key, const NonlinearInputs& uses) {
+  constexpr auto simulation = "simulation."sv, recorder = "recorder."sv;
+  if (key.starts_with(simulation)) {
+    return rests_on_simulation(antenna, key.substr(simulation.size()), uses);
+  }
+  if (key.starts_with(recorder)) {
+    return rests_on_recorder(antenna, key.substr(recorder.size()), uses);
+  }
+  return true;
+}
+
+}  // namespace
+
+std::vector<Quantity> assumed_inputs(const Case& antenna, const NonlinearInputs& nonlinear) {
+  std::vector<Quantity> assumed;
+  for (const auto& quantity : antenna.quantities) {
+    const bool guessed =
+        quantity.basis == Basis::assumed || quantity.uncertainty_source.starts_with("assumed");
+    if (guessed && rests_on(antenna, quantity.key, nonlinear)) assumed.push_back(quantity);
+  }
+  return assumed;
+}
+
+}  // namespace boresight::app

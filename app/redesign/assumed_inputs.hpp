@@ -1,0 +1,31 @@
+#pragma once
+
+#include <vector>
+
+#include <boresight/app/io/case_file.hpp>
+
+namespace boresight::app {
+
+/// Which inputs a report's numbers rest on that the linear plant does without.
+struct NonlinearInputs {
+  /// simulation.valve_stroke: what a command or a gust may ask of the valve. Always among them for
+  /// a case whose goals limit gusts.
+  bool valve_stroke = false;
+  /// Steady motion of the nonlinear antenna (rates and accelerations within reach): valve_stroke,
+  /// and of [simulation] pressures, leakage shares, overlap, air and offset.
+  bool steady_motion = false;
+  /// Runs of the nonlinear antenna in time: steady_motion, and the rest of [simulation] but the
+  /// rate loop of the tests; preload_torque only where there is backlash.
+  bool time_runs = false;
+  /// simulation.rate_loop_*, the analog rate loop of some tests of the drive.
+  bool rate_loop = false;
+  /// recorder.*, how tests are written down.
+  bool recorder = false;
+};
+
+/// Quantities of basis `assumed`, and those whose uncertainty is, in the case's order. Of
+/// [simulation] and [recorder] those that `nonlinear` takes in, and those that stand in for
+/// [instruments] and drive.return_pressure where a case has records and lacks them.
+std::vector<Quantity> assumed_inputs(const Case& antenna, const NonlinearInputs& nonlinear = {});
+
+}  // namespace boresight::app

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -8,32 +9,36 @@ namespace boresight::app {
 enum class AxisScale { linear, logarithmic };
 
 struct FigureAxis {
-  std::string label;  // "frequency"
-  std::string unit;   // "Hz"; empty: a plain number
+  std::string label = {};  // "frequency"
+  std::string unit = {};   // "Hz"; empty: a plain number
   AxisScale scale = AxisScale::linear;
-  /// Names at 0, 1, 2, ... in place of numbers; empty: numbers.
-  std::vector<std::string> categories;
+  /// Names at 0, 1, 2, ... in place of numbers, on a y axis from the top; empty: numbers.
+  std::vector<std::string> categories = {};
+  /// What is shown at least and at most; none: all points, marks, lines and circles.
+  std::optional<double> lowest = std::nullopt, highest = std::nullopt;
 };
 
 enum class SeriesStyle { line, dashed, steps, points, line_and_points, bars };
 
-/// One curve or set of points. `x` and `y` are of one length; NaN in either leaves a gap.
+/// One curve or set of points. `x` and `y` are of one length; NaN in either leaves a gap. Series of
+/// one name look alike in every panel; one without a name is not in the legend.
 struct FigureSeries {
-  std::string name;
+  std::string name = {};
   SeriesStyle style = SeriesStyle::line;
-  std::vector<double> x, y;
+  std::vector<double> x = {}, y = {};
   /// Intervals about the points, empty or of the length of `x`: about lines of y a band, about
   /// points bars; of style `bars` what the bar spans (without them it spans 0 to the value, along x
-  /// where the y axis has categories, along y otherwise).
-  std::vector<double> x_lower, x_upper, y_lower, y_upper;
+  /// where the y axis has categories, along y otherwise). Bars of several series stand side by
+  /// side, those that say what they span one over the other.
+  std::vector<double> x_lower = {}, x_upper = {}, y_lower = {}, y_upper = {};
   /// What a point is called, empty or of the length of `x`.
-  std::vector<std::string> labels;
+  std::vector<std::string> labels = {};
 };
 
 /// A point of the plane that is named: a peak, a crossover, an optimum.
 struct FigureMark {
   double x = 0.0, y = 0.0;
-  std::string label;
+  std::string label = {};
 };
 
 /// A line across the whole panel: a budget, a limit, a rule.
@@ -41,13 +46,13 @@ struct FigureLine {
   enum class Direction { horizontal, vertical };
   Direction direction = Direction::horizontal;
   double at = 0.0;
-  std::string label;
+  std::string label = {};
 };
 
 /// A circle in the plane of a panel: a disk margin.
 struct FigureCircle {
   double x = 0.0, y = 0.0, radius = 0.0;
-  std::string label;
+  std::string label = {};
 };
 
 struct FigurePanel {

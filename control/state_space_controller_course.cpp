@@ -1,7 +1,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 
 #include <fmt/format.h>
 
@@ -10,6 +9,7 @@
 #include <boresight/control/state_space_controller_course.hpp>
 #include <boresight/plant/eigenvalues.hpp>
 #include <boresight/plant/error.hpp>
+#include <boresight/plant/gauss_rule.hpp>
 #include <boresight/plant/interconnection.hpp>
 #include <boresight/plant/linear_solve.hpp>
 #include <boresight/plant/matrix_exponential.hpp>
@@ -32,32 +32,14 @@ struct Rule {
   VectorXd share, weight, barycentric;
 };
 
-// Gauss's rule on (0, 1), and the barycentric weights (-1)^j sqrt((1 - x^2) w) of its points (H.
-// Wang, S. Xiang, Math. Comp. 81, 2012).
+// Gauss's rule on (0, 1).
 Rule gauss_rule(Index count) {
-  Rule rule{VectorXd(count), VectorXd(count), VectorXd(count)};
-  const auto n = static_cast<double>(count);
-  for (Index j = 0; j < count; ++j) {
-    double x = -std::cos(std::numbers::pi * (static_cast<double>(j) + 0.75) / (n + 0.5));
-    double slope = 0.0;
-    for (int iteration = 0; iteration < 20; ++iteration) {
-      double value = x, before = 1.0;
-      for (Index k = 2; k <= count; ++k) {
-        const auto degree = static_cast<double>(k);
-        const double next = ((2.0 * degree - 1.0) * x * value - (degree - 1.0) * before) / degree;
-        before = value;
-        value = next;
-      }
-      slope = n * (x * value - before) / (x * x - 1.0);
-      const double change = value / slope;
-      x -= change;
-      if (std::abs(change) < 1e-16) break;
-    }
-    rule.share[j] = 0.5 * (1.0 + x);
-    rule.weight[j] = 1.0 / ((1.0 - x * x) * slope * slope);
-    rule.barycentric[j] = (j % 2 == 0 ? 1.0 : -1.0) * std::sqrt((1.0 - x * x) * rule.weight[j]);
-  }
-  return rule;
+  const plant::GaussRule rule = plant::gauss_rule(static_cast<int>(count));
+  const auto column = [&](const std::vector<double>& values) {
+    return Eigen::Map<const VectorXd>(values.data(), count);
+  };
+  return {0.5 * (1.0 + column(rule.node).array()), 0.5 * column(rule.weight),
+          column(rule.barycentric)};
 }
 
 // Values at `at` of the polynomials that are 1 at one point of a rule and 0 at the others.

@@ -1,4 +1,3 @@
-#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -6,19 +5,15 @@
 
 #include <boresight/design/pointing.hpp>
 #include <boresight/plant/error.hpp>
+#include <boresight/plant/gauss_rule.hpp>
 
 namespace boresight::design {
 namespace {
 
 // Over the half-power beam neither field nor Bessel function turns more than once: this many panels
-// of five-point Gauss-Legendre leave less than 1e-12.
+// of Gauss's five points leave less than 1e-12.
 constexpr int panels = 40;
-constexpr std::array<std::pair<double, double>, 5> gauss_legendre{
-    {{-0.906179845938663993, 0.236926885056189088},
-     {-0.538469310105683091, 0.478628670499366468},
-     {0.0, 0.568888888888888889},
-     {0.538469310105683091, 0.478628670499366468},
-     {0.906179845938663993, 0.236926885056189088}}};
+constexpr int points = 5;
 
 double field(const Illumination& illumination, double radius) {
   const double edge = std::pow(10.0, -illumination.edge_taper_db / 20.0);
@@ -30,12 +25,13 @@ double field(const Illumination& illumination, double radius) {
 // Integral over the aperture of field J0(u r) r dr. With r = 1 - t^2 the edge, where a parabola of
 // broken exponent has no derivatives, is smooth too.
 double pattern(const Illumination& illumination, double u) {
+  static const plant::GaussRule rule = plant::gauss_rule(points);
   double sum = 0.0;
   for (int panel = 0; panel < panels; ++panel) {
-    for (const auto& [node, weight] : gauss_legendre) {
-      const double t = (panel + 0.5 * (node + 1.0)) / panels;
+    for (std::size_t i = 0; i < rule.node.size(); ++i) {
+      const double t = (panel + 0.5 * (rule.node[i] + 1.0)) / panels;
       const double r = 1.0 - t * t;
-      sum += weight * 0.5 / panels * 2.0 * t * field(illumination, r) *
+      sum += rule.weight[i] * 0.5 / panels * 2.0 * t * field(illumination, r) *
              std::cyl_bessel_j(0.0, u * r) * r;
     }
   }

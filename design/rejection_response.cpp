@@ -8,6 +8,7 @@
 #include <boresight/control/lyapunov.hpp>
 #include <boresight/design/rejection_response.hpp>
 #include <boresight/plant/eigenvalues.hpp>
+#include <boresight/plant/gauss_rule.hpp>
 #include <boresight/plant/interconnection.hpp>
 #include <boresight/plant/response_grid.hpp>
 
@@ -41,16 +42,17 @@ struct Quadrature {
   Eigen::ArrayXd frequency, weight;  // weight: of an integral over Hz
 };
 Quadrature three_between(const std::vector<double>& edges) {
-  const double node = std::sqrt(0.6);
+  const plant::GaussRule gauss = plant::gauss_rule(3);
   const auto panels = static_cast<Eigen::Index>(edges.size()) - 1;
   Quadrature rule{Eigen::ArrayXd(3 * panels), Eigen::ArrayXd(3 * panels)};
   for (Eigen::Index i = 0; i < panels; ++i) {
     const double from = std::log(edges[static_cast<std::size_t>(i)]);
     const double half = 0.5 * (std::log(edges[static_cast<std::size_t>(i) + 1]) - from);
     for (Eigen::Index k = 0; k < 3; ++k) {
-      const double frequency = std::exp(from + half * (1.0 + static_cast<double>(k - 1) * node));
+      const auto point = static_cast<std::size_t>(k);
+      const double frequency = std::exp(from + half * (1.0 + gauss.node[point]));
       rule.frequency[3 * i + k] = frequency;
-      rule.weight[3 * i + k] = half * (k == 1 ? 8.0 / 9.0 : 5.0 / 9.0) * frequency / two_pi;
+      rule.weight[3 * i + k] = half * gauss.weight[point] * frequency / two_pi;
     }
   }
   return rule;

@@ -1,22 +1,17 @@
-#include <array>
+#include <algorithm>
 #include <cmath>
-#include <utility>
 
 #include <fmt/format.h>
 
 #include <boresight/design/wind_climate.hpp>
 #include <boresight/plant/error.hpp>
+#include <boresight/plant/gauss_rule.hpp>
 
 namespace boresight::design {
 namespace {
 
-// Four nodes a panel; panels that shrink towards calm, where a Weibull density may have no
-// derivatives.
-constexpr std::array<std::pair<double, double>, 4> gauss_legendre{
-    {{-0.861136311594052575, 0.347854845137453857},
-     {-0.339981043584856265, 0.652145154862546143},
-     {0.339981043584856265, 0.652145154862546143},
-     {0.861136311594052575, 0.347854845137453857}}};
+constexpr int points = 4;  // of a panel
+// They shrink towards calm, where a Weibull density may have no derivatives.
 constexpr int panels = 12;
 constexpr double negligible = 1e-12;
 
@@ -38,14 +33,15 @@ std::vector<WeightedSpeed> climate_speeds(const WeibullClimate& climate) {
   const double rarest = climate.scale * std::pow(30.0, 1.0 / climate.shape);
   const double end = std::min(climate.highest, rarest);
   std::vector<WeightedSpeed> speeds;
+  const plant::GaussRule rule = plant::gauss_rule(points);
   for (int panel = 0; panel < panels; ++panel) {
-    for (const auto& [node, weight] : gauss_legendre) {
-      const double t = (panel + 0.5 * (node + 1.0)) / panels;
+    for (std::size_t i = 0; i < rule.node.size(); ++i) {
+      const double t = (panel + 0.5 * (rule.node[i] + 1.0)) / panels;
       const double speed = end * t * t;
       const double relative = std::pow(speed / climate.scale, climate.shape);
       // dv = 2 end t dt, density (shape/v) (v/scale)^shape exp(-(v/scale)^shape)
       speeds.push_back(
-          {speed, weight * t * climate.shape / speed * relative * std::exp(-relative)});
+          {speed, rule.weight[i] * t * climate.shape / speed * relative * std::exp(-relative)});
     }
   }
   return climate_speeds(speeds);

@@ -1,4 +1,3 @@
-#include <array>
 #include <cmath>
 #include <numbers>
 #include <utility>
@@ -6,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <boresight/plant/error.hpp>
+#include <boresight/plant/gauss_rule.hpp>
 #include <boresight/plant/wind.hpp>
 
 namespace boresight::plant {
@@ -13,33 +13,6 @@ namespace {
 
 constexpr double pi = std::numbers::pi;
 constexpr int nodes = 48;
-
-struct Quadrature {
-  std::array<double, nodes> abscissa;
-  std::array<double, nodes> weight;
-};
-
-// Gauss-Legendre on [-1, 1] by Newton's iteration on the Legendre polynomial.
-Quadrature gauss_legendre() {
-  Quadrature rule{};
-  for (int i = 0; i < nodes; ++i) {
-    double x = std::cos(pi * (i + 0.75) / (nodes + 0.5));
-    double slope = 1.0;
-    for (int iteration = 0; iteration < 100; ++iteration) {
-      double previous = 1.0, value = x;
-      for (int k = 2; k <= nodes; ++k) {
-        previous = std::exchange(value, ((2 * k - 1) * x * value - (k - 1) * previous) / k);
-      }
-      slope = nodes * (x * value - previous) / (x * x - 1.0);
-      const double step = value / slope;
-      x -= step;
-      if (std::abs(step) < 1e-15) break;
-    }
-    rule.abscissa[static_cast<std::size_t>(i)] = x;
-    rule.weight[static_cast<std::size_t>(i)] = 2.0 / ((1.0 - x * x) * slope * slope);
-  }
-  return rule;
-}
 
 // Density of the distance r = 2 R t of two random points of the disc, per t.
 double distance_density(double t) {
@@ -137,13 +110,13 @@ CoherenceAverages coherence_averages(double decay_per_radius) {
         fmt::format("coherence_averages: expected a decay_per_radius of at least 0, found {}",
                     decay_per_radius));
   }
-  static const Quadrature rule = gauss_legendre();
+  static const GaussRule rule = gauss_rule(nodes);
   const double exponent = 2.0 * decay_per_radius;
   // Beyond 45 decay lengths the integrand is below rounding. t = end sin^2 softens the ends.
   const double end = exponent > 45.0 ? 45.0 / exponent : 1.0;
   CoherenceAverages averages;
-  for (std::size_t i = 0; i < nodes; ++i) {
-    const double phase = pi / 4.0 * (rule.abscissa[i] + 1.0);
+  for (std::size_t i = 0; i < rule.node.size(); ++i) {
+    const double phase = pi / 4.0 * (rule.node[i] + 1.0);
     const double sine = std::sin(phase);
     const double t = end * sine * sine;
     const double step = end * 2.0 * sine * std::cos(phase) * pi / 4.0 * rule.weight[i];

@@ -16,7 +16,7 @@ namespace boresight::design {
 
 /// What is measured and how (docs/benchmark-protocol.md). A change of any definition, grid or list
 /// is a new number: scores of different numbers do not compare.
-inline constexpr int rejection_protocol = 1;
+inline constexpr int rejection_protocol = 2;
 
 /// Mean wind speeds of the protocol's ladder, m/s.
 inline constexpr std::array rejection_speeds{2.0, 5.0, 8.0, 10.0, 12.0, 15.0, 20.0};

@@ -230,7 +230,8 @@ std::string to_json(const BenchmarkReport& report) {
       {"inputs", system.inputs},
       {"outputs", system.outputs},
       {"remarks", report.controller.remarks}};
-  json["conditions"] = {{"wind_model", plant::to_string(report.wind.model)},
+  json["conditions"] = {{"plant_from_records", report.from_records},
+                        {"wind_model", plant::to_string(report.wind.model)},
                         {"design_wind_speed_m_per_s", report.wind.mean_speed},
                         {"torque_coefficient_1", number(report.wind.site.torque_coefficient)},
                         {"design_torque_rms_N_m",
@@ -270,6 +271,11 @@ void compare_with(BenchmarkReport& report, const std::string& other_json, const 
     report.compared_with =
         fmt::format("{}: {}, {}", name, other.at("case").at("title").get<std::string>(),
                     other.at("controller").at("description").get<std::string>());
+    if (other.at("conditions").at("plant_from_records").get<bool>() != report.from_records) {
+      report.compared_with += report.from_records
+                                  ? "; its plant is the one that its case states"
+                                  : "; its plant is the one that its case's records show";
+    }
   } catch (const Json::exception&) {
     throw InvalidInput(
         fmt::format("{}: expected a score sheet (JSON of boresight benchmark), found none", name));

@@ -9,6 +9,7 @@
 #include <boresight/app/io/case_file.hpp>
 #include <boresight/app/redesign/antenna_model.hpp>
 #include <boresight/app/simulate/time_domain.hpp>
+#include <boresight/app/uncertainty/designed_antenna.hpp>
 #include <boresight/design/rejection_benchmark.hpp>
 
 namespace boresight::app {
@@ -39,6 +40,8 @@ struct BenchmarkReport {
   design::WindCondition wind;
   control::FrequencyBand rms_band;
   design::HardGoals goals;
+  /// Whether plant and ensemble are what the case's records show, not what it states.
+  bool from_records = false;
   std::string attitudes;  // which were judged, in words
   std::string ensemble_source;
   std::vector<PointingBudget> budgets;
@@ -67,10 +70,9 @@ BenchmarkedController controller_of(const control::ControlLaw& law, const std::s
 /// The time between samples that the case's delay, one and a half of it, speaks of (s).
 double case_sample_time(const Case& antenna);
 
-/// Scores a controller on a case by the protocol. The plant and its ensemble are those that the
-/// case states, its records are not looked into. @throws as design::rejection_benchmark and
-/// verify_in_time_domain.
-BenchmarkReport benchmark(const Case& antenna, const BenchmarkedController& controller,
+/// Scores a controller on an antenna and its ensemble by the protocol. @throws as
+/// design::rejection_benchmark and verify_in_time_domain.
+BenchmarkReport benchmark(const DesignedAntenna& designed, const BenchmarkedController& controller,
                           const BenchmarkOptions& options);
 
 std::string to_text(const BenchmarkReport& report);
@@ -82,7 +84,8 @@ std::string to_json(const BenchmarkReport& report);
 void compare_with(BenchmarkReport& report, const std::string& other_json, const std::string& name);
 
 /// Writes compliance.csv, step.csv, impulse.csv and winds.csv into a folder, made if it is not
-/// there, each whole or not at all. @throws InvalidInput if it cannot be written to.
+/// there, each whole or not at all; the antenna is the one that was scored. @throws InvalidInput if
+/// it cannot be written to.
 void write_curves(const BenchmarkReport& report, const Case& antenna, const std::string& folder);
 
 }  // namespace boresight::app

@@ -12,7 +12,6 @@
 #include <boresight/app/redesign/sections.hpp>
 #include <boresight/app/report/json_report.hpp>
 #include <boresight/app/report/sky_units.hpp>
-#include <boresight/app/tune/plant_members.hpp>
 #include <boresight/control/sampled_law.hpp>
 #include <boresight/control/state_space_controller.hpp>
 #include <boresight/plant/error.hpp>
@@ -74,8 +73,9 @@ double case_sample_time(const Case& antenna) {
   return antenna.controller_delay.value / 1.5;
 }
 
-BenchmarkReport benchmark(const Case& antenna, const BenchmarkedController& controller,
+BenchmarkReport benchmark(const DesignedAntenna& designed, const BenchmarkedController& controller,
                           const BenchmarkOptions& options) {
+  const Case& antenna = designed.antenna;
   const design::TrackingProblem problem = make_problem(antenna);
   BenchmarkReport report;
   report.case_path = antenna.path;
@@ -90,7 +90,8 @@ BenchmarkReport benchmark(const Case& antenna, const BenchmarkedController& cont
   report.rms_band = problem.rms_band;
   report.goals = make_goals(antenna);
   report.budgets = make_budgets(antenna);
-  report.ensemble_source = "drawn from the ranges of the case";
+  report.from_records = designed.from_records;
+  report.ensemble_source = designed.ensemble.source;
   const double expected = case_sample_time(antenna);
   if (sample_time > 0.0 && std::abs(sample_time - expected) > 1e-6 * expected) {
     report.controller.remarks.push_back(
@@ -102,7 +103,7 @@ BenchmarkReport benchmark(const Case& antenna, const BenchmarkedController& cont
 
   design::RejectionOptions scoring;
   scoring.attitudes = attitudes_of(antenna);
-  scoring.members = plant_members(antenna, options.seed);
+  scoring.members = designed.ensemble.members;
   for (const auto& budget : report.budgets) scoring.budgets.push_back(budget.rms);
   scoring.sample_time = expected;
   scoring.threads = options.threads;

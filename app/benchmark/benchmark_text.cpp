@@ -171,9 +171,10 @@ std::string to_text(const BenchmarkReport& report) {
   for (const auto& remark : report.controller.remarks) text += wrapped(remark, "  ", "  ");
   text += wrapped(
       fmt::format(
-          "Linear plant as the case states it; wind model {}, design wind {:g} m/s, "
+          "Linear plant {}; wind model {}, design wind {:g} m/s, "
           "{}; rms of one axis over {:g} to {:g} Hz about the mean. Torques at the antenna's "
           "axis, angles at the sky.",
+          report.from_records ? "as the case's records show it" : "as the case states it",
           plant::to_string(report.wind.model), report.wind.mean_speed, report.attitudes,
           report.rms_band.lowest, report.rms_band.highest),
       "  ", "  ");

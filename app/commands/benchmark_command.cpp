@@ -78,17 +78,18 @@ BenchmarkReport benchmark_case(const BenchmarkArguments& arguments,
   options.threads = arguments.threads;
   options.interrupted = interrupted;
   options.progress = [&](std::size_t done, std::size_t all) { progress.show(done, all); };
-  BenchmarkReport report = benchmark(antenna, controller, options);
+  const DesignedAntenna designed =
+      designed_antenna(antenna, arguments.seed, arguments.threads, interrupted);
+  BenchmarkReport report = benchmark(designed, controller, options);
   if (!arguments.compare_path.empty()) compare_with(report, other, arguments.compare_path);
-  if (!arguments.curves_folder.empty()) write_curves(report, antenna, arguments.curves_folder);
+  if (!arguments.curves_folder.empty())
+    write_curves(report, designed.antenna, arguments.curves_folder);
   return report;
 }
 
 namespace {
 
-int run(BenchmarkArguments arguments) {
-  arguments.threads = all_or(arguments.threads);
-  watch_for_interrupt();
+int score(const BenchmarkArguments& arguments) {
   const BenchmarkReport report = benchmark_case(arguments, interrupt_requested);
   arguments.outputs.deliver(
       {.text = [&] { return to_text(report); }, .json = [&] { return to_json(report); }});
@@ -100,6 +101,17 @@ int run(BenchmarkArguments arguments) {
     return infeasible;
   }
   return done;
+}
+
+int run(BenchmarkArguments arguments) {
+  arguments.threads = all_or(arguments.threads);
+  watch_for_interrupt();
+  try {
+    return score(arguments);
+  } catch (const Interrupted&) {
+    fmt::print(stderr, "boresight: interrupted before the records were identified\n");
+    return interrupted;
+  }
 }
 
 }  // namespace

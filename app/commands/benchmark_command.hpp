@@ -25,8 +25,10 @@ struct BenchmarkArguments {
   unsigned threads = 0;  // 0: all
 };
 
-/// Scores the controller asked for. After `interrupted` said yes the report holds what was whole.
-/// @throws InvalidInput for arguments, cases and files that cannot be worked on.
+/// Scores the controller asked for on the antenna that the case states or, of a case with records,
+/// the one that they show. After `interrupted` said yes the report holds what was whole.
+/// @throws InvalidInput for arguments, cases and files that cannot be worked on, Interrupted before
+/// the records are identified.
 BenchmarkReport benchmark_case(const BenchmarkArguments& arguments,
                                const std::function<bool()>& interrupted);
 

@@ -7,11 +7,14 @@
 
 #include "edited_case.hpp"
 #include <boresight/app/commands/benchmark_command.hpp>
+#include <boresight/app/redesign/antenna_model.hpp>
+#include <boresight/app/tune/engineer_units.hpp>
 
 namespace boresight::app {
 namespace {
 
 using testing::HasSubstr;
+using testing::Not;
 using Json = nlohmann::json;
 
 std::string gains(const std::string& gain = "0.2") {
@@ -73,7 +76,7 @@ TEST(Benchmark, ExportedControllerScoresAsTheLaw) {
     ASSERT_EQ(given.exit_code, 0) << given.errors;
     const Json one = Json::parse(content_of(folder.file("law.json")));
     const Json other = Json::parse(content_of(folder.file("given.json")));
-    EXPECT_EQ(one.at("protocol_version"), 1);
+    EXPECT_EQ(one.at("protocol_version"), 2);
     EXPECT_GT(one.at("score").at("torque_step").at("peak_mdeg_per_MN_m").get<double>(), 0.0);
     expect_close(one.at("score"), other.at("score"), 1e-8, "score");
     EXPECT_TRUE(other.at("no_nonlinear_score").is_string());
@@ -155,10 +158,10 @@ TEST(Benchmark, ComparesScoreSheetsOfOneProtocolOnly) {
     EXPECT_DOUBLE_EQ(row.at("ratio_1").get<double>(), 1.0);
   }
   Json other = Json::parse(content_of(folder.file("one.json")));
-  other["protocol_version"] = 2;
+  other["protocol_version"] = 1;
   const auto refused = benchmark(path, {"--compare", folder.write("other.json", other.dump())});
   EXPECT_EQ(refused.exit_code, 2);
-  EXPECT_THAT(refused.errors, HasSubstr("expected a score sheet of protocol 1, found protocol 2"));
+  EXPECT_THAT(refused.errors, HasSubstr("expected a score sheet of protocol 2, found protocol 1"));
   const auto nothing = benchmark(path, {"--compare", folder.write("bad.json", "{}")});
   EXPECT_EQ(nothing.exit_code, 2);
   EXPECT_THAT(nothing.errors, HasSubstr("expected a score sheet"));
@@ -179,6 +182,39 @@ TEST(Benchmark, IsTheSameForAnyNumberOfThreadsAndWritesItsCurves) {
     EXPECT_GT(content_of(folder.file(std::string("curves/") + name)).size(), 200U) << name;
   }
   EXPECT_THAT(content_of(folder.file("curves/compliance.csv")), HasSubstr("frequency [Hz]"));
+}
+
+// What records show takes the place of what the case states, and the sheet says so.
+TEST(Benchmark, ScoresTheAntennaThatRecordsShow) {
+  const ScratchFolder folder;
+  const Case stated = read_case(small_case(folder));
+  DesignedAntenna designed{stated,
+                           {"drawn from the ranges of the case", {}},
+                           PlantDistribution::of_ranges(stated),
+                           false};
+  const auto controller = controller_of(present_laws(stated).front(), "PI", 0.0);
+  auto as_stated = benchmark(designed, controller, {});
+  designed.antenna.drive.leakage_rate.value *= 2.0;
+  designed.ensemble.source = "drawn from what the records leave open";
+  designed.ensemble.members = {{"draw 1", make_plant(designed.antenna)}};
+  designed.from_records = true;
+  const auto recorded = benchmark(designed, controller, {});
+  EXPECT_NE(recorded.score.abscissa, as_stated.score.abscissa);
+  ASSERT_TRUE(recorded.score.ensemble);
+  EXPECT_EQ(recorded.score.ensemble->members.size(), 1U);
+  EXPECT_THAT(to_text(recorded), HasSubstr("Linear plant as the case's records show it;"));
+  EXPECT_THAT(to_text(recorded), HasSubstr("drawn from what the records leave open"));
+  EXPECT_THAT(to_text(as_stated), HasSubstr("Linear plant as the case states it;"));
+  const auto from_records = [](const BenchmarkReport& report) {
+    return Json::parse(to_json(report)).at("conditions").at("plant_from_records").get<bool>();
+  };
+  EXPECT_TRUE(from_records(recorded));
+  EXPECT_FALSE(from_records(as_stated));
+  compare_with(as_stated, to_json(recorded), "other.json");
+  EXPECT_THAT(as_stated.compared_with,
+              HasSubstr("; its plant is the one that its case's records show"));
+  compare_with(as_stated, to_json(as_stated), "own.json");
+  EXPECT_THAT(as_stated.compared_with, Not(HasSubstr("records")));
 }
 
 TEST(Benchmark, InterruptLeavesWhatWasWhole) {

@@ -5,14 +5,13 @@
 #include <fmt/format.h>
 
 #include <boresight/app/io/controller_file.hpp>
-#include <boresight/app/io/mat_elements.hpp>
+#include <boresight/app/io/mat_file.hpp>
 #include <boresight/app/io/wording.hpp>
 #include <boresight/plant/error.hpp>
 
 namespace boresight::app {
 namespace {
 
-constexpr std::size_t head_size = 128;
 constexpr int deepest = 4;
 constexpr std::uint64_t most_numbers = 1000000;
 constexpr std::uint64_t most_letters = 10000;
@@ -37,12 +36,9 @@ void append_names(const std::string& text, const char* separators,
 
 class ControllerCollector {
  public:
-  ControllerCollector(bool swapped, const std::string& file) : swapped_(swapped), file_(file) {}
+  explicit ControllerCollector(const std::string& file) : file_(file) {}
 
-  void take(const MatElement& element, const std::string& field, int depth) {
-    if (element.type != mat_matrix) return;
-    MatArray array = read_mat_array(element, swapped_, file_);
-    const std::string name = field.empty() ? array.name : field;
+  void take(MatArray& array, const std::string& name, int depth) {
     if (name == "A") take_matrix(array, "A", text_.a, has_a_);
     if (name == "B") take_matrix(array, "B", text_.b, has_b_);
     if (name == "C") take_matrix(array, "C", text_.c, has_c_);
@@ -65,7 +61,10 @@ class ControllerCollector {
       const auto words = names_of(array, ",;");
       text_.angles = words.empty() ? "" : words.front();
     }
-    if (array.kind == MatArray::Class::structure && depth < deepest) take_fields(array, depth);
+    if (array.kind == MatArray::Class::structure && depth < deepest) {
+      read_mat_fields(
+          array, [&](const std::string& field, MatArray& inner) { take(inner, field, depth + 1); });
+    }
   }
 
   ControllerText text() && {
@@ -112,10 +111,7 @@ class ControllerCollector {
                                      most_letters, array.elements));
     }
     if (array.kind == MatArray::Class::text) {
-      MatElement element = array.rest.next();
-      if (element.type == 16) element.type = 2;  // UTF-8
-      if (element.type == 17) element.type = 4;  // UTF-16
-      const std::vector<double> codes = array.rest.numbers(element);
+      const std::vector<double> codes = mat_characters(array);
       const auto rows = static_cast<std::size_t>(array.dimensions[0]);
       for (std::size_t i = 0; i < rows; ++i) {
         std::string row;
@@ -130,7 +126,7 @@ class ControllerCollector {
       for (std::uint64_t i = 0; i < array.elements && !array.rest.at_end(); ++i) {
         const MatElement cell = array.rest.next();
         if (cell.type != mat_matrix) break;
-        MatArray inner = read_mat_array(cell, swapped_, file_);
+        MatArray inner = read_mat_array(cell, array.rest.swapped(), file_);
         if (inner.kind != MatArray::Class::text) continue;
         for (auto& name : names_of(inner, separators)) names.push_back(std::move(name));
       }
@@ -138,22 +134,6 @@ class ControllerCollector {
     return names;
   }
 
-  void take_fields(MatArray& array, int depth) {
-    const std::vector<std::int64_t> length = array.rest.integers(array.rest.next());
-    const std::string_view names = array.rest.next().bytes;
-    if (length.empty() || length[0] < 1 || length[0] > 1024) {
-      array.rest.refuse("a structure whose field names have no length");
-    }
-    if (array.elements != 1) return;
-    const auto step = static_cast<std::size_t>(length[0]);
-    for (std::size_t begin = 0; begin + step <= names.size(); begin += step) {
-      const std::string_view padded = names.substr(begin, step);
-      take(array.rest.next(), std::string(padded.substr(0, std::min(padded.find('\0'), step))),
-           depth + 1);
-    }
-  }
-
-  bool swapped_;
   const std::string& file_;
   ControllerText text_;
   bool has_a_ = false, has_b_ = false, has_c_ = false, has_d_ = false;
@@ -213,28 +193,8 @@ std::string names_bytes(const std::string& name, const std::vector<std::string>&
 }  // namespace
 
 ControllerText controller_from_mat(std::string_view content, const std::string& name) {
-  const auto refuse = [&](const std::string& found) {
-    throw InvalidInput(fmt::format("{}: expected a MAT file of version 5, found {}", name, found));
-  };
-  if (content.starts_with("MATLAB 7.3") || content.starts_with("\x89HDF")) {
-    refuse("version 7.3 (save it with `save -v7`)");
-  }
-  if (content.size() < head_size) refuse(fmt::format("{} bytes", content.size()));
-  const std::string_view order = content.substr(126, 2);
-  if (order != "IM" && order != "MI") refuse("another version (save it with `save -v7`)");
-  const bool swapped = order == "MI";
-  MatCursor cursor(content.substr(head_size), swapped, name);
-  ControllerCollector collector(swapped, name);
-  while (!cursor.at_end()) {
-    const MatElement element = cursor.next();
-    if (element.type != mat_compressed) {
-      collector.take(element, "", 0);
-      continue;
-    }
-    const std::string bytes = inflate_mat(element, swapped, name);
-    MatCursor inner(bytes, swapped, name);
-    collector.take(inner.next(), "", 0);
-  }
+  ControllerCollector collector(name);
+  read_mat_file(content, name, [&](MatArray& array) { collector.take(array, array.name, 0); });
   return std::move(collector).text();
 }
 

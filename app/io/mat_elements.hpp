@@ -30,6 +30,7 @@ class MatCursor {
   /// @throws InvalidInput if the element is longer than the bytes left
   MatElement next();
   bool swapped() const { return swapped_; }
+  std::string_view name() const { return name_; }
   /// "NAME: expected a whole MAT file, found WHAT". @throws InvalidInput always
   [[noreturn]] void refuse(const std::string& what) const;
 

@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-#include <boresight/app/io/mat_elements.hpp>
+#include <boresight/app/io/mat_file.hpp>
 #include <boresight/app/io/record_mat.hpp>
 #include <boresight/app/io/wording.hpp>
 #include <boresight/plant/error.hpp>
@@ -13,18 +13,14 @@
 namespace boresight::app {
 namespace {
 
-constexpr std::size_t head_size = 128;
 constexpr std::size_t most_columns = 4096;
 constexpr int deepest = 8;
 
 class Collector {
  public:
-  Collector(bool swapped, const std::string& name) : swapped_(swapped), name_(name) {}
+  explicit Collector(const std::string& name) : name_(name) {}
 
-  void take(const MatElement& element, const std::string& field, int depth) {
-    if (element.type != mat_matrix) return;
-    MatArray array = read_mat_array(element, swapped_, name_);
-    const std::string name = field.empty() ? array.name : field;
+  void take(MatArray& array, const std::string& name, int depth) {
     if (array.kind == MatArray::Class::number && array.elements > 1) {
       take_numbers(array, name);
     } else if (array.kind == MatArray::Class::text) {
@@ -90,11 +86,8 @@ class Collector {
 
   std::string text_of(MatArray& array) const {
     if (array.elements == 0 || array.elements > 1000) return {};
-    MatElement element = array.rest.next();
-    if (element.type == 16) element.type = 2;  // UTF-8
-    if (element.type == 17) element.type = 4;  // UTF-16
     std::string text;
-    for (const double code : array.rest.numbers(element)) {
+    for (const double code : mat_characters(array)) {
       text +=
           code >= 32.0 && code < 256.0 ? static_cast<char>(static_cast<unsigned char>(code)) : '?';
     }
@@ -102,30 +95,17 @@ class Collector {
   }
 
   void take_structure(MatArray& array, const std::string& name, int depth) {
-    const std::vector<std::int64_t> length = array.rest.integers(array.rest.next());
-    const std::string_view names = array.rest.next().bytes;
-    if (length.empty() || length[0] < 1 || length[0] > 1024) {
-      array.rest.refuse("a structure whose field names have no length");
-    }
-    if (array.elements != 1) {
-      left_out_.push_back(name);
-      return;
-    }
-    const auto step = static_cast<std::size_t>(length[0]);
+    if (array.elements != 1) left_out_.push_back(name);
     const std::size_t first = columns_.size();
     std::string unit;
-    for (std::size_t begin = 0; begin + step <= names.size(); begin += step) {
-      const std::string_view padded = names.substr(begin, step);
-      const std::string field(padded.substr(0, std::min(padded.find('\0'), step)));
-      const MatElement element = array.rest.next();
-      const bool is_unit = field == "unit" || field == "units";
-      take(element, field, depth + 1);
+    read_mat_fields(array, [&](const std::string& field, MatArray& inner) {
+      take(inner, field, depth + 1);
       const auto text = texts_.find(field);
-      if (is_unit && text != texts_.end()) {
+      if ((field == "unit" || field == "units") && text != texts_.end()) {
         unit = text->second;
         texts_.erase(text);
       }
-    }
+    });
     // { data, unit } is one signal, named by its structure.
     constexpr std::array<std::string_view, 3> contents{"data", "values", "signal"};
     if (columns_.size() == first + 1 &&
@@ -135,7 +115,6 @@ class Collector {
     }
   }
 
-  bool swapped_;
   const std::string& name_;
   std::vector<RecordColumn> columns_;
   std::map<std::string, std::string> texts_;
@@ -155,33 +134,8 @@ bool is_mat(std::string_view content) {
 }
 
 RecordTable read_record_mat(std::string_view content, const std::string& name) {
-  if (content.starts_with("MATLAB 7.3") || content.starts_with("\x89HDF")) {
-    throw InvalidInput(fmt::format(
-        "{}: expected a MAT file of version 5, found version 7.3 (save it with `save -v7`)", name));
-  }
-  if (content.size() < head_size) {
-    throw InvalidInput(fmt::format("{}: expected a whole MAT file of version 5, found {} bytes",
-                                   name, content.size()));
-  }
-  const std::string_view order = content.substr(126, 2);
-  if (order != "IM" && order != "MI") {
-    throw InvalidInput(fmt::format(
-        "{}: expected a MAT file of version 5, found another version (save it with `save -v7`)",
-        name));
-  }
-  const bool swapped = order == "MI";  // written on a machine of the other byte order
-  MatCursor cursor(content.substr(head_size), swapped, name);
-  Collector collector(swapped, name);
-  while (!cursor.at_end()) {
-    const MatElement element = cursor.next();
-    if (element.type != mat_compressed) {
-      collector.take(element, "", 0);
-      continue;
-    }
-    const std::string bytes = inflate_mat(element, swapped, name);
-    MatCursor inner(bytes, swapped, name);
-    collector.take(inner.next(), "", 0);
-  }
+  Collector collector(name);
+  read_mat_file(content, name, [&](MatArray& array) { collector.take(array, array.name, 0); });
   RecordTable table = std::move(collector).table();
   table.path = name;
   table.bytes = content.size();

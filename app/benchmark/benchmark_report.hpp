@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include <boresight/app/document/document.hpp>
 #include <boresight/app/io/case_file.hpp>
 #include <boresight/app/redesign/antenna_model.hpp>
 #include <boresight/app/simulate/time_domain.hpp>
@@ -75,6 +76,8 @@ double case_sample_time(const Case& antenna);
 BenchmarkReport benchmark(const DesignedAntenna& designed, const BenchmarkedController& controller,
                           const BenchmarkOptions& options);
 
+/// The report, and as text for a terminal.
+Document document_of(const BenchmarkReport& report);
 std::string to_text(const BenchmarkReport& report);
 /// docs/benchmark.schema.json.
 std::string to_json(const BenchmarkReport& report);

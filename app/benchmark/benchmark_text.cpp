@@ -5,8 +5,8 @@
 #include <fmt/ranges.h>
 
 #include <boresight/app/benchmark/benchmark_report.hpp>
+#include <boresight/app/document/document_text.hpp>
 #include <boresight/app/report/sky_units.hpp>
-#include <boresight/app/report/text_layout.hpp>
 #include <boresight/app/report/text_report.hpp>
 
 namespace boresight::app {
@@ -29,8 +29,8 @@ std::string limit_text(double speed) {
   return std::isfinite(speed) ? fmt::format("{:.1f} m/s", speed) : "beyond 60 m/s";
 }
 
-std::string course_text(const char* name, const char* unit, const control::CourseScore& course,
-                        double torque) {
+Document course_part(const char* name, const char* unit, const control::CourseScore& course,
+                     double torque) {
   const std::string returned =
       course.return_time
           ? fmt::format("back within 5 % of it for good after {:.3g} s", *course.return_time)
@@ -50,7 +50,7 @@ std::string course_text(const char* name, const char* unit, const control::Cours
       "  ", "  ");
 }
 
-std::string margins_text(const design::RejectionScore& score) {
+Document margins_part(const design::RejectionScore& score) {
   std::vector<std::vector<std::string>> rows{{"loop cut at", "peak of |S|", "at Hz", "gain up dB",
                                               "gain down dB", "phase deg", "delay ms"}};
   for (const auto& one : score.breaks) {
@@ -71,7 +71,7 @@ std::string margins_text(const design::RejectionScore& score) {
   return table(rows);
 }
 
-std::string ladder_text(const std::vector<design::WindScore>& winds) {
+Document ladder_part(const std::vector<design::WindScore>& winds) {
   // A row a model and attitude, a column a speed.
   std::vector<std::vector<std::string>> rows{{"beam rms, mdeg"}};
   for (const double speed : design::rejection_speeds)
@@ -87,8 +87,8 @@ std::string ladder_text(const std::vector<design::WindScore>& winds) {
   return table(rows);
 }
 
-std::string reference_text(const BenchmarkReport& report) {
-  if (!report.score.reference) return "";
+Document reference_part(const BenchmarkReport& report) {
+  if (!report.score.reference) return {};
   const auto& reference = *report.score.reference;
   const double rms = report.score.design_wind.beam_rms;
   std::string text = fmt::format(
@@ -110,7 +110,7 @@ std::string reference_text(const BenchmarkReport& report) {
   return wrapped(text, "  ", "  ");
 }
 
-std::string nonlinear_text(const TimeDomainSection& section) {
+Document nonlinear_part(const TimeDomainSection& section) {
   std::string text;
   for (const auto& one : section.result.hunting) {
     const std::string motion = one.rate == 0.0 ? "At rest" : "At the tracking rate";
@@ -139,7 +139,7 @@ std::string nonlinear_text(const TimeDomainSection& section) {
   return wrapped(text, "  ", "  ");
 }
 
-std::string comparison_text(const BenchmarkReport& report) {
+Document comparison_part(const BenchmarkReport& report) {
   std::vector<std::vector<std::string>> rows{{"quantity", "this", "other", "this/other"}};
   for (const auto& row : report.comparison) {
     const bool both = row.own && row.other && *row.other != 0.0;
@@ -153,12 +153,12 @@ std::string comparison_text(const BenchmarkReport& report) {
 
 }  // namespace
 
-std::string to_text(const BenchmarkReport& report) {
+Document document_of(const BenchmarkReport& report) {
   const design::RejectionScore& score = report.score;
   const auto& system = report.controller.system;
   std::vector<std::string> read = system.inputs;
   std::erase(read, "rate_disturbance");
-  std::string text = fmt::format("{}\n{}\n", report.title, report.case_path);
+  Document text = verbatim(fmt::format("{}\n{}\n", report.title, report.case_path));
   text += heading(fmt::format("Disturbance rejection, protocol {}", design::rejection_protocol));
   text += wrapped(
       fmt::format("Controller: {}; {}, {} states, reads {}.", report.controller.description,
@@ -185,15 +185,15 @@ std::string to_text(const BenchmarkReport& report) {
             "unstable loop has no score.",
             score.abscissa),
         "  ", "  ");
-    return text + assumed_text(report.assumed);
+    return text + document_of(report.assumed);
   }
   text += fmt::format("  Stable: slowest pole at {:.4g} 1/s.{}\n", score.abscissa,
                       !score.rate_loop_stable   ? " No rate loop of its own."
                       : *score.rate_loop_stable ? " Rate loop alone stable."
                                                 : " Rate loop alone UNSTABLE.");
   text += heading("Torque at the dish");
-  text += course_text("Step", "(MN m)", score.step, score.design_wind.torque_rms);
-  text += course_text("Impulse", "(MN m s)", score.impulse, score.design_wind.torque_rms);
+  text += course_part("Step", "(MN m)", score.step, score.design_wind.torque_rms);
+  text += course_part("Impulse", "(MN m s)", score.impulse, score.design_wind.torque_rms);
   const std::string bracket =
       score.worst.closed
           ? fmt::format("{:.6g} to {:.6g} mdeg/(MN m), no frequency has more",
@@ -209,7 +209,7 @@ std::string to_text(const BenchmarkReport& report) {
                   score.static_compliance * per_meganewton),
       "  ", "  ");
   text += heading("Margins");
-  text += margins_text(score);
+  text += margins_part(score);
   text += heading("Wind");
   text += wrapped(
       fmt::format("At the design wind: beam {:.4g} mdeg rms ({:.4g} by Lyapunov equations with the "
@@ -219,8 +219,8 @@ std::string to_text(const BenchmarkReport& report) {
                   score.design_wind.wind_rms / millidegree, score.noise_rms / millidegree,
                   score.valve_effort, report.goals.valve_effort),
       "  ", "  ");
-  if (score.reference) text += reference_text(report);
-  if (!score.winds.empty()) text += "\n" + ladder_text(score.winds);
+  if (score.reference) text += reference_part(report);
+  if (!score.winds.empty()) text += "\n" + ladder_part(score.winds);
   if (!score.budget_speeds.empty()) {
     std::vector<std::vector<std::string>> rows{{"budget", "rms mdeg", "met up to"}};
     for (std::size_t i = 0; i < score.budget_speeds.size(); ++i) {
@@ -242,13 +242,17 @@ std::string to_text(const BenchmarkReport& report) {
         "  ", "  ");
   }
   text += heading("Nonlinear antenna");
-  text += report.time_domain ? nonlinear_text(*report.time_domain)
+  text += report.time_domain ? nonlinear_part(*report.time_domain)
                              : wrapped("Not judged: " + report.no_time_domain + ".", "  ", "  ");
   for (const auto& part : score.left_out) {
     text += fmt::format("  Interrupted before: {}\n", part);
   }
-  if (!report.compared_with.empty()) text += comparison_text(report);
-  return text + assumed_text(report.assumed);
+  if (!report.compared_with.empty()) text += comparison_part(report);
+  return text + document_of(report.assumed);
+}
+
+std::string to_text(const BenchmarkReport& report) {
+  return to_text(document_of(report));
 }
 
 }  // namespace boresight::app

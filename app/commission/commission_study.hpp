@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include <boresight/app/document/document.hpp>
 #include <boresight/app/redesign/antenna_model.hpp>
 #include <boresight/app/tune/tune_study.hpp>
 #include <boresight/design/commissioning.hpp>
@@ -92,6 +93,8 @@ CommissionReport plan_commission(const Case& antenna, const PlantEnsemble& ensem
 std::vector<ChannelComparison> compare_case_records(const Case& antenna, const std::string& before,
                                                     const std::string& after, unsigned threads);
 
+/// The report, and as text for a terminal.
+Document document_of(const CommissionReport& report);
 std::string to_text(const CommissionReport& report);
 /// As docs/commission.schema.json: keys end in their unit, null stands for what there is none of.
 std::string to_json(const CommissionReport& report);

@@ -4,8 +4,8 @@
 #include <fmt/ranges.h>
 
 #include <boresight/app/commission/commission_study.hpp>
+#include <boresight/app/document/document_text.hpp>
 #include <boresight/app/report/sky_units.hpp>
-#include <boresight/app/report/text_layout.hpp>
 #include <boresight/app/report/text_report.hpp>
 
 namespace boresight::app {
@@ -23,7 +23,7 @@ std::string stage_name(const design::CommissioningStage& stage) {
                           : fmt::format("{}, {} of {}", kind, stage.step, stage.steps);
 }
 
-std::string overview(const CommissionReport& report) {
+Document overview(const CommissionReport& report) {
   Rows rows{{"stage", "", "position", "peak of S", "crossover Hz", "rise s", "overshoot %",
              "valve rms rad/s", "beam rms mdeg", "stable plants"}};
   const double sky = report.gear_ratio * millidegree;
@@ -47,12 +47,12 @@ std::string overview(const CommissionReport& report) {
              "  ");
 }
 
-std::string sheets(const CommissionReport& report) {
-  std::string text;
+Document sheets(const CommissionReport& report) {
+  Document text;
   for (std::size_t i = 0; i < report.sheets.size(); ++i) {
     const auto& sheet = report.sheets[i];
-    text += fmt::format("\n  {} {}{}\n", i + 1, stage_name(sheet.stage),
-                        sheet.stage.law.position_open ? ", position loop open" : "");
+    text += subheading(fmt::format("{} {}{}", i + 1, stage_name(sheet.stage),
+                                   sheet.stage.law.position_open ? ", position loop open" : ""));
     std::vector<std::string> gains;
     for (const auto& gain : sheet.gains) {
       gains.push_back(fmt::format("{} = {}{}", gain.symbol, gain.text, gain.changed ? " *" : ""));
@@ -65,9 +65,9 @@ std::string sheets(const CommissionReport& report) {
   return text;
 }
 
-std::string comparison_text(const CommissionReport& report) {
-  if (report.comparisons.empty()) return "";
-  std::string text =
+Document comparison_part(const CommissionReport& report) {
+  if (report.comparisons.empty()) return {};
+  Document text =
       heading(fmt::format("Before and after: '{}' and '{}'", report.before, report.after));
   for (const auto& channel : report.comparisons) {
     if (!channel.not_compared.empty()) {
@@ -100,9 +100,9 @@ std::string comparison_text(const CommissionReport& report) {
 
 }  // namespace
 
-std::string to_text(const CommissionReport& report) {
-  std::string text = fmt::format("{}\n{}\ncase {}, seed {}\n", report.title, report.axis,
-                                 report.case_path, report.seed);
+Document document_of(const CommissionReport& report) {
+  Document text = verbatim(fmt::format("{}\n{}\ncase {}, seed {}\n", report.title, report.axis,
+                                       report.case_path, report.seed));
   text += heading("Commissioning plan for " + report.structure);
   text += wrapped(
       fmt::format(
@@ -147,10 +147,14 @@ std::string to_text(const CommissionReport& report) {
       "  ");
   text += "\n" + overview(report);
   text += heading("Stages (* changed against the stage before)") + sheets(report);
-  text += comparison_text(report);
+  text += comparison_part(report);
   text += heading("Conclusions");
   for (const auto& sentence : report.conclusions) text += wrapped("- " + sentence, "  ", "  ");
-  return text + assumed_text(report.assumed);
+  return text + document_of(report.assumed);
+}
+
+std::string to_text(const CommissionReport& report) {
+  return to_text(document_of(report));
 }
 
 }  // namespace boresight::app

@@ -5,6 +5,7 @@
 #include <string>
 
 #include <boresight/app/commands/subcommand.hpp>
+#include <boresight/app/document/document.hpp>
 #include <boresight/app/montecarlo/montecarlo_section.hpp>
 #include <boresight/app/montecarlo/ranks.hpp>
 
@@ -47,7 +48,8 @@ void summarise(const design::MonteCarloRun& run, const PlantDistribution& distri
 /// A few sentences that say what the numbers mean.
 std::vector<std::string> conclude(const MonteCarloSection& section);
 
-/// The report for a terminal; as JSON (docs/montecarlo.schema.json); every plant as CSV.
+/// The report; as text for a terminal; as JSON (docs/montecarlo.schema.json); every plant as CSV.
+Document document_of(const MonteCarloSection& section);
 std::string to_text(const MonteCarloSection& section);
 std::string to_json(const MonteCarloSection& section);
 std::string to_csv(const MonteCarloOutcome& outcome);

@@ -4,9 +4,9 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <boresight/app/document/document_text.hpp>
 #include <boresight/app/montecarlo/montecarlo_study.hpp>
 #include <boresight/app/report/sky_units.hpp>
-#include <boresight/app/report/text_layout.hpp>
 #include <boresight/app/report/text_report.hpp>
 
 namespace boresight::app {
@@ -43,7 +43,7 @@ void add_distribution(Rows& rows, const std::string& name, const DistributionSum
   rows.push_back(std::move(row));
 }
 
-std::string distributions_text(const MonteCarloSection& section) {
+Document distributions_part(const MonteCarloSection& section) {
   Rows rows{{"", "mean", "sd", "5 %", "50 %", "95 %", "99 %", "largest"}};
   add_distribution(rows, "beam rms, mdeg", section.beam_rms, millidegree, 4);
   for (const auto& [band, loss, climate_loss] : section.losses) {
@@ -62,7 +62,7 @@ std::string distributions_text(const MonteCarloSection& section) {
     add_distribution(rows, "rms re-tuned, mdeg", section.retuned->beam_rms, millidegree, 4);
     add_distribution(rows, "price of one law, %", section.retuned->price, 0.01, 2);
   }
-  std::string text = heading("Distribution over the plants that are stable");
+  Document text = heading("Distribution over the plants that are stable");
   text += table(rows, "l");
   text += wrapped(
       fmt::format("[ ]: 95 % intervals of the sampling alone, by {} stable plants; the "
@@ -84,7 +84,7 @@ std::string distributions_text(const MonteCarloSection& section) {
   return text;
 }
 
-std::string probabilities_text(const MonteCarloSection& section) {
+Document probabilities_part(const MonteCarloSection& section) {
   Rows rows{{"", "probability"}};
   rows.push_back({"not stable", per_cent(section.instability)});
   for (const auto& [budget, met] : section.budgets) {
@@ -96,7 +96,7 @@ std::string probabilities_text(const MonteCarloSection& section) {
     rows.push_back({fmt::format("goal broken: {}", goal), per_cent(broken)});
   }
   rows.push_back({"all hard goals met", per_cent(section.all_goals_met)});
-  std::string text = heading("Probabilities");
+  Document text = heading("Probabilities");
   text += table(rows, "l");
   text += wrapped(
       fmt::format("Of {} plants, with 95 % intervals (Clopper and Pearson). A plant that is not "
@@ -107,8 +107,8 @@ std::string probabilities_text(const MonteCarloSection& section) {
   return text;
 }
 
-std::string stability_text(const MonteCarloSection& section) {
-  std::string text = heading("Stability");
+Document stability_part(const MonteCarloSection& section) {
+  Document text = heading("Stability");
   text += wrapped(
       fmt::format("{} plants stable, {} unstable, {} undecided. By closed-loop eigenvalues for the "
                   "{} with a sensitivity peak above {:g}, unstable along the frequencies, or of a "
@@ -120,8 +120,8 @@ std::string stability_text(const MonteCarloSection& section) {
   return text;
 }
 
-std::string plants_text(const MonteCarloSection& section, const std::vector<NotablePlant>& plants,
-                        std::size_t most) {
+Document plants_part(const MonteCarloSection& section, const std::vector<NotablePlant>& plants,
+                     std::size_t most) {
   Rows rows{{"plant"}};
   for (const auto input : section.inputs) rows[0].emplace_back(to_string(input));
   for (const auto* name : {"rms mdeg", "S rate", "S valve", "S pos.", "effort rad/s"}) {
@@ -141,10 +141,10 @@ std::string plants_text(const MonteCarloSection& section, const std::vector<Nota
 
 }  // namespace
 
-std::string to_text(const MonteCarloSection& section) {
-  std::string text =
-      fmt::format("Boresight {} montecarlo: {} ({} axis)\ncase {}, seed {}\n", BORESIGHT_VERSION,
-                  section.title, section.axis, section.case_path, section.seed);
+Document document_of(const MonteCarloSection& section) {
+  Document text = verbatim(fmt::format("Boresight {} montecarlo: {} ({} axis)\ncase {}, seed {}\n",
+                                       BORESIGHT_VERSION, section.title, section.axis,
+                                       section.case_path, section.seed));
   if (section.interrupted) {
     text += fmt::format("INTERRUPTED: {} of {} plants were judged; what follows is of these.\n",
                         section.plants, section.plants_asked);
@@ -161,13 +161,13 @@ std::string to_text(const MonteCarloSection& section) {
   text += wrapped(fmt::format("{} plants, {}: {}.", section.plants, section.distribution,
                               fmt::join(names, ", ")),
                   "  ");
-  text += distributions_text(section);
-  text += probabilities_text(section);
-  text += stability_text(section);
+  text += distributions_part(section);
+  text += probabilities_part(section);
+  text += stability_part(section);
   if (!section.unstable_plants.empty()) {
     constexpr std::size_t most = 10;
     text += heading("Plants that are not stable");
-    text += plants_text(section, section.unstable_plants, most);
+    text += plants_part(section, section.unstable_plants, most);
     if (section.unstable + section.undecided > most) {
       text +=
           wrapped(fmt::format("The first {} of {}; --json lists {}, --csv all.", most,
@@ -176,7 +176,7 @@ std::string to_text(const MonteCarloSection& section) {
     }
   }
   text += heading("Worst stable plants");
-  text += plants_text(section, section.worst, section.worst.size());
+  text += plants_part(section, section.worst, section.worst.size());
   text += wrapped(
       "Inputs: factors on the numbers of the case (identified, where there are records), friction "
       "slope in N m s/rad at the motor shaft.",
@@ -189,10 +189,14 @@ std::string to_text(const MonteCarloSection& section) {
                                                     with_rms.lower, with_rms.upper)});
   }
   text += table(rows, "l");
-  text += assumed_text(section.assumed);
+  text += document_of(section.assumed);
   text += heading("What the numbers mean");
   for (const auto& sentence : section.conclusions) text += wrapped(sentence, "  ") + "\n";
   return text;
+}
+
+std::string to_text(const MonteCarloSection& section) {
+  return to_text(document_of(section));
 }
 
 }  // namespace boresight::app

@@ -2,15 +2,16 @@
 
 #include <string>
 
+#include <boresight/app/document/document.hpp>
 #include <boresight/app/evaluate/evaluate_section.hpp>
 #include <boresight/app/report/json_design.hpp>
 
 namespace boresight::app {
 
-/// The section of the terminal's report.
-std::string to_text(const EvaluateSection& section);
+/// The section of the report.
+Document document_of(const EvaluateSection& section);
 /// Its part about chances, regrets and tests.
-std::string to_text(const EvaluateSection& section, const DecisionSection& decision);
+Document document_of(const EvaluateSection& section, const DecisionSection& decision);
 Json evaluate_json(const EvaluateSection& section);
 Json decision_json(const EvaluateSection& section, const DecisionSection& decision);
 

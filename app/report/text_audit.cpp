@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <boresight/app/report/text_layout.hpp>
+#include <boresight/app/document/document.hpp>
 #include <boresight/app/report/text_report.hpp>
 
 namespace boresight::app {
@@ -32,7 +32,7 @@ std::string followed_by(const std::string& explanation) {
   return explanation.substr(0, end + 1) + " would follow" + explanation.substr(end + 1);
 }
 
-void append_finding(std::string& page, const Finding& finding, std::size_t number) {
+void append_finding(Document& page, const Finding& finding, std::size_t number) {
   page += wrapped(fmt::format("{:2}. {}: {}", number, finding.id, finding.description), "", "    ");
   page += wrapped(finding.source, "    ", "  ");
   for (const DepartingForm& form : finding.forms) {
@@ -54,15 +54,13 @@ void append_finding(std::string& page, const Finding& finding, std::size_t numbe
     page += wrapped(fmt::format("moves {}", fmt::join(moved, ", ")), "    ", "  ");
 }
 
-void append_group(std::string& page, const AuditReport& report, std::string_view title,
+void append_group(Document& page, const AuditReport& report, std::string_view title,
                   FindingKind kind, bool within_rounding, std::size_t& number) {
   bool first = true;
   for (const Finding& finding : report.findings) {
     if (finding.kind != kind || finding.within_parents_rounding != within_rounding) continue;
     if (first) {
-      page += '\n';
-      page += wrapped(title, "");
-      page += '\n';
+      page += subheading(title, "") + "\n";
     }
     first = false;
     append_finding(page, finding, ++number);
@@ -119,8 +117,8 @@ std::string audit_summary(const AuditReport& report) {
                     fmt::join(moved, "; "));
 }
 
-std::string to_text(const AuditReport& report) {
-  std::string page = heading(fmt::format("Audit of {}", report.title));
+Document document_of(const AuditReport& report) {
+  Document page = heading(fmt::format("Audit of {}", report.title));
   std::size_t number = 0;
   append_group(page, report, "Columns that disagree beyond their rounding", FindingKind::conversion,
                false, number);
@@ -132,17 +130,17 @@ std::string to_text(const AuditReport& report) {
                FindingKind::derivation, true, number);
   append_group(page, report, "Inputs printed again with another value", FindingKind::restatement,
                false, number);
-  if (!report.implausible.empty()) page += "\nPhysically implausible\n\n";
+  if (!report.implausible.empty()) page += subheading("Physically implausible", "") + "\n";
   for (const Implausibility& implausible : report.implausible) {
     page += wrapped(fmt::format("{:2}. {}, {}: {}", ++number, implausible.check, implausible.id,
                                 implausible.reasoning),
                     "", "    ");
   }
-  if (!report.remarks.empty()) page += "\nRemarks by the case's writer\n\n";
+  if (!report.remarks.empty()) page += subheading("Remarks by the case's writer", "") + "\n";
   for (const RemarkEntry& remark : report.remarks) {
     page += wrapped(fmt::format("{:2}. {}: {}", ++number, remark.place, remark.text), "", "    ");
   }
-  page += "\nSummary\n\n";
+  page += subheading("Summary", "") + "\n";
   page += wrapped("What a number 'moves' is computed from the numbers as first printed.", "");
   page += wrapped(audit_summary(report), "");
   return page;

@@ -3,10 +3,10 @@
 
 #include <fmt/format.h>
 
+#include <boresight/app/document/document.hpp>
 #include <boresight/app/identify/campaign_comparison.hpp>
 #include <boresight/app/report/campaign_wording.hpp>
 #include <boresight/app/report/sky_units.hpp>
-#include <boresight/app/report/text_layout.hpp>
 #include <boresight/app/report/text_report.hpp>
 
 namespace boresight::app {
@@ -19,7 +19,7 @@ std::string with_unit(const std::string& name, const ShownUnit& unit) {
   return unit.name == "1" ? name : fmt::format("{}, {}", name, unit.name);
 }
 
-std::string reconciled_text(const CampaignSection& section) {
+Document reconciled_part(const CampaignSection& section) {
   if (section.mean_of_methods) {
     const auto& mean = *section.mean_of_methods;
     return wrapped(
@@ -44,8 +44,8 @@ std::string reconciled_text(const CampaignSection& section) {
   return table(rows, "lrrrrrl");
 }
 
-std::string methods_text(const CampaignSection& section) {
-  std::string text = heading("Inertia at the motor shaft, by method (95 % intervals)");
+Document methods_part(const CampaignSection& section) {
+  Document text = heading("Inertia at the motor shaft, by method (95 % intervals)");
   Rows rows{{"method", "J kg.m2", "interval", "R", "interval", "off by", "sigmas"}};
   const auto row_of = [](const std::string& name, const Interval& inertia, const Interval& ratio,
                          const std::optional<Difference>& difference) {
@@ -82,9 +82,9 @@ std::string methods_text(const CampaignSection& section) {
   return text;
 }
 
-std::string quantities_text(const CampaignSection& section) {
+Document quantities_part(const CampaignSection& section) {
   if (section.quantities.empty()) return {};
-  std::string text = heading("Other quantities, by method");
+  Document text = heading("Other quantities, by method");
   Rows rows{{"quantity", "method", "value", "95 % interval", "off by", "sigmas"}};
   for (const auto& row : section.quantities) {
     const auto unit = shown_unit(row.unit);
@@ -97,8 +97,8 @@ std::string quantities_text(const CampaignSection& section) {
   return text + table(rows, "llrrrr");
 }
 
-std::string lines_text(const SloshTest& test) {
-  std::string text = heading(fmt::format("Oil lines and bulk modulus ({})", test.record));
+Document lines_part(const SloshTest& test) {
+  Document text = heading(fmt::format("Oil lines and bulk modulus ({})", test.record));
   Rows rows{
       {"line", "length m", "Hz", "interval", "damping", "events", "bulk modulus MPa", "interval"}};
   const auto modulus = [&](const std::optional<Interval>& interval, std::vector<std::string>& row) {
@@ -135,9 +135,9 @@ std::string lines_text(const SloshTest& test) {
   return text;
 }
 
-std::string friction_text(const CampaignSection& section) {
+Document friction_part(const CampaignSection& section) {
   if (section.friction.empty()) return {};
-  std::string text = heading("Friction at the motor shaft, N.m (95 % intervals)");
+  Document text = heading("Friction at the motor shaft, N.m (95 % intervals)");
   Rows rows{{"rate rad/s", "reconciled", "interval", "curve fit", "interval", "constant speed",
              "interval", ""}};
   for (const auto& row : section.friction) {
@@ -181,8 +181,8 @@ std::string friction_text(const CampaignSection& section) {
   return text;
 }
 
-std::string contradictions_text(const CampaignSection& section) {
-  std::string text = heading("Numbers of the case that the records contradict");
+Document contradictions_part(const CampaignSection& section) {
+  Document text = heading("Numbers of the case that the records contradict");
   if (section.contradictions.empty()) {
     return text + "  none by more than two combined standard uncertainties\n";
   }
@@ -198,10 +198,9 @@ std::string contradictions_text(const CampaignSection& section) {
   return text + table(rows, "llllrrrl");
 }
 
-std::string advice_text(const CampaignSection& section) {
+Document advice_part(const CampaignSection& section) {
   if (section.test_gains.empty() || !section.grey_box) return {};
-  std::string text =
-      heading("Which further test would shrink which interval most (1 = not at all)");
+  Document text = heading("Which further test would shrink which interval most (1 = not at all)");
   const auto& quantities = section.grey_box->quantities;
   Rows rows{{"test", "in this campaign"}};
   std::vector<std::size_t> shown;
@@ -233,10 +232,10 @@ std::string advice_text(const CampaignSection& section) {
   return text;
 }
 
-std::string fit_text(const CampaignSection& section) {
+Document fit_part(const CampaignSection& section) {
   if (!section.grey_box) return {};
   const auto& fit = *section.grey_box;
-  std::string text = heading("How well one model explains all records");
+  Document text = heading("How well one model explains all records");
   Rows rows{{"record", "prediction of", "rms", "unit", "counted", "left out", "neighbours",
              "effective", "white"}};
   for (const auto& r : fit.residuals) {
@@ -265,7 +264,7 @@ std::string fit_text(const CampaignSection& section) {
         "  ", "  ");
   }
   for (const auto& note : fit.notes) text += wrapped(note, "  ", "  ");
-  text += "\n  correlation of the estimates\n";
+  text += subheading("correlation of the estimates");
   rows = {{""}};
   for (std::size_t i = 0; i < fit.quantities.size(); ++i) {
     rows.front().push_back(fmt::format("{}", i + 1));
@@ -278,8 +277,8 @@ std::string fit_text(const CampaignSection& section) {
   return text + table(rows);
 }
 
-std::string method_notes_text(const CampaignSection& section) {
-  std::string text;
+Document method_notes_part(const CampaignSection& section) {
+  Document text;
   const auto add = [&](const char* title, const std::vector<std::string>& notes) {
     if (notes.empty()) return;
     text += heading(title);
@@ -292,20 +291,20 @@ std::string method_notes_text(const CampaignSection& section) {
 
 }  // namespace
 
-std::string to_text(const CampaignSection& section) {
-  std::string text = heading("What the records say of the drive");
+Document document_of(const CampaignSection& section) {
+  Document text = heading("What the records say of the drive");
   for (const auto& sentence : section.not_identifiable) text += wrapped(sentence, "  ", "  ");
   if (!section.not_identifiable.empty()) text += "\n";
-  text += reconciled_text(section);
-  text += methods_text(section);
-  text += quantities_text(section);
-  for (const auto& test : section.slosh) text += lines_text(test);
-  text += friction_text(section);
-  text += contradictions_text(section);
-  text += advice_text(section);
-  text += fit_text(section);
-  text += method_notes_text(section);
-  return text + to_text(section.notes);
+  text += reconciled_part(section);
+  text += methods_part(section);
+  text += quantities_part(section);
+  for (const auto& test : section.slosh) text += lines_part(test);
+  text += friction_part(section);
+  text += contradictions_part(section);
+  text += advice_part(section);
+  text += fit_part(section);
+  text += method_notes_part(section);
+  return text + document_of(section.notes);
 }
 
 }  // namespace boresight::app

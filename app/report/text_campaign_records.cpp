@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include <boresight/app/report/text_layout.hpp>
+#include <boresight/app/document/document.hpp>
 #include <boresight/app/report/text_report.hpp>
 
 namespace boresight::app {
@@ -13,7 +13,7 @@ std::string joined(const std::vector<std::string>& names) {
 }
 
 // What was guessed, once for all records that it was guessed in.
-std::string guesses_text(const CampaignNotes& notes) {
+Document guesses_part(const CampaignNotes& notes) {
   std::map<std::string, std::vector<std::string>> guesses;
   std::vector<std::string> order;
   const auto add = [&](const std::string& sentence, const std::string& record) {
@@ -44,7 +44,7 @@ std::string guesses_text(const CampaignNotes& notes) {
     }
   }
   for (const auto& assumption : notes.assumptions) add(assumption, "");
-  std::string text;
+  Document text;
   for (const auto& sentence : order) {
     const auto& records = guesses[sentence];
     std::string where;
@@ -60,8 +60,8 @@ std::string guesses_text(const CampaignNotes& notes) {
 
 }  // namespace
 
-std::string to_text(const CampaignNotes& notes) {
-  std::string text = heading("Records");
+Document document_of(const CampaignNotes& notes) {
+  Document text = heading("Records");
   std::vector<std::vector<std::string>> rows{
       {"record", "test", "rate loop", "s", "samples/s", "rows", "defects"}};
   for (const auto& record : notes.records) {
@@ -95,7 +95,7 @@ std::string to_text(const CampaignNotes& notes) {
                       "  ");
     }
   }
-  return text + guesses_text(notes);
+  return text + guesses_part(notes);
 }
 
 }  // namespace boresight::app

@@ -2,8 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <boresight/app/document/document.hpp>
 #include <boresight/app/report/evaluate_report.hpp>
-#include <boresight/app/report/text_layout.hpp>
 
 namespace boresight::app {
 namespace {
@@ -24,7 +24,7 @@ std::string share(const design::Probability& probability) {
                      probability.upper);
 }
 
-std::string chances_table(const EvaluateSection& section, const DecisionSection& decision) {
+Document chances_table(const EvaluateSection& section, const DecisionSection& decision) {
   Rows rows{{"proposal", "mean mdeg", "+-", "5 %", "50 %", "95 %", "is the best", "regret mdeg",
              "+-", "on the front", "outside goals", "unstable"}};
   for (std::size_t i = 0; i < decision.candidates.size(); ++i) {
@@ -45,7 +45,7 @@ std::string chances_table(const EvaluateSection& section, const DecisionSection&
 }
 
 // Each pair with the one that is more often better first.
-std::string pairs_table(const EvaluateSection& section, const DecisionSection& decision) {
+Document pairs_table(const EvaluateSection& section, const DecisionSection& decision) {
   const auto name = [&](std::size_t place) {
     return section.candidates[decision.candidates[place].candidate].name;
   };
@@ -64,8 +64,8 @@ std::string pairs_table(const EvaluateSection& section, const DecisionSection& d
   return table(rows, "llrrrl");
 }
 
-std::string inputs_table(const EvaluateSection& section, const DecisionSection& decision) {
-  if (!decision.tornado || !decision.sobol) return "";
+Document inputs_table(const EvaluateSection& section, const DecisionSection& decision) {
+  if (!decision.tornado || !decision.sobol) return {};
   const auto& best = section.candidates[decision.candidates[decision.best].candidate].name;
   const auto& second = section.candidates[decision.candidates[decision.second].candidate].name;
   const auto& indices = decision.sobol->outputs.front();
@@ -79,20 +79,21 @@ std::string inputs_table(const EvaluateSection& section, const DecisionSection& 
                     fixed(bar.swing, 4), fixed(one.first_order.value, 3), interval(one.first_order),
                     fixed(one.total.value, 3), interval(one.total)});
   }
-  std::string text = "\n";
-  text += wrapped(
-      fmt::format("What decides between the two of least mean rms: rms of '{}' less that of '{}', "
+  Document text =
+      "\n" +
+      wrapped(fmt::format(
+                  "What decides between the two of least mean rms: rms of '{}' less that of '{}', "
                   "mdeg, {:.4f} with every input at its median, standard deviation {:.4f}; gains "
                   "held. One input at its 5 % and 95 % share, the others at their median; shares "
                   "of the difference's variance by Sobol' (of independent inputs, {} evaluations).",
                   second, best, decision.tornado->at_median, std::sqrt(indices.variance),
                   decision.sobol->evaluations),
-      "  ");
+              "  ");
   return text + table(rows, "l");
 }
 
-std::string tests_table(const EvaluateSection& section, const DecisionSection& decision) {
-  if (!decision.tests) return "";
+Document tests_table(const EvaluateSection& section, const DecisionSection& decision) {
+  if (!decision.tests) return {};
   const auto& tests = *decision.tests;
   Rows rows{{"knowing", "lowers the rms by", "+-", "held out", "+-"}};
   for (std::size_t k = 0; k < tests.inputs.size(); ++k) {
@@ -116,9 +117,8 @@ std::string tests_table(const EvaluateSection& section, const DecisionSection& d
 
 }  // namespace
 
-std::string to_text(const EvaluateSection& section, const DecisionSection& decision) {
-  std::string text =
-      heading(fmt::format("Chances, by {} draws with the gains held", decision.draws));
+Document document_of(const EvaluateSection& section, const DecisionSection& decision) {
+  Document text = heading(fmt::format("Chances, by {} draws with the gains held", decision.draws));
   text +=
       wrapped(fmt::format("Beam rms in mdeg, {}, the same for all proposals. Intervals: 95 % for "
                           "the number of draws; they say nothing of the ranges drawn from.",

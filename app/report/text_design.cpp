@@ -6,8 +6,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <boresight/app/document/document.hpp>
 #include <boresight/app/report/sky_units.hpp>
-#include <boresight/app/report/text_layout.hpp>
 #include <boresight/app/report/text_report.hpp>
 
 namespace boresight::app {
@@ -43,7 +43,7 @@ std::string finite(double value, int decimals) {
   return std::isfinite(value) ? fmt::format("{:.{}f}", value, decimals) : "none";
 }
 
-std::string gains_text(const TuningSection& section) {
+Document gains_part(const TuningSection& section) {
   const auto& law = section.design.tuning.law;
   const auto& descriptions = control::gain_descriptions(law.structure);
   std::vector<std::vector<std::string>> rows{{"gain", "value", "unit", "searched"}};
@@ -56,7 +56,7 @@ std::string gains_text(const TuningSection& section) {
   return table(rows);
 }
 
-std::string breaks_text(const TuningSection& section) {
+Document breaks_part(const TuningSection& section) {
   std::vector<std::vector<std::string>> rows{{"loop cut at", "peak of S", "goal", "at Hz",
                                               "phase margin deg", "gain margin dB", "down dB",
                                               "delay margin s"}};
@@ -74,7 +74,7 @@ std::string breaks_text(const TuningSection& section) {
 }
 
 // Gusts and torque that the rms values rest on.
-std::string wind_text(const TuningSection& section) {
+Document wind_part(const TuningSection& section) {
   const auto gusts = plant::site_gusts(section.wind_site);
   return wrapped(
       fmt::format("Gusts by the {} spectrum, {:.1f} % of the mean speed rms; torque coefficient "
@@ -108,12 +108,12 @@ std::string ensemble_text(const design::EnsembleResult& ensemble, const design::
 
 }  // namespace
 
-std::string to_text(const TuningSection& section) {
+Document document_of(const TuningSection& section) {
   const Design& design = section.design;
   const auto& check = design.verification;
-  std::string text = heading(fmt::format(
-      "Tuned loops: {}, as built, {:g} m/s, wind model {}", control::to_string(section.structure),
-      section.design_speed, plant::to_string(section.wind_model)));
+  Document text = heading(fmt::format("Tuned loops: {}, as built, {:g} m/s, wind model {}",
+                                      control::to_string(section.structure), section.design_speed,
+                                      plant::to_string(section.wind_model)));
   if (design.tuning.status == design::TuningStatus::unstable) {
     return text +
            wrapped(fmt::format("No stable law among {} tried.", design.tuning.evaluations), "  ");
@@ -125,7 +125,7 @@ std::string to_text(const TuningSection& section) {
                             100.0 * (design.tuning.worst_goal_ratio - 1.0)),
                 "  ");
   }
-  text += gains_text(section) + "\n" + breaks_text(section) + "\n";
+  text += gains_part(section) + "\n" + breaks_part(section) + "\n";
   text += wrapped(
       fmt::format("Beam rms {} mdeg at the sky (wind {}, sensor noise {}); noise-driven valve "
                   "command {:.3f} rad/s rms of {:g} allowed. Limited by: {}.{}",
@@ -168,7 +168,7 @@ std::string to_text(const TuningSection& section) {
       {"encoder held perfectly still: bending it cannot see", mdeg(section.encoder_held_rms)});
   rows.push_back({"static bending by the mean wind (calibration's job, not in the rms)",
                   mdeg(section.static_bending)});
-  text += table(rows) + wind_text(section) + "\n";
+  text += table(rows) + wind_part(section) + "\n";
   rows = {{"band", "beamwidth mdeg", "mean loss dB, two equal axes"}};
   for (const auto& loss : section.losses) {
     rows.push_back({fmt::format("{} {:g} GHz", loss.band.name, loss.band.frequency / 1e9),
@@ -190,8 +190,8 @@ std::string to_text(const TuningSection& section) {
   return text;
 }
 
-std::string choices_text(const std::vector<ChoiceResult>& choices) {
-  std::string text =
+Document document_of(const std::vector<ChoiceResult>& choices) {
+  Document text =
       heading("Where the case's numbers contradict each other: what each choice would do");
   std::vector<std::vector<std::string>> rows{{"choice", "K N.m/rad", "J kg.m2", "R", "hydraulic Hz",
                                               "damping", "beam rms mdeg", "verified"}};
@@ -226,12 +226,12 @@ std::string choices_text(const std::vector<ChoiceResult>& choices) {
   return text;
 }
 
-std::string to_text(const MatchingSection& section) {
-  std::string text = heading("Inertia matching: re-tuned at each motor inertia");
+Document document_of(const MatchingSection& section) {
+  Document text = heading("Inertia matching: re-tuned at each motor inertia");
   for (const auto& series : section.series) {
-    text +=
-        fmt::format("\n  {}; friction: {}, {:.3g} N.m.s/rad\n",
-                    control::to_string(series.structure), series.friction, series.viscous_friction);
+    text += subheading(fmt::format("{}; friction: {}, {:.3g} N.m.s/rad",
+                                   control::to_string(series.structure), series.friction,
+                                   series.viscous_friction));
     std::vector<std::vector<std::string>> rows{
         {"motors", "disks", "R", "J kg.m2", "hydr. Hz", "damping", "S rate", "S valve", "S pos.",
          "PM valve", "GM valve", "PM pos.", "GM pos.", "rms mdeg", "check"}};

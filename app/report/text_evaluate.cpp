@@ -4,9 +4,9 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <boresight/app/document/document.hpp>
 #include <boresight/app/report/evaluate_report.hpp>
 #include <boresight/app/report/sky_units.hpp>
-#include <boresight/app/report/text_layout.hpp>
 
 namespace boresight::app {
 namespace {
@@ -46,7 +46,7 @@ void fill(std::vector<std::string>& cells, std::size_t columns) {
   cells.resize(std::max(cells.size(), columns), "-");
 }
 
-std::string loop_table(const EvaluateSection& section) {
+Document loop_table(const EvaluateSection& section) {
   Rows rows{{"proposal", "loops", "cost", "J kg.m2", "ratio", "hydr. Hz", "zeta", "rms mdeg",
              "over plants", "worst", "worst plant", "check"}};
   for (const auto& candidate : section.candidates) {
@@ -80,7 +80,7 @@ std::string loop_table(const EvaluateSection& section) {
                  "  ");
 }
 
-std::string service_table(const EvaluateSection& section) {
+Document service_table(const EvaluateSection& section) {
   Rows rows{{"proposal"}};
   for (const auto& band : section.bands) rows[0].push_back(fmt::format("dB {}", band.name));
   if (section.climate) {
@@ -113,7 +113,7 @@ std::string service_table(const EvaluateSection& section) {
     fill(cells, rows[0].size());
     rows.push_back(std::move(cells));
   }
-  std::string text = table(rows, "l");
+  Document text = table(rows, "l");
   for (std::size_t i = 0; i < section.budgets.size(); ++i) {
     const auto& budget = section.budgets[i];
     text += fmt::format("  ({}) {}, band {}, {}: {} mdeg, met up to that mean wind speed\n", i + 1,
@@ -129,8 +129,8 @@ std::string service_table(const EvaluateSection& section) {
              "  ");
 }
 
-std::string changes_text(const EvaluateSection& section) {
-  std::string text;
+Document changes_part(const EvaluateSection& section) {
+  Document text;
   for (const auto& candidate : section.candidates) {
     if (candidate.path.empty()) continue;
     text += "\n" + wrapped(fmt::format("{} ({}): {}", candidate.name, candidate.path,
@@ -156,7 +156,7 @@ std::string changes_text(const EvaluateSection& section) {
   return text;
 }
 
-std::string laws_text(const EvaluateSection& section) {
+Document laws_part(const EvaluateSection& section) {
   Rows rows{{"proposal", "loops", "rms mdeg", "over plants", "within goals", "S rate", "S valve",
              "S pos.", "effort rad/s", "starts", "gains"}};
   for (const auto& candidate : section.candidates) {
@@ -194,9 +194,9 @@ std::string laws_text(const EvaluateSection& section) {
 
 }  // namespace
 
-std::string to_text(const EvaluateSection& section) {
-  std::string text = heading(fmt::format("Proposals, re-tuned: wind model {}, {:g} m/s",
-                                         plant::to_string(section.wind_model), section.wind_speed));
+Document document_of(const EvaluateSection& section) {
+  Document text = heading(fmt::format("Proposals, re-tuned: wind model {}, {:g} m/s",
+                                      plant::to_string(section.wind_model), section.wind_speed));
   text += wrapped(
       fmt::format("Each with loops of its own, tuned so that every hard goal holds on the nominal "
                   "plant and on each of {} plants, {}, the same draws for all. {}",
@@ -223,9 +223,9 @@ std::string to_text(const EvaluateSection& section) {
   text += "\n" + wrapped(fmt::format("Front of cost ({}) and rms over the plants: {}.",
                                      section.currency, fmt::join(names, "; ")),
                          "  ");
-  if (section.decision) text += to_text(section, *section.decision);
-  text += heading("What each proposal changes, and what follows") + changes_text(section);
-  return text + heading("The loops behind the table") + laws_text(section);
+  if (section.decision) text += document_of(section, *section.decision);
+  text += heading("What each proposal changes, and what follows") + changes_part(section);
+  return text + heading("The loops behind the table") + laws_part(section);
 }
 
 }  // namespace boresight::app

@@ -2,8 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <boresight/app/document/document.hpp>
 #include <boresight/app/report/sky_units.hpp>
-#include <boresight/app/report/text_layout.hpp>
 #include <boresight/app/report/text_report.hpp>
 
 namespace boresight::app {
@@ -50,9 +50,9 @@ std::string either(const std::string& text) {
 
 }  // namespace
 
-std::string to_text(const IdentificationSection& section) {
+Document document_of(const IdentificationSection& section) {
   const auto& inertia = section.inertia;
-  std::string text = heading(
+  Document text = heading(
       "Inertia at the motor shaft, by method (95 % intervals from the inputs' uncertainties)");
   std::vector<std::vector<std::string>> rows{
       {"method", "J kg.m2", "interval", "lbf.ft.s2", "printed J", "R", "interval", "printed R"}};

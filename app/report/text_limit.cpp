@@ -4,8 +4,8 @@
 
 #include <fmt/format.h>
 
+#include <boresight/app/document/document.hpp>
 #include <boresight/app/report/sky_units.hpp>
-#include <boresight/app/report/text_layout.hpp>
 #include <boresight/app/report/text_limit.hpp>
 
 namespace boresight::app {
@@ -40,8 +40,8 @@ Row cells(const std::string& name, const design::SampledDesign& design) {
 
 }  // namespace
 
-std::string to_text(const design::PointingLimit& limit) {
-  std::string text = heading("How far from the best any controller could do");
+Document document_of(const design::PointingLimit& limit) {
+  Document text = heading("How far from the best any controller could do");
   text += wrapped(
       fmt::format("Every law in its sampled form: {:g} s, zero-order hold, {:g} s of computation "
                   "delay; covariance of the closed loop, wind by its shaping filter.",

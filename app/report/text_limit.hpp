@@ -2,11 +2,12 @@
 
 #include <string>
 
+#include <boresight/app/document/document.hpp>
 #include <boresight/design/pointing_limit.hpp>
 
 namespace boresight::app {
 
 /// The least any controller can do, the benchmarks, and each law against them.
-std::string to_text(const design::PointingLimit& limit);
+Document document_of(const design::PointingLimit& limit);
 
 }  // namespace boresight::app

@@ -3,9 +3,9 @@
 
 #include <fmt/format.h>
 
+#include <boresight/app/document/document.hpp>
 #include <boresight/app/report/match_report.hpp>
 #include <boresight/app/report/sky_units.hpp>
-#include <boresight/app/report/text_layout.hpp>
 
 namespace boresight::app {
 namespace {
@@ -21,7 +21,7 @@ std::string decibel(double gain) {
   return std::isfinite(gain) && gain > 0.0 ? fmt::format("{:.1f}", 20.0 * std::log10(gain)) : "-";
 }
 
-std::string motors_text(const MatchSection& section) {
+Document motors_part(const MatchSection& section) {
   Rows rows{{"disks", "R", "J kg.m2", "hydr. Hz", "zeta", "deg/s2", "slew s", "rule zeta",
              "of best a", ""}};
   for (const auto& point : section.points) {
@@ -47,7 +47,7 @@ std::string motors_text(const MatchSection& section) {
              "  ");
 }
 
-std::string rms_text(const MatchSection& section) {
+Document rms_part(const MatchSection& section) {
   Rows rows{{"disks", "R"}};
   std::string alignment = "rr";
   for (const auto& series : section.series) {
@@ -74,7 +74,7 @@ std::string rms_text(const MatchSection& section) {
                  "  ");
 }
 
-std::string best_text(const MatchSection& section) {
+Document best_part(const MatchSection& section) {
   Rows rows{{"structure", "disks", "R", "mdeg", "within 1 %", "within 5 %", "kinks", "3rd diff.",
              "at kinks"}};
   for (const auto& series : section.series) {
@@ -119,7 +119,7 @@ std::vector<std::size_t> shown_points(const MatchSection& section, const MatchSe
   return shown;
 }
 
-std::string margins_text(const MatchSection& section) {
+Document margins_part(const MatchSection& section) {
   Rows rows{{"structure", "disks", "wind", "noise", "dB up", "dB down", "deg", "ms", "Hz", "s2",
              "effort", "demand", "N.m", "check"}};
   for (const auto& series : section.series) {
@@ -164,7 +164,7 @@ std::string hunting_text(const std::vector<design::HuntingResult>& hunting, std:
   return one.limit_cycle ? fmt::format("{:.3f}", one.encoder_amplitude / millidegree) : "none";
 }
 
-std::string time_text(const MatchSection& section) {
+Document time_part(const MatchSection& section) {
   Rows rows{{"structure", "disks", "cycle at rest", "at tracking rate", "reversal encoder", "beam",
              "without friction"}};
   for (const auto& series : section.series) {
@@ -189,11 +189,11 @@ std::string time_text(const MatchSection& section) {
              "  ");
 }
 
-std::string variants_text(const MatchSection& section) {
-  std::string text;
+Document variants_part(const MatchSection& section) {
+  Document text;
   for (const auto& variants : section.variants) {
-    text += fmt::format("\n  {}, tuned on single plants: rms (mdeg) at so many disks\n",
-                        variants.structure);
+    text += subheading(
+        fmt::format("{}, tuned on single plants: rms (mdeg) at so many disks", variants.structure));
     std::vector<std::string> header{"with"};
     for (const double disks : variants.disks) header.push_back(fmt::format("{:.3g}", disks));
     header.insert(header.end(), {"best", "within 5 %"});
@@ -211,7 +211,7 @@ std::string variants_text(const MatchSection& section) {
   return text;
 }
 
-std::string rules_text(const MatchSection& section) {
+Document rules_part(const MatchSection& section) {
   std::vector<std::string> header{"rule", "R", "disks"};
   for (const auto& series : section.series) header.push_back(series.name);
   Rows rows{std::move(header)};
@@ -230,8 +230,8 @@ std::string rules_text(const MatchSection& section) {
 
 }  // namespace
 
-std::string to_text(const MatchSection& section) {
-  std::string text = heading("Inertia matching");
+Document document_of(const MatchSection& section) {
+  Document text = heading("Inertia matching");
   text += wrapped(
       fmt::format("Each structure tuned at each motor inertia for the least beam rms in wind of "
                   "{:g} m/s ({} model), every goal held on {} plants ({} rms is made least); {} "
@@ -241,13 +241,13 @@ std::string to_text(const MatchSection& section) {
                   section.starts, section.rounds,
                   section.settled ? " until none gained" : ", not settled", section.evaluations),
       "  ");
-  text += "\n" + motors_text(section);
-  text += "\n" + rms_text(section);
-  text += "\n" + best_text(section);
-  text += "\n" + margins_text(section);
-  text += time_text(section);
-  text += variants_text(section);
-  text += rules_text(section);
+  text += "\n" + motors_part(section);
+  text += "\n" + rms_part(section);
+  text += "\n" + best_part(section);
+  text += "\n" + margins_part(section);
+  text += time_part(section);
+  text += variants_part(section);
+  text += rules_part(section);
   return text;
 }
 

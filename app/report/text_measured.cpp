@@ -4,9 +4,9 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <boresight/app/document/document.hpp>
 #include <boresight/app/report/measured_report.hpp>
 #include <boresight/app/report/sky_units.hpp>
-#include <boresight/app/report/text_layout.hpp>
 
 namespace boresight::app {
 namespace {
@@ -28,10 +28,10 @@ std::string peak_text(const design::MeasuredPeak& peak) {
                      peak.basis == control::ResponseBasis::measured ? "" : "*");
 }
 
-std::string record_text(const MeasuredTuneSection& section) {
+Document record_part(const MeasuredTuneSection& section) {
   if (!section.channels) return {};
   const control::MeasuredChannels& channels = *section.channels;
-  std::string text = wrapped(
+  Document text = wrapped(
       fmt::format("Record {}: {:.1f} s from {:.1f} s on, at {:.3g} rad/s of motor. The valve "
                   "command excites {:.3g} to {:.3g} Hz; {} frequencies from {:.3g} to {:.3g} Hz "
                   "are usable, {} left out as not coherent; they resolve {:.0f} % of the band.",
@@ -53,7 +53,7 @@ std::string record_text(const MeasuredTuneSection& section) {
                         "  ");
 }
 
-std::string laws_text(const MeasuredTuneSection& section) {
+Document laws_part(const MeasuredTuneSection& section) {
   Rows rows{{"structure", "rms mdeg", "wind", "noise", "S rate", "S valve", "S pos.",
              "effort rad/s", "assumed", "check"}};
   for (const auto& law : section.laws) {
@@ -81,7 +81,7 @@ std::string laws_text(const MeasuredTuneSection& section) {
              "  ");
 }
 
-std::string gains_text(const MeasuredLaw& law) {
+Document gains_part(const MeasuredLaw& law) {
   std::vector<std::string> gains;
   const auto& descriptions = control::gain_descriptions(law.tuning.law.structure);
   for (std::size_t k = 0; k < descriptions.size(); ++k) {
@@ -91,7 +91,7 @@ std::string gains_text(const MeasuredLaw& law) {
   return wrapped(fmt::format("{}: {}.", law.structure, fmt::join(gains, ", ")), "  ", "  ");
 }
 
-std::string verdict_text(const MeasuredLaw& law) {
+Document verdict_part(const MeasuredLaw& law) {
   const auto& tuning = law.tuning;
   const auto& check = tuning.verification;
   std::string text = fmt::format(
@@ -126,17 +126,17 @@ std::string verdict_text(const MeasuredLaw& law) {
 
 }  // namespace
 
-std::string to_text(const MeasuredTuneSection& section) {
-  std::string text = heading(
+Document document_of(const MeasuredTuneSection& section) {
+  Document text = heading(
       fmt::format("Loops tuned on the measured response, wind {:g} m/s", section.wind_speed));
-  text += record_text(section) + "\n" + laws_text(section);
+  text += record_part(section) + "\n" + laws_part(section);
   text += heading("Gains, SI at the motor shaft");
   for (const auto& law : section.laws) {
-    if (has_law(law)) text += gains_text(law);
+    if (has_law(law)) text += gains_part(law);
   }
   text += heading("What the verdicts rest on");
   for (const auto& law : section.laws) {
-    if (has_law(law)) text += verdict_text(law);
+    if (has_law(law)) text += verdict_part(law);
   }
   for (const auto& note : section.notes) text += wrapped("- " + note + ".", "  ", "  ");
   return text;

@@ -2,17 +2,17 @@
 
 #include <fmt/format.h>
 
+#include <boresight/app/document/document.hpp>
 #include <boresight/app/report/sky_units.hpp>
-#include <boresight/app/report/text_layout.hpp>
 #include <boresight/app/report/text_report.hpp>
 
 namespace boresight::app {
 
-std::string to_text(const PlantSection& section) {
+Document document_of(const PlantSection& section) {
   constexpr double two_pi = 2.0 * std::numbers::pi;
   const auto& drive = section.plant.drive;
   const auto& structure = section.plant.structure;
-  std::string text = heading("Plant, at the motor shaft, all motors lumped");
+  Document text = heading("Plant, at the motor shaft, all motors lumped");
   if (section.records > 0) {
     text += wrapped(fmt::format("As the reconciled estimate of {} records has inertias, oil "
                                 "stiffness, leakage, friction curve and lowest structural "
@@ -37,7 +37,8 @@ std::string to_text(const PlantSection& section) {
        row("gear stiffness", structure.gear_stiffness, "N.m/rad"),
        row("valve", drive.valve_corner / two_pi, "Hz"),
        row("supply torque", section.supply_torque, "N.m"),
-       row("mean wind torque at design speed", section.mean_wind_torque, "N.m")});
+       row("mean wind torque at design speed", section.mean_wind_torque, "N.m")},
+      "l", 0);
   text += "\n";
   std::vector<std::vector<std::string>> rows{
       {"mode", "frequency Hz", "damping", "pole 1/s", "share"}};

@@ -2,10 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <boresight/app/document/document_text.hpp>
 #include <boresight/app/report/evaluate_report.hpp>
 #include <boresight/app/report/match_report.hpp>
 #include <boresight/app/report/measured_report.hpp>
-#include <boresight/app/report/text_layout.hpp>
 #include <boresight/app/report/text_limit.hpp>
 #include <boresight/app/report/text_report.hpp>
 
@@ -22,8 +22,8 @@ bool rests_on_tests(const IdentificationSection& section) {
 
 }  // namespace
 
-std::string assumed_text(const std::vector<Quantity>& assumed) {
-  std::string text = heading("Assumed inputs");
+Document document_of(const std::vector<Quantity>& assumed) {
+  Document text = heading("Assumed inputs");
   if (assumed.empty()) return text + "  none\n";
   std::vector<std::vector<std::string>> rows{{"key", "value", "assumed", "because"}};
   for (const auto& quantity : assumed) {
@@ -34,38 +34,42 @@ std::string assumed_text(const std::vector<Quantity>& assumed) {
   return text + table(rows, "llll");
 }
 
-std::string to_text(const Report& report) {
-  std::string text =
-      fmt::format("Boresight {} {}: {} ({} axis)\ncase {}, seed {}\n", BORESIGHT_VERSION,
-                  report.command, report.title, report.axis, report.case_path, report.seed);
+Document document_of(const Report& report) {
+  Document text = verbatim(fmt::format("Boresight {} {}: {} ({} axis)\ncase {}, seed {}\n",
+                                       BORESIGHT_VERSION, report.command, report.title, report.axis,
+                                       report.case_path, report.seed));
   if (report.interrupted) text += "INTERRUPTED: what follows is whole, the rest is missing.\n";
-  if (report.campaign) text += to_text(*report.campaign);
+  if (report.campaign) text += document_of(*report.campaign);
   if (report.identification && (!report.campaign || rests_on_tests(*report.identification))) {
-    text += to_text(*report.identification);
+    text += document_of(*report.identification);
   }
-  if (report.audit && report.command == "audit") text += to_text(*report.audit);
+  if (report.audit && report.command == "audit") text += document_of(*report.audit);
   if (report.audit && report.command != "audit") {
     text += heading("Audit of the case's own numbers");
     text += wrapped(fmt::format("{} `boresight audit {}` lists each.", audit_summary(*report.audit),
                                 report.case_path),
                     "  ");
   }
-  if (report.plant) text += to_text(*report.plant);
-  if (report.tuning) text += to_text(*report.tuning);
-  if (report.measured) text += to_text(*report.measured);
-  if (report.tuned) text += to_text(*report.tuned);
-  if (report.limit) text += to_text(*report.limit);
-  if (report.time_domain) text += to_text(*report.time_domain);
-  if (!report.choices.empty()) text += choices_text(report.choices);
-  if (report.matching) text += to_text(*report.matching);
-  if (report.matched) text += to_text(*report.matched);
-  if (report.evaluated) text += to_text(*report.evaluated);
-  if (report.command != "audit") text += assumed_text(report.assumed);
+  if (report.plant) text += document_of(*report.plant);
+  if (report.tuning) text += document_of(*report.tuning);
+  if (report.measured) text += document_of(*report.measured);
+  if (report.tuned) text += document_of(*report.tuned);
+  if (report.limit) text += document_of(*report.limit);
+  if (report.time_domain) text += document_of(*report.time_domain);
+  if (!report.choices.empty()) text += document_of(report.choices);
+  if (report.matching) text += document_of(*report.matching);
+  if (report.matched) text += document_of(*report.matched);
+  if (report.evaluated) text += document_of(*report.evaluated);
+  if (report.command != "audit") text += document_of(report.assumed);
   if (!report.conclusions.empty()) {
     text += heading("What the numbers mean");
     for (const auto& sentence : report.conclusions) text += wrapped(sentence, "  ") + "\n";
   }
   return text;
+}
+
+std::string to_text(const Report& report) {
+  return to_text(document_of(report));
 }
 
 }  // namespace boresight::app

@@ -3,9 +3,9 @@
 
 #include <fmt/format.h>
 
+#include <boresight/app/document/document_text.hpp>
 #include <boresight/app/report/sky_units.hpp>
-#include <boresight/app/report/text_layout.hpp>
-#include <boresight/app/simulate/time_domain.hpp>
+#include <boresight/app/report/text_report.hpp>
 
 namespace boresight::app {
 namespace {
@@ -45,7 +45,7 @@ std::string words_of(design::Influence influence) {
   return "";
 }
 
-std::string wind_text(const TimeDomainSection& section) {
+Document wind_part(const TimeDomainSection& section) {
   const design::WindResult& wind = section.result.wind;
   if (wind.status != RunStatus::complete) {
     return wrapped(fmt::format("In wind of {:g} m/s no rms: {}.", section.wind_speed,
@@ -68,7 +68,7 @@ std::string wind_text(const TimeDomainSection& section) {
   rows.push_back(
       {"  what these do together only, and lines and offset", signed_mdeg(wind.joint), ""});
   rows.push_back({"simulated", mdeg(wind.beam_rms), ""});
-  std::string text = table(rows, "l");
+  Document text = table(rows, "l");
   if (wind.at_command_limit > 0.0) {
     text += fmt::format("  The valve command is at its limit in {:.2g} % of the samples.\n",
                         100.0 * wind.at_command_limit);
@@ -76,8 +76,8 @@ std::string wind_text(const TimeDomainSection& section) {
   return text;
 }
 
-std::string hunting_text(const TimeDomainSection& section) {
-  std::string text;
+Document hunting_part(const TimeDomainSection& section) {
+  Document text;
   for (const auto& hunting : section.result.hunting) {
     const std::string where = hunting.rate == 0.0
                                   ? std::string("At rest")
@@ -101,8 +101,8 @@ std::string hunting_text(const TimeDomainSection& section) {
   return text;
 }
 
-std::string reversal_text(const TimeDomainSection& section) {
-  if (!section.result.reversal) return "";
+Document reversal_part(const TimeDomainSection& section) {
+  if (!section.result.reversal) return {};
   const auto& reversal = *section.result.reversal;
   if (reversal.status != RunStatus::complete) {
     return wrapped(fmt::format("Slow reversals: {}.", ended(reversal.status, reversal.message)),
@@ -118,8 +118,8 @@ std::string reversal_text(const TimeDomainSection& section) {
       "  ", "  ");
 }
 
-std::string slew_text(const TimeDomainSection& section) {
-  if (!section.result.slew) return "";
+Document slew_part(const TimeDomainSection& section) {
+  if (!section.result.slew) return {};
   const auto& slew = *section.result.slew;
   const auto& asked = section.options.limits;
   std::string text =
@@ -142,8 +142,8 @@ std::string slew_text(const TimeDomainSection& section) {
   return wrapped(text, "  ", "  ");
 }
 
-std::string candidates_text(const TimeDomainSection& section) {
-  if (section.candidates.empty()) return "";
+Document candidates_part(const TimeDomainSection& section) {
+  if (section.candidates.empty()) return {};
   Rows rows{{"law", "linear rms mdeg", "simulated", "hunting at rest", "when tracking",
              "reversal error", "slew settled s"}};
   for (const auto& [law, result] : section.candidates) {
@@ -176,9 +176,9 @@ std::string candidates_text(const TimeDomainSection& section) {
 
 }  // namespace
 
-std::string to_text(const TimeDomainSection& section) {
+Document document_of(const TimeDomainSection& section) {
   return heading("In the time domain, on the nonlinear antenna: " + section.law) +
-         wind_text(section) + hunting_text(section) + reversal_text(section) + slew_text(section) +
+         wind_part(section) + hunting_part(section) + reversal_part(section) + slew_part(section) +
          wrapped(fmt::format("The controller: sampled every {:g} s with one sample of computing, "
                              "feedforward of rate and acceleration, commands shaped to the limits "
                              "above, anti-windup. Assumed, not in the case: {:g} deg/s2 of command "
@@ -188,7 +188,11 @@ std::string to_text(const TimeDomainSection& section) {
                              section.sample_time, section.options.limits.acceleration / degree,
                              mdeg(section.encoder_resolution)),
                  "  ") +
-         candidates_text(section);
+         candidates_part(section);
+}
+
+std::string to_text(const TimeDomainSection& section) {
+  return to_text(document_of(section));
 }
 
 }  // namespace boresight::app

@@ -5,8 +5,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <boresight/app/document/document.hpp>
 #include <boresight/app/report/sky_units.hpp>
-#include <boresight/app/report/text_layout.hpp>
 #include <boresight/app/report/text_report.hpp>
 
 namespace boresight::app {
@@ -49,7 +49,7 @@ std::vector<std::string> first_cells(const TunedLaw& row) {
           fmt::format("{:g}", row.wind_speed)};
 }
 
-std::string pointing_text(const TuneSection& section) {
+Document pointing_part(const TuneSection& section) {
   const bool climate = std::ranges::any_of(
       section.laws, [](const TunedLaw& row) { return row.climate_rms.has_value(); });
   Rows rows{{"structure", "tuned for", "m/s", "rms mdeg", "worst plant"}};
@@ -82,7 +82,7 @@ std::string pointing_text(const TuneSection& section) {
     cells.push_back(verdict(row));
     rows.push_back(std::move(cells));
   }
-  std::string text = table(rows, "ll");
+  Document text = table(rows, "ll");
   for (std::size_t i = 0; i < section.budgets.size(); ++i) {
     const auto& budget = section.budgets[i];
     text += fmt::format(
@@ -99,7 +99,7 @@ std::string pointing_text(const TuneSection& section) {
   return text;
 }
 
-std::string robustness_text(const TuneSection& section) {
+Document robustness_part(const TuneSection& section) {
   constexpr std::size_t valve = 1, position = 2;
   Rows rows{{"structure", "tuned for", "m/s", "S rate", "S valve", "S pos.", "PM valve", "GM valve",
              "PM pos.", "GM pos.", "effort rad/s", "stable plants", "within goals",
@@ -134,8 +134,8 @@ std::string robustness_text(const TuneSection& section) {
 }
 
 // One table a structure and wind speed: the gains before and after.
-std::string gains_text(const TuneSection& section) {
-  std::string text;
+Document gains_part(const TuneSection& section) {
+  Document text;
   for (std::size_t i = 0; i < section.laws.size(); ++i) {
     const auto same = [&](const TunedLaw& row) {
       return row.structure == section.laws[i].structure &&
@@ -157,15 +157,15 @@ std::string gains_text(const TuneSection& section) {
         rows[k + 1].push_back(k < row.gains.size() ? row.gains[k] : "-");
       }
     }
-    text +=
-        fmt::format("\n  {} at {:g} m/s\n", section.laws[i].structure, section.laws[i].wind_speed) +
-        table(rows, "ll");
+    text += subheading(fmt::format("{} at {:g} m/s", section.laws[i].structure,
+                                   section.laws[i].wind_speed)) +
+            table(rows, "ll");
   }
   return text;
 }
 
-std::string limits_text(const TuneSection& section) {
-  std::string text;
+Document limits_part(const TuneSection& section) {
+  Document text;
   for (const auto& row : section.laws) {
     const auto& tuning = row.design.tuning;
     if (row.tuned_for == TunedFor::present || !row.stable()) continue;
@@ -184,7 +184,7 @@ std::string limits_text(const TuneSection& section) {
   return text;
 }
 
-std::string goals_text(const TuneSection& section) {
+Document goals_part(const TuneSection& section) {
   const design::HardGoals& goals = section.goals;
   const auto& peaks = goals.sensitivity_peak;
   std::string text = fmt::format(
@@ -216,18 +216,18 @@ std::string goals_text(const TuneSection& section) {
 
 }  // namespace
 
-std::string to_text(const TuneSection& section) {
-  std::string text =
+Document document_of(const TuneSection& section) {
+  Document text =
       heading(fmt::format("Tuned loops: {}, wind model {}", fmt::join(section.structures, ", "),
                           plant::to_string(section.wind_model)));
-  text += goals_text(section) + "\n";
+  text += goals_part(section) + "\n";
   if (!section.not_run.empty()) {
     text += wrapped(fmt::format("Not run: {}.", fmt::join(section.not_run, "; ")), "  ");
   }
-  text += pointing_text(section) + "\n" + robustness_text(section);
-  text += heading("Gains, before and after") + gains_text(section);
+  text += pointing_part(section) + "\n" + robustness_part(section);
+  text += heading("Gains, before and after") + gains_part(section);
   text += heading("What limits each law, and what 1 % more of the limit would buy");
-  return text + limits_text(section);
+  return text + limits_part(section);
 }
 
 }  // namespace boresight::app

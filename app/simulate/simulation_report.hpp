@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include <boresight/app/document/document.hpp>
 #include <boresight/app/simulate/drive_run.hpp>
 #include <boresight/app/simulate/position_run.hpp>
 
@@ -27,6 +28,8 @@ struct SimulationReport {
   std::vector<Quantity> assumed;
 };
 
+/// The report, and as text for a terminal.
+Document document_of(const SimulationReport& report);
 std::string to_text(const SimulationReport& report);
 
 /// As docs/simulation.schema.json: keys end in their unit, null stands for what there is none of.

@@ -1,7 +1,7 @@
 #include <fmt/format.h>
 
+#include <boresight/app/document/document_text.hpp>
 #include <boresight/app/report/sky_units.hpp>
-#include <boresight/app/report/text_layout.hpp>
 #include <boresight/app/report/text_report.hpp>
 #include <boresight/app/simulate/simulation_report.hpp>
 
@@ -18,8 +18,8 @@ std::string in_millidegrees(const std::optional<double>& angle) {
   return angle ? fmt::format("{:.3f}", *angle / millidegree) : "-";
 }
 
-std::string drive_text(const SimulationReport& report) {
-  if (report.drive.empty()) return "";
+Document drive_part(const SimulationReport& report) {
+  if (report.drive.empty()) return {};
   Rows rows{{"test", "s", "samples/s", "rate rad/s", "torque N.m", "friction near rest N.m",
              "tach at limit"}};
   for (const auto& record : report.drive) {
@@ -33,8 +33,8 @@ std::string drive_text(const SimulationReport& report) {
   return heading("Tests of the drive (true values, at the motor shaft)") + table(rows);
 }
 
-std::string position_text(const SimulationReport& report) {
-  if (report.position.empty()) return "";
+Document position_part(const SimulationReport& report) {
+  if (report.position.empty()) return {};
   Rows rows{
       {"test", "s", "beam rms", "linear", "encoder rms", "beam mean", "settled s", "overshoot"}};
   for (const auto& record : report.position) {
@@ -50,7 +50,7 @@ std::string position_text(const SimulationReport& report) {
 }
 
 // Friction where the motor first leaves standstill, either way.
-std::string breakaway_text(const SimulationReport& report) {
+Document breakaway_part(const SimulationReport& report) {
   Rows rows{{"test", "starts", "up at s", "rad/s", "friction N.m", "torque N.m", "down at s",
              "rad/s", "friction N.m", "torque N.m", "curve N.m"}};
   for (const auto& record : report.drive) {
@@ -67,7 +67,7 @@ std::string breakaway_text(const SimulationReport& report) {
     row.push_back(fmt::format("{:.2f}", record.curve_breakaway));
     rows.push_back(std::move(row));
   }
-  if (rows.size() == 1) return "";
+  if (rows.size() == 1) return {};
   return heading("Breakaway: the first slow start of sliding either way") + table(rows) +
          wrapped(
              "Where the motor has left standstill and the bristles have bent: its rate, the "
@@ -94,14 +94,14 @@ void add_limits(Rows& rows, const std::string& test, const RunEvents& events) {
                   share_of(events.below_makeup), share_of(events.below_zero)});
 }
 
-std::string limits_text(const SimulationReport& report) {
+Document limits_part(const SimulationReport& report) {
   Rows rows{
       {"test", "command", "port open", "spool speed", "flanks lost", "below make-up", "below 0"}};
   for (const auto& record : report.drive) add_limits(rows, record.test, record.events);
   for (const auto& record : report.position) add_limits(rows, record.test, record.events);
-  if (rows.size() == 1) return "";
-  std::string text = heading("Limits reached: share of the samples, and from which second on") +
-                     table(rows, "lllllll");
+  if (rows.size() == 1) return {};
+  Document text = heading("Limits reached: share of the samples, and from which second on") +
+                  table(rows, "lllllll");
   for (const auto& record : report.drive) {
     for (const auto& channel : record.clipped) {
       text += wrapped(fmt::format("{}: the recorder clips {} in {} samples, first at {:.3f} s.",
@@ -114,9 +114,9 @@ std::string limits_text(const SimulationReport& report) {
 
 }  // namespace
 
-std::string to_text(const SimulationReport& report) {
-  std::string text = fmt::format("boresight simulate: {}\n{}, {} axis, seed {}\n", report.case_path,
-                                 report.title, report.axis, report.seed);
+Document document_of(const SimulationReport& report) {
+  Document text = verbatim(fmt::format("boresight simulate: {}\n{}, {} axis, seed {}\n",
+                                       report.case_path, report.title, report.axis, report.seed));
   text += heading("What was run");
   for (const auto& record : report.drive) {
     text += wrapped(fmt::format("{}: {}", record.test, record.description), "  ", "  ");
@@ -125,7 +125,7 @@ std::string to_text(const SimulationReport& report) {
     text += wrapped(fmt::format("{}: {}", record.test, record.description), "  ", "  ");
   }
   if (report.drive.empty() && report.position.empty()) text += "  nothing to its end\n";
-  text += drive_text(report) + position_text(report) + breakaway_text(report) + limits_text(report);
+  text += drive_part(report) + position_part(report) + breakaway_part(report) + limits_part(report);
   text += heading("Records");
   if (report.written.empty()) text += "  none\n";
   for (const auto& path : report.written) text += "  " + path + "\n";
@@ -136,7 +136,11 @@ std::string to_text(const SimulationReport& report) {
   if (!report.not_run.empty()) {
     text += wrapped(fmt::format("Not run: {}.", fmt::join(report.not_run, ", ")), "");
   }
-  return text + assumed_text(report.assumed);
+  return text + document_of(report.assumed);
+}
+
+std::string to_text(const SimulationReport& report) {
+  return to_text(document_of(report));
 }
 
 }  // namespace boresight::app

@@ -9,6 +9,7 @@
 
 #include <boresight/app/audit/audit_report.hpp>
 #include <boresight/app/audit/case_graph.hpp>
+#include <boresight/app/document/document_text.hpp>
 #include <boresight/app/report/text_report.hpp>
 
 namespace boresight::app {
@@ -317,14 +318,14 @@ TEST(Audit, FindsNothingInACaseThatFollows) {
   EXPECT_THAT(report.findings, IsEmpty());
   EXPECT_THAT(report.implausible, IsEmpty());
   EXPECT_GT(report.checked, 0U);
-  EXPECT_THAT(to_text(report), HasSubstr("printed numbers follow from each other"));
+  EXPECT_THAT(to_text(document_of(report)), HasSubstr("printed numbers follow from each other"));
 
   clean.stated[0].value.value += 3e-3;
   EXPECT_EQ(audit(clean).findings.size(), 1U);
 }
 
 TEST(Audit, WritesAReportOfReadableWidthWithASummary) {
-  const std::string text = to_text(big_report());
+  const std::string text = to_text(document_of(big_report()));
   std::size_t begin = 0;
   while (begin < text.size()) {
     const std::size_t end = text.find('\n', begin);

@@ -10,6 +10,7 @@
 #include <nlohmann/json.hpp>
 
 #include "program_run.hpp"
+#include <boresight/app/document/document_text.hpp>
 #include <boresight/app/identify/campaign_comparison.hpp>
 #include <boresight/app/identify/campaign_identification.hpp>
 #include <boresight/app/report/json_report.hpp>
@@ -218,7 +219,7 @@ TEST(IdentifyCampaign, SaysWhatACampaignLacksAndDoesTheRest) {
   const auto inertia = section.grey_box->quantity("inertia").posterior;
   EXPECT_LT(inertia.lower, truth);
   EXPECT_GT(inertia.upper, truth);
-  EXPECT_THAT(to_text(section), HasSubstr("slosh: not done."));
+  EXPECT_THAT(to_text(document_of(section)), HasSubstr("slosh: not done."));
 }
 
 TEST(IdentifyCampaign, ListsTheCasesNumbersThatTheRecordsContradict) {

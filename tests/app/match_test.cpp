@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <boresight/app/document/document_text.hpp>
 #include <boresight/app/match/match_study.hpp>
 #include <boresight/app/report/match_report.hpp>
 #include <boresight/plant/error.hpp>
@@ -135,7 +136,7 @@ TEST(Match, JudgesTheClassicRules) {
 }
 
 TEST(Match, ReportsAndConcludes) {
-  const std::string text = to_text(small_study());
+  const std::string text = to_text(document_of(small_study()));
   EXPECT_NE(text.find("Inertia matching"), std::string::npos);
   EXPECT_NE(text.find("ratio 1"), std::string::npos);
   const auto sentences = conclude(small_study());

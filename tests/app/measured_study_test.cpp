@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include <boresight/app/document/document_text.hpp>
 #include <boresight/app/redesign/antenna_model.hpp>
 #include <boresight/app/report/measured_report.hpp>
 #include <boresight/app/tune/measured_study.hpp>
@@ -54,7 +55,7 @@ TEST(MeasuredStudy, TunesOnTheChirpOfTheShippedCampaign) {
     EXPECT_LT(truth.highest_peak(loop_break), 2.1) << to_string(loop_break);
   }
 
-  const std::string text = to_text(section);
+  const std::string text = to_text(document_of(section));
   EXPECT_THAT(text, HasSubstr("torque at the motor shaft"));
   EXPECT_THAT(text, HasSubstr("is not judged"));
   EXPECT_THAT(text, HasSubstr("verified"));

@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include <boresight/app/report/text_layout.hpp>
+#include <boresight/app/document/document_text.hpp>
 
 namespace boresight::app {
 namespace {
@@ -14,16 +14,14 @@ std::size_t columns_of(std::string_view text) {
   }));
 }
 
-}  // namespace
-
-std::string heading(std::string_view title) {
-  return fmt::format("\n{}\n{:-<{}}\n", title, "", columns_of(title));
+void append(std::string& text, const Heading& heading) {
+  text += fmt::format("\n{}\n{:-<{}}\n", heading.title, "", columns_of(heading.title));
 }
 
-std::string wrapped(std::string_view paragraph, std::string_view indent, std::string_view hanging) {
+void append(std::string& text, const Paragraph& block) {
   constexpr std::size_t width = 108;
-  std::string text;
-  std::string line(indent);
+  std::string_view paragraph = block.text;
+  std::string line = block.indent;
   bool empty = true;
   while (!paragraph.empty()) {
     const std::size_t end = std::min(paragraph.find(' '), paragraph.size());
@@ -31,35 +29,54 @@ std::string wrapped(std::string_view paragraph, std::string_view indent, std::st
     paragraph.remove_prefix(std::min(end + 1, paragraph.size()));
     if (word.empty()) continue;
     if (!empty && columns_of(line) + 1 + columns_of(word) > width) {
-      text += line + "\n";
-      line = fmt::format("{}{}", indent, hanging);
+      text += line;
+      text += '\n';
+      line = block.indent + block.hanging;
       empty = true;
     }
     if (!empty) line += ' ';
     line += word;
     empty = false;
   }
-  return empty ? text : text + line + "\n";
+  if (!empty) text += line + "\n";
 }
 
-std::string table(const std::vector<std::vector<std::string>>& rows, std::string_view alignment) {
+void append(std::string& text, const Subheading& subheading) {
+  text += '\n';
+  append(text, Paragraph{subheading.title, subheading.indent, {}});
+}
+
+void append(std::string& text, const Table& table) {
   std::vector<std::size_t> widths;
-  for (const auto& row : rows) {
+  for (const auto& row : table.rows) {
     widths.resize(std::max(widths.size(), row.size()));
     for (std::size_t i = 0; i < row.size(); ++i) {
       widths[i] = std::max(widths[i], columns_of(row[i]));
     }
   }
-  std::string text;
-  for (const auto& row : rows) {
+  for (const auto& row : table.rows) {
     std::string line;
     for (std::size_t i = 0; i < row.size(); ++i) {
       const std::string pad(widths[i] - columns_of(row[i]), ' ');
-      const bool left = i < alignment.size() && alignment[i] == 'l';
+      const bool left = i < table.alignment.size() && table.alignment[i] == 'l';
       line += left ? fmt::format("  {}{}", row[i], pad) : fmt::format("  {}{}", pad, row[i]);
     }
     line.erase(line.find_last_not_of(' ') + 1);
-    text += line + "\n";
+    line += '\n';
+    text += line;
+  }
+}
+
+void append(std::string& text, const Verbatim& verbatim) {
+  text += verbatim.text;
+}
+
+}  // namespace
+
+std::string to_text(const Document& document) {
+  std::string text;
+  for (const Block& block : document.blocks) {
+    std::visit([&](const auto& one) { append(text, one); }, block);
   }
   return text;
 }

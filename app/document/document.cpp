@@ -1,0 +1,64 @@
+#include <iterator>
+#include <utility>
+
+#include <boresight/app/document/document.hpp>
+
+namespace boresight::app {
+
+Document& Document::operator+=(Document other) {
+  blocks.insert(blocks.end(), std::make_move_iterator(other.blocks.begin()),
+                std::make_move_iterator(other.blocks.end()));
+  return *this;
+}
+
+Document& Document::operator+=(std::string_view verbatim) {
+  if (verbatim.empty()) return *this;
+  // Lines added one by one are one piece of text.
+  auto* last = blocks.empty() ? nullptr : std::get_if<Verbatim>(&blocks.back());
+  if (last != nullptr) {
+    last->text += verbatim;
+  } else {
+    blocks.emplace_back(Verbatim{std::string(verbatim)});
+  }
+  return *this;
+}
+
+Document operator+(Document first, Document second) {
+  first += std::move(second);
+  return first;
+}
+
+Document operator+(Document first, std::string_view verbatim) {
+  first += verbatim;
+  return first;
+}
+
+Document operator+(std::string_view verbatim, Document second) {
+  Document first;
+  first += verbatim;
+  first += std::move(second);
+  return first;
+}
+
+Document heading(std::string_view title) {
+  return {{Heading{std::string(title)}}};
+}
+
+Document subheading(std::string_view title, std::string_view indent) {
+  return {{Subheading{std::string(title), std::string(indent)}}};
+}
+
+Document wrapped(std::string_view paragraph, std::string_view indent, std::string_view hanging) {
+  return {{Paragraph{std::string(paragraph), std::string(indent), std::string(hanging)}}};
+}
+
+Document table(std::vector<std::vector<std::string>> rows, std::string_view alignment,
+               std::size_t header_rows) {
+  return {{Table{std::move(rows), std::string(alignment), header_rows}}};
+}
+
+Document verbatim(std::string_view text) {
+  return {{Verbatim{std::string(text)}}};
+}
+
+}  // namespace boresight::app

@@ -1,0 +1,68 @@
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+namespace boresight::app {
+
+/// Opens a section, which lasts to the next heading.
+struct Heading {
+  std::string title;
+};
+
+/// Names what follows within a section; on a terminal behind `indent`, a blank line before it.
+struct Subheading {
+  std::string title;
+  std::string indent;
+};
+
+/// Running text, broken at blanks; on a terminal each line behind `indent`, all but the first
+/// behind `hanging` too.
+struct Paragraph {
+  std::string text;
+  std::string indent;
+  std::string hanging;
+};
+
+/// Rows of cells, of which the first `header_rows` name the columns. A row may have fewer cells
+/// than others. A column is to the left ('l') or right ('r') by its letter in `alignment`; columns
+/// beyond it are to the right.
+struct Table {
+  std::vector<std::vector<std::string>> rows;
+  std::string alignment;
+  std::size_t header_rows = 1;
+};
+
+/// Text whose line breaks and blanks stay as they are.
+struct Verbatim {
+  std::string text;
+};
+
+using Block = std::variant<Heading, Subheading, Paragraph, Table, Verbatim>;
+
+/// What a report says, apart from how it is shown: to_text (document_text.hpp) is for a terminal,
+/// to_html (document_html.hpp) for a page. Strings added to it are verbatim.
+struct Document {
+  std::vector<Block> blocks;
+
+  Document& operator+=(Document other);
+  Document& operator+=(std::string_view verbatim);
+};
+
+Document operator+(Document first, Document second);
+Document operator+(Document first, std::string_view verbatim);
+Document operator+(std::string_view verbatim, Document second);
+
+// Documents of one block.
+Document heading(std::string_view title);
+Document subheading(std::string_view title, std::string_view indent = "  ");
+Document wrapped(std::string_view paragraph, std::string_view indent,
+                 std::string_view hanging = {});
+Document table(std::vector<std::vector<std::string>> rows, std::string_view alignment = "l",
+               std::size_t header_rows = 1);
+Document verbatim(std::string_view text);
+
+}  // namespace boresight::app

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <functional>
+#include <string>
+#include <string_view>
+
+#include <boresight/app/document/document.hpp>
+
+namespace boresight::app {
+
+/// Text as it may stand between tags and in quoted attributes: & < > " and ' escaped; control
+/// characters other than line end and tab, and bytes that are not UTF-8, as U+FFFD.
+std::string escaped_html(std::string_view text);
+
+/// More HTML for a section, by its title as the heading has it; empty for none.
+using AfterHeading = std::function<std::string(std::string_view title)>;
+
+/// The document as the inside of a page's <body> or <main>: HTML that is well-formed XML too.
+/// - Each heading opens <section id="..."> with <h2>, and after_heading's HTML, as it is, behind
+///   that; what comes before the first heading stands in no section. The id is the title up to its
+///   first colon, comma or bracket in small letters and hyphens, so that it does not depend on the
+///   numbers that follow there; sections of the same one get -2, -3 ... behind it, in order.
+/// - Subheadings are <h3>, paragraphs <p>, with class "nested" where deeper indented than others.
+/// - Tables are <div class="table"><table> with <thead> of <th scope="col"> and <tbody> of rows
+/// whose
+///   first cell is <th scope="row">; empty cells are <td>, short rows are filled with them. Cells
+///   of columns to the right have class "right", those indented class "nested".
+/// - Verbatim text is <pre>, without blank lines around it.
+std::string to_html(const Document& document, const AfterHeading& after_heading = {});
+
+}  // namespace boresight::app

@@ -5,6 +5,7 @@
 
 #include <boresight/app/identify/identified_case.hpp>
 #include <boresight/app/redesign/antenna_model.hpp>
+#include <boresight/app/redesign/assumed_inputs.hpp>
 #include <boresight/plant/error.hpp>
 
 namespace boresight::app {

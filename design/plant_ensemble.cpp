@@ -122,7 +122,8 @@ EnsembleResult judge(const TrackingProblem& problem, const std::vector<EnsembleM
   std::vector<double> rms;
   for (std::size_t i = 0; i < members.size(); ++i) {
     const MemberResult& member = result.members[i];
-    if (member.worst_goal_ratio > result.members[result.worst].worst_goal_ratio) result.worst = i;
+    const double farthest = result.members[result.worst].worst_goal_ratio;
+    if (member.worst_goal_ratio > farthest * (1.0 + rounding)) result.worst = i;
     if (member.worst_goal_ratio <= 1.0 + rounding) ++result.within_goals;
     if (member.stable) rms.push_back(member.beam_rms);
   }

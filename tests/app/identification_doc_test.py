@@ -9,9 +9,10 @@ usage: identification_doc_test.py PROGRAM SOURCE CAMPAIGNS [--write]
 import json
 import math
 import pathlib
-import re
 import subprocess
 import sys
+
+from shown_output import same
 
 program, source, campaigns = sys.argv[1], pathlib.Path(sys.argv[2]), pathlib.Path(sys.argv[3])
 page = source / "docs/identification.md"
@@ -96,19 +97,6 @@ def between(text, name, lines):
     return head + f"<!-- {name} -->\n" + "\n".join(lines) + f"\n<!-- end {name} -->\n" + tail
 
 
-def same(shown, printed):
-    """Whether two pages differ by no more than another processor's rounding: two units of the last
-    digit of a number."""
-    figure = re.compile(r"\d+(?:\.\d+)?")
-    if figure.sub("#", shown) != figure.sub("#", printed):
-        return False
-    for x, y in zip(figure.findall(shown), figure.findall(printed)):
-        places = min(len(word.partition(".")[2]) for word in (x, y))
-        if abs(float(x) - float(y)) > 2.001 * 10.0**-places:
-            return False
-    return True
-
-
 found = {name: identify(name) for name in names}
 truth = {name: json.loads((campaigns / name / "truth.json").read_text()) for name in names}
 results = {name: estimates(found[name], truth[name]) for name in names}
@@ -122,4 +110,4 @@ now = between(now, "paper table", paper_table(found["paper-like"], truth["paper-
 if "--write" in sys.argv:
     page.write_text(now)
 else:
-    assert same(written, now), "docs/identification.md is not what the program prints: ./dev figures"
+    assert same(written, now, whole=2), "docs/identification.md is not what the program prints: ./dev figures"

@@ -7,35 +7,20 @@ import subprocess
 import sys
 import tempfile
 
+from shown_output import not_printed
+
 program, source = sys.argv[1], pathlib.Path(sys.argv[2])
 readme = (source / "README.md").read_text()
-
-
-figure = re.compile(r"\d+(?:\.\d+)?")
-
-
-def same(shown, printed):
-    """Whether two lines differ by no more than another processor's rounding: two units of the last
-    digit of a number."""
-    if figure.sub("#", shown).split() != figure.sub("#", printed).split():
-        return False
-    for x, y in zip(figure.findall(shown), figure.findall(printed)):
-        places = min(len(word.partition(".")[2]) for word in (x, y))
-        if abs(float(x) - float(y)) > (2.001 * 10.0**-places if places else 0.0):
-            return False
-    return True
 
 
 def check(section, *arguments):
     """The lines of output that a section of README.md shows are those of the command."""
     printed = subprocess.run([program, *arguments], cwd=source, capture_output=True, text=True,
                              check=True).stdout.splitlines()
-    printed = {line.strip() for line in printed}
     text = readme.split(f"## {section}")[1].split("\n## ")[0]
     shown = [line[4:].strip() for line in text.splitlines() if line.startswith("    ")]
     shown = [line for line in shown if line and not line.startswith("./dev")]
-    missing = [line for line in shown
-               if line not in printed and not any(same(line, other) for other in printed)]
+    missing = not_printed(shown, printed)
     assert len(shown) > 5, f"README.md shows no output in {section}"
     assert not missing, "README.md shows what the program does not print:\n" + "\n".join(missing)
     return len(shown)

@@ -19,7 +19,7 @@ std::string slug_of(std::string_view title) {
     const bool capital = c >= 'A' && c <= 'Z';
     if ((c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || capital) {
       slug += capital ? static_cast<char>(c - 'A' + 'a') : c;
-    } else if (!slug.empty() && slug.back() != '-') {
+    } else if (c != '\'' && !slug.empty() && slug.back() != '-') {
       slug += '-';
     }
   }

@@ -215,9 +215,11 @@ TEST(DocumentHtml, PutsMoreBehindTheHeadingOfASection) {
 
 TEST(DocumentHtml, GivesEverySectionAnIdOfItsOwn) {
   const Document document = heading("Records") + heading("Records (2)") + heading("records 2") +
-                            heading("¶") + heading("") + heading("Records");
-  EXPECT_THAT(StrictHtml(to_html(document)).ids, ElementsAre("records", "records-2", "records-2-2",
-                                                             "section", "section-2", "records-3"));
+                            heading("The case's ¶ own") + heading("¶") + heading("") +
+                            heading("Records");
+  EXPECT_THAT(StrictHtml(to_html(document)).ids,
+              ElementsAre("records", "records-2", "records-2-2", "the-cases-own", "section",
+                          "section-2", "records-3"));
 }
 
 TEST(DocumentHtml, EscapesWhatCouldBeTakenForMarkup) {

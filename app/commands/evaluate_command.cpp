@@ -7,6 +7,7 @@
 #include <boresight/app/commands/evaluate_command.hpp>
 #include <boresight/app/commands/progress_line.hpp>
 #include <boresight/app/evaluate/evaluate_study.hpp>
+#include <boresight/app/figures/report_figures.hpp>
 #include <boresight/app/redesign/assumed_inputs.hpp>
 #include <boresight/app/redesign/sections.hpp>
 #include <boresight/app/report/json_report.hpp>
@@ -35,7 +36,8 @@ void add_assumed(const std::vector<Proposal>& proposals, std::vector<Quantity>& 
 int run(EvaluateArguments arguments) {
   arguments.threads = all_or(arguments.threads);
   watch_for_interrupt();
-  const Report report = evaluate_case(arguments, interrupt_requested);
+  Report report = evaluate_case(arguments, interrupt_requested);
+  report.figures = report_figures(report);
   arguments.outputs.deliver(
       {.text = [&] { return to_text(report); }, .json = [&] { return to_json(report); }});
   if (report.interrupted) return interrupted;

@@ -7,6 +7,7 @@
 
 #include <boresight/app/commands/match_command.hpp>
 #include <boresight/app/commands/progress_line.hpp>
+#include <boresight/app/figures/report_figures.hpp>
 #include <boresight/app/match/match_study.hpp>
 #include <boresight/app/redesign/assumed_inputs.hpp>
 #include <boresight/app/redesign/sections.hpp>
@@ -52,8 +53,7 @@ int run(const Arguments& arguments) {
     fmt::print(stderr, "boresight: interrupted before the records were identified\n");
     return interrupted;
   }
-  report.assumed =
-      assumed_inputs(antenna, {.time_runs = options.time_runs != MatchTimeRuns::none});
+  report.assumed = assumed_inputs(antenna, {.time_runs = options.time_runs != MatchTimeRuns::none});
   {
     std::optional<ProgressLine> line;
     std::string_view working;
@@ -66,6 +66,7 @@ int run(const Arguments& arguments) {
   }
   report.interrupted = interrupt_requested();
   report.conclusions = conclude(*report.matched);
+  report.figures = report_figures(report);
   arguments.outputs.deliver(
       {.text = [&] { return to_text(report); }, .json = [&] { return to_json(report); }});
   if (report.interrupted) return interrupted;

@@ -6,6 +6,7 @@
 
 #include <boresight/app/commands/progress_line.hpp>
 #include <boresight/app/commands/report_commands.hpp>
+#include <boresight/app/figures/report_figures.hpp>
 #include <boresight/app/identify/campaign_identification.hpp>
 #include <boresight/app/identify/identified_case.hpp>
 #include <boresight/app/redesign/assumed_inputs.hpp>
@@ -115,6 +116,7 @@ int run(const Command& command, const Arguments& arguments) {
       report.interrupted = true;
     }
   }
+  report.figures = report_figures(report);
   arguments.outputs.deliver(
       {.text = [&] { return to_text(report); }, .json = [&] { return to_json(report); }});
   if (report.interrupted) return interrupted;

@@ -5,6 +5,7 @@
 
 #include <boresight/app/commands/progress_line.hpp>
 #include <boresight/app/commands/tune_command.hpp>
+#include <boresight/app/figures/report_figures.hpp>
 #include <boresight/app/io/wording.hpp>
 #include <boresight/app/redesign/assumed_inputs.hpp>
 #include <boresight/app/redesign/sections.hpp>
@@ -30,20 +31,6 @@ std::vector<double> read_speeds(const std::vector<std::string>& texts) {
     }
   }
   return speeds;
-}
-
-// The best law that meets all it must, robust ones before nominal ones.
-const TunedLaw* best_law(const TuneSection& section) {
-  const TunedLaw* best = nullptr;
-  for (const auto& row : section.laws) {
-    if (row.tuned_for == TunedFor::present || !row.usable()) continue;
-    const bool first_choice = best == nullptr || row.tuned_for > best->tuned_for;
-    if (first_choice || (row.tuned_for == best->tuned_for && row.wind_speed == best->wind_speed &&
-                         row.beam_rms < best->beam_rms)) {
-      best = &row;
-    }
-  }
-  return best;
 }
 
 // The usable laws tuned for the same purpose and wind speed.
@@ -131,7 +118,8 @@ namespace {
 int run(TuneArguments arguments) {
   arguments.threads = all_or(arguments.threads);
   watch_for_interrupt();
-  const Report report = tune_case(arguments, interrupt_requested);
+  Report report = tune_case(arguments, interrupt_requested);
+  report.figures = report_figures(report);
   arguments.outputs.deliver(
       {.text = [&] { return to_text(report); }, .json = [&] { return to_json(report); }});
   if (report.interrupted) return interrupted;

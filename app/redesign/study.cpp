@@ -98,7 +98,8 @@ TuningSection tuning_section(const Case& antenna, const StudyOptions& options,
     }
   }
 
-  const design::TrackingProblem problem = make_problem(antenna);
+  section.problem = make_problem(antenna);
+  const design::TrackingProblem& problem = section.problem;
   section.design_speed = problem.wind.mean_speed;
   section.wind_model = problem.wind.model;
   section.wind_site = problem.wind.site;

@@ -1,6 +1,7 @@
 #include <cmath>
 #include <numbers>
 
+#include <boresight/app/figures/figure_json.hpp>
 #include <boresight/app/report/evaluate_report.hpp>
 #include <boresight/app/report/json_assumed.hpp>
 #include <boresight/app/report/json_audit.hpp>
@@ -219,6 +220,7 @@ std::string to_json(const Report& report) {
   if (report.evaluated) json["evaluated"] = evaluate_json(*report.evaluated);
   json["assumed_inputs"] = assumed_json(report.assumed);
   json["conclusions"] = report.conclusions;
+  if (!report.figures.empty()) json["figures"] = figures_json(report.figures);
   return json.dump(2) + "\n";
 }
 

@@ -7,6 +7,7 @@
 
 #include <boresight/app/audit/audit_report.hpp>
 #include <boresight/app/evaluate/evaluate_section.hpp>
+#include <boresight/app/figures/figure.hpp>
 #include <boresight/app/identify/campaign_section.hpp>
 #include <boresight/app/match/match_section.hpp>
 #include <boresight/app/redesign/antenna_model.hpp>
@@ -55,6 +56,7 @@ struct BudgetResult {
 
 struct TuningSection {
   control::LoopStructure structure;
+  design::TrackingProblem problem;  // what was tuned
   design::HardGoals goals;
   design::Design design;
   double design_speed = 0.0;
@@ -143,6 +145,7 @@ struct Report {
   std::optional<EvaluateSection> evaluated;  // of the command evaluate
   std::vector<Quantity> assumed;
   std::vector<std::string> conclusions;
+  std::vector<Figure> figures;  // report_figures of all this
   /// The user stopped the work: the sections here are whole, others are missing.
   bool interrupted = false;
 };

@@ -44,6 +44,7 @@ struct Shortfall {
 
 /// What `boresight tune` found.
 struct TuneSection {
+  design::TrackingProblem problem;  // the case's plant at its design wind speed
   std::vector<std::string> structures;
   std::vector<double> wind_speeds;  // m/s: the design's and those that budgets ask for
   plant::WindModel wind_model = plant::WindModel::coherence;

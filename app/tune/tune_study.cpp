@@ -200,6 +200,19 @@ std::string_view to_string(TunedFor purpose) {
   return names.at(static_cast<std::size_t>(purpose));
 }
 
+const TunedLaw* best_law(const TuneSection& section) {
+  const TunedLaw* best = nullptr;
+  for (const auto& row : section.laws) {
+    if (row.tuned_for == TunedFor::present || !row.usable()) continue;
+    const bool first_choice = best == nullptr || row.tuned_for > best->tuned_for;
+    if (first_choice || (row.tuned_for == best->tuned_for && row.wind_speed == best->wind_speed &&
+                         row.beam_rms < best->beam_rms)) {
+      best = &row;
+    }
+  }
+  return best;
+}
+
 TuneSection tune_structures(const Case& antenna, const PlantEnsemble& ensemble,
                             const TuneOptions& options) {
   TuneSection section;
@@ -219,7 +232,8 @@ TuneSection tune_structures(const Case& antenna, const PlantEnsemble& ensemble,
   if (section.starts == 0) section.starts = design::TuningOptions{}.starts;
 
   const Study study(antenna, ensemble, options, section);
-  section.wind_model = make_problem(antenna).wind.model;
+  section.problem = make_problem(antenna);
+  section.wind_model = section.problem.wind.model;
   auto units = units_of(antenna, section);
   std::size_t done = 0;
   std::mutex mutex;

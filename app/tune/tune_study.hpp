@@ -36,6 +36,9 @@ struct PlantEnsemble {
 TuneSection tune_structures(const Case& antenna, const PlantEnsemble& ensemble,
                             const TuneOptions& options);
 
+/// The best law that meets all it must, robust ones before nominal ones; null if there is none.
+const TunedLaw* best_law(const TuneSection& section);
+
 /// What of the goals, budgets and plant the laws of a finished study do not reach, with the closest
 /// that they do. Empty if every wind speed has a law that meets everything.
 std::vector<Shortfall> find_shortfalls(const TuneSection& section);

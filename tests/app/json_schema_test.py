@@ -95,9 +95,11 @@ def every_report():
 
 
 def numbers(value, key=""):
+    """Numbers with their keys; not those of figures, whose axes state the units."""
     if isinstance(value, dict):
         for name, inner in value.items():
-            yield from numbers(inner, name)
+            if name != "figures" or not isinstance(inner, list):
+                yield from numbers(inner, name)
     elif isinstance(value, list):
         for inner in value:
             yield from numbers(inner, key)

@@ -1,0 +1,270 @@
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <fmt/format.h>
+
+#include <boresight/app/figures/evaluate_figures.hpp>
+#include <boresight/app/report/sky_units.hpp>
+
+namespace boresight::app {
+namespace {
+
+constexpr double undefined = std::numeric_limits<double>::quiet_NaN();
+
+std::string title_of(const EvaluateSection& section) {
+  return fmt::format("Proposals, re-tuned: wind model {}, {:g} m/s",
+                     plant::to_string(section.wind_model), section.wind_speed);
+}
+
+std::string title_of(const DecisionSection& decision) {
+  return fmt::format("Chances, by {} draws with the gains held", decision.draws);
+}
+
+std::string conditions(const EvaluateSection& section) {
+  return fmt::format(
+      "Each proposal with loops of its own, {:g} m/s, wind model {}, {} plants ({}).",
+      section.wind_speed, plant::to_string(section.wind_model), section.ensemble_size,
+      section.ensemble_source);
+}
+
+const std::string& name_of(const EvaluateSection& section, const DecisionSection& decision,
+                           std::size_t place) {
+  return section.candidates[decision.candidates[place].candidate].name;
+}
+
+double finite_rms(double rms) {
+  return std::isfinite(rms) ? rms / millidegree : undefined;
+}
+
+Figure front_figure(const EvaluateSection& section) {
+  Figure figure;
+  figure.id = "pareto";
+  figure.section = title_of(section);
+  figure.title = "Cost and beam rms of the proposals";
+  figure.caption =
+      "Root of the mean square of the beam rms over the plants against cost; whiskers span the "
+      "stated uncertainty of the cost. The steps are the front: what lies above them is dearer and "
+      "no better than something on it. " +
+      conditions(section);
+  figure.x = {.label = "cost", .unit = section.currency};
+  FigurePanel panel;
+  panel.y = {.label = "beam rms", .unit = "mdeg"};
+  FigureSeries meets{.name = "meets every goal", .style = SeriesStyle::points};
+  FigureSeries misses{.name = "misses a goal or its verification", .style = SeriesStyle::points};
+  FigureSeries front{.name = "front", .style = SeriesStyle::steps};
+  for (const auto& candidate : section.candidates) {
+    const CandidateLaw* law = candidate.chosen_law();
+    if (law == nullptr || !std::isfinite(law->member_rms)) continue;
+    FigureSeries& series = candidate.feasible() ? meets : misses;
+    series.x.push_back(candidate.cost);
+    series.x_lower.push_back(candidate.cost - candidate.cost_uncertainty);
+    series.x_upper.push_back(candidate.cost + candidate.cost_uncertainty);
+    series.y.push_back(finite_rms(law->member_rms));
+    series.labels.push_back(candidate.name);
+  }
+  for (const std::size_t place : section.front) {
+    const Candidate& candidate = section.candidates[place];
+    const CandidateLaw* law = candidate.chosen_law();
+    if (law == nullptr) continue;
+    front.x.push_back(candidate.cost);
+    front.y.push_back(finite_rms(law->member_rms));
+  }
+  if (!meets.x.empty()) panel.series.push_back(std::move(meets));
+  if (front.x.size() > 1) panel.series.push_back(std::move(front));
+  if (!misses.x.empty()) panel.series.push_back(std::move(misses));
+  figure.panels.push_back(std::move(panel));
+  return figure;
+}
+
+Figure spread_figure(const EvaluateSection& section) {
+  Figure figure;
+  figure.id = "proposals-spread";
+  figure.section = title_of(section);
+  figure.title = "Beam rms of the proposals over the plants that may be the true one";
+  figure.caption =
+      "Median of the beam rms over the plants with the gains held, and from the least to the "
+      "largest of them; lines are budgets. " +
+      conditions(section);
+  figure.x = {.label = "beam rms", .unit = "mdeg"};
+  FigurePanel panel;
+  FigureSeries spread{.style = SeriesStyle::points};
+  for (const auto& candidate : section.candidates) {
+    const CandidateLaw* law = candidate.chosen_law();
+    if (law == nullptr || !law->ensemble || !std::isfinite(law->ensemble->median_rms)) continue;
+    const auto place = static_cast<double>(panel.y.categories.size());
+    panel.y.categories.push_back(candidate.name);
+    spread.x.push_back(finite_rms(law->ensemble->median_rms));
+    spread.x_lower.push_back(finite_rms(law->ensemble->least_rms));
+    spread.x_upper.push_back(finite_rms(law->ensemble->largest_rms));
+    spread.y.push_back(place);
+  }
+  double largest = 0.0;
+  for (const double rms : spread.x_upper) largest = std::max(largest, rms);
+  for (const auto& budget : section.budgets) {
+    const double rms = budget.rms / millidegree;
+    if (rms > 1.3 * largest) continue;
+    panel.lines.push_back(
+        {FigureLine::Direction::vertical, rms, fmt::format("{}, {}", budget.band, budget.name)});
+  }
+  panel.series.push_back(std::move(spread));
+  figure.panels.push_back(std::move(panel));
+  return figure;
+}
+
+// A panel of shares by name, from probabilities.
+struct NamedShare {
+  std::string name;
+  design::Probability share;
+};
+FigurePanel share_panel(const std::string& label, const std::vector<NamedShare>& shares) {
+  FigurePanel panel;
+  panel.y.label = label;
+  FigureSeries series{.style = SeriesStyle::points};
+  for (const auto& [name, share] : shares) {
+    series.y.push_back(static_cast<double>(panel.y.categories.size()));
+    panel.y.categories.push_back(name);
+    series.x.push_back(share.value);
+    series.x_lower.push_back(share.lower);
+    series.x_upper.push_back(share.upper);
+  }
+  panel.series.push_back(std::move(series));
+  return panel;
+}
+
+Figure chances_figure(const EvaluateSection& section, const DecisionSection& decision) {
+  Figure figure;
+  figure.id = "chances";
+  figure.section = title_of(decision);
+  const std::string& best = name_of(section, decision, decision.best);
+  figure.title = "Chances of the proposals";
+  figure.caption = fmt::format(
+      "The chance that a proposal has the least beam rms of all, and that '{}', that of least mean "
+      "rms, has a lower one than each other on the same plant, ties counted half; {} draws, gains "
+      "held, intervals of 95 % for the number of draws.",
+      best, decision.draws);
+  figure.x = {.label = "probability", .lowest = 0.0, .highest = 1.0};
+  std::vector<NamedShare> least, pairs;
+  for (std::size_t i = 0; i < decision.candidates.size(); ++i) {
+    least.push_back({name_of(section, decision, i), decision.statistics.options[i].best});
+  }
+  for (const auto& pair : decision.statistics.pairs) {
+    const auto& better = pair.better;
+    if (pair.first == decision.best) {
+      pairs.push_back({name_of(section, decision, pair.second), better});
+    } else if (pair.second == decision.best) {
+      pairs.push_back({name_of(section, decision, pair.first),
+                       {1.0 - better.value, 1.0 - better.upper, 1.0 - better.lower}});
+    }
+  }
+  figure.panels.push_back(share_panel("least of all", least));
+  if (!pairs.empty()) {
+    figure.panels.push_back(share_panel(fmt::format("'{}' is better than", best), pairs));
+    figure.panels.back().lines.push_back({FigureLine::Direction::vertical, 0.5, ""});
+  }
+  return figure;
+}
+
+std::string difference(const EvaluateSection& section, const DecisionSection& decision) {
+  return fmt::format("Beam rms of '{}' less that of '{}', gains held",
+                     name_of(section, decision, decision.second),
+                     name_of(section, decision, decision.best));
+}
+
+Figure tornado_figure(const EvaluateSection& section, const DecisionSection& decision,
+                      const design::Tornado& tornado) {
+  Figure figure;
+  figure.id = "tornado";
+  figure.section = title_of(decision);
+  figure.title = "What decides between the two best proposals, one input at a time";
+  figure.caption = fmt::format(
+      "{}: each input at its 5 % and 95 % share, the others at their median; right of zero '{}' is "
+      "the better one. {:g} m/s, wind model {}.",
+      difference(section, decision), name_of(section, decision, decision.best), section.wind_speed,
+      plant::to_string(section.wind_model));
+  figure.x = {.label = "difference of beam rms", .unit = "mdeg"};
+  FigurePanel panel;
+  FigureSeries low{.name = "at 5 %", .style = SeriesStyle::bars};
+  FigureSeries high{.name = "at 95 %", .style = SeriesStyle::bars};
+  constexpr std::size_t most = 12;
+  for (std::size_t i = 0; i < std::min(tornado.bars.size(), most); ++i) {
+    const auto& bar = tornado.bars[i];
+    panel.y.categories.push_back(decision.inputs[bar.input]);
+    const auto add = [&](FigureSeries& series, double value) {
+      series.x.push_back(value);
+      series.x_lower.push_back(std::min(value, tornado.at_median));
+      series.x_upper.push_back(std::max(value, tornado.at_median));
+      series.y.push_back(static_cast<double>(i));
+    };
+    add(low, bar.at_low);
+    add(high, bar.at_high);
+  }
+  panel.series = {std::move(low), std::move(high)};
+  panel.lines.push_back({FigureLine::Direction::vertical, tornado.at_median, "all at the median"});
+  figure.panels.push_back(std::move(panel));
+  return figure;
+}
+
+Figure sobol_figure(const EvaluateSection& section, const DecisionSection& decision,
+                    const design::SobolIndices& indices) {
+  Figure figure;
+  figure.id = "sobol";
+  figure.section = title_of(decision);
+  figure.title = "Shares of the variance between the two best proposals";
+  figure.caption = fmt::format(
+      "{}: Sobol' indices of its variance with intervals of 95 %. First order: the share that goes "
+      "if this input becomes known; total: with every interaction it has part in.",
+      difference(section, decision));
+  figure.x = {.label = "share of the variance"};
+  std::vector<std::size_t> order;
+  for (std::size_t i = 0; i < indices.inputs.size(); ++i) order.push_back(i);
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+    return indices.inputs[a].total.value > indices.inputs[b].total.value;
+  });
+  constexpr std::size_t most = 12;
+  order.resize(std::min(order.size(), most));
+  FigurePanel panel;
+  FigureSeries first{.name = "first order", .style = SeriesStyle::points};
+  FigureSeries total{.name = "total", .style = SeriesStyle::points};
+  for (const std::size_t input : order) {
+    const auto place = static_cast<double>(panel.y.categories.size());
+    panel.y.categories.push_back(decision.inputs[input]);
+    const auto add = [](FigureSeries& series, const design::EstimatedIndex& index, double at) {
+      series.x.push_back(index.value);
+      series.x_lower.push_back(index.lower);
+      series.x_upper.push_back(index.upper);
+      series.y.push_back(at);
+    };
+    // A little apart, so that neither hides the other.
+    add(first, indices.inputs[input].first_order, place - 0.12);
+    add(total, indices.inputs[input].total, place + 0.12);
+  }
+  panel.series = {std::move(first), std::move(total)};
+  figure.panels.push_back(std::move(panel));
+  return figure;
+}
+
+}  // namespace
+
+std::vector<Figure> evaluate_figures(const EvaluateSection& section) {
+  std::vector<Figure> figures;
+  figures.push_back(front_figure(section));
+  figures.push_back(spread_figure(section));
+  std::erase_if(figures, [](const Figure& figure) {
+    const auto& series = figure.panels.front().series;
+    return series.empty() || series.front().x.empty();
+  });
+  if (!section.decision) return figures;
+  const DecisionSection& decision = *section.decision;
+  if (decision.candidates.size() > 1) figures.push_back(chances_figure(section, decision));
+  if (decision.tornado && !decision.tornado->bars.empty()) {
+    figures.push_back(tornado_figure(section, decision, *decision.tornado));
+  }
+  if (decision.sobol && !decision.sobol->outputs.empty() &&
+      !decision.sobol->outputs.front().constant) {
+    figures.push_back(sobol_figure(section, decision, decision.sobol->outputs.front()));
+  }
+  return figures;
+}
+
+}  // namespace boresight::app

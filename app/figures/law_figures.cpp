@@ -1,0 +1,355 @@
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <complex>
+#include <numbers>
+
+#include <fmt/format.h>
+
+#include <boresight/app/figures/frequency_curves.hpp>
+#include <boresight/app/figures/law_figures.hpp>
+#include <boresight/app/report/sky_units.hpp>
+#include <boresight/control/closed_loop.hpp>
+#include <boresight/plant/plant_response.hpp>
+#include <boresight/plant/response_grid.hpp>
+
+namespace boresight::app {
+namespace {
+
+constexpr double two_pi = 2.0 * std::numbers::pi;
+
+// The law on its grid: rad/s, responses, loop gains by break.
+struct Responses {
+  Eigen::ArrayXd frequency;
+  plant::PlantResponse plant;
+  std::array<Eigen::ArrayXcd, 3> gain;
+};
+
+Eigen::ArrayXd law_grid(const design::TrackingProblem& problem, const control::ControlLaw& law) {
+  const auto band = design::analysis_band(problem);
+  const Eigen::ArrayXd open = plant::frequency_grid(problem.plant, band.lowest, band.highest, 40);
+  plant::ResponseGridOptions options;
+  options.lowest = two_pi * band.lowest;
+  options.highest = two_pi * band.highest;
+  options.points_per_decade = 40;
+  const auto loop = control::closed_loop(problem.plant, law, problem.delay);
+  return merged(open, plant::response_grid(loop, options));
+}
+
+Responses responses(const DrawnLaw& drawn) {
+  Responses result;
+  result.frequency = law_grid(drawn.problem, drawn.law);
+  result.plant = plant::plant_response(drawn.problem.plant, result.frequency);
+  for (std::size_t b = 0; b < control::loop_breaks.size(); ++b) {
+    Eigen::ArrayXcd& gain = result.gain.at(b);
+    gain.resize(result.frequency.size());
+    for (Eigen::Index i = 0; i < gain.size(); ++i) {
+      gain[i] = control::loop_gain(plant::point(result.plant, i), result.frequency[i], drawn.law,
+                                   drawn.problem.delay, control::loop_breaks.at(b));
+    }
+  }
+  return result;
+}
+
+std::string conditions(const DrawnLaw& drawn) {
+  return fmt::format("{}, {:g} m/s, wind model {}, linear plant with friction {:g} N.m.s/rad.",
+                     drawn.name, drawn.problem.wind.mean_speed,
+                     plant::to_string(drawn.problem.wind.model),
+                     drawn.problem.plant.drive.viscous_friction);
+}
+
+Figure started(const DrawnLaw& drawn, const char* id, const char* title) {
+  Figure figure;
+  figure.id = fmt::format("{}-{}", drawn.id, id);
+  figure.section = drawn.section;
+  figure.title = title;
+  return figure;
+}
+
+std::string break_name(std::size_t loop_break) {
+  return std::string(control::to_string(control::loop_breaks.at(loop_break)));
+}
+
+Figure open_loop_figure(const DrawnLaw& drawn, const Responses& on_grid) {
+  Figure figure = started(drawn, "open-loop", "Open loop at three breaks");
+  figure.caption =
+      "Loop gain cut in the rate loop with the position loop open, at the valve command and in the "
+      "position loop; circles are crossovers of unit gain with their phase margins. " +
+      conditions(drawn);
+  figure.x = frequency_axis();
+  std::vector<NamedResponse> loops;
+  for (std::size_t b = 0; b < 3; ++b) loops.push_back({break_name(b), on_grid.gain.at(b)});
+  figure.panels = bode_panels(on_grid.frequency, loops, "loop gain");
+  FigurePanel& gain = figure.panels[0];
+  FigurePanel& phase = figure.panels[1];
+  gain.lines.push_back({FigureLine::Direction::horizontal, 0.0, ""});
+  phase.lines.push_back({FigureLine::Direction::horizontal, -180.0, ""});
+  for (const auto& margins : drawn.margins) {
+    for (const auto& crossover : margins.gain_crossovers) {
+      gain.marks.push_back({crossover.frequency / two_pi, 0.0,
+                            fmt::format("{:.2f} Hz, {:.0f}\u00b0", crossover.frequency / two_pi,
+                                        crossover.phase_margin_deg)});
+    }
+  }
+  return figure;
+}
+
+Figure nyquist_figure(const DrawnLaw& drawn, const Responses& on_grid) {
+  Figure figure = started(drawn, "nyquist", "Nyquist plot with the disks to be kept out of");
+  const auto worst =
+      std::min_element(drawn.margins.begin(), drawn.margins.end(),
+                       [](const auto& x, const auto& y) { return x.disk.alpha < y.disk.alpha; });
+  const auto at = static_cast<std::size_t>(worst - drawn.margins.begin());
+  const auto& disk = worst->disk;
+  figure.caption = fmt::format(
+      "Loop gain at the three breaks. No curve may enter the disk about \u22121 of the allowed "
+      "peak "
+      "of sensitivity; the disk of the smallest disk margin, alpha = {:.3f} ({}, {:.2f} Hz: gain "
+      "{:.2f} to {:.2f}, phase {:.0f}\u00b0), is touched by its curve. ",
+      disk.alpha, break_name(at), disk.frequency / two_pi, disk.lowest_gain, disk.highest_gain,
+      disk.phase_deg);
+  figure.caption += conditions(drawn);
+  figure.equal_scales = true;
+  figure.x = {.label = "real part", .lowest = -3.5, .highest = 1.5};
+  FigurePanel panel;
+  panel.y = {.label = "imaginary part", .lowest = -2.5, .highest = 2.0};
+  for (std::size_t b = 0; b < 3; ++b) {
+    panel.series.push_back({.name = break_name(b),
+                            .x = numbers(on_grid.gain.at(b).real()),
+                            .y = numbers(on_grid.gain.at(b).imag())});
+  }
+  panel.marks.push_back({-1.0, 0.0, "\u22121"});
+  const auto& goals = drawn.goals.sensitivity_peak;
+  for (std::size_t b = 0; b < 3; ++b) {
+    if (std::find(goals.begin(), goals.begin() + static_cast<std::ptrdiff_t>(b), goals.at(b)) !=
+        goals.begin() + static_cast<std::ptrdiff_t>(b)) {
+      continue;
+    }
+    const bool one =
+        std::all_of(goals.begin(), goals.end(), [&](double goal) { return goal == goals.front(); });
+    panel.circles.push_back({-1.0, 0.0, 1.0 / goals.at(b),
+                             one ? fmt::format("peak of S {:g}", goals.at(b))
+                                 : fmt::format("peak of S {:g}, {}", goals.at(b), break_name(b))});
+  }
+  if (disk.lowest_gain > 0.0 && std::isfinite(disk.highest_gain)) {
+    const double near = 1.0 / disk.highest_gain, away = 1.0 / disk.lowest_gain;
+    panel.circles.push_back({-0.5 * (near + away), 0.0, 0.5 * (away - near), "disk margin"});
+  }
+  figure.panels.push_back(std::move(panel));
+  return figure;
+}
+
+Figure sensitivity_figure(const DrawnLaw& drawn, const Responses& on_grid) {
+  Figure figure = started(drawn, "sensitivity", "Sensitivity, and where the wind is");
+  figure.caption =
+      "Magnitude of 1/(1 + L) at the three breaks with its goal; below, the torque spectrum of the "
+      "wind times frequency: equal areas are equal shares of the torque's variance. " +
+      conditions(drawn);
+  figure.x = frequency_axis();
+  figure.panels.resize(2);
+  FigurePanel& sensitivity = figure.panels[0];
+  sensitivity.y = {.label = "|S|", .scale = AxisScale::logarithmic, .lowest = 1e-3};
+  const std::vector<double> hertz = in_hertz(on_grid.frequency);
+  for (std::size_t b = 0; b < 3; ++b) {
+    const auto& gain = on_grid.gain.at(b);
+    sensitivity.series.push_back(
+        {.name = break_name(b), .x = hertz, .y = numbers((1.0 + gain).abs().inverse())});
+    const auto& peak = drawn.margins.at(b).sensitivity;
+    if (!(peak.frequency > 0.0) || !std::isfinite(peak.frequency)) continue;
+    sensitivity.marks.push_back(
+        {peak.frequency / two_pi, peak.magnitude, fmt::format("{:.2f}", peak.magnitude)});
+  }
+  std::vector<double> goals(drawn.goals.sensitivity_peak.begin(),
+                            drawn.goals.sensitivity_peak.end());
+  std::sort(goals.begin(), goals.end());
+  goals.erase(std::unique(goals.begin(), goals.end()), goals.end());
+  for (const double goal : goals) {
+    sensitivity.lines.push_back(
+        {FigureLine::Direction::horizontal, goal, fmt::format("at most {:g}", goal)});
+  }
+  FigurePanel& wind = figure.panels[1];
+  wind.y = {.label = "wind torque about the axis: frequency x spectrum", .unit = "(kN.m)\u00b2"};
+  const double to_axis = 1e-3 * drawn.problem.gear_ratio;
+  const Eigen::ArrayXd spectrum = design::motor_wind_spectrum(drawn.problem, on_grid.frequency);
+  wind.series.push_back(
+      {.x = hertz, .y = numbers(to_axis * to_axis * spectrum * on_grid.frequency / two_pi)});
+  return figure;
+}
+
+Figure rejection_figure(const DrawnLaw& drawn, const Responses& on_grid,
+                        const Eigen::ArrayXd& transmission) {
+  Figure figure = started(drawn, "wind-rejection", "Wind torque to beam, loops open and closed");
+  figure.caption =
+      "Angle of the beam at the sky per wind torque about the axis. With the encoder held "
+      "perfectly "
+      "still there would remain the bending that no encoder sees. " +
+      conditions(drawn);
+  figure.x = frequency_axis();
+  FigurePanel panel;
+  panel.y = {.label = "beam at the sky per torque about the axis",
+             .unit = "mdeg/(kN.m)",
+             .scale = AxisScale::logarithmic};
+  const double scale = 1e3 / (millidegree * drawn.problem.gear_ratio * drawn.problem.gear_ratio);
+  const std::vector<double> hertz = in_hertz(on_grid.frequency);
+  const auto held = plant::structure_response(drawn.problem.plant.structure, on_grid.frequency);
+  const Eigen::ArrayXd closed = scale * transmission.sqrt();
+  panel.series.push_back({.name = "closed", .x = hertz, .y = numbers(closed)});
+  panel.series.push_back(
+      {.name = "open", .x = hertz, .y = numbers(scale * on_grid.plant.beam_wind.abs())});
+  panel.series.push_back({.name = "encoder held still",
+                          .style = SeriesStyle::dashed,
+                          .x = hertz,
+                          .y = numbers(scale * held.beam_per_wind.abs())});
+  // The open loop's rise to low frequencies would leave no room for the rest.
+  Eigen::Index at = 0;
+  const double largest = closed.maxCoeff(&at);
+  panel.y.highest = 20.0 * largest;
+  panel.y.lowest = std::max(1e-4 * largest, 0.3 * closed.minCoeff());
+  panel.marks.push_back(
+      {on_grid.frequency[at] / two_pi, largest,
+       fmt::format("{:.3g} at {:.2f} Hz", largest, on_grid.frequency[at] / two_pi)});
+  figure.panels.push_back(std::move(panel));
+  return figure;
+}
+
+Figure error_figure(const DrawnLaw& drawn, const Responses& on_grid,
+                    const Eigen::ArrayXd& transmission) {
+  Figure figure = started(drawn, "error-spectrum", "Beam error in wind, frequency by frequency");
+  const auto& band = drawn.problem.rms_band;
+  std::vector<double> hertz, density, cumulative;
+  const Eigen::ArrayXd spectrum = transmission *
+                                  design::motor_wind_spectrum(drawn.problem, on_grid.frequency) /
+                                  std::pow(drawn.problem.gear_ratio * millidegree, 2);
+  // Trapezoids in ln f: the integrand is f times the density.
+  double variance = 0.0;
+  for (Eigen::Index i = 0; i < spectrum.size(); ++i) {
+    const double f = on_grid.frequency[i] / two_pi;
+    if (f < band.lowest * (1.0 - 1e-9) || f > band.highest * (1.0 + 1e-9)) continue;
+    if (!hertz.empty()) {
+      variance += 0.5 * (f * spectrum[i] + hertz.back() * density.back() * density.back()) *
+                  std::log(f / hertz.back());
+    }
+    hertz.push_back(f);
+    density.push_back(std::sqrt(spectrum[i]));
+    cumulative.push_back(std::sqrt(variance));
+  }
+  const double noise = std::sqrt(drawn.noise_variance) / (drawn.problem.gear_ratio * millidegree);
+  figure.caption = fmt::format(
+      "Amplitude density of the beam's error by wind at the sky, and its rms over all frequencies "
+      "up to each, {:.4f} mdeg in all; sensor noise adds {:.4f} mdeg in the root of squares. {}",
+      std::sqrt(variance), noise, conditions(drawn));
+  figure.x = frequency_axis();
+  figure.panels.resize(2);
+  figure.panels[0].y = {
+      .label = "beam error by wind", .unit = "mdeg/\u221aHz", .scale = AxisScale::logarithmic};
+  if (!density.empty()) {
+    figure.panels[0].y.lowest = 1e-5 * *std::max_element(density.begin(), density.end());
+  }
+  figure.panels[0].series.push_back({.x = hertz, .y = density});
+  figure.panels[1].y = {.label = "rms up to this frequency", .unit = "mdeg"};
+  figure.panels[1].series.push_back({.x = hertz, .y = cumulative});
+  return figure;
+}
+
+}  // namespace
+
+std::vector<Figure> law_figures(const DrawnLaw& drawn) {
+  const Responses on_grid = responses(drawn);
+  const control::LoopEvaluator evaluator(drawn.problem.plant, on_grid.frequency,
+                                         drawn.problem.delay, drawn.problem.noise,
+                                         Eigen::ArrayXd::Zero(on_grid.frequency.size()));
+  const Eigen::ArrayXd transmission = evaluator.wind_transmission(drawn.law);
+  return {open_loop_figure(drawn, on_grid), nyquist_figure(drawn, on_grid),
+          sensitivity_figure(drawn, on_grid), rejection_figure(drawn, on_grid, transmission),
+          error_figure(drawn, on_grid, transmission)};
+}
+
+Figure rms_against_wind(const std::string& id, const std::string& section,
+                        const design::TrackingProblem& problem,
+                        const std::vector<ComparedLaw>& laws,
+                        const std::vector<PointingBudget>& budgets) {
+  Figure figure;
+  figure.id = id;
+  figure.section = section;
+  figure.title = "Beam rms against wind speed";
+  figure.caption = fmt::format(
+      "Beam rms at the sky, one axis, with the gains held; lines are the budgets of each band, "
+      "circles the speeds up to which {} meets them. Wind model {}, linear plant with friction "
+      "{:g} "
+      "N.m.s/rad; what the supply or the valve cannot give is not counted.",
+      laws.empty() ? "a law" : laws.front().name, plant::to_string(problem.wind.model),
+      problem.plant.drive.viscous_friction);
+  figure.x = {.label = "mean wind speed", .unit = "m/s"};
+  FigurePanel panel;
+  panel.y = {.label = "beam rms", .unit = "mdeg"};
+  double largest = 0.0;
+  for (const auto& budget : budgets) {
+    const double rms = budget.rms / millidegree;
+    largest = std::max(largest, rms);
+    panel.lines.push_back(
+        {FigureLine::Direction::horizontal, rms, fmt::format("{}, {}", budget.band, budget.name)});
+  }
+  const control::LoopEvaluator evaluator = design::make_evaluator(problem);
+  double fastest = 1.5 * problem.wind.mean_speed;
+  for (std::size_t i = 0; i < laws.size(); ++i) {
+    for (const auto& budget : budgets) {
+      const double limit = design::wind_speed_limit(problem, evaluator, laws[i].law,
+                                                    laws[i].noise_variance, budget.rms);
+      if (!(limit > 0.0) || !std::isfinite(limit)) continue;
+      fastest = std::max(fastest, std::min(1.08 * limit, 3.0 * problem.wind.mean_speed));
+      if (i > 0) continue;
+      panel.marks.push_back({limit, budget.rms / millidegree, fmt::format("{:.1f} m/s", limit)});
+    }
+  }
+  for (const auto& law : laws) {
+    FigureSeries series{.name = law.name};
+    const Eigen::ArrayXd transmission = evaluator.wind_transmission(law.law);
+    constexpr int points = 60;
+    for (int i = 1; i <= points; ++i) {
+      const double speed = fastest * i / points;
+      series.x.push_back(speed);
+      series.y.push_back(
+          design::beam_rms_at_speed(problem, evaluator, transmission, law.noise_variance, speed) /
+          millidegree);
+    }
+    panel.series.push_back(std::move(series));
+  }
+  if (largest > 0.0) panel.y.highest = 1.6 * largest;
+  panel.y.lowest = 0.0;
+  figure.panels.push_back(std::move(panel));
+  return figure;
+}
+
+Figure compared_sensitivities(const std::string& id, const std::string& section,
+                              const design::TrackingProblem& problem,
+                              const std::vector<ComparedLaw>& laws, control::LoopBreak loop_break,
+                              double goal) {
+  Figure figure;
+  figure.id = id;
+  figure.section = section;
+  figure.title = fmt::format("Sensitivity of the candidates, {}", control::to_string(loop_break));
+  figure.caption = fmt::format(
+      "Magnitude of 1/(1 + L) with the loop cut at the {}, on the case's plant, linear, friction "
+      "{:g} N.m.s/rad; the goal holds for every frequency.",
+      control::to_string(loop_break), problem.plant.drive.viscous_friction);
+  figure.x = frequency_axis();
+  FigurePanel panel;
+  panel.y = {.label = "|S|", .scale = AxisScale::logarithmic, .lowest = 1e-3};
+  for (const auto& law : laws) {
+    const Eigen::ArrayXd frequency = law_grid(problem, law.law);
+    const auto response = plant::plant_response(problem.plant, frequency);
+    FigureSeries series{.name = law.name, .x = in_hertz(frequency)};
+    for (Eigen::Index i = 0; i < frequency.size(); ++i) {
+      const auto gain = control::loop_gain(plant::point(response, i), frequency[i], law.law,
+                                           problem.delay, loop_break);
+      series.y.push_back(1.0 / std::abs(1.0 + gain));
+    }
+    panel.series.push_back(std::move(series));
+  }
+  panel.lines.push_back(
+      {FigureLine::Direction::horizontal, goal, fmt::format("at most {:g}", goal)});
+  figure.panels.push_back(std::move(panel));
+  return figure;
+}
+
+}  // namespace boresight::app

@@ -1,0 +1,54 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <boresight/app/figures/figure.hpp>
+#include <boresight/app/redesign/antenna_model.hpp>
+#include <boresight/control/control_law.hpp>
+#include <boresight/control/margins.hpp>
+#include <boresight/design/goals.hpp>
+#include <boresight/design/tracking_problem.hpp>
+
+namespace boresight::app {
+
+/// A law on a plant, as its figures are to show it.
+struct DrawnLaw {
+  std::string id;       // what the figures' ids begin with
+  std::string section;  // heading under which they stand
+  std::string name;     // of the law, in captions: "PI with lag"
+  design::TrackingProblem problem;
+  control::ControlLaw law;
+  std::array<control::Margins, 3> margins;  // by control::loop_breaks
+  design::HardGoals goals;
+  double noise_variance = 0.0;  // of the beam, rad^2 of motor
+};
+
+/// Open loop (Bode and Nyquist) and sensitivity at the three breaks with crossovers, disks and
+/// goals; wind torque to beam with the loops open and closed; spectrum of the beam's error with its
+/// rms from the lowest frequency on. Each on a grid that resolves the poles of plant and closed
+/// loop.
+std::vector<Figure> law_figures(const DrawnLaw& drawn);
+
+/// One of several laws that are drawn side by side.
+struct ComparedLaw {
+  std::string name;
+  control::ControlLaw law;
+  double noise_variance = 0.0;  // rad^2 of motor
+};
+
+/// Beam rms of laws with their gains held against mean wind speed, with the budgets as lines and
+/// marks where the first law meets them.
+Figure rms_against_wind(const std::string& id, const std::string& section,
+                        const design::TrackingProblem& problem,
+                        const std::vector<ComparedLaw>& laws,
+                        const std::vector<PointingBudget>& budgets);
+
+/// Magnitudes of the sensitivity of laws at one break, with its goal.
+Figure compared_sensitivities(const std::string& id, const std::string& section,
+                              const design::TrackingProblem& problem,
+                              const std::vector<ComparedLaw>& laws, control::LoopBreak loop_break,
+                              double goal);
+
+}  // namespace boresight::app

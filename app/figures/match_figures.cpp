@@ -1,0 +1,276 @@
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include <fmt/format.h>
+
+#include <boresight/app/figures/match_figures.hpp>
+#include <boresight/app/report/sky_units.hpp>
+
+namespace boresight::app {
+namespace {
+
+constexpr double undefined = std::numeric_limits<double>::quiet_NaN();
+
+std::string conditions(const MatchSection& section) {
+  return fmt::format(
+      "{:g} m/s, wind model {}, linear plant with friction {:.3g} N.m.s/rad, every goal held on {} "
+      "plants.",
+      section.wind_speed, plant::to_string(section.wind_model), section.friction,
+      std::max<std::size_t>(section.members, 1));
+}
+
+Figure started(const char* id, const char* title, std::string caption) {
+  Figure figure;
+  figure.id = id;
+  figure.section = "Inertia matching";
+  figure.title = title;
+  figure.caption = std::move(caption);
+  figure.x = {.label = "flywheel disks on each motor"};
+  return figure;
+}
+
+// The rule without its reasons, which the report states: labels along lines are short.
+std::string short_name(const RuleVerdict& rule) {
+  return fmt::format("{} (R = {:.3g})", rule.rule.substr(0, rule.rule.find_first_of(",:")),
+                     rule.motor_to_load_ratio);
+}
+
+void add_rules(const MatchSection& section, Figure& figure) {
+  for (auto& panel : figure.panels) {
+    const bool first = &panel == &figure.panels.front();
+    for (const auto& rule : section.rules) {
+      if (!rule.disks || *rule.disks > section.points.back().disks) continue;
+      panel.lines.push_back(
+          {FigureLine::Direction::vertical, *rule.disks, first ? short_name(rule) : std::string()});
+    }
+    for (const auto& point : section.points) {
+      if (point.label != "as built") continue;
+      panel.lines.push_back(
+          {FigureLine::Direction::vertical, point.disks, first ? point.label : std::string()});
+    }
+  }
+}
+
+// Numbers of the points on the even grid, which the kinks are counted by.
+std::vector<std::size_t> grid_points(const MatchSection& section) {
+  std::vector<std::size_t> points;
+  for (std::size_t i = 0; i < section.points.size(); ++i) {
+    if (section.points[i].on_grid) points.push_back(i);
+  }
+  return points;
+}
+
+Figure rms_figure(const MatchSection& section) {
+  Figure figure = started(
+      "match-rms", "Beam rms against the motors' inertia",
+      "Each structure re-tuned at each number of disks; a circle is its least, small points are "
+      "kinks, where another goal, plant or family of laws takes over. Vertical lines are the "
+      "classic rules. " +
+          conditions(section));
+  FigurePanel panel;
+  panel.y = {.label = "beam rms", .unit = "mdeg"};
+  FigureSeries kinks{.name = "kinks", .style = SeriesStyle::points};
+  const auto on_grid = grid_points(section);
+  for (const auto& series : section.series) {
+    FigureSeries curve{.name = series.name};
+    for (std::size_t i = 0; i < section.points.size(); ++i) {
+      curve.x.push_back(section.points[i].disks);
+      curve.y.push_back(series.values[i].found ? series.values[i].beam_rms / millidegree
+                                               : undefined);
+    }
+    for (const auto& kink : series.smoothness.kinks) {
+      if (kink.after + 1 >= on_grid.size()) continue;
+      const std::size_t a = on_grid[kink.after], b = on_grid[kink.after + 1];
+      kinks.x.push_back(0.5 * (curve.x[a] + curve.x[b]));
+      kinks.y.push_back(0.5 * (curve.y[a] + curve.y[b]));
+    }
+    if (series.best) {
+      panel.marks.push_back({curve.x[*series.best], curve.y[*series.best],
+                             fmt::format("{} {:.4f}", series.name, curve.y[*series.best])});
+    }
+    panel.series.push_back(std::move(curve));
+  }
+  if (!kinks.x.empty()) panel.series.push_back(std::move(kinks));
+  figure.panels.push_back(std::move(panel));
+  add_rules(section, figure);
+  return figure;
+}
+
+Figure plant_figure(const MatchSection& section) {
+  Figure figure = started(
+      "match-plant", "Hydraulic mode and what the drive can do, against the motors' inertia",
+      fmt::format("The hydraulic mode of the flexible antenna with the rule \u00bd\u221a(J_L/J_m) "
+                  "for its damping; the acceleration that the supply's torque leaves at the slew "
+                  "rate, and the time of a slew of {:.3g} deg at {:.3g} deg/s.",
+                  section.slew_distance * 180.0 / std::numbers::pi,
+                  section.slew_rate * 180.0 / std::numbers::pi));
+  FigurePanel frequency, damping, acceleration, time;
+  frequency.y = {.label = "hydraulic frequency", .unit = "Hz"};
+  damping.y = {.label = "damping ratio"};
+  acceleration.y = {.label = "acceleration at the sky", .unit = "deg/s\u00b2"};
+  time.y = {.label = "slew time", .unit = "s"};
+  FigureSeries found{.name = "hydraulic mode"},
+      rule{.name = "\u00bd\u221a(J_L/J_m)", .style = SeriesStyle::dashed};
+  FigureSeries hertz, ability, slew;
+  for (const auto& point : section.points) {
+    for (FigureSeries* series : {&found, &rule, &hertz, &ability, &slew}) {
+      series->x.push_back(point.disks);
+    }
+    hertz.y.push_back(point.hydraulic.frequency);
+    found.y.push_back(point.hydraulic.damping_ratio);
+    // Without flywheels the rule asks for more than any drive has: it would press the rest down.
+    rule.y.push_back(point.two_mass_damping <= 1.0 ? point.two_mass_damping : undefined);
+    ability.y.push_back(std::max(point.acceleration, 0.0) * 180.0 / std::numbers::pi);
+    slew.y.push_back(point.slew_time);
+  }
+  hertz.name = found.name;
+  frequency.series = {std::move(hertz)};
+  damping.series = {std::move(found), std::move(rule)};
+  acceleration.series = {std::move(ability)};
+  time.series = {std::move(slew)};
+  figure.panels = {std::move(frequency), std::move(damping), std::move(acceleration),
+                   std::move(time)};
+  add_rules(section, figure);
+  return figure;
+}
+
+Figure margins_figure(const MatchSection& section) {
+  Figure figure =
+      started("match-margins", "Margins of the tuned laws against the motors' inertia",
+              "The least margins over the three loop breaks, and the lowest frequency at which the "
+              "position loop's |S| reaches 0.71, on the case's plant. " +
+                  conditions(section));
+  figure.panels.resize(4);
+  figure.panels[0].y = {.label = "phase margin", .unit = "deg"};
+  figure.panels[1].y = {.label = "gain margin, up", .unit = "dB"};
+  figure.panels[2].y = {.label = "delay margin", .unit = "ms"};
+  figure.panels[3].y = {.label = "position loop bandwidth", .unit = "Hz"};
+  for (const auto& series : section.series) {
+    std::vector<FigureSeries> curves(figure.panels.size(), FigureSeries{.name = series.name});
+    for (std::size_t i = 0; i < section.points.size(); ++i) {
+      const MatchValue& value = series.values[i];
+      double phase = undefined, gain = undefined, delay = undefined;
+      if (value.found) {
+        for (const auto& margins : value.margins) {
+          phase = std::fmin(phase, margins.phase_margin_deg);
+          gain = std::fmin(gain, 20.0 * std::log10(margins.increasing_gain_margin));
+          delay = std::fmin(delay, 1e3 * margins.delay_margin);
+        }
+      }
+      const double shown[] = {phase, gain, delay, value.found ? value.bandwidth : undefined};
+      for (std::size_t k = 0; k < curves.size(); ++k) {
+        curves[k].x.push_back(section.points[i].disks);
+        curves[k].y.push_back(shown[k]);
+      }
+    }
+    for (std::size_t k = 0; k < curves.size(); ++k) {
+      figure.panels[k].series.push_back(std::move(curves[k]));
+    }
+  }
+  return figure;
+}
+
+Figure friction_figure(const MatchSection& section) {
+  Figure figure = started(
+      "match-friction", "Reversals and limit cycles of the tuned laws",
+      fmt::format("On the nonlinear antenna in still air, with its friction curve: the largest "
+                  "encoder error after reversals of {:.4g} mdeg/s, and the amplitude of the limit "
+                  "cycle at rest (0: none).",
+                  section.tracking_rate / millidegree));
+  figure.panels.resize(2);
+  figure.panels[0].y = {.label = "error after reversals", .unit = "mdeg"};
+  figure.panels[1].y = {.label = "limit cycle at rest", .unit = "mdeg"};
+  for (const auto& series : section.series) {
+    FigureSeries reversal{.name = series.name, .style = SeriesStyle::line_and_points};
+    FigureSeries cycle = reversal;
+    for (std::size_t i = 0; i < section.points.size(); ++i) {
+      const auto& run = series.values[i].time_domain;
+      if (!run) continue;
+      if (run->reversal && run->reversal->status == design::RunStatus::complete) {
+        reversal.x.push_back(section.points[i].disks);
+        reversal.y.push_back(run->reversal->encoder_error / millidegree);
+      }
+      if (!run->hunting.empty() && run->hunting.front().status == design::RunStatus::complete) {
+        const auto& rest = run->hunting.front();
+        cycle.x.push_back(section.points[i].disks);
+        cycle.y.push_back(rest.limit_cycle ? rest.encoder_amplitude / millidegree : 0.0);
+      }
+    }
+    if (!reversal.x.empty()) figure.panels[0].series.push_back(std::move(reversal));
+    if (!cycle.x.empty()) figure.panels[1].series.push_back(std::move(cycle));
+  }
+  return figure;
+}
+
+Figure variants_figure(const MatchSection& section, std::size_t number) {
+  const MatchVariants& variants = section.variants[number];
+  Figure figure = started(
+      fmt::format("match-variants-{}", number + 1).c_str(), "",
+      fmt::format("Least beam rms of {} along the axis when one thing is not as the case has it, "
+                  "tuned on that plant alone; a circle is the least of each curve. {:g} m/s.",
+                  variants.structure, section.wind_speed));
+  figure.title = fmt::format("What moves the optimum: {}", variants.structure);
+  FigurePanel panel;
+  panel.y = {.label = "beam rms", .unit = "mdeg"};
+  for (const auto& variant : variants.variants) {
+    FigureSeries series{.name = variant.name, .style = SeriesStyle::line_and_points};
+    for (std::size_t i = 0; i < variants.disks.size(); ++i) {
+      series.x.push_back(variants.disks[i]);
+      series.y.push_back(variant.rms[i] / millidegree);
+    }
+    if (variant.best) panel.marks.push_back({series.x[*variant.best], series.y[*variant.best], ""});
+    panel.series.push_back(std::move(series));
+  }
+  figure.panels.push_back(std::move(panel));
+  return figure;
+}
+
+Figure rules_figure(const MatchSection& section) {
+  Figure figure = started("match-rules", "What each rule costs",
+                          "Beam rms with the number of disks that a rule asks for, over the least "
+                          "of each structure along the axis, less 1. " +
+                              conditions(section));
+  figure.x = {.label = "more rms than at the best inertia", .unit = "%"};
+  FigurePanel panel;
+  for (const auto& rule : section.rules) {
+    if (rule.disks) panel.y.categories.push_back(rule.rule);
+  }
+  for (std::size_t s = 0; s < section.series.size(); ++s) {
+    FigureSeries bars{.name = section.series[s].name, .style = SeriesStyle::bars};
+    double place = 0.0;
+    for (const auto& rule : section.rules) {
+      if (!rule.disks) continue;
+      if (s < rule.cost.size() && std::isfinite(rule.cost[s])) {
+        bars.x.push_back(100.0 * rule.cost[s]);
+        bars.y.push_back(place);
+      }
+      place += 1.0;
+    }
+    if (!bars.x.empty()) panel.series.push_back(std::move(bars));
+  }
+  figure.panels.push_back(std::move(panel));
+  return figure;
+}
+
+bool has_series(const Figure& figure) {
+  return std::any_of(figure.panels.begin(), figure.panels.end(),
+                     [](const auto& panel) { return !panel.series.empty(); });
+}
+
+}  // namespace
+
+std::vector<Figure> match_figures(const MatchSection& section) {
+  if (section.points.empty()) return {};
+  std::vector<Figure> figures{rms_figure(section), plant_figure(section), margins_figure(section)};
+  figures.push_back(friction_figure(section));
+  for (std::size_t i = 0; i < section.variants.size(); ++i) {
+    figures.push_back(variants_figure(section, i));
+  }
+  figures.push_back(rules_figure(section));
+  std::erase_if(figures, [](const Figure& figure) { return !has_series(figure); });
+  return figures;
+}
+
+}  // namespace boresight::app

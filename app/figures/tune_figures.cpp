@@ -1,0 +1,203 @@
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <boresight/app/figures/law_figures.hpp>
+#include <boresight/app/figures/tune_figures.hpp>
+#include <boresight/app/report/sky_units.hpp>
+#include <boresight/app/tune/tune_study.hpp>
+
+namespace boresight::app {
+namespace {
+
+constexpr std::size_t most_compared = 6;  // laws in one panel
+constexpr std::size_t valve = 1;          // of control::loop_breaks
+
+std::string name_of(const TunedLaw& law) {
+  return fmt::format("{}, {}", law.structure, to_string(law.tuned_for));
+}
+
+std::string title_of(const TuneSection& section) {
+  return fmt::format("Tuned loops: {}, wind model {}", fmt::join(section.structures, ", "),
+                     plant::to_string(section.wind_model));
+}
+
+std::vector<std::string> all_structures(const TuneSection& section) {
+  std::vector<std::string> names;
+  for (const auto& law : section.laws) {
+    if (std::find(names.begin(), names.end(), law.structure) == names.end()) {
+      names.push_back(law.structure);
+    }
+  }
+  return names;
+}
+
+Figure structures_figure(const TuneSection& section, double wind_speed,
+                         const std::optional<TimeDomainSection>& in_time) {
+  Figure figure;
+  figure.id = "structures";
+  figure.section = title_of(section);
+  figure.title = "Loop structures side by side";
+  figure.caption = fmt::format(
+      "Beam rms at the sky in {:g} m/s, wind model {}: gains the antenna runs on now, tuned for "
+      "the "
+      "case's plant, tuned so that every hard goal holds on {} plants ({}); all on the linear "
+      "plant{}.",
+      wind_speed, plant::to_string(section.wind_model), section.ensemble_size,
+      section.ensemble_source,
+      in_time ? "; last those that ran on the nonlinear antenna, over one record of wind" : "");
+  figure.x = {.label = "loop structure", .categories = all_structures(section)};
+  const auto place_of = [&](const std::string& structure) {
+    const auto& names = figure.x.categories;
+    return static_cast<double>(std::find(names.begin(), names.end(), structure) - names.begin());
+  };
+  FigurePanel panel;
+  panel.y = {.label = "beam rms", .unit = "mdeg"};
+  for (const auto purpose : {TunedFor::present, TunedFor::nominal, TunedFor::robust}) {
+    FigureSeries bars{.name = std::string(to_string(purpose)), .style = SeriesStyle::bars};
+    for (const auto& law : section.laws) {
+      if (law.tuned_for != purpose || law.wind_speed != wind_speed || !law.stable()) continue;
+      bars.x.push_back(place_of(law.structure));
+      bars.y.push_back(law.beam_rms / millidegree);
+    }
+    if (!bars.x.empty()) panel.series.push_back(std::move(bars));
+  }
+  if (in_time && in_time->wind_speed == wind_speed) {
+    FigureSeries bars{.name = "nonlinear antenna", .style = SeriesStyle::bars};
+    const auto add = [&](const std::string& name, const design::NonlinearVerification& result) {
+      for (const auto& law : section.laws) {
+        if (name_of(law) != name || law.wind_speed != wind_speed) continue;
+        bars.x.push_back(place_of(law.structure));
+        bars.y.push_back(result.wind.beam_rms / millidegree);
+      }
+    };
+    for (const auto& candidate : in_time->candidates) add(candidate.law, candidate.result);
+    if (in_time->candidates.empty()) add(in_time->law, in_time->result);
+    bars.name = fmt::format("{} on the nonlinear antenna",
+                            in_time->law.substr(in_time->law.rfind(' ') + 1));
+    if (!bars.x.empty()) panel.series.push_back(std::move(bars));
+  }
+  for (const auto& budget : section.budgets) {
+    const double rms = budget.rms / millidegree;
+    // Budgets far above every bar would press the bars down.
+    const bool near =
+        std::any_of(panel.series.begin(), panel.series.end(), [&](const FigureSeries& series) {
+          return std::any_of(series.y.begin(), series.y.end(),
+                             [&](double y) { return rms < 1.5 * y; });
+        });
+    if (!near) continue;
+    panel.lines.push_back(
+        {FigureLine::Direction::horizontal, rms, fmt::format("{}, {}", budget.band, budget.name)});
+  }
+  figure.panels.push_back(std::move(panel));
+  return figure;
+}
+
+// The law that the report is about: that chosen on the nonlinear antenna where there was a choice.
+const TunedLaw* shown_law(const TuneSection& section,
+                          const std::optional<TimeDomainSection>& in_time) {
+  const TunedLaw* best = best_law(section);
+  if (best == nullptr || !in_time) return best;
+  for (const auto& law : section.laws) {
+    if (name_of(law) == in_time->law && law.wind_speed == best->wind_speed && law.usable()) {
+      return &law;
+    }
+  }
+  return best;
+}
+
+std::vector<ComparedLaw> compared_laws(const TuneSection& section, const TunedLaw& first) {
+  const auto compared = [](const TunedLaw& law) {
+    return ComparedLaw{name_of(law), law.design.tuning.law,
+                       law.design.tuning.evaluation.noise_variance};
+  };
+  std::vector<ComparedLaw> laws{compared(first)};
+  for (const auto& law : section.laws) {
+    if (&law == &first || laws.size() == most_compared) continue;
+    const bool present = law.tuned_for == TunedFor::present && law.stable();
+    const bool alike = law.tuned_for == first.tuned_for && law.usable();
+    if (law.wind_speed == first.wind_speed && (present || alike)) laws.push_back(compared(law));
+  }
+  return laws;
+}
+
+}  // namespace
+
+std::vector<Figure> tune_figures(const TuneSection& section,
+                                 const std::optional<TimeDomainSection>& in_time) {
+  std::vector<Figure> figures;
+  const bool any = std::any_of(section.laws.begin(), section.laws.end(),
+                               [](const TunedLaw& law) { return law.stable(); });
+  if (!any || section.wind_speeds.empty()) return figures;
+  const TunedLaw* shown = shown_law(section, in_time);
+  const double wind_speed = shown != nullptr ? shown->wind_speed : section.wind_speeds.front();
+  figures.push_back(structures_figure(section, wind_speed, in_time));
+  if (shown == nullptr) return figures;
+  design::TrackingProblem problem = section.problem;
+  problem.wind.mean_speed = wind_speed;
+  const auto laws = compared_laws(section, *shown);
+  figures.push_back(
+      rms_against_wind("rms-against-wind", title_of(section), problem, laws, section.budgets));
+  if (laws.size() > 1) {
+    figures.push_back(compared_sensitivities("candidate-sensitivities", title_of(section), problem,
+                                             laws, control::loop_breaks.at(valve),
+                                             section.goals.sensitivity_peak.at(valve)));
+  }
+  auto of_law = law_figures({.id = "law",
+                             .section = title_of(section),
+                             .name = name_of(*shown),
+                             .problem = problem,
+                             .law = shown->design.tuning.law,
+                             .margins = shown->design.margins,
+                             .goals = section.goals,
+                             .noise_variance = shown->design.tuning.evaluation.noise_variance});
+  std::move(of_law.begin(), of_law.end(), std::back_inserter(figures));
+  return figures;
+}
+
+std::vector<Figure> limit_figures(const design::PointingLimit& limit) {
+  Figure figure;
+  figure.id = "limit";
+  figure.section = "How far from the best any controller could do";
+  figure.title = "Laws against the best that any controller could do";
+  figure.caption = fmt::format(
+      "Beam rms at the sky of each controller in its sampled form ({:g} s), on the case's plant "
+      "and "
+      "as the largest over the plants on which it must hold; a controller without a second point "
+      "is "
+      "unstable on one of them. The lower bound is that of every linear controller of the same "
+      "sensors and sampling whose noise drives the valve with at most {:g} rad/s rms.",
+      limit.sample_time, limit.effort_limit);
+  figure.x = {.label = "beam rms", .unit = "mdeg"};
+  FigurePanel panel;
+  FigureSeries nominal{.name = "case's plant", .style = SeriesStyle::points};
+  FigureSeries worst{.name = "worst plant", .style = SeriesStyle::points};
+  const auto add = [&](const std::string& name, const design::SampledDesign& design) {
+    if (!design.nominal.stable()) return;
+    const auto place = static_cast<double>(panel.y.categories.size());
+    panel.y.categories.push_back(name);
+    nominal.x.push_back(design.nominal.beam_rms / millidegree);
+    nominal.y.push_back(place);
+    worst.x.push_back(design.worst_rms / millidegree);
+    worst.y.push_back(place);
+  };
+  add("LQG, unconstrained", limit.unconstrained);
+  if (limit.margin_limited) {
+    add(fmt::format("LQG, S valve <= {:g}", limit.peak_limit), limit.margin_limited->design);
+  }
+  if (limit.robustified) add("LQG, robust over the plants", limit.robustified->design);
+  for (const auto& law : limit.laws) add(law.name, law.design);
+  panel.series = {std::move(nominal), std::move(worst)};
+  panel.lines.push_back(
+      {FigureLine::Direction::vertical, limit.least_rms / millidegree, "lower bound"});
+  panel.lines.push_back({FigureLine::Direction::vertical, limit.encoder_held_rms / millidegree,
+                         "encoder held still"});
+  figure.x.lowest = 0.0;
+  figure.panels.push_back(std::move(panel));
+  return {figure};
+}
+
+}  // namespace boresight::app

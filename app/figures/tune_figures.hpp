@@ -1,0 +1,22 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include <boresight/app/figures/figure.hpp>
+#include <boresight/app/simulate/time_domain.hpp>
+#include <boresight/app/tune/tune_section.hpp>
+#include <boresight/design/pointing_limit.hpp>
+
+namespace boresight::app {
+
+/// Structures side by side, their rms against wind speed, their sensitivities, and the law_figures
+/// of the best law: of those that meet all they must, robust ones before others, the one of least
+/// rms at the design's wind speed. `in_time`: laws on the nonlinear antenna, if they were run.
+std::vector<Figure> tune_figures(const TuneSection& section,
+                                 const std::optional<TimeDomainSection>& in_time);
+
+/// Laws and LQG benchmarks against the lower bound.
+std::vector<Figure> limit_figures(const design::PointingLimit& limit);
+
+}  // namespace boresight::app

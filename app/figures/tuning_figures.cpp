@@ -1,0 +1,124 @@
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <fmt/format.h>
+
+#include <boresight/app/figures/law_figures.hpp>
+#include <boresight/app/figures/tuning_figures.hpp>
+#include <boresight/app/report/sky_units.hpp>
+
+namespace boresight::app {
+namespace {
+
+constexpr double undefined = std::numeric_limits<double>::quiet_NaN();
+
+double rms_of(const design::Design& design) {
+  return design.tuning.status == design::TuningStatus::unstable ? undefined
+                                                                : design.beam_rms / millidegree;
+}
+
+}  // namespace
+
+std::vector<Figure> tuning_figures(const TuningSection& section) {
+  const design::Design& design = section.design;
+  if (design.tuning.status == design::TuningStatus::unstable) return {};
+  const std::string title = fmt::format("Tuned loops: {}, as built, {:g} m/s, wind model {}",
+                                        control::to_string(section.structure), section.design_speed,
+                                        plant::to_string(section.wind_model));
+  const std::string name(control::to_string(section.structure));
+  const double noise = design.tuning.evaluation.noise_variance;
+  auto figures = law_figures({.id = "tuned",
+                              .section = title,
+                              .name = name,
+                              .problem = section.problem,
+                              .law = design.tuning.law,
+                              .margins = design.margins,
+                              .goals = section.goals,
+                              .noise_variance = noise});
+  std::vector<PointingBudget> budgets;
+  for (const auto& result : section.budgets) budgets.push_back(result.budget);
+  figures.push_back(rms_against_wind("tuned-rms-against-wind", title, section.problem,
+                                     {{name, design.tuning.law, noise}}, budgets));
+  return figures;
+}
+
+std::vector<Figure> choices_figures(const std::vector<ChoiceResult>& choices) {
+  Figure figure;
+  figure.id = "choices";
+  figure.section = "Where the case's numbers contradict each other: what each choice would do";
+  figure.title = "Beam rms by each choice among contradictory numbers";
+  figure.caption =
+      "Each choice's plant, with the same loop structure re-tuned on it, at the design wind speed, "
+      "linear; a choice without a bar leaves no plant.";
+  figure.x = {.label = "beam rms", .unit = "mdeg"};
+  FigurePanel panel;
+  FigureSeries bars{.style = SeriesStyle::bars};
+  for (const auto& choice : choices) {
+    bars.y.push_back(static_cast<double>(panel.y.categories.size()));
+    bars.x.push_back(choice.design ? rms_of(*choice.design) : undefined);
+    panel.y.categories.push_back(choice.name);
+  }
+  if (!bars.x.empty() && std::isfinite(bars.x.front())) {
+    panel.lines.push_back({FigureLine::Direction::vertical, bars.x.front(), ""});
+  }
+  if (std::none_of(bars.x.begin(), bars.x.end(), [](double x) { return std::isfinite(x); })) {
+    return {};
+  }
+  panel.series.push_back(std::move(bars));
+  figure.panels.push_back(std::move(panel));
+  return {figure};
+}
+
+std::vector<Figure> matching_figures(const MatchingSection& section) {
+  Figure figure;
+  figure.id = "matching";
+  figure.section = "Inertia matching: re-tuned at each motor inertia";
+  figure.title = "Beam rms and hydraulic mode against flywheel disks";
+  figure.caption =
+      "Each point is a law re-tuned and verified at that motor inertia, by loop structure and "
+      "friction of the linear plant, at the design wind speed; below, the hydraulic mode of the "
+      "same plants. Vertical lines mark equal inertia of motors and load.";
+  figure.x = {.label = "flywheel disks on each motor"};
+  figure.panels.resize(3);
+  figure.panels[0].y = {.label = "beam rms", .unit = "mdeg"};
+  figure.panels[1].y = {.label = "hydraulic frequency", .unit = "Hz"};
+  figure.panels[2].y = {.label = "hydraulic damping ratio"};
+  for (const auto& series : section.series) {
+    FigureSeries rms{
+        .name = fmt::format("{}, {} ({:.3g} N.m.s/rad)", control::to_string(series.structure),
+                            series.friction, series.viscous_friction),
+        .style = SeriesStyle::line_and_points};
+    FigureSeries frequency{
+        .name = fmt::format("{} ({:.3g} N.m.s/rad)", series.friction, series.viscous_friction)};
+    FigureSeries damping = frequency;
+    for (std::size_t i = 0; i < section.rows.size(); ++i) {
+      const double disks = section.rows[i].disks;
+      rms.x.push_back(disks);
+      rms.y.push_back(rms_of(series.designs[i]));
+      frequency.x.push_back(disks);
+      frequency.y.push_back(series.designs[i].hydraulic_mode.frequency);
+      damping.x.push_back(disks);
+      damping.y.push_back(series.designs[i].hydraulic_mode.damping_ratio);
+    }
+    figure.panels[0].series.push_back(std::move(rms));
+    // The plant is the same whatever loop is closed on it.
+    const auto& drawn = figure.panels[1].series;
+    if (std::none_of(drawn.begin(), drawn.end(),
+                     [&](const auto& other) { return other.name == frequency.name; })) {
+      figure.panels[1].series.push_back(std::move(frequency));
+      figure.panels[2].series.push_back(std::move(damping));
+    }
+  }
+  for (const auto& row : section.rows) {
+    if (!row.label.starts_with("ratio")) continue;
+    for (auto& panel : figure.panels) {
+      const bool first = &panel == &figure.panels.front();
+      panel.lines.push_back(
+          {FigureLine::Direction::vertical, row.disks, first ? row.label : std::string()});
+    }
+  }
+  return {figure};
+}
+
+}  // namespace boresight::app

@@ -41,11 +41,17 @@ void require_lengths(const Figure& figure, const FigureSeries& series) {
   require("labels", series.labels.size(), true);
 }
 
+// By first appearance; a series without a name that is alone in its panel looks like the first.
 SeriesLooks looks_of(const Figure& figure) {
   SeriesLooks looks;
+  bool alone = true;
   for (const auto& panel : figure.panels) {
-    for (const auto& series : panel.series) looks.emplace(series.name, looks.size());
+    for (const auto& series : panel.series) {
+      if (!series.name.empty()) looks.emplace(series.name, looks.size());
+      if (series.name.empty() && panel.series.size() > 1) alone = false;
+    }
   }
+  looks.emplace("", alone ? 0 : looks.size());
   return looks;
 }
 

@@ -58,11 +58,20 @@ std::string conditions(const DrawnLaw& drawn) {
                      drawn.problem.plant.drive.viscous_friction);
 }
 
+// From where loops begin to work against the wind to the end of the band of the rms.
+FigureAxis shown_frequencies(const design::TrackingProblem& problem) {
+  FigureAxis axis = frequency_axis();
+  axis.lowest = std::max(1e-3, problem.rms_band.lowest);
+  axis.highest = problem.rms_band.highest;
+  return axis;
+}
+
 Figure started(const DrawnLaw& drawn, const char* id, const char* title) {
   Figure figure;
   figure.id = fmt::format("{}-{}", drawn.id, id);
   figure.section = drawn.section;
   figure.title = title;
+  figure.x = shown_frequencies(drawn.problem);
   return figure;
 }
 
@@ -76,12 +85,16 @@ Figure open_loop_figure(const DrawnLaw& drawn, const Responses& on_grid) {
       "Loop gain cut in the rate loop with the position loop open, at the valve command and in the "
       "position loop; circles are crossovers of unit gain with their phase margins. " +
       conditions(drawn);
-  figure.x = frequency_axis();
   std::vector<NamedResponse> loops;
   for (std::size_t b = 0; b < 3; ++b) loops.push_back({break_name(b), on_grid.gain.at(b)});
   figure.panels = bode_panels(on_grid.frequency, loops, "loop gain");
   FigurePanel& gain = figure.panels[0];
   FigurePanel& phase = figure.panels[1];
+  gain.y.lowest = -60.0;
+  gain.y.highest = 80.0;
+  // Dead time turns on for ever where nothing is left of the gain.
+  phase.y.lowest = -720.0;
+  phase.y.highest = 90.0;
   gain.lines.push_back({FigureLine::Direction::horizontal, 0.0, ""});
   phase.lines.push_back({FigureLine::Direction::horizontal, -180.0, ""});
   for (const auto& margins : drawn.margins) {
@@ -145,7 +158,6 @@ Figure sensitivity_figure(const DrawnLaw& drawn, const Responses& on_grid) {
       "Magnitude of 1/(1 + L) at the three breaks with its goal; below, the torque spectrum of the "
       "wind times frequency: equal areas are equal shares of the torque's variance. " +
       conditions(drawn);
-  figure.x = frequency_axis();
   figure.panels.resize(2);
   FigurePanel& sensitivity = figure.panels[0];
   sensitivity.y = {.label = "|S|", .scale = AxisScale::logarithmic, .lowest = 1e-3};
@@ -168,7 +180,8 @@ Figure sensitivity_figure(const DrawnLaw& drawn, const Responses& on_grid) {
         {FigureLine::Direction::horizontal, goal, fmt::format("at most {:g}", goal)});
   }
   FigurePanel& wind = figure.panels[1];
-  wind.y = {.label = "wind torque about the axis: frequency x spectrum", .unit = "(kN.m)\u00b2"};
+  wind.y = {.label = "wind torque about the axis: frequency \u00d7 spectrum",
+            .unit = "kN\u00b2.m\u00b2"};
   const double to_axis = 1e-3 * drawn.problem.gear_ratio;
   const Eigen::ArrayXd spectrum = design::motor_wind_spectrum(drawn.problem, on_grid.frequency);
   wind.series.push_back(
@@ -184,7 +197,6 @@ Figure rejection_figure(const DrawnLaw& drawn, const Responses& on_grid,
       "perfectly "
       "still there would remain the bending that no encoder sees. " +
       conditions(drawn);
-  figure.x = frequency_axis();
   FigurePanel panel;
   panel.y = {.label = "beam at the sky per torque about the axis",
              .unit = "mdeg/(kN.m)",
@@ -238,12 +250,11 @@ Figure error_figure(const DrawnLaw& drawn, const Responses& on_grid,
       "Amplitude density of the beam's error by wind at the sky, and its rms over all frequencies "
       "up to each, {:.4f} mdeg in all; sensor noise adds {:.4f} mdeg in the root of squares. {}",
       std::sqrt(variance), noise, conditions(drawn));
-  figure.x = frequency_axis();
   figure.panels.resize(2);
   figure.panels[0].y = {
       .label = "beam error by wind", .unit = "mdeg/\u221aHz", .scale = AxisScale::logarithmic};
   if (!density.empty()) {
-    figure.panels[0].y.lowest = 1e-5 * *std::max_element(density.begin(), density.end());
+    figure.panels[0].y.lowest = 1e-4 * *std::max_element(density.begin(), density.end());
   }
   figure.panels[0].series.push_back({.x = hertz, .y = density});
   figure.panels[1].y = {.label = "rms up to this frequency", .unit = "mdeg"};
@@ -332,7 +343,7 @@ Figure compared_sensitivities(const std::string& id, const std::string& section,
       "Magnitude of 1/(1 + L) with the loop cut at the {}, on the case's plant, linear, friction "
       "{:g} N.m.s/rad; the goal holds for every frequency.",
       control::to_string(loop_break), problem.plant.drive.viscous_friction);
-  figure.x = frequency_axis();
+  figure.x = shown_frequencies(problem);
   FigurePanel panel;
   panel.y = {.label = "|S|", .scale = AxisScale::logarithmic, .lowest = 1e-3};
   for (const auto& law : laws) {

@@ -15,10 +15,10 @@ constexpr double undefined = std::numeric_limits<double>::quiet_NaN();
 
 std::string conditions(const MatchSection& section) {
   return fmt::format(
-      "{:g} m/s, wind model {}, linear plant with friction {:.3g} N.m.s/rad, every goal held on {} "
-      "plants.",
+      "{:g} m/s, wind model {}, linear plant with friction {:.3g} N.m.s/rad, every goal held on "
+      "{}.",
       section.wind_speed, plant::to_string(section.wind_model), section.friction,
-      std::max<std::size_t>(section.members, 1));
+      section.members == 0 ? "the case's plant" : fmt::format("{} plants", section.members));
 }
 
 Figure started(const char* id, const char* title, std::string caption) {
@@ -33,7 +33,8 @@ Figure started(const char* id, const char* title, std::string caption) {
 
 // The rule without its reasons, which the report states: labels along lines are short.
 std::string short_name(const RuleVerdict& rule) {
-  return fmt::format("{} (R = {:.3g})", rule.rule.substr(0, rule.rule.find_first_of(",:")),
+  const std::string name = rule.rule.substr(0, rule.rule.find_first_of(",:"));
+  return fmt::format("{} (R = {:.2g})", name.substr(0, name.find(" at ")),
                      rule.motor_to_load_ratio);
 }
 

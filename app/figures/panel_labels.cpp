@@ -50,7 +50,7 @@ std::string text_in(const Box& box, const std::string& text, const char* colour)
 // Places all around a point, the nearer the better, right above it the best.
 std::vector<LabelPlace> around(double x, double y, double width, double reach) {
   std::vector<LabelPlace> places;
-  const double height = line_height;
+  constexpr double height = line_height;
   for (const double distance : {6.0, 14.0, 24.0, 36.0, 52.0, 72.0, 96.0, 124.0}) {
     if (distance > reach) break;
     const double diagonal = 0.7 * distance;
@@ -110,22 +110,36 @@ std::string horizontal_label(const FigureLine& line, const PlacedPanel& placed,
                  line.label, "#333");
 }
 
+// Along the line, reading upwards; beside it where the panel is too low for that or all is taken.
 std::string vertical_label(const FigureLine& line, const PlacedPanel& placed,
                            LabelPlacement& placement) {
   const double x = placed.x.at(line.at);
   const double width = text_width(line.label, label_text);
   std::vector<LabelPlace> places;
   const double room = placed.plot.bottom - placed.plot.top - width - 8.0;
-  for (int step = 0; step <= 8; ++step) {
-    const double top = placed.plot.top + 4.0 + std::max(0.0, room) * step / 8.0;
+  constexpr int steps = 8;
+  for (int step = 0; step <= steps && room > 0.0; ++step) {
+    const double top = placed.plot.top + 4.0 + room * step / steps;
     for (const double left : {x + 2.0, x - 2.0 - line_height}) {
       places.push_back({{left, top, left + line_height, top + width + 2.0},
                         0.4 * step + (left > x ? 0.0 : 0.3)});
     }
   }
+  const std::size_t upright = places.size();
+  const double height = placed.plot.bottom - placed.plot.top - line_height - 4.0;
+  for (int step = 0; step <= steps; ++step) {
+    const double foot = placed.plot.top + line_height + height * step / steps;
+    for (const double left : {x + 4.0, x - 4.0 - width}) {
+      places.push_back({text_box(left, foot, width), 6.0 + 0.4 * step + (left > x ? 0.0 : 0.3)});
+    }
+  }
   const auto chosen = placement.place(places);
-  const Box box = chosen ? places[*chosen].box : kept_within(places.front().box, placed.plot);
-  return halo_text(box.right - descent, box.bottom - 1.0, line.label, "#333", true);
+  if (chosen && *chosen < upright) {
+    const Box& box = places[*chosen].box;
+    return halo_text(box.right - descent, box.bottom - 1.0, line.label, "#333", true);
+  }
+  return text_in(chosen ? places[*chosen].box : kept_within(places[upright].box, placed.plot),
+                 line.label, "#333");
 }
 
 std::string circle_label(const FigureCircle& circle, const PlacedPanel& placed,
@@ -151,6 +165,8 @@ std::string circle_label(const FigureCircle& circle, const PlacedPanel& placed,
 
 std::string panel_labels_svg(const FigurePanel& panel, const PlacedPanel& placed,
                              const SeriesLooks& looks, LabelPlacement& placement) {
+  // So few points are all named, as marks are.
+  constexpr std::size_t few = 15;
   std::string svg;
   const auto shown = [&](double x, double y) { return placed.x.shows(x) && placed.y.shows(y); };
   for (const auto& mark : panel.marks) {
@@ -167,6 +183,14 @@ std::string panel_labels_svg(const FigurePanel& panel, const PlacedPanel& placed
     svg += named_point(placed.x.at(mark.x), placed.y.at(mark.y), mark.label, "#111", true, placed,
                        placement);
   }
+  for (const auto& series : panel.series) {
+    for (std::size_t i = 0; i < series.labels.size(); ++i) {
+      if (!shown(series.x[i], series.y[i])) continue;
+      svg += named_point(placed.x.at(series.x[i]), placed.y.at(series.y[i]), series.labels[i],
+                         series_look(looks.at(series.name)).colour, series.labels.size() <= few,
+                         placed, placement);
+    }
+  }
   for (const auto& line : panel.lines) {
     if (line.label.empty()) continue;
     if (line.direction == FigureLine::Direction::horizontal && placed.y.shows(line.at)) {
@@ -178,13 +202,6 @@ std::string panel_labels_svg(const FigurePanel& panel, const PlacedPanel& placed
   }
   for (const auto& circle : panel.circles) {
     if (!circle.label.empty()) svg += circle_label(circle, placed, placement);
-  }
-  for (const auto& series : panel.series) {
-    for (std::size_t i = 0; i < series.labels.size(); ++i) {
-      if (!shown(series.x[i], series.y[i])) continue;
-      svg += named_point(placed.x.at(series.x[i]), placed.y.at(series.y[i]), series.labels[i],
-                         series_look(looks.at(series.name)).colour, false, placed, placement);
-    }
   }
   return svg;
 }

@@ -17,7 +17,8 @@ struct SeriesLook {
   double hatch = 0.0;  // slope of the hatching of bars; 0: none
 };
 
-inline const SeriesLook& series_look(std::size_t index) {
+/// All different up to 64.
+inline SeriesLook series_look(std::size_t index) {
   static constexpr std::array<SeriesLook, 8> looks{
       {{"#0072b2", "", "5 3", 0, 0.85, 0.0},
        {"#d55e00", "9 3", "3.5 2.5", 1, 0.22, 1.0},
@@ -27,7 +28,12 @@ inline const SeriesLook& series_look(std::size_t index) {
        {"#e08e00", "9 2.5 2 2.5 2 2.5", "6 2 2 2 2 2", 5, 0.3, 0.5},
        {"#3a9bdc", "5 2", "3 3", 6, 0.15, 0.0},
        {"#7a7a7a", "14 3 2 3", "2 5", 7, 0.3, -0.5}}};
-  return looks.at(index % looks.size());
+  SeriesLook look = looks.at(index % looks.size());
+  const std::size_t round = index / looks.size();
+  look.dashes = looks.at((index + 3 * round) % looks.size()).dashes;
+  look.short_dashes = looks.at((index + 3 * round) % looks.size()).short_dashes;
+  look.marker = looks.at((index + 5 * round) % looks.size()).marker;
+  return look;
 }
 
 }  // namespace boresight::app

@@ -244,7 +244,7 @@ std::string marker_path(int shape, double x, double y, double size) {
 std::string curve_svg(const FigureSeries& series, std::size_t index, const PlotAxis& x,
                       const PlotAxis& y, bool along_x, const BarShare& share,
                       LabelPlacement& labels) {
-  const SeriesLook& look = series_look(index);
+  const SeriesLook look = series_look(index);
   if (series.style == SeriesStyle::bars) {
     return bars_svg(series, look, x, y, along_x, share, labels);
   }
@@ -278,7 +278,7 @@ std::string points_svg(const FigureSeries& series, std::size_t index, const Plot
                        const PlotAxis& y, LabelPlacement& labels) {
   if (series.style != SeriesStyle::points && series.style != SeriesStyle::line_and_points)
     return {};
-  const SeriesLook& look = series_look(index);
+  const SeriesLook look = series_look(index);
   // Many points are small, so that they stay points.
   const double size = series.x.size() > 200 ? 3.0 : series.x.size() > 60 ? 4.5 : 6.5;
   std::string whiskers, markers;
@@ -332,7 +332,7 @@ std::string points_svg(const FigureSeries& series, std::size_t index, const Plot
 }
 
 std::string legend_sample_svg(const FigureSeries& series, std::size_t index, double x, double y) {
-  const SeriesLook& look = series_look(index);
+  const SeriesLook look = series_look(index);
   if (series.style == SeriesStyle::bars) return bar_svg({x - 9.0, y - 5.0, x + 9.0, y + 5.0}, look);
   std::string svg;
   if (series.style != SeriesStyle::points) {

@@ -1,0 +1,177 @@
+"""Holds the figures of the JSON reports against the reports' own numbers, computed apart from them,
+and against what a figure must be.
+
+usage: report_figures_test.py PROGRAM SOURCE_FOLDER
+"""
+
+import bisect
+import math
+import re
+import sys
+import unittest
+
+from json_schema_test import BIG, TUNED, every_report, report, run
+
+
+def figures_of(found):
+    return {figure["id"]: figure for figure in found.get("figures", [])}
+
+
+def series_of(figure, panel, name=None):
+    for series in figure["panels"][panel]["series"]:
+        if name in (None, series["name"]):
+            return series
+    raise AssertionError(f"{figure['id']}: no series {name}")
+
+
+def at(series, x):
+    """The curve's value between its points, by straight lines."""
+    place = bisect.bisect_left(series["x"], x)
+    if place == len(series["x"]) or series["x"][place] == x:
+        return series["y"][min(place, len(series["x"]) - 1)]
+    share = (x - series["x"][place - 1]) / (series["x"][place] - series["x"][place - 1])
+    return (1 - share) * series["y"][place - 1] + share * series["y"][place]
+
+
+class Near(unittest.TestCase):
+    def assertNear(self, found, expected, relative):
+        self.assertLess(abs(found - expected), relative * abs(expected), f"{found} {expected}")
+
+
+class Figures(unittest.TestCase):
+    def test_are_there(self):
+        for command in ("model", "redesign", "evaluate", "match"):
+            self.assertGreater(len(figures_of(report(command))), 2, command)
+        self.assertGreater(len(figures_of(report("tune", TUNED))), 7)
+
+    def test_belong_to_a_section_and_say_their_conditions(self):
+        for command, case, found in every_report():
+            text = run(command, case, 1 if command == "match" else 2)[1]
+            ids = [figure["id"] for figure in found.get("figures", [])]
+            self.assertEqual(len(set(ids)), len(ids))
+            for figure in found.get("figures", []):
+                with self.subTest(command=command, case=case, figure=figure["id"]):
+                    self.assertRegex(text, rf"(?m)^{re.escape(figure['section'])}\n-+$")
+                    self.assertTrue(figure["title"])
+                    self.assertRegex(figure["caption"], r"^[^a-z].*\.$")
+
+    def test_have_points_that_can_be_drawn(self):
+        for command, case, found in every_report():
+            for figure in found.get("figures", []):
+                with self.subTest(command=command, case=case, figure=figure["id"]):
+                    self.assertTrue(figure["panels"])
+                    for panel in figure["panels"]:
+                        self.assertTrue(panel["series"])
+                        for series in panel["series"]:
+                            self.assertEqual(len(series["x"]), len(series["y"]))
+                            self.assertTrue(any(y is not None for y in series["y"]))
+                            for axis, values in ((figure["x"], series["x"]),
+                                                 (panel["y"], series["y"])):
+                                if axis["scale"] == "logarithmic":
+                                    self.assertTrue(any(v is not None and v > 0 for v in values))
+                                if "categories" in axis:
+                                    self.assertTrue(all(-0.5 < v < len(axis["categories"]) - 0.5
+                                                        for v in values if v is not None))
+
+
+class Law(Near):
+    def setUp(self):
+        self.found = report("redesign")
+        self.figures = figures_of(self.found)
+        self.design = self.found["tuning"]["design"]
+
+    def test_rms_against_wind_passes_through_design_and_budgets(self):
+        figure = self.figures["tuned-rms-against-wind"]
+        curve = series_of(figure, 0)
+        self.assertNear(at(curve, self.found["tuning"]["design_wind_speed_m_per_s"]),
+                        self.design["beam_rms_mdeg"], 3e-3)
+        marks = {round(mark["y"], 4): mark["x"] for mark in figure["panels"][0]["marks"]}
+        for budget in self.found["tuning"]["budgets"]:
+            self.assertNear(marks[round(budget["rms_mdeg"], 4)], budget["wind_speed_limit_m_per_s"],
+                            1e-5)
+            self.assertNear(at(curve, budget["wind_speed_limit_m_per_s"]), budget["rms_mdeg"], 3e-3)
+
+    def test_error_adds_up_to_the_rms(self):
+        total = series_of(self.figures["tuned-error-spectrum"], 1)["y"]
+        self.assertEqual(total, sorted(total))
+        self.assertNear(total[-1], self.design["wind_rms_mdeg"], 1e-3)
+
+    def test_sensitivity_peaks_where_the_verification_says(self):
+        figure = self.figures["tuned-sensitivity"]
+        for loop in self.design["loop_breaks"]:
+            curve = series_of(figure, 0, loop["loop_break"])
+            peak = max(curve["y"])
+            self.assertLess(peak, loop["sensitivity_peak_1"] * (1 + 1e-5))
+            self.assertNear(peak, loop["sensitivity_peak_1"], 2e-3)
+            self.assertNear(curve["x"][curve["y"].index(peak)],
+                            loop["sensitivity_peak_frequency_Hz"], 0.06)
+
+    def test_nyquist_curves_keep_the_distance_of_their_peaks(self):
+        figure = self.figures["tuned-nyquist"]
+        for loop in self.design["loop_breaks"]:
+            curve = series_of(figure, 0, loop["loop_break"])
+            distance = min(math.hypot(1 + x, y) for x, y in zip(curve["x"], curve["y"]))
+            self.assertNear(distance, 1 / loop["sensitivity_peak_1"], 2e-3)
+        disk = figure["panels"][0]["circles"][-1]
+        nearest = min(math.hypot(x - disk["x"], y - disk["y"])
+                      for series in figure["panels"][0]["series"]
+                      for x, y in zip(series["x"], series["y"]))
+        self.assertNear(nearest, disk["radius"], 2e-3)
+
+    def test_crossovers_lie_on_the_loop_gain(self):
+        figure = self.figures["tuned-open-loop"]
+        marks = figure["panels"][0]["marks"]
+        self.assertGreaterEqual(len(marks), 3)
+        for mark in marks:
+            nearest = min(abs(at(series, mark["x"])) for series in figure["panels"][0]["series"])
+            self.assertLess(nearest, 0.1)  # dB
+
+    def test_matching_has_the_numbers_of_its_table(self):
+        figure = self.figures["matching"]
+        for series, drawn in zip(self.found["matching"], figure["panels"][0]["series"]):
+            self.assertEqual(len(series["points"]), len(drawn["x"]))
+            for point, x, y in zip(series["points"], drawn["x"], drawn["y"]):
+                self.assertNear(y, point["design"]["beam_rms_mdeg"], 1e-5)
+                self.assertAlmostEqual(x, point["flywheel_disks_1"], 4)
+
+
+class Studies(Near):
+    def test_structures_are_the_tuned_laws(self):
+        found = report("tune", TUNED)
+        figure = figures_of(found)["structures"]
+        rms = {round(law["design"]["beam_rms_mdeg"], 4) for law in found["tuned"]["laws"]}
+        bars = [y for series in figure["panels"][0]["series"] if "nonlinear" not in series["name"]
+                for y in series["y"]]
+        self.assertGreater(len(bars), 2)
+        for bar in bars:
+            self.assertTrue(any(abs(bar - value) < 2e-4 for value in rms), bar)
+
+    def test_match_has_the_laws_that_hold_their_goals(self):
+        found = report("match", threads=1)
+        figure = figures_of(found)["match-rms"]
+        for structure in found["matched"]["series"]:
+            drawn = series_of(figure, 0, structure["structure"])
+            for law, y in zip(structure["laws"], drawn["y"]):
+                if y is not None:
+                    self.assertNear(y, law["result"]["beam_rms_mdeg"], 1e-5)
+            best = structure["best"]
+            self.assertTrue(any(abs(mark["y"] - best["beam_rms_mdeg"]) < 1e-5
+                                for mark in figure["panels"][0]["marks"]))
+
+    def test_front_and_chances_are_the_decision(self):
+        found = report("evaluate")
+        figures = figures_of(found)
+        costs = {candidate["name"]: candidate["cost_1"]
+                 for candidate in found["evaluated"]["candidates"]}
+        drawn = series_of(figures["pareto"], 0)
+        self.assertTrue(drawn["labels"])
+        for label, x in zip(drawn["labels"], drawn["x"]):
+            self.assertAlmostEqual(x, costs[label], 3)
+        shares = series_of(figures["chances"], 0)
+        self.assertAlmostEqual(sum(shares["x"]), 1.0, 4)
+        for x, low, high in zip(shares["x"], shares["x_lower"], shares["x_upper"]):
+            self.assertTrue(low <= x <= high)
+
+
+if __name__ == "__main__":
+    unittest.main(argv=sys.argv[:1])

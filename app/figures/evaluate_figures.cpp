@@ -256,7 +256,10 @@ std::vector<Figure> evaluate_figures(const EvaluateSection& section) {
   });
   if (!section.decision) return figures;
   const DecisionSection& decision = *section.decision;
-  if (decision.candidates.size() > 1) figures.push_back(chances_figure(section, decision));
+  const std::size_t options = decision.statistics.options.size();
+  if (options > 1 && options == decision.candidates.size()) {
+    figures.push_back(chances_figure(section, decision));
+  }
   if (decision.tornado && !decision.tornado->bars.empty()) {
     figures.push_back(tornado_figure(section, decision, *decision.tornado));
   }

@@ -38,13 +38,18 @@ std::string short_name(const RuleVerdict& rule) {
                      rule.motor_to_load_ratio);
 }
 
-void add_rules(const MatchSection& section, Figure& figure) {
+enum class RuleLabels { names, ratios };
+
+void add_rules(const MatchSection& section, RuleLabels labels, Figure& figure) {
   for (auto& panel : figure.panels) {
     const bool first = &panel == &figure.panels.front();
     for (const auto& rule : section.rules) {
       if (!rule.disks || *rule.disks > section.points.back().disks) continue;
+      const std::string label = labels == RuleLabels::names
+                                    ? short_name(rule)
+                                    : fmt::format("R = {:.2g}", rule.motor_to_load_ratio);
       panel.lines.push_back(
-          {FigureLine::Direction::vertical, *rule.disks, first ? short_name(rule) : std::string()});
+          {FigureLine::Direction::vertical, *rule.disks, first ? label : std::string()});
     }
     for (const auto& point : section.points) {
       if (point.label != "as built") continue;
@@ -95,18 +100,20 @@ Figure rms_figure(const MatchSection& section) {
   }
   if (!kinks.x.empty()) panel.series.push_back(std::move(kinks));
   figure.panels.push_back(std::move(panel));
-  add_rules(section, figure);
+  add_rules(section, RuleLabels::names, figure);
   return figure;
 }
 
 Figure plant_figure(const MatchSection& section) {
   Figure figure = started(
       "match-plant", "Hydraulic mode and what the drive can do, against the motors' inertia",
-      fmt::format("The hydraulic mode of the flexible antenna with the rule \u00bd\u221a(J_L/J_m) "
-                  "for its damping; the acceleration that the supply's torque leaves at the slew "
-                  "rate, and the time of a slew of {:.3g} deg at {:.3g} deg/s.",
-                  section.slew_distance * 180.0 / std::numbers::pi,
-                  section.slew_rate * 180.0 / std::numbers::pi));
+      fmt::format(
+          "The hydraulic mode of the flexible antenna with the rule \u00bd\u221a(J_L/J_m) "
+          "for its damping; the acceleration that the supply's torque leaves at the slew "
+          "rate, and the time of a slew of {:.3g} deg at {:.3g} deg/s. Vertical lines are the "
+          "classic rules, by the ratio R of motors to load.",
+          section.slew_distance * 180.0 / std::numbers::pi,
+          section.slew_rate * 180.0 / std::numbers::pi));
   FigurePanel frequency, damping, acceleration, time;
   frequency.y = {.label = "hydraulic frequency", .unit = "Hz"};
   damping.y = {.label = "damping ratio"};
@@ -133,7 +140,7 @@ Figure plant_figure(const MatchSection& section) {
   time.series = {std::move(slew)};
   figure.panels = {std::move(frequency), std::move(damping), std::move(acceleration),
                    std::move(time)};
-  add_rules(section, figure);
+  add_rules(section, RuleLabels::ratios, figure);
   return figure;
 }
 
@@ -217,7 +224,7 @@ Figure variants_figure(const MatchSection& section, std::size_t number) {
   panel.y = {.label = "beam rms", .unit = "mdeg"};
   for (const auto& variant : variants.variants) {
     FigureSeries series{.name = variant.name, .style = SeriesStyle::line_and_points};
-    for (std::size_t i = 0; i < variants.disks.size(); ++i) {
+    for (std::size_t i = 0; i < variant.rms.size(); ++i) {
       series.x.push_back(variants.disks[i]);
       series.y.push_back(variant.rms[i] / millidegree);
     }

@@ -14,8 +14,11 @@ install(DIRECTORY examples/ DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/libboresigh
 
 set(documents ${CMAKE_INSTALL_DATADIR}/doc/boresight)
 install(DIRECTORY cases DESTINATION ${CMAKE_INSTALL_DATADIR}/boresight COMPONENT program)
-install(DIRECTORY docs/ DESTINATION ${documents} COMPONENT program PATTERN "*.py" EXCLUDE)
-install(FILES README.md DESTINATION ${documents} COMPONENT program)
+# As in the source tree, so that links lead somewhere.
+install(DIRECTORY docs DESTINATION ${documents} COMPONENT program
+  PATTERN "*.py" EXCLUDE PATTERN Doxyfile EXCLUDE)
+install(FILES README.md CHANGELOG.md CONTRIBUTING.md CITATION.cff
+  DESTINATION ${documents} COMPONENT program)
 install(FILES LICENSE DESTINATION ${documents} COMPONENT program RENAME copyright)
 install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/libboresight-dev
   COMPONENT development RENAME copyright)

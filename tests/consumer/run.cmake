@@ -35,7 +35,7 @@ run(${PYTHON} -B ${SOURCE}/../examples/examples_test.py ${build}-examples)
 
 run(${prefix}/bin/boresight --version)
 run(${prefix}/bin/boresight audit ${prefix}/share/boresight/cases/dss14-70m/case.toml)
-foreach(document README.md copyright case-file.md)
+foreach(document README.md copyright docs/README.md docs/case-file.md)
   if(NOT EXISTS ${prefix}/share/doc/boresight/${document})
     message(FATAL_ERROR "${document} is not installed")
   endif()

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include <boresight/app/document/document.hpp>
+#include <boresight/app/figures/figure.hpp>
 #include <boresight/app/io/case_file.hpp>
 #include <boresight/app/redesign/antenna_model.hpp>
 #include <boresight/app/simulate/time_domain.hpp>
@@ -52,6 +53,7 @@ struct BenchmarkReport {
   std::vector<Quantity> assumed;
   std::string compared_with;  // description of the other sheet; empty: none
   std::vector<ComparedQuantity> comparison;
+  std::vector<Figure> figures;
   bool interrupted = false;
 };
 

@@ -8,6 +8,7 @@
 #include <boresight/app/commands/progress_line.hpp>
 #include <boresight/app/io/controller_file.hpp>
 #include <boresight/app/io/input_files.hpp>
+#include <boresight/app/page/report_page.hpp>
 #include <boresight/app/report/json_report.hpp>
 #include <boresight/app/tune/engineer_units.hpp>
 #include <boresight/plant/error.hpp>
@@ -82,8 +83,9 @@ BenchmarkReport benchmark_case(const BenchmarkArguments& arguments,
       designed_antenna(antenna, arguments.seed, arguments.threads, interrupted);
   BenchmarkReport report = benchmark(designed, controller, options);
   if (!arguments.compare_path.empty()) compare_with(report, other, arguments.compare_path);
-  if (!arguments.curves_folder.empty())
-    write_curves(report, designed.antenna, arguments.curves_folder);
+  if (!arguments.outputs.curves_folder.empty()) {
+    write_curves(report, designed.antenna, arguments.outputs.curves_folder);
+  }
   return report;
 }
 
@@ -91,8 +93,9 @@ namespace {
 
 int score(const BenchmarkArguments& arguments) {
   const BenchmarkReport report = benchmark_case(arguments, interrupt_requested);
-  arguments.outputs.deliver(
-      {.text = [&] { return to_text(report); }, .json = [&] { return to_json(report); }});
+  arguments.outputs.deliver({.text = [&] { return to_text(report); },
+                             .json = [&] { return to_json(report); },
+                             .page = [&] { return page_of(report); }});
   if (report.interrupted) return interrupted;
   if (!report.score.stable) {
     // What is sure is no failure of the numbers: a goal, stability, that this controller misses.
@@ -137,12 +140,10 @@ Subcommand add_benchmark(CLI::App& program) {
                   "write the controller in use as state space to FILE.mat or FILE.json");
   sub->add_option("--compare", arguments->compare_path,
                   "put another score sheet (--json of this command) beside this one");
-  sub->add_option("--curves", arguments->curves_folder,
-                  "write compliance, responses and winds as CSV into this folder");
   add_outputs(*sub, arguments->outputs);
   add_seed(*sub, arguments->seed);
   add_threads(*sub, arguments->threads);
-  return {sub, [arguments] { return run(*arguments); }};
+  return {sub, [arguments] { return run(*arguments); }, &arguments->outputs};
 }
 
 }  // namespace boresight::app

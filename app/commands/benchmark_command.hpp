@@ -17,10 +17,9 @@ struct BenchmarkArguments {
   std::string controller_path;  // MAT or JSON; empty: none
   // Names, where the controller's file has none, comma between.
   std::string controller_inputs, controller_outputs;
-  std::string export_path;    // where the controller in use is written; empty: nowhere
-  std::string compare_path;   // another score sheet; empty: none
-  std::string curves_folder;  // empty: none
-  bool sampled = false;       // the law in its sampled form
+  std::string export_path;   // where the controller in use is written; empty: nowhere
+  std::string compare_path;  // another score sheet; empty: none
+  bool sampled = false;      // the law in its sampled form
   std::uint64_t seed = 1;
   unsigned threads = 0;  // 0: all
 };

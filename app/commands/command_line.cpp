@@ -1,4 +1,8 @@
+#include <algorithm>
+#include <cctype>
 #include <exception>
+#include <string>
+#include <string_view>
 #include <system_error>
 #include <vector>
 
@@ -17,6 +21,30 @@
 #include <boresight/plant/error.hpp>
 
 namespace boresight::app {
+
+namespace {
+
+// As a shell would take it again; the program by its name alone.
+std::string command_line_text(int argc, char** argv) {
+  std::string text = "boresight";
+  for (int i = 1; i < argc; ++i) {
+    const std::string word = argv[i];
+    const bool plain = !word.empty() && std::ranges::all_of(word, [](unsigned char c) {
+      return std::isalnum(c) != 0 ||
+             std::string_view("-_./=+,:@%").find(static_cast<char>(c)) != std::string_view::npos;
+    });
+    if (plain) {
+      text += " " + word;
+      continue;
+    }
+    text += " '";
+    for (const char c : word) text += c == '\'' ? std::string("'\\''") : std::string(1, c);
+    text += "'";
+  }
+  return text;
+}
+
+}  // namespace
 
 int run_command_line(int argc, char** argv) {
   CLI::App program{"Redesigns the servo of a large antenna from measured data.", "boresight"};
@@ -41,7 +69,9 @@ int run_command_line(int argc, char** argv) {
   }
   try {
     for (const auto& command : commands) {
-      if (command.options->parsed()) return command.run();
+      if (!command.options->parsed()) continue;
+      command.outputs->command_line = command_line_text(argc, argv);
+      return command.run();
     }
   } catch (const InvalidInput& error) {
     fmt::print(stderr, "boresight: {}\n", error.what());

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <boresight/app/commands/commission_command.hpp>
+#include <boresight/app/page/report_page.hpp>
 #include <boresight/app/uncertainty/designed_antenna.hpp>
 #include <boresight/plant/error.hpp>
 
@@ -16,8 +17,9 @@ int run(CommissionArguments arguments) {
   watch_for_interrupt();
   try {
     const CommissionReport report = commission_case(arguments, interrupt_requested);
-    arguments.outputs.deliver(
-        {.text = [&] { return to_text(report); }, .json = [&] { return to_json(report); }});
+    arguments.outputs.deliver({.text = [&] { return to_text(report); },
+                               .json = [&] { return to_json(report); },
+                               .page = [&] { return page_of(report); }});
   } catch (const Interrupted&) {
     // Half a plan is none.
     fmt::print(stderr, "boresight: interrupted before the plan was whole\n");
@@ -62,7 +64,7 @@ Subcommand add_commission(CLI::App& program) {
   add_outputs(*sub, arguments->outputs);
   add_seed(*sub, options.seed);
   add_threads(*sub, options.threads);
-  return {sub, [arguments] { return run(*arguments); }};
+  return {sub, [arguments] { return run(*arguments); }, &arguments->outputs};
 }
 
 }  // namespace boresight::app

@@ -8,6 +8,7 @@
 #include <boresight/app/commands/progress_line.hpp>
 #include <boresight/app/evaluate/evaluate_study.hpp>
 #include <boresight/app/figures/report_figures.hpp>
+#include <boresight/app/page/report_page.hpp>
 #include <boresight/app/redesign/assumed_inputs.hpp>
 #include <boresight/app/redesign/sections.hpp>
 #include <boresight/app/report/json_report.hpp>
@@ -38,8 +39,9 @@ int run(EvaluateArguments arguments) {
   watch_for_interrupt();
   Report report = evaluate_case(arguments, interrupt_requested);
   report.figures = report_figures(report);
-  arguments.outputs.deliver(
-      {.text = [&] { return to_text(report); }, .json = [&] { return to_json(report); }});
+  arguments.outputs.deliver({.text = [&] { return to_text(report); },
+                             .json = [&] { return to_json(report); },
+                             .page = [&] { return page_of(report); }});
   if (report.interrupted) return interrupted;
   if (!report.evaluated) return internal_error;
   int code = done;
@@ -123,7 +125,7 @@ Subcommand add_evaluate(CLI::App& program) {
   add_outputs(*sub, arguments->outputs);
   add_seed(*sub, arguments->seed);
   add_threads(*sub, arguments->threads);
-  return {sub, [arguments] { return run(*arguments); }};
+  return {sub, [arguments] { return run(*arguments); }, &arguments->outputs};
 }
 
 }  // namespace boresight::app

@@ -9,6 +9,8 @@
 #include <boresight/app/commands/progress_line.hpp>
 #include <boresight/app/figures/report_figures.hpp>
 #include <boresight/app/match/match_study.hpp>
+#include <boresight/app/match/what_if.hpp>
+#include <boresight/app/page/report_page.hpp>
 #include <boresight/app/redesign/assumed_inputs.hpp>
 #include <boresight/app/redesign/sections.hpp>
 #include <boresight/app/report/json_report.hpp>
@@ -66,9 +68,19 @@ int run(const Arguments& arguments) {
   }
   report.interrupted = interrupt_requested();
   report.conclusions = conclude(*report.matched);
+  // Seconds that only a page's sliders are worth.
+  if (!arguments.outputs.report_path.empty() && !report.interrupted) {
+    ProgressLine line("what if");
+    WhatIfOptions table;
+    table.threads = options.threads;
+    table.interrupted = interrupt_requested;
+    table.progress = [&](std::size_t finished, std::size_t all) { line.show(finished, all); };
+    report.matched->what_if = what_if(antenna, *report.matched, table);
+  }
   report.figures = report_figures(report);
-  arguments.outputs.deliver(
-      {.text = [&] { return to_text(report); }, .json = [&] { return to_json(report); }});
+  arguments.outputs.deliver({.text = [&] { return to_text(report); },
+                             .json = [&] { return to_json(report); },
+                             .page = [&] { return page_of(report); }});
   if (report.interrupted) return interrupted;
   bool met = false, verified = false;
   for (const auto& series : report.matched->series) {
@@ -134,7 +146,7 @@ Subcommand add_match(CLI::App& program) {
   add_outputs(*sub, arguments->outputs);
   add_seed(*sub, options.seed);
   add_threads(*sub, options.threads);
-  return {sub, [arguments] { return run(*arguments); }};
+  return {sub, [arguments] { return run(*arguments); }, &arguments->outputs};
 }
 
 }  // namespace boresight::app

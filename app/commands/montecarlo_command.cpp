@@ -5,6 +5,7 @@
 
 #include <boresight/app/commands/montecarlo_command.hpp>
 #include <boresight/app/montecarlo/montecarlo_study.hpp>
+#include <boresight/app/page/report_page.hpp>
 #include <boresight/app/report/json_report.hpp>
 #include <boresight/plant/error.hpp>
 
@@ -27,7 +28,8 @@ int run(MonteCarloArguments arguments) {
   const MonteCarloOutcome outcome = run_montecarlo(arguments, ranks, interrupt_requested);
   if (!arguments.csv_path.empty()) write_atomically(arguments.csv_path, to_csv(outcome));
   arguments.outputs.deliver({.text = [&] { return to_text(outcome.section); },
-                             .json = [&] { return to_json(outcome.section); }});
+                             .json = [&] { return to_json(outcome.section); },
+                             .page = [&] { return page_of(outcome.section); }});
   return outcome.section.interrupted ? interrupted : done;
 }
 
@@ -56,7 +58,7 @@ Subcommand add_montecarlo(CLI::App& program) {
   add_outputs(*sub, arguments->outputs);
   add_seed(*sub, arguments->seed);
   add_threads(*sub, arguments->threads);
-  return {sub, [arguments] { return run(*arguments); }};
+  return {sub, [arguments] { return run(*arguments); }, &arguments->outputs};
 }
 
 }  // namespace boresight::app

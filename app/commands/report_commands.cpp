@@ -9,6 +9,7 @@
 #include <boresight/app/figures/report_figures.hpp>
 #include <boresight/app/identify/campaign_identification.hpp>
 #include <boresight/app/identify/identified_case.hpp>
+#include <boresight/app/page/report_page.hpp>
 #include <boresight/app/redesign/assumed_inputs.hpp>
 #include <boresight/app/redesign/sections.hpp>
 #include <boresight/app/report/json_report.hpp>
@@ -117,8 +118,9 @@ int run(const Command& command, const Arguments& arguments) {
     }
   }
   report.figures = report_figures(report);
-  arguments.outputs.deliver(
-      {.text = [&] { return to_text(report); }, .json = [&] { return to_json(report); }});
+  arguments.outputs.deliver({.text = [&] { return to_text(report); },
+                             .json = [&] { return to_json(report); },
+                             .page = [&] { return page_of(report); }});
   if (report.interrupted) return interrupted;
   if (report.tuning && report.tuning->design.tuning.status != design::TuningStatus::optimal) {
     fmt::print(stderr, "boresight: no control law meets the hard goals of {}\n",
@@ -144,7 +146,8 @@ std::vector<Subcommand> add_report_commands(CLI::App& program) {
     add_outputs(*options, arguments->outputs);
     add_seed(*options, arguments->seed);
     add_threads(*options, arguments->threads);
-    added.push_back({options, [&command, arguments] { return run(command, *arguments); }});
+    added.push_back(
+        {options, [&command, arguments] { return run(command, *arguments); }, &arguments->outputs});
   }
   return added;
 }

@@ -9,6 +9,7 @@
 
 #include <boresight/app/commands/progress_line.hpp>
 #include <boresight/app/commands/simulate_command.hpp>
+#include <boresight/app/page/report_page.hpp>
 #include <boresight/app/redesign/assumed_inputs.hpp>
 #include <boresight/app/redesign/sections.hpp>
 #include <boresight/app/report/json_report.hpp>
@@ -155,7 +156,8 @@ int run(const SimulateArguments& arguments) {
   watch_for_interrupt();
   const auto outcome = simulate_tests(arguments, interrupt_requested);
   arguments.outputs.deliver({.text = [&] { return to_text(outcome.report); },
-                             .json = [&] { return to_json(outcome.report); }});
+                             .json = [&] { return to_json(outcome.report); },
+                             .page = [&] { return page_of(outcome.report); }});
   if (outcome.failure) std::rethrow_exception(outcome.failure);
   return outcome.report.interrupted ? interrupted : done;
 }
@@ -178,7 +180,7 @@ Subcommand add_simulate(CLI::App& program) {
                   "at 1000 or more")
       ->check(CLI::Range(1.0, 1e5));
   add_seed(*sub, arguments->seed);
-  return {sub, [arguments] { return run(*arguments); }};
+  return {sub, [arguments] { return run(*arguments); }, &arguments->outputs};
 }
 
 }  // namespace boresight::app

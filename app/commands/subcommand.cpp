@@ -1,12 +1,15 @@
 #include <algorithm>
 #include <csignal>
 #include <cstdio>
+#include <filesystem>
+#include <system_error>
 #include <thread>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 #include <boresight/app/commands/subcommand.hpp>
+#include <boresight/app/figures/figure_csv.hpp>
 #include <boresight/app/report/json_report.hpp>
 #include <boresight/plant/error.hpp>
 
@@ -21,6 +24,17 @@ void see_interrupt(int /*signal*/) {
   interrupt_seen = 1;
 }
 
+// Made if it is not there, as write_curves would.
+void require_writable_folder(const std::string& folder) {
+  std::error_code failure;
+  std::filesystem::create_directories(folder, failure);
+  if (!std::filesystem::is_directory(folder)) {
+    throw InvalidInput(fmt::format("{}: expected a folder to write curves to, found none{}", folder,
+                                   failure ? " (" + failure.message() + ")" : ""));
+  }
+  require_writable((std::filesystem::path(folder) / "curves.csv").string());
+}
+
 }  // namespace
 
 void add_case(CLI::App& command, std::string& path) {
@@ -31,6 +45,10 @@ void add_outputs(CLI::App& command, Outputs& outputs) {
   command.add_option("--json", outputs.json_path,
                      "also write the report as JSON to this file; '-' writes JSON only, to "
                      "standard output");
+  command.add_option("--report", outputs.report_path,
+                     "also write the report as a self-contained page (HTML) with figures");
+  command.add_option("--curves", outputs.curves_folder,
+                     "also write every plotted curve as CSV into this folder");
 }
 
 void add_seed(CLI::App& command, std::uint64_t& seed) {
@@ -59,9 +77,18 @@ bool interrupt_requested() {
 
 void Outputs::require_writable() const {
   if (!json_path.empty() && json_path != "-") app::require_writable(json_path);
+  if (!report_path.empty()) app::require_writable(report_path);
+  if (!curves_folder.empty()) require_writable_folder(curves_folder);
 }
 
 void Outputs::deliver(const Findings& findings) const {
+  if (!report_path.empty() || !curves_folder.empty()) {
+    const Page page = findings.page();
+    if (!curves_folder.empty()) write_curves(page.figures, curves_folder);
+    if (!report_path.empty()) {
+      write_atomically(report_path, to_html(page, {command_line, inputs_read()}));
+    }
+  }
   if (json_path == "-") {
     fmt::print("{}", findings.json());
   } else {

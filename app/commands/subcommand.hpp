@@ -4,6 +4,8 @@
 #include <functional>
 #include <string>
 
+#include <boresight/app/page/page.hpp>
+
 namespace CLI {
 class App;
 }
@@ -19,11 +21,14 @@ enum ExitCode {
   interrupted = 130
 };
 
+struct Outputs;
+
 /// A command of the program: its options, and what it does once they are parsed. `run` returns an
 /// exit code and throws InvalidInput (2), NumericalFailure (4) and anything else (1).
 struct Subcommand {
   CLI::App* options = nullptr;
   std::function<int()> run;
+  Outputs* outputs = nullptr;  // of `run`, which keeps them
 };
 
 // Options that commands share.
@@ -41,11 +46,15 @@ bool interrupt_requested();
 /// What a command found, in each form that may be asked for; made only if it is.
 struct Findings {
   std::function<std::string()> text, json;
+  std::function<Page()> page;
 };
 
 /// Where what a command found goes, beside standard output.
 struct Outputs {
-  std::string json_path;  // "-": to standard output, in the place of the text; empty: nowhere
+  std::string json_path;      // "-": to standard output, in the place of the text; empty: nowhere
+  std::string report_path;    // of the page; empty: none
+  std::string curves_folder;  // of the figures' points as CSV; empty: none
+  std::string command_line;   // as it was given, for the page
 
   /// @throws InvalidInput if one of them cannot be written to. To be asked before the work, not
   /// after it.

@@ -7,6 +7,7 @@
 #include <boresight/app/commands/tune_command.hpp>
 #include <boresight/app/figures/report_figures.hpp>
 #include <boresight/app/io/wording.hpp>
+#include <boresight/app/page/report_page.hpp>
 #include <boresight/app/redesign/assumed_inputs.hpp>
 #include <boresight/app/redesign/sections.hpp>
 #include <boresight/app/report/json_report.hpp>
@@ -120,8 +121,9 @@ int run(TuneArguments arguments) {
   watch_for_interrupt();
   Report report = tune_case(arguments, interrupt_requested);
   report.figures = report_figures(report);
-  arguments.outputs.deliver(
-      {.text = [&] { return to_text(report); }, .json = [&] { return to_json(report); }});
+  arguments.outputs.deliver({.text = [&] { return to_text(report); },
+                             .json = [&] { return to_json(report); },
+                             .page = [&] { return page_of(report); }});
   if (report.interrupted) return interrupted;
   if (report.measured) {
     if (report.measured->any_confident()) return done;
@@ -166,7 +168,7 @@ Subcommand add_tune(CLI::App& program) {
   add_outputs(*sub, arguments->outputs);
   add_seed(*sub, arguments->seed);
   add_threads(*sub, arguments->threads);
-  return {sub, [arguments] { return run(*arguments); }};
+  return {sub, [arguments] { return run(*arguments); }, &arguments->outputs};
 }
 
 }  // namespace boresight::app

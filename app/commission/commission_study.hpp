@@ -7,6 +7,7 @@
 #include <vector>
 
 #include <boresight/app/document/document.hpp>
+#include <boresight/app/figures/figure.hpp>
 #include <boresight/app/redesign/antenna_model.hpp>
 #include <boresight/app/tune/tune_study.hpp>
 #include <boresight/design/commissioning.hpp>
@@ -78,6 +79,7 @@ struct CommissionReport {
   std::vector<ChannelComparison> comparisons;
   std::vector<std::string> conclusions;
   std::vector<Quantity> assumed;
+  std::vector<Figure> figures;
 };
 
 /// Plans the way to the robustly tuned law of a structure, or to the gains given, and compares two

@@ -16,7 +16,7 @@ namespace {
 using Digest = std::array<std::uint8_t, SHA256_DIGEST_SIZE>;
 
 Digest sha256(std::string_view bytes) {
-  sha256_ctx context;
+  sha256_ctx context{};
   sha256_init(&context);
   sha256_update(&context, bytes.size(), reinterpret_cast<const std::uint8_t*>(bytes.data()));
   Digest digest{};

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include <boresight/app/match/what_if_table.hpp>
 #include <boresight/app/redesign/antenna_model.hpp>
 #include <boresight/design/matching_curves.hpp>
 #include <boresight/design/matching_smoothness.hpp>
@@ -113,6 +114,7 @@ struct MatchSection {
   std::vector<MatchVariants> variants;
   std::vector<FrictionThreshold> thresholds;
   std::vector<RuleVerdict> rules;
+  std::optional<WhatIfTable> what_if;  // where a page asks for it
   double wind_speed = 0.0;
   plant::WindModel wind_model = plant::WindModel::coherence;
   design::HardGoals goals;

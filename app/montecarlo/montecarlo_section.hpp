@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include <boresight/app/figures/figure.hpp>
 #include <boresight/app/redesign/antenna_model.hpp>
 #include <boresight/app/uncertainty/plant_distribution.hpp>
 #include <boresight/design/monte_carlo.hpp>
@@ -88,6 +89,7 @@ struct MonteCarloSection {
 
   std::vector<Quantity> assumed;
   std::vector<std::string> conclusions;
+  std::vector<Figure> figures;
 };
 
 }  // namespace boresight::app

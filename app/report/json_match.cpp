@@ -1,5 +1,6 @@
 #include <cmath>
 
+#include <boresight/app/report/json_what_if.hpp>
 #include <boresight/app/report/match_report.hpp>
 #include <boresight/app/report/sky_units.hpp>
 
@@ -187,26 +188,28 @@ Json match_json(const MatchSection& section) {
                      {"flywheel_disks_1", rule.disks ? number(*rule.disks) : Json(nullptr)},
                      {"costs", std::move(costs)}});
   }
-  return {{"wind_model", plant::to_string(section.wind_model)},
-          {"wind_speed_m_per_s", section.wind_speed},
-          {"soft_goal", design::to_string(section.soft_goal.kind)},
-          {"ensemble_members", section.members},
-          {"starts", section.starts},
-          {"rounds", section.rounds},
-          {"settled", section.settled},
-          {"evaluations", section.evaluations},
-          {"tolerance_1", section.tolerance},
-          {"slew_distance_deg", section.slew_distance / millidegree / 1e3},
-          {"slew_rate_mdeg_per_s", mdeg(section.slew_rate)},
-          {"tracking_rate_mdeg_per_s", mdeg(section.tracking_rate)},
-          {"crest_factor_1", section.goals.crest_factor},
-          {"friction_slope_N_m_s_per_rad", section.friction},
-          {"friction_slope_at_tracking_rate_N_m_s_per_rad", section.tracking_friction},
-          {"points", std::move(points)},
-          {"series", std::move(series)},
-          {"variants", std::move(variants)},
-          {"friction_thresholds", std::move(thresholds)},
-          {"rules", std::move(rules)}};
+  Json json{{"wind_model", plant::to_string(section.wind_model)},
+            {"wind_speed_m_per_s", section.wind_speed},
+            {"soft_goal", design::to_string(section.soft_goal.kind)},
+            {"ensemble_members", section.members},
+            {"starts", section.starts},
+            {"rounds", section.rounds},
+            {"settled", section.settled},
+            {"evaluations", section.evaluations},
+            {"tolerance_1", section.tolerance},
+            {"slew_distance_deg", section.slew_distance / millidegree / 1e3},
+            {"slew_rate_mdeg_per_s", mdeg(section.slew_rate)},
+            {"tracking_rate_mdeg_per_s", mdeg(section.tracking_rate)},
+            {"crest_factor_1", section.goals.crest_factor},
+            {"friction_slope_N_m_s_per_rad", section.friction},
+            {"friction_slope_at_tracking_rate_N_m_s_per_rad", section.tracking_friction},
+            {"points", std::move(points)},
+            {"series", std::move(series)},
+            {"variants", std::move(variants)},
+            {"friction_thresholds", std::move(thresholds)},
+            {"rules", std::move(rules)}};
+  if (section.what_if) json["what_if"] = what_if_json(*section.what_if);
+  return json;
 }
 
 }  // namespace boresight::app

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include <boresight/app/document/document.hpp>
+#include <boresight/app/figures/figure.hpp>
 #include <boresight/app/simulate/drive_run.hpp>
 #include <boresight/app/simulate/position_run.hpp>
 
@@ -26,6 +27,7 @@ struct SimulationReport {
   std::vector<PositionRecord> position;
   std::vector<std::string> written;  // paths of records
   std::vector<Quantity> assumed;
+  std::vector<Figure> figures;
 };
 
 /// The report, and as text for a terminal.

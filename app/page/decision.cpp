@@ -1,0 +1,199 @@
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include <boresight/app/page/decision.hpp>
+#include <boresight/app/page/study_decision.hpp>
+#include <boresight/app/report/sky_units.hpp>
+
+namespace boresight::app {
+namespace {
+
+using Sentences = std::vector<std::string>;
+
+std::string audited(const AuditReport& report) {
+  if (report.findings.empty() && report.implausible.empty()) {
+    return fmt::format("The case's {} printed numbers hang together: design on them.",
+                       report.checked);
+  }
+  return fmt::format(
+      "{} of {} printed numbers do not follow from the others and {} physical checks fail: mend "
+      "those that move a headline result before designing on them.",
+      report.findings.size(), report.checked, report.implausible.size());
+}
+
+std::string assumptions(std::size_t count) {
+  if (count == 0) return "No input of the case is assumed.";
+  return fmt::format(
+      "{} inputs are assumed, in value or in uncertainty: every number here stands on them until "
+      "they are measured.",
+      count);
+}
+
+Sentences audit_decision(const AuditReport& report) {
+  Sentences sentences{audited(report)};
+  const auto& findings = report.findings;
+  const identification::Finding* largest = nullptr;
+  double change = 0.0;
+  for (const auto& finding : findings) {
+    for (const auto& consequence : finding.consequences) {
+      if (std::abs(consequence.relative_change()) <= change) continue;
+      change = std::abs(consequence.relative_change());
+      largest = &finding;
+    }
+  }
+  if (largest != nullptr) {
+    sentences.push_back(fmt::format(
+        "The one that moves a headline result most is {} '{}', by {:.3g} %.", largest->id,
+        largest->forms.empty() ? std::string() : largest->forms.front().text, 100.0 * change));
+  }
+  return sentences;
+}
+
+Sentences identify_decision(const Report& report) {
+  Sentences sentences;
+  if (report.campaign && report.campaign->grey_box) {
+    const auto& found = *report.campaign->grey_box;
+    const auto& inertia = found.quantity("inertia").posterior;
+    const auto& ratio = found.quantity("motor to load ratio").posterior;
+    sentences.push_back(fmt::format(
+        "Design on a reflected inertia of {:.3f} kg m2 (95 % interval {:.3f} to {:.3f}) and a "
+        "motor-to-load ratio of {:.2f} ({:.2f} to {:.2f}): {} records agree on them.",
+        inertia.value, inertia.lower, inertia.upper, ratio.value, ratio.lower, ratio.upper,
+        found.records.size()));
+    if (const auto count = report.campaign->contradictions.size(); count > 0) {
+      sentences.push_back(
+          fmt::format("The records contradict {} of the numbers that the case states: correct "
+                      "them there.",
+                      count));
+    }
+    return sentences;
+  }
+  if (report.campaign && !report.campaign->contradiction.empty()) {
+    sentences.push_back(report.campaign->contradiction);
+  }
+  if (report.identification) {
+    const auto& methods = report.identification->inertia.methods;
+    const auto [least, most] = std::ranges::minmax_element(
+        methods, {}, [](const auto& m) { return m.reflected_inertia.value; });
+    if (least != methods.end()) {
+      sentences.push_back(fmt::format(
+          "The methods put the reflected inertia between {:.3f} kg m2 ({}) and {:.3f} ({}).",
+          least->reflected_inertia.value, least->name, most->reflected_inertia.value, most->name));
+    }
+  }
+  return sentences;
+}
+
+Sentences model_decision(const PlantSection& plant) {
+  Sentences sentences{fmt::format(
+      "The loops must live with a hydraulic mode at {:.3g} Hz, damping ratio {:.2g}, and motors "
+      "that carry {:.2f} times the inertia they drive.",
+      plant.hydraulic.frequency, plant.hydraulic.damping_ratio, plant.motor_to_load_ratio)};
+  if (plant.supply_torque > 0.0) {
+    sentences.push_back(fmt::format(
+        "The mean wind of the design takes {:.0f} % of the torque that the supply can give.",
+        100.0 * std::abs(plant.mean_wind_torque) / plant.supply_torque));
+  }
+  return sentences;
+}
+
+std::string matched_in_redesign(const MatchingSection& section) {
+  for (const auto& series : section.series) {
+    const auto& first = series.designs.front();
+    const auto& last = series.designs.back();
+    if (first.tuning.status != design::TuningStatus::optimal ||
+        last.tuning.status != design::TuningStatus::optimal) {
+      continue;
+    }
+    std::string text =
+        fmt::format("Going from {} to {}, re-tuned, changes the rms by {:+.1f} % with {} ({})",
+                    section.rows.back().label, section.rows.front().label,
+                    100.0 * (first.beam_rms / last.beam_rms - 1.0),
+                    control::to_string(series.structure), series.friction);
+    for (const auto& other : section.series) {
+      const auto& a = other.designs.front();
+      const auto& b = other.designs.back();
+      if (other.friction == series.friction || other.structure != series.structure ||
+          a.tuning.status != design::TuningStatus::optimal ||
+          b.tuning.status != design::TuningStatus::optimal) {
+        continue;
+      }
+      return text + fmt::format(
+                        ", but by {:+.1f} % with the {}: measure that slope before touching a "
+                        "flywheel.",
+                        100.0 * (a.beam_rms / b.beam_rms - 1.0), other.friction);
+    }
+    return text + ".";
+  }
+  return {};
+}
+
+Sentences redesign_decision(const Report& report) {
+  Sentences sentences;
+  if (report.tuning) {
+    const auto& tuning = *report.tuning;
+    if (tuning.design.tuning.status == design::TuningStatus::optimal) {
+      std::string text = fmt::format(
+          "Run the drive as built on {}: it points within {:.3f} mdeg rms an axis in {:g} m/s of "
+          "wind",
+          control::to_string(tuning.structure), tuning.design.beam_rms / millidegree,
+          tuning.design_speed);
+      if (report.time_domain) {
+        text += fmt::format(" ({:.3f} on the nonlinear antenna)",
+                            report.time_domain->result.wind.beam_rms / millidegree);
+      }
+      if (!tuning.budgets.empty()) {
+        const auto& budget = tuning.budgets.front();
+        text += fmt::format(" and meets {} ({}: {:.3f} mdeg) up to {:.1f} m/s", budget.budget.name,
+                            budget.budget.band, budget.budget.rms / millidegree,
+                            budget.wind_speed_limit);
+      }
+      sentences.push_back(text + ".");
+    } else {
+      sentences.push_back(fmt::format("No {} law meets the hard goals of this case.",
+                                      control::to_string(tuning.structure)));
+    }
+  }
+  if (report.matching && !report.matching->rows.empty()) {
+    if (auto text = matched_in_redesign(*report.matching); !text.empty()) {
+      sentences.push_back(std::move(text));
+    }
+  }
+  sentences.push_back(assumptions(report.assumed.size()));
+  return sentences;
+}
+
+}  // namespace
+
+std::vector<std::string> decision(const Report& report) {
+  if (report.matched) return decision(*report.matched);
+  if (report.evaluated) return decision(*report.evaluated);
+  if (report.measured) {
+    return {report.conclusions.begin(),
+            report.conclusions.begin() +
+                static_cast<std::ptrdiff_t>(std::min<std::size_t>(3, report.conclusions.size()))};
+  }
+  if (report.tuned) {
+    auto sentences = decision(*report.tuned, report.time_domain, report.limit);
+    if (sentences.size() < 3) sentences.push_back(assumptions(report.assumed.size()));
+    return sentences;
+  }
+  Sentences sentences;
+  if (report.command == "redesign") {
+    sentences = redesign_decision(report);
+  } else if (report.audit) {
+    sentences = audit_decision(*report.audit);
+  } else if (report.identification || report.campaign) {
+    sentences = identify_decision(report);
+  } else if (report.plant) {
+    sentences = model_decision(*report.plant);
+  }
+  if (sentences.size() < 3 && report.command != "redesign" && report.command != "audit") {
+    sentences.push_back(assumptions(report.assumed.size()));
+  }
+  return sentences;
+}
+
+}  // namespace boresight::app

@@ -1,0 +1,22 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include <boresight/app/benchmark/benchmark_report.hpp>
+#include <boresight/app/commission/commission_study.hpp>
+#include <boresight/app/montecarlo/montecarlo_section.hpp>
+#include <boresight/app/report/report.hpp>
+#include <boresight/app/simulate/simulation_report.hpp>
+
+namespace boresight::app {
+
+// What a report says to do, in at most three sentences that stand on their own; its conclusions
+// have the conditions. Fewer where an interrupt left parts out.
+std::vector<std::string> decision(const Report& report);
+std::vector<std::string> decision(const BenchmarkReport& report);
+std::vector<std::string> decision(const MonteCarloSection& section);
+std::vector<std::string> decision(const CommissionReport& report);
+std::vector<std::string> decision(const SimulationReport& report);
+
+}  // namespace boresight::app

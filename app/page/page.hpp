@@ -1,0 +1,42 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <boresight/app/document/document.hpp>
+#include <boresight/app/figures/figure.hpp>
+#include <boresight/app/io/input_files.hpp>
+
+namespace boresight::app {
+
+/// A report as a page has it.
+struct Page {
+  std::string command;  // "redesign"
+  std::string title;    // of the antenna
+  std::string axis;
+  std::uint64_t seed = 1;
+  bool interrupted = false;
+  /// The decision, in at most three sentences.
+  std::vector<std::string> decision;
+  Document document;  // the report's text
+  std::vector<Figure> figures;
+  /// JSON of the table behind the matching sliders (what_if_json); empty: none.
+  std::string what_if;
+};
+
+/// How a page was made: enough to make it again, and to see that it is of the same inputs.
+struct Provenance {
+  std::string command_line;
+  std::vector<InputFile> inputs;
+};
+
+/// One HTML file without references to any other: header, decision, contents, the document's
+/// sections with each figure behind the heading that it names (in a section of their own where no
+/// heading is theirs), how each number was made. Complete without scripts; with them figures can
+/// be explored, if the program has the plotting library in it (plotting_library()). The same input
+/// gives the same bytes. @throws InvalidInput as to_svg.
+std::string to_html(const Page& page, const Provenance& provenance);
+
+}  // namespace boresight::app

@@ -1,0 +1,59 @@
+#include <utility>
+
+#include <boresight/app/montecarlo/montecarlo_study.hpp>
+#include <boresight/app/page/decision.hpp>
+#include <boresight/app/page/report_page.hpp>
+#include <boresight/app/report/json_what_if.hpp>
+#include <boresight/app/report/text_report.hpp>
+
+namespace boresight::app {
+namespace {
+
+// What all reports have.
+template <class AnyReport>
+Page common(const AnyReport& report, std::string command) {
+  Page page;
+  page.command = std::move(command);
+  page.title = report.title;
+  page.axis = report.axis;
+  page.seed = report.seed;
+  page.decision = decision(report);
+  page.document = document_of(report);
+  page.figures = report.figures;
+  return page;
+}
+
+}  // namespace
+
+Page page_of(const Report& report) {
+  Page page = common(report, report.command);
+  page.interrupted = report.interrupted;
+  if (report.matched && report.matched->what_if) {
+    page.what_if = what_if_json(*report.matched->what_if).dump();
+  }
+  return page;
+}
+
+Page page_of(const BenchmarkReport& report) {
+  Page page = common(report, "benchmark");
+  page.interrupted = report.interrupted;
+  return page;
+}
+
+Page page_of(const MonteCarloSection& section) {
+  Page page = common(section, "montecarlo");
+  page.interrupted = section.interrupted;
+  return page;
+}
+
+Page page_of(const CommissionReport& report) {
+  return common(report, "commission");
+}
+
+Page page_of(const SimulationReport& report) {
+  Page page = common(report, "simulate");
+  page.interrupted = report.interrupted;
+  return page;
+}
+
+}  // namespace boresight::app

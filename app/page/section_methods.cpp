@@ -1,0 +1,147 @@
+#include <array>
+#include <utility>
+
+#include <boresight/app/page/section_methods.hpp>
+
+namespace boresight::app {
+namespace {
+
+struct Entry {
+  std::string_view heading_begins;
+  SectionMethod method;
+};
+
+constexpr std::array entries = std::to_array<Entry>({
+    // Records
+    {"What the records say of the drive",
+     {"one nonlinear model of the drive fitted to all records at once, 95 % intervals with sensor "
+      "and model errors",
+      "docs/identification.md"}},
+    {"Inertia at the motor shaft",
+     {"each method by itself, input uncertainties propagated; beside the reconciled estimate",
+      "docs/identification.md"}},
+    {"Inertia and motor-to-load ratio",
+     {"each method by itself, input uncertainties propagated", "docs/identification.md"}},
+    {"Other quantities, by method",
+     {"each method by itself, beside the reconciled estimate", "docs/identification.md"}},
+    {"Oil lines and bulk modulus",
+     {"waves in the lines: damped cosines fitted to the pressures", "identification/slosh.hpp"}},
+    {"Friction at the motor shaft",
+     {"friction curve of the model of all records; fitted to steady speeds; each test's own mean",
+      "docs/identification.md"}},
+    {"Numbers of the case that the records contradict",
+     {"stated value against the records' interval, over both standard uncertainties",
+      "docs/identification.md"}},
+    {"Which further test",
+     {"information that a simulated test of each kind would add to the fit",
+      "docs/identification.md"}},
+    {"How well one model explains all records",
+     {"residuals of the fit, and of a record left out of it", "docs/identification.md"}},
+    {"What the resonance alone shows",
+     {"damped cosines about a moving operating point", "docs/identification.md"}},
+    {"What impulse and friction tests alone show",
+     {"impulse and momentum over matched windows, friction curve of the constant-speed tests",
+      "docs/identification.md"}},
+    {"What the methods rest on", {"the assumptions of each method", "docs/identification.md"}},
+    {"Records", {"reading, and detection of defects before use", "docs/records.md"}},
+    // The case
+    {"Audit",
+     {"every derived number recomputed from those it was printed beside",
+      "identification/misprint_search.hpp"}},
+    {"Plant, at the motor shaft",
+     {"linear model at the operating point; eigenvalues, modes named by their energy",
+      "plant/antenna_plant.hpp"}},
+    {"Where the case's numbers contradict each other",
+     {"the loop re-tuned on the plant that each choice makes", "design/design_study.hpp"}},
+    {"Assumed inputs",
+     {"the case file's own basis and source of each quantity", "docs/case-file.md"}},
+    // Loops
+    {"Tuned loops",
+     {"least beam rms under hard goals, on exact frequency responses with gradients; verified by "
+      "eigenvalues and Lyapunov equations",
+      "design/tuner.hpp"}},
+    {"Gains, before and after",
+     {"the tuned law's parameters in the case's units", "control/control_law.hpp"}},
+    {"Gains, SI", {"the tuned law's parameters", "control/control_law.hpp"}},
+    {"What limits each law",
+     {"prices of the active goals, by the optimum's first-order conditions",
+      "design/active_multipliers.hpp"}},
+    {"How far from the best",
+     {"lower bound over all linear sampled controllers of the same effort; LQG designs",
+      "design/pointing_limit.hpp"}},
+    {"In the time domain",
+     {"nonlinear simulation with synthesised wind; each influence switched off in turn",
+      "design/nonlinear_verification.hpp"}},
+    {"What the verdicts rest on",
+     {"confidence of the measured response", "docs/measured-tuning.md"}},
+    {"Loops tuned on the measured response",
+     {"goals on the measured frequency response, without a model", "docs/measured-tuning.md"}},
+    // Studies
+    {"Inertia matching: re-tuned",
+     {"the loop re-tuned at each motor inertia", "design/design_study.hpp"}},
+    {"Inertia matching",
+     {"every structure tuned robustly at every motor inertia, with warm starts along the curve",
+      "docs/matching.md"}},
+    {"Proposals, re-tuned",
+     {"each proposal re-tuned robustly over the ensemble", "docs/proposals.md"}},
+    {"Chances, by",
+     {"plants drawn and shared by all candidates, gains held; Sobol' indices; value of tests",
+      "docs/proposals.md"}},
+    {"What each proposal changes",
+     {"the case's numbers that follow from the changed ones", "docs/proposals.md"}},
+    {"The loops behind the table", {"the laws chosen, verified", "docs/proposals.md"}},
+    {"Law and plants", {"the law held, and what the plants are drawn from", "docs/monte-carlo.md"}},
+    {"Distribution over the plants",
+     {"quantiles of the draws with intervals of the sampling", "docs/monte-carlo.md"}},
+    {"Probabilities",
+     {"shares of the draws with intervals of the sampling", "docs/monte-carlo.md"}},
+    {"Stability",
+     {"winding along the frequencies, eigenvalues where it is near", "docs/monte-carlo.md"}},
+    {"Plants that are not stable", {"eigenvalues of the closed loop", "docs/monte-carlo.md"}},
+    {"Worst stable plants", {"the draws of the largest rms", "docs/monte-carlo.md"}},
+    {"What moves the rms", {"rank correlations over the draws", "docs/monte-carlo.md"}},
+    {"Disturbance rejection",
+     {"a fixed protocol, comparable between antennas", "docs/benchmark-protocol.md"}},
+    {"Torque at the dish",
+     {"closed-loop responses to a step and an impulse of torque", "docs/benchmark-protocol.md"}},
+    {"Margins",
+     {"loop opened at three places, every crossover located", "docs/benchmark-protocol.md"}},
+    {"Wind",
+     {"integral over the wind's spectrum, checked by Lyapunov equations",
+      "docs/benchmark-protocol.md"}},
+    {"Other plants",
+     {"the controller held on each member of the ensemble", "docs/benchmark-protocol.md"}},
+    {"Nonlinear antenna",
+     {"nonlinear simulation with synthesised wind", "docs/benchmark-protocol.md"}},
+    {"Beside another score sheet",
+     {"the same protocol, another report", "docs/benchmark-protocol.md"}},
+    {"Commissioning plan",
+     {"gains along straight lines in their logarithms, every stage stable on every plant",
+      "docs/commissioning.md"}},
+    {"Stages",
+     {"expected values as prediction intervals over the plants", "docs/commissioning.md"}},
+    {"Before and after", {"spectra of the two records, with intervals", "docs/commissioning.md"}},
+    {"What was run", {"simulation of the nonlinear antenna", "docs/simulated-tests.md"}},
+    {"Tests of the drive",
+     {"simulation of the nonlinear antenna, what its recorder would write",
+      "docs/simulated-tests.md"}},
+    {"Position loop",
+     {"the tuned law in sampled form on the nonlinear antenna", "docs/simulated-tests.md"}},
+    {"Breakaway", {"events located in the simulation", "docs/simulated-tests.md"}},
+    {"Limits reached", {"events located in the simulation", "docs/simulated-tests.md"}},
+    {"What the numbers mean",
+     {"written from the numbers above, with their conditions", "README.md"}},
+    {"Conclusions",
+     {"written from the numbers above, with their conditions", "docs/commissioning.md"}},
+});
+
+}  // namespace
+
+SectionMethod method_of(std::string_view heading) {
+  for (const auto& entry : entries) {
+    if (heading.starts_with(entry.heading_begins)) return entry.method;
+  }
+  return {};
+}
+
+}  // namespace boresight::app

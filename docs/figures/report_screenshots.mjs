@@ -1,0 +1,37 @@
+// Makes the reports that docs/report.md shows and takes their pictures (./dev screenshots).
+//
+//   node report_screenshots.mjs PROGRAM ROOT
+import { execFileSync } from "node:child_process";
+import { mkdtempSync, rmSync } from "node:fs";
+import { createRequire } from "node:module";
+import { tmpdir } from "node:os";
+import path from "node:path";
+
+const [program, root] = process.argv.slice(2);
+const { chromium } = createRequire(path.join(root, "web", "package.json"))("playwright-core");
+const folder = mkdtempSync(path.join(tmpdir(), "boresight-report-"));
+const browser = await chromium.launch({
+  executablePath: "/usr/bin/chromium",
+  args: ["--no-sandbox", "--disable-gpu", "--disable-quic", "--no-first-run", "--disable-background-networking", "--disable-component-update", "--disable-sync"],
+});
+
+const shoot = async (name, args, prepare) => {
+  const file = path.join(folder, `${name}.html`);
+  execFileSync(program, [...args, "--report", file], { cwd: root, stdio: ["ignore", "ignore", "inherit"] });
+  const page = await browser.newPage({ viewport: { width: 1100, height: 860 } });
+  await page.goto(`file://${file}`);
+  await prepare(page);
+  await page.screenshot({ path: path.join(root, "docs", "figures", `report-${name}.png`) });
+  await page.close();
+};
+
+try {
+  await shoot("redesign", ["redesign", "cases/dss14-70m/campaign.toml"], async () => {});
+  await shoot("match", ["match", "cases/dss14-70m/case.toml"], async (page) => {
+    await page.locator(".what-if select").selectOption({ index: 0 });
+    await page.locator(".what-if").evaluate((panel) => panel.closest("section").scrollIntoView());
+  });
+} finally {
+  await browser.close();
+  rmSync(folder, { recursive: true });
+}

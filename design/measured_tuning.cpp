@@ -2,13 +2,11 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
-#include <optional>
-#include <random>
 
 #include <fmt/format.h>
 
 #include <boresight/control/measured_confidence.hpp>
-#include <boresight/design/feasible_search.hpp>
+#include <boresight/design/measured_search.hpp>
 #include <boresight/design/measured_tuning.hpp>
 #include <boresight/plant/error.hpp>
 
@@ -20,10 +18,6 @@ using Eigen::Index;
 
 constexpr double two_pi = 2.0 * std::numbers::pi;
 constexpr std::size_t breaks = control::loop_breaks.size();
-constexpr std::size_t most_peaks = control::PeakList::most;
-// ln of a peak or an effort over its limit is kept below minus this, so that what is recorded
-// meets the goals by other code too.
-constexpr double reserve = 1e-4;
 // Radius times relative error of the least favourable responses, at most: in the first round, and
 // how much more in each round.
 constexpr double first_step = 0.5;
@@ -31,170 +25,11 @@ constexpr double step_growth = 0.06;
 // Least favourable responses of so many rounds are carried.
 constexpr std::size_t rounds_carried = 2;
 
-// One response that must meet its peaks.
-struct Member {
-  control::LoopEvaluator evaluator;
-  std::array<bool, breaks> looked_at;
-};
-
 std::vector<double> logarithms(const std::vector<double>& gains) {
   std::vector<double> result(gains.size());
   std::ranges::transform(gains, result.begin(), [](double gain) { return std::log(gain); });
   return result;
 }
-
-control::LoopEvaluator evaluator_of(const MeasuredProblem& problem,
-                                    const control::LoopChannels& channels,
-                                    control::FrequencyBand band) {
-  const Eigen::ArrayXd spectrum =
-      motor_wind_spectrum(problem.wind, problem.gear_ratio, channels.response.frequency);
-  return {channels, problem.delay, problem.noise, spectrum, band};
-}
-
-// The members' rms and peaks as FeasibleSearch wants them. The first member is the measured
-// response itself: rms and effort are its.
-ConstrainedProblem search_problem(std::vector<Member>& members,
-                                  const control::LoopStructure& structure,
-                                  const MeasuredGoals& goals) {
-  ConstrainedProblem search;
-  for (const auto& gain : control::gain_descriptions(structure)) {
-    search.lower.push_back(std::log(gain.lower));
-    search.upper.push_back(std::log(gain.upper));
-  }
-  search.constraints = 1 + members.size() * breaks * most_peaks;
-  search.evaluate = [&members, structure, goals](const std::vector<double>& point,
-                                                 ConstrainedValues& values) {
-    control::ControlLaw law{structure, point};
-    const std::size_t size = point.size();
-    for (double& gain : law.gains) gain = std::exp(gain);
-    std::ranges::fill(values.constraints, -1.0);
-    std::ranges::fill(values.constraint_gradients, 0.0);
-    for (std::size_t m = 0; m < members.size(); ++m) {
-      const LoopEvaluation evaluation = members[m].evaluator.evaluate(law, true);
-      if (!evaluation.stable()) return false;
-      if (m == 0) {
-        const double variance = evaluation.beam_variance();
-        values.objectives[0] = 0.5 * std::log(variance);
-        const double effort = evaluation.effort_variance;
-        if (effort > 0.0) {
-          values.constraints[0] = 0.5 * std::log(effort) - std::log(goals.valve_effort) + reserve;
-        }
-        for (std::size_t k = 0; k < size; ++k) {
-          values.objective_gradients[k] =
-              0.5 * (evaluation.wind_log_gradient[k] + evaluation.noise_log_gradient[k]) / variance;
-          if (effort > 0.0) {
-            values.constraint_gradients[k] = 0.5 * evaluation.effort_log_gradient[k] / effort;
-          }
-        }
-      }
-      for (std::size_t b = 0; b < breaks; ++b) {
-        if (!members[m].looked_at[b]) continue;
-        const auto& peaks = evaluation.peaks[b];
-        for (std::size_t j = 0; j < peaks.size(); ++j) {
-          const std::size_t row = 1 + (m * breaks + b) * most_peaks + j;
-          values.constraints[row] =
-              std::log(peaks[j].magnitude / goals.sensitivity_peak[b]) + reserve;
-          for (std::size_t k = 0; k < size; ++k) {
-            values.constraint_gradients[row * size + k] = peaks[j].log_gradient[k];
-          }
-        }
-      }
-    }
-    return true;
-  };
-  return search;
-}
-
-// Keeps count over the searches of one tuning.
-class Tuning {
- public:
-  Tuning(const MeasuredProblem& problem, const control::LoopStructure& structure,
-         const MeasuredGoals& goals, const MeasuredTuningOptions& options)
-      : problem_(problem), structure_(structure), goals_(goals), options_(options) {
-    search_options_.evaluations_per_run = options.evaluations_per_run;
-    search_options_.stop = options.stop;
-  }
-
-  // Distinct optima of random starts on a coarse grid, best first; the point nearest to the goals
-  // where none meets them; nothing where no stable law was seen.
-  std::vector<SearchPoint> from_everywhere(MeasuredTuningResult& result) {
-    std::vector<Member> members{
-        measured(measured_grid(problem_, options_.search_points_per_decade, false))};
-    FeasibleSearch search(search_problem(members, structure_, goals_), search_options_);
-    std::mt19937_64 generator(options_.seed);
-    std::vector<double> anchor;
-    for (int trial = 0; trial < 2000 && anchor.empty() && !search.stopped(); ++trial) {
-      const auto point = search.random_point(generator);
-      if (search.evaluate(point) != nullptr) anchor = point;
-    }
-    std::vector<SearchPoint> found;
-    for (int start = 0; start < options_.starts && !anchor.empty() && !search.stopped(); ++start) {
-      const auto from = search.retreat(search.random_point(generator), anchor);
-      if (auto best = search.search_from(from)) found.push_back(std::move(*best));
-      ++result.starts;
-    }
-    count(search, result);
-    std::ranges::stable_sort(found, {}, &SearchPoint::cost);
-    result.starts_at_optimum = static_cast<int>(std::ranges::count_if(
-        found, [&](const auto& one) { return one.cost < found.front().cost + std::log(1.01); }));
-    std::vector<SearchPoint> distinct;
-    for (const auto& one : found) {
-      constexpr std::size_t most = 3;
-      const bool copy = !distinct.empty() && one.cost < distinct.back().cost + 1e-4;
-      if (!copy && distinct.size() < most) distinct.push_back(one);
-    }
-    if (const auto& nearest = search.nearest(); distinct.empty() && nearest) {
-      distinct.push_back(*nearest);
-    }
-    return distinct;
-  }
-
-  // The best from these starts with the responses of `members`; nearest to the goals if none.
-  std::optional<SearchPoint> refine(std::vector<Member>& members,
-                                    const std::vector<std::vector<double>>& starts,
-                                    MeasuredTuningResult& result) {
-    FeasibleSearch search(search_problem(members, structure_, goals_), search_options_);
-    // A start that is unstable with one of the members is pulled back to the first.
-    for (const auto& start : starts) search.search_from(search.retreat(start, starts.front()));
-    count(search, result);
-    return search.best() ? search.best() : search.nearest();
-  }
-
-  Member measured(const Eigen::ArrayXd& grid) const {
-    return {evaluator_of(problem_, problem_.channels.on(grid), problem_.rms_band),
-            {true, true, true}};
-  }
-
-  Member least_favourable(const control::ControlLaw& law, std::size_t b, double radius,
-                          const Eigen::ArrayXd& grid) const {
-    Member member{evaluator_of(problem_,
-                               control::least_favourable(problem_.channels, law, problem_.delay,
-                                                         control::loop_breaks[b], radius, grid),
-                               problem_.rms_band),
-                  {}};
-    member.looked_at[b] = true;
-    member.evaluator.look_at(member.looked_at);
-    return member;
-  }
-
-  control::ControlLaw law_of(const SearchPoint& point) const {
-    control::ControlLaw law{structure_, point.point};
-    for (double& gain : law.gains) gain = std::exp(gain);
-    return law;
-  }
-
- private:
-  static void count(const FeasibleSearch& search, MeasuredTuningResult& result) {
-    result.evaluations += search.evaluations();
-    result.stopped = result.stopped || search.stopped();
-  }
-
-  const MeasuredProblem& problem_;
-  const control::LoopStructure& structure_;
-  const MeasuredGoals& goals_;
-  const MeasuredTuningOptions& options_;
-  FeasibleSearchOptions search_options_;
-};
 
 void check(const MeasuredProblem& problem, const MeasuredGoals& goals,
            const MeasuredTuningOptions& options) {
@@ -219,8 +54,8 @@ void check(const MeasuredProblem& problem, const MeasuredGoals& goals,
 // until the law stays where it is. result.law: in, the best for the measured response; out, the
 // best that holds within the confidence, if any does.
 void make_confident(const MeasuredProblem& problem, const MeasuredGoals& goals,
-                    const MeasuredTuningOptions& options, Tuning& tuning,
-                    std::vector<Member>& members, MeasuredTuningResult& result) {
+                    const MeasuredTuningOptions& options, MeasuredSearch& tuning,
+                    std::vector<MeasuredMember>& members, MeasuredTuningResult& result) {
   constexpr double settled = 1e-3;  // change of every ln(gain), gain in rms
   const Eigen::ArrayXd grid = members.front().evaluator.response().frequency;
   const std::vector<double> nominal = logarithms(result.law.gains);
@@ -276,7 +111,7 @@ void find_shares(const MeasuredProblem& problem, MeasuredTuningResult& result) {
   const auto share = [](double part, double whole) { return whole > 0.0 ? part / whole : 0.0; };
   const auto add = [&](control::FrequencyBand band, double AssumedShare::*where) {
     if (!(band.highest > band.lowest)) return;
-    auto evaluator = evaluator_of(problem, channels, band);
+    auto evaluator = measured_evaluator(problem, channels, band);
     const LoopEvaluation part = evaluator.evaluate(result.law, false);
     result.wind_share.*where += share(part.wind_variance, all.wind_variance);
     result.noise_share.*where += share(part.noise_variance, all.noise_variance);
@@ -305,7 +140,7 @@ void find_oil_sensitivity(const MeasuredProblem& problem, MeasuredTuningResult& 
     const control::OilSpring& oil = problem.channels.oil();
     const auto channels = problem.channels.with_oil(
         {oil.stiffness * std::exp(stiffness), oil.loss_rate * std::exp(loss)});
-    auto evaluator = evaluator_of(problem, channels.on(grid), problem.rms_band);
+    auto evaluator = measured_evaluator(problem, channels.on(grid), problem.rms_band);
     return 0.5 * std::log(evaluator.evaluate(result.law, false).beam_variance());
   };
   result.by_stiffness = (log_rms(step, 0.0) - log_rms(-step, 0.0)) / (2.0 * step);
@@ -377,7 +212,7 @@ Eigen::ArrayXd measured_grid(const MeasuredProblem& problem, int points_per_deca
 
 control::LoopEvaluator make_evaluator(const MeasuredProblem& problem) {
   const Eigen::ArrayXd grid = measured_grid(problem, problem.points_per_decade, true);
-  return evaluator_of(problem, problem.channels.on(grid), problem.rms_band);
+  return measured_evaluator(problem, problem.channels.on(grid), problem.rms_band);
 }
 
 MeasuredTuningResult tune(const MeasuredProblem& problem, const control::LoopStructure& structure,
@@ -388,13 +223,13 @@ MeasuredTuningResult tune(const MeasuredProblem& problem, const control::LoopStr
   result.confidence = problem.channels.has_covariance() ? options.confidence : 0.0;
   result.radius =
       control::confidence_radius(result.confidence, problem.channels.degrees_of_freedom());
-  Tuning tuning(problem, structure, goals, options);
+  MeasuredSearch tuning(problem, structure, goals, options);
   std::vector<std::vector<double>> starts;
   for (auto& point : tuning.from_everywhere(result)) starts.push_back(std::move(point.point));
   if (starts.empty()) return result;
 
   const Eigen::ArrayXd grid = measured_grid(problem, problem.points_per_decade, true);
-  std::vector<Member> members;
+  std::vector<MeasuredMember> members;
   members.push_back(tuning.measured(grid));
   auto point = tuning.refine(members, starts, result);
   if (!point) return result;

@@ -189,6 +189,27 @@ Design assess(const TrackingProblem& problem, const control::ControlLaw& law,
   return design;
 }
 
+bool improve_from(const DesignTask& task, const std::vector<std::vector<double>>& starts,
+                  Design& design) {
+  if (starts.empty()) return false;
+  TuningOptions options = task.options;
+  options.starts = 0;
+  options.warm_starts = starts;
+  TuningResult tuning = tune(task.problem, task.structure, task.goals, options);
+  const TuningResult& now = design.tuning;
+  const bool better =
+      tuning.status == TuningStatus::optimal && !tuning.interrupted &&
+      (now.status != TuningStatus::optimal || tuning.soft_rms < (1.0 - 1e-4) * now.soft_rms);
+  if (!better) return false;
+  tuning.starts = now.starts;
+  tuning.starts_at_optimum = 0;
+  tuning.evaluations += now.evaluations;
+  Design found = finish(task, std::move(tuning));
+  if (!found.verification.passed) return false;
+  design = std::move(found);
+  return true;
+}
+
 void improve_along(const std::vector<DesignTask>& tasks, std::vector<Design>& designs) {
   if (tasks.size() != designs.size()) {
     throw InvalidInput(
@@ -196,22 +217,10 @@ void improve_along(const std::vector<DesignTask>& tasks, std::vector<Design>& de
                     designs.size(), tasks.size()));
   }
   const auto improve = [&](std::size_t i, std::size_t neighbour) {
-    if (designs[neighbour].tuning.status != TuningStatus::optimal) return;
-    TuningOptions options = tasks[i].options;
-    options.starts = 0;
-    options.warm_starts = {designs[neighbour].tuning.law.gains};
-    TuningResult tuning = tune(tasks[i].problem, tasks[i].structure, tasks[i].goals, options);
-    const auto& now = designs[i].tuning;
-    const bool better =
-        tuning.status == TuningStatus::optimal &&
-        (now.status != TuningStatus::optimal ||
-         tuning.evaluation.beam_variance() < (1.0 - 1e-4) * now.evaluation.beam_variance());
-    if (!better) return;
-    tuning.starts = now.starts;
-    tuning.starts_at_optimum = 0;
-    tuning.evaluations += now.evaluations;
-    Design design = finish(tasks[i], std::move(tuning));
-    if (design.verification.passed) designs[i] = std::move(design);
+    const TuningResult& other = designs[neighbour].tuning;
+    if (other.status == TuningStatus::optimal) {
+      improve_from(tasks[i], {other.law.gains}, designs[i]);
+    }
   };
   for (std::size_t i = 1; i < tasks.size(); ++i) improve(i, i - 1);
   for (std::size_t i = tasks.size(); i-- > 1;) improve(i - 1, i);

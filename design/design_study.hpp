@@ -66,6 +66,12 @@ Design solve(const DesignTask& task);
 Design assess(const TrackingProblem& problem, const control::ControlLaw& law,
               const HardGoals& goals);
 
+/// Tunes a task again from given gains, and keeps what comes out where it is verified and better:
+/// feasible where the design was not, or with a soft goal's rms lower by more than 1e-4 of it.
+/// Whether it did. An interrupted tuning is not kept. @throws as tune.
+bool improve_from(const DesignTask& task, const std::vector<std::vector<double>>& starts,
+                  Design& design);
+
 /// Warm-starts each design of a series (one plant changing step by step) from its neighbour's
 /// gains, forwards, then backwards, and keeps what is better and verified: an optimum that random
 /// starts missed at one point is found from the next. @throws InvalidInput for sizes that differ.

@@ -162,6 +162,21 @@ bool EnsembleSearch::carry_more(bool feasible) {
   return more;
 }
 
+std::vector<std::size_t> EnsembleSearch::near_goals(const std::vector<double>& point,
+                                                    std::size_t most) {
+  constexpr double near = 0.97;
+  judge(point);
+  std::vector<std::size_t> order;
+  for (std::size_t i = 1; i < plants_.size(); ++i) {
+    if (standings_[i].worst_ratio > near) order.push_back(i);
+  }
+  std::ranges::stable_sort(order, std::ranges::greater(),
+                           [&](std::size_t i) { return standings_[i].worst_ratio; });
+  order.resize(std::min(order.size(), most));
+  order.insert(order.begin(), 0);
+  return order;
+}
+
 std::optional<HeldLaw> EnsembleSearch::hold(const std::vector<double>& point,
                                             const std::vector<std::size_t>& carried) {
   carried_ = carried;

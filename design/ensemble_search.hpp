@@ -39,6 +39,10 @@ class EnsembleSearch {
   std::optional<HeldLaw> hold(const std::vector<double>& point,
                               const std::vector<std::size_t>& carried);
 
+  /// The problem's own plant and those that are near a goal at a point, or beyond it, nearest
+  /// first, at most `most`: what a search has to carry to stay near a law that all of them hold.
+  std::vector<std::size_t> near_goals(const std::vector<double>& point, std::size_t most);
+
   HeldLaw judge(const std::vector<double>& point);
   /// Feasible before infeasible, then by soft rms; infeasible ones by worst ratio.
   bool better(const HeldLaw& one, const HeldLaw& other) const;

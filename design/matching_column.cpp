@@ -5,6 +5,7 @@
 
 #include <boresight/control/closed_loop.hpp>
 #include <boresight/design/matching_column.hpp>
+#include <boresight/design/structure_parts.hpp>
 #include <boresight/plant/normal_numbers.hpp>
 
 namespace boresight::design {

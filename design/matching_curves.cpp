@@ -8,6 +8,7 @@
 #include <boresight/design/matching_column.hpp>
 #include <boresight/design/matching_curves.hpp>
 #include <boresight/design/parallel_loop.hpp>
+#include <boresight/design/structure_parts.hpp>
 #include <boresight/plant/error.hpp>
 
 namespace boresight::design {
@@ -46,64 +47,7 @@ void check(const MatchingTask& task, const MatchingOptions& options) {
   validate(task.goals);
 }
 
-bool is_part_of(const LoopStructure& part, const LoopStructure& whole) {
-  return part.gains().size() < whole.gains().size() &&
-         std::ranges::all_of(part.gains(), [&](const auto& gain) {
-           return std::ranges::find(whole.gains(), gain.symbol,
-                                    &control::GainDescription::symbol) != whole.gains().end();
-         });
-}
-
-// Of each structure those of the others that it extends, without those that these extend.
-std::vector<std::vector<std::size_t>> parts_of(const std::vector<LoopStructure>& structures) {
-  std::vector<std::vector<std::size_t>> parts(structures.size());
-  for (std::size_t s = 0; s < structures.size(); ++s) {
-    for (std::size_t part = 0; part < structures.size(); ++part) {
-      if (!is_part_of(structures[part], structures[s])) continue;
-      const bool between = std::ranges::any_of(structures, [&](const auto& one) {
-        return is_part_of(structures[part], one) && is_part_of(one, structures[s]);
-      });
-      if (!between) parts[s].push_back(part);
-    }
-  }
-  return parts;
-}
-
 }  // namespace
-
-std::vector<double> transferred_gains(const ControlLaw& law, const LoopStructure& structure) {
-  std::vector<double> gains;
-  for (const auto& block : structure.blocks()) {
-    for (std::size_t k = 0; k < block.gains.size(); ++k) {
-      const auto& gain = block.gains[k];
-      const auto& own = law.structure.gains();
-      const auto same = std::ranges::find(own, gain.symbol, &control::GainDescription::symbol);
-      if (same != own.end()) {
-        const double value = law.gains[static_cast<std::size_t>(same - own.begin())];
-        gains.push_back(std::clamp(value, gain.lower, gain.upper));
-        continue;
-      }
-      switch (block.kind) {
-        case control::BlockKind::gain:
-        case control::BlockKind::integral:
-          gains.push_back(gain.lower);
-          break;
-        case control::BlockKind::lag:
-        case control::BlockKind::lead:
-          // A lag where the other has none, a compliance's corner.
-          gains.push_back(block.path == control::LoopPath::compliance
-                              ? std::sqrt(gain.lower * gain.upper)
-                              : gain.upper);
-          break;
-        case control::BlockKind::washout:
-        case control::BlockKind::notch:
-          gains.push_back(std::sqrt(gain.lower * gain.upper));
-          break;
-      }
-    }
-  }
-  return gains;
-}
 
 MatchingCurves match_motors(const MatchingTask& task, const MatchingOptions& options) {
   check(task, options);

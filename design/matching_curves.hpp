@@ -82,10 +82,4 @@ struct MatchingCurves {
 /// validate(goals).
 MatchingCurves match_motors(const MatchingTask& task, const MatchingOptions& options);
 
-/// A law of one structure as a start for another: gains of the same symbol are kept, others set
-/// where they do the least: corners of lag and lead and notch far up, paths added with their least
-/// gain.
-std::vector<double> transferred_gains(const control::ControlLaw& law,
-                                      const control::LoopStructure& structure);
-
 }  // namespace boresight::design

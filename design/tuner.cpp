@@ -258,8 +258,12 @@ TuningResult tune(const TrackingProblem& problem, const control::LoopStructure& 
   }
   EnsembleSearch ensemble(plants, structure, goals, options);
   std::optional<HeldLaw> chosen;
-  for (const auto& point : points) {
-    const auto held = ensemble.hold(point, carried);
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    // A search that did not carry what limits a warm start would leave it for the nominal optimum.
+    constexpr std::size_t most_carried = 8;
+    const bool warm = i < options.warm_starts.size();
+    const auto held =
+        ensemble.hold(points[i], warm ? ensemble.near_goals(points[i], most_carried) : carried);
     if (held && (!chosen || ensemble.better(*held, *chosen)) &&
         ensemble.stable_by_eigenvalues(held->point)) {
       chosen = held;

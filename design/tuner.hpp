@@ -98,8 +98,10 @@ double worst_goal_ratio(const control::LoopEvaluation& evaluation, const HardGoa
 /// With members: the best nominal law is judged on all of them, those that break a goal the most
 /// (or are unstable, or stand above the soft goal) are carried along, and so on until every member
 /// holds its goals; then the starts are searched again with the carried members, and the best three
-/// once more in turn. A quantile leaves the right number of members out of the largest rms, those
-/// highest at the moment, until they stay the same: a local optimum of the quantile.
+/// once more in turn. Warm starts are searched from with the members carried that they bring near a
+/// goal, so that the search stays with them. A quantile leaves the right number of members out of
+/// the largest rms, those highest at the moment, until they stay the same: a local optimum of the
+/// quantile.
 ///
 /// Only laws whose eigenvalues are stable on every plant can win. Where no law holds every goal,
 /// the result is the law whose largest ratio is least, and `limits` says which goals contradict one

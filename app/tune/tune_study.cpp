@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <mutex>
 
 #include <fmt/format.h>
@@ -9,6 +10,7 @@
 #include <boresight/app/tune/engineer_units.hpp>
 #include <boresight/app/tune/tune_study.hpp>
 #include <boresight/design/parallel_loop.hpp>
+#include <boresight/design/structure_parts.hpp>
 #include <boresight/plant/error.hpp>
 #include <boresight/plant/point_response.hpp>
 
@@ -22,9 +24,11 @@ struct Unit {
   std::string name;
   control::LoopStructure structure;
   double wind_speed = 0.0;
-  std::optional<control::ControlLaw> present;
-  std::vector<TunedLaw> laws;
-  std::vector<std::string> not_run;
+  std::optional<control::ControlLaw> present = std::nullopt;
+  bool asked = true;                    // else only to start others from
+  std::vector<std::size_t> parts = {};  // units whose structures this one extends
+  std::vector<TunedLaw> laws = {};
+  std::vector<std::string> not_run = {};
 };
 
 class Study {
@@ -44,33 +48,46 @@ class Study {
     }
   }
 
-  void run(Unit& unit) const {
-    if (unit.present) {
-      TunedLaw row = new_row(unit, TunedFor::present);
-      row.design = design::assess(problem_at(unit.wind_speed), *unit.present, section_.goals);
-      finish(row);
-      row.goals_met = row.stable() && row.design.tuning.status == TuningStatus::optimal;
-      unit.laws.push_back(std::move(row));
+  void search(Unit& unit) const {
+    if (!unit.present) {
+      search(unit, TunedFor::nominal);
+      search(unit, TunedFor::robust);
       return;
     }
-    design::DesignTask task;
-    task.name = unit.name;
-    task.problem = problem_at(unit.wind_speed);
-    task.structure = unit.structure;
-    task.goals = section_.goals;
-    task.options.seed = options_.seed;
-    task.options.starts = section_.starts;
-    task.options.stop = options_.interrupted;
-    for (const auto& law : present_laws(antenna_)) {
-      if (law.structure == unit.structure) task.options.warm_starts.push_back(law.gains);
+    TunedLaw row = new_row(unit, TunedFor::present);
+    row.design = design::assess(problem_at(unit.wind_speed), *unit.present, section_.goals);
+    unit.laws.push_back(std::move(row));
+  }
+
+  // Starts each law of a unit from those of its parts, so that none is worse than what it extends.
+  void improve(Unit& unit, const std::vector<Unit>& units) const {
+    bool other_nominal = false;
+    for (auto& row : unit.laws) {
+      if (stopped()) return;
+      const design::DesignTask task = task_of(unit, row.tuned_for);
+      std::vector<std::vector<double>> starts;
+      if (other_nominal) starts.push_back(unit.laws.front().design.tuning.law.gains);
+      for (const std::size_t part : unit.parts) {
+        for (const auto& law : units[part].laws) {
+          if (law.tuned_for != row.tuned_for || !law.stable()) continue;
+          std::ranges::move(
+              design::starts_from_part(law.design.tuning.law, unit.structure, options_.seed),
+              std::back_inserter(starts));
+        }
+      }
+      other_nominal = design::improve_from(task, starts, row.design);
     }
-    tune(unit, TunedFor::nominal, task);
-    if (!unit.laws.empty() && unit.laws.front().stable()) {
-      task.options.warm_starts.push_back(unit.laws.front().design.tuning.law.gains);
+  }
+
+  // What the laws mean at the sky and on the ensemble.
+  void finish(Unit& unit) const {
+    for (auto& row : unit.laws) {
+      finish(row);
+      const bool every_member = !row.ensemble || row.ensemble->within_goals ==
+                                                     static_cast<int>(row.ensemble->members.size());
+      row.goals_met = row.stable() && row.design.tuning.status == TuningStatus::optimal &&
+                      (row.tuned_for != TunedFor::robust || every_member);
     }
-    task.options.members = ensemble_.members;
-    task.options.soft_goal = section_.soft_goal;
-    tune(unit, TunedFor::robust, task);
   }
 
  private:
@@ -89,23 +106,43 @@ class Study {
     return row;
   }
 
-  void tune(Unit& unit, TunedFor purpose, const design::DesignTask& task) const {
-    if (options_.interrupted && options_.interrupted()) {
+  bool stopped() const { return options_.interrupted && options_.interrupted(); }
+
+  design::DesignTask task_of(const Unit& unit, TunedFor purpose) const {
+    design::DesignTask task;
+    task.name = unit.name;
+    task.problem = problem_at(unit.wind_speed);
+    task.structure = unit.structure;
+    task.goals = section_.goals;
+    task.options.seed = options_.seed;
+    task.options.starts =
+        unit.asked ? section_.starts : std::min(section_.starts, design::starts_of_a_part);
+    task.options.stop = options_.interrupted;
+    for (const auto& law : present_laws(antenna_)) {
+      if (law.structure == unit.structure) task.options.warm_starts.push_back(law.gains);
+    }
+    if (purpose == TunedFor::robust) {
+      task.options.members = ensemble_.members;
+      task.options.soft_goal = section_.soft_goal;
+    }
+    return task;
+  }
+
+  void search(Unit& unit, TunedFor purpose) const {
+    if (stopped()) {
       unit.not_run.push_back(
           fmt::format("{}, {}, {:g} m/s", unit.name, to_string(purpose), unit.wind_speed));
       return;
     }
+    design::DesignTask task = task_of(unit, purpose);
+    if (!unit.laws.empty() && unit.laws.front().stable()) {
+      task.options.warm_starts.push_back(unit.laws.front().design.tuning.law.gains);
+    }
     TunedLaw row = new_row(unit, purpose);
     row.design = design::solve(task);
-    finish(row);
-    const bool every_member = !row.ensemble || row.ensemble->within_goals ==
-                                                   static_cast<int>(row.ensemble->members.size());
-    row.goals_met = row.design.tuning.status == TuningStatus::optimal &&
-                    (purpose == TunedFor::nominal || every_member);
     unit.laws.push_back(std::move(row));
   }
 
-  // What a law means at the sky and on the ensemble.
   void finish(TunedLaw& row) const {
     const control::ControlLaw& law = row.design.tuning.law;
     row.gains = in_engineers_units(antenna_, law);
@@ -174,16 +211,37 @@ std::string short_name(const control::LoopStructure& structure) {
 }
 
 std::vector<Unit> units_of(const Case& antenna, const TuneSection& section) {
+  std::vector<control::LoopStructure> structures;
+  for (const auto& name : section.structures) {
+    structures.push_back(loop_structure(antenna.loops, name));
+  }
+  const auto missing = design::missing_parts(structures);
+  structures.insert(structures.end(), missing.begin(), missing.end());
+  const auto parts = design::parts_of(structures);
   std::vector<Unit> units;
   for (const double speed : section.wind_speeds) {
     for (const auto& law : present_laws(antenna)) {
-      units.push_back({short_name(law.structure), law.structure, speed, law, {}, {}});
+      units.push_back({short_name(law.structure), law.structure, speed, law});
     }
-    for (const auto& name : section.structures) {
-      units.push_back({name, loop_structure(antenna.loops, name), speed, std::nullopt, {}, {}});
+    const std::size_t first = units.size();
+    for (std::size_t s = 0; s < structures.size(); ++s) {
+      const bool asked = s < section.structures.size();
+      Unit unit{asked ? section.structures[s] : short_name(structures[s]), structures[s], speed};
+      unit.asked = asked;
+      for (const std::size_t part : parts[s]) unit.parts.push_back(first + part);
+      units.push_back(std::move(unit));
     }
   }
   return units;
+}
+
+// Units in waves, none in a wave with its parts: by the number of gains.
+std::map<std::size_t, std::vector<std::size_t>> waves_of(const std::vector<Unit>& units) {
+  std::map<std::size_t, std::vector<std::size_t>> waves;
+  for (std::size_t i = 0; i < units.size(); ++i) {
+    if (!units[i].parts.empty()) waves[units[i].structure.gains().size()].push_back(i);
+  }
+  return waves;
 }
 
 // Whether a tuned law is good for everything but for its verification.
@@ -235,14 +293,28 @@ TuneSection tune_structures(const Case& antenna, const PlantEnsemble& ensemble,
   section.problem = make_problem(antenna);
   section.wind_model = section.problem.wind.model;
   auto units = units_of(antenna, section);
-  std::size_t done = 0;
+  const auto waves = waves_of(units);
+  std::size_t done = 0, all = units.size();
+  for (const auto& [gains, wave] : waves) all += wave.size();
   std::mutex mutex;
-  design::for_each_index(units.size(), options.threads, [&](std::size_t i) {
-    study.run(units[i]);
+  const auto step = [&] {
     const std::lock_guard lock(mutex);
     ++done;
-    if (options.progress) options.progress(done, units.size());
+    if (options.progress) options.progress(done, all);
+  };
+  design::for_each_index(units.size(), options.threads, [&](std::size_t i) {
+    study.search(units[i]);
+    step();
   });
+  for (const auto& [gains, wave] : waves) {
+    design::for_each_index(wave.size(), options.threads, [&, &wave = wave](std::size_t i) {
+      study.improve(units[wave[i]], units);
+      step();
+    });
+  }
+  std::erase_if(units, [](const auto& unit) { return !unit.asked; });
+  design::for_each_index(units.size(), options.threads,
+                         [&](std::size_t i) { study.finish(units[i]); });
   for (auto& unit : units) {
     std::ranges::move(unit.laws, std::back_inserter(section.laws));
     std::ranges::move(unit.not_run, std::back_inserter(section.not_run));

@@ -143,20 +143,6 @@ TEST(MatchingCurves, ProgressEndsAtAll) {
   EXPECT_EQ(last, total);
 }
 
-TEST(MatchingCurves, TransferredGainsKeepWhatIsSharedAndDoNothingElse) {
-  const control::ControlLaw law{LoopStructure::pi(), {0.2, 0.8, 0.2, 0.02}};
-  const auto gains = transferred_gains(law, LoopStructure::full());
-  const control::ControlLaw full{LoopStructure::full(), gains};
-  EXPECT_NO_THROW(control::validate(full));
-  for (const double w : {0.01, 1.0, 10.0}) {
-    const auto part = control::compensator_response(law, w);
-    const auto whole = control::compensator_response(full, w);
-    EXPECT_LT(std::abs(whole.rate / part.rate - 1.0), 1e-3 + w / 1e4);
-    EXPECT_EQ(whole.position, part.position);
-    EXPECT_LT(std::abs(whole.pressure), 1.01e-4);
-  }
-}
-
 TEST(MatchingCurves, SaysWhatItCannotWorkOn) {
   MatchingTask wrong = small_task();
   wrong.motor_inertia.clear();

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <map>
 #include <memory>
 
 #include <CLI/CLI.hpp>
@@ -69,6 +70,7 @@ Report evaluate_case(const EvaluateArguments& arguments, const std::function<boo
   options.structures = arguments.structures;
   options.draws = arguments.draws;
   options.starts = arguments.starts;
+  options.time_domain = arguments.time_domain;
   options.seed = arguments.seed;
   options.threads = arguments.threads;
   options.interrupted = interrupted;
@@ -93,7 +95,8 @@ Report evaluate_case(const EvaluateArguments& arguments, const std::function<boo
     report.assumed = assumed_inputs(antenna);
     return report;
   }
-  report.assumed = assumed_inputs(antenna, {.steady_motion = true});
+  report.assumed =
+      assumed_inputs(antenna, {.steady_motion = true, .time_runs = options.time_domain});
   add_assumed(proposals, report.assumed);
   options.progress = [&](std::size_t done, std::size_t all) { progress.show(done, all); };
   report.evaluated = evaluate_proposals(antenna, proposals, *uncertainty, options);
@@ -122,6 +125,12 @@ Subcommand add_evaluate(CLI::App& program) {
       ->capture_default_str();
   sub->add_option("--starts", arguments->starts, "random starts of each search")
       ->check(CLI::Range(1, 100000));
+  const std::map<std::string, bool> runs{{"none", false}, {"all", true}};
+  sub->add_option("--time-domain", arguments->time_domain,
+                  "which laws run on the nonlinear antenna, and are compared by that: none; all, "
+                  "the default")
+      ->transform(CLI::CheckedTransformer(runs, CLI::ignore_case).description("none, all"))
+      ->default_str("all");
   add_outputs(*sub, arguments->outputs);
   add_seed(*sub, arguments->seed);
   add_threads(*sub, arguments->threads);

@@ -22,12 +22,13 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 // threads: copies are independent.
 class HeldCandidate {
  public:
-  HeldCandidate(const Case& as_is, const Case& antenna, const control::ControlLaw& law)
+  HeldCandidate(const Case& as_is, const Case& antenna, const CandidateLaw& law)
       : as_is_(&as_is),
         antenna_(&antenna),
+        nonlinear_factor_(law.nonlinear_factor()),
         problem_(problem_of(antenna)),
         goals_(make_goals(antenna)),
-        evaluator_(problem_, law, goals_) {}
+        evaluator_(problem_, law.design.tuning.law, goals_) {}
 
   struct Outcome {
     double rms = 0.0;  // mdeg; infinite if unstable
@@ -42,7 +43,8 @@ class HeldCandidate {
     if (!stable) return {infinity, false};
     const double wind = problem_.climate.empty() ? values.wind_variance : values.climate_variance;
     Outcome outcome;
-    outcome.rms = std::sqrt(wind + values.noise_variance) / problem_.gear_ratio / millidegree;
+    outcome.rms = nonlinear_factor_ * std::sqrt(wind + values.noise_variance) /
+                  problem_.gear_ratio / millidegree;
     outcome.within_goals = std::sqrt(values.effort_variance) <= goals_.valve_effort;
     for (std::size_t b = 0; b < values.sensitivity_peaks.size(); ++b) {
       if (values.sensitivity_peaks.at(b) > goals_.sensitivity_peak.at(b)) {
@@ -61,6 +63,7 @@ class HeldCandidate {
 
   const Case* as_is_;
   const Case* antenna_;
+  double nonlinear_factor_;
   design::TrackingProblem problem_;
   design::HardGoals goals_;
   design::HeldGainsEvaluator evaluator_;
@@ -114,8 +117,14 @@ class Decision {
             fmt::format("{} has no stable law and is left out.", candidates[i].name));
         continue;
       }
+      if (!std::isfinite(law->nonlinear_factor())) {
+        section_.notes.push_back(
+            fmt::format("{} did not complete its run on the nonlinear antenna and is left out.",
+                        candidates[i].name));
+        continue;
+      }
       section_.candidates.push_back({i, {}, {}});
-      held_.emplace_back(cases.front(), cases[i], law->design.tuning.law);
+      held_.emplace_back(cases.front(), cases[i], *law);
     }
     for (const auto input : distribution.inputs()) section_.inputs.emplace_back(to_string(input));
   }

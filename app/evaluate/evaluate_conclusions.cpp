@@ -15,7 +15,7 @@ namespace {
 // NaN without a stable law.
 double rms_of(const Candidate& candidate) {
   const CandidateLaw* law = candidate.chosen_law();
-  return law == nullptr ? std::numeric_limits<double>::quiet_NaN() : law->member_rms;
+  return law == nullptr ? std::numeric_limits<double>::quiet_NaN() : law->compared_rms();
 }
 
 std::string share(const design::Probability& probability) {
@@ -31,23 +31,76 @@ const std::string& name_of(const EvaluateSection& section, const DecisionSection
 std::string against_as_it_is(const EvaluateSection& section) {
   const Candidate& base = section.candidates.front();
   const CandidateLaw* law = base.chosen_law();
-  if (!base.path.empty() || law == nullptr || !std::isfinite(law->member_rms)) return "";
+  if (!base.path.empty() || law == nullptr || !std::isfinite(rms_of(base))) return "";
   std::vector<std::string> better, worse;
   for (const auto& candidate : section.candidates) {
-    if (candidate.path.empty() || !candidate.feasible()) continue;
+    if (candidate.path.empty() || !candidate.feasible() || !std::isfinite(rms_of(candidate))) {
+      continue;
+    }
     const double change = rms_of(candidate) / rms_of(base) - 1.0;
     auto& list = change < 0.0 ? better : worse;
     list.push_back(fmt::format("{:.1f} % by {}", 100.0 * std::abs(change), candidate.name));
   }
   std::string text = fmt::format(
       "Conditions: {} loops on the antenna as it is, {} wind at {:g} m/s, gains re-tuned for each "
-      "proposal. Root-mean-square beam error over the plants against the antenna as it is, "
+      "proposal{}. Root-mean-square beam error over the plants against the antenna as it is, "
       "re-tuned ({:.4f} mdeg): ",
       law->structure, plant::to_string(section.wind_model), section.wind_speed,
+      section.time_domain
+          ? ", each rms of linear loops raised by what friction, backlash, orifices, limits and "
+            "encoder steps did to that law in a simulated record"
+          : ", linear loops only",
       rms_of(base) / millidegree);
   text += better.empty() ? "nothing lowers it" : fmt::format("lowered {}", fmt::join(better, ", "));
   if (!worse.empty()) text += fmt::format("; raised or left {}", fmt::join(worse, ", "));
   return text + ".";
+}
+
+// What the nonlinear antenna makes of the laws: the widest spread of factors, what hunts, and where
+// it chose another structure or order than the linear plant.
+std::string in_the_time_domain(const EvaluateSection& section) {
+  if (!section.time_domain) return "";
+  std::vector<std::string> factors, hunting, failed;
+  const Candidate* linear = nullptr;
+  const Candidate* simulated = nullptr;
+  for (const auto& candidate : section.candidates) {
+    const CandidateLaw* law = candidate.chosen_law();
+    if (law == nullptr || !law->time_domain) continue;
+    if (!std::isfinite(law->nonlinear_factor())) {
+      failed.push_back(candidate.name);
+      continue;
+    }
+    factors.push_back(fmt::format("{} {:.2f}", candidate.name, law->nonlinear_factor()));
+    double amplitude = 0.0;
+    for (const auto& one : law->time_domain->hunting) {
+      if (one.limit_cycle) amplitude = std::max(amplitude, one.beam_amplitude);
+    }
+    if (amplitude > 0.0) {
+      hunting.push_back(fmt::format("{} +-{:.2f}", candidate.name, amplitude / millidegree));
+    }
+    if (!law->usable()) continue;
+    if (linear == nullptr || law->member_rms < linear->chosen_law()->member_rms)
+      linear = &candidate;
+    if (simulated == nullptr || rms_of(candidate) < rms_of(*simulated)) simulated = &candidate;
+  }
+  std::string text;
+  if (!factors.empty()) {
+    text = fmt::format("Simulated rms over that of the linear plant in the same record: {}.",
+                       fmt::join(factors, ", "));
+  }
+  if (linear != simulated && linear != nullptr && simulated != nullptr) {
+    text += fmt::format(" Linear loops would put {} first; on the nonlinear antenna it is {}.",
+                        linear->name, simulated->name);
+  }
+  if (!hunting.empty()) {
+    text += fmt::format(" Limit cycles of the beam (mdeg, at rest or tracking): {}.",
+                        fmt::join(hunting, ", "));
+  }
+  if (!failed.empty()) {
+    text += fmt::format(" Did not complete their run, and are not compared: {}.",
+                        fmt::join(failed, ", "));
+  }
+  return text;
 }
 
 std::string on_the_front(const EvaluateSection& section) {
@@ -99,6 +152,11 @@ std::string chances(const EvaluateSection& section, const DecisionSection& decis
       " The intervals are those of {} draws ({}); another view of what is uncertain may move the "
       "probabilities farther than that.",
       decision.draws, decision.source);
+  if (section.time_domain) {
+    text +=
+        " Each law's factor of the nonlinear antenna comes from one record and is not drawn: of "
+        "proposals that lie a few per cent apart the probability says nothing.";
+  }
   const auto& outside = decision.candidates[decision.best].outside_goals;
   text += fmt::format(
       " Its hard goals hold on the {} plants it was tuned for; of the draws, which move more "
@@ -199,6 +257,7 @@ std::vector<std::string> conclude(const EvaluateSection& section) {
   };
   if (section.candidates.empty()) return sentences;
   add(against_as_it_is(section));
+  add(in_the_time_domain(section));
   add(on_the_front(section));
   if (section.decision) {
     add(chances(section, *section.decision));

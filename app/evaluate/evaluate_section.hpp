@@ -9,6 +9,7 @@
 #include <boresight/app/redesign/antenna_model.hpp>
 #include <boresight/app/uncertainty/plant_distribution.hpp>
 #include <boresight/design/decision_statistics.hpp>
+#include <boresight/design/nonlinear_verification.hpp>
 #include <boresight/design/plant_ensemble.hpp>
 #include <boresight/design/sobol_indices.hpp>
 #include <boresight/design/test_value.hpp>
@@ -25,9 +26,17 @@ struct CandidateLaw {
   std::vector<std::string> gains;  // in the engineer's units
   /// With the gains held on every member; none without a stable law.
   std::optional<design::EnsembleResult> ensemble;
-  /// Root of the mean square over the members; infinite if one is unstable.
+  /// Root of the mean square over the members, of linear loops; infinite if one is unstable.
   double member_rms = 0.0;
+  /// On the nonlinear antenna of the proposal, at the design's wind speed; none where that was not
+  /// asked for, for a law that is not stable and for a case without [simulation].
+  std::optional<design::NonlinearVerification> time_domain;
 
+  /// The simulated beam's rms over that of the linear plant in the same record; 1 without a
+  /// simulation, infinite if that did not complete.
+  double nonlinear_factor() const;
+  /// What laws and proposals are compared by: member_rms times nonlinear_factor.
+  double compared_rms() const { return member_rms * nonlinear_factor(); }
   bool stable() const { return design.tuning.status != design::TuningStatus::unstable; }
   bool usable() const { return goals_met && design.verification.passed; }
 };
@@ -42,6 +51,7 @@ struct SlewFigures {
 };
 
 /// What the chosen law and the drive do, at the design's wind speed with the mean of the plant.
+/// Rms, losses and speed limits with the law's nonlinear_factor, also at other wind speeds.
 struct CandidateFigures {
   std::vector<double> losses;                // dB, one a band
   std::optional<double> climate_rms;         // rad
@@ -68,7 +78,7 @@ struct Candidate {
   double motor_to_load_ratio = 0.0;
   std::vector<CandidateLaw> laws;  // one a structure
   /// The law that stands for it: of those that meet all goals and pass their verification the one
-  /// of least member_rms, else the one nearest to that; none if no structure is stable.
+  /// of least compared_rms, else the one nearest to that; none if no structure is stable.
   std::optional<std::size_t> chosen;
   std::optional<CandidateFigures> figures;  // of the chosen law
 
@@ -84,7 +94,8 @@ struct CandidateDraws {
   design::Probability outside_goals;  // unstable, or a peak or the valve effort beyond its goal
 };
 
-/// Chances, regrets and what they rest on. Losses are beam rms in mdeg.
+/// Chances, regrets and what they rest on. Losses are beam rms in mdeg, of linear loops times the
+/// law's nonlinear_factor.
 struct DecisionSection {
   std::size_t draws = 0;
   std::string source;                      // of the draws
@@ -113,8 +124,10 @@ struct EvaluateSection {
   int starts = 0;
   std::vector<PointingBand> bands;
   std::vector<PointingBudget> budgets;
+  /// How laws ran on the nonlinear antenna; none if they did not.
+  std::optional<design::NonlinearVerificationOptions> time_domain;
   std::vector<Candidate> candidates;  // the antenna as it is first
-  /// On the front of cost and expected rms, as places in `candidates`, in rising cost.
+  /// On the front of cost and compared_rms, as places in `candidates`, in rising cost.
   std::vector<std::size_t> front;
   std::optional<DecisionSection> decision;
   std::vector<std::string> not_run;  // what an interrupt left out

@@ -1,17 +1,16 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <mutex>
 #include <numbers>
 
 #include <fmt/format.h>
 
+#include <boresight/app/evaluate/candidate_laws.hpp>
 #include <boresight/app/evaluate/evaluate_study.hpp>
 #include <boresight/app/io/field.hpp>
 #include <boresight/app/io/wording.hpp>
 #include <boresight/app/simulate/nonlinear_model.hpp>
-#include <boresight/app/tune/engineer_units.hpp>
-#include <boresight/app/tune/plant_members.hpp>
+#include <boresight/app/simulate/time_domain.hpp>
 #include <boresight/design/drive_reach.hpp>
 #include <boresight/design/parallel_loop.hpp>
 #include <boresight/design/pareto_front.hpp>
@@ -20,96 +19,9 @@
 namespace boresight::app {
 namespace {
 
-using design::TuningStatus;
-
 constexpr double degree = std::numbers::pi / 180.0;
-constexpr double infinity = std::numeric_limits<double>::infinity();
-// As many as the reference ensemble has.
-constexpr std::size_t drawn_members = 30;
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 constexpr std::string_view as_it_is = "as it is";
-
-std::vector<design::EnsembleMember> members_of(const Case& as_is, const Case& proposed,
-                                               const PlantUncertainty& uncertainty,
-                                               std::uint64_t seed) {
-  if (!uncertainty.from_records) return plant_members(proposed, seed);
-  std::vector<design::EnsembleMember> members{{"nominal", make_plant(proposed)}};
-  for (std::size_t i = 0; i + 1 < drawn_members; ++i) {
-    members.push_back({fmt::format("draw {}", i + 1),
-                       proposed_plant(as_is, proposed, uncertainty.distribution.draw(seed, i))});
-  }
-  return members;
-}
-
-// One structure of one candidate.
-struct Task {
-  std::size_t candidate = 0;
-  std::string structure;
-  CandidateLaw law;
-  bool whole = false;
-};
-
-double over_members(const design::EnsembleResult& ensemble) {
-  double sum = 0.0;
-  for (const auto& member : ensemble.members) {
-    if (!member.stable) return infinity;
-    sum += member.beam_rms * member.beam_rms;
-  }
-  return std::sqrt(sum / static_cast<double>(ensemble.members.size()));
-}
-
-class Study {
- public:
-  Study(const Case& antenna, const std::vector<Case>& cases, const PlantUncertainty& uncertainty,
-        const EvaluateOptions& options, int starts)
-      : cases_(cases), options_(options), starts_(starts) {
-    for (const auto& one : cases) {
-      members_.push_back(members_of(antenna, one, uncertainty, options.seed));
-    }
-  }
-
-  std::size_t members() const { return members_.front().size(); }
-
-  void tune(Task& task) const {
-    if (stopped()) return;
-    const Case& antenna = cases_[task.candidate];
-    design::DesignTask search;
-    search.name = task.structure;
-    search.problem = make_problem(antenna);
-    if (antenna.goals.over_climate) search.problem.climate = make_climate(antenna);
-    search.structure = loop_structure(antenna.loops, task.structure);
-    search.goals = make_goals(antenna);
-    search.options.seed = options_.seed;
-    search.options.starts = starts_;
-    search.options.stop = options_.interrupted;
-    for (const auto& law : present_laws(antenna)) {
-      if (law.structure == search.structure) search.options.warm_starts.push_back(law.gains);
-    }
-    const auto& members = members_[task.candidate];
-    search.options.members = members;
-    search.options.soft_goal = make_soft_goal(antenna);
-    task.law.structure = task.structure;
-    task.law.design = design::solve(search);
-    if (task.law.design.tuning.interrupted || stopped()) return;
-    task.law.member_rms = infinity;
-    if (task.law.stable()) {
-      const auto& law = task.law.design.tuning.law;
-      task.law.gains = in_engineers_units(antenna, law);
-      task.law.ensemble = design::judge(search.problem, members, law, search.goals, 1);
-      task.law.member_rms = over_members(*task.law.ensemble);
-      task.law.goals_met = task.law.design.tuning.status == TuningStatus::optimal &&
-                           task.law.ensemble->within_goals == static_cast<int>(members.size());
-    }
-    task.whole = true;
-  }
-
- private:
-  bool stopped() const { return options_.interrupted && options_.interrupted(); }
-
-  const std::vector<Case>& cases_;
-  const EvaluateOptions& options_;
-  int starts_;
-  std::vector<std::vector<design::EnsembleMember>> members_;
-};
 
 // The best of laws: usable ones first, then those that meet their goals, then stable ones.
 std::optional<std::size_t> choose(const std::vector<CandidateLaw>& laws) {
@@ -117,7 +29,7 @@ std::optional<std::size_t> choose(const std::vector<CandidateLaw>& laws) {
   const auto rank = [&](std::size_t i) {
     const auto& law = laws[i];
     const int worth = law.usable() ? 0 : law.goals_met ? 1 : 2;
-    const double nearness = worth < 2 ? law.member_rms : law.design.tuning.worst_goal_ratio;
+    const double nearness = worth < 2 ? law.compared_rms() : law.design.tuning.worst_goal_ratio;
     return std::pair(worth, nearness);
   };
   for (std::size_t i = 0; i < laws.size(); ++i) {
@@ -149,8 +61,11 @@ std::optional<SlewFigures> slew_of(const Case& antenna, double inertia) {
   return slew;
 }
 
-CandidateFigures figures_of(const Case& antenna, const control::ControlLaw& law,
+CandidateFigures figures_of(const Case& antenna, const CandidateLaw& tuned,
                             const EvaluateSection& section) {
+  const control::ControlLaw& law = tuned.design.tuning.law;
+  const double factor = tuned.nonlinear_factor();
+  const bool known = std::isfinite(factor);
   CandidateFigures figures;
   auto problem = make_problem(antenna);
   auto evaluator = design::make_evaluator(problem);
@@ -159,15 +74,18 @@ CandidateFigures figures_of(const Case& antenna, const control::ControlLaw& law,
   const auto losses = [&](double rms) {
     std::vector<double> found;
     for (const auto& band : section.bands) {
-      found.push_back(design::pointing_loss_db(rms, band.beamwidth,
-                                               design::LossConvention::mean_loss_two_axes));
+      found.push_back(known ? design::pointing_loss_db(rms, band.beamwidth,
+                                                       design::LossConvention::mean_loss_two_axes)
+                            : nan);
     }
     return found;
   };
-  figures.losses = losses(std::sqrt(evaluation.beam_variance()) / problem.gear_ratio);
+  figures.losses = losses(factor * std::sqrt(evaluation.beam_variance()) / problem.gear_ratio);
   for (const auto& budget : section.budgets) {
-    figures.speed_limits.push_back(
-        design::wind_speed_limit(problem, evaluator, law, evaluation.noise_variance, budget.rms));
+    figures.speed_limits.push_back(known ? design::wind_speed_limit(problem, evaluator, law,
+                                                                    evaluation.noise_variance,
+                                                                    budget.rms / factor)
+                                         : nan);
   }
   const double crest = antenna.goals.crest_factor ? antenna.goals.crest_factor->value
                                                   : design::HardGoals{}.crest_factor;
@@ -187,7 +105,7 @@ CandidateFigures figures_of(const Case& antenna, const control::ControlLaw& law,
   if (!climate.empty()) {
     problem.climate = climate;
     figures.climate_rms =
-        std::sqrt(design::make_evaluator(problem).evaluate(law, false).beam_variance()) /
+        factor * std::sqrt(design::make_evaluator(problem).evaluate(law, false).beam_variance()) /
         problem.gear_ratio;
     figures.climate_losses = losses(*figures.climate_rms);
   }
@@ -248,15 +166,15 @@ void check_together(const std::vector<Proposal>& proposals) {
   }
 }
 
-// In rising cost, by the nominal rms of those with a stable law.
+// In rising cost, by the rms of those with a usable law.
 std::vector<std::size_t> front_of(const std::vector<Candidate>& candidates) {
   std::vector<std::size_t> places;
   std::vector<design::CostPoint> points;
   for (std::size_t i = 0; i < candidates.size(); ++i) {
     const CandidateLaw* law = candidates[i].chosen_law();
-    if (law == nullptr || !law->usable()) continue;
+    if (law == nullptr || !law->usable() || !std::isfinite(law->compared_rms())) continue;
     places.push_back(i);
-    points.push_back({candidates[i].cost, law->member_rms});
+    points.push_back({candidates[i].cost, law->compared_rms()});
   }
   std::vector<std::size_t> front;
   for (const std::size_t i : design::pareto_front(points)) front.push_back(places[i]);
@@ -264,6 +182,13 @@ std::vector<std::size_t> front_of(const std::vector<Candidate>& candidates) {
 }
 
 }  // namespace
+
+double CandidateLaw::nonlinear_factor() const {
+  if (!time_domain) return 1.0;
+  const auto& wind = time_domain->wind;
+  const bool complete = wind.status == design::RunStatus::complete;
+  return complete ? wind.beam_rms / wind.continuous_rms : std::numeric_limits<double>::infinity();
+}
 
 plant::AntennaPlant proposed_plant(const Case& as_is, const Case& proposed, const PlantDraw& draw) {
   PlantDraw own = draw;
@@ -315,41 +240,26 @@ EvaluateSection evaluate_proposals(const Case& antenna, const std::vector<Propos
   section.candidates.push_back(describe_candidate(antenna));
   section.candidates.front().name = as_it_is;
   section.candidates.front().description = "the antenna of the case, re-tuned";
-  std::vector<Task> tasks;
-  const auto add_tasks = [&](const std::vector<std::string>& names) {
-    for (const auto& name : names) tasks.push_back({cases.size() - 1, name, {}, false});
-  };
-  add_tasks(structures);
+  std::vector<std::vector<std::string>> names{structures};
   for (const auto& proposal : proposals) {
     ProposedCase proposed = apply_proposal(antenna, proposal);
     section.candidates.push_back(describe_candidate(proposed, proposal));
     cases.push_back(std::move(proposed.antenna));
     design::validate(make_goals(cases.back()));
-    add_tasks(proposal.structures.empty() ? structures : proposal.structures);
+    names.push_back(proposal.structures.empty() ? structures : proposal.structures);
   }
 
-  const Study study(antenna, cases, uncertainty, options, section.starts);
-  section.ensemble_size = study.members();
+  auto tuned = tune_candidates(cases, names, uncertainty, section.starts, options);
+  section.ensemble_size = tuned.members;
   section.ensemble_source = uncertainty.from_records ? "drawn from what the records leave open"
                                                      : "drawn from the ranges of the case";
-  std::size_t done = 0;
-  std::mutex mutex;
-  // The last task is the draws.
-  const std::size_t all = tasks.size() + 1;
-  design::for_each_index(tasks.size(), options.threads, [&](std::size_t i) {
-    study.tune(tasks[i]);
-    const std::lock_guard lock(mutex);
-    ++done;
-    if (options.progress) options.progress(done, all);
-  });
-
-  std::vector<bool> whole(section.candidates.size(), true);
-  for (auto& task : tasks) {
-    if (!task.whole) {
-      whole[task.candidate] = false;
-      continue;
-    }
-    section.candidates[task.candidate].laws.push_back(std::move(task.law));
+  if (options.time_domain && antenna.simulation) {
+    section.time_domain = comparison_options(antenna, options.seed);
+  }
+  std::vector<bool> whole;
+  for (std::size_t i = 0; i < section.candidates.size(); ++i) {
+    whole.push_back(tuned.candidates[i].whole);
+    section.candidates[i].laws = std::move(tuned.candidates[i].laws);
   }
   for (std::size_t i = whole.size(); i-- > 0;) {
     if (whole[i]) continue;
@@ -361,8 +271,7 @@ EvaluateSection evaluate_proposals(const Case& antenna, const std::vector<Propos
     Candidate& candidate = section.candidates[i];
     candidate.chosen = choose(candidate.laws);
     if (!candidate.chosen) return;
-    candidate.figures =
-        figures_of(cases[i], candidate.laws[*candidate.chosen].design.tuning.law, section);
+    candidate.figures = figures_of(cases[i], candidate.laws[*candidate.chosen], section);
   });
   section.front = front_of(section.candidates);
   const bool stopped = options.interrupted && options.interrupted();
@@ -371,7 +280,7 @@ EvaluateSection evaluate_proposals(const Case& antenna, const std::vector<Propos
     if (section.decision->draws == 0) section.decision.reset();
   }
   if (!section.decision) section.not_run.emplace_back("chances, regrets and tests");
-  if (options.progress) options.progress(all, all);
+  if (options.progress) options.progress(1, 1);
   return section;
 }
 

@@ -14,6 +14,8 @@ struct EvaluateOptions {
   std::vector<std::string> structures;
   std::size_t draws = 2000;
   int starts = 0;  // of each search; 0: as the case has it
+  /// Laws run on the nonlinear antenna, if the case has a [simulation], and are compared by that.
+  bool time_domain = true;
   std::uint64_t seed = 1;
   unsigned threads = 1;
   /// Called with tasks done and all tasks; may be empty.

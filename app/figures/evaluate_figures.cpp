@@ -23,9 +23,11 @@ std::string title_of(const DecisionSection& decision) {
 
 std::string conditions(const EvaluateSection& section) {
   return fmt::format(
-      "Each proposal with loops of its own, {:g} m/s, wind model {}, {} plants ({}).",
+      "Each proposal with loops of its own, {:g} m/s, wind model {}, {} plants ({}){}.",
       section.wind_speed, plant::to_string(section.wind_model), section.ensemble_size,
-      section.ensemble_source);
+      section.ensemble_source,
+      section.time_domain ? "; rms of linear loops times each law's factor of the nonlinear antenna"
+                          : "");
 }
 
 const std::string& name_of(const EvaluateSection& section, const DecisionSection& decision,
@@ -55,12 +57,12 @@ Figure front_figure(const EvaluateSection& section) {
   FigureSeries front{.name = "front", .style = SeriesStyle::steps};
   for (const auto& candidate : section.candidates) {
     const CandidateLaw* law = candidate.chosen_law();
-    if (law == nullptr || !std::isfinite(law->member_rms)) continue;
+    if (law == nullptr || !std::isfinite(law->compared_rms())) continue;
     FigureSeries& series = candidate.feasible() ? meets : misses;
     series.x.push_back(candidate.cost);
     series.x_lower.push_back(candidate.cost - candidate.cost_uncertainty);
     series.x_upper.push_back(candidate.cost + candidate.cost_uncertainty);
-    series.y.push_back(finite_rms(law->member_rms));
+    series.y.push_back(finite_rms(law->compared_rms()));
     series.labels.push_back(candidate.name);
   }
   for (const std::size_t place : section.front) {
@@ -68,7 +70,7 @@ Figure front_figure(const EvaluateSection& section) {
     const CandidateLaw* law = candidate.chosen_law();
     if (law == nullptr) continue;
     front.x.push_back(candidate.cost);
-    front.y.push_back(finite_rms(law->member_rms));
+    front.y.push_back(finite_rms(law->compared_rms()));
   }
   if (!meets.x.empty()) panel.series.push_back(std::move(meets));
   if (front.x.size() > 1) panel.series.push_back(std::move(front));

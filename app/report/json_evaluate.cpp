@@ -1,6 +1,7 @@
 #include <numbers>
 
 #include <boresight/app/report/evaluate_report.hpp>
+#include <boresight/app/report/json_time_domain.hpp>
 #include <boresight/app/report/sky_units.hpp>
 
 namespace boresight::app {
@@ -24,6 +25,9 @@ Json law_json(const CandidateLaw& law) {
   return {{"structure", law.structure},
           {"goals_met", law.goals_met},
           {"ensemble_rms_mdeg", number(law.member_rms / millidegree)},
+          {"nonlinear_factor_1", number(law.nonlinear_factor())},
+          {"compared_rms_mdeg", number(law.compared_rms() / millidegree)},
+          {"time_domain", law.time_domain ? compared_run_json(*law.time_domain) : Json(nullptr)},
           {"gains_as_written", std::move(gains)},
           {"design", law.stable() ? design_json(law.design) : Json(nullptr)},
           {"ensemble", law.ensemble ? ensemble_json(*law.ensemble) : Json(nullptr)}};
@@ -114,6 +118,7 @@ Json evaluate_json(const EvaluateSection& section) {
       {"wind_model", plant::to_string(section.wind_model)},
       {"wind_climate_stated", section.climate},
       {"rms_over", section.minimises_climate ? "climate" : "design_speed"},
+      {"compared_on", section.time_domain ? "nonlinear_antenna" : "linear_plant"},
       {"currency", section.currency},
       {"ensemble_source", section.ensemble_source},
       {"ensemble_members", section.ensemble_size},

@@ -101,6 +101,18 @@ Json candidate_json(const TimeDomainSection::Candidate& candidate, double settle
 
 }  // namespace
 
+nlohmann::ordered_json compared_run_json(const design::NonlinearVerification& run) {
+  Json hunting = Json::array();
+  for (const auto& one : run.hunting) hunting.push_back(hunting_json(one));
+  return {{"status", design::to_string(run.wind.status)},
+          {"message", message(run.wind.message)},
+          {"beam_rms_mdeg", mdeg(run.wind.beam_rms)},
+          {"predicted_rms_mdeg", mdeg(run.wind.predicted_rms)},
+          {"linear_rms_of_the_record_mdeg", mdeg(run.wind.continuous_rms)},
+          {"hunting", std::move(hunting)},
+          {"reversal", run.reversal ? reversal_json(*run.reversal) : Json(nullptr)}};
+}
+
 nlohmann::ordered_json time_domain_json(const TimeDomainSection& section) {
   const auto& result = section.result;
   Json hunting = Json::array();

@@ -119,11 +119,13 @@ Document tests_table(const EvaluateSection& section, const DecisionSection& deci
 
 Document document_of(const EvaluateSection& section, const DecisionSection& decision) {
   Document text = heading(fmt::format("Chances, by {} draws with the gains held", decision.draws));
-  text +=
-      wrapped(fmt::format("Beam rms in mdeg, {}, the same for all proposals. Intervals: 95 % for "
-                          "the number of draws; they say nothing of the ranges drawn from.",
-                          decision.source),
-              "  ");
+  text += wrapped(
+      fmt::format("Beam rms in mdeg of linear loops{}, {}, the same for all proposals. "
+                  "Intervals: 95 % for the number of draws; they say nothing of the "
+                  "ranges drawn from.",
+                  section.time_domain ? " times each law's factor of the nonlinear antenna" : "",
+                  decision.source),
+      "  ");
   text += chances_table(section, decision) + "\n";
   text += wrapped(
       "Pairs: the chance that the first has the lower rms on the same plant, ties counted half, "

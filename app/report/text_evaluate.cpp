@@ -46,9 +46,66 @@ void fill(std::vector<std::string>& cells, std::size_t columns) {
   cells.resize(std::max(cells.size(), columns), "-");
 }
 
+std::string simulated_text(const design::NonlinearVerification& run) {
+  return run.wind.status == design::RunStatus::complete
+             ? mdeg(run.wind.beam_rms)
+             : std::string(design::to_string(run.wind.status));
+}
+
+// "+-0.3500" or "none".
+std::string hunting_text(const design::HuntingResult& hunting) {
+  if (hunting.status != design::RunStatus::complete) {
+    return std::string(design::to_string(hunting.status));
+  }
+  return hunting.limit_cycle ? "+-" + mdeg(hunting.beam_amplitude) : "none";
+}
+
+Document time_domain_table(const EvaluateSection& section) {
+  if (!section.time_domain) return {};
+  Rows rows{{"proposal", "loops", "linear mdeg", "simulated", "factor", "hunting at rest",
+             "when tracking", "reversal error"}};
+  for (const auto& candidate : section.candidates) {
+    for (const auto& law : candidate.laws) {
+      if (!law.time_domain) continue;
+      const auto& run = *law.time_domain;
+      std::vector<std::string> cells{candidate.name, law.structure, mdeg(law.design.beam_rms),
+                                     simulated_text(run), fixed(law.nonlinear_factor(), 3)};
+      for (const auto& hunting : run.hunting) cells.push_back(hunting_text(hunting));
+      if (run.reversal) {
+        cells.resize(7, "-");
+        cells.push_back(run.reversal->status == design::RunStatus::complete
+                            ? mdeg(run.reversal->beam_error)
+                            : std::string(design::to_string(run.reversal->status)));
+      }
+      fill(cells, rows[0].size());
+      rows.push_back(std::move(cells));
+    }
+  }
+  return heading("The laws on the nonlinear antenna") +
+         wrapped(fmt::format(
+                     "Every law ran on the nonlinear antenna of its proposal, in one record of "
+                     "{:g} s at {:g} m/s (seed {}): friction curve with bristles, orifices, "
+                     "backlash, the limits of stroke and command, the encoder's steps, the lines' "
+                     "waves, sampling. Laws and proposals are compared by the rms of their linear "
+                     "loops over the plants times the factor by which the simulated rms stands "
+                     "above the linear plant's in the same record; losses, speed limits and the "
+                     "draws have that factor too, as if it were the same on every plant and in "
+                     "every wind.",
+                     section.time_domain->wind_duration, section.wind_speed,
+                     section.time_domain->seeds.front()),
+                 "  ") +
+         "\n" + table(rows, "ll") +
+         wrapped(
+             "hunting: amplitude of the beam (mdeg) without wind or noise; reversal error: the "
+             "beam's largest (mdeg) after turning round at the tracking rate.",
+             "  ");
+}
+
 Document loop_table(const EvaluateSection& section) {
-  Rows rows{{"proposal", "loops", "cost", "J kg.m2", "ratio", "hydr. Hz", "zeta", "rms mdeg",
-             "over plants", "worst", "worst plant", "check"}};
+  const bool simulated = section.time_domain.has_value();
+  Rows rows{{"proposal", "loops", "cost", "J kg.m2", "ratio", "hydr. Hz", "zeta", "linear mdeg"}};
+  if (simulated) rows[0].insert(rows[0].end(), {"simulated", "factor"});
+  rows[0].insert(rows[0].end(), {"over plants", "worst", "worst plant", "check"});
   for (const auto& candidate : section.candidates) {
     std::vector<std::string> cells{candidate.name, "-", cost_text(candidate),
                                    fixed(candidate.reflected_inertia, 3),
@@ -58,11 +115,16 @@ Document loop_table(const EvaluateSection& section) {
       cells[1] = law.structure;
       cells.push_back(fixed(law.design.hydraulic_mode.frequency, 3));
       cells.push_back(fixed(law.design.hydraulic_mode.damping_ratio, 3));
+      const double factor = law.nonlinear_factor();
       cells.push_back(mdeg(law.design.beam_rms));
-      cells.push_back(mdeg(law.member_rms));
+      if (simulated) {
+        cells.push_back(law.time_domain ? simulated_text(*law.time_domain) : "-");
+        cells.push_back(fixed(factor, 3));
+      }
+      cells.push_back(mdeg(law.compared_rms()));
       if (law.ensemble) {
         const bool all = law.ensemble->stable == static_cast<int>(law.ensemble->members.size());
-        cells.push_back(all ? mdeg(law.ensemble->largest_rms) : "unstable");
+        cells.push_back(all ? mdeg(factor * law.ensemble->largest_rms) : "unstable");
         cells.push_back(law.ensemble->members[law.ensemble->worst].name);
       }
     }
@@ -72,11 +134,16 @@ Document loop_table(const EvaluateSection& section) {
   }
   return table(rows, "ll") +
          wrapped(fmt::format(
-                     "cost in {}; rms of the beam on the nominal plant, over plants: root of the "
-                     "mean square over the {} plants of the ensemble, worst: the largest of them; "
-                     "worst plant: the one farthest from its hard goals. hydr. and zeta: frequency "
-                     "and damping of the oil's mode with the structure bending, no loop closed.",
-                     section.currency, section.ensemble_size),
+                     "cost in {}; linear: rms of the beam on the nominal plant by the spectrum; {}"
+                     "over plants: root of the mean square over the {} plants of the ensemble{}, "
+                     "worst: the largest of them; worst plant: the one farthest from its hard "
+                     "goals. hydr. and zeta: frequency and damping of the oil's mode with the "
+                     "structure bending, no loop closed.",
+                     section.currency,
+                     simulated ? "simulated: in one record of wind on the nonlinear antenna; "
+                                 "factor: that over the linear plant's rms in the same record; "
+                               : "",
+                     section.ensemble_size, simulated ? ", of linear loops, times the factor" : ""),
                  "  ");
 }
 
@@ -121,7 +188,9 @@ Document service_table(const EvaluateSection& section) {
   }
   return text +
          wrapped(
-             "dB: mean loss over two equal axes on the nominal plant. torque margin: supply torque "
+             "dB: mean loss over two equal axes on the nominal plant, and the speeds up to which "
+             "budgets are met, with the factor above where there is one. torque margin: supply "
+             "torque "
              "over mean wind torque and the gusts' crest, friction left out; stroke, gusts: valve "
              "stroke over the demand in the same; stroke, slew: valve stroke over the slew rate, "
              "below 1 the rate is out of reach. slew: rate and time of a 10 deg move from rest to "
@@ -157,8 +226,8 @@ Document changes_part(const EvaluateSection& section) {
 }
 
 Document laws_part(const EvaluateSection& section) {
-  Rows rows{{"proposal", "loops", "rms mdeg", "over plants", "within goals", "S rate", "S valve",
-             "S pos.", "effort rad/s", "starts", "gains"}};
+  Rows rows{{"proposal", "loops", "rms mdeg", "linear over plants", "within goals", "S rate",
+             "S valve", "S pos.", "effort rad/s", "starts", "gains"}};
   for (const auto& candidate : section.candidates) {
     for (const auto& law : candidate.laws) {
       std::vector<std::string> cells{candidate.name, law.structure};
@@ -217,12 +286,13 @@ Document document_of(const EvaluateSection& section) {
     const auto& candidate = section.candidates[i];
     const CandidateLaw* law = candidate.chosen_law();
     if (law == nullptr) continue;
-    names.push_back(
-        fmt::format("{} ({:g}, {} mdeg)", candidate.name, candidate.cost, mdeg(law->member_rms)));
+    names.push_back(fmt::format("{} ({:g}, {} mdeg)", candidate.name, candidate.cost,
+                                mdeg(law->compared_rms())));
   }
   text += "\n" + wrapped(fmt::format("Front of cost ({}) and rms over the plants: {}.",
                                      section.currency, fmt::join(names, "; ")),
                          "  ");
+  text += time_domain_table(section);
   if (section.decision) text += document_of(section, *section.decision);
   text += heading("What each proposal changes, and what follows") + changes_part(section);
   return text + heading("The loops behind the table") + laws_part(section);

@@ -78,4 +78,21 @@ std::optional<TimeDomainSection> choose_in_time_domain(const Case& antenna,
   return chosen;
 }
 
+design::NonlinearVerificationOptions comparison_options(const Case& antenna, std::uint64_t seed) {
+  auto options = plan(antenna, make_problem(antenna), "", seed, 1).options;
+  options.explain = false;
+  options.slew_distance = 0.0;
+  return options;
+}
+
+std::optional<design::NonlinearVerification> run_in_time_domain(
+    const Case& antenna, const design::TrackingProblem& problem, const control::ControlLaw& law,
+    const design::NonlinearVerificationOptions& options) {
+  if (!antenna.simulation) return std::nullopt;
+  TimeDomainSection section = plan(antenna, problem, "", options.seeds.front(), options.threads);
+  section.options = options;
+  simulate(antenna, problem, law, section);
+  return std::move(section.result);
+}
+
 }  // namespace boresight::app

@@ -55,6 +55,14 @@ std::optional<TimeDomainSection> choose_in_time_domain(const Case& antenna,
                                                        const std::vector<DescribedLaw>& laws,
                                                        std::uint64_t seed, unsigned threads);
 
+/// How many laws are compared on the nonlinear antenna: as verify_in_time_domain has it, but for
+/// the slew and for telling the influences apart.
+design::NonlinearVerificationOptions comparison_options(const Case& antenna, std::uint64_t seed);
+/// One of them. None for a case without a [simulation] table. @throws as design::verify_in_time.
+std::optional<design::NonlinearVerification> run_in_time_domain(
+    const Case& antenna, const design::TrackingProblem& problem, const control::ControlLaw& law,
+    const design::NonlinearVerificationOptions& options);
+
 /// The section of the terminal's report.
 std::string to_text(const TimeDomainSection& section);
 /// What it means beside the linear figures, in a paragraph.

@@ -52,7 +52,7 @@ TEST(Evaluate, ListsWhatSlewingRestsOn) {
   std::vector<std::string> keys;
   for (const auto& quantity : two_proposals().assumed) keys.push_back(quantity.key);
   EXPECT_THAT(keys, Contains("simulation.valve_stroke"));
-  EXPECT_THAT(keys, Not(Contains("simulation.bristle_stiffness")));
+  EXPECT_THAT(keys, Contains("simulation.bristle_stiffness"));
   EXPECT_THAT(keys, Not(Contains(StartsWith("recorder."))));
 }
 
@@ -119,9 +119,53 @@ TEST(Evaluate, DrawsAgreeWithTheEnsemble) {
   const auto& section = *two_proposals().evaluated;
   for (std::size_t i = 0; i < section.candidates.size(); ++i) {
     const auto& candidate = section.candidates[i];
-    const double members = candidate.laws[*candidate.chosen].member_rms * 180e3 / 3.14159265358979;
+    const double members =
+        candidate.laws[*candidate.chosen].compared_rms() * 180e3 / 3.14159265358979;
     EXPECT_NEAR(section.decision->statistics.options[i].mean, members, 0.06 * members)
         << candidate.name;
+  }
+}
+
+TEST(Evaluate, ComparesOnTheNonlinearAntenna) {
+  const auto& section = *two_proposals().evaluated;
+  ASSERT_TRUE(section.time_domain);
+  for (const auto& candidate : section.candidates) {
+    const auto& law = candidate.laws[*candidate.chosen];
+    ASSERT_TRUE(law.time_domain) << candidate.name;
+    const auto& wind = law.time_domain->wind;
+    ASSERT_EQ(wind.status, design::RunStatus::complete) << candidate.name;
+    EXPECT_DOUBLE_EQ(law.nonlinear_factor(), wind.beam_rms / wind.continuous_rms);
+    EXPECT_DOUBLE_EQ(law.compared_rms(), law.nonlinear_factor() * law.member_rms);
+    // Friction and backlash cost something, and no PI loop twice of what wind does.
+    EXPECT_GT(law.nonlinear_factor(), 1.0) << candidate.name;
+    EXPECT_LT(law.nonlinear_factor(), 2.0) << candidate.name;
+    EXPECT_EQ(law.time_domain->hunting.size(), 2U);
+    EXPECT_TRUE(law.time_domain->reversal);
+    // Losses go with the square of the rms.
+    const double rms = law.nonlinear_factor() * law.design.beam_rms;
+    EXPECT_NEAR(candidate.figures->losses[0],
+                design::pointing_loss_db(rms, section.bands[0].beamwidth,
+                                         design::LossConvention::mean_loss_two_axes),
+                1e-9);
+  }
+  EXPECT_THAT(to_text(two_proposals()), HasSubstr("The laws on the nonlinear antenna"));
+}
+
+TEST(Evaluate, ComparesLinearLoopsIfAskedTo) {
+  auto arguments = arguments_of({proposal_path("half-flywheels")});
+  arguments.draws = 100;
+  arguments.time_domain = false;
+  const Report report = evaluate_case(arguments, nullptr);
+  EXPECT_FALSE(report.evaluated->time_domain);
+  for (const auto& candidate : report.evaluated->candidates) {
+    const auto& law = candidate.laws[*candidate.chosen];
+    EXPECT_FALSE(law.time_domain);
+    EXPECT_EQ(law.compared_rms(), law.member_rms);
+  }
+  EXPECT_THAT(to_text(report), HasSubstr("linear loops only"));
+  // What only simulated runs rest on is not listed then.
+  for (const auto& quantity : report.assumed) {
+    EXPECT_NE(quantity.key, "simulation.bristle_stiffness");
   }
 }
 

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include <boresight/app/benchmark/benchmark_report.hpp>
+#include <boresight/app/figures/figure_json.hpp>
 #include <boresight/app/report/json_design.hpp>
 #include <boresight/app/report/sky_units.hpp>
 #include <boresight/plant/error.hpp>
@@ -203,6 +204,24 @@ Json comparison_json(const BenchmarkReport& report) {
   return {{"with", report.compared_with}, {"quantities", std::move(rows)}};
 }
 
+ComparedSheet sheet_of(const Json& score, std::string_view wind_model) {
+  ComparedSheet sheet;
+  for (const auto& point : score.value("compliance_curve", Json::array())) {
+    if (!point.at("compliance_mdeg_per_MN_m").is_number()) continue;
+    sheet.frequency.push_back(point.at("frequency_Hz").get<double>());
+    sheet.compliance.push_back(point.at("compliance_mdeg_per_MN_m").get<double>());
+  }
+  for (const auto& wind : score.value("winds", Json::array())) {
+    const double speed = wind.at("mean_speed_m_per_s").get<double>();
+    // The case's own coefficient: conditions of an attitude say more behind the speed.
+    const bool own = wind.at("condition") == fmt::format("{}, {:g} m/s", wind_model, speed);
+    if (!own || !wind.at("beam_rms_mdeg").is_number()) continue;
+    sheet.wind_speed.push_back(speed);
+    sheet.beam_rms.push_back(wind.at("beam_rms_mdeg").get<double>());
+  }
+  return sheet;
+}
+
 }  // namespace
 
 std::string to_json(const BenchmarkReport& report) {
@@ -248,6 +267,7 @@ std::string to_json(const BenchmarkReport& report) {
   json["score"] = score_json(report);
   json["no_nonlinear_score"] = text_or_null(report.no_time_domain);
   json["comparison"] = comparison_json(report);
+  json["figures"] = figures_json(report.figures);
   json["assumed_inputs"] = std::move(assumed);
   return json.dump(2) + "\n";
 }
@@ -276,6 +296,7 @@ void compare_with(BenchmarkReport& report, const std::string& other_json, const 
                                   ? "; its plant is the one that its case states"
                                   : "; its plant is the one that its case's records show";
     }
+    report.compared_sheet = sheet_of(other.at("score"), plant::to_string(report.wind.model));
   } catch (const Json::exception&) {
     throw InvalidInput(
         fmt::format("{}: expected a score sheet (JSON of boresight benchmark), found none", name));

@@ -32,6 +32,13 @@ struct ComparedQuantity {
   std::optional<double> own, other;
 };
 
+/// What of another score sheet is drawn beside one: as its JSON has it.
+struct ComparedSheet {
+  std::vector<double> frequency, compliance;  // Hz, mdeg/(MN m)
+  /// The ladder in this sheet's wind model with the other case's own torque coefficient.
+  std::vector<double> wind_speed, beam_rms;  // m/s, mdeg
+};
+
 /// A score sheet of `boresight benchmark`.
 struct BenchmarkReport {
   std::string case_path, title, axis;
@@ -48,11 +55,14 @@ struct BenchmarkReport {
   std::string ensemble_source;
   std::vector<PointingBudget> budgets;
   design::RejectionScore score;
+  /// Of the beam after 1 N m, 1 N m s at the motor shaft (rad of motor): at most 120 s for plots.
+  std::vector<control::CoursePoint> step_course, impulse_course;
   std::optional<TimeDomainSection> time_domain;
   std::string no_time_domain;  // why there is none
   std::vector<Quantity> assumed;
   std::string compared_with;  // description of the other sheet; empty: none
   std::vector<ComparedQuantity> comparison;
+  std::optional<ComparedSheet> compared_sheet;
   std::vector<Figure> figures;
   bool interrupted = false;
 };
@@ -87,10 +97,5 @@ std::string to_json(const BenchmarkReport& report);
 /// Puts another score sheet (JSON of this command) beside the report's. @throws InvalidInput for
 /// what is no score sheet, one of an unstable loop and one of another protocol.
 void compare_with(BenchmarkReport& report, const std::string& other_json, const std::string& name);
-
-/// Writes compliance.csv, step.csv, impulse.csv and winds.csv into a folder, made if it is not
-/// there, each whole or not at all; the antenna is the one that was scored. @throws InvalidInput if
-/// it cannot be written to.
-void write_curves(const BenchmarkReport& report, const Case& antenna, const std::string& folder);
 
 }  // namespace boresight::app

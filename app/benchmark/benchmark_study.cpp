@@ -7,7 +7,6 @@
 #include <fmt/format.h>
 
 #include <boresight/app/benchmark/benchmark_report.hpp>
-#include <boresight/app/io/csv_table.hpp>
 #include <boresight/app/redesign/assumed_inputs.hpp>
 #include <boresight/app/redesign/sections.hpp>
 #include <boresight/app/report/json_report.hpp>
@@ -38,23 +37,6 @@ std::vector<design::WindAttitudeCoefficient> attitudes_of(const Case& antenna) {
     }
   }
   return attitudes;
-}
-
-Eigen::VectorXd column(std::size_t size) {
-  return Eigen::VectorXd(static_cast<Eigen::Index>(size));
-}
-
-CsvTable course_table(const std::vector<control::CoursePoint>& course, const std::string& unit,
-                      double factor, const std::string& comment) {
-  CsvTable table;
-  table.comments = {comment};
-  Eigen::VectorXd time = column(course.size()), beam = time;
-  for (std::size_t i = 0; i < course.size(); ++i) {
-    time[static_cast<Eigen::Index>(i)] = course[i].time;
-    beam[static_cast<Eigen::Index>(i)] = course[i].beam * factor;
-  }
-  table.columns = {{"time", "s", 6, time}, {"beam", unit, 9, beam}};
-  return table;
 }
 
 }  // namespace
@@ -127,6 +109,13 @@ BenchmarkReport benchmark(const DesignedAntenna& designed, const BenchmarkedCont
   report.score =
       design::rejection_benchmark(problem, report.goals, report.controller.system, scoring);
   report.interrupted = !report.score.left_out.empty();
+  if (report.score.stable && report.score.step.horizon > 0.0) {
+    constexpr double longest = 120.0;  // s
+    const control::ControlledCourse course(problem.plant, report.controller.system, problem.delay);
+    const double shown = std::min(longest, report.score.step.horizon);
+    report.step_course = course.beam(control::TorqueCourse::step, shown);
+    report.impulse_course = course.beam(control::TorqueCourse::impulse, shown);
+  }
   if (!report.score.stable) {
     report.no_time_domain = "the linear loop is unstable";
   } else if (scoring.stop()) {
@@ -145,59 +134,6 @@ BenchmarkReport benchmark(const DesignedAntenna& designed, const BenchmarkedCont
   }
   report.assumed = assumed_inputs(antenna, {.time_runs = report.time_domain.has_value()});
   return report;
-}
-
-void write_curves(const BenchmarkReport& report, const Case& antenna, const std::string& folder) {
-  std::error_code failure;
-  std::filesystem::create_directories(folder, failure);
-  if (failure) {
-    throw InvalidInput(fmt::format("{}: expected a folder to write to, found none ({})", folder,
-                                   failure.message()));
-  }
-  const auto write = [&](const char* name, const CsvTable& table) {
-    write_atomically((std::filesystem::path(folder) / name).string(), to_csv(table));
-  };
-  const std::string who =
-      fmt::format("{}, protocol {}", report.controller.description, design::rejection_protocol);
-  if (!report.score.stable) return;
-  const auto& compliance = report.score.compliance;
-  Eigen::VectorXd frequency = column(compliance.size()), values = frequency;
-  for (std::size_t i = 0; i < compliance.size(); ++i) {
-    frequency[static_cast<Eigen::Index>(i)] = compliance[i].frequency;
-    values[static_cast<Eigen::Index>(i)] = compliance[i].compliance / millidegree * meganewton;
-  }
-  CsvTable table;
-  table.comments = {who};
-  table.columns = {{"frequency", "Hz", 9, frequency}, {"compliance", "mdeg/(MN.m)", 9, values}};
-  write("compliance.csv", table);
-
-  const design::TrackingProblem problem = make_problem(antenna);
-  const control::ControlledCourse course(problem.plant, report.controller.system, problem.delay);
-  constexpr double longest = 120.0;  // s
-  const double factor = meganewton / millidegree / std::pow(report.gear_ratio, 2);
-  const double shown = std::min(longest, report.score.step.horizon);
-  write("step.csv",
-        course_table(course.beam(control::TorqueCourse::step, shown), "mdeg/(MN.m)", factor, who));
-  write("impulse.csv", course_table(course.beam(control::TorqueCourse::impulse, shown),
-                                    "mdeg/(MN.m.s)", factor, who));
-  const auto& winds = report.score.winds;
-  Eigen::VectorXd speed = column(winds.size()), coefficient = speed, model = speed, torque = speed,
-                  wind = speed, beam = speed;
-  for (std::size_t i = 0; i < winds.size(); ++i) {
-    const auto k = static_cast<Eigen::Index>(i);
-    speed[k] = winds[i].mean_speed;
-    coefficient[k] = winds[i].torque_coefficient;
-    model[k] = static_cast<double>(winds[i].model);
-    torque[k] = winds[i].torque_rms;
-    wind[k] = winds[i].wind_rms / millidegree;
-    beam[k] = winds[i].beam_rms / millidegree;
-  }
-  CsvTable ladder;
-  ladder.comments = {who, "wind model: 0 uniform, 1 vickery, 2 coherence"};
-  ladder.columns = {{"speed", "m/s", 3, speed},    {"coefficient", "1", 6, coefficient},
-                    {"model", "1", 0, model},      {"torque_rms", "N.m", 3, torque},
-                    {"wind_rms", "mdeg", 9, wind}, {"beam_rms", "mdeg", 9, beam}};
-  write("winds.csv", ladder);
 }
 
 }  // namespace boresight::app

@@ -6,6 +6,7 @@
 
 #include <boresight/app/commands/benchmark_command.hpp>
 #include <boresight/app/commands/progress_line.hpp>
+#include <boresight/app/figures/benchmark_figures.hpp>
 #include <boresight/app/io/controller_file.hpp>
 #include <boresight/app/io/input_files.hpp>
 #include <boresight/app/page/report_page.hpp>
@@ -34,9 +35,9 @@ BenchmarkedController chosen_controller(const BenchmarkArguments& arguments, con
       throw InvalidInput(
           "benchmark: expected either --controller or gains (--gains, --sampled), found both");
     }
-    const auto file = read_controller(
-        arguments.controller_path, gear_ratio(antenna),
-        {names_in(arguments.controller_inputs), names_in(arguments.controller_outputs)});
+    const auto file = read_controller(arguments.controller_path, gear_ratio(antenna),
+                                      {names_in(arguments.controller_inputs),
+                                       names_in(arguments.controller_outputs), arguments.part});
     return {file.system, "controller of " + arguments.controller_path, std::nullopt, file.remarks};
   }
   if (!arguments.gains_path.empty()) {
@@ -83,9 +84,7 @@ BenchmarkReport benchmark_case(const BenchmarkArguments& arguments,
       designed_antenna(antenna, arguments.seed, arguments.threads, interrupted);
   BenchmarkReport report = benchmark(designed, controller, options);
   if (!arguments.compare_path.empty()) compare_with(report, other, arguments.compare_path);
-  if (!arguments.outputs.curves_folder.empty()) {
-    write_curves(report, designed.antenna, arguments.outputs.curves_folder);
-  }
+  report.figures = benchmark_figures(report);
   return report;
 }
 
@@ -133,6 +132,9 @@ Subcommand add_benchmark(CLI::App& program) {
   sub->add_option("--controller", arguments->controller_path,
                   "any linear controller as state space, MAT (version 5) or JSON: see "
                   "docs/benchmark-protocol.md");
+  sub->add_option("--part", arguments->part,
+                  "which state space of a file of several (--mat or --json of model, redesign, "
+                  "tune): controller or sampled_controller");
   sub->add_option("--inputs", arguments->controller_inputs,
                   "names of the controller's inputs where its file has none, comma between");
   sub->add_option("--outputs", arguments->controller_outputs, "names of its outputs");

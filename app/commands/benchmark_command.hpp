@@ -17,6 +17,7 @@ struct BenchmarkArguments {
   std::string controller_path;  // MAT or JSON; empty: none
   // Names, where the controller's file has none, comma between.
   std::string controller_inputs, controller_outputs;
+  std::string part;          // of that file: which state space; empty: as ControllerNames has it
   std::string export_path;   // where the controller in use is written; empty: nowhere
   std::string compare_path;  // another score sheet; empty: none
   bool sampled = false;      // the law in its sampled form

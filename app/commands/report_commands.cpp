@@ -6,9 +6,11 @@
 
 #include <boresight/app/commands/progress_line.hpp>
 #include <boresight/app/commands/report_commands.hpp>
+#include <boresight/app/figures/record_figures.hpp>
 #include <boresight/app/figures/report_figures.hpp>
 #include <boresight/app/identify/campaign_identification.hpp>
 #include <boresight/app/identify/identified_case.hpp>
+#include <boresight/app/models/linear_models.hpp>
 #include <boresight/app/page/report_page.hpp>
 #include <boresight/app/redesign/assumed_inputs.hpp>
 #include <boresight/app/redesign/sections.hpp>
@@ -31,12 +33,16 @@ struct Command {
   const char* name = "";
   const char* description = "";
   Section run;
+  bool has_models = false;
   const char* work = "tuning and verifying";  // as its progress line begins
 };
 
 void fill_identification(const Case& antenna, const StudyOptions& options, Report& report) {
   report.identification = identify(antenna, options);
-  if (!antenna.campaign.records.empty()) report.campaign = identify_campaign(antenna, options);
+  if (antenna.campaign.records.empty()) return;
+  report.campaign = identify_campaign(antenna, options);
+  report.figures =
+      record_figures(report.campaign->notes, campaign_traces(antenna, options.threads));
 }
 
 void fill_redesign(const Case& antenna, const StudyOptions& options, Report& report) {
@@ -70,7 +76,7 @@ void fill_redesign(const Case& antenna, const StudyOptions& options, Report& rep
 const std::vector<Command>& commands() {
   static const std::vector<Command> list{
       {"redesign", "identify, audit, model, tune, match and conclude: the whole report",
-       fill_redesign},
+       fill_redesign, true},
       {"audit", "recompute every derived number the case states; list what does not follow",
        [](const Case& antenna, const StudyOptions&, Report& report) {
          report.audit = audit(antenna);
@@ -83,11 +89,12 @@ const std::vector<Command>& commands() {
       {"identify",
        "inertia and motor-to-load ratio by each method, with intervals; of a case with records all "
        "that they say of the drive",
-       fill_identification, "identifying"},
+       fill_identification, false, "identifying"},
       {"model", "the linear plant: parameters, poles, what each mode is",
        [](const Case& antenna, const StudyOptions&, Report& report) {
          report.plant = describe_plant(antenna);
-       }}};
+       },
+       true}};
   return list;
 }
 
@@ -117,10 +124,11 @@ int run(const Command& command, const Arguments& arguments) {
       report.interrupted = true;
     }
   }
-  report.figures = report_figures(report);
+  for (auto& figure : report_figures(report)) report.figures.push_back(std::move(figure));
   arguments.outputs.deliver({.text = [&] { return to_text(report); },
                              .json = [&] { return to_json(report); },
-                             .page = [&] { return page_of(report); }});
+                             .page = [&] { return page_of(report); },
+                             .mat = mat_of(report)});
   if (report.interrupted) return interrupted;
   if (report.tuning && report.tuning->design.tuning.status != design::TuningStatus::optimal) {
     fmt::print(stderr, "boresight: no control law meets the hard goals of {}\n",
@@ -144,6 +152,7 @@ std::vector<Subcommand> add_report_commands(CLI::App& program) {
     CLI::App* options = program.add_subcommand(command.name, command.description);
     add_case(*options, arguments->case_path);
     add_outputs(*options, arguments->outputs);
+    if (command.has_models) add_mat(*options, arguments->outputs);
     add_seed(*options, arguments->seed);
     add_threads(*options, arguments->threads);
     added.push_back(

@@ -9,7 +9,10 @@
 
 #include <boresight/app/commands/progress_line.hpp>
 #include <boresight/app/commands/simulate_command.hpp>
+#include <boresight/app/figures/simulation_figures.hpp>
+#include <boresight/app/io/record_mat_writer.hpp>
 #include <boresight/app/page/report_page.hpp>
+#include <boresight/app/redesign/antenna_model.hpp>
 #include <boresight/app/redesign/assumed_inputs.hpp>
 #include <boresight/app/redesign/sections.hpp>
 #include <boresight/app/report/json_report.hpp>
@@ -66,8 +69,8 @@ class Campaign {
       inputs.recorder = inputs.recorder || !tests.empty();
       inputs.rate_loop =
           inputs.rate_loop || std::ranges::any_of(tests, &AntennaTest::rate_loop_closed);
-      if (tests.empty()) require_writable((folder_ / (name + ".csv")).string());
-      for (const auto& test : tests) require_writable((folder_ / (test.name + ".csv")).string());
+      if (tests.empty()) require_writable(path_of(name));
+      for (const auto& test : tests) require_writable(path_of(test.name));
     }
     report_.assumed = assumed_inputs(antenna_, inputs);
   }
@@ -99,6 +102,10 @@ class Campaign {
   }
 
  private:
+  std::string path_of(const std::string& test) const {
+    return (folder_ / fmt::format("{}.{}", test, arguments_.format)).string();
+  }
+
   // One line a test on a terminal.
   RunProgress progress_of(ProgressLine& line) const {
     return [this, &line](double done) {
@@ -110,8 +117,8 @@ class Campaign {
 
   // The record goes to its file, the rest into the report.
   void keep(const std::string& name, CsvTable& record, bool complete) {
-    const auto path = (folder_ / (name + ".csv")).string();
-    write_atomically(path, to_csv(record));
+    const auto path = path_of(name);
+    write_atomically(path, arguments_.format == "mat" ? to_mat(record) : to_csv(record));
     record = {};
     report_.written.push_back(path);
     report_.interrupted = !complete;
@@ -123,6 +130,8 @@ class Campaign {
       report_.failed_test = test.name;
       ProgressLine line(test.name + ", percent");
       auto record = run_drive_test(antenna_, test, arguments_.seed, progress_of(line));
+      report_.figures.push_back(drive_test_figure(
+          record, supply_torque(antenna_) / antenna_.drive.supply_pressure.value));
       keep(test.name, record.record, record.complete);
       report_.drive.push_back(std::move(record));
     }
@@ -132,6 +141,7 @@ class Campaign {
     ProgressLine line(name + ", percent");
     auto record = name == "slew" ? run_slew(antenna_, arguments_.seed, progress_of(line))
                                  : run_tracking(antenna_, arguments_.seed, progress_of(line));
+    report_.figures.push_back(position_test_figure(record));
     keep(name, record.record, record.complete);
     report_.position.push_back(std::move(record));
   }
@@ -173,7 +183,11 @@ Subcommand add_simulate(CLI::App& program) {
                   fmt::format("what to run: {}", fmt::join(simulated_test_names(), ", ")))
       ->required();
   add_outputs(*sub, arguments->outputs);
-  sub->add_option("--folder", arguments->folder, "where records TEST.csv are written")
+  sub->add_option("--folder", arguments->folder, "where records TEST.csv or TEST.mat are written")
+      ->capture_default_str();
+  sub->add_option("--format", arguments->format,
+                  "of the records: csv, rounded as a recorder's digits; mat, version 5, every bit")
+      ->check(CLI::IsMember({"csv", "mat"}))
       ->capture_default_str();
   sub->add_option("--sample-rate", arguments->sample_rate,
                   "samples a second of the records (default: as the case has it); slosh is sampled "

@@ -51,6 +51,12 @@ void add_outputs(CLI::App& command, Outputs& outputs) {
                      "also write every plotted curve as CSV into this folder");
 }
 
+void add_mat(CLI::App& command, Outputs& outputs) {
+  command.add_option("--mat", outputs.mat_path,
+                     "also write the linear models (plant, and of the best law gains, controllers "
+                     "and closed loop) to this MAT file of version 5, see docs/formats.md");
+}
+
 void add_seed(CLI::App& command, std::uint64_t& seed) {
   command.add_option("--seed", seed, "first seed of the searches and draws")
       ->check(CLI::Range(0.0, 1e15))
@@ -78,10 +84,16 @@ bool interrupt_requested() {
 void Outputs::require_writable() const {
   if (!json_path.empty() && json_path != "-") app::require_writable(json_path);
   if (!report_path.empty()) app::require_writable(report_path);
+  if (!mat_path.empty()) app::require_writable(mat_path);
   if (!curves_folder.empty()) require_writable_folder(curves_folder);
 }
 
 void Outputs::deliver(const Findings& findings) const {
+  if (!mat_path.empty() && findings.mat) {
+    write_atomically(mat_path, findings.mat());
+  } else if (!mat_path.empty()) {
+    fmt::print(stderr, "boresight: {} is not written: there is no model yet\n", mat_path);
+  }
   if (!report_path.empty() || !curves_folder.empty()) {
     const Page page = findings.page();
     if (!curves_folder.empty()) write_curves(page.figures, curves_folder);

@@ -47,12 +47,15 @@ bool interrupt_requested();
 struct Findings {
   std::function<std::string()> text, json;
   std::function<Page()> page;
+  /// Linear models as a MAT file; empty where there are none.
+  std::function<std::string()> mat = {};
 };
 
 /// Where what a command found goes, beside standard output.
 struct Outputs {
   std::string json_path;      // "-": to standard output, in the place of the text; empty: nowhere
   std::string report_path;    // of the page; empty: none
+  std::string mat_path;       // of the linear models; empty: none
   std::string curves_folder;  // of the figures' points as CSV; empty: none
   std::string command_line;   // as it was given, for the page
 
@@ -66,5 +69,7 @@ struct Outputs {
 
 /// The options that fill `outputs`: the same of every command.
 void add_outputs(CLI::App& command, Outputs& outputs);
+/// And that of the commands that have linear models to write.
+void add_mat(CLI::App& command, Outputs& outputs);
 
 }  // namespace boresight::app

@@ -7,6 +7,7 @@
 #include <boresight/app/commands/tune_command.hpp>
 #include <boresight/app/figures/report_figures.hpp>
 #include <boresight/app/io/wording.hpp>
+#include <boresight/app/models/linear_models.hpp>
 #include <boresight/app/page/report_page.hpp>
 #include <boresight/app/redesign/assumed_inputs.hpp>
 #include <boresight/app/redesign/sections.hpp>
@@ -69,6 +70,9 @@ Report tune_case(const TuneArguments& arguments, const std::function<bool()>& in
   report.case_path = arguments.case_path;
   report.seed = arguments.seed;
   if (!arguments.measured_record.empty()) {
+    if (!arguments.outputs.mat_path.empty()) {
+      throw InvalidInput("tune: expected --mat with a model to write, found --measured");
+    }
     MeasuredStudyOptions study;
     study.record = arguments.measured_record;
     study.structures = arguments.structures;
@@ -123,7 +127,8 @@ int run(TuneArguments arguments) {
   report.figures = report_figures(report);
   arguments.outputs.deliver({.text = [&] { return to_text(report); },
                              .json = [&] { return to_json(report); },
-                             .page = [&] { return page_of(report); }});
+                             .page = [&] { return page_of(report); },
+                             .mat = mat_of(report)});
   if (report.interrupted) return interrupted;
   if (report.measured) {
     if (report.measured->any_confident()) return done;
@@ -166,6 +171,7 @@ Subcommand add_tune(CLI::App& program) {
   sub->add_option("--starts", arguments->starts, "random starts of each search")
       ->check(CLI::Range(1, 100000));
   add_outputs(*sub, arguments->outputs);
+  add_mat(*sub, arguments->outputs);
   add_seed(*sub, arguments->seed);
   add_threads(*sub, arguments->threads);
   return {sub, [arguments] { return run(*arguments); }, &arguments->outputs};

@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include <boresight/app/commission/commission_study.hpp>
+#include <boresight/app/figures/figure_json.hpp>
 #include <boresight/app/report/sky_units.hpp>
 
 namespace boresight::app {
@@ -144,6 +145,7 @@ std::string to_json(const CommissionReport& report) {
       {"record_after", report.after.empty() ? Json(nullptr) : Json(report.after)},
       {"comparisons", std::move(comparisons)},
       {"conclusions", report.conclusions},
+      {"figures", figures_json(report.figures)},
       {"assumed", std::move(assumed)}};
   return json.dump(2) + "\n";
 }

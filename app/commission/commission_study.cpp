@@ -7,6 +7,7 @@
 #include <fmt/ranges.h>
 
 #include <boresight/app/commission/commission_study.hpp>
+#include <boresight/app/figures/commission_figures.hpp>
 #include <boresight/app/io/wording.hpp>
 #include <boresight/app/redesign/assumed_inputs.hpp>
 #include <boresight/app/redesign/sections.hpp>
@@ -346,6 +347,7 @@ CommissionReport plan_commission(const Case& antenna, const PlantEnsemble& ensem
   for (auto& channel : report.comparisons) predict(report.plan, channel);
   report.sheets = make_sheets(antenna, report);
   report.conclusions = conclude(report, antenna);
+  report.figures = commission_figures(report);
   return report;
 }
 

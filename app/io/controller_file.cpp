@@ -152,10 +152,23 @@ std::string content_of_file(const std::string& path) {
 
 }  // namespace
 
+std::string chosen_part(const std::vector<std::string>& parts, const std::string& asked,
+                        const std::string& file) {
+  constexpr const char* usual = "controller";
+  const auto has = [&](const std::string& part) {
+    return std::ranges::find(parts, part) != parts.end();
+  };
+  if (asked.empty()) return has(usual) ? usual : "";
+  if (has(asked)) return asked;
+  throw InvalidInput(
+      fmt::format("{}: expected a part {}, found {}", file, app::quoted(asked),
+                  parts.empty() ? "none" : fmt::format("{}", fmt::join(parts, ", "))));
+}
+
 ControllerFile parse_controller(std::string_view content, const std::string& name,
                                 double gear_ratio, const ControllerNames& names) {
-  ControllerText text =
-      is_mat(content) ? controller_from_mat(content, name) : controller_from_json(content, name);
+  ControllerText text = is_mat(content) ? controller_from_mat(content, name, names.part)
+                                        : controller_from_json(content, name, names.part);
   ControllerFile file;
   const auto fill = [&](std::vector<std::string>& own, const std::vector<std::string>& given,
                         const char* what) {

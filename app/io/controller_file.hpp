@@ -24,9 +24,13 @@ struct ControllerText {
   std::string angles = "motor";
 };
 
-/// What stands in for names that the file does not hold.
+/// What stands in for names that the file does not hold, and which state space is meant where it
+/// holds several.
 struct ControllerNames {
   std::vector<std::string> inputs, outputs;
+  /// A structure at the top of a MAT file, or a part of `linear_models` in a JSON report, such as
+  /// "sampled_controller"; empty: "controller" where there is one, else what the file has.
+  std::string part = {};
 };
 
 /// A controller as control::antenna_state_space_controller takes it, and what was made of the file.
@@ -45,8 +49,14 @@ ControllerFile read_controller(const std::string& path, double gear_ratio,
 ControllerFile parse_controller(std::string_view content, const std::string& name,
                                 double gear_ratio, const ControllerNames& names = {});
 
-ControllerText controller_from_mat(std::string_view content, const std::string& name);
-ControllerText controller_from_json(std::string_view content, const std::string& name);
+ControllerText controller_from_mat(std::string_view content, const std::string& name,
+                                   const std::string& part = {});
+ControllerText controller_from_json(std::string_view content, const std::string& name,
+                                    const std::string& part = {});
+/// The part asked for out of those that a file has, or "controller", or none: the file as a whole.
+/// @throws InvalidInput naming the parts there are if the one asked for is not among them.
+std::string chosen_part(const std::vector<std::string>& parts, const std::string& asked,
+                        const std::string& file);
 
 /// A controller's file: MAT of version 5 where the path ends in .mat, else JSON. SI, angles at the
 /// motor. @throws InvalidInput where it cannot be written.

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include <boresight/app/io/controller_file.hpp>
+#include <boresight/app/io/state_space_formats.hpp>
 #include <boresight/app/io/wording.hpp>
 #include <boresight/plant/error.hpp>
 
@@ -62,19 +63,26 @@ std::vector<std::string> texts_of(const Json& json, const std::string& file, con
   return texts;
 }
 
-Json rows_of(const Eigen::MatrixXd& matrix) {
-  Json rows = Json::array();
-  for (Eigen::Index i = 0; i < matrix.rows(); ++i) {
-    Json row = Json::array();
-    for (Eigen::Index j = 0; j < matrix.cols(); ++j) row.push_back(matrix(i, j));
-    rows.push_back(std::move(row));
+// The state space meant in a report of a command that writes several, else the whole.
+Json part_of(Json json, const std::string& name, const std::string& part) {
+  const Json models = json.contains("linear_models") ? json.at("linear_models") : Json();
+  if (!models.is_object()) {
+    chosen_part({}, part, name);
+    return json;
   }
-  return rows;
+  std::vector<std::string> parts;
+  for (const auto& [key, value] : models.items()) {
+    if (value.is_object() && value.contains("D")) parts.push_back(key);
+  }
+  const std::string chosen = chosen_part(parts, part, name);
+  if (chosen.empty()) refuse(name, "linear_models", "a controller", "none");
+  return models.at(chosen);
 }
 
 }  // namespace
 
-ControllerText controller_from_json(std::string_view content, const std::string& name) {
+ControllerText controller_from_json(std::string_view content, const std::string& name,
+                                    const std::string& part) {
   Json json;
   try {
     json = Json::parse(content);
@@ -86,10 +94,11 @@ ControllerText controller_from_json(std::string_view content, const std::string&
     throw InvalidInput(fmt::format("{}: expected an object with A, B, C, D, found {}", name,
                                    app::quoted(json.type_name())));
   }
+  json = part_of(std::move(json), name, part);
   static constexpr std::array known{"format", "A",           "B",           "C",
                                     "D",      "inputs",      "outputs",     "states",
                                     "title",  "sample_time", "input_units", "output_units",
-                                    "angles"};
+                                    "angles", "state_units"};
   for (const auto& [key, value] : json.items()) {
     if (std::ranges::find(known, key) == known.end()) {
       throw InvalidInput(fmt::format("{}: expected the keys {}, found {}", name,
@@ -121,17 +130,8 @@ ControllerText controller_from_json(std::string_view content, const std::string&
 }
 
 std::string controller_json(const plant::StateSpace& controller) {
-  const std::vector<std::string> none;
-  const Json json{{"format", "boresight controller"},
-                  {"inputs", controller.inputs},
-                  {"outputs", controller.outputs},
-                  {"states", controller.states},
-                  {"angles", "motor"},
-                  {"sample_time", controller.sample_time},
-                  {"A", rows_of(controller.a)},
-                  {"B", rows_of(controller.b)},
-                  {"C", rows_of(controller.c)},
-                  {"D", rows_of(controller.d)}};
+  Json json{{"format", "boresight controller"}};
+  json.update(state_space_json(controller));
   return json.dump(1) + "\n";
 }
 

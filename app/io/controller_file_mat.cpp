@@ -1,11 +1,12 @@
 #include <algorithm>
 #include <cstdint>
-#include <cstring>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <boresight/app/io/controller_file.hpp>
 #include <boresight/app/io/mat_file.hpp>
+#include <boresight/app/io/mat_writer.hpp>
 #include <boresight/app/io/wording.hpp>
 #include <boresight/plant/error.hpp>
 
@@ -139,78 +140,38 @@ class ControllerCollector {
   bool has_a_ = false, has_b_ = false, has_c_ = false, has_d_ = false;
 };
 
-void append_word(std::string& bytes, std::uint32_t word) {
-  char raw[sizeof word];
-  std::memcpy(raw, &word, sizeof word);
-  bytes.append(raw, sizeof word);
-}
-
-// Padded to a multiple of eight bytes.
-void append_element(std::string& bytes, std::uint32_t type, std::string_view content) {
-  append_word(bytes, type);
-  append_word(bytes, static_cast<std::uint32_t>(content.size()));
-  bytes += content;
-  bytes.append((8 - content.size() % 8) % 8, '\0');
-}
-
-std::string array_bytes(std::uint32_t array_class, const std::string& name, Eigen::Index rows,
-                        Eigen::Index columns, std::uint32_t type, std::string_view content) {
-  std::string flags, dimensions, whole;
-  append_word(flags, array_class);
-  append_word(flags, 0);
-  append_word(dimensions, static_cast<std::uint32_t>(rows));
-  append_word(dimensions, static_cast<std::uint32_t>(columns));
-  append_element(whole, 6, flags);
-  append_element(whole, 5, dimensions);
-  append_element(whole, mat_int8, name);
-  append_element(whole, type, content);
-  std::string bytes;
-  append_element(bytes, mat_matrix, whole);
-  return bytes;
-}
-
-std::string matrix_bytes(const std::string& name, const Eigen::MatrixXd& matrix) {
-  constexpr std::uint32_t double_class = 6, double_type = 9;
-  const auto size = static_cast<std::size_t>(matrix.size()) * sizeof(double);
-  std::string content(size, '\0');
-  if (size > 0) std::memcpy(content.data(), matrix.data(), size);
-  return array_bytes(double_class, name, matrix.rows(), matrix.cols(), double_type, content);
-}
-
-std::string names_bytes(const std::string& name, const std::vector<std::string>& names) {
-  constexpr std::uint32_t char_class = 4, utf16_type = 17;
-  std::string joined;
-  for (const auto& one : names) joined += (joined.empty() ? "" : ",") + one;
-  std::string content;
-  for (const char letter : joined) {
-    content += letter;
-    content += '\0';
-  }
-  return array_bytes(char_class, name, 1, static_cast<Eigen::Index>(joined.size()), utf16_type,
-                     content);
+// Names with commas between, as the file format of controllers has them.
+std::string joined(const std::vector<std::string>& names) {
+  return fmt::format("{}", fmt::join(names, ","));
 }
 
 }  // namespace
 
-ControllerText controller_from_mat(std::string_view content, const std::string& name) {
+ControllerText controller_from_mat(std::string_view content, const std::string& name,
+                                   const std::string& part) {
+  std::vector<std::string> structures;
+  read_mat_file(content, name, [&](MatArray& array) {
+    if (array.kind == MatArray::Class::structure) structures.push_back(array.name);
+  });
+  const std::string wanted = chosen_part(structures, part, name);
   ControllerCollector collector(name);
-  read_mat_file(content, name, [&](MatArray& array) { collector.take(array, array.name, 0); });
+  read_mat_file(content, name, [&](MatArray& array) {
+    if (wanted.empty() || array.name == wanted) collector.take(array, array.name, 0);
+  });
   return std::move(collector).text();
 }
 
 std::string controller_mat(const plant::StateSpace& controller) {
-  std::string bytes = "MATLAB 5.0 MAT-file, controller of an antenna by boresight";
-  bytes.resize(124, ' ');
-  bytes += std::string("\x00\x01IM", 4);
-  bytes += matrix_bytes("A", controller.a);
-  bytes += matrix_bytes("B", controller.b);
-  bytes += matrix_bytes("C", controller.c);
-  bytes += matrix_bytes("D", controller.d);
-  bytes += matrix_bytes("Ts", Eigen::MatrixXd::Constant(1, 1, controller.sample_time));
-  bytes += names_bytes("inputs", controller.inputs);
-  bytes += names_bytes("outputs", controller.outputs);
-  bytes += names_bytes("angles", {"motor"});
-  return bytes;
+  MatVariables variables;
+  variables.add_matrix("A", controller.a);
+  variables.add_matrix("B", controller.b);
+  variables.add_matrix("C", controller.c);
+  variables.add_matrix("D", controller.d);
+  variables.add_number("Ts", controller.sample_time);
+  variables.add_text("inputs", joined(controller.inputs));
+  variables.add_text("outputs", joined(controller.outputs));
+  variables.add_text("angles", "motor");
+  return variables.file("controller of an antenna by boresight");
 }
 
 }  // namespace boresight::app

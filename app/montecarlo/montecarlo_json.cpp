@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <boresight/app/figures/figure_json.hpp>
 #include <boresight/app/montecarlo/montecarlo_study.hpp>
 #include <boresight/app/report/json_assumed.hpp>
 #include <boresight/app/report/json_design.hpp>
@@ -169,7 +170,8 @@ std::string to_json(const MonteCarloSection& section) {
       {"worst_plants", plants_json(section.worst)},
       {"retuned", std::move(retuned)},
       {"assumed_inputs", assumed_json(section.assumed)},
-      {"conclusions", section.conclusions}};
+      {"conclusions", section.conclusions},
+      {"figures", figures_json(section.figures)}};
   return json.dump(2) + "\n";
 }
 

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include <boresight/app/commands/progress_line.hpp>
+#include <boresight/app/figures/montecarlo_figures.hpp>
 #include <boresight/app/montecarlo/checkpoint.hpp>
 #include <boresight/app/montecarlo/held_law.hpp>
 #include <boresight/app/montecarlo/montecarlo_study.hpp>
@@ -320,6 +321,7 @@ MonteCarloOutcome run_montecarlo(const MonteCarloArguments& arguments, Ranks& ra
   section = new_section(arguments, population->antenna, study, held);
   summarise(*outcome.run, *outcome.distribution, section);
   section.conclusions = conclude(section);
+  section.figures = montecarlo_figures(outcome);
   return outcome;
 }
 

@@ -8,6 +8,7 @@
 #include <boresight/app/report/json_campaign.hpp>
 #include <boresight/app/report/json_design.hpp>
 #include <boresight/app/report/json_limit.hpp>
+#include <boresight/app/report/json_linear_models.hpp>
 #include <boresight/app/report/json_report.hpp>
 #include <boresight/app/report/json_time_domain.hpp>
 #include <boresight/app/report/json_tune.hpp>
@@ -218,6 +219,9 @@ std::string to_json(const Report& report) {
   if (report.matching) json["matching"] = matching_json(*report.matching);
   if (report.matched) json["matched"] = match_json(*report.matched);
   if (report.evaluated) json["evaluated"] = evaluate_json(*report.evaluated);
+  if (const auto models = linear_models(report)) {
+    json["linear_models"] = linear_models_json(*models);
+  }
   json["assumed_inputs"] = assumed_json(report.assumed);
   json["conclusions"] = report.conclusions;
   if (!report.figures.empty()) json["figures"] = figures_json(report.figures);

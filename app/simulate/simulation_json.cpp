@@ -2,6 +2,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include <boresight/app/figures/figure_json.hpp>
 #include <boresight/app/report/sky_units.hpp>
 #include <boresight/app/simulate/simulation_report.hpp>
 
@@ -107,7 +108,8 @@ std::string to_json(const SimulationReport& report) {
             {"drive_tests", Json::array()},
             {"position_tests", Json::array()},
             {"records", report.written},
-            {"assumed_inputs", Json::array()}};
+            {"assumed_inputs", Json::array()},
+            {"figures", figures_json(report.figures)}};
   for (const auto& record : report.drive) json["drive_tests"].push_back(drive_json(record));
   for (const auto& record : report.position) {
     json["position_tests"].push_back(position_json(record));

@@ -42,6 +42,9 @@ COUNTS = {"seed", "draws", "degrees_of_freedom", "starts", "starts_at_optimum", 
           "events", "counted", "outliers", "iterations", "rank", "varied", "motor", "harmonic",
           "ensemble_members", "rounds", "warm_starts", "even_stretches", "after_grid_point", "stable", "stable_members", "within_goals"}
 
+# Of a state space, whose signals' units stand beside it (docs/benchmark-protocol.md).
+MATRICES = {"A", "B", "C", "D", "sample_time"}
+
 
 def refuse_constant(name):
     raise ValueError(f"{name} is no JSON")
@@ -167,6 +170,40 @@ class Schema(unittest.TestCase):
         self.assertTrue(VALIDATOR.is_valid(stopped))
 
 
+class Figures(unittest.TestCase):
+    def test_stand_under_headings_of_the_text_and_are_whole(self):
+        for command, case, found in every_report():
+            text = run(command, case, *((1,) if command == "match" else ()))[1].splitlines()
+            ids = [figure["id"] for figure in found.get("figures", ())]
+            self.assertEqual(len(ids), len(set(ids)))
+            for figure in found.get("figures", ()):
+                with self.subTest(command=command, case=case, figure=figure["id"]):
+                    self.assertIn(figure["section"], text)
+                    self.assertTrue(figure["title"] and figure["caption"] and figure["panels"])
+                    for panel in figure["panels"]:
+                        self.assertTrue(panel["series"])
+                        for series in panel["series"]:
+                            lists = [series[key] for key in ("x", "y", "x_lower", "x_upper",
+                                                             "y_lower", "y_upper", "labels")
+                                     if key in series]
+                            self.assertEqual(len({len(one) for one in lists}), 1)
+
+    def test_show_what_the_records_say(self):
+        figures = {figure["id"]: figure for figure in report("identify", RECORDED)["figures"]}
+        self.assertTrue({"campaign-inertia", "campaign-ratio", "campaign-friction",
+                         "torque-spectrum-fast-ramp", "ringing-slosh", "step-ring",
+                         "campaign-hold-out"} <= figures.keys())
+        methods = report("identify", RECORDED)["campaign"]["methods"]
+        rows = figures["campaign-inertia"]["panels"][0]
+        self.assertEqual(len(rows["y"]["categories"]), 1 + len(methods))
+        shown = [x for series in rows["series"] for x in series["x"] if x is not None]
+        for method in methods:
+            if method["inertia"]["value_si"] <= 0:
+                continue  # of a campaign that hardly allows the method
+            self.assertTrue(any(math.isclose(x, method["inertia"]["value_si"], rel_tol=1e-5)
+                                for x in shown), method["name"])
+
+
 class Numbers(unittest.TestCase):
     def test_carry_their_unit_in_the_key(self):
         suffix = re.compile(rf".+_({'|'.join(UNITS)})")
@@ -174,6 +211,8 @@ class Numbers(unittest.TestCase):
             for key, value in numbers(found):
                 with self.subTest(command=command, case=case, key=key):
                     self.assertTrue(math.isfinite(value))
+                    if key in MATRICES:
+                        continue
                     if key in COUNTS:
                         self.assertIsInstance(value, int)
                     else:

@@ -48,7 +48,8 @@ def run(*tests, old="", new=""):
 def numbers(value, key=""):
     if isinstance(value, dict):
         for name, inner in value.items():
-            yield from numbers(inner, name)
+            if name != "figures":  # whose axes name their units
+                yield from numbers(inner, name)
     elif isinstance(value, list):
         for inner in value:
             yield from numbers(inner, key)

@@ -1,0 +1,14 @@
+#pragma once
+
+#include <vector>
+
+#include <boresight/app/figures/figure.hpp>
+#include <boresight/app/montecarlo/montecarlo_study.hpp>
+
+namespace boresight::app {
+
+/// Histogram and cumulative distribution of the beam rms with the budgets, worst plants with their
+/// inputs, rank correlations of rms and inputs with intervals. None without a stable plant.
+std::vector<Figure> montecarlo_figures(const MonteCarloOutcome& outcome);
+
+}  // namespace boresight::app

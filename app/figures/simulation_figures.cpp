@@ -1,0 +1,144 @@
+#include <algorithm>
+#include <string_view>
+
+#include <fmt/format.h>
+
+#include <boresight/app/figures/figure_id.hpp>
+#include <boresight/app/figures/figure_parts.hpp>
+#include <boresight/app/figures/simulation_figures.hpp>
+#include <boresight/app/figures/thinned_series.hpp>
+#include <boresight/app/report/sky_units.hpp>
+
+namespace boresight::app {
+namespace {
+
+const CsvTable::Column* find(const CsvTable& table, std::string_view name) {
+  const auto found = std::ranges::find(table.columns, name, &CsvTable::Column::name);
+  return found == table.columns.end() ? nullptr : &*found;
+}
+
+// Draws a column, if the record has it.
+void draw(const CsvTable& table, std::string_view name, const std::string& called,
+          SeriesStyle style, FigurePanel& panel) {
+  const auto* column = find(table, name);
+  if (column == nullptr) return;
+  const auto curve = thinned(table.columns.front().values, column->values);
+  panel.series.push_back(make_series(called, style, curve.x, curve.y));
+}
+
+void keep(FigurePanel panel, Figure& figure) {
+  if (!panel.series.empty()) figure.panels.push_back(std::move(panel));
+}
+
+std::string caption_of(const std::string& description, const CsvTable& table, bool complete) {
+  return fmt::format(
+      "{}; {} samples, least and largest value of every stretch that a pixel shows.{}", description,
+      table.columns.front().values.size(),
+      complete ? "" : " The run was interrupted: this is as far as it got.");
+}
+
+// Torque of all motors: the mean of the motors' pressure differences times what it makes.
+void draw_torque(const CsvTable& table, double torque_per_pressure, FigurePanel& panel) {
+  Eigen::VectorXd sum = Eigen::VectorXd::Zero(table.columns.front().values.size());
+  double motors = 0.0;
+  for (int motor = 1;; ++motor) {
+    const auto* inlet = find(table, fmt::format("p{}_in", motor));
+    const auto* outlet = find(table, fmt::format("p{}_out", motor));
+    if (inlet == nullptr || outlet == nullptr) break;
+    sum += inlet->values - outlet->values;
+    motors += 1.0;
+  }
+  if (motors == 0.0) return;
+  const auto curve =
+      thinned(table.columns.front().values, sum * (megapascal * torque_per_pressure / motors));
+  panel.series.push_back(
+      make_series("all motors, from the pressures", SeriesStyle::line, curve.x, curve.y));
+}
+
+void mark_starts(const DriveRecord& record, FigurePanel& panel) {
+  const auto* tachometer = find(record.record, "tach");
+  if (tachometer == nullptr) return;
+  for (const bool upward : {true, false}) {
+    const auto start = first_start(record.events, upward);
+    if (!start || !(record.sample_time > 0.0)) continue;
+    const auto at = static_cast<Eigen::Index>(start->time / record.sample_time);
+    if (at < 0 || at >= tachometer->values.size()) continue;
+    panel.marks.push_back({start->time, tachometer->values[at],
+                           upward ? "breaks away upward" : "breaks away downward"});
+  }
+  for (const auto& channel : record.clipped) {
+    panel.lines.push_back(vertical_line(
+        channel.first, fmt::format("{} clipped, {} samples", channel.name, channel.samples)));
+  }
+}
+
+}  // namespace
+
+Figure drive_test_figure(const DriveRecord& record, double torque_per_pressure) {
+  const CsvTable& table = record.record;
+  Figure figure = make_figure(
+      figure_id("simulated " + record.test), "Tests of the drive (true values, at the motor shaft)",
+      fmt::format("Simulated test {}", record.test), "", make_axis("time", "s"));
+  if (table.columns.empty()) return figure;
+  figure.caption =
+      caption_of(record.description + "; what the recorder of the nonlinear antenna shows", table,
+                 record.complete);
+  FigurePanel rate = make_panel(make_axis("recorded", "V"));
+  draw(table, "tach", "tachometer", SeriesStyle::line, rate);
+  draw(table, "rate_command", "rate command", SeriesStyle::dashed, rate);
+  mark_starts(record, rate);
+  keep(std::move(rate), figure);
+  FigurePanel pressure = make_panel(make_axis("pressure, motor 1", "MPa"));
+  draw(table, "p1_in", "inlet", SeriesStyle::line, pressure);
+  draw(table, "p1_out", "outlet", SeriesStyle::dashed, pressure);
+  keep(std::move(pressure), figure);
+  FigurePanel torque = make_panel(make_axis("torque", "N.m"));
+  draw_torque(table, torque_per_pressure, torque);
+  keep(std::move(torque), figure);
+  FigurePanel valve = make_panel(make_axis("valve command", "V"));
+  draw(table, "valve_command", "valve command", SeriesStyle::line, valve);
+  keep(std::move(valve), figure);
+  return figure;
+}
+
+Figure position_test_figure(const PositionRecord& record) {
+  const CsvTable& table = record.record;
+  const bool slew = record.test == "slew";
+  Figure figure = make_figure(figure_id("simulated " + record.test),
+                              "Position loop, tuned PI with lag, at the sky (mdeg)",
+                              fmt::format("Simulated {}", record.test), "", make_axis("time", "s"));
+  if (table.columns.empty()) return figure;
+  figure.caption = caption_of(record.description, table, record.complete);
+  if (record.beam_rms) {
+    figure.caption +=
+        fmt::format(" Beam rms about its mean {:.3f} mdeg", *record.beam_rms / millidegree);
+    figure.caption += record.predicted_rms ? fmt::format(", by the linear design {:.3f} mdeg.",
+                                                         *record.predicted_rms / millidegree)
+                                           : ".";
+  }
+  FigurePanel error = make_panel(make_axis("error at the sky", "mdeg"));
+  draw(table, "beam_error", "beam", SeriesStyle::line, error);
+  draw(table, "encoder_error", "encoder", SeriesStyle::dashed, error);
+  if (slew) {
+    for (const double limit : {-1.0, 1.0}) {
+      error.lines.push_back(horizontal_line(limit, limit > 0.0 ? "settled within 1 mdeg" : ""));
+    }
+  }
+  keep(std::move(error), figure);
+  if (slew) {
+    FigurePanel reference = make_panel(make_axis("command", "deg"));
+    draw(table, "reference", "command", SeriesStyle::line, reference);
+    keep(std::move(reference), figure);
+  }
+  FigurePanel torque = make_panel(make_axis("torque at the motors", "N.m"));
+  draw(table, "motor_torque", "motors", SeriesStyle::line, torque);
+  draw(table, "wind_torque_at_motor", "wind", SeriesStyle::dashed, torque);
+  keep(std::move(torque), figure);
+  FigurePanel rate = make_panel(make_axis("motor rate", "rad/s"));
+  draw(table, "motor_rate", "motors", SeriesStyle::line, rate);
+  draw(table, "valve_command", "valve command", SeriesStyle::dashed, rate);
+  keep(std::move(rate), figure);
+  return figure;
+}
+
+}  // namespace boresight::app

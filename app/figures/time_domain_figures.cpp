@@ -1,0 +1,109 @@
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include <boresight/app/figures/figure_parts.hpp>
+#include <boresight/app/figures/time_domain_figures.hpp>
+#include <boresight/app/report/sky_units.hpp>
+
+namespace boresight::app {
+namespace {
+
+using design::RunStatus;
+
+// Bars one below the other: totals from 0, contributions from where the ones before end.
+class Waterfall {
+ public:
+  void total(const std::string& name, double value) {
+    add(totals_, name, 0.0, value, value);
+    reached_ = value;
+  }
+  void contribution(const std::string& name, double value) {
+    if (!std::isfinite(value)) return;
+    add(contributions_, name, reached_, reached_ + value, value);
+    reached_ += value;
+  }
+  FigurePanel panel() && {
+    FigurePanel panel;
+    panel.y.categories = std::move(names_);
+    panel.series = {std::move(totals_), std::move(contributions_)};
+    return panel;
+  }
+
+ private:
+  void add(FigureSeries& series, const std::string& name, double from, double to, double value) {
+    series.x.push_back(to / millidegree);
+    series.y.push_back(static_cast<double>(names_.size()));
+    series.x_lower.push_back(std::min(from, to) / millidegree);
+    series.x_upper.push_back(std::max(from, to) / millidegree);
+    series.labels.push_back(&series == &totals_ ? fmt::format("{:.4f} mdeg", value / millidegree)
+                                                : fmt::format("{:+.4f} mdeg", value / millidegree));
+    names_.push_back(name);
+  }
+
+  FigureSeries totals_ = make_series("beam rms", SeriesStyle::bars);
+  FigureSeries contributions_ = make_series("contribution", SeriesStyle::bars);
+  std::vector<std::string> names_;
+  double reached_ = 0.0;  // rad
+};
+
+Figure contributions(const TimeDomainSection& section, const std::string& heading) {
+  const auto& wind = section.result.wind;
+  Waterfall bars;
+  bars.total("linear prediction", wind.predicted_rms);
+  bars.contribution("this record of wind", wind.chance);
+  bars.contribution("sampling", wind.sampling);
+  for (const auto& influence : wind.influences) {
+    bars.contribution(std::string(design::to_string(influence.influence)), influence.difference);
+  }
+  bars.contribution("together only, lines, offset", wind.joint);
+  bars.total("simulated", wind.beam_rms);
+  Figure figure = make_figure(
+      "time-domain-contributions", heading, "From the linear prediction to the nonlinear antenna",
+      fmt::format(
+          "Beam rms at the sky, one axis, {}: {:g} s of wind of {:g} m/s, controller sampled "
+          "every {:g} s. Each contribution is the rms with all influences less that without "
+          "this one.",
+          section.law, section.options.wind_duration, section.wind_speed, section.sample_time),
+      make_axis("beam rms", "mdeg"));
+  figure.panels.push_back(std::move(bars).panel());
+  return figure;
+}
+
+Figure candidates(const TimeDomainSection& section, const std::string& heading) {
+  FigurePanel panel;
+  FigureSeries linear = make_series("linear prediction", SeriesStyle::bars);
+  FigureSeries simulated = make_series("simulated, nonlinear antenna", SeriesStyle::bars);
+  for (const auto& [law, result] : section.candidates) {
+    const auto place = static_cast<double>(panel.y.categories.size());
+    panel.y.categories.push_back(law);
+    linear.x.push_back(result.wind.predicted_rms / millidegree);
+    simulated.x.push_back(result.wind.beam_rms / millidegree);
+    linear.y.push_back(place);
+    simulated.y.push_back(place);
+  }
+  panel.series = {std::move(linear), std::move(simulated)};
+  Figure figure = make_figure(
+      "time-domain-laws", heading, "Tuned laws on the nonlinear antenna",
+      fmt::format("Beam rms at the sky in one record of wind of {:g} m/s; the law of the least "
+                  "simulated rms is the one verified.",
+                  section.wind_speed),
+      make_axis("beam rms", "mdeg"));
+  figure.panels.push_back(std::move(panel));
+  return figure;
+}
+
+}  // namespace
+
+std::vector<Figure> time_domain_figures(const TimeDomainSection& section,
+                                        const std::string& heading) {
+  std::vector<Figure> figures;
+  if (section.result.wind.status == RunStatus::complete) {
+    figures.push_back(contributions(section, heading));
+  }
+  if (section.candidates.size() > 1) figures.push_back(candidates(section, heading));
+  return figures;
+}
+
+}  // namespace boresight::app

@@ -1,0 +1,16 @@
+#pragma once
+
+#include <vector>
+
+#include <boresight/app/figures/figure.hpp>
+#include <boresight/app/simulate/time_domain.hpp>
+
+namespace boresight::app {
+
+/// From the linear prediction to the simulated beam rms, one contribution after the other; and the
+/// laws that the one verified was chosen from. None where the run in wind did not complete.
+/// `section`: heading that they stand under.
+std::vector<Figure> time_domain_figures(const TimeDomainSection& section,
+                                        const std::string& heading);
+
+}  // namespace boresight::app

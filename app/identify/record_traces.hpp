@@ -1,0 +1,38 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include <boresight/app/figures/thinned_series.hpp>
+#include <boresight/app/io/case_file.hpp>
+
+namespace boresight::identification {
+struct CleanRecord;
+struct DriveKnowledge;
+struct RawRecord;
+}  // namespace boresight::identification
+
+namespace boresight::app {
+
+/// What of a record is drawn, SI at the motor shaft, against time (s, as recorded).
+struct RecordTrace {
+  enum class Signal { tachometer, rate_command, valve_command, pressure, torque };
+  Signal signal = Signal::tachometer;
+  std::string channel;  // as the file calls it; empty: the torque of all motors
+  ThinnedSeries series;
+  /// What stands in the place of samples that were masked, gaps elsewhere; empty if none was.
+  ThinnedSeries masked;
+};
+
+/// The channels as recorded, and the torque that their cleaned pressures make; what a record lacks
+/// is left out.
+std::vector<RecordTrace> record_traces(const identification::RawRecord& raw,
+                                       const identification::CleanRecord& clean,
+                                       const identification::DriveKnowledge& knowledge);
+
+/// The traces of every record of a case, in its order: the files are read once more, as
+/// make_campaign reads them, since nothing but plots needs what is in them thereafter.
+/// @throws InvalidInput as make_campaign.
+std::vector<std::vector<RecordTrace>> campaign_traces(const Case& antenna, unsigned threads);
+
+}  // namespace boresight::app

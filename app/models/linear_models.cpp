@@ -1,0 +1,54 @@
+#include <utility>
+
+#include <fmt/format.h>
+
+#include <boresight/app/benchmark/benchmark_report.hpp>
+#include <boresight/app/models/linear_models.hpp>
+#include <boresight/app/tune/tune_study.hpp>
+#include <boresight/control/closed_loop.hpp>
+
+namespace boresight::app {
+
+LinearModels linear_models(const plant::AntennaPlant& antenna, double gear_ratio) {
+  return {antenna, plant::to_state_space(antenna), gear_ratio, std::nullopt};
+}
+
+LinearModels linear_models(const design::TrackingProblem& problem, const control::ControlLaw& law,
+                           const std::string& description) {
+  LinearModels models = linear_models(problem.plant, problem.gear_ratio);
+  // As case_sample_time: the dead time is one sample of computing and half of one of holding.
+  const double sample_time = problem.delay / 1.5;
+  models.loop = {description,
+                 law,
+                 problem.delay,
+                 controller_of(law, description, 0.0).system,
+                 controller_of(law, description, sample_time).system,
+                 control::closed_loop(problem.plant, law, problem.delay)};
+  return models;
+}
+
+std::optional<LinearModels> linear_models(const Report& report) {
+  if (report.tuned) {
+    const TunedLaw* best = best_law(*report.tuned);
+    const auto& problem = report.tuned->problem;
+    if (best == nullptr) return linear_models(problem.plant, problem.gear_ratio);
+    return linear_models(problem, best->design.tuning.law,
+                         fmt::format("{}, {}", best->structure, to_string(best->tuned_for)));
+  }
+  if (report.tuning && report.tuning->design.tuning.status == design::TuningStatus::optimal) {
+    const auto& law = report.tuning->design.tuning.law;
+    return linear_models(report.tuning->problem, law, law.structure.name());
+  }
+  if (report.plant) return linear_models(report.plant->plant, report.plant->gear_ratio);
+  return std::nullopt;
+}
+
+std::function<std::string()> mat_of(const Report& report) {
+  auto models = linear_models(report);
+  if (!models) return {};
+  return [models = std::move(*models), command = report.command, path = report.case_path] {
+    return to_mat(models, command, path);
+  };
+}
+
+}  // namespace boresight::app

@@ -1,0 +1,51 @@
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+
+#include <boresight/app/report/report.hpp>
+#include <boresight/plant/state_space.hpp>
+
+namespace boresight::app {
+
+/// A law as other programs take it. Inputs and outputs as in docs/benchmark-protocol.md.
+struct LawModels {
+  std::string description;  // which law, in words
+  control::ControlLaw law;
+  double dead_time = 0.0;        // s, of the loop
+  plant::StateSpace controller;  // continuous; the dead time is the loop's
+  /// In the sampled form that the antenna's computer runs: prewarped, Tustin, its sample time two
+  /// thirds of the dead time. Hold and one sample of computing are the loop's.
+  plant::StateSpace sampled_controller;
+  /// Plant and continuous controller with the dead time as a rational function of order
+  /// control::delay_order: control::closed_loop.
+  plant::StateSpace closed_loop;
+};
+
+/// The linear models behind a report: SI at the motor shaft.
+struct LinearModels {
+  plant::AntennaPlant antenna;
+  plant::StateSpace plant;  // plant::to_state_space(antenna)
+  double gear_ratio = 1.0;  // motor turns per turn of the antenna
+  std::optional<LawModels> loop;
+};
+
+/// A plant alone.
+LinearModels linear_models(const plant::AntennaPlant& antenna, double gear_ratio);
+/// And a law on it. @throws InvalidInput as control::validate(law).
+LinearModels linear_models(const design::TrackingProblem& problem, const control::ControlLaw& law,
+                           const std::string& description);
+/// Of a report of model, redesign or tune: with the best law of a tune report, or the tuned one of
+/// a redesign if it meets its goals; else the plant alone. None of a report without a plant.
+std::optional<LinearModels> linear_models(const Report& report);
+
+/// A MAT file of version 5 (docs/formats.md): plant with parameters and frequency responses; with a
+/// law gains by symbol, both controllers, the closed loop and its frequency responses. `command`
+/// and `case_path` stand in it as text.
+std::string to_mat(const LinearModels& models, const std::string& command,
+                   const std::string& case_path);
+/// How a report's models are made a MAT file; empty if it has none.
+std::function<std::string()> mat_of(const Report& report);
+
+}  // namespace boresight::app

@@ -331,6 +331,7 @@ CommissioningPlan plan_commissioning(const TrackingProblem& problem,
   }
   for (const auto& stage : *path) {
     plan.stages.push_back(plants.look_at(stage.kind, stage.law));
+    if (options.progress) options.progress(plan.stages.size(), path->size());
     if (!all_stable(plan.stages.back())) {
       throw NumericalFailure(
           fmt::format("plan_commissioning: a stage of the {} is unstable on {} of {} plants by its "

@@ -37,6 +37,8 @@ struct CommissioningOptions {
   unsigned threads = 1;
   /// Asked before every stage; true ends the work (@throws Interrupted).
   std::function<bool()> stop = {};
+  /// Called with stages worked out and all.
+  std::function<void(std::size_t, std::size_t)> progress = {};
 };
 
 /// A quantity over the plants that may be the true one.

@@ -1,9 +1,12 @@
+#include <exception>
 #include <memory>
+#include <optional>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 #include <boresight/app/commands/commission_command.hpp>
+#include <boresight/app/commands/progress_line.hpp>
 #include <boresight/app/page/report_page.hpp>
 #include <boresight/app/uncertainty/designed_antenna.hpp>
 #include <boresight/plant/error.hpp>
@@ -20,6 +23,7 @@ int run(CommissionArguments arguments) {
     arguments.outputs.deliver({.text = [&] { return to_text(report); },
                                .json = [&] { return to_json(report); },
                                .page = [&] { return page_of(report); }});
+    if (report.failure) std::rethrow_exception(report.failure);
   } catch (const Interrupted&) {
     // Half a plan is none.
     fmt::print(stderr, "boresight: interrupted before the plan was whole\n");
@@ -34,6 +38,13 @@ CommissionReport commission_case(const CommissionArguments& arguments,
                                  const std::function<bool()>& interrupted) {
   CommissionOptions options = arguments.options;
   options.interrupted = interrupted;
+  std::optional<ProgressLine> line;
+  std::string_view working;
+  options.progress = [&](std::string_view work, std::size_t done, std::size_t all) {
+    if (work != working) line.emplace(std::string(work));
+    working = work;
+    line->show(done, all);
+  };
   const DesignedAntenna designed =
       designed_antenna(read_case(arguments.case_path), options.seed, options.threads, interrupted);
   return plan_commission(designed.antenna, designed.ensemble, options);

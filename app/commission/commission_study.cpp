@@ -71,6 +71,11 @@ control::ControlLaw tuned_law(const Case& antenna, const PlantEnsemble& ensemble
   tuning.seed = options.seed;
   tuning.threads = options.threads;
   tuning.interrupted = options.interrupted;
+  if (options.progress) {
+    tuning.progress = [&](std::size_t done, std::size_t all) {
+      options.progress("tuning", done, all);
+    };
+  }
   const TuneSection section = tune_structures(antenna, ensemble, tuning);
   if (options.interrupted && options.interrupted()) throw Interrupted("interrupted by the user");
   for (const auto& row : section.laws) {
@@ -255,8 +260,8 @@ void predict(const design::CommissioningPlan& plan, ChannelComparison& channel) 
   if (channel.channel == "valve command") set(first.windy_valve, last.windy_valve);
 }
 
-std::vector<std::string> conclude(const CommissionReport& report, const Case& antenna) {
-  std::vector<std::string> sentences;
+void conclude_plan(const CommissionReport& report, const Case& antenna,
+                   std::vector<std::string>& sentences) {
   const auto& first = report.plan.stages.front();
   const auto& last = report.plan.stages.back();
   const double sky = gear_ratio(antenna) * millidegree;
@@ -282,6 +287,16 @@ std::vector<std::string> conclude(const CommissionReport& report, const Case& an
     sentences.push_back(
         fmt::format("Beam rms, one axis, at {:g} m/s ({} wind) at the end: {} mdeg.",
                     report.wind_speed, report.wind_model, range(last.expected.beam_rms, sky, 3)));
+  }
+}
+
+std::vector<std::string> conclude(const CommissionReport& report, const Case& antenna) {
+  std::vector<std::string> sentences;
+  if (report.failure == nullptr) {
+    conclude_plan(report, antenna, sentences);
+  } else {
+    sentences.push_back(
+        fmt::format("There is no plan for {}: {}", report.structure, report.no_plan));
   }
   for (const auto& channel : report.comparisons) {
     if (!channel.not_compared.empty()) continue;
@@ -330,6 +345,11 @@ CommissionReport plan_commission(const Case& antenna, const PlantEnsemble& ensem
   report.options.largest_step = options.largest_step;
   report.options.threads = options.threads;
   report.options.stop = options.interrupted;
+  if (options.progress) {
+    report.options.progress = [progress = options.progress](std::size_t done, std::size_t all) {
+      progress("planning", done, all);
+    };
+  }
   const double rate = move_share * antenna.drive.slew_rate.value * problem.gear_ratio;
   report.move = {rate, rate / move_ramp};
   loop_structure(antenna.loops, options.structure);
@@ -337,15 +357,27 @@ CommissionReport plan_commission(const Case& antenna, const PlantEnsemble& ensem
     report.comparisons =
         compare_case_records(antenna, options.before, options.after, options.threads);
   }
-  const control::ControlLaw target =
-      report.tuned ? tuned_law(antenna, ensemble, options) : given_law(antenna, options);
   std::optional<control::ControlLaw> found;
   const auto present = present_laws(antenna);
   if (!present.empty()) found = present.front();
-  report.plan = design::plan_commissioning(problem, ensemble.members, found, target, report.move,
-                                           report.options);
-  for (auto& channel : report.comparisons) predict(report.plan, channel);
-  report.sheets = make_sheets(antenna, report);
+  // What the records say of work that is done does not hang on a plan.
+  const auto without_plan = [&](const std::exception& error) {
+    if (report.comparisons.empty()) throw;
+    report.failure = std::current_exception();
+    report.no_plan = error.what();
+  };
+  try {
+    const control::ControlLaw target =
+        report.tuned ? tuned_law(antenna, ensemble, options) : given_law(antenna, options);
+    report.plan = design::plan_commissioning(problem, ensemble.members, found, target, report.move,
+                                             report.options);
+    for (auto& channel : report.comparisons) predict(report.plan, channel);
+    report.sheets = make_sheets(antenna, report);
+  } catch (const InfeasibleRequirement& error) {
+    without_plan(error);
+  } catch (const NumericalFailure& error) {
+    without_plan(error);
+  }
   report.conclusions = conclude(report, antenna);
   report.figures = commission_figures(report);
   return report;

@@ -1,9 +1,11 @@
 #pragma once
 
 #include <cstdint>
+#include <exception>
 #include <functional>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <boresight/app/document/document.hpp>
@@ -27,6 +29,8 @@ struct CommissionOptions {
   /// Names of records of the case, both or none.
   std::string before, after;
   std::function<bool()> interrupted;
+  /// Called with what is being worked on ("tuning", "planning"), parts of it done and all.
+  std::function<void(std::string_view, std::size_t, std::size_t)> progress;
 };
 
 /// A gain of a stage.
@@ -74,6 +78,10 @@ struct CommissionReport {
   design::CommandedMove move;  // at the motor
   design::CommissioningOptions options;
   design::CommissioningPlan plan;
+  /// Why there is no plan (InfeasibleRequirement, NumericalFailure), and that in words; none: there
+  /// is one.
+  std::exception_ptr failure;
+  std::string no_plan;
   std::vector<StageSheet> sheets;
   std::string before, after;
   std::vector<ChannelComparison> comparisons;
@@ -84,9 +92,9 @@ struct CommissionReport {
 
 /// Plans the way to the robustly tuned law of a structure, or to the gains given, and compares two
 /// records where asked. `antenna`: the plant the ensemble is about.
-/// @throws InvalidInput for a structure, gains or records that there are none of;
+/// @throws InvalidInput for a structure, gains or records that there are none of; Interrupted;
 /// InfeasibleRequirement if no law of the structure meets the goals on every plant, or no path to
-/// it was found; Interrupted.
+/// it was found, and NumericalFailure, if no records are compared: else the report holds them.
 CommissionReport plan_commission(const Case& antenna, const PlantEnsemble& ensemble,
                                  const CommissionOptions& options);
 

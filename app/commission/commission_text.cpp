@@ -98,12 +98,8 @@ Document comparison_part(const CommissionReport& report) {
              "  ");
 }
 
-}  // namespace
-
-Document document_of(const CommissionReport& report) {
-  Document text = verbatim(fmt::format("{}\n{}\ncase {}, seed {}\n", report.title, report.axis,
-                                       report.case_path, report.seed));
-  text += heading("Commissioning plan for " + report.structure);
+Document plan_part(const CommissionReport& report) {
+  Document text;
   text += wrapped(
       fmt::format(
           "The gains at the end are {}. {} plants that may be the true one, {}; wind {:g} "
@@ -147,6 +143,19 @@ Document document_of(const CommissionReport& report) {
       "  ");
   text += "\n" + overview(report);
   text += heading("Stages (* changed against the stage before)") + sheets(report);
+  return text;
+}
+
+}  // namespace
+
+Document document_of(const CommissionReport& report) {
+  Document text = verbatim(fmt::format("{}
+{}
+case {}, seed {}
+", report.title, report.axis,
+                                       report.case_path, report.seed));
+  text += heading("Commissioning plan for " + report.structure);
+  text += report.failure == nullptr ? plan_part(report) : wrapped("None: " + report.no_plan, "  ");
   text += comparison_part(report);
   text += heading("Conclusions");
   for (const auto& sentence : report.conclusions) text += wrapped("- " + sentence, "  ", "  ");

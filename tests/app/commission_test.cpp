@@ -3,9 +3,11 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 
 #include "edited_case.hpp"
 #include <boresight/app/commission/commission_study.hpp>
+#include <boresight/app/redesign/antenna_model.hpp>
 #include <boresight/plant/error.hpp>
 
 namespace boresight::app {
@@ -120,6 +122,26 @@ TEST(Commission, ComparesTwoRecordsOfTheCase) {
       EXPECT_EQ(channel.comparison.whole.change, design::Change::worse);
     }
   }
+  // A plan that there is none of does not take the comparison with it.
+  CommissionOptions options;
+  options.gains = pressure_gains;
+  options.gains[0] = "kr=60";
+  options.before = "constant-speed-0.25V";
+  options.after = "constant-speed-0.5V";
+  const auto report =
+      plan_commission(antenna, {"of one", {{"as stated", make_plant(antenna)}}}, options);
+  ASSERT_TRUE(report.failure);
+  EXPECT_THROW(std::rethrow_exception(report.failure), InfeasibleRequirement);
+  EXPECT_EQ(report.comparisons.size(), channels.size());
+  const std::string text = to_text(report);
+  EXPECT_THAT(text, HasSubstr("None: "));
+  EXPECT_THAT(text, HasSubstr("Before and after: 'constant-speed-0.25V'"));
+  EXPECT_THAT(text, HasSubstr("There is no plan for DPF: "));
+  const auto json = nlohmann::json::parse(to_json(report));
+  EXPECT_TRUE(json.at("no_plan").is_string());
+  EXPECT_TRUE(json.at("stages").empty());
+  EXPECT_EQ(json.at("comparisons").size(), channels.size());
+
   const auto refusal = [&](const std::string& before, const std::string& after) -> std::string {
     try {
       compare_case_records(antenna, before, after, 1);

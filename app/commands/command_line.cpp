@@ -9,15 +9,8 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
-#include <boresight/app/commands/benchmark_command.hpp>
 #include <boresight/app/commands/command_line.hpp>
-#include <boresight/app/commands/commission_command.hpp>
-#include <boresight/app/commands/evaluate_command.hpp>
-#include <boresight/app/commands/match_command.hpp>
-#include <boresight/app/commands/montecarlo_command.hpp>
-#include <boresight/app/commands/report_commands.hpp>
-#include <boresight/app/commands/simulate_command.hpp>
-#include <boresight/app/commands/tune_command.hpp>
+#include <boresight/app/commands/program.hpp>
 #include <boresight/plant/error.hpp>
 
 namespace boresight::app {
@@ -47,30 +40,21 @@ std::string command_line_text(int argc, char** argv) {
 }  // namespace
 
 int run_command_line(int argc, char** argv) {
-  CLI::App program{"Redesigns the servo of a large antenna from measured data.", "boresight"};
-  program.set_version_flag("--version", std::string("boresight ") + BORESIGHT_VERSION);
-  program.require_subcommand(1);
-  program.footer(
-      "Exit codes: 0 done, 1 internal error, 2 bad input, 3 goals infeasible, 4 numerical failure, "
-      "130 interrupted.\n"
-      "Example: boresight redesign cases/dss14-70m/case.toml --json report.json");
-  std::vector<Subcommand> commands = add_report_commands(program);
-  commands.push_back(add_simulate(program));
-  commands.push_back(add_benchmark(program));
-  commands.push_back(add_tune(program));
-  commands.push_back(add_match(program));
-  commands.push_back(add_montecarlo(program));
-  commands.push_back(add_evaluate(program));
-  commands.push_back(add_commission(program));
+  const Program program = make_program();
   try {
-    program.parse(argc, argv);
-  } catch (const CLI::ParseError& error) {
-    return program.exit(error) == 0 ? done : bad_input;
+    program.options->parse(argc, argv);
+  } catch (const CLI::Success& asked) {
+    return program.options->exit(asked);
+  } catch (const CLI::ParseError&) {
+    const std::vector<std::string> arguments(argv + 1, argv + argc);
+    fmt::print(stderr, "boresight: {}\nRun with --help for more information.\n",
+               parse_refusal(arguments));
+    return bad_input;
   }
   try {
-    for (const auto& command : commands) {
+    for (const auto& command : program.commands) {
       if (!command.options->parsed()) continue;
-      command.outputs->command_line = command_line_text(argc, argv);
+      if (command.outputs != nullptr) command.outputs->command_line = command_line_text(argc, argv);
       return command.run();
     }
   } catch (const InvalidInput& error) {

@@ -1,8 +1,15 @@
 #include <algorithm>
 #include <exception>
 #include <filesystem>
+#include <functional>
 #include <memory>
+#include <mutex>
+#include <optional>
+#include <set>
 #include <system_error>
+#include <type_traits>
+#include <variant>
+#include <vector>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -10,13 +17,16 @@
 #include <boresight/app/commands/progress_line.hpp>
 #include <boresight/app/commands/simulate_command.hpp>
 #include <boresight/app/figures/simulation_figures.hpp>
+#include <boresight/app/io/field.hpp>
 #include <boresight/app/io/record_mat_writer.hpp>
+#include <boresight/app/io/wording.hpp>
 #include <boresight/app/page/report_page.hpp>
 #include <boresight/app/redesign/antenna_model.hpp>
 #include <boresight/app/redesign/assumed_inputs.hpp>
 #include <boresight/app/redesign/sections.hpp>
 #include <boresight/app/report/json_report.hpp>
 #include <boresight/app/simulate/antenna_tests.hpp>
+#include <boresight/design/parallel_loop.hpp>
 #include <boresight/plant/error.hpp>
 
 namespace boresight::app {
@@ -38,8 +48,9 @@ void check_tests(const std::vector<std::string>& tests) {
   const auto& known = simulated_test_names();
   for (const auto& test : tests) {
     if (std::ranges::find(known, test) == known.end()) {
-      throw InvalidInput(fmt::format("simulate: expected tests out of {}, found '{}'",
-                                     fmt::join(known, ", "), test));
+      throw InvalidInput(fmt::format("simulate: expected tests out of {}, found {}{}",
+                                     fmt::join(known, ", "), app::quoted(test),
+                                     did_you_mean(test, {known.begin(), known.end()})));
     }
     if (std::ranges::count(tests, test) != 1) {
       throw InvalidInput(fmt::format("simulate: expected each test once, found '{}' again", test));
@@ -47,11 +58,32 @@ void check_tests(const std::vector<std::string>& tests) {
   }
 }
 
-// Runs the tests one by one and keeps what the report says of them.
+using Record = std::variant<DriveRecord, PositionRecord>;
+
+// One record to make: of a test that may have several.
+struct Run {
+  std::string asked;  // as the command line names it
+  std::string name;   // of the file
+  std::function<Record(const RunProgress&)> make;
+};
+
+// What became of it.
+struct RunState {
+  std::optional<Record> record;
+  std::exception_ptr failure;
+  double done = 0.0;  // share
+  bool begun = false;
+  bool over = false;
+};
+
+// Runs the tests, several at a time, and keeps what the report says of them in their order.
 class Campaign {
  public:
   Campaign(const SimulateArguments& arguments, const std::function<bool()>& interrupted)
-      : arguments_(arguments), interrupted_(interrupted), antenna_(read_case(arguments.case_path)) {
+      : arguments_(arguments),
+        interrupted_(interrupted),
+        antenna_(read_case(arguments.case_path)),
+        line_("simulating, percent") {
     check_tests(arguments.tests);
     if (arguments.sample_rate > 0.0 && antenna_.recorder) {
       antenna_.recorder->sample_rate.value = arguments.sample_rate;
@@ -63,94 +95,138 @@ class Campaign {
     report_.seed = arguments.seed;
     arguments.outputs.require_writable();
     NonlinearInputs inputs{.time_runs = true};
-    for (const auto& name : arguments.tests) {
-      const auto tests = drive_tests(antenna_, name);
-      // What follows the loop of the antenna's computer is written without a recorder's errors.
-      inputs.recorder = inputs.recorder || !tests.empty();
-      inputs.rate_loop =
-          inputs.rate_loop || std::ranges::any_of(tests, &AntennaTest::rate_loop_closed);
-      if (tests.empty()) require_writable(path_of(name));
-      for (const auto& test : tests) require_writable(path_of(test.name));
-    }
+    for (const auto& name : arguments.tests) add_runs(name, inputs);
+    for (const auto& run : runs_) require_writable(path_of(run));
+    states_.resize(runs_.size());
     report_.assumed = assumed_inputs(antenna_, inputs);
   }
 
   SimulateOutcome run() {
-    SimulateOutcome outcome;
-    std::size_t next = 0;
-    try {
-      while (next < arguments_.tests.size() && !report_.interrupted) {
-        const auto& name = arguments_.tests[next++];
-        report_.failed_test = name;
-        if (name == "tracking" || name == "slew") {
-          run_position(name);
-        } else {
-          run_drive(name);
-        }
-      }
-      report_.failed_test.clear();
-    } catch (const std::exception& error) {
-      // What was done before is the user's all the same.
-      report_.failure = error.what();
-      outcome.failure = std::current_exception();
+    // An error of the loop itself, such as of a full disk, is the failure of nobody's test.
+    design::for_each_index(runs_.size(), arguments_.threads, [this](std::size_t i) { run_one(i); });
+    std::set<std::string> begun;
+    for (std::size_t i = 0; i < runs_.size(); ++i) {
+      if (states_[i].begun && i <= kept_) begun.insert(runs_[i].asked);
     }
-    for (; next < arguments_.tests.size(); ++next) {
-      report_.not_run.push_back(arguments_.tests[next]);
+    for (const auto& name : arguments_.tests) {
+      if (!begun.contains(name)) report_.not_run.push_back(name);
     }
-    outcome.report = std::move(report_);
-    return outcome;
+    report_.interrupted = report_.interrupted || (!failure_ && kept_ < runs_.size());
+    return {std::move(report_), failure_};
   }
 
  private:
-  std::string path_of(const std::string& test) const {
-    return (folder_ / fmt::format("{}.{}", test, arguments_.format)).string();
-  }
-
-  // One line a test on a terminal.
-  RunProgress progress_of(ProgressLine& line) const {
-    return [this, &line](double done) {
-      const auto part = static_cast<std::size_t>(done * static_cast<double>(progress_parts));
-      if (part > 0) line.show(part, progress_parts);
-      return !interrupted_();
-    };
-  }
-
-  // The record goes to its file, the rest into the report.
-  void keep(const std::string& name, CsvTable& record, bool complete) {
-    const auto path = path_of(name);
-    write_atomically(path, arguments_.format == "mat" ? to_mat(record) : to_csv(record));
-    record = {};
-    report_.written.push_back(path);
-    report_.interrupted = !complete;
-  }
-
-  void run_drive(const std::string& name) {
+  // The runs of a test, and which assumed inputs they rest on.
+  void add_runs(const std::string& name, NonlinearInputs& inputs) {
+    const auto seed = arguments_.seed;
+    if (name == "tracking" || name == "slew") {
+      const auto make = name == "slew" ? run_slew : run_tracking;
+      runs_.push_back({name, name, [this, make, seed](const RunProgress& progress) -> Record {
+                         return make(antenna_, seed, progress);
+                       }});
+      return;
+    }
     for (const auto& test : drive_tests(antenna_, name)) {
-      if (report_.interrupted) return;
-      report_.failed_test = test.name;
-      ProgressLine line(test.name + ", percent");
-      auto record = run_drive_test(antenna_, test, arguments_.seed, progress_of(line));
-      report_.figures.push_back(drive_test_figure(
-          record, supply_torque(antenna_) / antenna_.drive.supply_pressure.value));
-      keep(test.name, record.record, record.complete);
-      report_.drive.push_back(std::move(record));
+      // What follows the loop of the antenna's computer is written without a recorder's errors.
+      inputs.recorder = true;
+      inputs.rate_loop = inputs.rate_loop || test.rate_loop_closed;
+      runs_.push_back({name, test.name, [this, test, seed](const RunProgress& progress) -> Record {
+                         return run_drive_test(antenna_, test, seed, progress);
+                       }});
     }
   }
 
-  void run_position(const std::string& name) {
-    ProgressLine line(name + ", percent");
-    auto record = name == "slew" ? run_slew(antenna_, arguments_.seed, progress_of(line))
-                                 : run_tracking(antenna_, arguments_.seed, progress_of(line));
-    report_.figures.push_back(position_test_figure(record));
-    keep(name, record.record, record.complete);
-    report_.position.push_back(std::move(record));
+  std::string path_of(const Run& run) const {
+    return (folder_ / fmt::format("{}.{}", run.name, arguments_.format)).string();
+  }
+
+  void run_one(std::size_t i) {
+    {
+      const std::lock_guard lock(mutex_);
+      if (failure_ || interrupted_()) return;
+      states_[i].begun = true;
+    }
+    std::optional<Record> record;
+    std::exception_ptr failure;
+    try {
+      record = runs_[i].make([this, i](double done) { return goes_on(i, done); });
+    } catch (const std::exception&) {
+      failure = std::current_exception();
+    }
+    const std::lock_guard lock(mutex_);
+    states_[i].record = std::move(record);
+    states_[i].failure = failure;
+    states_[i].over = true;
+    while (kept_ < runs_.size() && states_[kept_].over && !failure_) keep_next();
+  }
+
+  // One line for all on a terminal. A run ends early on request, and where one before it failed.
+  bool goes_on(std::size_t i, double done) {
+    const std::lock_guard lock(mutex_);
+    states_[i].done = done;
+    double sum = 0.0;
+    for (const auto& state : states_) sum += state.over ? 1.0 : state.done;
+    const auto part = static_cast<std::size_t>(sum / static_cast<double>(states_.size()) *
+                                               static_cast<double>(progress_parts));
+    if (part > 0) line_.show(part, progress_parts);
+    return !failure_ && !interrupted_();
+  }
+
+  // The record goes to its file, the rest into the report. After a failure the records before it
+  // are the user's all the same, and those behind it are left out, as if run one by one.
+  void keep_next() {
+    const Run& run = runs_[kept_];
+    RunState& state = states_[kept_];
+    if (!state.failure && state.record) {
+      try {
+        std::visit([&](auto& record) { keep(run, record); }, *state.record);
+        ++kept_;
+        return;
+      } catch (const std::exception&) {
+        state.failure = std::current_exception();
+      }
+    }
+    failure_ = state.failure;
+    report_.failed_test = run.name;
+    try {
+      std::rethrow_exception(failure_);
+    } catch (const std::exception& error) {
+      report_.failure = error.what();
+    }
+  }
+
+  template <typename MadeRecord>
+  void keep(const Run& run, MadeRecord& record) {
+    const auto path = path_of(run);
+    if constexpr (std::is_same_v<MadeRecord, DriveRecord>) {
+      report_.figures.push_back(drive_test_figure(
+          record, supply_torque(antenna_) / antenna_.drive.supply_pressure.value));
+    } else {
+      report_.figures.push_back(position_test_figure(record));
+    }
+    write_atomically(path,
+                     arguments_.format == "mat" ? to_mat(record.record) : to_csv(record.record));
+    record.record = {};
+    report_.written.push_back(path);
+    report_.interrupted = report_.interrupted || !record.complete;
+    if constexpr (std::is_same_v<MadeRecord, DriveRecord>) {
+      report_.drive.push_back(std::move(record));
+    } else {
+      report_.position.push_back(std::move(record));
+    }
   }
 
   const SimulateArguments& arguments_;
   const std::function<bool()>& interrupted_;
   Case antenna_;
   std::filesystem::path folder_;
+  std::vector<Run> runs_;
+  std::mutex mutex_;  // of all below
+  std::vector<RunState> states_;
+  std::size_t kept_ = 0;  // so many of the first are in the report
+  std::exception_ptr failure_;
   SimulationReport report_;
+  ProgressLine line_;
 };
 
 }  // namespace
@@ -162,7 +238,8 @@ SimulateOutcome simulate_tests(const SimulateArguments& arguments,
 
 namespace {
 
-int run(const SimulateArguments& arguments) {
+int run(SimulateArguments arguments) {
+  arguments.threads = all_or(arguments.threads);
   watch_for_interrupt();
   const auto outcome = simulate_tests(arguments, interrupt_requested);
   arguments.outputs.deliver({.text = [&] { return to_text(outcome.report); },
@@ -194,6 +271,7 @@ Subcommand add_simulate(CLI::App& program) {
                   "at 1000 or more")
       ->check(CLI::Range(1.0, 1e5));
   add_seed(*sub, arguments->seed);
+  add_threads(*sub, arguments->threads);
   return {sub, [arguments] { return run(*arguments); }, &arguments->outputs};
 }
 

@@ -19,13 +19,14 @@ struct SimulateArguments {
   Outputs outputs;
   std::uint64_t seed = 1;
   double sample_rate = 0.0;  // Hz, of the records; 0: as the case has it
+  unsigned threads = 1;      // so many records at a time; they do not depend on it
 };
 
 /// Runs the tests on the nonlinear antenna of the case and writes a record of each, TEST.csv
-/// or TEST.mat, into the folder (made if it is not there). `interrupted` is asked now and then;
-/// after it said yes the record under way is written up to there, marked as incomplete, and the
-/// rest is left out. A test that fails ends the work too: the report tells of those before it,
-/// `failure` holds the error.
+/// or TEST.mat, into the folder (made if it is not there). `interrupted` is asked now and then, by
+/// one thread at a time; after it said yes the records under way are written up to there, marked as
+/// incomplete, and the rest is left out. A test that fails ends the work too: the report tells of
+/// those before it, `failure` holds the error.
 struct SimulateOutcome {
   SimulationReport report;
   std::exception_ptr failure;

@@ -20,6 +20,10 @@ namespace {
 // NOLINTNEXTLINE(cppcoreguidelines-avoid-non-const-global-variables)
 volatile std::sig_atomic_t interrupt_seen = 0;
 
+// What is printed is the process's: progress lines ask for it far below the command line.
+// NOLINTNEXTLINE(cppcoreguidelines-avoid-non-const-global-variables)
+bool quiet_asked = false;
+
 void see_interrupt(int /*signal*/) {
   interrupt_seen = 1;
 }
@@ -73,6 +77,25 @@ unsigned all_or(unsigned threads) {
   return threads != 0 ? threads : std::max(1U, std::thread::hardware_concurrency());
 }
 
+const std::vector<std::pair<ExitCode, std::string>>& exit_code_meanings() {
+  static const std::vector<std::pair<ExitCode, std::string>> meanings{
+      {done, "done"},
+      {internal_error, "internal error"},
+      {bad_input, "bad input"},
+      {infeasible, "goals infeasible"},
+      {numerical, "numerical failure"},
+      {interrupted, "interrupted"}};
+  return meanings;
+}
+
+void add_quiet(CLI::App& command) {
+  command.add_flag("--quiet", quiet_asked, "print neither the report's text nor progress");
+}
+
+bool quiet() {
+  return quiet_asked;
+}
+
 void watch_for_interrupt() {
   std::signal(SIGINT, see_interrupt);
 }
@@ -105,7 +128,7 @@ void Outputs::deliver(const Findings& findings) const {
     fmt::print("{}", findings.json());
   } else {
     if (!json_path.empty()) write_atomically(json_path, findings.json());
-    fmt::print("{}", findings.text());
+    if (!quiet()) fmt::print("{}", findings.text());
   }
   if (std::fflush(stdout) != 0) throw InvalidInput("standard output: cannot be written to");
 }

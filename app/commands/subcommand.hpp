@@ -3,6 +3,8 @@
 #include <cstdint>
 #include <functional>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include <boresight/app/page/page.hpp>
 
@@ -23,6 +25,9 @@ enum ExitCode {
 
 struct Outputs;
 
+/// Each code with its meaning in a few words, in the order of the codes.
+const std::vector<std::pair<ExitCode, std::string>>& exit_code_meanings();
+
 /// A command of the program: its options, and what it does once they are parsed. `run` returns an
 /// exit code and throws InvalidInput (2), NumericalFailure (4) and anything else (1).
 struct Subcommand {
@@ -38,6 +43,11 @@ void add_seed(CLI::App& command, std::uint64_t& seed);
 void add_threads(CLI::App& command, unsigned& threads);
 /// The number of threads asked for, of the machine's for 0.
 unsigned all_or(unsigned threads);
+
+/// The flag --quiet: neither text nor progress; errors are told all the same.
+void add_quiet(CLI::App& command);
+/// Whether it was given.
+bool quiet();
 
 /// From here on Ctrl-C no longer ends the program but is seen by interrupt_requested().
 void watch_for_interrupt();
@@ -62,7 +72,8 @@ struct Outputs {
   /// @throws InvalidInput if one of them cannot be written to. To be asked before the work, not
   /// after it.
   void require_writable() const;
-  /// The text to standard output, or the JSON for the path "-"; the rest where it is asked for.
+  /// The text to standard output unless quiet(), or the JSON for the path "-"; the rest where it is
+  /// asked for.
   /// @throws InvalidInput if one cannot be written.
   void deliver(const Findings& findings) const;
 };

@@ -8,6 +8,8 @@
 #include <fmt/ranges.h>
 
 #include <boresight/app/io/case_sections.hpp>
+#include <boresight/app/io/field.hpp>
+#include <boresight/app/io/usual_structures.hpp>
 #include <boresight/app/io/wording.hpp>
 
 namespace boresight::app {
@@ -113,13 +115,9 @@ BlockEntry read_block(TableReader& table, std::map<std::string, int>& symbols) {
 }
 
 bool is_usual(const std::string& name) {
-  for (const auto* base : {"PI-0", "PI", "DPF", "LL", "FULL"}) {
-    for (const auto* added : {"", "+N", "+C", "+N+C"}) {
-      const std::string usual = std::string(base) + added;
-      if (name == usual || name == control::LoopStructure::named(usual).name()) return true;
-    }
-  }
-  return false;
+  return std::ranges::any_of(usual_structures(), [&](const std::string& usual) {
+    return name == usual || name == control::LoopStructure::named(usual).name();
+  });
 }
 
 void append(std::vector<Quantity>& all, const std::vector<Quantity>& some) {
@@ -211,10 +209,13 @@ control::LoopStructure loop_structure(const std::vector<LoopEntry>& own, const s
     names.push_back(quoted(entry.structure.name()));
   }
   if (is_usual(name)) return control::LoopStructure::named(name);
+  std::vector<std::string_view> known(usual_structures().begin(), usual_structures().end());
+  for (const auto& entry : own) known.push_back(entry.structure.name());
   throw InvalidInput(
       fmt::format("expected {}PI-0, PI, DPF, LL or FULL, with +N (notch) and +C (compliance "
-                  "compensation) behind it as wanted, found {}",
-                  names.empty() ? "" : fmt::format("{}, ", fmt::join(names, ", ")), quoted(name)));
+                  "compensation) behind it as wanted, found {}{}",
+                  names.empty() ? "" : fmt::format("{}, ", fmt::join(names, ", ")), quoted(name),
+                  did_you_mean(name, known)));
 }
 
 void read_loops(TableReader& file, Case& antenna) {

@@ -11,10 +11,15 @@
 namespace boresight::app {
 namespace {
 
+// What `boresight new` writes where something is to be filled in.
+bool is_blank(const TomlNode& node) {
+  return node.type == TomlType::text && node.text == "?";
+}
+
 std::string found_text(const TomlNode& node) {
   switch (node.type) {
     case TomlType::text:
-      return quoted(node.text);
+      return is_blank(node) ? "'?', a blank to fill in" : quoted(node.text);
     case TomlType::integer:
       return "the integer " + node.text;
     case TomlType::number:
@@ -73,6 +78,7 @@ std::string quoted_list(const std::vector<std::string_view>& names) {
 }
 
 std::string read_text(const Field& field) {
+  if (is_blank(field.node)) refuse_field(field, "a text");
   if (field.node.type != TomlType::text) {
     refuse_field(field, "a text", " (a text stands in quotes)");
   }
@@ -93,7 +99,7 @@ std::vector<std::string> read_texts(const Field& field) {
 std::string read_choice(const Field& field, const std::vector<std::string>& choices) {
   const std::vector<std::string_view> names(choices.begin(), choices.end());
   const std::string expected = "one of " + quoted_list(names);
-  if (field.node.type != TomlType::text) {
+  if (field.node.type != TomlType::text || is_blank(field.node)) {
     refuse_field(field, expected);
   }
   if (std::find(choices.begin(), choices.end(), field.node.text) == choices.end()) {
@@ -123,7 +129,7 @@ bool read_boolean(const Field& field) {
 PrintedNumber read_printed(const Field& field, Kind kind) {
   const TomlNode& node = field.node;
   const bool bare = node.type == TomlType::integer || node.type == TomlType::number;
-  if (!bare && node.type != TomlType::text) {
+  if ((!bare && node.type != TomlType::text) || is_blank(node)) {
     refuse_field(field, expectation(kind));
   }
   if (bare && kind != Kind::number) {

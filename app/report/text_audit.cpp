@@ -92,6 +92,10 @@ std::string audit_summary(const AuditReport& report) {
   std::stable_sort(matter.begin(), matter.end(), [](const Finding* a, const Finding* b) {
     return largest_change(*a) > largest_change(*b);
   });
+  if (report.checked == 0 && report.implausible.empty()) {
+    return "The case states no derived numbers to compare ([[stated]]), and nothing in it is "
+           "physically implausible.";
+  }
   if (report.findings.empty() && report.implausible.empty()) {
     return fmt::format(
         "All {} printed numbers follow from each other, and nothing in them is "

@@ -1,6 +1,7 @@
-"""The documentation is spelt as an English dictionary or tests/docs/words.txt has it; the sources have none of the usual misspellings.
+"""The documentation and the program's manual are spelt as an English dictionary or
+tests/docs/words.txt has it; the sources have none of the usual misspellings.
 
-usage: spelling_test.py SOURCE_FOLDER [--list]     --list prints the unknown words alone
+usage: spelling_test.py PROGRAM SOURCE_FOLDER [--list]     --list prints the unknown words alone
 """
 
 import pathlib
@@ -36,12 +37,23 @@ def unknown_words(text, words):
             and not (word[0].isupper() and word.lower() in words)}
 
 
-def main(root, only_list):
+def manual_of(program):
+    """The manual's sentences, without troff."""
+    page = subprocess.run([program, "man"], capture_output=True, text=True, check=True).stdout
+    lines = [line for line in page.splitlines() if not line.startswith((".", "\\fB", "\\fI"))]
+    text = re.sub(r"\\f[BI].*?\\fR", " ", "\n".join(lines)).replace("\\(aq", "'").replace("\\-", "-")
+    for pattern in NO_PROSE:
+        text = pattern.sub(" ", text)
+    return text
+
+
+def main(program, root, only_list):
     words = {line.strip() for line in (root / "tests/docs/words.txt").read_text(encoding="utf-8")
              .splitlines() if line.strip() and not line.startswith("#")}
     places, texts = {}, {}
     for document in markdown.documents(root):
         texts[str(document.relative_to(root))] = prose_of(document)
+    texts["boresight man"] = list(enumerate(manual_of(program).splitlines(), 1))
     unknown = unknown_words("\n".join(line for lines in texts.values() for _, line in lines), words)
     for name, lines in texts.items():
         for number, line in lines:
@@ -68,4 +80,4 @@ def main(root, only_list):
 
 
 if __name__ == "__main__":
-    sys.exit(main(pathlib.Path(sys.argv[1]).resolve(), "--list" in sys.argv))
+    sys.exit(main(sys.argv[1], pathlib.Path(sys.argv[2]).resolve(), "--list" in sys.argv))

@@ -1,0 +1,97 @@
+#include <map>
+
+#include <fmt/format.h>
+
+#include <boresight/app/commands/command_examples.hpp>
+
+namespace boresight::app {
+namespace {
+
+using Examples = std::vector<CommandExample>;
+
+const std::map<std::string, Examples, std::less<>>& all_examples() {
+  static const std::map<std::string, Examples, std::less<>> examples{
+      {"",
+       {{"boresight new my-antenna", "a case file to fill in, my-antenna/case.toml"},
+        {"boresight redesign my-antenna/case.toml", "the whole report"},
+        {"boresight tune --help", "what a command takes"}}},
+      {"redesign",
+       {{"boresight redesign case.toml", "the whole report, to read"},
+        {"boresight redesign case.toml --json report.json", "and the same for programs"},
+        {"boresight redesign case.toml --seed 2 --threads 4",
+         "other random starts: the conclusions should not change"}}},
+      {"audit",
+       {{"boresight audit case.toml", "what in the case does not follow from the rest of it"},
+        {"boresight audit case.toml --json -", "the same as JSON, to standard output"}}},
+      {"identify",
+       {{"boresight identify case.toml", "inertia by each method the case has numbers for"},
+        {"boresight identify case.toml --seed 7 --json drive.json",
+         "with other draws of what is uncertain; the report to a file"}}},
+      {"model",
+       {{"boresight model case.toml", "parameters, poles and modes of the linear plant"},
+        {"boresight model case.toml --json - --quiet", "for a program"}}},
+      {"tune",
+       {{"boresight tune case.toml", "every structure of the case's [tuning]"},
+        {"boresight tune case.toml --structure PI DPF+C", "these two"},
+        {"boresight tune case.toml --structure PI --goal gain_margin='8 dB' --speed '12 m/s'",
+         "with another goal and another wind than the case's"}}},
+      {"match",
+       {{"boresight match case.toml --structure PI DPF+C", "two structures, 25 motor inertias"},
+        {"boresight match case.toml --points 9 --nominal --no-variants --time-domain none",
+         "a quick look"}}},
+      {"evaluate",
+       {{"boresight evaluate case.toml half.toml none.toml", "two proposals beside the antenna"},
+        {"boresight evaluate case.toml half.toml --structure PI DPF+C --draws 10000",
+         "each with the better of two structures, chances to 1 %"}}},
+      {"montecarlo",
+       {{"boresight montecarlo case.toml --structure PI", "the robust PI law on 10 000 plants"},
+        {"boresight montecarlo case.toml --gains case --plants 100000 --csv plants.csv",
+         "the gains run on now; every plant to a file"},
+        {"boresight montecarlo case.toml --plants 1000000 --checkpoint run.checkpoint",
+         "a long run, which goes on from the file if it is started again"}}},
+      {"benchmark",
+       {{"boresight benchmark case.toml", "the gains that the antenna runs on now"},
+        {"boresight benchmark case.toml --gains tuned.json --structure DPF+C --json score.json",
+         "a law of a report of tune; the score sheet to a file"},
+        {"boresight benchmark case.toml --controller mine.mat --compare score.json",
+         "anybody's controller beside that"}}},
+      {"commission",
+       {{"boresight commission case.toml --structure PI", "the way to robust PI gains, in stages"},
+        {"boresight commission case.toml --largest-step 1.5", "in smaller stages"},
+        {"boresight commission case.toml --before spring --after autumn",
+         "two records of the case compared"}}},
+      {"simulate",
+       {{"boresight simulate case.toml slosh slow-ramp --folder records",
+         "two tests; records/slosh.csv and records/slow-ramp.csv"},
+        {"boresight simulate case.toml tracking --seed 2 --sample-rate 100",
+         "tracking in another wind, sampled at 100 Hz"}}},
+      {"new",
+       {{"boresight new my-antenna", "my-antenna/case.toml, with its blanks"},
+        {"boresight new sites/25-m", "in another folder"}}},
+      {"completion",
+       {{"source <(boresight completion bash)", "for this session of bash"},
+        {"boresight completion zsh > ~/.zfunc/_boresight", "for zsh, where fpath has ~/.zfunc"},
+        {"boresight completion fish > ~/.config/fish/completions/boresight.fish", "for fish"}}},
+      {"man",
+       {{"boresight man | man -l -", "read the manual"},
+        {"boresight man > boresight.1", "keep it"}}}};
+  return examples;
+}
+
+}  // namespace
+
+const std::vector<CommandExample>& command_examples(std::string_view command) {
+  static const Examples none;
+  const auto found = all_examples().find(command);
+  return found == all_examples().end() ? none : found->second;
+}
+
+std::string examples_text(std::string_view command) {
+  std::string text;
+  for (const auto& [call, purpose] : command_examples(command)) {
+    text += fmt::format("{}  {}\n      {}\n", text.empty() ? "Examples:\n" : "", call, purpose);
+  }
+  return text;
+}
+
+}  // namespace boresight::app

@@ -14,7 +14,6 @@
 namespace boresight::design {
 namespace {
 
-using control::ControlLaw;
 using control::LoopStructure;
 
 void check(const MatchingTask& task, const MatchingOptions& options) {

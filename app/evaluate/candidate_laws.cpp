@@ -182,8 +182,9 @@ TunedCandidates tune_candidates(const std::vector<Case>& cases,
     study.search(tasks[i]);
     step();
   });
-  for (const auto& [gains, wave] : waves) {
-    design::for_each_index(wave.size(), options.threads, [&, &wave = wave](std::size_t i) {
+  for (const auto& of_one_size : waves) {
+    const auto& wave = of_one_size.second;
+    design::for_each_index(wave.size(), options.threads, [&](std::size_t i) {
       study.improve(tasks[wave[i]], tasks);
       step();
     });

@@ -128,8 +128,9 @@ TEST(Commission, ComparesTwoRecordsOfTheCase) {
   options.gains[0] = "kr=60";
   options.before = "constant-speed-0.25V";
   options.after = "constant-speed-0.5V";
-  const auto report =
-      plan_commission(antenna, {"of one", {{"as stated", make_plant(antenna)}}}, options);
+  const auto plant = make_plant(antenna);
+  const auto report = plan_commission(
+      antenna, {"as stated", {{"one", plant}, {"another", plant}, {"a third", plant}}}, options);
   ASSERT_TRUE(report.failure);
   EXPECT_THROW(std::rethrow_exception(report.failure), InfeasibleRequirement);
   EXPECT_EQ(report.comparisons.size(), channels.size());

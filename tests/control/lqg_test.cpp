@@ -243,7 +243,7 @@ TEST(Lqg, SwaysTheAntennaInASimulationAsItsCovarianceSays) {
   };
   Eigen::VectorXd x = Eigen::VectorXd::Zero(size), kick(wind.cols()), error(3);
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-  constexpr int lead = 5000, samples = 90000;
+  constexpr int lead = 5000, samples = 1000000;
   Eigen::MatrixXd seen(3, size);
   for (Eigen::Index i = 0; i < 3; ++i) {
     seen.row(i) = closed.c.row(plant::output_index(closed, outputs[static_cast<std::size_t>(i)]));

@@ -35,6 +35,7 @@ ELSEWHERE = {
     "./dev figures": "draws docs/figures; their numbers are tested by identification_doc and readme",
     "./dev package": "tests/packaging",
     "./dev peers": "minutes, and programs that only it needs",
+    "./dev screenshots": "draws two pictures; what they show is tested by tests/app/page_test.mjs",
     "./dev setup": "installs packages",
     "export PATH": "tests/docs/quickstart_test.py does so",
     "source <(boresight completion": "tests/app/program_test.py",

@@ -19,7 +19,6 @@ namespace boresight::app {
 namespace {
 
 constexpr double degree = std::numbers::pi / 180.0;
-constexpr double meganewton = 1e6;
 
 // Attitudes of the protocol that the table covers: every 45 degrees of yaw at every 20 of elevation
 // from 10.

@@ -96,7 +96,7 @@ MatVariables loop_gain_fields(const LinearModels& models, const LawModels& loop,
   for (std::size_t b = 0; b < control::loop_breaks.size(); ++b) {
     std::vector<Eigen::MatrixXcd> pages;
     for (const double w : frequency) {
-      pages.push_back(Eigen::MatrixXcd::Constant(
+      pages.emplace_back(Eigen::MatrixXcd::Constant(
           1, 1,
           control::loop_gain(response(w), w, loop.law, loop.dead_time, control::loop_breaks[b])));
     }

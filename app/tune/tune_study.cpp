@@ -306,8 +306,9 @@ TuneSection tune_structures(const Case& antenna, const PlantEnsemble& ensemble,
     study.search(units[i]);
     step();
   });
-  for (const auto& [gains, wave] : waves) {
-    design::for_each_index(wave.size(), options.threads, [&, &wave = wave](std::size_t i) {
+  for (const auto& of_one_size : waves) {
+    const auto& wave = of_one_size.second;
+    design::for_each_index(wave.size(), options.threads, [&](std::size_t i) {
       study.improve(units[wave[i]], units);
       step();
     });

@@ -1,4 +1,5 @@
-#include <boresight/design/tuner.hpp>
-#include <boresight/python/bindings.hpp>
 #include <pybind11/pybind11.h>
 #include <toml++/toml.h>
+
+#include <boresight/design/tuner.hpp>
+#include <boresight/python/bindings.hpp>

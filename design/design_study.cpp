@@ -1,7 +1,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <mutex>
 #include <numbers>
 
 #include <fmt/format.h>
@@ -229,13 +228,10 @@ void improve_along(const std::vector<DesignTask>& tasks, std::vector<Design>& de
 std::vector<Design> solve_all(const std::vector<DesignTask>& tasks, unsigned threads,
                               const std::function<void(std::size_t, std::size_t)>& progress) {
   std::vector<Design> designs(tasks.size());
-  std::size_t done = 0;
-  std::mutex mutex;
+  StepCounter counter(tasks.size(), progress);
   for_each_index(tasks.size(), threads, [&](std::size_t i) {
     designs[i] = solve(tasks[i]);
-    const std::lock_guard lock(mutex);
-    ++done;
-    if (progress) progress(done, tasks.size());
+    counter.step();
   });
   return designs;
 }

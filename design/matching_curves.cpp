@@ -1,7 +1,6 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
-#include <mutex>
 
 #include <fmt/format.h>
 
@@ -57,18 +56,12 @@ MatchingCurves match_motors(const MatchingTask& task, const MatchingOptions& opt
   std::vector<std::unique_ptr<MatchingColumn>> made(columns);
 
   // Certain steps: making and starting, one round, finishing.
-  std::size_t done = 0, all = 3 * columns * structures;
-  std::mutex mutex;
-  const auto step = [&] {
-    const std::lock_guard lock(mutex);
-    ++done;
-    if (options.progress) options.progress(done, all);
-  };
+  StepCounter counter(3 * columns * structures, options.progress);
   for_each_index(columns, options.threads, [&](std::size_t i) {
     made[i] = std::make_unique<MatchingColumn>(task, options, wind, parts, i);
     for (std::size_t s = 0; s < structures; ++s) {
       made[i]->start(s, options.starts);
-      step();
+      counter.step();
     }
   });
 
@@ -81,14 +74,14 @@ MatchingCurves match_motors(const MatchingTask& task, const MatchingOptions& opt
     for (std::size_t i = 0; i < columns; ++i) {
       for (std::size_t s = 0; s < structures; ++s) seen[i][s] = made[i]->seen(s);
     }
-    if (round > 0) all += columns * structures;
+    if (round > 0) counter.expect(columns * structures);
     std::vector<char> changed(columns, 0);
     for_each_index(columns, options.threads, [&](std::size_t i) {
       for (std::size_t s = 0; s < structures; ++s) {
         const SeenCell* left = i > 0 ? &seen[i - 1][s] : nullptr;
         const SeenCell* right = i + 1 < columns ? &seen[i + 1][s] : nullptr;
         if (made[i]->improve(s, left, right)) changed[i] = 1;
-        step();
+        counter.step();
       }
     });
     ++result.rounds;
@@ -103,7 +96,7 @@ MatchingCurves match_motors(const MatchingTask& task, const MatchingOptions& opt
   for_each_index(columns, options.threads, [&](std::size_t i) {
     for (std::size_t s = 0; s < structures; ++s) {
       result.curves[s].laws[i] = made[i]->finish(s);
-      step();
+      counter.step();
     }
   });
   for (const auto& column : made) result.evaluations += column->evaluations();

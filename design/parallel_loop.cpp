@@ -3,6 +3,7 @@
 #include <exception>
 #include <mutex>
 #include <thread>
+#include <utility>
 #include <vector>
 
 #include <boresight/design/parallel_loop.hpp>
@@ -33,6 +34,19 @@ void for_each_index(std::size_t count, unsigned threads,
     take_turns();
   }
   if (failure) std::rethrow_exception(failure);
+}
+
+StepCounter::StepCounter(std::size_t all, Report report) : all_(all), report_(std::move(report)) {}
+
+void StepCounter::step() {
+  const std::lock_guard lock(mutex_);
+  ++done_;
+  if (report_) report_(done_, all_);
+}
+
+void StepCounter::expect(std::size_t more) {
+  const std::lock_guard lock(mutex_);
+  all_ += more;
 }
 
 }  // namespace boresight::design

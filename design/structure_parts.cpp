@@ -1,8 +1,10 @@
 #include <algorithm>
 #include <cmath>
 #include <random>
+#include <stdexcept>
 #include <string>
 
+#include <boresight/design/parallel_loop.hpp>
 #include <boresight/design/structure_parts.hpp>
 
 namespace boresight::design {
@@ -58,6 +60,29 @@ std::vector<LoopStructure> usual_structures_with_lag() {
   return usual;
 }
 
+// Of the places with parts those whose parts are all in earlier waves or have none themselves.
+std::vector<std::vector<std::size_t>> waves_of(const std::vector<std::vector<std::size_t>>& parts) {
+  std::vector<bool> placed(parts.size());
+  std::size_t left = 0;
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    placed[i] = parts[i].empty();
+    if (!placed[i]) ++left;
+  }
+  std::vector<std::vector<std::size_t>> waves;
+  while (left > 0) {
+    std::vector<std::size_t> wave;
+    for (std::size_t i = 0; i < parts.size(); ++i) {
+      const auto is_placed = [&](std::size_t part) { return placed.at(part); };
+      if (!placed[i] && std::ranges::all_of(parts[i], is_placed)) wave.push_back(i);
+    }
+    if (wave.empty()) throw std::invalid_argument("structure parts: one is a part of itself");
+    for (const std::size_t i : wave) placed[i] = true;
+    left -= wave.size();
+    waves.push_back(std::move(wave));
+  }
+  return waves;
+}
+
 }  // namespace
 
 bool extends(const LoopStructure& whole, const LoopStructure& part) {
@@ -96,6 +121,21 @@ std::vector<LoopStructure> missing_parts(const std::vector<LoopStructure>& struc
     if (wanted[i]) missing.push_back(all[i]);
   }
   return missing;
+}
+
+void search_then_improve(const std::vector<std::vector<std::size_t>>& parts, unsigned threads,
+                         const std::function<void(std::size_t)>& search,
+                         const std::function<void(std::size_t)>& improve) {
+  const auto waves = waves_of(parts);
+  for_each_index(parts.size(), threads, search);
+  for (const auto& wave : waves) {
+    for_each_index(wave.size(), threads, [&](std::size_t i) { improve(wave[i]); });
+  }
+}
+
+std::size_t steps_of_search(const std::vector<std::vector<std::size_t>>& parts) {
+  const auto with_parts = std::ranges::count_if(parts, [](const auto& of) { return !of.empty(); });
+  return parts.size() + static_cast<std::size_t>(with_parts);
 }
 
 std::vector<double> transferred_gains(const ControlLaw& law, const LoopStructure& structure) {

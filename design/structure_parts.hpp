@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 #include <boresight/control/control_law.hpp>
@@ -20,6 +21,16 @@ std::vector<std::vector<std::size_t>> parts_of(
 /// list extends directly: what is worth tuning first.
 std::vector<control::LoopStructure> missing_parts(
     const std::vector<control::LoopStructure>& structures);
+
+/// Tunes a list of structures of which some start from the laws of others: `search` of each place,
+/// then `improve` of each that has parts (parts_of), after that of all its parts. On up to `threads`
+/// threads; the result does not depend on how many where `improve` reads its own place and its parts'.
+void search_then_improve(const std::vector<std::vector<std::size_t>>& parts, unsigned threads,
+                         const std::function<void(std::size_t)>& search,
+                         const std::function<void(std::size_t)>& improve);
+
+/// How many steps search_then_improve takes: calls of `search` and of `improve`.
+std::size_t steps_of_search(const std::vector<std::vector<std::size_t>>& parts);
 
 /// A law of one structure as a start for another: gains of the same symbol are kept, others set
 /// where they do the least: corners of lag and lead far up, notches flat, paths added with their

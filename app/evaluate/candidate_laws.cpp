@@ -1,8 +1,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <map>
-#include <mutex>
 
 #include <fmt/format.h>
 
@@ -165,33 +163,22 @@ TunedCandidates tune_candidates(const std::vector<Case>& cases,
                                 const EvaluateOptions& options) {
   const Study study(cases, uncertainty, starts, options);
   auto tasks = tasks_of(cases, structures);
-  // In waves, none in one with its parts: by the number of gains.
-  std::map<std::size_t, std::vector<std::size_t>> waves;
-  for (std::size_t i = 0; i < tasks.size(); ++i) {
-    if (!tasks[i].parts.empty()) waves[tasks[i].structure.gains().size()].push_back(i);
-  }
-  std::size_t done = 0, all = 2 * tasks.size() + 1;
-  for (const auto& [gains, wave] : waves) all += wave.size();
-  std::mutex mutex;
-  const auto step = [&] {
-    const std::lock_guard lock(mutex);
-    ++done;
-    if (options.progress) options.progress(done, all);
-  };
-  design::for_each_index(tasks.size(), options.threads, [&](std::size_t i) {
+  std::vector<std::vector<std::size_t>> parts;
+  for (const auto& task : tasks) parts.push_back(task.parts);
+  // One step more is left to the comparison that follows.
+  design::StepCounter counter(design::steps_of_search(parts) + tasks.size() + 1, options.progress);
+  const auto search = [&](std::size_t i) {
     study.search(tasks[i]);
-    step();
-  });
-  for (const auto& of_one_size : waves) {
-    const auto& wave = of_one_size.second;
-    design::for_each_index(wave.size(), options.threads, [&](std::size_t i) {
-      study.improve(tasks[wave[i]], tasks);
-      step();
-    });
-  }
+    counter.step();
+  };
+  const auto improve = [&](std::size_t i) {
+    study.improve(tasks[i], tasks);
+    counter.step();
+  };
+  design::search_then_improve(parts, options.threads, search, improve);
   design::for_each_index(tasks.size(), options.threads, [&](std::size_t i) {
     if (!tasks[i].name.empty()) study.finish(tasks[i]);
-    step();
+    counter.step();
   });
   TunedCandidates result;
   result.members = study.members();

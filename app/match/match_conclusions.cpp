@@ -37,8 +37,7 @@ std::string best_of(const MatchSection& section, const MatchSeries& series) {
   const double least = series.values[best].beam_rms;
   std::string text = fmt::format(
       "With {} ({}) the rms is least, {:.4f} mdeg, at {:.3g} disks (R = {:.2f}){}; within 1 % of "
-      "it "
-      "from {:.1f} to {:.1f} disks, within 5 % from {:.1f} to {:.1f}.",
+      "it from {:.1f} to {:.1f} disks, within 5 % from {:.1f} to {:.1f}.",
       series.name, feedback_of(series), least / millidegree, section.points[best].disks,
       section.points[best].motor_to_load_ratio,
       series.best_at_end ? ", an end of the range looked at" : "", series.within_1_percent.lowest,
@@ -171,8 +170,7 @@ void conclude_rules(const MatchSection& section, std::vector<std::string>& sente
     if (cheapest.empty()) continue;
     sentences.push_back(fmt::format(
         "The rule \"{}\" (R = {:.2f}, {:.1f} disks) costs {} of rms with {} and {} with {}, "
-        "against "
-        "each structure's own best: {}.",
+        "against each structure's own best: {}.",
         rule.rule, rule.motor_to_load_ratio, *rule.disks, per_cent(least), cheapest,
         per_cent(largest), dearest,
         largest < worth_saying ? "a good rule here" : "no rule for every structure here"));

@@ -1,7 +1,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <mutex>
 #include <numbers>
 
 #include <fmt/format.h>
@@ -275,9 +274,10 @@ MatchSection match_motors(const Case& antenna, const std::vector<design::Ensembl
     section.series.back().values.resize(section.points.size());
   }
   const design::WindTable wind(task.problem);
-  std::size_t done = 0;
-  std::mutex mutex;
   const std::size_t all = section.points.size() * names.size();
+  design::StepCounter counter(all, [&](std::size_t done, std::size_t of) {
+    if (options.progress) options.progress("checking", done, of);
+  });
   design::for_each_index(all, options.threads, [&](std::size_t i) {
     MatchSeries& series = section.series[i % names.size()];
     const std::size_t p = i / names.size();
@@ -289,9 +289,7 @@ MatchSection match_motors(const Case& antenna, const std::vector<design::Ensembl
         is_chosen(point, options.time_runs)) {
       series.values[p].time_domain = run_in_time(antenna, point, law.law);
     }
-    const std::lock_guard lock(mutex);
-    ++done;
-    if (options.progress) options.progress("checking", done, all);
+    counter.step();
   });
   for (auto& series : section.series) find_best(section.points, series);
   section.rules = judge_rules(antenna, section);

@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <limits>
-#include <mutex>
 
 #include <boresight/app/match/what_if.hpp>
 #include <boresight/design/monte_carlo.hpp>
@@ -82,8 +81,7 @@ WhatIfTable what_if(const Case& antenna, const MatchSection& section,
     // The sliders name one speed; a climate has no say in it.
     problems.back().climate.clear();
   }
-  std::size_t done = 0;
-  std::mutex mutex;
+  design::StepCounter counter(laws, options.progress);
   design::for_each_index(laws, options.threads, [&](std::size_t i) {
     if (options.interrupted && options.interrupted()) return;
     const std::size_t s = i / points.size(), d = i % points.size();
@@ -106,9 +104,7 @@ WhatIfTable what_if(const Case& antenna, const MatchSection& section,
         }
       }
     }
-    const std::lock_guard lock(mutex);
-    ++done;
-    if (options.progress) options.progress(done, laws);
+    counter.step();
   });
   return table;
 }

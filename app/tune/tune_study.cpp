@@ -1,8 +1,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <map>
-#include <mutex>
 
 #include <fmt/format.h>
 
@@ -235,15 +233,6 @@ std::vector<Unit> units_of(const Case& antenna, const TuneSection& section) {
   return units;
 }
 
-// Units in waves, none in a wave with its parts: by the number of gains.
-std::map<std::size_t, std::vector<std::size_t>> waves_of(const std::vector<Unit>& units) {
-  std::map<std::size_t, std::vector<std::size_t>> waves;
-  for (std::size_t i = 0; i < units.size(); ++i) {
-    if (!units[i].parts.empty()) waves[units[i].structure.gains().size()].push_back(i);
-  }
-  return waves;
-}
-
 // Whether a tuned law is good for everything but for its verification.
 bool only_unverified(const std::vector<TunedLaw>& laws) {
   const auto tuned = [](const TunedLaw& row) { return row.tuned_for != TunedFor::present; };
@@ -293,26 +282,18 @@ TuneSection tune_structures(const Case& antenna, const PlantEnsemble& ensemble,
   section.problem = make_problem(antenna);
   section.wind_model = section.problem.wind.model;
   auto units = units_of(antenna, section);
-  const auto waves = waves_of(units);
-  std::size_t done = 0, all = units.size();
-  for (const auto& [gains, wave] : waves) all += wave.size();
-  std::mutex mutex;
-  const auto step = [&] {
-    const std::lock_guard lock(mutex);
-    ++done;
-    if (options.progress) options.progress(done, all);
-  };
-  design::for_each_index(units.size(), options.threads, [&](std::size_t i) {
+  std::vector<std::vector<std::size_t>> parts;
+  for (const auto& unit : units) parts.push_back(unit.parts);
+  design::StepCounter counter(design::steps_of_search(parts), options.progress);
+  const auto search = [&](std::size_t i) {
     study.search(units[i]);
-    step();
-  });
-  for (const auto& of_one_size : waves) {
-    const auto& wave = of_one_size.second;
-    design::for_each_index(wave.size(), options.threads, [&](std::size_t i) {
-      study.improve(units[wave[i]], units);
-      step();
-    });
-  }
+    counter.step();
+  };
+  const auto improve = [&](std::size_t i) {
+    study.improve(units[i], units);
+    counter.step();
+  };
+  design::search_then_improve(parts, options.threads, search, improve);
   std::erase_if(units, [](const auto& unit) { return !unit.asked; });
   design::for_each_index(units.size(), options.threads,
                          [&](std::size_t i) { study.finish(units[i]); });

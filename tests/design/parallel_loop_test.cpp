@@ -28,5 +28,23 @@ TEST(ForEachIndex, StopsAtTheFirstExceptionAndLetsItOut) {
   EXPECT_LT(calls, 100000);
 }
 
+TEST(StepCounter, ReportsEveryStepOnceWhicheverThreadTakesIt) {
+  std::vector<std::size_t> done, all;
+  StepCounter counter(100, [&](std::size_t so_far, std::size_t of) {
+    done.push_back(so_far);
+    all.push_back(of);
+  });
+  for_each_index(100, 4, [&](std::size_t i) {
+    if (i == 50) counter.expect(1);
+    counter.step();
+  });
+  counter.step();
+  ASSERT_EQ(done.size(), 101U);
+  for (std::size_t i = 0; i < done.size(); ++i) EXPECT_EQ(done[i], i + 1);
+  EXPECT_EQ(all.front(), 100U);
+  EXPECT_EQ(all.back(), 101U);
+  EXPECT_NO_THROW(StepCounter(1, nullptr).step());
+}
+
 }  // namespace
 }  // namespace boresight::design

@@ -1,5 +1,8 @@
+#include <algorithm>
 #include <cmath>
+#include <mutex>
 #include <numbers>
+#include <stdexcept>
 
 #include <gtest/gtest.h>
 
@@ -39,6 +42,28 @@ TEST(StructureParts, MissingOnesAreWhatIsNotAskedFor) {
   EXPECT_EQ(missing_parts(named({"DPF+C"})), named({"PI+C", "DPF"}));
   EXPECT_EQ(missing_parts(named({"PI", "DPF+C"})), named({"PI+C", "DPF"}));
   EXPECT_EQ(missing_parts(named({"FULL", "DPF"})), named({"PI", "LL"}));
+}
+
+TEST(StructureParts, AreTunedBeforeWhatExtendsThem) {
+  // 3 extends 1 and 2, 1 extends 0, 4 stands alone, 5 extends 3; out of order on purpose.
+  const std::vector<Places> parts{{}, {0}, {}, {2, 1}, {}, {3}};
+  for (const unsigned threads : {1U, 3U}) {
+    std::mutex mutex;
+    Places searched, improved;
+    const auto note = [&](Places& places) {
+      return [&](std::size_t i) {
+        const std::lock_guard lock(mutex);
+        places.push_back(i);
+      };
+    };
+    search_then_improve(parts, threads, note(searched), note(improved));
+    std::ranges::sort(searched);
+    EXPECT_EQ(searched, (Places{0, 1, 2, 3, 4, 5}));
+    EXPECT_EQ(improved, (Places{1, 3, 5}));
+    EXPECT_EQ(steps_of_search(parts), searched.size() + improved.size());
+  }
+  const auto nothing = [](std::size_t) {};
+  EXPECT_THROW(search_then_improve({{1}, {0}}, 1, nothing, nothing), std::invalid_argument);
 }
 
 TEST(StructureParts, TransferredGainsKeepWhatIsSharedAndDoNothingElse) {

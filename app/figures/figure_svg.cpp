@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include <boresight/app/document/document_html.hpp>
 #include <boresight/app/figures/figure_svg.hpp>
 #include <boresight/app/figures/panel_svg.hpp>
 #include <boresight/app/figures/series_svg.hpp>
@@ -99,7 +100,7 @@ std::string legend_svg(const Legend& legend, double foot) {
     svg += fmt::format(R"(<g class="series-{}">)", entry.look) +
            legend_sample_svg(*entry.series, entry.look, entry.x + 13.0, y - 4.0) +
            fmt::format(R"(<text x="{:.2f}" y="{:.2f}">{}</text></g>)", entry.x + sample_room, y,
-                       xml_escaped(entry.series->name));
+                       escaped_html(entry.series->name));
   }
   return svg + "</g>";
 }
@@ -207,7 +208,7 @@ std::string to_svg(const Figure& figure) {
       body += fmt::format(
           R"(<text class="name" x="{:.2f}" y="{:.2f}" font-size="{}" font-weight="600" )"
           R"(fill="#222">{}</text>)",
-          left, top + 12.0, axis_text, xml_escaped(name));
+          left, top + 12.0, axis_text, escaped_html(name));
     }
     double head = name.empty() ? 0.0 : 20.0;
     if (!shared) {
@@ -240,7 +241,7 @@ std::string to_svg(const Figure& figure) {
     body +=
         fmt::format(R"(<text class="name" x="{:.2f}" y="{:.2f}" font-size="{}" font-weight="600" )"
                     R"(text-anchor="middle" fill="#222">{}</text>)",
-                    0.5 * (left + right), top + 14.0, axis_text, xml_escaped(name));
+                    0.5 * (left + right), top + 14.0, axis_text, escaped_html(name));
     top += 22.0;
   }
   const double full_width =
@@ -250,7 +251,7 @@ std::string to_svg(const Figure& figure) {
       R"(height="{1:.0f}" viewBox="0 0 {0:.0f} {1:.0f}" font-family="'DejaVu Sans', Verdana, )"
       R"(Arial, sans-serif">)"
       "<title>{2}</title><desc>{3}</desc>{4}</svg>\n",
-      full_width, std::ceil(top + 2.0), xml_escaped(figure.title), xml_escaped(figure.caption),
+      full_width, std::ceil(top + 2.0), escaped_html(figure.title), escaped_html(figure.caption),
       body);
 }
 

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include <boresight/app/document/document_html.hpp>
 #include <boresight/app/figures/panel_labels.hpp>
 #include <boresight/app/figures/series_look.hpp>
 #include <boresight/app/figures/svg_text.hpp>
@@ -23,7 +24,7 @@ std::string halo_text(double x, double y, const std::string& text, const char* c
   return fmt::format(
       R"(<text class="label" {} font-size="{}" fill="{}" stroke="#fff" stroke-width="3" )"
       R"(stroke-linejoin="round" paint-order="stroke">{}</text>)",
-      place, label_text, colour, xml_escaped(text));
+      place, label_text, colour, escaped_html(text));
 }
 
 Box text_box(double left, double foot, double width) {

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include <boresight/app/document/document_html.hpp>
 #include <boresight/app/figures/panel_labels.hpp>
 #include <boresight/app/figures/panel_svg.hpp>
 #include <boresight/app/figures/series_svg.hpp>
@@ -81,7 +82,7 @@ std::string frame_svg(const FigurePanel& panel, const PlacedPanel& placed) {
 
 std::string tick_label(double x, double y, const char* anchor, const std::string& text) {
   return fmt::format(R"(<text x="{:.2f}" y="{:.2f}" text-anchor="{}">{}</text>)", x, y, anchor,
-                     xml_escaped(text));
+                     escaped_html(text));
 }
 
 std::string x_names(const FigureAxis& axis, const PlacedPanel& placed) {
@@ -95,7 +96,7 @@ std::string x_names(const FigureAxis& axis, const PlacedPanel& placed) {
     if (turned) {
       svg += fmt::format(
           "<text transform=\"translate({:.2f} {:.2f}) rotate(-{})\" text-anchor=\"end\">{}</text>",
-          x + 4.0, y - 2.0, turn, xml_escaped(axis.categories[i]));
+          x + 4.0, y - 2.0, turn, escaped_html(axis.categories[i]));
       continue;
     }
     for (const auto& line : category_lines(axis.categories[i], slot)) {

@@ -16,29 +16,6 @@ constexpr double other_width = 0.7;
 
 }  // namespace
 
-std::string xml_escaped(std::string_view text) {
-  std::string escaped;
-  for (const char c : text) {
-    switch (c) {
-      case '&':
-        escaped += "&amp;";
-        break;
-      case '<':
-        escaped += "&lt;";
-        break;
-      case '>':
-        escaped += "&gt;";
-        break;
-      case '"':
-        escaped += "&quot;";
-        break;
-      default:
-        escaped += static_cast<unsigned char>(c) < 0x20U || c == 0x7f ? ' ' : c;
-    }
-  }
-  return escaped;
-}
-
 double text_width(std::string_view text, double size) {
   double width = 0.0;
   for (const char c : text) {

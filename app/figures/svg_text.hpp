@@ -6,10 +6,6 @@
 
 namespace boresight::app {
 
-/// Text for an element or an attribute: &, <, > and quotes as entities, control characters as
-/// blanks.
-std::string xml_escaped(std::string_view text);
-
 /// How wide a text is in DejaVu Sans of `size` pixels, the widest of the usual sans serif faces:
 /// what has room by this has room in any of them.
 double text_width(std::string_view text, double size);

@@ -110,7 +110,12 @@ Document reference_part(const BenchmarkReport& report) {
   return wrapped(text, "  ", "  ");
 }
 
-Document nonlinear_part(const TimeDomainSection& section) {
+// Where the plant comes from, its friction included.
+const char* described(const BenchmarkReport& report) {
+  return report.from_records ? "as the case's records show it" : "as the case states it";
+}
+
+Document nonlinear_part(const TimeDomainSection& section, const char* friction) {
   std::string text;
   for (const auto& one : section.result.hunting) {
     const std::string motion = one.rate == 0.0 ? "At rest" : "At the tracking rate";
@@ -133,9 +138,9 @@ Document nonlinear_part(const TimeDomainSection& section) {
   text += fmt::format(
       "One record of the design wind on the nonlinear antenna: {:.4g} mdeg rms, {:.4g} predicted "
       "by "
-      "the linear loop. Sampled every {:g} s; friction as the case states it.",
+      "the linear loop. Sampled every {:g} s; friction as {}.",
       section.result.wind.beam_rms / millidegree, section.result.wind.predicted_rms / millidegree,
-      section.sample_time);
+      section.sample_time, friction);
   return wrapped(text, "  ", "  ");
 }
 
@@ -174,9 +179,8 @@ Document document_of(const BenchmarkReport& report) {
           "Linear plant {}; wind model {}, design wind {:g} m/s, "
           "{}; rms of one axis over {:g} to {:g} Hz about the mean. Torques at the antenna's "
           "axis, angles at the sky.",
-          report.from_records ? "as the case's records show it" : "as the case states it",
-          plant::to_string(report.wind.model), report.wind.mean_speed, report.attitudes,
-          report.rms_band.lowest, report.rms_band.highest),
+          described(report), plant::to_string(report.wind.model), report.wind.mean_speed,
+          report.attitudes, report.rms_band.lowest, report.rms_band.highest),
       "  ", "  ");
   if (!score.stable) {
     text += wrapped(
@@ -242,7 +246,7 @@ Document document_of(const BenchmarkReport& report) {
         "  ", "  ");
   }
   text += heading("Nonlinear antenna");
-  text += report.time_domain ? nonlinear_part(*report.time_domain)
+  text += report.time_domain ? nonlinear_part(*report.time_domain, described(report))
                              : wrapped("Not judged: " + report.no_time_domain + ".", "  ", "  ");
   for (const auto& part : score.left_out) {
     text += fmt::format("  Interrupted before: {}\n", part);

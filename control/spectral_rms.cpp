@@ -218,12 +218,11 @@ SpectralRms spectral_rms(const plant::ModalResponse& response, const SpectralRms
     integrate(integrand, panels, panels.size() - 1);
     above = integrand.at(high);
     if (decade + 1 == most_decades || !(above <= total() * 1e6)) {
-      throw NumericalFailure(fmt::format(
-          "spectral_rms: expected a response that falls off with frequency, found a density of "
-          "{:.3g} of the total per e-fold at {:.3g} rad/s; white noise through a feedthrough has "
-          "no "
-          "finite rms",
-          above / total(), std::exp(high)));
+      throw NumericalFailure(
+          fmt::format("spectral_rms: expected a response that falls off with frequency, found a "
+                      "density of {:.3g} of the total per e-fold at {:.3g} rad/s; white noise "
+                      "through a feedthrough has no finite rms",
+                      above / total(), std::exp(high)));
     }
   }
   if (above > 0.0) tails += above / falling;

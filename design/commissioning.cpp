@@ -281,8 +281,7 @@ CommissioningPlan plan_commissioning(const TrackingProblem& problem,
   if (!std::isfinite(own)) {
     throw InfeasibleRequirement(
         "plan_commissioning: the law chosen is unstable on a plant that may be the true one: "
-        "choose "
-        "a law that is tuned robustly");
+        "choose a law that is tuned robustly");
   }
   if (own > options.sensitivity_limit) {
     plan.remarks.push_back(
@@ -335,8 +334,7 @@ CommissioningPlan plan_commissioning(const TrackingProblem& problem,
     if (!all_stable(plan.stages.back())) {
       throw NumericalFailure(
           fmt::format("plan_commissioning: a stage of the {} is unstable on {} of {} plants by its "
-                      "eigenvalues, "
-                      "though not by its frequency response",
+                      "eigenvalues, though not by its frequency response",
                       to_string(stage.kind),
                       plan.stages.back().expected.plants - plan.stages.back().expected.stable,
                       plan.stages.back().expected.plants));

@@ -278,14 +278,13 @@ void explain(const Campaign& campaign, const ResonanceOptions& options, Resonanc
     const double single = of(ResonanceReading::ring_single_mass);
     const double losses = of(ResonanceReading::ring_with_losses);
     const double flexible = of(ResonanceReading::ring_flexible);
-    notes.push_back(fmt::format(
-        "rings after {} valve steps: {:.4f} Hz, damping ratio {:.3f}; J = K/(2 pi f)^2 is {:.4g} "
-        "kg "
-        "m2, with leakage and friction taken out {:.4g} ({:+.1f} %), with the structure's "
-        "flexibility {:.4g} ({:+.1f} %)",
-        result.rings->rings.size(), result.rings->frequency.value,
-        result.rings->damping_ratio.value, single, losses, 100.0 * (losses / single - 1.0),
-        flexible, 100.0 * (flexible / losses - 1.0)));
+    notes.push_back(
+        fmt::format("rings after {} valve steps: {:.4f} Hz, damping ratio {:.3f}; J = K/(2 pi f)^2 "
+                    "is {:.4g} kg m2, with leakage and friction taken out {:.4g} ({:+.1f} %), with "
+                    "the structure's flexibility {:.4g} ({:+.1f} %)",
+                    result.rings->rings.size(), result.rings->frequency.value,
+                    result.rings->damping_ratio.value, single, losses,
+                    100.0 * (losses / single - 1.0), flexible, 100.0 * (flexible / losses - 1.0)));
   }
   if (result.stiffness_from_motion) {
     const auto& motion = *result.stiffness_from_motion;

@@ -119,8 +119,7 @@ class Cleaner {
       add(DefectKind::reversed_sign, DefectHandling::left_out, command->name,
           command->values.size(),
           "goes against the tachometer, which torque and motion agree with: not used; turn its "
-          "sign "
-          "(record_columns.reversed) if it is reversed");
+          "sign (record_columns.reversed) if it is reversed");
       command.reset();
     };
     leave_out(raw_.rate_command, options_.leave_out_rate_command);

@@ -267,8 +267,7 @@ void conclude_plan(const CommissionReport& report, const Case& antenna,
   const double sky = gear_ratio(antenna) * millidegree;
   sentences.push_back(fmt::format(
       "{} stages lead to {}; no gain changes by more than a factor of {:.3g} at once, and the peak "
-      "of "
-      "S is at most {:.2f} on each of {} plants at every one of them.",
+      "of S is at most {:.2f} on each of {} plants at every one of them.",
       report.plan.stages.size() - (first.kind == StageKind::as_found ? 1 : 0), report.structure,
       report.plan.largest_step,
       std::ranges::max(report.plan.stages, {},

@@ -121,16 +121,13 @@ Document plan_part(const CommissionReport& report) {
   }
   for (const auto& remark : report.plan.remarks) text += wrapped(remark, "  ");
   text += wrapped(
-      fmt::format(
-          "All of this is the linear plant's: make steps from a slow steady motion, clear of "
-          "breakaway, in still air, no larger than stated (a fifth of the valve's stroke and of "
-          "the "
-          "supply's torque). The move: up to {:.3g} mdeg/s in {:.3g} s, steady, and down again. "
-          "The "
-          "rms in still air rest on the case's sensor noise: hold the first stage's against a "
-          "record and scale the others by what it shows.",
-          report.move.rate / (report.gear_ratio * millidegree),
-          report.move.rate / report.move.acceleration),
+      fmt::format("All of this is the linear plant's: make steps from a slow steady motion, clear "
+                  "of breakaway, in still air, no larger than stated (a fifth of the valve's "
+                  "stroke and of the supply's torque). The move: up to {:.3g} mdeg/s in {:.3g} s, "
+                  "steady, and down again. The rms in still air rest on the case's sensor noise: "
+                  "hold the first stage's against a record and scale the others by what it shows.",
+                  report.move.rate / (report.gear_ratio * millidegree),
+                  report.move.rate / report.move.acceleration),
       "  ");
   text += wrapped(
       fmt::format(

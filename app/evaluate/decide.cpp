@@ -231,8 +231,7 @@ class Decision {
     if (!rms_.allFinite()) {
       section_.notes.emplace_back(
           "Tests are not valued: a candidate is unstable on some draws, and no finite loss can "
-          "stand "
-          "for that.");
+          "stand for that.");
       return;
     }
     Eigen::MatrixXd inputs(rms_.rows(), static_cast<Eigen::Index>(section_.inputs.size()));

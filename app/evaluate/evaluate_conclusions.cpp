@@ -160,8 +160,7 @@ std::string chances(const EvaluateSection& section, const DecisionSection& decis
   const auto& outside = decision.candidates[decision.best].outside_goals;
   text += fmt::format(
       " Its hard goals hold on the {} plants it was tuned for; of the draws, which move more "
-      "inputs "
-      "and all at once, a share of {} breaks one.",
+      "inputs and all at once, a share of {} breaks one.",
       section.ensemble_size, share(outside));
   return text;
 }
@@ -215,8 +214,7 @@ std::string what_to_test(const EvaluateSection& section, const DecisionSection& 
   const auto input = static_cast<std::size_t>(best - tests.inputs.begin());
   return fmt::format(
       "Test first: {}. Known before the choice between the proposals, it lowers the expected rms "
-      "by "
-      "{:.4f} to {:.4f} mdeg (held out and fitted) of the {:.4f} mdeg that knowing everything "
+      "by {:.4f} to {:.4f} mdeg (held out and fitted) of the {:.4f} mdeg that knowing everything "
       "would.",
       decision.inputs[input], best->held_out_gain, best->fitted.gain, tests.perfect.gain);
 }

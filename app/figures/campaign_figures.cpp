@@ -75,12 +75,10 @@ std::vector<Figure> hold_out_figure(const CampaignSection& section) {
   const auto& simulated = held.result.simulated;
   Figure figure = make_figure(
       "campaign-hold-out", fit_heading, fmt::format("Record {} foretold", held.record),
-      fmt::format(
-          "The model fitted to the other records and driven by this record's valve command alone; "
-          "it "
-          "misses the rate by {:.0f} % and the torque by {:.0f} % (rms over the record's about its "
-          "mean).",
-          100.0 * held.result.error.rate_error, 100.0 * held.result.error.torque_error),
+      fmt::format("The model fitted to the other records and driven by this record's valve command "
+                  "alone; it misses the rate by {:.0f} % and the torque by {:.0f} % (rms over the "
+                  "record's about its mean).",
+                  100.0 * held.result.error.rate_error, 100.0 * held.result.error.torque_error),
       make_axis("time", "s"));
   const auto panel = [&](const char* label, const char* unit, const Eigen::VectorXd& seen,
                          const Eigen::VectorXd& foretold) {

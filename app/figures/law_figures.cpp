@@ -116,9 +116,8 @@ Figure nyquist_figure(const DrawnLaw& drawn, const Responses& on_grid) {
   const auto& disk = worst->disk;
   figure.caption = fmt::format(
       "Loop gain at the three breaks. No curve may enter the disk about \u22121 of the allowed "
-      "peak "
-      "of sensitivity; the disk of the smallest disk margin, alpha = {:.3f} ({}, {:.2f} Hz: gain "
-      "{:.2f} to {:.2f}, phase {:.0f}\u00b0), is touched by its curve. ",
+      "peak of sensitivity; the disk of the smallest disk margin, alpha = {:.3f} ({}, {:.2f} Hz: "
+      "gain {:.2f} to {:.2f}, phase {:.0f}\u00b0), is touched by its curve. ",
       disk.alpha, break_name(at), disk.frequency / two_pi, disk.lowest_gain, disk.highest_gain,
       disk.phase_deg);
   figure.caption += conditions(drawn);

@@ -99,8 +99,7 @@ Figure wind_figure(const PlantSection& section, const plant::PlantResponse& resp
   figure.title = "Response to wind torque";
   figure.caption = fmt::format(
       "Angle at the sky per wind torque about the axis, loops open: of beam, of encoder, and of "
-      "the "
-      "beam with the bull gear held, which is bending that no encoder sees. {}",
+      "the beam with the bull gear held, which is bending that no encoder sees. {}",
       basis(section));
   figure.x = frequency_axis();
   FigurePanel panel;

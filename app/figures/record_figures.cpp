@@ -117,8 +117,7 @@ Figure record_figure(const RecordNotes& record, const std::vector<RecordTrace>& 
                              record.refusal.empty() ? to_string(record.test) : "not used");
   figure.caption = fmt::format(
       "{}, {} rows as recorded, at the motor shaft; least and largest value of every stretch that "
-      "a "
-      "pixel shows. {}",
+      "a pixel shows. {}",
       record.path, record.rows,
       record.defects.empty()
           ? "No defects were found."

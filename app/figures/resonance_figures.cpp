@@ -56,8 +56,7 @@ Figure ring_times(const SloshTest& test, double sample_time) {
   figure.title = fmt::format("Oil lines ringing ({})", test.record);
   figure.caption =
       "Port pressures after the strongest event, slow part and the other lines' cross-talk taken "
-      "out, "
-      "with the damped cosine fitted to each.";
+      "out, with the damped cosine fitted to each.";
   figure.x = make_axis("time from the window's begin", "s");
   constexpr std::size_t most_panels = 4;
   for (const auto& plot : test.result.plots) {
@@ -109,9 +108,8 @@ Figure spectrum_figure(const identification::TorqueSpectrum& spectrum, double ex
   figure.title = fmt::format("Torque spectrum ({})", spectrum.record);
   figure.caption = fmt::format(
       "Amplitude spectrum of the torque of all motors over the record (Hann's window){}. Peaks "
-      "with "
-      "the harmonic of the excitation that they lie on, if any: a peak on a harmonic is where the "
-      "excitation is, no evidence of a resonance.{}",
+      "with the harmonic of the excitation that they lie on, if any: a peak on a harmonic is where "
+      "the excitation is, no evidence of a resonance.{}",
       spectrum.period ? fmt::format(", period of the excitation {:.4g} s", *spectrum.period) : "",
       spectrum.on_harmonic ? " The peak that the paper's procedure takes lies on one." : "");
   figure.x = make_axis("frequency", "Hz");
@@ -180,8 +178,7 @@ Figure response_figure(const identification::DriveResponse& response) {
   figure.title = fmt::format("Torque over rate ({})", response.record);
   figure.caption =
       "Mechanical impedance at the motor shaft, which no part of the hydraulics enters: measured, "
-      "and "
-      "as fitted with inertia, structural modes and the slope of friction.";
+      "and as fitted with inertia, structural modes and the slope of friction.";
   figure.x = make_axis("frequency", "Hz", AxisScale::logarithmic);
   const auto phase = [](const Eigen::VectorXcd& values) {
     return (values.array().arg() * (180.0 / std::numbers::pi)).matrix().eval();

@@ -43,8 +43,7 @@ Figure structures_figure(const TuneSection& section, double wind_speed,
   figure.title = "Loop structures side by side";
   figure.caption = fmt::format(
       "Beam rms at the sky in {:g} m/s, wind model {}: gains the antenna runs on now, tuned for "
-      "the "
-      "case's plant, tuned so that every hard goal holds on {} plants ({}); all on the linear "
+      "the case's plant, tuned so that every hard goal holds on {} plants ({}); all on the linear "
       "plant{}.",
       wind_speed, plant::to_string(section.wind_model), section.ensemble_size,
       section.ensemble_source,
@@ -165,11 +164,9 @@ std::vector<Figure> limit_figures(const design::PointingLimit& limit) {
   figure.title = "Laws against the best that any controller could do";
   figure.caption = fmt::format(
       "Beam rms at the sky of each controller in its sampled form ({:g} s), on the case's plant "
-      "and "
-      "as the largest over the plants on which it must hold; a controller without a second point "
-      "is "
-      "unstable on one of them. The lower bound is that of every linear controller of the same "
-      "sensors and sampling whose noise drives the valve with at most {:g} rad/s rms.",
+      "and as the largest over the plants on which it must hold; a controller without a second "
+      "point is unstable on one of them. The lower bound is that of every linear controller of the "
+      "same sensors and sampling whose noise drives the valve with at most {:g} rad/s rms.",
       limit.sample_time, limit.effort_limit);
   figure.x = {.label = "beam rms", .unit = "mdeg"};
   FigurePanel panel;

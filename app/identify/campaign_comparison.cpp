@@ -184,8 +184,7 @@ std::string contradiction_with_case(const identification::GreyBoxResult& found) 
   if (conflict.widening > 1.0) {
     text += fmt::format(
         " The intervals below were widened {:.1f} times for it and hold only if this number is "
-        "what "
-        "is wrong: look for a wrong number, unit, column or sign first.",
+        "what is wrong: look for a wrong number, unit, column or sign first.",
         std::sqrt(conflict.widening));
   }
   return text;

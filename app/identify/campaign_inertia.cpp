@@ -86,8 +86,7 @@ std::string harmonic_lock(const identification::TorqueSpectrum& spectrum, double
   const identification::SpectralPeak& peak = *spectrum.chosen;
   std::string text = fmt::format(
       "Harmonic lock: the peak at {:.3f} Hz is harmonic {} of the {:.3g} s excitation, not the "
-      "mode "
-      "itself. ",
+      "mode itself. ",
       peak.frequency, peak.harmonic, spectrum.period.value_or(0.0));
   const double spacing = spectrum.harmonic_spacing;
   for (const double next : {peak.frequency - spacing, peak.frequency + spacing}) {

@@ -93,8 +93,7 @@ Case with_identified(const Case& antenna, const identification::DriveEstimate& e
   if (estimate.contradicted) {
     throw NumericalFailure(fmt::format(
         "{}: the records contradict the stated numbers that inertia and stiffness rest on: there "
-        "is "
-        "no drive to design for until the wrong one is found; `boresight identify` names it",
+        "is no drive to design for until the wrong one is found; `boresight identify` names it",
         antenna.path));
   }
   Case identified = antenna;

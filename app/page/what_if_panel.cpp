@@ -47,12 +47,10 @@ std::string what_if_panel(std::string_view what_if_json) {
   html += fmt::format(
       "<p class=\"note\">Each law is held at the gains that this study tuned for its number of "
       "disks, robustly, in {:g} m/s; the sliders change the plant and the wind under it. {} "
-      "entries "
-      "were computed on the linear plant; between them the logarithm of the rms is taken as linear "
-      "in disks, leakage, friction slope and the logarithm of the wind speed, and a verdict is the "
-      "worst of the entries around. The friction slope at the tracking rate is {:g} N m s/rad. "
-      "Grey: "
-      "the other structures.</p>\n",
+      "entries were computed on the linear plant; between them the logarithm of the rms is taken "
+      "as linear in disks, leakage, friction slope and the logarithm of the wind speed, and a "
+      "verdict is the worst of the entries around. The friction slope at the tracking rate is {:g} "
+      "N m s/rad. Grey: the other structures.</p>\n",
       table.at("start").at("wind_speed_m_per_s").get<double>(), table.at("beam_rms_mdeg").size(),
       table.at("friction_slope_at_tracking_rate_N_m_s_per_rad").get<double>());
   return html +

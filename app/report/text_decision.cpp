@@ -129,9 +129,8 @@ Document document_of(const EvaluateSection& section, const DecisionSection& deci
   text += chances_table(section, decision) + "\n";
   text += wrapped(
       "Pairs: the chance that the first has the lower rms on the same plant, ties counted half, "
-      "and "
-      "by how much on average; dominance of its losses: in every draw, by every quantile (first "
-      "order), for whoever dislikes risk (second order).",
+      "and by how much on average; dominance of its losses: in every draw, by every quantile "
+      "(first order), for whoever dislikes risk (second order).",
       "  ");
   text += pairs_table(section, decision);
   text += inputs_table(section, decision) + tests_table(section, decision);

@@ -190,11 +190,10 @@ Document service_table(const EvaluateSection& section) {
          wrapped(
              "dB: mean loss over two equal axes on the nominal plant, and the speeds up to which "
              "budgets are met, with the factor above where there is one. torque margin: supply "
-             "torque "
-             "over mean wind torque and the gusts' crest, friction left out; stroke, gusts: valve "
-             "stroke over the demand in the same; stroke, slew: valve stroke over the slew rate, "
-             "below 1 the rate is out of reach. slew: rate and time of a 10 deg move from rest to "
-             "rest that the drive has reserve for against friction, at 0.2 deg/s2 at most.",
+             "torque over mean wind torque and the gusts' crest, friction left out; stroke, gusts: "
+             "valve stroke over the demand in the same; stroke, slew: valve stroke over the slew "
+             "rate, below 1 the rate is out of reach. slew: rate and time of a 10 deg move from "
+             "rest to rest that the drive has reserve for against friction, at 0.2 deg/s2 at most.",
              "  ");
 }
 

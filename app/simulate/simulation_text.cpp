@@ -71,12 +71,10 @@ Document breakaway_part(const SimulationReport& report) {
   return heading("Breakaway: the first slow start of sliding either way") + table(rows) +
          wrapped(
              "Where the motor has left standstill and the bristles have bent: its rate, the "
-             "friction "
-             "without gravity's offset, and the motors' torque as pressures show it, with offset "
-             "and inertia "
-             "in it. Beside them the breakaway torque of the case's friction curve; the friction "
-             "is the "
-             "curve's at the rate given, above its breakaway where it rises with the rate.",
+             "friction without gravity's offset, and the motors' torque as pressures show it, with "
+             "offset and inertia in it. Beside them the breakaway torque of the case's friction "
+             "curve; the friction is the curve's at the rate given, above its breakaway where it "
+             "rises with the rate.",
              "  ");
 }
 

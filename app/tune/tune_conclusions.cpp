@@ -82,8 +82,7 @@ void conclude_robustness(const TuneSection& section, std::vector<std::string>& s
     const auto& worst = ensemble.members[ensemble.worst];
     std::string text = fmt::format(
         "Tuned for the nominal plant, {} at {:g} m/s keeps its goals on {} of {} plants; the "
-        "worst, "
-        "{}, {}",
+        "worst, {}, {}",
         row.structure, row.wind_speed, ensemble.within_goals, all, worst.name,
         worst.stable
             ? fmt::format("exceeds one by {:.0f} %", 100.0 * (worst.worst_goal_ratio - 1.0))

@@ -209,7 +209,12 @@ OperatingPoint trim(const NonlinearAntenna& antenna, const Trim& motion) {
     throw InvalidInput(fmt::format("trim: expected a finite motor rate and angle, found {} and {}",
                                    motion.motor_rate, motion.motor_angle));
   }
-  return SteadyMotion(antenna, motion).solve();
+  validate(antenna.oil);
+  // Air only makes the oil softer, a factor on a flow that is nought in steady motion. Without it the
+  // balance is smooth down to where a side runs empty, and Newton's method finds its way.
+  NonlinearAntenna airless = antenna;
+  airless.oil.air_fraction = 0.0;
+  return SteadyMotion(airless, motion).solve();
 }
 
 }  // namespace boresight::plant

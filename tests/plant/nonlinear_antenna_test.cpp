@@ -225,6 +225,46 @@ TEST(Trim, FindsTheSpoolBeyondTheOverlap) {
   }
 }
 
+TEST(Trim, IsThatOfOilWithoutAirUpToTheLastRate) {
+  // Whether the supply can give a rate is no matter of stiffness.
+  const auto airless = reference::nonlinear_antenna();
+  const auto holds = [](const NonlinearAntenna& antenna, double rate) {
+    try {
+      trim(antenna, {rate, 0.0, {}});
+      return true;
+    } catch (const NumericalFailure&) {
+      return false;
+    }
+  };
+  for (const double air : {0.001, 0.02, 0.1}) {
+    auto details = reference::drive_details();
+    details.air_fraction = air;
+    const auto antenna = reference::nonlinear_antenna(details);
+    const auto system = to_feedback_system(antenna);
+    const auto matrices = feedback_matrices(system);
+    for (double rate = 5.0; rate <= 150.0; rate += 5.0) {
+      ASSERT_EQ(holds(antenna, rate), holds(airless, rate)) << air << ", " << rate;
+      if (!holds(airless, rate)) continue;
+      const auto point = trim(antenna, {rate, 0.0, {}});
+      Eigen::VectorXd value(system.channel_outputs);
+      Eigen::MatrixXd slope(system.channel_outputs, system.channel_inputs);
+      const Eigen::VectorXd z =
+          matrices.channel_output * point.state + matrices.input_to_channels * point.input;
+      system.channels->evaluate(z, value, slope);
+      const Eigen::VectorXd change =
+          matrices.a * point.state + matrices.input * point.input + matrices.channel_input * value;
+      const Eigen::VectorXd scale = matrices.a.cwiseAbs() * point.state.cwiseAbs() +
+                                    matrices.input.cwiseAbs() * point.input.cwiseAbs() +
+                                    matrices.channel_input.cwiseAbs() * value.cwiseAbs();
+      const Eigen::VectorXd rotation = rate * rigid_rotation(antenna);
+      for (Eigen::Index i = 0; i < change.size(); ++i) {
+        EXPECT_NEAR(change[i], rotation[i], 1e-9 * std::max(scale[i], 1e-6))
+            << air << ", " << rate << ", state " << i + 1;
+      }
+    }
+  }
+}
+
 TEST(Trim, SaysWhatTheSupplyCannotGive) {
   try {
     trim(reference::nonlinear_antenna(), {200.0, 0.0, {}});

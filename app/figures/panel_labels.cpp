@@ -7,6 +7,7 @@
 
 #include <boresight/app/document/document_html.hpp>
 #include <boresight/app/figures/panel_labels.hpp>
+#include <boresight/app/figures/plot_axis.hpp>
 #include <boresight/app/figures/series_look.hpp>
 #include <boresight/app/figures/svg_text.hpp>
 
@@ -71,6 +72,18 @@ std::vector<LabelPlace> around(double x, double y, double width, double reach) {
   return places;
 }
 
+// Beside a point in its row, so that it is plain which of the rows it belongs to.
+std::vector<LabelPlace> in_row(double x, double y, double width) {
+  std::vector<LabelPlace> places;
+  for (double distance = 5.0; distance < 400.0; distance += 6.0) {
+    for (const double left : {x + distance, x - distance - width}) {
+      places.push_back(
+          {text_box(left, y + 4.0, width), 0.05 * (distance - 5.0) + (left > x ? 0.0 : 0.2)});
+    }
+  }
+  return places;
+}
+
 // From a point to the label that is some way off.
 std::string leader(double x, double y, const Box& box) {
   const double to_x = std::clamp(x, box.left, box.right);
@@ -85,14 +98,14 @@ std::string leader(double x, double y, const Box& box) {
 }
 
 std::string named_point(double x, double y, const std::string& label, const char* colour, bool must,
-                        const PlacedPanel& placed, LabelPlacement& placement) {
+                        bool rows, const PlacedPanel& placed, LabelPlacement& placement) {
   if (label.empty()) return {};
   const double width = text_width(label, label_text);
-  auto places = around(x, y, width, must ? 1e3 : 30.0);
+  const auto places = rows ? in_row(x, y, width) : around(x, y, width, must ? 1e3 : 30.0);
   const auto chosen = placement.place(places);
   if (!chosen && !must) return {};
   const Box box = chosen ? places[*chosen].box : kept_within(places.front().box, placed.plot);
-  return leader(x, y, box) + text_in(box, label, colour);
+  return (rows ? std::string() : leader(x, y, box)) + text_in(box, label, colour);
 }
 
 std::string horizontal_label(const FigureLine& line, const PlacedPanel& placed,
@@ -169,6 +182,7 @@ std::string panel_labels_svg(const FigurePanel& panel, const PlacedPanel& placed
   // So few points are all named, as marks are.
   constexpr std::size_t few = 15;
   std::string svg;
+  const bool rows = bars_along_x(panel);
   const auto shown = [&](double x, double y) { return placed.x.shows(x) && placed.y.shows(y); };
   for (const auto& mark : panel.marks) {
     if (!shown(mark.x, mark.y)) continue;
@@ -181,15 +195,15 @@ std::string panel_labels_svg(const FigurePanel& panel, const PlacedPanel& placed
   }
   for (const auto& mark : panel.marks) {
     if (!shown(mark.x, mark.y)) continue;
-    svg += named_point(placed.x.at(mark.x), placed.y.at(mark.y), mark.label, "#111", true, placed,
-                       placement);
+    svg += named_point(placed.x.at(mark.x), placed.y.at(mark.y), mark.label, "#111", true, rows,
+                       placed, placement);
   }
   for (const auto& series : panel.series) {
     for (std::size_t i = 0; i < series.labels.size(); ++i) {
       if (!shown(series.x[i], series.y[i])) continue;
       svg += named_point(placed.x.at(series.x[i]), placed.y.at(series.y[i]), series.labels[i],
                          series_look(looks.at(series.name)).colour, series.labels.size() <= few,
-                         placed, placement);
+                         rows, placed, placement);
     }
   }
   for (const auto& line : panel.lines) {

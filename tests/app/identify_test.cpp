@@ -9,6 +9,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include "../under_sanitizers.hpp"
 #include "program_run.hpp"
 #include <boresight/app/document/document_text.hpp>
 #include <boresight/app/identify/campaign_comparison.hpp>
@@ -126,11 +127,7 @@ Report report_of(CampaignSection section) {
   return report;
 }
 
-#ifdef __SANITIZE_ADDRESS__
-constexpr bool under_sanitizers = true;
-#else
-constexpr bool under_sanitizers = false;
-#endif
+using reference::under_sanitizers;
 constexpr const char* too_slow =
     "minutes under sanitizers, which see the same code with fewer records";
 

@@ -68,6 +68,20 @@ TEST(Commission, SaysWhatItAssumesWhereNoGainsAreKnown) {
   EXPECT_THAT(result.output, HasSubstr("rate loop, 1 of"));
 }
 
+TEST(Commission, SaysThatGainsOnWhichTheAntennaRunsCannotBeUnstable) {
+  const ScratchFolder folder;
+  const std::string path = small_case(
+      folder,
+      "[gains]\nstructure = 'PI-0'\nkr = 6\nwi = '4 rad/s'\nkp = '2 1/s'\nwip = '0.1 rad/s'\n");
+  const ProgramResult result = commission(path, pressure_gains);
+  EXPECT_EQ(result.exit_code, 0) << result.errors;
+  EXPECT_THAT(result.output, HasSubstr("plants are unstable, but the antenna runs on them"));
+  EXPECT_THAT(result.output, HasSubstr("no way was found from the gains as found"));
+  EXPECT_THAT(result.output, Not(HasSubstr("nan")));
+  EXPECT_THAT(result.output, HasSubstr("Brakes on; nothing has been changed yet."));
+  EXPECT_THAT(result.output, HasSubstr("whatever the plants say"));
+}
+
 TEST(Commission, TunesWhereNoGainsAreGiven) {
   const ScratchFolder folder;
   const ProgramResult result =

@@ -67,7 +67,7 @@ TEST(LinearModels, ComeBackBitByBitFromMatAndJson) {
   expect_same(controller_from_mat(mat, "m.mat"), loop.controller);
   expect_same(controller_from_json(json, "r.json"), loop.controller);
   EXPECT_EQ(loop.controller.sample_time, 0.0);
-  EXPECT_EQ(loop.sampled_controller.sample_time, case_sample_time(antenna()));
+  EXPECT_EQ(loop.sampled_controller.sample_time, sample_time_of(antenna().controller_delay.value));
   EXPECT_EQ(mat, to_mat(written, "redesign", "case.toml"));
 }
 

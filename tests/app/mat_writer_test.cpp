@@ -60,7 +60,8 @@ TEST(MatWriter, RefusesARecordOfUnequalColumnsAndNamesThatMatlabDoesNotTake) {
   record.columns[1].values.conservativeResize(4);
   EXPECT_THROW(to_mat(record), InvalidInput);
   MatVariables variables;
-  for (const std::string name : {"", "1a", "a b", "a-b", "_a", std::string(64, 'a').c_str()}) {
+  const std::vector<std::string> refused{"", "1a", "a b", "a-b", "_a", std::string(64, 'a')};
+  for (const auto& name : refused) {
     EXPECT_THROW(variables.add_number(name, 1.0), InvalidInput) << name;
   }
   variables.add_number(std::string(63, 'a'), 1.0);

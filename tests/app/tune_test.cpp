@@ -11,8 +11,10 @@
 #include <gtest/gtest.h>
 
 #include "edited_case.hpp"
+#include <boresight/app/redesign/antenna_model.hpp>
 #include <boresight/app/tune/engineer_units.hpp>
 #include <boresight/app/tune/plant_members.hpp>
+#include <boresight/app/tune/tune_limit.hpp>
 #include <boresight/app/tune/tune_study.hpp>
 
 namespace boresight::app {
@@ -38,6 +40,21 @@ ProgramResult tune(const std::string& path, std::vector<std::string> more = {}) 
   }
   arguments.insert(arguments.end(), more.begin(), more.end());
   return run_program(arguments);
+}
+
+TEST(PointingLimitOf, SamplesAsOftenAsTheCasesDelaySays) {
+  Case antenna = read_case(case_path("dss14-70m"));
+  TuneSection section;
+  section.goals = make_goals(antenna);
+  double last = 0.0;
+  for (const double sample_time : {0.005, 0.02}) {
+    antenna.controller_delay.value = 1.5 * sample_time;
+    const auto limit = pointing_limit_of(antenna, section, {}, antenna.wind.design_speed.value, 1);
+    EXPECT_DOUBLE_EQ(limit.sample_time, sample_time);
+    EXPECT_DOUBLE_EQ(limit.computation_delay, sample_time);
+    EXPECT_GT(limit.least_rms, last);  // slower sampling can only cost
+    last = limit.least_rms;
+  }
 }
 
 TEST(PlantMembers, HasTheReferenceEnsemblesRanges) {

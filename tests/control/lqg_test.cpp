@@ -5,7 +5,6 @@
 
 #include "../random_numbers.hpp"
 #include "../reference_values.hpp"
-#include "../under_sanitizers.hpp"
 #include "reference_loop.hpp"
 #include <boresight/control/antenna_in_wind.hpp>
 #include <boresight/control/lqg.hpp>
@@ -214,7 +213,6 @@ TEST(Lqg, CostsWhatTheAntennasClosedLoopShows) {
 
 // Half an hour of seeded noise through the closed loop step by step, against its covariance.
 TEST(Lqg, SwaysTheAntennaInASimulationAsItsCovarianceSays) {
-  if (reference::under_sanitizers) GTEST_SKIP() << "a million samples";
   const LqgProblem problem = antenna_problem(1e-3);
   const LqgDesign design = lqg(problem);
   const SampledLoop loop{problem.plant, design.controller, period};

@@ -134,6 +134,8 @@ class SteadyMotion {
     scale_ = matrices_.a.cwiseAbs() * point_.state.cwiseAbs() +
              matrices_.input.cwiseAbs() * point_.input.cwiseAbs() +
              matrices_.channel_input.cwiseAbs() * channels.value.cwiseAbs() + rotation_.cwiseAbs();
+    // Two rates that cancel within the channel: rounding is relative to them.
+    scale_[States::bristle] += std::abs(point_.state[States::motor_rate]);
     residual[n] = point_.state[States::motor_angle] - motor_angle_;
     if (bristle_free_) residual[States::bristle] = point_.state[States::bristle];
     return residual;
@@ -210,8 +212,8 @@ OperatingPoint trim(const NonlinearAntenna& antenna, const Trim& motion) {
                                    motion.motor_rate, motion.motor_angle));
   }
   validate(antenna.oil);
-  // Air only makes the oil softer, a factor on a flow that is nought in steady motion. Without it the
-  // balance is smooth down to where a side runs empty, and Newton's method finds its way.
+  // Air only makes the oil softer, a factor on a flow that is nought in steady motion. Without it
+  // the balance is smooth down to where a side runs empty, and Newton's method finds its way.
   NonlinearAntenna airless = antenna;
   airless.oil.air_fraction = 0.0;
   return SteadyMotion(airless, motion).solve();

@@ -1,6 +1,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "../random_numbers.hpp"
 #include "../reference_nonlinear_antenna.hpp"
 #include <boresight/plant/antenna_channels.hpp>
 #include <boresight/plant/error.hpp>
@@ -262,6 +263,35 @@ TEST(Trim, IsThatOfOilWithoutAirUpToTheLastRate) {
             << air << ", " << rate << ", state " << i + 1;
       }
     }
+  }
+}
+
+TEST(Trim, HoldsEveryRateBelowTheSupplysLastWhateverTheFriction) {
+  // Steady motion takes a little more pressure the faster it is: the rates that hold are an
+  // interval.
+  reference::RandomNumbers random(20);
+  for (int trial = 0; trial < 40; ++trial) {
+    auto details = reference::drive_details();
+    auto& curve = details.friction.curve;
+    curve.coulomb_torque = random.log_uniform(1.0, 30.0);
+    curve.breakaway_torque = curve.coulomb_torque * random.uniform(1.0, 2.0);
+    curve.saturating_torque = random.integer(0, 1) == 0 ? 0.0 : random.log_uniform(1.0, 60.0);
+    curve.viscous_friction = random.log_uniform(0.05, 2.0);
+    details.friction.bristle_stiffness = random.log_uniform(500.0, 10000.0);
+    const auto antenna = reference::nonlinear_antenna(details);
+    bool held = true;
+    for (double rate = 1.0; rate < 150.0; rate += 3.0) {
+      bool holds = true;
+      try {
+        EXPECT_LT(trim(antenna, {rate, 0.0, {}}).residual, 1e-9);
+      } catch (const NumericalFailure&) {
+        holds = false;
+      }
+      EXPECT_TRUE(held || !holds) << "trial " << trial << ", " << rate << " rad/s";
+      held = holds;
+    }
+    // Half the torque and two thirds of the valve at 60 rad/s.
+    EXPECT_NO_THROW(trim(antenna, {60.0, 0.0, {}})) << "trial " << trial;
   }
 }
 

@@ -80,9 +80,6 @@ struct BenchmarkOptions {
 BenchmarkedController controller_of(const control::ControlLaw& law, const std::string& description,
                                     double sample_time);
 
-/// The time between samples that the case's delay, one and a half of it, speaks of (s).
-double case_sample_time(const Case& antenna);
-
 /// Scores a controller on an antenna and its ensemble by the protocol. @throws as
 /// design::rejection_benchmark and verify_in_time_domain.
 BenchmarkReport benchmark(const DesignedAntenna& designed, const BenchmarkedController& controller,

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include <boresight/app/benchmark/benchmark_report.hpp>
+#include <boresight/app/redesign/antenna_model.hpp>
 #include <boresight/app/redesign/assumed_inputs.hpp>
 #include <boresight/app/redesign/sections.hpp>
 #include <boresight/app/report/json_report.hpp>
@@ -50,10 +51,6 @@ BenchmarkedController controller_of(const control::ControlLaw& law, const std::s
   return controller;
 }
 
-double case_sample_time(const Case& antenna) {
-  return antenna.controller_delay.value / 1.5;
-}
-
 BenchmarkReport benchmark(const DesignedAntenna& designed, const BenchmarkedController& controller,
                           const BenchmarkOptions& options) {
   const Case& antenna = designed.antenna;
@@ -73,7 +70,7 @@ BenchmarkReport benchmark(const DesignedAntenna& designed, const BenchmarkedCont
   report.budgets = make_budgets(antenna);
   report.from_records = designed.from_records;
   report.ensemble_source = designed.ensemble.source;
-  const double expected = case_sample_time(antenna);
+  const double expected = sample_time_of(problem.delay);
   if (sample_time > 0.0 && std::abs(sample_time - expected) > 1e-6 * expected) {
     report.controller.remarks.push_back(
         fmt::format("warning: the controller samples every {:g} s, the case's delay of {:g} s "

@@ -10,6 +10,7 @@
 #include <boresight/app/io/controller_file.hpp>
 #include <boresight/app/io/input_files.hpp>
 #include <boresight/app/page/report_page.hpp>
+#include <boresight/app/redesign/antenna_model.hpp>
 #include <boresight/app/report/json_report.hpp>
 #include <boresight/app/tune/engineer_units.hpp>
 #include <boresight/plant/error.hpp>
@@ -29,7 +30,8 @@ std::vector<std::string> names_in(const std::string& text) {
 }
 
 BenchmarkedController chosen_controller(const BenchmarkArguments& arguments, const Case& antenna) {
-  const double sample_time = arguments.sampled ? case_sample_time(antenna) : 0.0;
+  const double sample_time =
+      arguments.sampled ? sample_time_of(antenna.controller_delay.value) : 0.0;
   if (!arguments.controller_path.empty()) {
     if (!arguments.gains_path.empty() || arguments.sampled) {
       throw InvalidInput(

@@ -4,6 +4,7 @@
 
 #include <boresight/app/benchmark/benchmark_report.hpp>
 #include <boresight/app/models/linear_models.hpp>
+#include <boresight/app/redesign/antenna_model.hpp>
 #include <boresight/app/tune/tune_study.hpp>
 #include <boresight/control/closed_loop.hpp>
 
@@ -16,8 +17,7 @@ LinearModels linear_models(const plant::AntennaPlant& antenna, double gear_ratio
 LinearModels linear_models(const design::TrackingProblem& problem, const control::ControlLaw& law,
                            const std::string& description) {
   LinearModels models = linear_models(problem.plant, problem.gear_ratio);
-  // As case_sample_time: the dead time is one sample of computing and half of one of holding.
-  const double sample_time = problem.delay / 1.5;
+  const double sample_time = sample_time_of(problem.delay);
   models.loop = {description,
                  law,
                  problem.delay,

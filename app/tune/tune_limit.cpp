@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <boresight/app/redesign/antenna_model.hpp>
 #include <boresight/app/tune/tune_limit.hpp>
 
 namespace boresight::app {
@@ -16,6 +17,7 @@ design::PointingLimit pointing_limit_of(const Case& antenna, const TuneSection& 
         {fmt::format("{}, {}", row.structure, to_string(row.tuned_for)), row.design.tuning.law});
   }
   design::PointingLimitOptions options;
+  options.sample_time = sample_time_of(problem.delay);
   options.threads = threads;
   return design::pointing_limit(problem, section.goals, ensemble.members, laws, options);
 }

@@ -134,11 +134,16 @@ std::string settling(const PlantBand& band) {
                                    : "settles slowly";
 }
 
+// Whether every plant can do what the stage asks for. Only the gains as found may not.
+bool foreseen(const design::CommissioningStage& stage) {
+  return stage.expected.stable == stage.expected.plants;
+}
+
 void describe_check(const Case& antenna, StageSheet& sheet) {
   const auto& expected = sheet.stage.expected;
   const double gear = gear_ratio(antenna);
   const double sky = gear * millidegree;
-  if (expected.stable < expected.plants) {
+  if (!foreseen(sheet.stage)) {
     sheet.check = fmt::format("Nothing: as the plants have it, {} of {} are unstable.",
                               expected.plants - expected.stable, expected.plants);
     return;
@@ -168,6 +173,11 @@ void describe_check(const Case& antenna, StageSheet& sheet) {
 
 void describe_abort(const Case& antenna, StageSheet& sheet, const CommissionReport& report) {
   const auto& abort = sheet.stage.abort;
+  if (!foreseen(sheet.stage)) {
+    sheet.abort =
+        "Not known: the plants say that these gains do not work, and the antenna runs on them.";
+    return;
+  }
   sheet.abort = fmt::format(
       "Overshoot above {:.0f} %, or in still air rms of the valve command above {:.3g} rad/s",
       100.0 * abort.overshoot, abort.still_valve_rms);
@@ -191,7 +201,13 @@ void describe_way_back(const StageSheet* before, StageSheet& sheet) {
   const auto kind = sheet.stage.kind;
   if (before == nullptr || before->stage.kind == StageKind::as_found) {
     sheet.way_back = "Brakes on, then the gains as found.";
-    if (before == nullptr) sheet.way_back = "Brakes on; nothing has been changed yet.";
+    if (before == nullptr) {
+      sheet.way_back = "Brakes on; nothing has been changed yet.";
+    } else if (!foreseen(before->stage)) {
+      sheet.way_back =
+          "Brakes on. The gains as found only if the antenna did run on them, whatever the plants "
+          "say.";
+    }
   } else if (kind == StageKind::feedforward) {
     sheet.way_back = "Switch feedforward off: the loops are as they were.";
   } else if (sheet.stage.law.position_open) {
@@ -265,6 +281,14 @@ void conclude_plan(const CommissionReport& report, const Case& antenna,
   const auto& first = report.plan.stages.front();
   const auto& last = report.plan.stages.back();
   const double sky = gear_ratio(antenna) * millidegree;
+  if (!foreseen(first)) {
+    sentences.push_back(fmt::format(
+        "With the gains as found {} of {} plants are unstable, but the antenna runs on them: its "
+        "plant, or what a gain means, is not what the case says. Find out which (leakage, inertia, "
+        "units and definition of the gains) before any stage: all that follows rests on these "
+        "plants.",
+        first.expected.plants - first.expected.stable, first.expected.plants));
+  }
   sentences.push_back(fmt::format(
       "{} stages lead to {}; no gain changes by more than a factor of {:.3g} at once, and the peak "
       "of S is at most {:.2f} on each of {} plants at every one of them.",

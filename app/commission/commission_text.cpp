@@ -109,12 +109,15 @@ Document plan_part(const CommissionReport& report) {
           100.0 * report.options.confidence),
       "  ");
   if (report.plan.detuning) {
+    const bool known = report.plan.stages.front().kind == design::StageKind::as_found;
     text += wrapped(
         fmt::format(
-            "ASSUMED start: the case gives no gains as found that this law could be reached from "
-            "([gains]). The plan begins with the law's own without pressure feedback and "
+            "{} The plan begins with the law's own without pressure feedback and "
             "compliance compensation, its {}position gain and position integral corner divided by "
             "{:g}: the least power of two at which every plant keeps its peaks of S below {:g}.",
+            known ? "ASSUMED start: no way was found from the gains as found ([gains], stage 1) to "
+                    "this law; why stands below."
+                  : "ASSUMED start: the case gives no gains as found ([gains]).",
             report.plan.rate_detuned ? "rate gain, " : "", *report.plan.detuning,
             report.options.sensitivity_limit),
         "  ");

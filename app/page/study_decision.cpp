@@ -200,7 +200,9 @@ std::vector<std::string> decision(const CommissionReport& report) {
   for (const auto& sentence : report.conclusions) {
     if (sentences.size() < 3) sentences.push_back(sentence);
   }
-  if (sentences.size() < 3 && report.plan.detuning) {
+  const bool known = !report.plan.stages.empty() &&
+                     report.plan.stages.front().kind == design::StageKind::as_found;
+  if (sentences.size() < 3 && report.plan.detuning && !known) {
     sentences.emplace_back(
         "The gains found are not known: the plan begins with the law's own, lowered until every "
         "plant keeps its margins.");

@@ -1,0 +1,20 @@
+# Whether the Python module is built: where it is asked for, and beside the tests where pybind11 is at
+# hand. Debian's own interpreter first, since pybind11-dev and python3-numpy are installed for that one.
+# Not with sanitizers: an interpreter without them cannot load such a module.
+set(PYBIND11_FINDPYTHON ON)
+find_program(Python_EXECUTABLE python3 HINTS /usr/bin)
+if(CMAKE_BUILD_TYPE STREQUAL "Sanitize")
+  return()
+endif()
+if(BORESIGHT_PYTHON)
+  find_package(Python 3.9 REQUIRED COMPONENTS Interpreter Development.Module)
+  find_package(pybind11 2.10 REQUIRED)
+elseif(BORESIGHT_BUILD_TESTS)
+  find_package(Python 3.9 QUIET COMPONENTS Interpreter Development.Module)
+  if(Python_FOUND)
+    find_package(pybind11 2.10 QUIET)
+  endif()
+endif()
+if(pybind11_FOUND)
+  add_subdirectory(python)
+endif()

@@ -1,0 +1,87 @@
+#include <algorithm>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <pybind11/eigen.h>
+#include <pybind11/stl.h>
+
+#include <boresight/app/simulate/drive_run.hpp>
+#include <boresight/app/simulate/position_run.hpp>
+#include <boresight/plant/error.hpp>
+#include <boresight/python/bindings.hpp>
+#include <boresight/python/interruptible.hpp>
+#include <boresight/python/results.hpp>
+
+namespace boresight::python {
+namespace {
+
+struct Record {
+  std::string test;
+  std::string description;
+  double sample_time = 0.0;
+  app::CsvTable table;
+};
+
+std::vector<Record> simulate(const app::Case& antenna, const std::string& test,
+                             std::uint64_t seed) {
+  const auto& known = app::simulated_test_names();
+  if (std::ranges::find(known, test) == known.end()) {
+    throw InvalidInput(
+        fmt::format("simulate: expected one of {}, found '{}'", fmt::join(known, ", "), test));
+  }
+  return interruptible([&](const StopRequest& stop) {
+    const auto progress = [&stop](double) { return !stop(); };
+    std::vector<Record> records;
+    for (const auto& one : app::drive_tests(antenna, test)) {
+      auto run = app::run_drive_test(antenna, one, seed, progress);
+      records.push_back(
+          {run.test, std::move(run.description), run.sample_time, std::move(run.record)});
+    }
+    if (records.empty()) {
+      auto run = test == "slew" ? app::run_slew(antenna, seed, progress)
+                                : app::run_tracking(antenna, seed, progress);
+      records.push_back(
+          {run.test, std::move(run.description), run.sample_time, std::move(run.record)});
+    }
+    return records;
+  });
+}
+
+}  // namespace
+
+void add_simulation(py::module_& module) {
+  py::class_<Record>(module, "Record", "What the recorder of a simulated test wrote.")
+      .def_readonly("test", &Record::test)
+      .def_readonly("description", &Record::description)
+      .def_readonly("sample_time", &Record::sample_time, "s")
+      .def_property_readonly(
+          "columns",
+          [](const Record& record) {
+            py::dict columns;
+            for (const auto& column : record.table.columns) {
+              columns[column.name.c_str()] = column.values;
+            }
+            return columns;
+          },
+          "Arrays by name, in the recorder's own units")
+      .def_property_readonly(
+          "units",
+          [](const Record& record) {
+            py::dict units;
+            for (const auto& column : record.table.columns) {
+              units[column.name.c_str()] = column.unit;
+            }
+            return units;
+          },
+          "Of the columns, by name")
+      .def(
+          "to_csv", [](const Record& record) { return app::to_csv(record.table); },
+          "The text that `boresight simulate` writes to the record's file.");
+  module.def(
+      "simulate", &simulate, py::arg("case"), py::arg("test"), py::arg("seed") = 1,
+      "Runs a test on the nonlinear antenna of the case ('slosh', 'fast-ramp', 'slow-ramp', "
+      "'constant-speed', 'valve-steps', 'valve-chirp', 'tracking', 'slew') and returns a Record "
+      "for each file that the recorder would write. Ctrl-C stops it.");
+}
+
+}  // namespace boresight::python

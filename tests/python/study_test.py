@@ -1,0 +1,129 @@
+"""Identification, tuning, matching and simulation against the program's own reports."""
+
+import math
+import subprocess
+
+import numpy as np
+import pytest
+
+import boresight
+from conftest import PROGRAM
+
+
+def test_case_is_what_the_file_says(antenna, case_path):
+    assert antenna.path == case_path
+    assert antenna["oil.bulk_modulus"].value == 1229e6
+    assert float(antenna["oil.bulk_modulus"]) == 1229e6
+    assert antenna["oil.bulk_modulus"].basis == "published"
+    assert antenna.gear_ratio == pytest.approx(28723.6, abs=0.05)
+    assert antenna.motor_inertia == pytest.approx(4 * 0.3007)
+    with pytest.raises(KeyError, match="oil.colour"):
+        antenna["oil.colour"]
+
+
+def test_errors_have_types(tmp_path):
+    with pytest.raises(boresight.InvalidInput, match="nowhere.toml"):
+        boresight.read_case(str(tmp_path / "nowhere.toml"))
+    broken = tmp_path / "broken.toml"
+    broken.write_text("title = 3\n", encoding="utf-8")
+    with pytest.raises(ValueError, match="broken.toml:1"):
+        boresight.read_case(str(broken))
+    assert issubclass(boresight.InvalidInput, boresight.Error)
+    assert issubclass(boresight.NumericalFailure, boresight.Error)
+    assert issubclass(boresight.NumericalFailure, ArithmeticError)
+    itself = boresight.StateSpace(np.zeros((0, 0)), np.zeros((0, 1)), np.zeros((1, 0)), [[1.0]],
+                                      ["y"], ["y"])
+    with pytest.raises(boresight.NumericalFailure):  # y = y has no one solution
+        boresight.connect([itself], [], ["y"])
+
+
+def test_audit_and_identification_say_what_the_program_says(antenna, program):
+    assert boresight.audit(antenna).to_dict()["audit"] == program("audit")["audit"]
+    identified = boresight.identify(antenna)
+    report = program("identify")
+    assert identified.to_dict()["identification"] == report["identification"]
+    by_name = {row["name"]: row for row in report["identification"]["methods"]}
+    assert {method.name for method in identified.methods} == set(by_name)
+    for method in identified.methods:
+        row = by_name[method.name]["reflected_inertia"]
+        inertia = method.reflected_inertia
+        assert float(inertia) == row["value_kg_m2"]
+        assert (inertia.lower, inertia.upper) == (row["lower_95_kg_m2"], row["upper_95_kg_m2"])
+    assert identified.reflected_inertia.value == pytest.approx(1.600, abs=5e-4)  # README.md
+    assert identified.drive == {}
+
+
+@pytest.fixture(scope="module")
+def tuning(antenna):
+    return boresight.tune(antenna, ["PI"], seed=1)
+
+
+def test_tuning_says_what_the_program_says(tuning, program):
+    report = program("tune", "--structure", "PI")
+    assert tuning.to_dict()["tuned"] == report["tuned"]
+    nominal, robust = [law for law in tuning.laws if law.tuned_for != "present"]
+    assert (nominal.tuned_for, robust.tuned_for) == ("nominal", "robust")
+    assert nominal.beam_rms / boresight.mdeg == pytest.approx(0.5099, abs=1e-4)
+    assert robust.beam_rms / boresight.mdeg == pytest.approx(0.6401, abs=1e-4)
+    assert robust.worst_beam_rms > robust.beam_rms
+    assert nominal.beam_rms == pytest.approx(math.hypot(nominal.wind_rms, nominal.noise_rms))
+
+
+def test_best_law_meets_its_goals_and_closes_a_stable_loop(antenna, tuning):
+    best = tuning.best
+    assert best.gains == best.law.gains and set(best.gains) == {"kr", "wi", "wp", "kp", "wip"}
+    assert best.tuned_for == "robust" and best.goals_met and best.verified and best.stable
+    assert tuning.shortfalls == []
+    assert set(best.margins) == {"rate loop alone", "valve command", "position loop"}
+    assert max(margins.sensitivity_peak for margins in best.margins.values()) <= 2.0 + 1e-6
+    closed = boresight.closed_loop(boresight.plant(antenna), best.law, antenna.controller_delay)
+    assert closed.poles().real.max() < 0
+    # The law's own state space, with the peak of |S| at the valve found by plain numpy.
+    plant = boresight.plant(antenna).state_space
+    controller = best.law.controller()
+    peak = best.margins["valve command"]
+    w = np.append(np.logspace(-2, 2, 4000), peak.sensitivity_frequency)
+    p, k = plant.frequency_response(w), controller.frequency_response(w)
+    demand = controller.outputs.index("valve_demand")
+    loop = -np.exp(-1j * w * antenna.controller_delay) * sum(
+        p[:, plant.outputs.index(name), 0] * k[:, demand, controller.inputs.index(name)]
+        for name in ("tachometer", "encoder"))
+    assert np.max(1 / np.abs(1 + loop)) == pytest.approx(peak.sensitivity_peak, rel=1e-6)
+
+
+def test_goals_can_be_changed_and_refused(antenna):
+    with pytest.raises(boresight.InvalidInput, match="valve_effort"):
+        boresight.tune(antenna, ["PI"], goals={"valve_effort": "1 furlong"})
+    with pytest.raises(ValueError, match="XYZ"):
+        boresight.tune(antenna, ["XYZ"])
+    strict = boresight.tune(antenna, ["PI-0"], starts=1, goals={"sensitivity_peak": "1.02"})
+    assert strict.best is None and strict.shortfalls
+    assert not any(law.goals_met for law in strict.laws)
+
+
+def test_matching_says_what_the_program_says(antenna, program):
+    matching = boresight.match(antenna, ["PI-0"], points=4, starts=1, robust=False)
+    report = program("match", "--structure", "PI-0", "--points", "4", "--starts", "1", "--nominal",
+                     "--no-variants", "--time-domain", "none")
+    assert matching.to_dict()["matched"] == report["matched"]
+    assert np.all(np.diff(matching.disks) > 0)
+    assert len(matching.disks) == len(matching.motor_to_load_ratio)
+    np.testing.assert_allclose(np.diff(matching.motor_inertia),
+                               4 * 0.012358 * np.diff(matching.disks))
+    [series] = matching.series
+    assert series.beam_rms.shape == matching.disks.shape
+    assert series.best == np.argmin(series.beam_rms)
+    assert np.all(series.peak_valve_command <= 2.0 + 1e-6)
+    with pytest.raises(boresight.InvalidInput, match="sometimes"):
+        boresight.match(antenna, time_domain="sometimes")
+
+
+def test_simulation_writes_what_the_program_writes(antenna, case_path, tmp_path):
+    [record] = boresight.simulate(antenna, "slosh", seed=3)
+    subprocess.run([PROGRAM, "simulate", case_path, "slosh", "--seed", "3", "--folder",
+                    str(tmp_path)], capture_output=True, check=True)
+    assert record.to_csv() == (tmp_path / "slosh.csv").read_text(encoding="utf-8")
+    assert set(record.columns) == set(record.units)
+    assert len({len(values) for values in record.columns.values()}) == 1
+    with pytest.raises(ValueError, match="swimming"):
+        boresight.simulate(antenna, "swimming")

@@ -35,8 +35,8 @@ struct EnsembleResult {
   /// Of the stable members' rms: smallest, median, 95 % quantile, largest (rad at the sky); NaN if
   /// none is stable.
   double least_rms = 0.0, median_rms = 0.0, high_rms = 0.0, largest_rms = 0.0;
-  /// The member farthest from its goals; of those within 1e-6 of the farthest the first, so that the
-  /// last digits of a build do not choose.
+  /// The member farthest from its goals; of those within 1e-6 of the farthest the first, so that
+  /// the last digits of a build do not choose.
   std::size_t worst = 0;
 };
 

@@ -23,8 +23,9 @@ std::vector<control::LoopStructure> missing_parts(
     const std::vector<control::LoopStructure>& structures);
 
 /// Tunes a list of structures of which some start from the laws of others: `search` of each place,
-/// then `improve` of each that has parts (parts_of), after that of all its parts. On up to `threads`
-/// threads; the result does not depend on how many where `improve` reads its own place and its parts'.
+/// then `improve` of each that has parts (parts_of), after that of all its parts. On up to
+/// `threads` threads; the result does not depend on how many, where `improve` reads its place and
+/// its parts.
 void search_then_improve(const std::vector<std::vector<std::size_t>>& parts, unsigned threads,
                          const std::function<void(std::size_t)>& search,
                          const std::function<void(std::size_t)>& improve);

@@ -12,11 +12,13 @@ AuditReport audit(const Case& antenna) {
   report.remarks = antenna.remarks;
   for (std::size_t i = 0; i < graph.nodes().size(); ++i) {
     const auto& statements = graph.node(i).statements;
+    const std::size_t before = report.checked;
     for (std::size_t s = 0; s < statements.size(); ++s) {
       const std::size_t forms = statements[s].forms.size();
       // The first print of an input has nothing to be compared with but its other columns.
       report.checked += graph.is_input(i) && s == 0 ? forms - 1 : forms;
     }
+    if (report.checked > before) report.compared.push_back(graph.node(i).id);
   }
   return report;
 }

@@ -18,6 +18,8 @@ struct AuditReport {
   std::vector<RemarkEntry> remarks;
   /// Printed numbers that were compared with something.
   std::size_t checked = 0;
+  /// The quantities that they are of, by id, each once.
+  std::vector<std::string> compared;
 };
 
 /// Recomputes every derived number the case prints and checks its inputs for plausibility. A case

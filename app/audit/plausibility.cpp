@@ -45,6 +45,7 @@ std::vector<Implausibility> implausibilities(const Case& antenna,
   check_coincidences(numbers, found);
   check_friction_slope(numbers, found);
   check_coulomb_levels(numbers, found);
+  check_valve_stroke(numbers, found);
   check_recorder_limit(numbers, found);
   check_wave_speeds(numbers, found);
   check_structural_bound(numbers, found);

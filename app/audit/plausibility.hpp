@@ -19,7 +19,7 @@ struct NamedNumber {
 struct Implausibility {
   /// What the check looks at, closed: "inertia remainder", "friction slope", "wave speed",
   /// "structural bound", "impulse order", "resonance expected", "recorder limit", "Coulomb levels",
-  /// "coincidence", "carrier frequency".
+  /// "coincidence", "carrier frequency", "valve stroke".
   std::string check;
   /// The quantity, by id.
   std::string id;
@@ -41,6 +41,9 @@ struct Implausibility {
 /// - resonance expected from masses and oil spring, more than three standard uncertainties away;
 /// - recorder limit below the tachometer's voltage at slew rate;
 /// - Coulomb levels of two tests more than 1.5 apart;
+/// - valve stroke: the slew rate at the motor is beyond what the valve, fully open, lets the motors
+///   turn at without load, by simulation.valve_stroke or the valve's rated flow; or these two are
+///   more than 5 % apart. Both by more than two standard uncertainties;
 /// - coincidence: two methods print the same inertia to the last digit;
 /// - carrier frequency: a beam wider than 5 deg.
 std::vector<Implausibility> implausibilities(const Case& antenna,

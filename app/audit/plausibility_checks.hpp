@@ -28,6 +28,7 @@ void check_carrier_frequencies(const CaseNumbers& numbers, Implausibilities& fou
 void check_friction_slope(const CaseNumbers& numbers, Implausibilities& found);
 void check_coulomb_levels(const CaseNumbers& numbers, Implausibilities& found);
 void check_impulse_order(const CaseNumbers& numbers, Implausibilities& found);
+void check_valve_stroke(const CaseNumbers& numbers, Implausibilities& found);
 void check_recorder_limit(const CaseNumbers& numbers, Implausibilities& found);
 
 }  // namespace boresight::app

@@ -44,7 +44,8 @@ struct BenchmarkReport {
   std::string case_path, title, axis;
   std::uint64_t seed = 1;
   BenchmarkedController controller;
-  double dead_time = 0.0;  // s, of a continuous controller; one sample time of a sampled one
+  bool present_gains = false;  // the controller is what the antenna runs on now, by the case
+  double dead_time = 0.0;      // s, of a continuous controller; one sample time of a sampled one
   double gear_ratio = 1.0;
   design::WindCondition wind;
   control::FrequencyBand rms_band;

@@ -12,6 +12,7 @@
 #include <boresight/app/redesign/sections.hpp>
 #include <boresight/app/report/json_report.hpp>
 #include <boresight/app/report/sky_units.hpp>
+#include <boresight/app/tune/engineer_units.hpp>
 #include <boresight/control/sampled_law.hpp>
 #include <boresight/control/state_space_controller.hpp>
 #include <boresight/plant/error.hpp>
@@ -39,6 +40,12 @@ std::vector<design::WindAttitudeCoefficient> attitudes_of(const Case& antenna) {
   return attitudes;
 }
 
+bool is_present(const control::ControlLaw& law, const Case& antenna) {
+  return std::ranges::any_of(present_laws(antenna), [&](const control::ControlLaw& present) {
+    return present.structure == law.structure && present.gains == law.gains;
+  });
+}
+
 }  // namespace
 
 BenchmarkedController controller_of(const control::ControlLaw& law, const std::string& description,
@@ -61,6 +68,7 @@ BenchmarkReport benchmark(const DesignedAntenna& designed, const BenchmarkedCont
   report.axis = antenna.axis;
   report.seed = options.seed;
   report.controller = controller;
+  report.present_gains = controller.law && is_present(*controller.law, antenna);
   const double sample_time = controller.system.sample_time;
   report.dead_time = sample_time > 0.0 ? sample_time : problem.delay;
   report.gear_ratio = problem.gear_ratio;

@@ -6,6 +6,7 @@
 
 #include <boresight/app/benchmark/benchmark_report.hpp>
 #include <boresight/app/document/document_text.hpp>
+#include <boresight/app/report/present_gains.hpp>
 #include <boresight/app/report/sky_units.hpp>
 #include <boresight/app/report/text_report.hpp>
 
@@ -189,6 +190,9 @@ Document document_of(const BenchmarkReport& report) {
             "unstable loop has no score.",
             score.abscissa),
         "  ", "  ");
+    if (report.present_gains && report.controller.law) {
+      text += wrapped(unstable_present_gains(report.controller.law->structure.name()), "  ", "  ");
+    }
     return text + document_of(report.assumed);
   }
   text += fmt::format("  Stable: slowest pole at {:.4g} 1/s.{}\n", score.abscissa,

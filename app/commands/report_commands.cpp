@@ -9,6 +9,7 @@
 #include <boresight/app/figures/record_figures.hpp>
 #include <boresight/app/figures/report_figures.hpp>
 #include <boresight/app/identify/campaign_identification.hpp>
+#include <boresight/app/identify/first_tests.hpp>
 #include <boresight/app/identify/identified_case.hpp>
 #include <boresight/app/models/linear_models.hpp>
 #include <boresight/app/page/report_page.hpp>
@@ -89,7 +90,12 @@ const std::vector<Command>& commands() {
       {"identify",
        "inertia and motor-to-load ratio by each method, with intervals; of a case with records all "
        "that they say of the drive",
-       fill_identification, false, "identifying"},
+       [](const Case& antenna, const StudyOptions& options, Report& report) {
+         fill_identification(antenna, options, report);
+         if (report.campaign) return;
+         report.conclusions = first_tests(antenna);
+       },
+       false, "identifying"},
       {"model", "the linear plant: parameters, poles, what each mode is",
        [](const Case& antenna, const StudyOptions&, Report& report) {
          report.plant = describe_plant(antenna);

@@ -7,6 +7,7 @@
 #include <fmt/ranges.h>
 
 #include <boresight/app/evaluate/evaluate_section.hpp>
+#include <boresight/app/report/negligible.hpp>
 #include <boresight/app/report/sky_units.hpp>
 
 namespace boresight::app {
@@ -114,7 +115,11 @@ std::string on_the_front(const EvaluateSection& section) {
       const auto& before = section.candidates[section.front[k - 1]];
       const double gained = (rms_of(before) - rms_of(candidate)) / millidegree;
       const double paid = candidate.cost - before.cost;
-      if (gained > 0.0 && paid > 0.0) {
+      const double share = 1.0 - rms_of(candidate) / rms_of(before);
+      if (share < negligible_change) {
+        step += fmt::format(", only {:.1f} % less than the one before: nothing to pay for",
+                            100.0 * share);
+      } else if (gained > 0.0 && paid > 0.0) {
         step += fmt::format(", {:.0f} {} for each mdeg more", paid / gained, section.currency);
       }
     }
@@ -123,9 +128,24 @@ std::string on_the_front(const EvaluateSection& section) {
   const bool assumed = std::ranges::any_of(
       section.candidates, [](const auto& candidate) { return candidate.cost_assumed; });
   return fmt::format(
-      "Only these are worth their cost, each better than all that cost less: {}.{} A proposal off "
-      "the front is dearer and no better than one on it.",
+      "On the front of cost and rms, each better than all that cost less: {}.{} A proposal off the "
+      "front is dearer and no better than one on it.",
       fmt::join(steps, "; "), assumed ? " Costs marked as assumed were quoted by nobody." : "");
+}
+
+// What of the choice by the least mean is not worth paying for.
+std::string not_worth_paying(const EvaluateSection& section, const DecisionSection& decision) {
+  const std::size_t choice = worth_its_cost(section, decision);
+  if (choice == decision.best) return "";
+  const auto& options = decision.statistics.options;
+  return fmt::format(
+      "{} is {:.1f} % better than {} on average, too little to pay for: {}.",
+      name_of(section, decision, decision.best),
+      100.0 * (1.0 - options[decision.best].mean / options[choice].mean),
+      name_of(section, decision, choice),
+      section.candidates[decision.candidates[choice].candidate].path.empty()
+          ? "no proposal is worth its cost"
+          : fmt::format("of these {} is worth its cost", name_of(section, decision, choice)));
 }
 
 std::string chances(const EvaluateSection& section, const DecisionSection& decision) {
@@ -248,6 +268,30 @@ std::string out_of_reach(const EvaluateSection& section) {
 
 }  // namespace
 
+std::size_t worth_its_cost(const EvaluateSection& section, const DecisionSection& decision) {
+  const auto& options = decision.statistics.options;
+  const auto candidate = [&](std::size_t place) -> const Candidate& {
+    return section.candidates[decision.candidates[place].candidate];
+  };
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < options.size(); ++i) {
+    if (candidate(i).feasible()) least = std::min(least, options[i].mean);
+  }
+  std::size_t choice = decision.best;
+  bool chosen = false;
+  for (std::size_t i = 0; i < options.size(); ++i) {
+    if (!candidate(i).feasible() || !(options[i].mean <= (1.0 + negligible_change) * least)) {
+      continue;
+    }
+    const bool cheaper = candidate(i).cost < candidate(choice).cost;
+    const bool better =
+        candidate(i).cost == candidate(choice).cost && options[i].mean < options[choice].mean;
+    if (!chosen || cheaper || better) choice = i;
+    chosen = true;
+  }
+  return choice;
+}
+
 std::vector<std::string> conclude(const EvaluateSection& section) {
   std::vector<std::string> sentences;
   const auto add = [&](std::string text) {
@@ -259,6 +303,7 @@ std::vector<std::string> conclude(const EvaluateSection& section) {
   add(on_the_front(section));
   if (section.decision) {
     add(chances(section, *section.decision));
+    add(not_worth_paying(section, *section.decision));
     add(what_decides(section, *section.decision));
     add(what_to_test(section, *section.decision));
   }

@@ -133,6 +133,11 @@ struct EvaluateSection {
   std::vector<std::string> not_run;  // what an interrupt left out
 };
 
+/// The place in `decision.candidates` of the one to choose: of those that meet every goal the
+/// cheapest whose mean rms over the draws lies within negligible_change of the least of them;
+/// decision.best if none meets its goals.
+std::size_t worth_its_cost(const EvaluateSection& section, const DecisionSection& decision);
+
 /// A few paragraphs that say what the section means, with its conditions.
 std::vector<std::string> conclude(const EvaluateSection& section);
 

@@ -48,6 +48,14 @@ Figure structures_figure(const TuneSection& section, double wind_speed,
       wind_speed, plant::to_string(section.wind_model), section.ensemble_size,
       section.ensemble_source,
       in_time ? "; last those that ran on the nonlinear antenna, over one record of wind" : "");
+  for (const auto& law : section.laws) {
+    if (law.wind_speed != wind_speed || law.stable()) continue;
+    figure.caption +=
+        fmt::format(" {} ({}) has no bar: {}.", law.structure, to_string(law.tuned_for),
+                    law.tuned_for == TunedFor::present ? "the gains the antenna runs on now are "
+                                                         "unstable on this plant"
+                                                       : "no stable law was found");
+  }
   figure.x = {.label = "loop structure", .categories = all_structures(section)};
   const auto place_of = [&](const std::string& structure) {
     const auto& names = figure.x.categories;

@@ -46,8 +46,10 @@ std::vector<Figure> tuning_figures(const TuningSection& section) {
 std::vector<Figure> choices_figures(const std::vector<ChoiceResult>& choices) {
   Figure figure;
   figure.id = "choices";
-  figure.section = "Where the case's numbers contradict each other: what each choice would do";
-  figure.title = "Beam rms by each choice among contradictory numbers";
+  figure.section = choices_heading(choices);
+  figure.title = std::ranges::any_of(choices, &ChoiceResult::contradicts)
+                     ? "Beam rms by each choice among contradictory numbers"
+                     : "Beam rms by each choice that the case leaves open";
   figure.caption =
       "Each choice's plant, with the same loop structure re-tuned on it, at the design wind speed, "
       "linear; a choice without a bar leaves no plant.";

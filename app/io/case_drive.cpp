@@ -1,6 +1,10 @@
+#include <cmath>
 #include <set>
 
+#include <fmt/format.h>
+
 #include <boresight/app/io/case_sections.hpp>
+#include <boresight/plant/hydraulics.hpp>
 
 namespace boresight::app {
 namespace {
@@ -44,6 +48,60 @@ void read_tachometer(TableReader& table, Case& antenna) {
                           *entry.tachometer_teeth, *entry.recorder_limit};
   }
   antenna.campaign.tachometer = std::move(entry);
+}
+
+double relative(const Quantity& quantity) {
+  return quantity.standard_uncertainty / quantity.value;
+}
+
+struct Estimate {
+  double value = 0.0;
+  double relative_uncertainty = 0.0;
+};
+
+// As stated, else the mean over the lines, which have the density in common (Pa).
+Estimate bulk_modulus_of(const OilEntry& oil) {
+  if (oil.bulk_modulus) return {oil.bulk_modulus->value, relative(*oil.bulk_modulus)};
+  double sum = 0.0;
+  double variance = 0.0;
+  for (const OilLine& line : oil.lines) {
+    const double modulus = plant::bulk_modulus_from_slosh(
+        line.length.value, line.slosh_frequency.value, oil.density.value);
+    sum += modulus;
+    variance += std::pow(
+        2.0 * modulus * std::hypot(relative(line.length), relative(line.slosh_frequency)), 2);
+  }
+  return {sum / static_cast<double>(oil.lines.size()),
+          std::hypot(std::sqrt(variance) / sum, relative(oil.density))};
+}
+
+// beta (1/V1 + 1/V2) flow/pressure, with its uncertainty to first order.
+Quantity leakage_rate_by_flow(const OilEntry& oil, const Quantity& flow, const Quantity& pressure) {
+  const Estimate modulus = bulk_modulus_of(oil);
+  const double sides = 1.0 / oil.volume_1.value + 1.0 / oil.volume_2.value;
+  const double of_sides = std::hypot(relative(oil.volume_1) / oil.volume_1.value,
+                                     relative(oil.volume_2) / oil.volume_2.value) /
+                          sides;
+  Quantity rate = flow;
+  rate.also.clear();
+  rate.kind = Kind::rate_constant;
+  rate.value = modulus.value * sides * flow.value / pressure.value;
+  rate.standard_uncertainty =
+      rate.value * std::hypot(std::hypot(relative(flow), relative(pressure)),
+                              modulus.relative_uncertainty, of_sides);
+  rate.half_unit = 0.0;
+  rate.text = fmt::format("{:.4g} 1/s", rate.value);
+  if (pressure.basis == Basis::assumed) rate.basis = Basis::assumed;
+  return rate;
+}
+
+void check_drive(const TableReader& table, const Case& antenna) {
+  need_together(table, "valve_rated_flow", "valve_rated_pressure_drop");
+  const auto& back = antenna.campaign.return_pressure;
+  if (back && back->value >= antenna.drive.supply_pressure.value) {
+    table.refuse("return_pressure",
+                 "expected a pressure below supply_pressure, found one that is not");
+  }
 }
 
 }  // namespace
@@ -107,12 +165,21 @@ void read_tests(TableReader& file, Case& antenna) {
 void read_drive(TableReader& file, Case& antenna) {
   TableReader table = file.table("drive");
   DriveEntry& drive = antenna.drive;
-  drive.leakage_rate = table.quantity("leakage_rate", Kind::rate_constant, Range::positive(1000.0));
+  const Range decay = Range::positive(1000.0);
+  const auto leakage_rate = table.optional_quantity("leakage_rate", Kind::rate_constant, decay);
+  const auto leakage_flow =
+      table.optional_quantity("leakage_flow", Kind::flow, Range::positive(10.0));
+  const auto leakage_pressure =
+      table.optional_quantity("leakage_pressure", Kind::pressure, Range::positive(1e9));
   drive.viscous_friction =
       table.quantity("viscous_friction", Kind::viscous_friction, Range::not_negative());
   drive.valve_frequency =
       table.quantity("valve_frequency", Kind::frequency, Range::positive(10000.0));
   drive.valve_damping = table.quantity("valve_damping", Kind::number, Range::positive(10.0));
+  drive.valve_rated_flow =
+      table.optional_quantity("valve_rated_flow", Kind::flow, Range::positive(10.0));
+  drive.valve_rated_pressure_drop =
+      table.optional_quantity("valve_rated_pressure_drop", Kind::pressure, Range::positive(1e9));
   drive.supply_pressure =
       table.quantity("supply_pressure", Kind::pressure, Range::between(1e4, 1e9));
   antenna.campaign.return_pressure =
@@ -120,6 +187,23 @@ void read_drive(TableReader& file, Case& antenna) {
   drive.slew_rate = table.quantity("slew_rate", Kind::angular_rate, Range::positive(10.0));
   drive.tracking_rate = table.quantity("tracking_rate", Kind::angular_rate, Range::positive(1.0));
   table.finish();
+  need_together(table, "leakage_flow", "leakage_pressure");
+  if (leakage_rate.has_value() == leakage_flow.has_value()) {
+    table.refuse("leakage_rate",
+                 std::string("expected either leakage_rate, or leakage_flow with leakage_pressure, "
+                             "found ") +
+                     (leakage_rate ? "both" : "neither"));
+  }
+  if (leakage_rate) drive.leakage_rate = *leakage_rate;
+  if (leakage_flow && leakage_pressure) {
+    drive.leakage_rate = leakage_rate_by_flow(antenna.oil, *leakage_flow, *leakage_pressure);
+    if (drive.leakage_rate.value > decay.maximum) {
+      table.refuse("leakage_flow", fmt::format("expected a leakage rate of at most {:g} 1/s, found "
+                                               "one of {} by the oil's bulk modulus and volumes",
+                                               decay.maximum, drive.leakage_rate.text));
+    }
+  }
+  check_drive(table, antenna);
 
   TableReader curve = file.table("friction_curve");
   FrictionCurveEntry& friction = antenna.friction_curve;

@@ -109,10 +109,14 @@ struct ImpulseResult {
 };
 
 struct DriveEntry {
-  Quantity leakage_rate;
+  Quantity leakage_rate;  // as stated, or by a flow at a pressure
   Quantity viscous_friction;
   Quantity valve_frequency;
   Quantity valve_damping;
+  /// Flow at a total pressure drop over both edges, the valve fully open.
+  std::optional<Quantity> valve_rated_flow, valve_rated_pressure_drop;
+  /// No-load motor rate with the valve fully open by them (rad/s).
+  std::optional<Quantity> rated_stroke;
   Quantity supply_pressure;
   Quantity slew_rate;
   Quantity tracking_rate;
@@ -126,9 +130,10 @@ struct FrictionCurveEntry {
 struct SimulationEntry {
   Quantity return_pressure;
   Quantity null_leakage_share, case_leakage_share;
-  Quantity valve_stroke;       // no-load motor speed with the valve fully open
-  Quantity valve_stroke_time;  // from centre to fully open
-  Quantity valve_overlap;      // share of the stroke
+  Quantity valve_stroke;            // no-load motor speed with the valve fully open
+  bool valve_stroke_stated = true;  // else by the valve's rated flow, or assumed
+  Quantity valve_stroke_time;       // from centre to fully open
+  Quantity valve_overlap;           // share of the stroke
   Quantity bristle_stiffness, bristle_damping;
   Quantity line_damping_ratio;
   Quantity makeup_pressure;

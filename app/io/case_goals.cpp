@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <array>
 
 #include <fmt/format.h>
@@ -66,6 +67,28 @@ std::string_view to_string(SoftGoalKind kind) {
   return names.at(static_cast<std::size_t>(kind));
 }
 
+namespace {
+
+// Without counts of its own the study goes to twice what the antenna has, in six steps or ones.
+void read_matching(TableReader& file, Case& antenna) {
+  const auto built = static_cast<long>(antenna.motor.flywheel_disks);
+  const long usual_most = built > 0 ? 2 * built : 12;
+  std::optional<long> most;
+  std::optional<long> step;
+  if (auto matching = file.optional_table("matching")) {
+    most = matching->optional_integer("most_disks", 1, 10000);
+    step = matching->optional_integer("step", 1, most.value_or(usual_most));
+    matching->finish();
+  }
+  const long last = most.value_or(usual_most);
+  const long by = step.value_or(std::max(1L, last / 6));
+  for (long disks = 0; disks <= last; disks += by) {
+    antenna.matching_disks.push_back(static_cast<double>(disks));
+  }
+}
+
+}  // namespace
+
 void read_goals(TableReader& file, Case& antenna) {
   TableReader table = file.table("goals");
   GoalsEntry& goals = antenna.goals;
@@ -77,13 +100,7 @@ void read_goals(TableReader& file, Case& antenna) {
   table.finish();
   check_band(table, goals);
 
-  TableReader matching = file.table("matching");
-  const long most = matching.integer("most_disks", 1, 10000);
-  const long step = matching.integer("step", 1, most);
-  for (long disks = 0; disks <= most; disks += step) {
-    antenna.matching_disks.push_back(static_cast<double>(disks));
-  }
-  matching.finish();
+  read_matching(file, antenna);
 }
 
 void change_goals(GoalsEntry& goals, const std::vector<std::string>& changes) {

@@ -161,10 +161,23 @@ PresentGainsEntry read_gains(TableReader& table, const Case& antenna) {
   } catch (const InvalidInput& error) {
     table.refuse("structure", error.what());
   }
+  // All that there are first: beside a missing one they are no misspelt keys.
+  const Range range = Range::positive(1e11);
+  std::map<std::string, Quantity> found;
   for (const auto& block : entry.structure.blocks()) {
     for (std::size_t i = 0; i < block.gains.size(); ++i) {
-      entry.gains.push_back(table.quantity(
-          block.gains[i].symbol, gain_kind(block.path, block.kind, i), Range::positive(1e11)));
+      const auto& symbol = block.gains[i].symbol;
+      const Kind kind = gain_kind(block.path, block.kind, i);
+      if (auto gain = table.optional_quantity(symbol, kind, range)) found[symbol] = *gain;
+    }
+  }
+  for (const auto& block : entry.structure.blocks()) {
+    for (std::size_t i = 0; i < block.gains.size(); ++i) {
+      const auto& symbol = block.gains[i].symbol;
+      entry.gains.push_back(
+          found.contains(symbol)
+              ? found.at(symbol)
+              : table.quantity(symbol, gain_kind(block.path, block.kind, i), range));
     }
   }
   table.finish();

@@ -1,7 +1,78 @@
+#include <cmath>
+
+#include <fmt/format.h>
+
 #include <boresight/app/io/case_sections.hpp>
+#include <boresight/plant/gear_train.hpp>
+#include <boresight/plant/hydraulics.hpp>
 
 namespace boresight::app {
 namespace {
+
+double relative(const Quantity& quantity) {
+  return quantity.standard_uncertainty / quantity.value;
+}
+
+// The flow goes with the root of the drop over both edges, which without load is what the supply
+// has above the return. The volumetric efficiency is not in it: without load nothing drives oil
+// past the pistons, and under load that is the leakage rate.
+std::optional<Quantity> rated_stroke(const Case& antenna,
+                                     const std::optional<Quantity>& return_pressure) {
+  const auto& flow = antenna.drive.valve_rated_flow;
+  const auto& drop = antenna.drive.valve_rated_pressure_drop;
+  if (!flow || !drop) return std::nullopt;
+  const Quantity& supply = antenna.drive.supply_pressure;
+  const Quantity& displacement = antenna.motor.displacement;
+  const double driving = supply.value - (return_pressure ? return_pressure->value : 0.0);
+  const double of_driving =
+      std::hypot(supply.standard_uncertainty,
+                 return_pressure ? return_pressure->standard_uncertainty : 0.0) /
+      driving;
+  Quantity stroke = *flow;
+  stroke.also.clear();
+  stroke.kind = Kind::angular_rate;
+  stroke.value = flow->value * std::sqrt(driving / drop->value) /
+                 (static_cast<double>(antenna.motor.count) * displacement.value);
+  stroke.standard_uncertainty =
+      stroke.value * std::hypot(std::hypot(relative(*flow), relative(displacement)),
+                                0.5 * relative(*drop), 0.5 * of_driving);
+  stroke.half_unit = 0.0;
+  stroke.text = fmt::format("{:.4g} rad/s", stroke.value);
+  if (drop->basis == Basis::assumed) stroke.basis = Basis::assumed;
+  return stroke;
+}
+
+double slew_rate_at_motor(const Case& antenna) {
+  std::vector<plant::GearStage> stages;
+  for (const GearStageEntry& stage : antenna.gear_train.stages) {
+    stages.push_back({stage.driven_teeth.value, stage.driving_teeth.value});
+  }
+  return antenna.drive.slew_rate.value * plant::gear_ratio(stages);
+}
+
+double supply_torque_of(const Case& antenna) {
+  plant::HydraulicDrive drive;
+  drive.motor_count = static_cast<double>(antenna.motor.count);
+  drive.displacement = antenna.motor.displacement.value;
+  drive.torque_efficiency = antenna.motor.torque_efficiency.value;
+  return plant::torque_per_pressure(drive) * antenna.drive.supply_pressure.value;
+}
+
+void read_valve_stroke(TableReader& table, const Case& antenna, SimulationEntry& entry) {
+  const auto stated =
+      table.optional_quantity("valve_stroke", Kind::angular_rate, Range::positive(1e5));
+  const auto rated = rated_stroke(antenna, entry.return_pressure);
+  entry.valve_stroke_stated = stated.has_value();
+  if (stated) {
+    entry.valve_stroke = *stated;
+  } else if (rated) {
+    entry.valve_stroke = *rated;
+  } else {
+    entry.valve_stroke =
+        table.assume("valve_stroke", Kind::angular_rate, 1.2 * slew_rate_at_motor(antenna),
+                     "1.2 times the slew rate at the motor");
+  }
+}
 
 SimulationEntry read_drive_details(TableReader& table, const Case& antenna) {
   SimulationEntry entry;
@@ -10,7 +81,7 @@ SimulationEntry read_drive_details(TableReader& table, const Case& antenna) {
       table.quantity("return_pressure", Kind::pressure, Range::not_negative(1e8));
   entry.null_leakage_share = table.quantity("null_leakage_share", Kind::number, share);
   entry.case_leakage_share = table.quantity("case_leakage_share", Kind::number, share);
-  entry.valve_stroke = table.quantity("valve_stroke", Kind::angular_rate, Range::positive(1e5));
+  read_valve_stroke(table, antenna, entry);
   entry.valve_stroke_time = table.quantity("valve_stroke_time", Kind::time, Range::positive(100.0));
   entry.valve_overlap = table.quantity("valve_overlap", Kind::number, Range::between(0.0, 0.5));
   entry.bristle_stiffness =
@@ -32,7 +103,12 @@ SimulationEntry read_drive_details(TableReader& table, const Case& antenna) {
     table.refuse(entry.offset_cosine ? "offset_cosine" : "offset_sine",
                  "expected it for the elevation axis only, found it for the azimuth axis");
   }
-  entry.preload_torque = table.quantity("preload_torque", Kind::torque, Range::positive(1e9));
+  const auto preload =
+      table.optional_quantity("preload_torque", Kind::torque, Range::positive(1e9));
+  entry.preload_torque =
+      preload ? *preload
+              : table.assume("preload_torque", Kind::torque, 0.1 * supply_torque_of(antenna),
+                             "a tenth of the supply torque");
   entry.backlash = table.optional_quantity("backlash", Kind::angle, Range::positive(1e3));
   entry.rate_loop_gain = table.quantity("rate_loop_gain", Kind::number, Range::positive(1e4));
   entry.rate_loop_corner =
@@ -83,6 +159,9 @@ void read_simulation(TableReader& file, Case& antenna) {
   if (auto table = file.optional_table("simulation")) {
     antenna.simulation = read_drive_details(*table, antenna);
   }
+  antenna.drive.rated_stroke =
+      rated_stroke(antenna, antenna.simulation ? antenna.simulation->return_pressure
+                                               : antenna.campaign.return_pressure);
   if (auto table = file.optional_table("recorder")) antenna.recorder = read_recorder(*table);
 }
 

@@ -11,6 +11,12 @@
 namespace boresight::app {
 namespace {
 
+// A whole number that stands in quotation marks.
+bool is_quoted_integer(const TomlNode& node) {
+  return node.type == TomlType::text && !node.text.empty() &&
+         node.text.find_first_not_of("0123456789") == std::string::npos;
+}
+
 // What `boresight new` writes where something is to be filled in.
 bool is_blank(const TomlNode& node) {
   return node.type == TomlType::text && node.text == "?";
@@ -116,7 +122,10 @@ long read_integer(const Field& field, long minimum, long maximum) {
   using Limits = std::numeric_limits<long>;
   const std::string range = bounds(minimum > Limits::min() ? fmt::format("{}", minimum) : "", false,
                                    maximum < Limits::max() ? fmt::format("{}", maximum) : "");
-  refuse_field(field, range.empty() ? "an integer" : "an integer " + range);
+  refuse_field(field, range.empty() ? "an integer" : "an integer " + range,
+               is_quoted_integer(field.node)
+                   ? fmt::format(" (write {}, without quotation marks)", field.node.text)
+                   : "");
 }
 
 bool read_boolean(const Field& field) {
@@ -133,9 +142,8 @@ PrintedNumber read_printed(const Field& field, Kind kind) {
     refuse_field(field, expectation(kind));
   }
   if (bare && kind != Kind::number) {
-    refuse_field(
-        field, expectation(kind),
-        fmt::format(", which has no unit (write \"{} {}\")", node.text, describe(kind).si_unit));
+    refuse_field(field, expectation(kind),
+                 fmt::format(", which has no unit (write \"{} {}\")", node.text, usual_unit(kind)));
   }
   std::string number = node.text;
   if (bare) {

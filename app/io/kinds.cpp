@@ -45,7 +45,7 @@ constexpr std::array kinds{
     KindEntry{Kind::flow, {.length = 3, .time = -1}, {"flow", "m3/s", "L/min, in3/s, US_gal/min"}},
     KindEntry{Kind::displacement,
               {.length = 3, .angle = -1},
-              {"displacement", "m3/rad", "in3/rev, cm3/rev"}},
+              {"displacement", "m3/rad", "cm3/rev, in3/rev"}},
     KindEntry{Kind::stiffness,
               {.length = 2, .mass = 1, .time = -2, .angle = -1},
               {"stiffness", "N.m/rad", "N.m/rad, lbf.ft/deg"}},
@@ -133,6 +133,12 @@ const KindDescription& describe(Kind kind) {
   return entry(kind).description;
 }
 
+std::string_view usual_unit(Kind kind) {
+  if (kind == Kind::number) return "";
+  const std::string_view examples = describe(kind).examples;
+  return examples.substr(0, examples.find(','));
+}
+
 std::string expectation(Kind kind) {
   const KindDescription& description = describe(kind);
   return fmt::format("{} (such as {})", with_article(description.name), description.examples);
@@ -161,7 +167,15 @@ std::string dimension_remedy(Kind kind, const Dimension& found) {
     return "it does not tell cycles from radians: write Hz or rad/s";
   }
   if (surplus == Dimension{.angle = surplus.angle}) {
-    return fmt::format("the two differ by an angle, which is a dimension: write {}", examples);
+    return fmt::format("the two differ by an angle, which is a dimension: write {}{}", examples,
+                       kind == Kind::bandwidth_frequency
+                           ? "; a corner is an integral gain over its proportional gain, in rad/s"
+                           : "");
+  }
+  if (kind == Kind::rate_constant && found == dimension_of(Kind::flow)) {
+    return fmt::format(
+        "write {}; leakage known as a flow is drive.leakage_flow with drive.leakage_pressure",
+        examples);
   }
   if (surplus == acceleration) {
     return "a force stands where a mass belongs: write lbm for lbf, or divide by ft/s2";

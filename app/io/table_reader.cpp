@@ -82,8 +82,17 @@ struct TableReader::Content {
     }
     // The reading ends here, before finish() could name the misspelt key.
     const std::string_view misspelt = nearest_name(key, unread);
+    Location place = location();
+    if (path.empty()) {
+      // The file itself has no header to point at.
+      for (const TomlEntry& entry : table.entries) {
+        if (!misspelt.empty() && entry.key == misspelt) {
+          place = {document->name, entry.line, entry.column};
+        }
+      }
+    }
     refuse_at(
-        location(), path_of(key),
+        place, path_of(key),
         fmt::format("expected {}, found nothing: key is missing{}", expected,
                     misspelt.empty() ? "" : fmt::format(" (is {} misspelt?)", quoted(misspelt))));
   }
@@ -199,6 +208,18 @@ std::optional<Quantity> TableReader::optional_quantity(std::string_view key, Kin
   const std::optional<Field> found = content_->ask(key);
   return found ? std::optional(content_->record(content_->quantity(*found, kind, range)))
                : std::nullopt;
+}
+
+Quantity TableReader::assume(std::string_view key, Kind kind, double value, std::string source) {
+  Quantity quantity;
+  quantity.value = value;
+  quantity.text = fmt::format("{:.4g} {}", value, describe(kind).si_unit);
+  quantity.kind = kind;
+  quantity.basis = Basis::assumed;
+  quantity.source = std::move(source);
+  quantity.key = path(key);
+  quantity.location = location();
+  return content_->record(std::move(quantity));
 }
 
 const std::vector<Quantity>& TableReader::quantities_read() const {

@@ -16,8 +16,8 @@ namespace boresight::app {
 /// Every error is an InvalidInput with one message of the form
 ///   FILE:LINE:COLUMN: KEY: expected WHAT, found WHAT (REMEDY)
 /// where KEY is the full path ("oil.line[1].length") and the column that of the offending token,
-/// within a quantity's text too. A missing key stands at its table's header; a syntax error has no
-/// KEY.
+/// within a quantity's text too. A missing key stands at its table's header, one of the file itself
+/// at the key that may be it misspelt; a syntax error has no KEY.
 ///
 /// A quantity is a text with unit ("0.97 Hz"), or a table with `value` and optionally
 /// `uncertainty` (same kind, or relative to |value| as "1 %"), `also` (text or list of texts: the
@@ -50,6 +50,8 @@ class TableReader {
   /// The value must lie in `range`, which a message states with its unit.
   Quantity quantity(std::string_view key, Kind kind, Range range = {});
   std::optional<Quantity> optional_quantity(std::string_view key, Kind kind, Range range = {});
+  /// A number in the stead of a key that was left out: counts as read, and as assumed. SI.
+  Quantity assume(std::string_view key, Kind kind, double value, std::string source);
   std::string text(std::string_view key);
   std::optional<std::string> optional_text(std::string_view key);
   /// A text out of a closed list; a misspelt one gets the nearest suggested.

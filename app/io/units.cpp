@@ -177,7 +177,7 @@ PrintedNumber parse_quantity(std::string_view text, Kind kind) {
     unit = unit_of_kind(unit_text, unit_place, kind);
   } else if (kind != Kind::number) {
     throw UnitError(fmt::format("expected {}, found {}, which has no unit (write '{} {}')",
-                                place.expected, quoted(written), written, describe(kind).si_unit),
+                                place.expected, quoted(written), written, usual_unit(kind)),
                     place.column);
   }
 

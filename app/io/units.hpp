@@ -93,6 +93,10 @@ struct KindDescription {
 };
 const KindDescription& describe(Kind kind);
 
+/// The unit that a message proposes for a number without one, the first of the examples; nothing
+/// for a plain number.
+std::string_view usual_unit(Kind kind);
+
 /// What a message expects: "an inertia (such as kg.m2, lbf.ft.s2)".
 std::string expectation(Kind kind);
 

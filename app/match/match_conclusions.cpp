@@ -4,13 +4,12 @@
 #include <fmt/format.h>
 
 #include <boresight/app/match/match_study.hpp>
+#include <boresight/app/match/match_verdict.hpp>
+#include <boresight/app/report/negligible.hpp>
 #include <boresight/app/report/sky_units.hpp>
 
 namespace boresight::app {
 namespace {
-
-// Differences below this are not worth flywheels.
-constexpr double worth_saying = 0.02;
 
 std::string per_cent(double share) {
   return fmt::format("{:+.1f} %", 100.0 * share);
@@ -59,16 +58,17 @@ void conclude_weight(const MatchSection& section, std::vector<std::string>& sent
   double widest = 0.0;
   const MatchSeries* worst = nullptr;
   for (const auto& series : section.series) {
-    double least = HUGE_VAL, largest = 0.0;
-    for (const auto& value : series.values) {
-      if (!value.found) continue;
-      least = std::min(least, value.beam_rms);
-      largest = std::max(largest, value.beam_rms);
-    }
-    if (largest > 0.0 && largest / least - 1.0 > widest) {
-      widest = largest / least - 1.0;
+    if (const double one = span_of(series); one > widest) {
+      widest = one;
       worst = &series;
     }
+  }
+  if (hardly_matters(section)) {
+    sentences.push_back(fmt::format(
+        "Over all inertias looked at no structure's rms changes by more than {:.1f} %: the motors' "
+        "inertia hardly matters here.{}",
+        100.0 * widest, what_matters_more(section)));
+    return;
   }
   const auto built = labelled(section, "as built");
   if (worst == nullptr || !built) return;
@@ -87,6 +87,13 @@ void conclude_weight(const MatchSection& section, std::vector<std::string>& sent
     }
   }
   if (!(largest > 0.0)) return;
+  if (first == last) {
+    sentences.push_back(fmt::format(
+        "Over all inertias looked at the rms changes most with {}, by {:.0f} %; what another "
+        "structure would change at the inertia as built is not known from this study.",
+        worst->name, 100.0 * widest));
+    return;
+  }
   const double structures = largest / least - 1.0;
   sentences.push_back(fmt::format(
       "Over all inertias looked at the rms changes most with {}, by {:.0f} %; at the inertia as "
@@ -107,7 +114,7 @@ void conclude_variants(const MatchSection& section, std::vector<std::string>& se
       }
       const double now = variant.rms[*variant.best];
       const double kept = variant.rms[*own.best];
-      if (std::isfinite(kept) && kept / now - 1.0 < worth_saying) continue;
+      if (std::isfinite(kept) && kept / now - 1.0 < negligible_change) continue;
       moved += fmt::format("; with {} it is at {:.3g} disks", variant.name,
                            variants.disks[*variant.best]);
     }
@@ -116,7 +123,7 @@ void conclude_variants(const MatchSection& section, std::vector<std::string>& se
         variants.structure, variants.disks[*own.best], moved,
         moved.empty() ? fmt::format(", and no variant makes that more than {:.0f} % worse than its "
                                     "own best",
-                                    100.0 * worth_saying)
+                                    100.0 * negligible_change)
                       : ""));
   }
   for (const auto& one : section.thresholds) {
@@ -145,8 +152,25 @@ void conclude_variants(const MatchSection& section, std::vector<std::string>& se
   }
 }
 
+// Whether a curve that is not flat has its least where the range looked at does not end it. Fewer
+// disks than none there are not.
+bool has_optimum(const MatchSection& section) {
+  return std::ranges::any_of(section.series, [&](const MatchSeries& series) {
+    return series.best && *series.best + 1 < section.points.size() &&
+           span_of(series) >= negligible_change;
+  });
+}
+
 void conclude_rules(const MatchSection& section, std::vector<std::string>& sentences) {
+  const bool flat = hardly_matters(section);
+  if (flat) {
+    sentences.emplace_back(
+        "So no rule for the motors' inertia is right or wrong here: what each costs is in the "
+        "table.");
+  }
+  const bool optimum = has_optimum(section);
   for (const auto& rule : section.rules) {
+    if (flat) break;
     if (!rule.disks) {
       sentences.push_back(
           fmt::format("The rule \"{}\" asks for R = {:.2f}, less than the motors have without "
@@ -168,12 +192,20 @@ void conclude_rules(const MatchSection& section, std::vector<std::string>& sente
       }
     }
     if (cheapest.empty()) continue;
+    const bool one = cheapest == dearest;
+    std::string verdict = one ? "no good rule here" : "no rule for every structure here";
+    if (largest < negligible_change) {
+      verdict = optimum
+                    ? "a good rule here"
+                    : "it costs little, but the least lies at the upper end of the range looked "
+                      "at, and no rule is confirmed";
+    }
     sentences.push_back(fmt::format(
-        "The rule \"{}\" (R = {:.2f}, {:.1f} disks) costs {} of rms with {} and {} with {}, "
-        "against each structure's own best: {}.",
+        "The rule \"{}\" (R = {:.2f}, {:.1f} disks) costs {} of rms with {}{}, against {} own "
+        "best: {}.",
         rule.rule, rule.motor_to_load_ratio, *rule.disks, per_cent(least), cheapest,
-        per_cent(largest), dearest,
-        largest < worth_saying ? "a good rule here" : "no rule for every structure here"));
+        one ? "" : fmt::format(" and {} with {}", per_cent(largest), dearest),
+        one ? "its" : "each structure's", verdict));
   }
   const auto built = labelled(section, "as built");
   if (!built) return;

@@ -5,7 +5,8 @@
 
 #include <boresight/app/page/decision.hpp>
 #include <boresight/app/page/study_decision.hpp>
-#include <boresight/app/report/sky_units.hpp>
+#include <boresight/app/redesign/matching_verdict.hpp>
+#include <boresight/app/redesign/tuning_verdict.hpp>
 
 namespace boresight::app {
 namespace {
@@ -14,6 +15,10 @@ using Sentences = std::vector<std::string>;
 
 std::string audited(const AuditReport& report) {
   if (report.findings.empty() && report.implausible.empty()) {
+    if (report.checked == 0) {
+      return "The case states no derived numbers to compare, and nothing in it is physically "
+             "implausible.";
+    }
     return fmt::format("The case's {} printed numbers hang together: design on them.",
                        report.checked);
   }
@@ -99,65 +104,11 @@ Sentences model_decision(const PlantSection& plant) {
   return sentences;
 }
 
-std::string matched_in_redesign(const MatchingSection& section) {
-  for (const auto& series : section.series) {
-    const auto& first = series.designs.front();
-    const auto& last = series.designs.back();
-    if (first.tuning.status != design::TuningStatus::optimal ||
-        last.tuning.status != design::TuningStatus::optimal) {
-      continue;
-    }
-    std::string text =
-        fmt::format("Going from {} to {}, re-tuned, changes the rms by {:+.1f} % with {} ({})",
-                    section.rows.back().label, section.rows.front().label,
-                    100.0 * (first.beam_rms / last.beam_rms - 1.0),
-                    control::to_string(series.structure), series.friction);
-    for (const auto& other : section.series) {
-      const auto& a = other.designs.front();
-      const auto& b = other.designs.back();
-      if (other.friction == series.friction || other.structure != series.structure ||
-          a.tuning.status != design::TuningStatus::optimal ||
-          b.tuning.status != design::TuningStatus::optimal) {
-        continue;
-      }
-      return text + fmt::format(
-                        ", but by {:+.1f} % with the {}: measure that slope before touching a "
-                        "flywheel.",
-                        100.0 * (a.beam_rms / b.beam_rms - 1.0), other.friction);
-    }
-    return text + ".";
-  }
-  return {};
-}
-
 Sentences redesign_decision(const Report& report) {
   Sentences sentences;
-  if (report.tuning) {
-    const auto& tuning = *report.tuning;
-    if (tuning.design.tuning.status == design::TuningStatus::optimal) {
-      std::string text = fmt::format(
-          "Run the drive as built on {}: it points within {:.3f} mdeg rms an axis in {:g} m/s of "
-          "wind",
-          control::to_string(tuning.structure), tuning.design.beam_rms / millidegree,
-          tuning.design_speed);
-      if (report.time_domain) {
-        text += fmt::format(" ({:.3f} on the nonlinear antenna)",
-                            report.time_domain->result.wind.beam_rms / millidegree);
-      }
-      if (!tuning.budgets.empty()) {
-        const auto& budget = tuning.budgets.front();
-        text += fmt::format(" and meets {} ({}: {:.3f} mdeg) up to {:.1f} m/s", budget.budget.name,
-                            budget.budget.band, budget.budget.rms / millidegree,
-                            budget.wind_speed_limit);
-      }
-      sentences.push_back(text + ".");
-    } else {
-      sentences.push_back(fmt::format("No {} law meets the hard goals of this case.",
-                                      control::to_string(tuning.structure)));
-    }
-  }
-  if (report.matching && !report.matching->rows.empty()) {
-    if (auto text = matched_in_redesign(*report.matching); !text.empty()) {
+  if (report.tuning) sentences = decide_tuning(report, *report.tuning);
+  if (report.matching) {
+    if (auto text = decide_matching(report, *report.matching); !text.empty()) {
       sentences.push_back(std::move(text));
     }
   }

@@ -11,7 +11,7 @@
 
 namespace boresight::app {
 
-// What a report says to do, in at most three sentences that stand on their own; its conclusions
+// What a report says to do, in a few sentences that stand on their own; its conclusions
 // have the conditions. Fewer where an interrupt left parts out.
 std::vector<std::string> decision(const Report& report);
 std::vector<std::string> decision(const BenchmarkReport& report);

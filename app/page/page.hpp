@@ -18,7 +18,7 @@ struct Page {
   std::string axis;
   std::uint64_t seed = 1;
   bool interrupted = false;
-  /// The decision, in at most three sentences.
+  /// The decision, in a few sentences.
   std::vector<std::string> decision;
   Document document;  // the report's text
   std::vector<Figure> figures;

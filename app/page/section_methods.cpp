@@ -53,6 +53,8 @@ constexpr std::array entries = std::to_array<Entry>({
       "plant/antenna_plant.hpp"}},
     {"Where the case's numbers contradict each other",
      {"the loop re-tuned on the plant that each choice makes", "design/design_study.hpp"}},
+    {"What the case leaves open",
+     {"the loop re-tuned on the plant that each choice makes", "design/design_study.hpp"}},
     {"Assumed inputs",
      {"the case file's own basis and source of each quantity", "docs/case-file.md"}},
     // Loops

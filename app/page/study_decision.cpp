@@ -3,8 +3,11 @@
 
 #include <fmt/format.h>
 
+#include <boresight/app/match/match_verdict.hpp>
 #include <boresight/app/page/decision.hpp>
 #include <boresight/app/page/study_decision.hpp>
+#include <boresight/app/report/negligible.hpp>
+#include <boresight/app/report/present_gains.hpp>
 #include <boresight/app/report/sky_units.hpp>
 
 namespace boresight::app {
@@ -16,13 +19,6 @@ double mdeg(double angle) {
   return angle / millidegree;
 }
 
-std::size_t as_built(const MatchSection& section) {
-  for (std::size_t p = 0; p < section.points.size(); ++p) {
-    if (section.points[p].label.find("as built") != std::string::npos) return p;
-  }
-  return section.points.size() - 1;
-}
-
 const TunedLaw* best_of(const TuneSection& section, TunedFor purpose) {
   const TunedLaw* best = nullptr;
   for (const auto& law : section.laws) {
@@ -32,55 +28,102 @@ const TunedLaw* best_of(const TuneSection& section, TunedFor purpose) {
   return best;
 }
 
+// Whether flywheels or loops come first, where both can be told.
+std::string first_change(const MatchSection& section, const MatchSeries& best) {
+  const std::size_t built = as_built(section);
+  double least_built = HUGE_VAL, most_built = 0.0;
+  std::size_t structures = 0;
+  for (const auto& series : section.series) {
+    const MatchValue& value = series.values[built];
+    if (!value.found) continue;
+    ++structures;
+    least_built = std::min(least_built, value.beam_rms);
+    most_built = std::max(most_built, value.beam_rms);
+  }
+  const double by_disks =
+      best.values[built].beam_rms / best.values[best.best.value_or(built)].beam_rms - 1.0;
+  std::string text =
+      fmt::format("Leaving the motors as built costs {:+.1f} % with those loops", 100.0 * by_disks);
+  if (structures < 2) {
+    return text + (by_disks < negligible_change
+                       ? ": leave them."
+                       : "; whether other loops would do more was not looked at.");
+  }
+  const double by_loops = most_built / least_built - 1.0;
+  text += fmt::format(", and the choice of loops as built up to {:.1f} %", 100.0 * by_loops);
+  if (std::max(by_disks, by_loops) < negligible_change)
+    return text + ": neither is worth a change.";
+  if (std::abs(by_loops - by_disks) < negligible_change) return text + ": the two weigh the same.";
+  return text + fmt::format(": change the {} first.", by_loops > by_disks ? "loops" : "flywheels");
+}
+
+// The friction slope that decides whether the inertia matters; empty where it matters little with
+// that of the linear plant already, or whatever the slope.
+std::string deciding_friction(const MatchSection& section) {
+  const FrictionThreshold* threshold = nullptr;
+  double slope = 0.0;
+  for (const auto& one : section.thresholds) {
+    if (!one.slope || one.spread_at_nominal < one.spread) continue;
+    if (threshold != nullptr && *one.slope >= slope) continue;
+    threshold = &one;
+    slope = *one.slope;
+  }
+  if (threshold == nullptr) return "";
+  return fmt::format(
+      "Measure the friction slope at the tracking rate first: above {:.3g} N m s/rad the motors' "
+      "inertia moves the rms of {} loops by less than {:.0f} %.",
+      slope, threshold->structure, 100.0 * threshold->spread);
+}
+
+// Of the gains that the antenna runs on now.
+Sentences unstable_now(const TuneSection& section) {
+  Sentences sentences;
+  for (const auto& law : section.laws) {
+    if (law.tuned_for != TunedFor::present || law.stable() ||
+        law.wind_speed != section.wind_speeds.front()) {
+      continue;
+    }
+    sentences.push_back(unstable_present_gains(law.structure));
+  }
+  return sentences;
+}
+
 }  // namespace
 
 std::vector<std::string> decision(const MatchSection& section) {
   const MatchSeries* best = nullptr;
   std::size_t best_point = 0;
-  double least = 0.0, least_built = 0.0, most_built = 0.0;
-  const std::size_t built = as_built(section);
+  double least = HUGE_VAL;
   for (const auto& series : section.series) {
-    if (!series.best) continue;
-    const std::size_t point = *series.best;
-    const double rms = series.values[point].beam_rms;
-    if (best == nullptr || rms < least) {
-      best = &series;
-      best_point = point;
-      least = rms;
-    }
-    const MatchValue& present = series.values[built];
-    if (!present.found) continue;
-    if (least_built == 0.0 || present.beam_rms < least_built) least_built = present.beam_rms;
-    most_built = std::max(most_built, present.beam_rms);
+    if (!series.best || series.values[*series.best].beam_rms >= least) continue;
+    best = &series;
+    best_point = *series.best;
+    least = series.values[best_point].beam_rms;
   }
   if (best == nullptr) return {"No structure meets the goals at any motor inertia."};
+  const std::size_t built = as_built(section);
   const MatchPoint& point = section.points[best_point];
+  const MatchValue& present = best->values[built];
+  if (hardly_matters(section)) {
+    double span = 0.0;
+    for (const auto& series : section.series) span = std::max(span, span_of(series));
+    return {fmt::format(
+        "Leave the flywheels as they are: with {} loops the rms as built is {:.3f} mdeg in {:g} "
+        "m/s, and from {:g} to {:g} disks on each motor no structure's rms changes by more than "
+        "{:.1f} %.{}",
+        best->name, mdeg(present.beam_rms), section.wind_speed, section.points.front().disks,
+        section.points.back().disks, 100.0 * span, what_matters_more(section))};
+  }
   Sentences sentences{fmt::format(
       "The least rms, {:.3f} mdeg in {:g} m/s, comes with {} loops and {:g} disks on each motor "
       "(ratio {:.2f}); from {:.1f} to {:.1f} disks it stays within 5 % of that.",
       mdeg(least), section.wind_speed, best->name, point.disks, point.motor_to_load_ratio,
       best->within_5_percent.lowest, best->within_5_percent.highest)};
-  const MatchValue& present = best->values[built];
-  if (present.found && least_built > 0.0) {
-    const double by_disks = present.beam_rms / least, by_loops = most_built / least_built;
-    sentences.push_back(fmt::format(
-        "Leaving the motors as built costs {:+.0f} % with those loops, and the choice of loops as "
-        "built up to {:.0f} %: change the {} first.",
-        100.0 * (by_disks - 1.0), 100.0 * (by_loops - 1.0),
-        by_loops > by_disks ? "loops" : "flywheels"));
-  }
-  const FrictionThreshold* threshold = nullptr;
-  double slope = 0.0;
-  for (const auto& one : section.thresholds) {
-    if (!one.slope || (threshold != nullptr && *one.slope >= slope)) continue;
-    threshold = &one;
-    slope = *one.slope;
-  }
-  if (threshold != nullptr) {
-    sentences.push_back(fmt::format(
-        "Measure the friction slope at the tracking rate first: above {:.3g} N m s/rad the motors' "
-        "inertia moves the rms of {} loops by less than {:.0f} %.",
-        slope, threshold->structure, 100.0 * threshold->spread));
+  const bool inertia_matters =
+      !present.found || present.beam_rms / least - 1.0 >= negligible_change;
+  if (present.found) sentences.push_back(first_change(section, *best));
+  if (auto text = deciding_friction(section); inertia_matters && !text.empty()) {
+    sentences.push_back(std::move(text));
   }
   return sentences;
 }
@@ -89,29 +132,46 @@ std::vector<std::string> decision(const EvaluateSection& section) {
   Sentences sentences;
   if (section.decision && !section.candidates.empty()) {
     const DecisionSection& draws = *section.decision;
-    const auto& place = draws.candidates[draws.best];
-    const Candidate& best = section.candidates[place.candidate];
-    const auto& option = draws.statistics.options[draws.best];
-    sentences.push_back(
-        fmt::format("Choose {}: {:.3f} mdeg rms on average over {} draws in {:g} m/s, at {:g} {}.",
-                    best.name, option.mean, draws.draws, section.wind_speed, best.cost,
-                    section.currency.empty() ? "of cost" : section.currency));
+    const std::size_t choice = worth_its_cost(section, draws);
+    const auto& place = draws.candidates[choice];
+    const Candidate& chosen = section.candidates[place.candidate];
+    const Candidate& best = section.candidates[draws.candidates[draws.best].candidate];
+    const auto& options = draws.statistics.options;
+    const std::string currency = section.currency.empty() ? "of cost" : section.currency;
+    const std::string mean = fmt::format("{:.3f} mdeg rms on average over {} draws in {:g} m/s",
+                                         options[choice].mean, draws.draws, section.wind_speed);
+    std::string text =
+        chosen.path.empty()
+            ? fmt::format("No proposal is worth its cost: the antenna as it is has {}", mean)
+            : fmt::format("Choose {}: {}, at {:g} {}", chosen.name, mean, chosen.cost, currency);
+    if (choice != draws.best) {
+      text += fmt::format("; {} lowers that by {:.1f} %, too little to pay {:g} {} for", best.name,
+                          100.0 * (1.0 - options[draws.best].mean / options[choice].mean),
+                          best.cost, currency);
+    }
+    sentences.push_back(text + ".");
     sentences.push_back(fmt::format(
-        "It is the best of all with probability {:.2f}, and breaks a hard goal on a share of "
+        "{} is the best of all with probability {:.2f}, and breaks a hard goal on a share of "
         "{:.3f} of the draws.",
-        option.best.value, place.outside_goals.value));
+        chosen.path.empty() ? "The antenna as it is" : chosen.name, options[choice].best.value,
+        place.outside_goals.value));
   }
   std::string front;
+  double before = HUGE_VAL;
   for (const std::size_t i : section.front) {
     const Candidate& candidate = section.candidates[i];
     const CandidateLaw* law = candidate.chosen_law();
-    if (law == nullptr) continue;
+    if (law == nullptr || law->compared_rms() > (1.0 - negligible_change) * before) continue;
+    before = law->compared_rms();
+    if (candidate.path.empty()) continue;
     front += fmt::format("{}{} ({:g} {}, {:.3f} mdeg)", front.empty() ? "" : ", ", candidate.name,
-                         candidate.cost, section.currency, mdeg(law->member_rms));
+                         candidate.cost, section.currency, mdeg(law->compared_rms()));
   }
   if (!front.empty()) {
-    sentences.push_back(
-        fmt::format("Worth their cost, each better than all that cost less: {}.", front));
+    sentences.push_back(fmt::format(
+        "Worth looking at for their cost, each better by {:.0f} % or more than all that cost less: "
+        "{}.",
+        100.0 * negligible_change, front));
   }
   return sentences;
 }
@@ -121,18 +181,33 @@ std::vector<std::string> decision(const TuneSection& section,
                                   const std::optional<design::PointingLimit>& limit) {
   const TunedLaw* robust = best_of(section, TunedFor::robust);
   const TunedLaw* best = robust != nullptr ? robust : best_of(section, TunedFor::nominal);
-  if (best == nullptr) return {"No law that was tuned meets the hard goals of this case."};
+  Sentences sentences = unstable_now(section);
+  if (best == nullptr) {
+    sentences.emplace_back("No law that was tuned meets the hard goals of this case.");
+    return sentences;
+  }
   std::string text = fmt::format(
       "On the linear plant {} is best, with {:.3f} mdeg rms in {:g} m/s, {}", best->structure,
       mdeg(best->beam_rms), best->wind_speed,
       robust != nullptr ? fmt::format("its goals held on each of {} plants", section.ensemble_size)
                         : std::string("its goals held on the nominal plant only"));
   if (!section.budgets.empty() && !best->speed_limits.empty()) {
-    text += fmt::format("; it meets {} ({}) up to {:.1f} m/s", section.budgets.front().name,
-                        section.budgets.front().band, best->speed_limits.front());
+    const double limit_speed = best->speed_limits.front();
+    text += fmt::format("; it meets {} ({}) up to {}, the supply's torque not counted",
+                        section.budgets.front().name, section.budgets.front().band,
+                        std::isfinite(limit_speed) ? fmt::format("{:.1f} m/s", limit_speed)
+                                                   : std::string("the 60 m/s looked at"));
   }
-  Sentences sentences{text + "."};
-  if (time_domain) {
+  text += '.';
+  for (const auto& shortfall : section.shortfalls) {
+    text += fmt::format(" NOT MET: {}", shortfall.infeasible);
+  }
+  sentences.push_back(std::move(text));
+  if (!time_domain) {
+    sentences.emplace_back(
+        "Friction, hunting and slewing were not examined: no law ran on the nonlinear antenna, "
+        "which takes a [simulation] in the case.");
+  } else {
     sentences.push_back(fmt::format(
         "On the nonlinear antenna {} comes first, with {:.3f} mdeg: commission that one.",
         time_domain->law, mdeg(time_domain->result.wind.beam_rms)));
@@ -170,6 +245,9 @@ std::vector<std::string> decision(const MonteCarloSection& section) {
 }
 
 std::vector<std::string> decision(const BenchmarkReport& report) {
+  if (!report.score.stable && report.present_gains && report.controller.law) {
+    return {unstable_present_gains(report.controller.law->structure.name())};
+  }
   if (!report.score.stable) {
     return {
         fmt::format("Do not run {} on this antenna: the closed loop is unstable, slowest pole "
@@ -200,8 +278,8 @@ std::vector<std::string> decision(const CommissionReport& report) {
   for (const auto& sentence : report.conclusions) {
     if (sentences.size() < 3) sentences.push_back(sentence);
   }
-  const bool known = !report.plan.stages.empty() &&
-                     report.plan.stages.front().kind == design::StageKind::as_found;
+  const bool known =
+      !report.plan.stages.empty() && report.plan.stages.front().kind == design::StageKind::as_found;
   if (sentences.size() < 3 && report.plan.detuning && !known) {
     sentences.emplace_back(
         "The gains found are not known: the plan begins with the law's own, lowered until every "

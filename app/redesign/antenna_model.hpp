@@ -50,8 +50,8 @@ plant::FrictionCurve friction_curve(const Case& antenna);
 /// Slope of the friction curve at the tracking rate (N m s/rad of motor).
 double tracking_friction(const Case& antenna);
 design::TrackingProblem make_problem(const Case& antenna, const PlantVariant& variant = {});
-/// The time between the controller's samples (s) that a dead time speaks of: one sample of computing
-/// and half of one of holding.
+/// The time between the controller's samples (s) that a dead time speaks of: one sample of
+/// computing and half of one of holding.
 inline double sample_time_of(double dead_time) {
   return dead_time / 1.5;
 }

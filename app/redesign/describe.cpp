@@ -108,6 +108,20 @@ std::vector<identification::Uncertain> independent_estimates(
   return estimates;
 }
 
+// What the mass properties take from the case.
+std::string stated_masses(const Case& antenna) {
+  const auto solid = [](const RotatingAssembly& assembly) {
+    return !assembly.inertia && std::ranges::any_of(assembly.parts, [](const AssemblyPart& part) {
+      return !part.inertia.has_value();
+    });
+  };
+  std::string text = "the case's inertias of motors and antenna";
+  if (std::ranges::any_of(antenna.gear_train.assemblies, solid)) {
+    text += ", solid disks for gears of which it gives the size";
+  }
+  return text;
+}
+
 }  // namespace
 
 IdentificationSection identify(const Case& antenna, const StudyOptions& options) {
@@ -116,6 +130,22 @@ IdentificationSection identify(const Case& antenna, const StudyOptions& options)
 
   const auto& methods = section.inertia.methods;
   section.printed = printed_beside(antenna, methods);
+  section.pounds_force = std::ranges::any_of(antenna.quantities, [](const Quantity& quantity) {
+    const auto in_pounds = [](const std::string& text) {
+      return text.find("lbf") != std::string::npos;
+    };
+    return quantity.kind == Kind::inertia &&
+           (in_pounds(quantity.text) ||
+            std::ranges::any_of(quantity.also, [&](const PrintedNumber& number) {
+              return in_pounds(number.text);
+            }));
+  });
+  for (auto& method : section.inertia.methods) {
+    if (method.kind == identification::MethodKind::mass_properties &&
+        method.name.starts_with("mass properties, antenna from ")) {
+      method.assumes = stated_masses(antenna);
+    }
+  }
   const auto estimates = independent_estimates(methods);
   if (estimates.size() > 1) {
     section.reconciled =

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include <boresight/app/redesign/sections.hpp>
+#include <boresight/app/tune/engineer_units.hpp>
 #include <boresight/design/parallel_loop.hpp>
 #include <boresight/plant/plant_response.hpp>
 
@@ -104,6 +105,9 @@ TuningSection tuning_section(const Case& antenna, const StudyOptions& options,
   section.wind_model = problem.wind.model;
   section.wind_site = problem.wind.site;
   section.wind_attitude = antenna.wind.attitude;
+  for (const auto& law : present_laws(antenna)) {
+    section.present.push_back({law.structure.name(), design::assess(problem, law, section.goals)});
+  }
   if (section.design.tuning.status != design::TuningStatus::unstable) {
     judge_in_wind(antenna, problem, section);
   }
@@ -124,7 +128,9 @@ MatchingPlan plan_matching(const Case& antenna, const StudyOptions& options) {
   const double load = gear_train_inertia(antenna) + antenna_inertia(antenna);
   std::vector<std::pair<double, std::string>> points;
   points.reserve(disks.size() + 1 + antenna.antenna.alternatives.size());
-  for (const double count : disks) points.emplace_back(count, fmt::format("{:g} disks", count));
+  for (const double count : disks) {
+    points.emplace_back(count, fmt::format("{:g} {}", count, count == 1.0 ? "disk" : "disks"));
+  }
   if (const auto unit = disks_at_unit_ratio(antenna, load)) {
     points.emplace_back(*unit, "ratio 1");
   }
@@ -140,6 +146,7 @@ MatchingPlan plan_matching(const Case& antenna, const StudyOptions& options) {
     MatchingRow row;
     row.disks = count;
     row.label = label;
+    row.as_built = count == as_built && !label.starts_with("ratio");
     row.motor_inertia = motor_inertia(antenna, count);
     const auto problem = make_problem(antenna, {.flywheel_disks = count});
     row.reflected_inertia = plant::reflected_inertia(problem.plant);
@@ -148,8 +155,13 @@ MatchingPlan plan_matching(const Case& antenna, const StudyOptions& options) {
   }
   const double linear = antenna.drive.viscous_friction.value;
   const double tracking = tracking_friction(antenna);
-  for (const auto& [friction, name] :
-       {std::pair{linear, "linear plant"}, std::pair{tracking, "slope at tracking rate"}}) {
+  std::vector<std::pair<double, std::string>> frictions{{linear, "linear plant"},
+                                                        {tracking, "slope at tracking rate"}};
+  // Twice the same study would tell nothing.
+  if (std::abs(tracking - linear) <= 1e-9 * std::max(tracking, linear)) {
+    frictions = {{linear, "linear plant and tracking rate alike"}};
+  }
+  for (const auto& [friction, name] : frictions) {
     for (const auto& structure : {LoopStructure::pi_with_lag(), LoopStructure::pi()}) {
       plan.section.series.push_back({name, friction, structure, {}});
       for (const auto& row : plan.section.rows) {
@@ -208,6 +220,7 @@ std::vector<Choice> plan_choices(const Case& antenna, const StudyOptions& option
     add("antenna of " + alternative.name, "another antenna inertia",
         {.antenna_inertia = antenna_inertia(antenna, alternative)});
   }
+  const std::size_t convention = choices.size();
   const auto other = antenna.oil.efficiency_in_stiffness ? plant::EfficiencyInStiffness::none
                                                          : plant::EfficiencyInStiffness::both;
   add(antenna.oil.efficiency_in_stiffness ? "stiffness without efficiencies"
@@ -251,6 +264,7 @@ std::vector<Choice> plan_choices(const Case& antenna, const StudyOptions& option
     add_test("inertia from impulse, " + impulse.name + " friction", impulse.reflected_inertia.value,
              oil_stiffness(antenna));
   }
+  for (std::size_t i = 1; i < choices.size(); ++i) choices[i].result.contradicts = i != convention;
   return choices;
 }
 

@@ -150,6 +150,13 @@ Json tuning_json(const TuningSection& section) {
                              {"beamwidth_mdeg", loss.band.beamwidth / millidegree},
                              {"mean_loss_two_axes_dB", number(loss.mean_loss_db)}});
   }
+  json["present"] = Json::array();
+  for (const auto& [structure, design] : section.present) {
+    json["present"].push_back({{"structure", structure},
+                               {"stable", design.tuning.status != design::TuningStatus::unstable},
+                               {"goals_met", design.verification.passed},
+                               {"beam_rms_mdeg", number(design.beam_rms / millidegree)}});
+  }
   json["ensemble"] = section.ensemble ? ensemble_json(*section.ensemble) : Json(nullptr);
   json["budgets"] = Json::array();
   for (const auto& result : section.budgets) {

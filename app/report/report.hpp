@@ -31,6 +31,8 @@ struct IdentificationSection {
   std::optional<identification::PropagatedResult> tachometer_scale;   // rad/(s V), eq. 32
   std::optional<identification::PropagatedResult> slow_ramp_coulomb;  // N m
   std::optional<identification::PropagatedResult> slow_ramp_offset;   // N m
+  /// Whether the case writes an inertia in pounds-force, so that tables show those too.
+  bool pounds_force = false;
 };
 
 struct PlantSection {
@@ -59,6 +61,12 @@ struct TuningSection {
   design::TrackingProblem problem;  // what was tuned
   design::HardGoals goals;
   design::Design design;
+  /// Gains that the antenna runs on now, by the case, judged on the same plant.
+  struct PresentLaw {
+    std::string structure;
+    design::Design design;
+  };
+  std::vector<PresentLaw> present;
   double design_speed = 0.0;
   plant::WindModel wind_model = plant::WindModel::coherence;
   plant::WindSite wind_site;
@@ -100,11 +108,18 @@ struct ChoiceResult {
   double motor_to_load_ratio = 0.0;
   std::optional<design::Design> design;  // none where the choice leaves no plant
   std::string impossible;                // why
+  /// Another source's number or a test's result beside the reference, not a convention of
+  /// reckoning.
+  bool contradicts = false;
 };
+
+/// The heading above choices: of contradictions where there are some.
+std::string choices_heading(const std::vector<ChoiceResult>& choices);
 
 struct MatchingRow {
   double disks = 0.0;
   std::string label;  // "24 disks", "ratio 1"
+  bool as_built = false;
   double motor_inertia = 0.0;
   double motor_to_load_ratio = 0.0;
   double reflected_inertia = 0.0;
@@ -112,7 +127,7 @@ struct MatchingRow {
 
 /// One tuned design in the matching study.
 struct MatchingSeries {
-  std::string friction;  // "linear plant", "slope at tracking speed"
+  std::string friction;  // "linear plant", "slope at tracking rate", or both alike
   double viscous_friction = 0.0;
   control::LoopStructure structure;
   std::vector<design::Design> designs;  // one a row

@@ -97,10 +97,16 @@ std::string audit_summary(const AuditReport& report) {
            "physically implausible.";
   }
   if (report.findings.empty() && report.implausible.empty()) {
+    constexpr std::size_t named = 6;
+    const std::vector<std::string> first(
+        report.compared.begin(), report.compared.begin() + static_cast<std::ptrdiff_t>(std::min(
+                                                               named, report.compared.size())));
     return fmt::format(
-        "All {} printed numbers follow from each other, and nothing in them is "
-        "physically implausible.",
-        report.checked);
+        "{} ({}{}), and nothing in the case is physically implausible.",
+        report.checked == 1
+            ? "The one printed number that can be compared agrees"
+            : fmt::format("All {} printed numbers that can be compared agree", report.checked),
+        fmt::join(first, ", "), report.compared.size() > named ? ", ..." : "");
   }
   std::string text = fmt::format(
       "Of {} printed numbers compared, {} places do not follow; {} physical checks fail.",

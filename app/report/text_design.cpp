@@ -106,6 +106,27 @@ std::string ensemble_text(const design::EnsembleResult& ensemble, const design::
           : "is not stable");
 }
 
+// What the antenna's own gains do; nothing of a case that states none.
+Document present_part(const TuningSection& section) {
+  if (section.present.empty()) return {};
+  std::vector<std::vector<std::string>> rows{
+      {"present gains", "beam rms mdeg", "S rate", "S valve", "S pos.", "effort rad/s", "check"}};
+  for (const auto& [structure, design] : section.present) {
+    std::vector<std::string> cells{structure};
+    if (design.tuning.status == design::TuningStatus::unstable) {
+      cells.insert(cells.end(), 5, "-");
+      cells.emplace_back("UNSTABLE");
+    } else {
+      cells.push_back(mdeg(design.beam_rms));
+      for (const auto& peak : design.verification.peaks) cells.push_back(finite(peak.upper, 3));
+      cells.push_back(fmt::format("{:.3f}", design.valve_effort));
+      cells.push_back(design.verification.passed ? "ok" : design.verification.failure);
+    }
+    rows.push_back(std::move(cells));
+  }
+  return table(rows, "lrrrrrl") + "\n";
+}
+
 }  // namespace
 
 Document document_of(const TuningSection& section) {
@@ -114,6 +135,7 @@ Document document_of(const TuningSection& section) {
   Document text = heading(fmt::format("Tuned loops: {}, as built, {:g} m/s, wind model {}",
                                       control::to_string(section.structure), section.design_speed,
                                       plant::to_string(section.wind_model)));
+  text += present_part(section);
   if (design.tuning.status == design::TuningStatus::unstable) {
     return text +
            wrapped(fmt::format("No stable law among {} tried.", design.tuning.evaluations), "  ");
@@ -177,12 +199,17 @@ Document document_of(const TuningSection& section) {
   }
   text += table(rows) + "\n";
   rows = {{"budget", "band", "convention", "rms mdeg", "met up to m/s", "km/h"}};
+  const bool needed = std::ranges::any_of(
+      section.budgets, [](const BudgetResult& one) { return one.budget.wind_speed.has_value(); });
+  if (needed) rows.front().emplace_back("needed m/s");
   for (const auto& result : section.budgets) {
     rows.push_back({result.budget.name, result.budget.band, result.budget.convention,
                     mdeg(result.budget.rms), speed(result.wind_speed_limit, 1.0),
                     speed(result.wind_speed_limit, 3.6)});
+    const auto& need = result.budget.wind_speed;
+    if (needed) rows.back().push_back(need ? fmt::format("{:g}", *need) : "-");
   }
-  text += table(rows, "lllrrr");
+  text += table(rows, "lllrrrr");
   text += wrapped(fmt::format("Gains held, supply torque not counted: the mean wind torque alone "
                               "reaches the supply's at {:.1f} m/s.",
                               section.supply_wind_speed),
@@ -190,9 +217,14 @@ Document document_of(const TuningSection& section) {
   return text;
 }
 
+std::string choices_heading(const std::vector<ChoiceResult>& choices) {
+  return std::ranges::any_of(choices, &ChoiceResult::contradicts)
+             ? "Where the case's numbers contradict each other: what each choice would do"
+             : "What the case leaves open: what each choice would do";
+}
+
 Document document_of(const std::vector<ChoiceResult>& choices) {
-  Document text =
-      heading("Where the case's numbers contradict each other: what each choice would do");
+  Document text = heading(choices_heading(choices));
   std::vector<std::vector<std::string>> rows{{"choice", "K N.m/rad", "J kg.m2", "R", "hydraulic Hz",
                                               "damping", "beam rms mdeg", "verified"}};
   for (const auto& choice : choices) {

@@ -158,8 +158,13 @@ Document service_table(const EvaluateSection& section) {
   for (std::size_t i = 0; i < section.budgets.size(); ++i) {
     rows[0].push_back(fmt::format("({}) m/s", i + 1));
   }
+  const bool stroke_stated =
+      std::ranges::any_of(section.candidates, [](const Candidate& candidate) {
+        return candidate.figures && candidate.figures->slew_stroke_margin;
+      });
   for (const char* name :
-       {"torque margin", "stroke, gusts", "stroke, slew", "slew deg/s", "10 deg s"}) {
+       {"torque margin", stroke_stated ? "stroke, gusts" : "assumed stroke, gusts", "stroke, slew",
+        "slew deg/s", "10 deg s"}) {
     rows[0].emplace_back(name);
   }
   for (const auto& candidate : section.candidates) {
@@ -194,7 +199,11 @@ Document service_table(const EvaluateSection& section) {
              "valve stroke over the demand in the same; stroke, slew: valve stroke over the slew "
              "rate, below 1 the rate is out of reach. slew: rate and time of a 10 deg move from "
              "rest to rest that the drive has reserve for against friction, at 0.2 deg/s2 at most.",
-             "  ");
+             "  ") +
+         (stroke_stated ? Document()
+                        : wrapped("The case has no [simulation], which would state the valve's "
+                                  "stroke: assumed is what its slew rate takes.",
+                                  "  "));
 }
 
 Document changes_part(const EvaluateSection& section) {

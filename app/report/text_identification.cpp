@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -48,29 +49,45 @@ std::string either(const std::string& text) {
   return text.empty() ? "-" : text;
 }
 
+// Columns that no row fills are left out.
+Document methods_table(const IdentificationSection& section) {
+  using Printed = IdentificationSection::Printed;
+  const bool printed_inertia = std::ranges::any_of(
+      section.printed, [](const Printed& printed) { return !printed.inertia.empty(); });
+  const bool printed_ratio = std::ranges::any_of(
+      section.printed, [](const Printed& printed) { return !printed.ratio.empty(); });
+  std::vector<std::vector<std::string>> rows{{"method", "J kg.m2", "interval"}};
+  if (section.pounds_force) rows.front().emplace_back("lbf.ft.s2");
+  if (printed_inertia) rows.front().emplace_back("printed J");
+  rows.front().insert(rows.front().end(), {"R", "interval"});
+  if (printed_ratio) rows.front().emplace_back("printed R");
+  for (std::size_t i = 0; i < section.inertia.methods.size(); ++i) {
+    const auto& method = section.inertia.methods[i];
+    const double inertia = method.reflected_inertia.value;
+    std::vector<std::string> row{shortened(method.name), fmt::format("{:.4f}", inertia),
+                                 interval(method.reflected_inertia, 3)};
+    if (section.pounds_force) {
+      row.push_back(fmt::format("{:.4f}", inertia / pound_foot_second_squared));
+    }
+    if (printed_inertia) row.push_back(either(section.printed[i].inertia));
+    row.push_back(ratio_value(method.motor_to_load_ratio));
+    row.push_back(interval(method.motor_to_load_ratio, 2));
+    if (printed_ratio) row.push_back(either(section.printed[i].ratio));
+    rows.push_back(std::move(row));
+  }
+  return table(rows);
+}
+
 }  // namespace
 
 Document document_of(const IdentificationSection& section) {
   const auto& inertia = section.inertia;
   Document text = heading(
       "Inertia at the motor shaft, by method (95 % intervals from the inputs' uncertainties)");
-  std::vector<std::vector<std::string>> rows{
-      {"method", "J kg.m2", "interval", "lbf.ft.s2", "printed J", "R", "interval", "printed R"}};
-  for (std::size_t i = 0; i < inertia.methods.size(); ++i) {
-    const auto& method = inertia.methods[i];
-    const auto& printed = section.printed[i];
-    rows.push_back(
-        {shortened(method.name), fmt::format("{:.4f}", method.reflected_inertia.value),
-         interval(method.reflected_inertia, 3),
-         fmt::format("{:.4f}", method.reflected_inertia.value / pound_foot_second_squared),
-         either(printed.inertia), ratio_value(method.motor_to_load_ratio),
-         interval(method.motor_to_load_ratio, 2), either(printed.ratio)});
-  }
-  text += table(rows);
+  text += methods_table(section);
   text += wrapped(
-      "R = Jm/(J - Jm), all motors against everything else (eq. 27). What a method leaves out "
-      "of its model (flexible antenna, efficiencies in the oil spring, friction law) is not in "
-      "its interval.",
+      "R = Jm/(J - Jm), all motors against everything else. What a method leaves out of its model "
+      "(flexible antenna, efficiencies in the oil spring, friction law) is not in its interval.",
       "  ");
   text += "\n";
   for (const auto& method : inertia.methods) {
@@ -107,30 +124,32 @@ Document document_of(const IdentificationSection& section) {
                     "  ");
   }
   text += heading("What the methods rest on");
-  rows = {{"quantity", "value", "interval", "unit", "decided by"}};
+  std::vector<std::vector<std::string>> rows{
+      {"quantity", "value", "interval", "unit", "decided by"}};
   for (const auto& line : inertia.line_bulk_modulus) {
-    rows.push_back({line.name + " (eq. 26)", fmt::format("{:.1f}", line.value / megapascal),
+    rows.push_back({line.name, fmt::format("{:.1f}", line.value / megapascal),
                     interval(line, 0, megapascal), "MPa", deciding(line)});
   }
   rows.push_back(
       {"bulk modulus as used", fmt::format("{:.1f}", inertia.bulk_modulus.value / megapascal),
        interval(inertia.bulk_modulus, 0, megapascal), "MPa", deciding(inertia.bulk_modulus)});
-  rows.push_back({"oil stiffness (eq. 17)", fmt::format("{:.2f}", inertia.oil_stiffness.value),
+  rows.push_back({"oil stiffness", fmt::format("{:.2f}", inertia.oil_stiffness.value),
                   interval(inertia.oil_stiffness, 2), "N.m/rad", deciding(inertia.oil_stiffness)});
-  rows.push_back({"hydraulic frequency, masses rigid (eq. 18)",
-                  fmt::format("{:.4f}", inertia.expected_frequency.value),
-                  interval(inertia.expected_frequency, 3), "Hz",
-                  deciding(inertia.expected_frequency)});
+  rows.push_back(
+      {"hydraulic frequency, masses rigid", fmt::format("{:.4f}", inertia.expected_frequency.value),
+       interval(inertia.expected_frequency, 3), "Hz", deciding(inertia.expected_frequency)});
   for (const auto& row : inertia.load_rows) {
-    rows.push_back({fmt::format("reflected: {}", row.name), fmt::format("{:.6f}", row.value),
-                    interval(row, 4),
-                    fmt::format("kg.m2 ({:.5f} lbf.ft.s2)", row.value / pound_foot_second_squared),
-                    deciding(row)});
+    rows.push_back(
+        {fmt::format("reflected: {}", row.name), fmt::format("{:.6f}", row.value), interval(row, 4),
+         section.pounds_force
+             ? fmt::format("kg.m2 ({:.5f} lbf.ft.s2)", row.value / pound_foot_second_squared)
+             : std::string("kg.m2"),
+         deciding(row)});
   }
   if (section.tachometer_scale) {
-    rows.push_back(
-        {"tachometer scale (eq. 32)", fmt::format("{:.4f}", section.tachometer_scale->value),
-         interval(*section.tachometer_scale, 3), "rad/(s.V)", deciding(*section.tachometer_scale)});
+    rows.push_back({"tachometer scale", fmt::format("{:.4f}", section.tachometer_scale->value),
+                    interval(*section.tachometer_scale, 3), "rad/(s.V)",
+                    deciding(*section.tachometer_scale)});
   }
   for (const auto& friction : {section.slow_ramp_coulomb, section.slow_ramp_offset}) {
     if (!friction) continue;

@@ -39,7 +39,7 @@ std::string loss(double rms, const PointingBand& band) {
 }
 
 std::string verdict(const TunedLaw& row) {
-  if (!row.stable()) return "no stable law";
+  if (!row.stable()) return row.tuned_for == TunedFor::present ? "UNSTABLE" : "no stable law";
   if (!row.goals_met) return row.design.tuning.interrupted ? "not finished" : "misses goals";
   return row.design.verification.passed ? "verified" : "NOT VERIFIED";
 }

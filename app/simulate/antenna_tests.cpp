@@ -138,11 +138,11 @@ std::vector<AntennaTest> drive_tests(const Case& antenna, const std::string& nam
                                    fmt::join(names, ", "), name));
   }
   if (name == "tracking" || name == "slew") return {};
-  const auto model = make_nonlinear_antenna(antenna);
+  const auto model = make_recorded_antenna(antenna);
   const double step = 1.0 / recorder_of(antenna).sample_rate.value;
   const double stroke = model.valve.stroke_limit;
-  const double scale = tachometer_scale(antenna);
-  const double limit = tachometer_of(antenna).recorder_limit.value * scale;
+  const auto [scale, full_scale] = tachometer_of(antenna);
+  const double limit = full_scale * scale;
   if (name == "slosh") return {slosh(stroke, std::min(step, 1e-3))};
   if (name == "fast-ramp") {
     return {ramp(name, "triangle to the valve, fast enough to leave the recorder's range", step,

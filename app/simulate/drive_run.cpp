@@ -119,14 +119,8 @@ double largest(const Eigen::VectorXd& values) {
 
 DriveRecord run_drive_test(const Case& antenna, const AntennaTest& test, std::uint64_t seed,
                            const RunProgress& progress) {
-  const auto model = make_nonlinear_antenna(antenna);
+  const auto model = make_recorded_antenna(antenna);
   const std::size_t motors = model.oil.lines.size();
-  if (motors == 0) {
-    throw InvalidInput(
-        fmt::format("{}: expected [[oil.line]] entries, whose ends the recorder's transducers sit "
-                    "at, found none",
-                    antenna.path));
-  }
   const RecorderSensors sensors = make_sensors(antenna, motors, seed);
   const auto drive = plant::to_feedback_system(model);
   const SimulationEntry& entry = simulation_of(antenna);

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <string_view>
 
 #include <fmt/format.h>
 
@@ -11,16 +12,18 @@
 namespace boresight::app {
 namespace {
 
+// What is recorded; a run of the position loop is not.
+constexpr const char* recorded_only = "; tracking and slew need none";
+
 [[noreturn]] void refuse_missing(const Case& antenna, const char* table, const char* purpose) {
-  throw InvalidInput(
-      fmt::format("{}: expected a table [{}] with {}, found none (see "
-                  "docs/case-file.md)",
-                  antenna.path, table, purpose));
+  throw InvalidInput(fmt::format(
+      "{}: expected a table [{}] with {}, found none (see docs/case-file.md{})", antenna.path,
+      table, purpose, std::string_view(table) == "simulation" ? "" : recorded_only));
 }
 
 std::vector<double> line_lengths(const Case& antenna) {
   std::vector<double> given;
-  for (const auto& line : antenna.oil.lines) given.push_back(line.length.value);
+  for (const auto& line : antenna.campaign.lines) given.push_back(line.length.value);
   if (given.empty()) return {};
   const auto motors = static_cast<std::size_t>(antenna.motor.count);
   std::ranges::sort(given);
@@ -48,11 +51,27 @@ const RecorderEntry& recorder_of(const Case& antenna) {
   return *antenna.recorder;
 }
 
-const TachometerEntry& tachometer_of(const Case& antenna) {
-  if (!antenna.tachometer) {
+RecorderTachometer tachometer_of(const Case& antenna) {
+  const auto& tachometer = antenna.campaign.tachometer;
+  if (!tachometer) {
     refuse_missing(antenna, "tachometer", "the scale the recorder writes motor rates in");
   }
-  return *antenna.tachometer;
+  const auto& [shaft, motor_teeth, tachometer_teeth, voltage, shaft_speed, limit] = *tachometer;
+  if (!voltage || !shaft_speed) {
+    throw InvalidInput(
+        fmt::format("{}: expected tachometer.voltage and tachometer.shaft_speed, for a simulated "
+                    "recorder writes volts, found neither{}",
+                    antenna.path, recorded_only));
+  }
+  if (!limit) {
+    throw InvalidInput(fmt::format(
+        "{}: expected tachometer.recorder_limit, which the tests' amplitudes go by, found none{}",
+        antenna.path, recorded_only));
+  }
+  double turns = 1.0;  // of the motor, one of the shaft
+  if (motor_teeth && tachometer_teeth) turns = motor_teeth->value / tachometer_teeth->value;
+  if (shaft == "antenna") turns = gear_ratio(antenna);
+  return {shaft_speed->value * turns / voltage->value, limit->value};
 }
 
 plant::NonlinearAntenna make_nonlinear_antenna(const Case& antenna) {
@@ -97,6 +116,17 @@ plant::NonlinearAntenna make_nonlinear_antenna(const Case& antenna) {
   return plant::make_nonlinear_antenna(make_plant(antenna), drive, details);
 }
 
+plant::NonlinearAntenna make_recorded_antenna(const Case& antenna) {
+  auto model = make_nonlinear_antenna(antenna);
+  if (model.oil.lines.empty()) {
+    throw InvalidInput(
+        fmt::format("{}: expected an [[oil.line]] with its length, whose ends the recorder's "
+                    "transducers sit at, found none{}",
+                    antenna.path, recorded_only));
+  }
+  return model;
+}
+
 LowPass low_pass_of(const Case& antenna) {
   const RecorderEntry& recorder = recorder_of(antenna);
   return {static_cast<int>(recorder.filter_order),
@@ -104,9 +134,7 @@ LowPass low_pass_of(const Case& antenna) {
 }
 
 double tachometer_scale(const Case& antenna) {
-  const TachometerEntry& tachometer = tachometer_of(antenna);
-  return tachometer.shaft_speed.value * tachometer.motor_teeth.value /
-         (tachometer.tachometer_teeth.value * tachometer.voltage.value);
+  return tachometer_of(antenna).scale;
 }
 
 RecorderSensors make_sensors(const Case& antenna, std::size_t motors, std::uint64_t seed) {
@@ -127,8 +155,7 @@ RecorderSensors make_sensors(const Case& antenna, std::size_t motors, std::uint6
     sensors.inlet.push_back(pressure());
     sensors.outlet.push_back(pressure());
   }
-  const double scale = tachometer_scale(antenna);
-  const double limit = tachometer_of(antenna).recorder_limit.value;
+  const auto [scale, limit] = tachometer_of(antenna);
   sensors.tachometer = {1.0 + recorder.tachometer_gain.value * numbers.pair(drawn).real(),
                         0.0,
                         recorder.tachometer_noise.value * scale,

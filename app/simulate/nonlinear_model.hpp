@@ -9,16 +9,28 @@
 
 namespace boresight::app {
 
-// Tables of a case that simulated tests need. @throws InvalidInput naming the table if there is
-// none.
+// Tables of a case that simulated tests need: the first all, the others those that are recorded.
+// @throws InvalidInput naming the table if there is none.
 const SimulationEntry& simulation_of(const Case& antenna);
 const RecorderEntry& recorder_of(const Case& antenna);
-const TachometerEntry& tachometer_of(const Case& antenna);
+
+/// The tachometer's channel of the recorder.
+struct RecorderTachometer {
+  double scale = 0.0;  // motor rate per volt, rad/(s V)
+  double limit = 0.0;  // V, in either direction
+};
+/// Of a tachometer on a shaft of its own, the motor's or the antenna's.
+/// @throws InvalidInput naming what is missing: the table, its voltage or its recorder_limit
+RecorderTachometer tachometer_of(const Case& antenna);
 
 /// The nonlinear antenna of a case. Where the case names fewer lines than motors, those between
 /// have lengths evenly between the shortest and the longest.
 /// @throws InvalidInput naming the table that the case lacks.
 plant::NonlinearAntenna make_nonlinear_antenna(const Case& antenna);
+
+/// The same for tests that are recorded: pressures are read at the motors' ends of the oil lines.
+/// @throws InvalidInput without lines, too
+plant::NonlinearAntenna make_recorded_antenna(const Case& antenna);
 
 /// Transducers of one motor's ports (Pa) and the tachometer (rad/s of motor), each with the gain
 /// and zero that the seed draws for it.
@@ -32,8 +44,8 @@ RecorderSensors make_sensors(const Case& antenna, std::size_t motors, std::uint6
 /// The low-pass before the recorder's converter; order 0 without one.
 LowPass low_pass_of(const Case& antenna);
 
-/// Motor rate per tachometer volt (rad/(s V)), eq. 32 of Sommerville. @throws InvalidInput without
-/// a tachometer table.
+/// Motor rate per tachometer volt (rad/(s V)), eq. 32 of Sommerville. @throws InvalidInput as
+/// tachometer_of does
 double tachometer_scale(const Case& antenna);
 
 }  // namespace boresight::app

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <boresight/app/report/present_gains.hpp>
 #include <boresight/app/report/sky_units.hpp>
 #include <boresight/app/tune/tune_study.hpp>
 
@@ -45,6 +46,12 @@ void conclude_best(const TuneSection& section, std::vector<std::string>& sentenc
           "At {:g} m/s the best {} is {} with {} rms. Limited by {}.", speed,
           purpose == TunedFor::robust ? "law that keeps its goals on every plant" : "nominal law",
           best->structure, mdeg(best->beam_rms), limits_of(*best)));
+      const auto& bounds = best->design.tuning.gains_at_bound;
+      if (bounds.empty()) continue;
+      sentences.back() += fmt::format(
+          " The search ended at its bound for: {}. A gain there is no optimum; what lies beyond "
+          "was not looked at.",
+          fmt::join(bounds, ", "));
     }
   }
 }
@@ -54,10 +61,10 @@ void conclude_before_and_after(const TuneSection& section, std::vector<std::stri
     if (row.tuned_for != TunedFor::present) continue;
     const TunedLaw* after = find(section, row, TunedFor::nominal);
     if (!row.stable()) {
-      sentences.push_back(
-          fmt::format("The present gains of {} do not stabilise this antenna at "
-                      "{:g} m/s, by the case's plant.",
-                      row.structure, row.wind_speed));
+      // The wind moves no pole: once is enough.
+      if (row.wind_speed == section.wind_speeds.front()) {
+        sentences.push_back(unstable_present_gains(row.structure));
+      }
       continue;
     }
     std::string text = fmt::format(
@@ -108,6 +115,7 @@ std::vector<std::string> conclude(const TuneSection& section) {
   for (const auto& shortfall : section.shortfalls) {
     sentences.push_back("INFEASIBLE: " + shortfall.infeasible + " " + shortfall.closest);
   }
+  conclude_before_and_after(section, sentences);
   if (section.unverified) {
     sentences.emplace_back(
         "No law that meets its goals passes its verification: nothing is "
@@ -115,7 +123,6 @@ std::vector<std::string> conclude(const TuneSection& section) {
     return sentences;
   }
   conclude_best(section, sentences);
-  conclude_before_and_after(section, sentences);
   conclude_robustness(section, sentences);
   return sentences;
 }

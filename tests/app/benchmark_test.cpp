@@ -113,6 +113,7 @@ TEST(Benchmark, UnstableLoopIsStatedNotScored) {
   EXPECT_EQ(run.exit_code, 3);
   EXPECT_THAT(run.errors, HasSubstr("the closed loop is unstable, slowest pole at +"));
   EXPECT_THAT(run.output, HasSubstr("UNSTABLE"));
+  EXPECT_THAT(run.output, HasSubstr("WARNING: the present gains of PI with lag are unstable"));
   const Json report = Json::parse(content_of(folder.file("out.json")));
   EXPECT_TRUE(report.at("score").is_null());
   EXPECT_FALSE(report.at("stability").at("stable").get<bool>());

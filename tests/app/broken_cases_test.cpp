@@ -47,6 +47,8 @@ const std::vector<Mistake>& mistakes() {
        "a density (such as kg/m3, lbm/ft3)", "nothing: key is missing"},
       {"MissingKeyForAMisspeltOne", "[motor]\ncount", "^[motor]\ncuont", "motor.count",
        "an integer", "nothing: key is missing (is 'cuont' misspelt?)"},
+      {"MissingTableForAMisspeltOne", "[friction_curve]\n", "[^friction_curves]\n",
+       "friction_curve", "a table", "nothing: key is missing (is 'friction_curves' misspelt?)"},
       {"MissingTable", "[controller]\ndelay", "[sensors.^more]\ndelay", "sensors.more",
        "one of the keys 'encoder_noise'", "an unknown key"},
       {"UnknownKey", "[tachometer]\n", "[tachometer]\n^gain = \"1 V\"\n", "tachometer.gain",
@@ -67,6 +69,10 @@ const std::vector<Mistake>& mistakes() {
       // Units.
       {"HertzForARateConstant", "\"1.219 1/s\"", "\"1.219 ^Hz\"", "drive.leakage_rate.value",
        "a rate constant (such as 1/s, 1/min)", "'1.219 Hz', a"},
+      {"FlowForARateConstant", "\"1.219 1/s\"", "\"1.1 ^L/min\"", "drive.leakage_rate.value",
+       "a rate constant (such as 1/s, 1/min)",
+       "a flow (write 1/s, 1/min; leakage known as a flow is drive.leakage_flow with "
+       "drive.leakage_pressure)"},
       {"RateConstantForHertz", "\"0.97 Hz\"", "\"0.97 ^1/s\"", "resonance.frequency.value",
        "a frequency (such as Hz, rad/s)", "write Hz or rad/s"},
       {"HyphenAndAmbiguousPound", "\"69.49 N.m\"", "\"51.25 lb^-ft\"",
@@ -88,8 +94,13 @@ const std::vector<Mistake>& mistakes() {
       {"NumberWithoutUnit", "frequency = { value = \"0.97 Hz\"", "frequency = { value = ^0.97",
        "resonance.frequency.value", "a frequency",
        "the number 0.97, which has no unit (write \"0.97 Hz\")"},
+      {"DisplacementWithoutUnit", "displacement = { value = \"38.329 cm3/rev\"",
+       "displacement = { value = ^38", "motor.displacement.value", "a displacement",
+       "which has no unit (write \"38 cm3/rev\")"},
       {"TextForInteger", "[motor]\ncount = 4", "[motor]\ncount = ^\"four\"", "motor.count",
        "an integer from 1 to 1000", "'four'"},
+      {"IntegerInQuotationMarks", "[motor]\ncount = 4", "[motor]\ncount = ^\"4\"", "motor.count",
+       "an integer from 1 to 1000", "'4' (write 4, without quotation marks)"},
       {"TextForBoolean", "efficiency_in_stiffness = true", "efficiency_in_stiffness = ^\"yes\"",
        "oil.efficiency_in_stiffness", "true or false", "'yes'"},
 

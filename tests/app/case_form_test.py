@@ -48,6 +48,9 @@ def comment(kind, extent, needed, meaning):
     need = {"yes": "needed", "no": "may be left out"}.get(needed, "needed " + needed)
     words = f"{sentence(meaning)} {sentence(', '.join(filter(None, [kind, extent])) + '; ' + need)}"
     words = words.replace("`", "").strip()
+    # What the document has below, the form has not.
+    words = words.replace("(below)", "(docs/case-file.md)")
+    words = words.replace("of the list below", "of the list in docs/case-file.md")
     return textwrap.wrap(words, 98, initial_indent="# ", subsequent_indent="# ",
                          break_long_words=False, break_on_hyphens=False)
 

@@ -154,6 +154,9 @@ TEST(CaseTuning, RefusesStructuresThatAreNone) {
   EXPECT_THAT(refusal("kT = \"0.0002 rad/(s.N.m)\"", "kT = \"0.0002 rad/s\""),
               HasSubstr("gains.kT: expected a rate per torque"));
   EXPECT_THAT(refusal("wcs = \"1 rad/s\"\n", ""), HasSubstr("gains.wcs: expected"));
+  // kp is another gain of the structure and not wp misspelt.
+  EXPECT_THAT(refusal("wp = \"1 Hz\"\n", ""),
+              AllOf(HasSubstr("gains.wp: expected a bandwidth"), Not(HasSubstr("misspelt"))));
 }
 
 TEST(CaseTuning, RefusesEmptyRangesAndClimates) {

@@ -171,7 +171,7 @@ class New(unittest.TestCase):
             run("new", 'a "dish" \\ of\nÅ', cwd=folder)
             path = next(pathlib.Path(folder).glob("*/case.toml"))
             message = run("model", str(path)).stderr
-            self.assertIn("antenna.dish_diameter: expected a length", message)
+            self.assertIn("axis: expected one of", message)
 
 
 class Completion(unittest.TestCase):

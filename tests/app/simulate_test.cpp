@@ -1,5 +1,6 @@
 #include <chrono>
 #include <csignal>
+#include <numbers>
 #include <sstream>
 #include <string>
 #include <thread>
@@ -43,6 +44,45 @@ TEST(NonlinearModel, SpreadsTheLinesOverTheMotors) {
   // 2000 psi on four motors.
   EXPECT_NEAR(model.oil.supply_torque, 315.7, 0.1);
   EXPECT_NEAR(tachometer_scale(reference_case()), 2.2621, 1e-4);
+}
+
+TEST(NonlinearModel, ScalesATachometerOnAnyShaft) {
+  Case antenna = reference_case();
+  ASSERT_TRUE(antenna.campaign.tachometer);
+  RecordedTachometerEntry& tachometer = *antenna.campaign.tachometer;
+  const double volts = 20.0 * std::numbers::pi / 157.0;  // rad/s of the shaft, a volt
+  tachometer.motor_teeth.reset();
+  tachometer.tachometer_teeth.reset();
+  tachometer.shaft = "motor";
+  EXPECT_NEAR(tachometer_scale(antenna), volts, 1e-12);
+  EXPECT_EQ(drive_tests(antenna, "slow-ramp").size(), 1U);
+  tachometer.shaft = "antenna";
+  EXPECT_NEAR(tachometer_scale(antenna) / volts, 28723.647, 1e-3);
+}
+
+TEST(DriveTests, NameWhatARecordNeedsBeforeAnythingRuns) {
+  const auto refusal = [](const auto& change, const std::string& test) -> std::string {
+    Case antenna = reference_case();
+    change(antenna);
+    try {
+      drive_tests(antenna, test);
+    } catch (const InvalidInput& error) {
+      return error.what();
+    }
+    return "taken";
+  };
+  const auto lines = [](Case& antenna) { antenna.campaign.lines.clear(); };
+  const auto table = [](Case& antenna) { antenna.campaign.tachometer.reset(); };
+  const auto volts = [](Case& antenna) { antenna.campaign.tachometer->voltage.reset(); };
+  const auto limit = [](Case& antenna) { antenna.campaign.tachometer->recorder_limit.reset(); };
+  EXPECT_THAT(refusal(lines, "slosh"), HasSubstr("expected an [[oil.line]] with its length"));
+  EXPECT_THAT(refusal(table, "slosh"), HasSubstr("expected a table [tachometer]"));
+  EXPECT_THAT(refusal(volts, "slow-ramp"), HasSubstr("expected tachometer.voltage"));
+  EXPECT_THAT(refusal(limit, "slow-ramp"), HasSubstr("expected tachometer.recorder_limit"));
+  for (const auto* test : {"tracking", "slew"}) {
+    EXPECT_EQ(refusal(lines, test), "taken");
+    EXPECT_EQ(refusal(table, test), "taken");
+  }
 }
 
 TEST(DriveTests, CommandsAreThoseOfThePaper) {

@@ -1,6 +1,8 @@
 #include <limits>
 #include <numbers>
 
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
 #include "edited_case.hpp"

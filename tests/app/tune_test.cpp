@@ -122,6 +122,22 @@ TEST(Tune, TunesVerifiesAndSetsBeforeBesideAfter) {
   EXPECT_THAT(content_of(json), HasSubstr("\"tuned_for\": \"robust\""));
 }
 
+// Once, not for every wind speed, and before all that rests on the plant.
+TEST(Tune, WarnsOfPresentGainsThatThePlantCallsUnstable) {
+  const ScratchFolder folder;
+  const ProgramResult result =
+      tune(small_case(folder,
+                      "[gains]\nstructure = 'PI-0'\nkr = 8\nwi = '0.127 Hz'\nkp = '0.2 1/s'\nwip = "
+                      "'0.02 rad/s'\n"),
+           {"--speed", "10 m/s", "15 m/s"});
+  EXPECT_EQ(result.exit_code, 0) << result.errors;
+  const std::string warning = "WARNING: the present gains of PI-0 are unstable";
+  const std::size_t at = result.output.find(warning);
+  ASSERT_NE(at, std::string::npos);
+  EXPECT_LT(at, result.output.find("the best nominal law is"));
+  EXPECT_EQ(result.output.find(warning, at + 1), std::string::npos);
+}
+
 TEST(Tune, TakesStructuresSpeedsAndGoalsFromTheCommandLine) {
   const ScratchFolder folder;
   const ProgramResult result =

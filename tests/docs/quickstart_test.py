@@ -22,8 +22,8 @@ FIGURE = re.compile(r"\d+(?:\.\d+)?")
 
 
 def values_of_the_table():
-    """{(table, key): value}"""
-    rows = re.findall(r"^\| `(\[\[?[\w.]+\]\]?)` \| `(\w+)` \| `(.+)` \|$", PAGE.read_text(encoding="utf-8"),
+    """{(table, key): value}, with no name for the top of the file."""
+    rows = re.findall(r"^\| (?:top|`(\[\[?[\w.]+\]\]?)`) \| `(\w+)` \| `(.+)` \|$", PAGE.read_text(encoding="utf-8"),
                       re.M)
     assert len(rows) > 15, "the table of values is not where it was"
     return {(table, key): value for table, key, value in rows}

@@ -1,0 +1,233 @@
+#include <limits>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <boresight/app/document/document_text.hpp>
+#include <boresight/app/page/decision.hpp>
+#include <boresight/app/redesign/matching_verdict.hpp>
+#include <boresight/app/redesign/tuning_verdict.hpp>
+#include <boresight/app/report/sky_units.hpp>
+#include <boresight/app/report/text_report.hpp>
+
+namespace boresight::app {
+namespace {
+
+using control::LoopStructure;
+using testing::AllOf;
+using testing::Contains;
+using testing::Each;
+using testing::HasSubstr;
+using testing::IsEmpty;
+using testing::Not;
+
+design::Design design_of(double rms_mdeg) {
+  design::Design design;
+  design.tuning.status = design::TuningStatus::optimal;
+  design.verification.passed = true;
+  design.beam_rms = rms_mdeg * millidegree;
+  return design;
+}
+
+MatchingSeries series_of(const LoopStructure& structure, const std::string& friction, double slope,
+                         const std::vector<double>& rms) {
+  MatchingSeries series{friction, slope, structure, {}};
+  for (const double one : rms) series.designs.push_back(design_of(one));
+  return series;
+}
+
+// 0, 1 (as built) and 3 disks, ratio 1 between the last two.
+MatchingSection matching_of(std::vector<MatchingSeries> series) {
+  MatchingSection section;
+  section.rows = {{.disks = 0.0, .label = "0 disks", .motor_to_load_ratio = 0.02},
+                  {.disks = 1.0, .label = "1 disk", .as_built = true, .motor_to_load_ratio = 0.4},
+                  {.disks = 2.6, .label = "ratio 1", .motor_to_load_ratio = 1.0},
+                  {.disks = 3.0, .label = "3 disks", .motor_to_load_ratio = 1.1}};
+  section.series = std::move(series);
+  return section;
+}
+
+Report report_with(MatchingSection section) {
+  Report report;
+  report.command = "redesign";
+  report.matching = std::move(section);
+  return report;
+}
+
+std::vector<std::string> concluded(const Report& report) {
+  std::vector<std::string> sentences;
+  if (report.matching) conclude_matching(report, *report.matching, sentences);
+  return sentences;
+}
+
+TEST(MatchingVerdict, OfAFlatStudyAdvisesNoInertiaAndNoRule) {
+  const auto report = report_with(matching_of(
+      {series_of(LoopStructure::pi_with_lag(), "linear plant", 0.16,
+                 {0.5038, 0.5037, 0.503, 0.5028}),
+       series_of(LoopStructure::pi(), "linear plant", 0.16, {0.5208, 0.521, 0.521, 0.5211})}));
+  const auto sentences = concluded(report);
+  EXPECT_THAT(sentences, Contains(HasSubstr("no rule of matching does")));
+  EXPECT_THAT(sentences, Contains(HasSubstr("PI without lag instead of PI with lag (by 3 %)")));
+  EXPECT_THAT(sentences, Each(Not(HasSubstr("one-to-one rule"))));
+  const std::string decided = decide_matching(report, *report.matching);
+  EXPECT_THAT(decided, HasSubstr("Leave the motors' inertia as it is"));
+  EXPECT_THAT(decided, Not(HasSubstr("measure")));
+}
+
+TEST(MatchingVerdict, GoesFromTheMotorsAsBuiltToBothEnds) {
+  const auto report = report_with(matching_of(
+      {series_of(LoopStructure::pi_with_lag(), "linear plant", 0.16, {0.45, 0.5, 0.58, 0.6})}));
+  const auto sentences = concluded(report);
+  EXPECT_THAT(sentences, Contains(AllOf(HasSubstr("Going from 1 disk to 0 disks"),
+                                        HasSubstr("-10.0 % (PI with lag, linear plant)"))));
+  EXPECT_THAT(sentences, Contains(AllOf(HasSubstr("Going from 1 disk to 3 disks"),
+                                        HasSubstr("+20.0 % (PI with lag, linear plant)"))));
+  EXPECT_THAT(sentences, Contains(HasSubstr("The one-to-one rule marks nothing special here.")));
+  EXPECT_EQ(decide_matching(report, *report.matching),
+            "Going from 1 disk as built to 0 disks, re-tuned, changes the rms by -10.0 % with PI "
+            "with lag (linear plant).");
+}
+
+TEST(MatchingVerdict, TakesAnOptimumAtTheEndForNone) {
+  const auto at_end = report_with(matching_of(
+      {series_of(LoopStructure::pi_with_lag(), "linear plant", 0.16, {0.6, 0.55, 0.51, 0.5})}));
+  EXPECT_THAT(concluded(at_end), Contains(HasSubstr("marks an optimum is not known")));
+  const auto inside = report_with(matching_of(
+      {series_of(LoopStructure::pi_with_lag(), "linear plant", 0.16, {0.6, 0.55, 0.5, 0.51})}));
+  EXPECT_THAT(concluded(inside), Contains(HasSubstr("happens to fit here")));
+}
+
+TEST(MatchingVerdict, AsksForTheFrictionSlopeOnlyWhereItDecides) {
+  const auto with = [](const std::vector<double>& other) {
+    return report_with(matching_of(
+        {series_of(LoopStructure::pi_with_lag(), "linear plant", 0.9, {0.44, 0.5, 0.52, 0.53}),
+         series_of(LoopStructure::pi_with_lag(), "slope at tracking rate", 12.0, other)}));
+  };
+  const auto decides = with({0.406, 0.407, 0.408, 0.409});
+  EXPECT_THAT(decide_matching(decides, *decides.matching),
+              HasSubstr("-12.0 % with PI with lag (linear plant), but by -0.2 % with the slope at "
+                        "tracking rate: measure that slope before touching a flywheel."));
+  EXPECT_THAT(concluded(decides), Contains(HasSubstr("measure that slope")));
+  const auto alike = with({0.35, 0.4, 0.42, 0.43});
+  EXPECT_THAT(decide_matching(alike, *alike.matching),
+              AllOf(HasSubstr(", and by -12.5 % with the slope"), Not(HasSubstr("measure"))));
+  EXPECT_THAT(concluded(alike), Each(Not(HasSubstr("measure that slope"))));
+}
+
+Report tuned_report() {
+  Report report;
+  report.command = "redesign";
+  TuningSection section;
+  section.structure = LoopStructure::pi_with_lag();
+  section.design = design_of(0.5);
+  section.design_speed = 12.0;
+  section.supply_wind_speed = 25.7;
+  section.static_bending = 1.5 * millidegree;
+  section.wind_alternatives = {{plant::WindModel::uniform, 1e-5}};
+  report.tuning = std::move(section);
+  return report;
+}
+
+BudgetResult budget(double rms_mdeg, double limit, std::optional<double> needed = std::nullopt) {
+  BudgetResult result;
+  result.budget.name = "need";
+  result.budget.band = "Ka";
+  result.budget.rms = rms_mdeg * millidegree;
+  result.budget.wind_speed = needed;
+  result.wind_speed_limit = limit;
+  return result;
+}
+
+std::vector<std::string> tuning_conclusions(const Report& report) {
+  std::vector<std::string> sentences;
+  if (report.tuning) conclude_tuning(report, *report.tuning, sentences);
+  return sentences;
+}
+
+TEST(TuningVerdict, EndsWhereTheSupplysTorqueEnds) {
+  Report report = tuned_report();
+  report.tuning->budgets = {budget(4.0, 29.9), budget(2.0, 20.0),
+                            budget(9.0, std::numeric_limits<double>::infinity())};
+  const auto& budgets = report.tuning->budgets;
+  EXPECT_EQ(met_text(*report.tuning, budgets[0]),
+            "would be met up to the 25.7 m/s at which the mean wind torque alone reaches the "
+            "supply's");
+  EXPECT_EQ(met_text(*report.tuning, budgets[1]), "is met up to 20.0 m/s");
+  EXPECT_EQ(reached_wind_speed(*report.tuning, budgets[2]), 25.7);
+  report.tuning->supply_wind_speed = std::numeric_limits<double>::infinity();
+  EXPECT_EQ(met_text(*report.tuning, budgets[2]), "is met up to the 60 m/s looked at");
+}
+
+TEST(TuningVerdict, SaysThatANeedIsNotMet) {
+  Report report = tuned_report();
+  report.tuning->budgets = {budget(0.1, 5.4, 12.0)};
+  EXPECT_THAT(tuning_conclusions(report),
+              Contains(HasSubstr("NOT MET: need (Ka: 0.100 mdeg) is needed up to 12 m/s; with this "
+                                 "law it is met up to 5.4 m/s.")));
+  const auto decided = decision(report);
+  EXPECT_THAT(decided.front(), AllOf(HasSubstr("NOT MET"), Not(HasSubstr("Run the drive"))));
+  report.tuning->budgets = {budget(1.0, 16.9, 12.0)};
+  EXPECT_THAT(unmet_needs(*report.tuning), IsEmpty());
+  EXPECT_THAT(decision(report).front(), HasSubstr("Run the drive as built on PI with lag"));
+}
+
+TEST(TuningVerdict, WarnsOfPresentGainsThatThePlantCallsUnstable) {
+  Report report = tuned_report();
+  EXPECT_THAT(tuning_conclusions(report), Each(Not(HasSubstr("present gains"))));
+  design::Design unstable;
+  unstable.tuning.status = design::TuningStatus::unstable;
+  report.tuning->present = {{"PI without lag", unstable}};
+  EXPECT_THAT(tuning_conclusions(report).front(),
+              AllOf(HasSubstr("WARNING: the present gains of PI without lag are unstable"),
+                    HasSubstr("check leakage")));
+  EXPECT_THAT(decision(report).front(), HasSubstr("WARNING: the present gains"));
+  TuningSection section = *report.tuning;
+  section.design = unstable;
+  EXPECT_THAT(to_text(document_of(section)), HasSubstr("UNSTABLE"));
+  report.tuning->present = {{"PI without lag", design_of(0.8)}};
+  EXPECT_THAT(
+      tuning_conclusions(report).front(),
+      HasSubstr("The present gains of PI without lag point within 0.800 mdeg in 12 m/s; the "
+                "tuned PI with lag changes that by -37.5 %."));
+}
+
+TEST(TuningVerdict, SaysWhatItDoesNotKnow) {
+  Report report = tuned_report();
+  report.tuning->budgets = {budget(1.0, 16.9)};
+  report.tuning->design.tuning.gains_at_bound = {"rate integral corner"};
+  const auto sentences = tuning_conclusions(report);
+  EXPECT_THAT(sentences, Contains(HasSubstr("its bound for: rate integral corner")));
+  EXPECT_THAT(sentences, Contains(HasSubstr("Friction, hunting and slewing were not examined")));
+  EXPECT_THAT(sentences, Contains(HasSubstr("calibration has to take it away")));
+  EXPECT_THAT(decision(report).front(), HasSubstr("were not examined"));
+  report.time_domain.emplace();
+  EXPECT_THAT(tuning_conclusions(report), Each(Not(HasSubstr("not examined"))));
+  report.tuning->design.verification.passed = false;
+  EXPECT_THAT(decision(report).front(), HasSubstr("fails its verification"));
+}
+
+TEST(Choices, AreContradictionsOnlyWhereSourcesOrTestsDiffer) {
+  std::vector<ChoiceResult> choices(2);
+  EXPECT_THAT(choices_heading(choices), HasSubstr("leaves open"));
+  choices.emplace_back().contradicts = true;
+  EXPECT_THAT(choices_heading(choices), HasSubstr("contradict each other"));
+}
+
+TEST(IdentificationText, LeavesOutColumnsThatNoRowFills) {
+  IdentificationSection section;
+  section.inertia.methods.resize(1);
+  section.inertia.methods.front().name = "hydraulic resonance";
+  section.printed.resize(1);
+  EXPECT_THAT(to_text(document_of(section)),
+              AllOf(Not(HasSubstr("printed")), Not(HasSubstr("lbf")), Not(HasSubstr("(eq."))));
+  section.printed.front() = {"1.45 kg.m2", ""};
+  section.pounds_force = true;
+  EXPECT_THAT(to_text(document_of(section)),
+              AllOf(HasSubstr("printed J"), HasSubstr("lbf.ft.s2"), Not(HasSubstr("printed R"))));
+}
+
+}  // namespace
+}  // namespace boresight::app

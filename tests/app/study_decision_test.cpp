@@ -1,0 +1,182 @@
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <boresight/app/match/match_study.hpp>
+#include <boresight/app/page/decision.hpp>
+#include <boresight/app/page/study_decision.hpp>
+#include <boresight/app/report/sky_units.hpp>
+
+namespace boresight::app {
+namespace {
+
+using testing::AllOf;
+using testing::Contains;
+using testing::Each;
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::Not;
+
+// At 0 disks, 1 as built and 3.
+MatchSeries series_of(const std::string& name, const std::vector<double>& rms_mdeg) {
+  MatchSeries series;
+  series.name = name;
+  std::vector<double> rms;
+  for (const double one : rms_mdeg) {
+    MatchValue value;
+    value.found = true;
+    value.beam_rms = one * millidegree;
+    rms.push_back(value.beam_rms);
+    series.values.push_back(std::move(value));
+  }
+  series.best = least_of(rms);
+  series.best_at_end = series.best != 1U;
+  return series;
+}
+
+MatchSection section_of(std::vector<MatchSeries> series) {
+  MatchSection section;
+  section.wind_speed = 12.0;
+  section.points.resize(3);
+  section.points[1].disks = 1.0;
+  section.points[1].label = "as built";
+  section.points[2].disks = 3.0;
+  section.series = std::move(series);
+  RuleVerdict rule{.rule = "one to one", .motor_to_load_ratio = 1.0, .disks = 1.0, .cost = {}};
+  for (const auto& one : section.series) {
+    rule.cost.push_back(one.values[1].beam_rms / one.values[*one.best].beam_rms - 1.0);
+  }
+  section.rules.push_back(std::move(rule));
+  return section;
+}
+
+FrictionThreshold threshold_of(double at_nominal) {
+  FrictionThreshold threshold;
+  threshold.structure = "PI";
+  threshold.slope = 4.0;
+  threshold.spread_at_nominal = at_nominal;
+  return threshold;
+}
+
+TEST(MatchDecision, OfOneFlatStructureIsToLeaveTheFlywheels) {
+  MatchSection section = section_of({series_of("PI", {0.5148, 0.5159, 0.5183})});
+  section.thresholds = {threshold_of(0.002)};
+  MatchVariants variants;
+  variants.structure = "PI";
+  variants.disks = {0.0};
+  variants.variants = {{"the case's plant", {0.5}, 0U, {}},
+                       {"wind model uniform", {0.95}, 0U, {}},
+                       {"leakage x 2", {0.503}, 0U, {}}};
+  section.variants = {variants};
+  EXPECT_THAT(decision(section),
+              ElementsAre(AllOf(HasSubstr("Leave the flywheels as they are: with PI loops"),
+                                HasSubstr("by more than 0.7 %"),
+                                HasSubstr("'wind model uniform' with PI (by 90 %)"),
+                                Not(HasSubstr("leakage")))));
+  const auto sentences = conclude(section);
+  EXPECT_THAT(sentences, Contains(HasSubstr("hardly matters here")));
+  EXPECT_THAT(sentences, Contains(HasSubstr("no rule for the motors' inertia is right or wrong")));
+  EXPECT_THAT(sentences, Each(AllOf(Not(HasSubstr("good rule")), Not(HasSubstr("matters more")),
+                                    Not(HasSubstr("PI against PI")))));
+}
+
+TEST(MatchDecision, SaysNothingOfStructuresThatWereNotStudied) {
+  const MatchSection section = section_of({series_of("PI", {0.4, 0.5, 0.6})});
+  EXPECT_THAT(decision(section),
+              ElementsAre(HasSubstr("comes with PI loops and 0 disks"),
+                          AllOf(HasSubstr("costs +25.0 % with those loops"),
+                                HasSubstr("whether other loops would do more was not looked at"))));
+  const auto sentences = conclude(section);
+  EXPECT_THAT(sentences, Contains(HasSubstr("is not known from this study")));
+  EXPECT_THAT(sentences,
+              Contains(HasSubstr("costs +25.0 % of rms with PI, against its own best: no "
+                                 "good rule here")));
+}
+
+TEST(MatchDecision, SetsStructuresAgainstFlywheels) {
+  const auto text = [](const std::vector<double>& second) {
+    return decision(section_of({series_of("PI", {0.4, 0.5, 0.6}), series_of("DPF", second)}))[1];
+  };
+  EXPECT_THAT(text({0.7, 0.8, 0.9}), HasSubstr("change the loops first"));
+  EXPECT_THAT(text({0.45, 0.51, 0.6}), HasSubstr("change the flywheels first"));
+  EXPECT_THAT(text({0.5, 0.62, 0.7}), HasSubstr("the two weigh the same"));
+}
+
+TEST(MatchDecision, AsksForTheFrictionSlopeOnlyWhereItDecides) {
+  MatchSection section = section_of({series_of("PI", {0.4, 0.5, 0.6})});
+  section.thresholds = {threshold_of(0.5)};
+  EXPECT_THAT(decision(section), Contains(HasSubstr("Measure the friction slope")));
+  section.thresholds = {threshold_of(0.01)};
+  EXPECT_THAT(decision(section), Each(Not(HasSubstr("Measure the friction slope"))));
+}
+
+TEST(MatchConclusions, ConfirmNoRuleByALeastAtTheUpperEnd) {
+  const auto rule = [](const std::vector<double>& rms) {
+    return conclude(section_of({series_of("PI", rms)}));
+  };
+  EXPECT_THAT(rule({0.6, 0.505, 0.5}), Contains(HasSubstr("no rule is confirmed")));
+  EXPECT_THAT(rule({0.6, 0.5, 0.505}), Contains(HasSubstr("a good rule here")));
+}
+
+// Two proposals beside the antenna as it is, by cost and mean rms over the draws.
+EvaluateSection proposals_of(const std::vector<std::pair<double, double>>& costs_and_means) {
+  EvaluateSection section;
+  section.currency = "kEUR";
+  section.wind_speed = 12.0;
+  DecisionSection draws;
+  draws.draws = 2000;
+  for (std::size_t i = 0; i < costs_and_means.size(); ++i) {
+    Candidate candidate;
+    candidate.name = i == 0 ? "as it is" : "proposal " + std::to_string(i);
+    if (i > 0) candidate.path = "proposal.toml";
+    candidate.cost = costs_and_means[i].first;
+    CandidateLaw law;
+    law.goals_met = true;
+    law.design.tuning.status = design::TuningStatus::optimal;
+    law.design.verification.passed = true;
+    law.member_rms = costs_and_means[i].second * millidegree;
+    candidate.laws = {law};
+    candidate.chosen = 0U;
+    section.candidates.push_back(std::move(candidate));
+    draws.candidates.push_back({.candidate = i, .unstable = {}, .outside_goals = {}});
+    draws.statistics.options.emplace_back().mean = costs_and_means[i].second;
+    if (costs_and_means[i].second < costs_and_means[draws.best].second) draws.best = i;
+    section.front.push_back(i);
+  }
+  section.decision = std::move(draws);
+  return section;
+}
+
+TEST(EvaluateDecision, PaysForNothingNegligible) {
+  const auto section = proposals_of({{0.0, 0.5133}, {20.0, 0.5131}});
+  ASSERT_TRUE(section.decision);
+  EXPECT_EQ(worth_its_cost(section, *section.decision), 0U);
+  const auto decided = decision(section);
+  EXPECT_THAT(decided.front(), AllOf(HasSubstr("No proposal is worth its cost"),
+                                     HasSubstr("proposal 1 lowers that by 0.0 %")));
+  EXPECT_THAT(decided, Each(AllOf(Not(HasSubstr("Choose")), Not(HasSubstr("Worth looking at")))));
+  EXPECT_THAT(conclude(section), Contains(HasSubstr("no proposal is worth its cost")));
+}
+
+TEST(EvaluateDecision, ChoosesTheCheapestOfThoseAlike) {
+  const auto section = proposals_of({{0.0, 0.64}, {60.0, 0.426}, {420.0, 0.42}});
+  ASSERT_TRUE(section.decision);
+  EXPECT_EQ(worth_its_cost(section, *section.decision), 1U);
+  EXPECT_THAT(decision(section).front(),
+              AllOf(HasSubstr("Choose proposal 1"), HasSubstr("proposal 2 lowers that by 1.4 %")));
+  EXPECT_THAT(decision(section).back(),
+              AllOf(HasSubstr("proposal 1"), Not(HasSubstr("proposal 2"))));
+}
+
+TEST(EvaluateDecision, ChoosesWhatGainsEnough) {
+  const auto section = proposals_of({{0.0, 0.64}, {60.0, 0.5}, {420.0, 0.42}});
+  ASSERT_TRUE(section.decision);
+  EXPECT_EQ(worth_its_cost(section, *section.decision), 2U);
+  EXPECT_THAT(decision(section).front(), HasSubstr("Choose proposal 2"));
+}
+
+}  // namespace
+}  // namespace boresight::app

@@ -10,9 +10,9 @@ namespace {
 using namespace std::string_view_literals;
 
 constexpr std::array steady_keys{
-    "return_pressure"sv, "null_leakage_share"sv, "case_leakage_share"sv, "valve_stroke"sv,
-    "valve_overlap"sv,   "makeup_pressure"sv,    "air_fraction"sv,       "offset_torque"sv,
-    "offset_cosine"sv,   "offset_sine"sv};
+    "return_pressure"sv, "null_leakage_share"sv, "case_leakage_share"sv,
+    "valve_stroke"sv,    "valve_overlap"sv,      "makeup_pressure"sv,
+    "offset_torque"sv,   "offset_cosine"sv,      "offset_sine"sv};
 // What identification takes of [recorder] where there are no [instruments].
 constexpr std::array instrument_keys{"pressure_gain"sv, "pressure_zero"sv, "tachometer_gain"sv};
 

@@ -26,7 +26,7 @@ struct Element {
 
 std::string unescaped(const std::string& text) {
   static const std::map<std::string, std::string> entities{
-      {"amp", "&"}, {"lt", "<"}, {"gt", ">"}, {"quot", "\""}};
+      {"amp", "&"}, {"lt", "<"}, {"gt", ">"}, {"quot", "\""}, {"#39", "'"}};
   std::string plain;
   for (std::size_t i = 0; i < text.size(); ++i) {
     if (text[i] == '<') throw std::runtime_error("< within text");

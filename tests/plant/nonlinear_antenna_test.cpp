@@ -259,7 +259,7 @@ TEST(Trim, IsThatOfOilWithoutAirUpToTheLastRate) {
                                     matrices.channel_input.cwiseAbs() * value.cwiseAbs();
       const Eigen::VectorXd rotation = rate * rigid_rotation(antenna);
       for (Eigen::Index i = 0; i < change.size(); ++i) {
-        EXPECT_NEAR(change[i], rotation[i], 1e-9 * std::max(scale[i], 1e-6))
+        EXPECT_NEAR(change[i], rotation[i], 1e-9 * std::max(scale[i], 1e-6) + 1e-15 * rate)
             << air << ", " << rate << ", state " << i + 1;
       }
     }

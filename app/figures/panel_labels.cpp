@@ -72,7 +72,8 @@ std::vector<LabelPlace> around(double x, double y, double width, double reach) {
   return places;
 }
 
-// Beside a point in its row, so that it is plain which of the rows it belongs to.
+// Beside a point in its row, so that it is plain which of the rows it belongs to: beside the bar,
+// or on it where there is no room.
 std::vector<LabelPlace> in_row(double x, double y, double width) {
   std::vector<LabelPlace> places;
   for (double distance = 5.0; distance < 400.0; distance += 6.0) {
@@ -202,8 +203,8 @@ std::string panel_labels_svg(const FigurePanel& panel, const PlacedPanel& placed
     for (std::size_t i = 0; i < series.labels.size(); ++i) {
       if (!shown(series.x[i], series.y[i])) continue;
       svg += named_point(placed.x.at(series.x[i]), placed.y.at(series.y[i]), series.labels[i],
-                         series_look(looks.at(series.name)).colour, series.labels.size() <= few,
-                         rows, placed, placement);
+                         rows ? "#111" : series_look(looks.at(series.name)).colour,
+                         series.labels.size() <= few, rows, placed, placement);
     }
   }
   for (const auto& line : panel.lines) {

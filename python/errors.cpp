@@ -1,3 +1,5 @@
+#include <utility>
+
 #include <boresight/plant/error.hpp>
 #include <boresight/python/bindings.hpp>
 
@@ -23,7 +25,7 @@ void add_errors(py::module_& module) {
       "Also an ArithmeticError.";
   py::register_exception_translator([](std::exception_ptr thrown) {
     try {
-      if (thrown) std::rethrow_exception(thrown);
+      if (thrown) std::rethrow_exception(std::move(thrown));
     } catch (const Interrupted& interrupted) {
       PyErr_SetString(PyExc_KeyboardInterrupt, interrupted.what());
     }

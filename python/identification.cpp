@@ -1,5 +1,6 @@
 #include <map>
 #include <optional>
+#include <stdexcept>
 
 #include <fmt/format.h>
 #include <pybind11/stl.h>
@@ -52,7 +53,8 @@ Identification identify(const app::Case& antenna, std::uint64_t seed, unsigned t
     return true;
   });
 
-  const auto& section = result.report.identification.value();
+  if (!result.report.identification) throw std::logic_error("identify: nothing was found");
+  const auto& section = *result.report.identification;
   for (const auto& method : section.inertia.methods) {
     result.methods.push_back({method.name, method.assumes, interval_of(method.reflected_inertia),
                               interval_of(method.motor_to_load_ratio)});

@@ -1,6 +1,8 @@
 #include <cmath>
 #include <functional>
 #include <optional>
+#include <stdexcept>
+#include <utility>
 
 #include <fmt/format.h>
 #include <pybind11/eigen.h>
@@ -23,7 +25,10 @@ using app::MatchSeries;
 using app::MatchValue;
 
 struct Matching : Found {
-  const app::MatchSection& section() const { return report.matched.value(); }
+  const app::MatchSection& section() const {
+    if (!report.matched) throw std::logic_error("match: nothing was found");
+    return *report.matched;
+  }
 };
 
 app::MatchTimeRuns time_runs_of(const std::string& name) {

@@ -1,6 +1,8 @@
 #include <map>
 #include <numbers>
 #include <optional>
+#include <stdexcept>
+#include <utility>
 
 #include <fmt/format.h>
 #include <pybind11/stl.h>
@@ -21,7 +23,10 @@ using app::TunedLaw;
 using control::Margins;
 
 struct Tuning : Found {
-  const app::TuneSection& section() const { return report.tuned.value(); }
+  const app::TuneSection& section() const {
+    if (!report.tuned) throw std::logic_error("tune: nothing was found");
+    return *report.tuned;
+  }
 };
 
 Tuning tune(app::Case antenna, std::vector<std::string> structures, std::vector<double> wind_speeds,

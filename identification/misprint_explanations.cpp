@@ -287,11 +287,11 @@ std::vector<std::string> ancestors_needed(const AuditGraph& graph, const Departu
 
 std::vector<CommonCause> common_causes(const AuditGraph& graph,
                                        const std::vector<Departure>& departures) {
-  struct Interval {
+  struct Span {
     double low, high;
     std::size_t departure;
   };
-  std::map<std::size_t, std::vector<Interval>> intervals;
+  std::map<std::size_t, std::vector<Span>> intervals;
   for (std::size_t d = 0; d < departures.size(); ++d) {
     const Departure& departure = departures[d];
     const PrintedForm& form = print_of(graph, departure.node, departure.print);
@@ -302,7 +302,7 @@ std::vector<CommonCause> common_causes(const AuditGraph& graph,
       const auto high = ancestor_needed(graph, departure.node, departure.reading, ancestor,
                                         form.value + departure.tolerance);
       if (!low || !high) continue;
-      const Interval interval{std::min(*low, *high), std::max(*low, *high), d};
+      const Span interval{std::min(*low, *high), std::max(*low, *high), d};
       const double shift = std::abs(0.5 * (*low + *high) - print_of(graph, ancestor, print).value);
       if (shift >= interval.high - interval.low) intervals[ancestor].push_back(interval);
     }
@@ -311,12 +311,12 @@ std::vector<CommonCause> common_causes(const AuditGraph& graph,
   for (const auto& [ancestor, candidates] : intervals) {
     CommonCause best;
     std::size_t most = 2;
-    for (const Interval& start : candidates) {
+    for (const Span& start : candidates) {
       // The largest group of intervals with a common point has one at the start of one of them.
       double high = start.high;
       std::set<std::size_t> nodes;
       CommonCause group{ancestor, 0.0, {}};
-      for (const Interval& other : candidates) {
+      for (const Span& other : candidates) {
         if (other.low > start.low || other.high < start.low) continue;
         high = std::min(high, other.high);
         nodes.insert(departures[other.departure].node);

@@ -76,7 +76,7 @@ void check_name(const char* what, const std::vector<std::string>& names, std::st
 }
 
 // A force, or the signal before a dead time, with all it may move.
-struct Drive {
+struct Forcing {
   Eigen::Index row;       // of the core's outputs
   Eigen::Index force;     // -1 for a dead time
   std::size_t dead_time;  // of a dead time
@@ -94,8 +94,8 @@ Eigen::Index optional_input(const StateSpace& core, const std::string& name) {
   return name.empty() ? -1 : input_index(core, name);
 }
 
-std::vector<Drive> all_drives(const ModalSystem& system) {
-  std::vector<Drive> drives;
+std::vector<Forcing> all_forcings(const ModalSystem& system) {
+  std::vector<Forcing> drives;
   for (std::size_t k = 0; k < system.modes.forces.size(); ++k) {
     drives.push_back(
         {output_index(system.core, system.modes.forces[k]), static_cast<Eigen::Index>(k), 0});
@@ -119,7 +119,7 @@ std::vector<Back> all_returns(const ModalSystem& system) {
   return returns;
 }
 
-bool moves(const ModalSystem& system, const Drive& drive, const Back& back) {
+bool moves(const ModalSystem& system, const Forcing& drive, const Back& back) {
   if (drive.force < 0 || back.displacement < 0) {
     return drive.force < 0 && back.displacement < 0 && drive.dead_time == back.dead_time;
   }
@@ -234,7 +234,7 @@ ModalReduction reduce(const ModalSystem& system, std::string_view input, std::st
   check_name("input", system.inputs, input);
   check_name("output", system.outputs, output);
   const StateSpace& core = system.core;
-  const auto drives = all_drives(system);
+  const auto drives = all_forcings(system);
   const auto returns = all_returns(system);
 
   SignalGraph graph(core);
@@ -257,7 +257,7 @@ ModalReduction reduce(const ModalSystem& system, std::string_view input, std::st
     if (on_path(graph.state(i))) states.push_back(i);
   }
   ModalReduction result;
-  std::vector<const Drive*> kept_drives;
+  std::vector<const Forcing*> kept_drives;
   for (const auto& drive : drives) {
     if (!on_path(graph.output(drive.row))) continue;
     rows.push_back(drive.row);
@@ -316,7 +316,7 @@ ModalReduction reduce(const ModalSystem& system, std::string_view input, std::st
   result.mode_damping_ratio = system.modes.damping_ratio(used_modes);
   for (std::size_t k = 0; k < kept_drives.size(); ++k) {
     for (std::size_t j = 0; j < kept_returns.size(); ++j) {
-      const Drive& drive = *kept_drives[k];
+      const Forcing& drive = *kept_drives[k];
       const Back& back = *kept_returns[j];
       if (!moves(system, drive, back)) continue;
       Eigen::VectorXd gain;

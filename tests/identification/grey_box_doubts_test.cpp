@@ -13,25 +13,12 @@ namespace {
 
 using Eigen::Index;
 using Eigen::VectorXd;
+using synthetic::bulk;
 using synthetic::P;
+using synthetic::quick;
+using synthetic::Truth;
 using testing::HasSubstr;
 using testing::ThrowsMessage;
-
-const Interval bulk = normal_interval(1.3e9, 6.5e6);
-
-GreyBoxOptions quick() {
-  GreyBoxOptions options;
-  options.further_starts = 0;
-  options.draws = 400;
-  options.threads = 1;
-  return options;
-}
-
-struct Truth {
-  GreyBoxParameters parameters = synthetic::truth_parameters();
-  VectorXd point = synthetic::point_of(parameters, synthetic::truth_values());
-  DriveEstimate drive = drive_estimate(parameters, point);
-};
 
 bool covers(const Interval& interval, double truth) {
   return interval.lower <= truth && truth <= interval.upper;

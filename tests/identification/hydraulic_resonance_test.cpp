@@ -394,11 +394,11 @@ TEST(OilStiffness, InMotionCountsBothEfficienciesWhateverTheConvention) {
   auto knowledge = LinearDrive{}.campaign().knowledge;
   knowledge.torque_efficiency = {0.94, 0.003};
   knowledge.volumetric_efficiency = {0.95, 0.003};
-  const Interval bulk = LinearDrive{}.bulk_modulus();
-  const double with = oil_stiffness(knowledge, bulk).value;
+  const Interval modulus = LinearDrive{}.bulk_modulus();
+  const double with = oil_stiffness(knowledge, modulus).value;
   knowledge.efficiency_in_stiffness = plant::EfficiencyInStiffness::none;
-  EXPECT_NEAR(oil_stiffness(knowledge, bulk).value, with / (0.94 * 0.95), 1e-9 * with);
-  EXPECT_NEAR(oil_stiffness_in_motion(knowledge, bulk).value, with, 1e-12 * with);
+  EXPECT_NEAR(oil_stiffness(knowledge, modulus).value, with / (0.94 * 0.95), 1e-9 * with);
+  EXPECT_NEAR(oil_stiffness_in_motion(knowledge, modulus).value, with, 1e-12 * with);
   // Rings of the drive read alike by either convention, the paper's formula alone does not.
   const LinearDrive drive;
   auto campaign = drive.campaign();

@@ -7,8 +7,11 @@
 #include <utility>
 #include <vector>
 
+#include <boresight/identification/grey_box.hpp>
 #include <boresight/identification/grey_box_parameters.hpp>
+#include <boresight/identification/grey_box_posterior.hpp>
 #include <boresight/identification/grey_box_simulation.hpp>
+#include <boresight/identification/interval.hpp>
 #include <boresight/plant/normal_numbers.hpp>
 
 /// A small hydraulic drive with known truth, and the records it would give.
@@ -144,5 +147,24 @@ inline Campaign campaign(const GreyBoxParameters& parameters, const Eigen::Vecto
   }
   return c;
 }
+
+/// The oil's bulk modulus as another test gives it.
+inline const Interval bulk = normal_interval(1.3e9, 6.5e6);
+
+/// A fit from one start, with few draws.
+inline GreyBoxOptions quick() {
+  GreyBoxOptions options;
+  options.further_starts = 0;
+  options.draws = 400;
+  options.threads = 1;
+  return options;
+}
+
+/// The drive that the records are of.
+struct Truth {
+  GreyBoxParameters parameters = truth_parameters();
+  Eigen::VectorXd point = point_of(parameters, truth_values());
+  DriveEstimate drive = drive_estimate(parameters, point);
+};
 
 }  // namespace boresight::identification::synthetic

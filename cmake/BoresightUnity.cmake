@@ -1,0 +1,28 @@
+# Whole builds in half the time: files of a target are compiled several at once (source_batches.py says
+# which), so that what they include is read and instantiated once a batch. Costs a developer who edits one
+# file the others of its batch; -D BORESIGHT_UNITY=OFF compiles each alone, as the debug preset does.
+function(boresight_unity_build target)
+  if(NOT BORESIGHT_UNITY)
+    return()
+  endif()
+  find_program(BORESIGHT_BATCH_INTERPRETER python3 HINTS /usr/bin REQUIRED)
+  get_target_property(sources ${target} SOURCES)
+  get_target_property(folder ${target} SOURCE_DIR)
+  list(FILTER sources INCLUDE REGEX "\\.cpp$")
+  list(TRANSFORM sources PREPEND ${folder}/ REGEX "^[^/]")
+  execute_process(
+    COMMAND ${BORESIGHT_BATCH_INTERPRETER} -B ${PROJECT_SOURCE_DIR}/cmake/source_batches.py
+      ${PROJECT_BINARY_DIR}/batches/${target}.txt 10 ${sources}
+    OUTPUT_VARIABLE batches OUTPUT_STRIP_TRAILING_WHITESPACE COMMAND_ERROR_IS_FATAL ANY)
+  string(REPLACE "\n" ";" batches "${batches}")
+  foreach(line IN LISTS batches)
+    string(REGEX MATCH "^([0-9]+) (.*)$" line "${line}")
+    set_source_files_properties(${CMAKE_MATCH_2} PROPERTIES UNITY_GROUP ${CMAKE_MATCH_1})
+  endforeach()
+  # GCC calls a type of an unnamed namespace a header's where it stands in a file that a batch includes.
+  target_compile_options(${target} PRIVATE $<$<CXX_COMPILER_ID:GNU>:-Wno-subobject-linkage>)
+  set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_MODE GROUP)
+  # An edit can make names clash.
+  set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS
+    ${sources} ${PROJECT_SOURCE_DIR}/cmake/source_batches.py)
+endfunction()

@@ -1,3 +1,9 @@
+#include <algorithm>
+#include <utility>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
 #include <boresight/app/audit/audit_report.hpp>
 #include <boresight/app/audit/case_graph.hpp>
 
@@ -21,6 +27,29 @@ AuditReport audit(const Case& antenna) {
     if (report.checked > before) report.compared.push_back(graph.node(i).id);
   }
   return report;
+}
+
+std::string failing_checks(const std::vector<Implausibility>& implausible) {
+  if (implausible.empty()) return "no physical check fails";
+  std::vector<std::pair<std::string, int>> counts;
+  for (const Implausibility& one : implausible) {
+    const auto known = std::find_if(counts.begin(), counts.end(),
+                                    [&](const auto& count) { return count.first == one.check; });
+    if (known == counts.end()) {
+      counts.emplace_back(one.check, 1);
+    } else {
+      ++known->second;
+    }
+  }
+  std::vector<std::string> subjects;
+  for (const auto& [check, count] : counts) {
+    subjects.push_back(count == 1 ? check : fmt::format("{} ({})", check, count));
+  }
+  return fmt::format("{}: {}",
+                     implausible.size() == 1
+                         ? "1 physical check fails"
+                         : fmt::format("{} physical checks fail", implausible.size()),
+                     fmt::join(subjects, ", "));
 }
 
 }  // namespace boresight::app

@@ -28,4 +28,8 @@ struct AuditReport {
 /// @throws InvalidInput if two parts of the case bear the same name.
 AuditReport audit(const Case& antenna);
 
+/// How many physical checks fail and what they look at: "3 physical checks fail: wave speed (2),
+/// recorder limit".
+std::string failing_checks(const std::vector<Implausibility>& implausible);
+
 }  // namespace boresight::app

@@ -1,9 +1,6 @@
-#include <numbers>
-
 #include <boresight/app/audit/plausibility_checks.hpp>
+#include <boresight/app/io/drive_numbers.hpp>
 #include <boresight/identification/source_reading.hpp>
-#include <boresight/plant/gear_train.hpp>
-#include <boresight/plant/hydraulics.hpp>
 
 namespace boresight::app {
 namespace {
@@ -25,11 +22,7 @@ CaseNumbers case_numbers(const Case& antenna, const identification::AuditGraph& 
   }
   numbers.antenna_at_motor = from_nearest_prints(graph, "load_inertia.antenna");
   numbers.oil_stiffness = from_nearest_prints(graph, "oil_stiffness");
-  plant::HydraulicDrive drive;
-  drive.motor_count = static_cast<double>(antenna.motor.count);
-  drive.displacement = antenna.motor.displacement.value;
-  drive.torque_efficiency = antenna.motor.torque_efficiency.value;
-  numbers.supply_torque = plant::torque_per_pressure(drive) * antenna.drive.supply_pressure.value;
+  numbers.supply_torque = supply_torque(antenna);
   numbers.slew_rate_at_motor =
       antenna.drive.slew_rate.value * from_nearest_prints(graph, "gear_ratio");
   return numbers;
@@ -44,8 +37,11 @@ std::vector<Implausibility> implausibilities(const Case& antenna,
   check_impulse_order(numbers, found);
   check_coincidences(numbers, found);
   check_friction_slope(numbers, found);
+  check_friction_against_supply(numbers, found);
+  check_friction_tests(numbers, found);
   check_coulomb_levels(numbers, found);
   check_valve_stroke(numbers, found);
+  check_return_pressures(numbers, found);
   check_recorder_limit(numbers, found);
   check_wave_speeds(numbers, found);
   check_structural_bound(numbers, found);

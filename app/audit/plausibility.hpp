@@ -19,7 +19,8 @@ struct NamedNumber {
 struct Implausibility {
   /// What the check looks at, closed: "inertia remainder", "friction slope", "wave speed",
   /// "structural bound", "impulse order", "resonance expected", "recorder limit", "Coulomb levels",
-  /// "coincidence", "carrier frequency", "valve stroke".
+  /// "coincidence", "carrier frequency", "valve stroke", "friction against the supply", "friction
+  /// tests", "return pressure".
   std::string check;
   /// The quantity, by id.
   std::string id;
@@ -44,6 +45,12 @@ struct Implausibility {
 /// - valve stroke: the slew rate at the motor is beyond what the valve, fully open, lets the motors
 ///   turn at without load, by simulation.valve_stroke or the valve's rated flow; or these two are
 ///   more than 5 % apart. Both by more than two standard uncertainties;
+/// - friction against the supply: breakaway, or the friction curve at slew rate, takes more than
+///   the supply's torque, or more than 40 % of it, by more than two standard uncertainties;
+/// - friction tests: intercept or slope of the constant-speed tests' line is more than a factor of
+///   1.5 and two standard uncertainties beyond what the friction curve has at any speeds;
+/// - return pressure: drive.return_pressure and simulation.return_pressure are more than 5 %
+///   and two standard uncertainties apart;
 /// - coincidence: two methods print the same inertia to the last digit;
 /// - carrier frequency: a beam wider than 5 deg.
 std::vector<Implausibility> implausibilities(const Case& antenna,

@@ -26,9 +26,12 @@ void check_structural_bound(const CaseNumbers& numbers, Implausibilities& found)
 void check_wave_speeds(const CaseNumbers& numbers, Implausibilities& found);
 void check_carrier_frequencies(const CaseNumbers& numbers, Implausibilities& found);
 void check_friction_slope(const CaseNumbers& numbers, Implausibilities& found);
+void check_friction_against_supply(const CaseNumbers& numbers, Implausibilities& found);
+void check_friction_tests(const CaseNumbers& numbers, Implausibilities& found);
 void check_coulomb_levels(const CaseNumbers& numbers, Implausibilities& found);
 void check_impulse_order(const CaseNumbers& numbers, Implausibilities& found);
 void check_valve_stroke(const CaseNumbers& numbers, Implausibilities& found);
+void check_return_pressures(const CaseNumbers& numbers, Implausibilities& found);
 void check_recorder_limit(const CaseNumbers& numbers, Implausibilities& found);
 
 }  // namespace boresight::app

@@ -41,10 +41,6 @@ std::vector<MeasuredInertia> measured_inertias(const CaseNumbers& numbers) {
   return inertias;
 }
 
-double relative(const Quantity& quantity) {
-  return quantity.standard_uncertainty / std::abs(quantity.value);
-}
-
 }  // namespace
 
 void check_inertia_remainders(const CaseNumbers& numbers, Implausibilities& found) {
@@ -83,9 +79,9 @@ void check_expected_resonance(const CaseNumbers& numbers, Implausibilities& foun
   const auto propagated =
       identification::identify_inertia(make_evidence(numbers.antenna), {1000, 1})
           .expected_frequency;
-  const double away =
-      std::abs(measured.value / expected - 1.0) /
-      std::hypot(relative(measured), propagated.standard_uncertainty / propagated.value);
+  const double away = std::abs(measured.value / expected - 1.0) /
+                      std::hypot(relative_uncertainty(measured),
+                                 propagated.standard_uncertainty / propagated.value);
   if (away <= 3.0) return;
   Implausibility implausible{"resonance expected",
                              "resonance.frequency",

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <boresight/app/audit/plausibility_checks.hpp>
+#include <boresight/app/io/drive_numbers.hpp>
 #include <boresight/plant/hydraulics.hpp>
 
 namespace boresight::app {
@@ -119,14 +120,15 @@ void check_valve_stroke(const CaseNumbers& numbers, Implausibilities& found) {
         {fmt::format("by simulation.valve_stroke '{}'", antenna.simulation->valve_stroke.text),
          antenna.simulation->valve_stroke});
   }
-  if (drive.rated_stroke && drive.valve_rated_flow && drive.valve_rated_pressure_drop) {
+  if (const auto rated = rated_stroke(antenna);
+      rated && drive.valve_rated_flow && drive.valve_rated_pressure_drop) {
     strokes.push_back(
         {fmt::format("by its rated flow of '{}' at '{}'", drive.valve_rated_flow->text,
                      drive.valve_rated_pressure_drop->text),
-         *drive.rated_stroke});
+         *rated});
   }
   const double slewing = numbers.slew_rate_at_motor;
-  const double of_slewing = slewing * drive.slew_rate.standard_uncertainty / drive.slew_rate.value;
+  const double of_slewing = slewing * relative_uncertainty(drive.slew_rate);
   for (const Stroke& stroke : strokes) {
     const double reached = stroke.rate.value;
     const double uncertainty = std::hypot(of_slewing, stroke.rate.standard_uncertainty);
@@ -160,6 +162,28 @@ void check_valve_stroke(const CaseNumbers& numbers, Implausibilities& found) {
         {"valve stroke by the rated flow", rated.value, "rad/s"}}});
 }
 
+void check_return_pressures(const CaseNumbers& numbers, Implausibilities& found) {
+  const auto& recorded = numbers.antenna.campaign.return_pressure;
+  if (!recorded || !numbers.antenna.simulation) return;
+  const Quantity& simulated = numbers.antenna.simulation->return_pressure;
+  const double difference = std::abs(recorded->value - simulated.value);
+  if (difference <= 0.05 * std::max(recorded->value, simulated.value) ||
+      difference <=
+          2.0 * std::hypot(recorded->standard_uncertainty, simulated.standard_uncertainty)) {
+    return;
+  }
+  found.push_back(
+      {"return pressure",
+       "simulation.return_pressure",
+       fmt::format("The pressure behind the valve is '{}' by drive.return_pressure, with which "
+                   "`boresight identify` reads the records, and '{}' by "
+                   "simulation.return_pressure, which simulated runs and the valve's stroke by "
+                   "its rated flow take: one of the two is wrong.",
+                   recorded->text, simulated.text),
+       {{"drive.return_pressure", recorded->value, "Pa"},
+        {"simulation.return_pressure", simulated.value, "Pa"}}});
+}
+
 void check_recorder_limit(const CaseNumbers& numbers, Implausibilities& found) {
   if (!numbers.antenna.tachometer) return;
   const TachometerEntry& tachometer = *numbers.antenna.tachometer;
@@ -186,8 +210,7 @@ void check_wave_speeds(const CaseNumbers& numbers, Implausibilities& found) {
   const auto add = [&](const OilLine& line, const Quantity& frequency, bool restated) {
     const double speed = 2.0 * line.length.value * frequency.value;
     const double relative =
-        std::hypot(line.length.standard_uncertainty / line.length.value,
-                   line.slosh_frequency.standard_uncertainty / line.slosh_frequency.value);
+        std::hypot(relative_uncertainty(line.length), relative_uncertainty(line.slosh_frequency));
     waves.push_back({"line." + line.name + ".slosh_frequency", speed, speed * relative, restated});
   };
   for (const OilLine& line : numbers.antenna.oil.lines) {

@@ -1,10 +1,11 @@
 #include <cmath>
+#include <numbers>
 #include <set>
 
 #include <fmt/format.h>
 
 #include <boresight/app/io/case_sections.hpp>
-#include <boresight/plant/hydraulics.hpp>
+#include <boresight/app/io/drive_numbers.hpp>
 
 namespace boresight::app {
 namespace {
@@ -15,6 +16,26 @@ void need_together(const TableReader& table, const char* one, const char* other)
   table.refuse(table.has(one) ? other : one, std::string("expected ") + one + " and " + other +
                                                  " together, found " +
                                                  (table.has(one) ? one : other) + " alone");
+}
+
+// A first guess of the tachometer's noise (rms) over the motors' rate at slew.
+constexpr double usual_tachometer_noise = 0.02 / 125.0;
+
+// Rms of the encoder, stated or of the rounding to its steps.
+void read_encoder(TableReader& table, SensorsEntry& sensors) {
+  const auto noise =
+      table.optional_quantity("encoder_noise", Kind::angle, Range::not_negative(0.1));
+  const auto bits = table.optional_integer("encoder_bits", 4, 40);
+  if (noise && bits) {
+    table.refuse("encoder_bits", "expected either encoder_noise or encoder_bits, found both");
+  }
+  if (noise) sensors.encoder_noise = *noise;
+  if (bits) {
+    const double step = 2.0 * std::numbers::pi * std::ldexp(1.0, -static_cast<int>(*bits));
+    sensors.encoder_noise =
+        table.assume("encoder_bits", Kind::angle, step / std::sqrt(12.0),
+                     fmt::format("rounding to steps of 1/2^{} of a turn, no other noise", *bits));
+  }
 }
 
 void read_tachometer(TableReader& table, Case& antenna) {
@@ -50,47 +71,18 @@ void read_tachometer(TableReader& table, Case& antenna) {
   antenna.campaign.tachometer = std::move(entry);
 }
 
-double relative(const Quantity& quantity) {
-  return quantity.standard_uncertainty / quantity.value;
-}
-
-struct Estimate {
-  double value = 0.0;
-  double relative_uncertainty = 0.0;
-};
-
-// As stated, else the mean over the lines, which have the density in common (Pa).
-Estimate bulk_modulus_of(const OilEntry& oil) {
-  if (oil.bulk_modulus) return {oil.bulk_modulus->value, relative(*oil.bulk_modulus)};
-  double sum = 0.0;
-  double variance = 0.0;
-  for (const OilLine& line : oil.lines) {
-    const double modulus = plant::bulk_modulus_from_slosh(
-        line.length.value, line.slosh_frequency.value, oil.density.value);
-    sum += modulus;
-    variance += std::pow(
-        2.0 * modulus * std::hypot(relative(line.length), relative(line.slosh_frequency)), 2);
-  }
-  return {sum / static_cast<double>(oil.lines.size()),
-          std::hypot(std::sqrt(variance) / sum, relative(oil.density))};
-}
-
 // beta (1/V1 + 1/V2) flow/pressure, with its uncertainty to first order.
 Quantity leakage_rate_by_flow(const OilEntry& oil, const Quantity& flow, const Quantity& pressure) {
-  const Estimate modulus = bulk_modulus_of(oil);
+  const Quantity modulus = bulk_modulus_of(oil);
   const double sides = 1.0 / oil.volume_1.value + 1.0 / oil.volume_2.value;
-  const double of_sides = std::hypot(relative(oil.volume_1) / oil.volume_1.value,
-                                     relative(oil.volume_2) / oil.volume_2.value) /
+  const double of_sides = std::hypot(relative_uncertainty(oil.volume_1) / oil.volume_1.value,
+                                     relative_uncertainty(oil.volume_2) / oil.volume_2.value) /
                           sides;
-  Quantity rate = flow;
-  rate.also.clear();
-  rate.kind = Kind::rate_constant;
-  rate.value = modulus.value * sides * flow.value / pressure.value;
-  rate.standard_uncertainty =
-      rate.value * std::hypot(std::hypot(relative(flow), relative(pressure)),
-                              modulus.relative_uncertainty, of_sides);
-  rate.half_unit = 0.0;
-  rate.text = fmt::format("{:.4g} 1/s", rate.value);
+  Quantity rate = derived_quantity(flow, Kind::rate_constant,
+                                   modulus.value * sides * flow.value / pressure.value, "1/s");
+  rate.standard_uncertainty = rate.value * std::hypot(std::hypot(relative_uncertainty(flow),
+                                                                 relative_uncertainty(pressure)),
+                                                      relative_uncertainty(modulus), of_sides);
   if (pressure.basis == Basis::assumed) rate.basis = Basis::assumed;
   return rate;
 }
@@ -171,8 +163,8 @@ void read_drive(TableReader& file, Case& antenna) {
       table.optional_quantity("leakage_flow", Kind::flow, Range::positive(10.0));
   const auto leakage_pressure =
       table.optional_quantity("leakage_pressure", Kind::pressure, Range::positive(1e9));
-  drive.viscous_friction =
-      table.quantity("viscous_friction", Kind::viscous_friction, Range::not_negative());
+  const auto viscous_friction =
+      table.optional_quantity("viscous_friction", Kind::viscous_friction, Range::not_negative());
   drive.valve_frequency =
       table.quantity("valve_frequency", Kind::frequency, Range::positive(10000.0));
   drive.valve_damping = table.quantity("valve_damping", Kind::number, Range::positive(10.0));
@@ -205,34 +197,34 @@ void read_drive(TableReader& file, Case& antenna) {
   }
   check_drive(table, antenna);
 
-  TableReader curve = file.table("friction_curve");
-  FrictionCurveEntry& friction = antenna.friction_curve;
-  friction.coulomb = curve.quantity("coulomb", Kind::torque, Range::not_negative());
-  friction.breakaway = curve.quantity("breakaway", Kind::torque, Range::not_negative());
-  friction.stribeck_rate = curve.quantity("stribeck_rate", Kind::angular_rate, Range::positive());
-  friction.saturating = curve.quantity("saturating", Kind::torque, Range::not_negative());
-  friction.saturating_rate =
-      curve.quantity("saturating_rate", Kind::angular_rate, Range::positive());
-  friction.viscous = curve.quantity("viscous", Kind::viscous_friction, Range::not_negative());
-  curve.finish();
-  if (friction.breakaway.value < friction.coulomb.value) {
-    curve.refuse("breakaway", "expected at least the Coulomb torque, found less");
-  }
+  read_friction_curve(file, antenna);
+  drive.viscous_friction =
+      viscous_friction
+          ? *viscous_friction
+          : table.assume("viscous_friction", Kind::viscous_friction, tracking_friction(antenna),
+                         "the friction curve's slope at the tracking rate, 0 at least");
 }
 
 void read_sensors(TableReader& file, Case& antenna) {
   TableReader table = file.table("sensors");
   SensorsEntry& sensors = antenna.sensors;
-  sensors.encoder_noise = table.quantity("encoder_noise", Kind::angle, Range::not_negative(0.1));
-  sensors.tachometer_noise =
-      table.quantity("tachometer_noise", Kind::angular_rate, Range::not_negative());
+  read_encoder(table, sensors);
+  const double slew = antenna.drive.slew_rate.value * gear_ratio(antenna);
+  sensors.tachometer_noise = table.quantity_or(
+      "tachometer_noise", Kind::angular_rate, Range::not_negative(), usual_tachometer_noise * slew,
+      "usual: 0.02 rad/s with motors that turn at 125 rad/s at slew");
   sensors.torque_noise =
       table.optional_quantity("torque_noise", Kind::torque, Range::not_negative());
   sensors.noise_bandwidth =
       table.quantity("noise_bandwidth", Kind::frequency, Range::positive(1e6));
   sensors.tachometer_frequency =
-      table.quantity("tachometer_frequency", Kind::frequency, Range::positive(1e6));
+      table.quantity_or("tachometer_frequency", Kind::frequency, Range::positive(1e6),
+                        10.0 * antenna.structure.locked_rotor_frequency.value,
+                        "usual: ten times structure.locked_rotor_frequency");
   table.finish();
+  if (sensors.encoder_noise.key.empty()) {
+    table.refuse("encoder_noise", "expected either encoder_noise or encoder_bits, found neither");
+  }
 
   TableReader controller = file.table("controller");
   antenna.controller_delay = controller.quantity("delay", Kind::time, Range::positive(10.0));

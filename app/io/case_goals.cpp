@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <boresight/app/io/case_sections.hpp>
+#include <boresight/app/io/drive_numbers.hpp>
 #include <boresight/app/io/wording.hpp>
 
 namespace boresight::app {
@@ -51,7 +52,7 @@ void read_optional_goals(TableReader& table, GoalsEntry& goals) {
 void check_band(const TableReader& table, const GoalsEntry& goals) {
   if (goals.highest_frequency.value <= goals.lowest_frequency.value) {
     table.refuse("highest_frequency", "expected a frequency above lowest_frequency, found " +
-                                          quoted(goals.highest_frequency.text));
+                                          in_quotes(goals.highest_frequency.text));
   }
 }
 
@@ -93,7 +94,11 @@ void read_goals(TableReader& file, Case& antenna) {
   TableReader table = file.table("goals");
   GoalsEntry& goals = antenna.goals;
   goals.sensitivity_peak = table.quantity("sensitivity_peak", Kind::number, peak_range);
-  goals.valve_effort = table.quantity("valve_effort", Kind::angular_rate, effort_range);
+  constexpr double usual_effort = 0.6 / 125.0;
+  goals.valve_effort =
+      table.quantity_or("valve_effort", Kind::angular_rate, effort_range,
+                        usual_effort * antenna.drive.slew_rate.value * gear_ratio(antenna),
+                        "usual: 0.6 rad/s with motors that turn at 125 rad/s at slew");
   goals.lowest_frequency = table.quantity("lowest_frequency", Kind::frequency, lowest_range);
   goals.highest_frequency = table.quantity("highest_frequency", Kind::frequency, highest_range);
   read_optional_goals(table, goals);
@@ -116,7 +121,7 @@ void change_goals(GoalsEntry& goals, const std::vector<std::string>& changes) {
       throw InvalidInput(
           "--goal: expected KEY=VALUE with a key of [goals], such as "
           "valve_effort=\"0.4 rad/s\", found " +
-          quoted(change));
+          in_quotes(change));
     }
     text += fmt::format("{} = '{}'\n", key, change.substr(equals + 1));
   }

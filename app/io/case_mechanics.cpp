@@ -1,10 +1,12 @@
 #include <cmath>
 #include <numbers>
+#include <optional>
 #include <set>
 
 #include <fmt/format.h>
 
 #include <boresight/app/io/case_sections.hpp>
+#include <boresight/app/io/drive_numbers.hpp>
 #include <boresight/app/io/modes_file.hpp>
 #include <boresight/app/io/unit_table.hpp>
 #include <boresight/app/io/wording.hpp>
@@ -97,6 +99,84 @@ void take_modes_file(TableReader& table, const std::string& name, Case& antenna)
   }
 }
 
+// What a case may say of its motors' inertia.
+struct MotorInertias {
+  std::optional<Quantity> built, rotor, disk, disk_radius, disk_length, disk_density;
+};
+
+MotorInertias read_motor_inertias(TableReader& table) {
+  MotorInertias stated;
+  stated.built = table.optional_quantity("inertia", Kind::inertia, Range::positive());
+  stated.rotor = table.optional_quantity("rotor_inertia", Kind::inertia, Range::positive());
+  stated.disk = table.optional_quantity("disk_inertia", Kind::inertia, Range::positive());
+  stated.disk_radius = table.optional_quantity("disk_radius", Kind::length, Range::positive(100.0));
+  stated.disk_length = table.optional_quantity("disk_length", Kind::length, Range::positive(100.0));
+  stated.disk_density =
+      table.optional_quantity("disk_density", Kind::density, Range::between(100.0, 25000.0));
+  if (!stated.disk && stated.disk_radius && !stated.disk_density) {
+    stated.disk_density = table.assume("disk_density", Kind::density, 7850.0, "steel");
+  }
+  return stated;
+}
+
+// Of one flywheel disk, as stated or of a solid one.
+Quantity disk_inertia_of(const TableReader& table, const MotorInertias& stated) {
+  const auto& [built, rotor, disk, radius, length, density] = stated;
+  if (disk) {
+    for (const char* key : {"disk_radius", "disk_length", "disk_density"}) {
+      if (table.has(key)) {
+        table.refuse(key, "expected either disk_inertia or a disk's dimensions, found both");
+      }
+    }
+    return *disk;
+  }
+  if (!radius && !length) {
+    table.refuse("disk_inertia",
+                 "expected disk_inertia, or disk_radius and disk_length, found neither");
+  }
+  if (!radius || !length || !density) {
+    table.refuse(radius ? "disk_length" : "disk_radius",
+                 std::string("expected disk_radius and disk_length together, found the ") +
+                     (radius ? "radius" : "length") + " alone");
+  }
+  return solid_disk(*radius, *length, *density);
+}
+
+// As built and bare: both as stated, or one by the other and the disks.
+void take_motor_inertias(const TableReader& table, const MotorInertias& stated, MotorEntry& motor) {
+  motor.disk_inertia = disk_inertia_of(table, stated);
+  const char* disk = stated.disk ? "disk_inertia" : "disk_radius";
+  const double disks = motor.flywheel_disks * motor.disk_inertia.value;
+  const double of_disks = motor.flywheel_disks * motor.disk_inertia.standard_uncertainty;
+  const auto by = [&](const Quantity& other, double value) {
+    Quantity inertia = derived_quantity(other, Kind::inertia, value, "kg.m2");
+    inertia.standard_uncertainty = std::hypot(other.standard_uncertainty, of_disks);
+    return inertia;
+  };
+  if (stated.built) {
+    motor.inertia = *stated.built;
+    const double sum = stated.rotor ? stated.rotor->value + disks : motor.inertia.value;
+    if (std::abs(sum - motor.inertia.value) > 0.05 * motor.inertia.value) {
+      table.refuse(disk,
+                   fmt::format("expected rotor_inertia + flywheel_disks x disk_inertia within "
+                               "5 % of inertia ({:.6g} kg.m2), found {:.6g} kg.m2",
+                               motor.inertia.value, sum));
+    }
+    const double bare = motor.inertia.value - disks;
+    if (bare <= 0.0) {
+      table.refuse(disk, fmt::format("expected flywheel_disks x disk_inertia below inertia, found "
+                                     "{:.6g} kg.m2 left of it without them",
+                                     bare));
+    }
+    motor.rotor_inertia = stated.rotor ? *stated.rotor : by(*stated.built, bare);
+  } else if (stated.rotor) {
+    motor.rotor_inertia = *stated.rotor;
+    motor.inertia = by(*stated.rotor, stated.rotor->value + disks);
+  } else {
+    table.refuse("inertia", "expected inertia, rotor_inertia or both, found neither");
+  }
+}
+
 }  // namespace
 
 void read_antenna(TableReader& file, Case& antenna) {
@@ -157,28 +237,13 @@ void read_motor(TableReader& file, Case& antenna) {
   MotorEntry& motor = antenna.motor;
   motor.count = table.integer("count", 1, 1000);
   motor.flywheel_disks = static_cast<double>(table.integer("flywheel_disks", 0, 10000));
-  motor.inertia = table.quantity("inertia", Kind::inertia, Range::positive());
-  motor.rotor_inertia = table.quantity("rotor_inertia", Kind::inertia, Range::positive());
-  motor.disk_inertia = table.quantity("disk_inertia", Kind::inertia, Range::positive());
+  const MotorInertias inertias = read_motor_inertias(table);
   motor.displacement = table.quantity("displacement", Kind::displacement, Range::positive(1.0));
   motor.torque_efficiency = table.quantity("torque_efficiency", Kind::number, Range::positive(1.0));
   motor.volumetric_efficiency =
       table.quantity("volumetric_efficiency", Kind::number, Range::positive(1.0));
   table.finish();
-  const double built = motor.rotor_inertia.value + motor.flywheel_disks * motor.disk_inertia.value;
-  if (std::abs(built - motor.inertia.value) > 0.05 * motor.inertia.value) {
-    table.refuse("disk_inertia",
-                 fmt::format("expected rotor_inertia + flywheel_disks x disk_inertia within 5 % of "
-                             "inertia ({:.6g} kg.m2), found {:.6g} kg.m2",
-                             motor.inertia.value, built));
-  }
-  const double bare = motor.inertia.value - motor.flywheel_disks * motor.disk_inertia.value;
-  if (bare <= 0.0) {
-    table.refuse("disk_inertia",
-                 fmt::format("expected flywheel_disks x disk_inertia below inertia, found {:.6g} "
-                             "kg.m2 left of it without them",
-                             bare));
-  }
+  take_motor_inertias(table, inertias, motor);
 }
 
 void read_structure(TableReader& file, Case& antenna) {
@@ -231,7 +296,7 @@ void read_structure(TableReader& file, Case& antenna) {
           "frequency",
           fmt::format("expected a frequency above locked_rotor_frequency, {:.6g} Hz (the "
                       "gear spring can only lower a mode), found {}",
-                      structure.locked_rotor_frequency.value, quoted(mode.frequency.text)));
+                      structure.locked_rotor_frequency.value, in_quotes(mode.frequency.text)));
     }
     entry.finish();
     fraction += mode.inertia_fraction.value;

@@ -1,3 +1,4 @@
+#include <numbers>
 #include <set>
 
 #include <fmt/format.h>
@@ -8,10 +9,29 @@
 namespace boresight::app {
 namespace {
 
-// k as stated, or by how the feed lights the dish.
-void read_beamwidth_factor(TableReader& entry, BandEntry& band) {
-  const auto stated =
-      entry.optional_quantity("beamwidth_factor", Kind::angle, Range::between(0.5, 2.0));
+constexpr double millidegrees = 180e3 / std::numbers::pi;  // of a radian
+// Of k (rad).
+const Range factor_range = Range::between(0.5, 2.0);
+
+// k by a measured beamwidth.
+Quantity factor_by_beamwidth(TableReader& entry, const Quantity& beamwidth, double per_factor) {
+  Quantity factor = derived_quantity(beamwidth, Kind::angle, beamwidth.value / per_factor, "rad");
+  factor.standard_uncertainty = beamwidth.standard_uncertainty / per_factor;
+  if (factor.value < factor_range.minimum || factor.value > factor_range.maximum) {
+    entry.refuse("beamwidth",
+                 fmt::format("expected {:.3g} to {:.3g} mdeg, 0.5 to 2 wavelengths over the dish's "
+                             "diameter, found {}",
+                             factor_range.minimum * per_factor * millidegrees,
+                             factor_range.maximum * per_factor * millidegrees, beamwidth.text));
+  }
+  return factor;
+}
+
+// k as stated, by a measured beamwidth, or by how the feed lights the dish.
+void read_beamwidth_factor(TableReader& entry, double dish_diameter, BandEntry& band) {
+  auto stated = entry.optional_quantity("beamwidth_factor", Kind::angle, factor_range);
+  const auto measured =
+      entry.optional_quantity("beamwidth", Kind::angle, Range::positive(std::numbers::pi));
   const auto taper = entry.optional_quantity("edge_taper", Kind::level, Range::between(0.0, 60.0));
   // Beside a misspelt edge_taper they are no unknown keys.
   design::Illumination illumination;
@@ -23,14 +43,20 @@ void read_beamwidth_factor(TableReader& entry, BandEntry& band) {
   const auto exponent =
       entry.optional_quantity("illumination_exponent", Kind::number, Range::between(0.5, 8.0));
   entry.finish();
-  if (stated.has_value() == taper.has_value()) {
+  const int said = static_cast<int>(stated.has_value()) + static_cast<int>(measured.has_value()) +
+                   static_cast<int>(taper.has_value());
+  if (said != 1) {
     entry.refuse("beamwidth_factor",
-                 std::string("expected either beamwidth_factor or edge_taper, found ") +
-                     (stated ? "both" : "neither"));
+                 fmt::format("expected either beamwidth, beamwidth_factor or edge_taper, found {}",
+                             said == 0 ? "none" : "several"));
+  }
+  if (measured) {
+    stated = factor_by_beamwidth(
+        entry, *measured, design::half_power_beamwidth(1.0, band.frequency.value, dish_diameter));
   }
   for (const auto* key : {"illumination", "illumination_exponent"}) {
     if (stated && entry.has(key)) {
-      entry.refuse(key, "expected it beside edge_taper only, found it beside beamwidth_factor");
+      entry.refuse(key, "expected it beside edge_taper only, found it without");
     }
   }
   if (stated) {
@@ -62,7 +88,7 @@ void read_pointing(TableReader& file, Case& antenna) {
     BandEntry band;
     band.name = read_name(entry, names);
     band.frequency = entry.quantity("frequency", Kind::frequency, Range::between(1e8, 1e13));
-    read_beamwidth_factor(entry, band);
+    read_beamwidth_factor(entry, antenna.antenna.dish_diameter.value, band);
     antenna.bands.push_back(std::move(band));
   }
   for (auto& entry : table.tables("budget", true)) {

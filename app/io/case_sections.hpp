@@ -21,6 +21,8 @@ void read_oil(TableReader& file, Case& antenna);
 /// Resonance, tachometer, friction tests, impulse results: what the test campaign gave.
 void read_tests(TableReader& file, Case& antenna);
 void read_drive(TableReader& file, Case& antenna);
+/// The friction curve as stated, or through tests at steady rates.
+void read_friction_curve(TableReader& file, Case& antenna);
 /// Nonlinear drive and recorder, for simulated tests.
 void read_simulation(TableReader& file, Case& antenna);
 void read_structure(TableReader& file, Case& antenna);

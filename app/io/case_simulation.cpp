@@ -1,62 +1,8 @@
-#include <cmath>
-
-#include <fmt/format.h>
-
 #include <boresight/app/io/case_sections.hpp>
-#include <boresight/plant/gear_train.hpp>
-#include <boresight/plant/hydraulics.hpp>
+#include <boresight/app/io/drive_numbers.hpp>
 
 namespace boresight::app {
 namespace {
-
-double relative(const Quantity& quantity) {
-  return quantity.standard_uncertainty / quantity.value;
-}
-
-// The flow goes with the root of the drop over both edges, which without load is what the supply
-// has above the return. The volumetric efficiency is not in it: without load nothing drives oil
-// past the pistons, and under load that is the leakage rate.
-std::optional<Quantity> rated_stroke(const Case& antenna,
-                                     const std::optional<Quantity>& return_pressure) {
-  const auto& flow = antenna.drive.valve_rated_flow;
-  const auto& drop = antenna.drive.valve_rated_pressure_drop;
-  if (!flow || !drop) return std::nullopt;
-  const Quantity& supply = antenna.drive.supply_pressure;
-  const Quantity& displacement = antenna.motor.displacement;
-  const double driving = supply.value - (return_pressure ? return_pressure->value : 0.0);
-  const double of_driving =
-      std::hypot(supply.standard_uncertainty,
-                 return_pressure ? return_pressure->standard_uncertainty : 0.0) /
-      driving;
-  Quantity stroke = *flow;
-  stroke.also.clear();
-  stroke.kind = Kind::angular_rate;
-  stroke.value = flow->value * std::sqrt(driving / drop->value) /
-                 (static_cast<double>(antenna.motor.count) * displacement.value);
-  stroke.standard_uncertainty =
-      stroke.value * std::hypot(std::hypot(relative(*flow), relative(displacement)),
-                                0.5 * relative(*drop), 0.5 * of_driving);
-  stroke.half_unit = 0.0;
-  stroke.text = fmt::format("{:.4g} rad/s", stroke.value);
-  if (drop->basis == Basis::assumed) stroke.basis = Basis::assumed;
-  return stroke;
-}
-
-double slew_rate_at_motor(const Case& antenna) {
-  std::vector<plant::GearStage> stages;
-  for (const GearStageEntry& stage : antenna.gear_train.stages) {
-    stages.push_back({stage.driven_teeth.value, stage.driving_teeth.value});
-  }
-  return antenna.drive.slew_rate.value * plant::gear_ratio(stages);
-}
-
-double supply_torque_of(const Case& antenna) {
-  plant::HydraulicDrive drive;
-  drive.motor_count = static_cast<double>(antenna.motor.count);
-  drive.displacement = antenna.motor.displacement.value;
-  drive.torque_efficiency = antenna.motor.torque_efficiency.value;
-  return plant::torque_per_pressure(drive) * antenna.drive.supply_pressure.value;
-}
 
 void read_valve_stroke(TableReader& table, const Case& antenna, SimulationEntry& entry) {
   const auto stated =
@@ -68,9 +14,9 @@ void read_valve_stroke(TableReader& table, const Case& antenna, SimulationEntry&
   } else if (rated) {
     entry.valve_stroke = *rated;
   } else {
-    entry.valve_stroke =
-        table.assume("valve_stroke", Kind::angular_rate, 1.2 * slew_rate_at_motor(antenna),
-                     "1.2 times the slew rate at the motor");
+    entry.valve_stroke = table.assume("valve_stroke", Kind::angular_rate,
+                                      1.2 * antenna.drive.slew_rate.value * gear_ratio(antenna),
+                                      "1.2 times the slew rate at the motor");
   }
 }
 
@@ -103,12 +49,9 @@ SimulationEntry read_drive_details(TableReader& table, const Case& antenna) {
     table.refuse(entry.offset_cosine ? "offset_cosine" : "offset_sine",
                  "expected it for the elevation axis only, found it for the azimuth axis");
   }
-  const auto preload =
-      table.optional_quantity("preload_torque", Kind::torque, Range::positive(1e9));
   entry.preload_torque =
-      preload ? *preload
-              : table.assume("preload_torque", Kind::torque, 0.1 * supply_torque_of(antenna),
-                             "a tenth of the supply torque");
+      table.quantity_or("preload_torque", Kind::torque, Range::positive(1e9),
+                        0.1 * supply_torque(antenna), "a tenth of the supply torque");
   entry.backlash = table.optional_quantity("backlash", Kind::angle, Range::positive(1e3));
   entry.rate_loop_gain = table.quantity("rate_loop_gain", Kind::number, Range::positive(1e4));
   entry.rate_loop_corner =
@@ -159,9 +102,6 @@ void read_simulation(TableReader& file, Case& antenna) {
   if (auto table = file.optional_table("simulation")) {
     antenna.simulation = read_drive_details(*table, antenna);
   }
-  antenna.drive.rated_stroke =
-      rated_stroke(antenna, antenna.simulation ? antenna.simulation->return_pressure
-                                               : antenna.campaign.return_pressure);
   if (auto table = file.optional_table("recorder")) antenna.recorder = read_recorder(*table);
 }
 

@@ -1,3 +1,7 @@
+#include <cmath>
+
+#include <fmt/format.h>
+
 #include <boresight/app/io/quantity.hpp>
 
 namespace boresight::app {
@@ -16,6 +20,20 @@ std::string_view to_string(Basis basis) {
       break;
   }
   return "unstated";
+}
+
+Quantity derived_quantity(const Quantity& from, Kind kind, double value, std::string_view unit) {
+  Quantity quantity = from;
+  quantity.also.clear();
+  quantity.kind = kind;
+  quantity.value = value;
+  quantity.half_unit = 0.0;
+  quantity.text = fmt::format("{:.4g} {}", value, unit);
+  return quantity;
+}
+
+double relative_uncertainty(const Quantity& quantity) {
+  return quantity.value != 0.0 ? quantity.standard_uncertainty / std::abs(quantity.value) : 0.0;
 }
 
 }  // namespace boresight::app

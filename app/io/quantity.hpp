@@ -40,6 +40,13 @@ struct Quantity {
   Location location;
 };
 
+/// Standard uncertainty over the value's size; 0 where the value is 0.
+double relative_uncertainty(const Quantity& quantity);
+
+/// A number that follows from `from`, and may from others: said in the same place, by the same
+/// source. Its uncertainty is for the caller to state.
+Quantity derived_quantity(const Quantity& from, Kind kind, double value, std::string_view unit);
+
 /// Physical range of a field, SI. Open ends by default.
 struct Range {
   double minimum = -1e300;

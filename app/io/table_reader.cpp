@@ -23,7 +23,7 @@ namespace boresight::app {
 namespace {
 
 /// A parsed file; the tables read from it share it.
-struct Document {
+struct TomlText {
   std::string name;
   TomlNode root;
   /// Of all tables: the reader's record, not the file's content.
@@ -46,7 +46,7 @@ Basis basis_named(std::string_view name) {
 }  // namespace
 
 struct TableReader::Content {
-  std::shared_ptr<const Document> document;
+  std::shared_ptr<const TomlText> document;
   const TomlNode& table;
   std::string path;
   std::set<std::string, std::less<>> asked;
@@ -56,7 +56,7 @@ struct TableReader::Content {
   }
 
   std::string path_of(std::string_view key) const {
-    const std::string step = is_bare_key(key) ? std::string(key) : quoted(key);
+    const std::string step = is_bare_key(key) ? std::string(key) : in_quotes(key);
     return path.empty() ? step : fmt::format("{}.{}", path, step);
   }
 
@@ -91,10 +91,10 @@ struct TableReader::Content {
         }
       }
     }
-    refuse_at(
-        place, path_of(key),
-        fmt::format("expected {}, found nothing: key is missing{}", expected,
-                    misspelt.empty() ? "" : fmt::format(" (is {} misspelt?)", quoted(misspelt))));
+    refuse_at(place, path_of(key),
+              fmt::format(
+                  "expected {}, found nothing: key is missing{}", expected,
+                  misspelt.empty() ? "" : fmt::format(" (is {} misspelt?)", in_quotes(misspelt))));
   }
 
   TableReader nested(const TomlNode& inner, const std::string& inner_path) const {
@@ -181,7 +181,7 @@ TableReader TableReader::open(const std::string& path) {
 
 TableReader TableReader::parse(std::string_view text, const std::string& name) {
   const auto document =
-      std::make_shared<const Document>(Document{name, parse_toml(text, name), {}});
+      std::make_shared<const TomlText>(TomlText{name, parse_toml(text, name), {}});
   return TableReader(std::make_unique<Content>(Content{document, document->root, "", {}}));
 }
 
@@ -208,6 +208,12 @@ std::optional<Quantity> TableReader::optional_quantity(std::string_view key, Kin
   const std::optional<Field> found = content_->ask(key);
   return found ? std::optional(content_->record(content_->quantity(*found, kind, range)))
                : std::nullopt;
+}
+
+Quantity TableReader::quantity_or(std::string_view key, Kind kind, Range range, double value,
+                                  std::string source) {
+  auto stated = optional_quantity(key, kind, range);
+  return stated ? std::move(*stated) : assume(key, kind, value, std::move(source));
 }
 
 Quantity TableReader::assume(std::string_view key, Kind kind, double value, std::string source) {

@@ -50,6 +50,9 @@ class TableReader {
   /// The value must lie in `range`, which a message states with its unit.
   Quantity quantity(std::string_view key, Kind kind, Range range = {});
   std::optional<Quantity> optional_quantity(std::string_view key, Kind kind, Range range = {});
+  /// The quantity, or `value` (SI) where the key is left out: then as assume.
+  Quantity quantity_or(std::string_view key, Kind kind, Range range, double value,
+                       std::string source);
   /// A number in the stead of a key that was left out: counts as read, and as assumed. SI.
   Quantity assume(std::string_view key, Kind kind, double value, std::string source);
   std::string text(std::string_view key);

@@ -8,6 +8,8 @@
 
 #include "edited_case.hpp"
 #include <boresight/app/io/case_file.hpp>
+#include <boresight/app/io/drive_numbers.hpp>
+#include <boresight/app/redesign/assumed_inputs.hpp>
 #include <boresight/plant/error.hpp>
 
 namespace boresight::app {
@@ -23,12 +25,7 @@ Case with(const std::string& old, const std::string& replacement) {
 }
 
 std::string refusal(const std::string& old, const std::string& replacement) {
-  try {
-    with(old, replacement);
-  } catch (const InvalidInput& error) {
-    return error.what();
-  }
-  return "taken";
+  return refusal_of(EditedCase().replace(old, replacement).text());
 }
 
 const std::string stated_rate = "leakage_rate = { value = \"1.219 1/s\"";
@@ -99,15 +96,25 @@ TEST(CaseDrive, FindsTheStrokeByTheRatedFlow) {
   const double driving =
       antenna.drive.supply_pressure.value - antenna.simulation->return_pressure.value;
   const double stroke = 57e-3 / 60.0 * std::sqrt(driving / 7e6) / (4.0 * 38.329e-6 / (2.0 * pi));
-  ASSERT_TRUE(antenna.drive.rated_stroke);
-  EXPECT_NEAR(antenna.drive.rated_stroke->value, stroke, 1e-9 * stroke);
-  EXPECT_EQ(antenna.simulation->valve_stroke.value, antenna.drive.rated_stroke->value);
+  const auto no_load_rate = rated_stroke(antenna);
+  ASSERT_TRUE(no_load_rate);
+  EXPECT_NEAR(no_load_rate->value, stroke, 1e-9 * stroke);
+  EXPECT_EQ(antenna.simulation->valve_stroke.value, no_load_rate->value);
   EXPECT_FALSE(antenna.simulation->valve_stroke_stated);
-  EXPECT_NEAR(antenna.drive.rated_stroke->standard_uncertainty / stroke, 0.1, 0.005);
+  EXPECT_NEAR(no_load_rate->standard_uncertainty / stroke, 0.1, 0.005);
   // What is stated counts.
   const Case both = with(damping, rated);
   EXPECT_DOUBLE_EQ(both.simulation->valve_stroke.value, 150.0);
-  EXPECT_TRUE(both.drive.rated_stroke);
+  EXPECT_TRUE(rated_stroke(both));
+  EXPECT_DOUBLE_EQ(largest_demand(both), 150.0);
+  // Without a simulation the flow is all there is, and without it the slew rate.
+  Case linear = both;
+  linear.simulation.reset();
+  const auto alone = rated_stroke(linear);
+  ASSERT_TRUE(alone);
+  EXPECT_EQ(largest_demand(linear), alone->value);
+  linear.drive.valve_rated_flow.reset();
+  EXPECT_EQ(largest_demand(linear), linear.drive.slew_rate.value * gear_ratio(linear));
   EXPECT_THAT(refusal(damping, "valve_rated_flow = \"57 L/min\"\n" + damping),
               HasSubstr("drive.valve_rated_pressure_drop: expected valve_rated_flow and "
                         "valve_rated_pressure_drop together"));
@@ -128,6 +135,47 @@ TEST(CaseDrive, AssumesWhatSimulationLeavesOut) {
               1)
         << key;
   }
+}
+
+TEST(CaseDrive, FindsByTheRestWhatFewEngineersKnow) {
+  const Case antenna =
+      parse_case(EditedCase()
+                     .replace_line("viscous_friction = {", "")
+                     .replace_line("tachometer_noise = { value = \"0.02 rad/s\"", "")
+                     .replace_line("tachometer_frequency = {", "")
+                     .replace_line("encoder_noise = {", "encoder_bits = 20")
+                     .replace_line("valve_effort = {", "")
+                     .text(),
+                 "case.toml");
+  const double motors_at_slew = antenna.drive.slew_rate.value * gear_ratio(antenna);
+  EXPECT_EQ(antenna.drive.viscous_friction.value, tracking_friction(antenna));
+  EXPECT_GT(antenna.drive.viscous_friction.value, 0.0);
+  EXPECT_DOUBLE_EQ(antenna.sensors.tachometer_noise.value, 0.02 / 125.0 * motors_at_slew);
+  EXPECT_DOUBLE_EQ(antenna.sensors.tachometer_frequency.value,
+                   10.0 * antenna.structure.locked_rotor_frequency.value);
+  EXPECT_DOUBLE_EQ(antenna.sensors.encoder_noise.value, 2.0 * pi / 1048576.0 / std::sqrt(12.0));
+  EXPECT_DOUBLE_EQ(antenna.goals.valve_effort.value, 0.6 / 125.0 * motors_at_slew);
+  const auto assumed = assumed_inputs(antenna);
+  for (const auto* key :
+       {"drive.viscous_friction", "sensors.tachometer_noise", "sensors.tachometer_frequency",
+        "sensors.encoder_bits", "goals.valve_effort"}) {
+    EXPECT_TRUE(std::ranges::any_of(assumed, [&](const Quantity& one) { return one.key == key; }))
+        << key;
+  }
+  // A curve that falls there gives none.
+  const Case falling =
+      parse_case(EditedCase()
+                     .replace_line("viscous_friction = {", "")
+                     .replace_line("stribeck_rate = {", "stribeck_rate = \"2 rad/s\"")
+                     .replace_line("breakaway = {", "breakaway = \"300 N.m\"")
+                     .text(),
+                 "case.toml");
+  ASSERT_LT(tracking_slope(falling), 0.0);
+  EXPECT_EQ(falling.drive.viscous_friction.value, 0.0);
+  EXPECT_THAT(refusal_of(EditedCase().replace_line("encoder_noise = {", "").text()),
+              HasSubstr("sensors.encoder_noise: expected either encoder_noise or encoder_bits"));
+  EXPECT_THAT(refusal("encoder_noise = {", "encoder_bits = 20\nencoder_noise = {"),
+              HasSubstr("sensors.encoder_bits: expected either"));
 }
 
 TEST(CaseDrive, RefusesAReturnAboveTheSupply) {

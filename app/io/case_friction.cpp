@@ -1,0 +1,123 @@
+#include <array>
+#include <cmath>
+#include <set>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include <boresight/app/io/case_sections.hpp>
+#include <boresight/app/io/drive_numbers.hpp>
+#include <boresight/identification/steady_friction.hpp>
+
+namespace boresight::app {
+namespace {
+
+constexpr std::array curve_keys{"coulomb",    "breakaway",       "stribeck_rate",
+                                "saturating", "saturating_rate", "viscous"};
+
+struct SteadyTest {
+  Quantity rate;  // of the antenna
+  Quantity said;  // as a torque or a pressure
+  double torque = 0.0;
+  double relative_uncertainty = 0.0;
+};
+
+SteadyTest read_test(TableReader& entry, const Case& antenna) {
+  SteadyTest test;
+  test.rate = entry.quantity("rate", Kind::angular_rate, Range::not_negative(10.0));
+  const auto torque = entry.optional_quantity("torque", Kind::torque, Range::not_negative());
+  const auto pressure =
+      entry.optional_quantity("pressure", Kind::pressure, Range::not_negative(1e9));
+  entry.finish();
+  if (torque.has_value() == pressure.has_value()) {
+    entry.refuse("torque", std::string("expected either torque or pressure, found ") +
+                               (torque ? "both" : "neither"));
+  }
+  if (torque) {
+    test.said = *torque;
+    test.torque = torque->value;
+    test.relative_uncertainty = relative_uncertainty(*torque);
+  } else if (pressure) {
+    test.said = *pressure;
+    test.torque = pressure->value * plant::torque_per_pressure(hydraulic_drive(antenna));
+    test.relative_uncertainty = std::hypot(relative_uncertainty(*pressure),
+                                           relative_uncertainty(antenna.motor.displacement),
+                                           relative_uncertainty(antenna.motor.torque_efficiency));
+  }
+  return test;
+}
+
+void fit_tests(const std::vector<SteadyTest>& tests, double ratio, FrictionCurveEntry& friction) {
+  std::vector<identification::SteadyFriction> points;
+  double squares = 0.0, sum = 0.0;
+  for (const auto& test : tests) {
+    points.push_back({test.rate.value * ratio, test.torque});
+    squares += std::pow(test.relative_uncertainty, 2);
+    sum += test.torque;
+  }
+  const auto fit = identification::fit_steady_friction(points);
+  // What the tests share, and what they scatter by, moves all of the curve.
+  const auto count = static_cast<double>(tests.size());
+  const double relative =
+      std::hypot(std::sqrt(squares / count), sum > 0.0 ? fit.scatter * count / sum : 0.0);
+  const auto found = [&](const Quantity& from, Kind kind, double value, const char* unit) {
+    Quantity quantity = derived_quantity(from, kind, value, unit);
+    quantity.standard_uncertainty = relative * value;
+    return quantity;
+  };
+  const Quantity& torque = tests.front().said;
+  const Quantity& rate = tests.front().rate;
+  const plant::FrictionCurve& curve = fit.curve;
+  friction.coulomb = found(torque, Kind::torque, curve.coulomb_torque, "N.m");
+  friction.breakaway = found(torque, Kind::torque, curve.breakaway_torque, "N.m");
+  friction.stribeck_rate = found(rate, Kind::angular_rate, curve.stribeck_rate, "rad/s");
+  friction.saturating = found(torque, Kind::torque, 0.0, "N.m");
+  friction.saturating_rate = found(rate, Kind::angular_rate, curve.saturating_rate, "rad/s");
+  friction.viscous = found(torque, Kind::viscous_friction, curve.viscous_friction, "N.m.s/rad");
+}
+
+void read_tests_of_curve(TableReader& curve, std::vector<TableReader>& entries, Case& antenna) {
+  for (const char* key : curve_keys) {
+    if (curve.has(key)) {
+      curve.refuse(key, fmt::format("expected either {} or tests, found both", key));
+    }
+  }
+  std::vector<SteadyTest> tests;
+  std::set<double> rates;
+  for (auto& entry : entries) {
+    tests.push_back(read_test(entry, antenna));
+    if (!rates.insert(tests.back().rate.value).second) {
+      entry.refuse("rate", "expected one test a rate, found another at this one");
+    }
+  }
+  if (*rates.rbegin() == 0.0) {
+    curve.refuse("test", "expected a test at a rate above 0, found only one at rest");
+  }
+  fit_tests(tests, gear_ratio(antenna), antenna.friction_curve);
+}
+
+}  // namespace
+
+void read_friction_curve(TableReader& file, Case& antenna) {
+  TableReader curve = file.table("friction_curve");
+  FrictionCurveEntry& friction = antenna.friction_curve;
+  auto entries = curve.tables("test");
+  if (!entries.empty()) {
+    read_tests_of_curve(curve, entries, antenna);
+    curve.finish();
+    return;
+  }
+  friction.coulomb = curve.quantity("coulomb", Kind::torque, Range::not_negative());
+  friction.breakaway = curve.quantity("breakaway", Kind::torque, Range::not_negative());
+  friction.stribeck_rate = curve.quantity("stribeck_rate", Kind::angular_rate, Range::positive());
+  friction.saturating = curve.quantity("saturating", Kind::torque, Range::not_negative());
+  friction.saturating_rate =
+      curve.quantity("saturating_rate", Kind::angular_rate, Range::positive());
+  friction.viscous = curve.quantity("viscous", Kind::viscous_friction, Range::not_negative());
+  curve.finish();
+  if (friction.breakaway.value < friction.coulomb.value) {
+    curve.refuse("breakaway", "expected at least the Coulomb torque, found less");
+  }
+}
+
+}  // namespace boresight::app

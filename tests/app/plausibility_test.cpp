@@ -1,0 +1,192 @@
+// What of friction, supply and pressures an audit holds against one another.
+#include <cmath>
+#include <numbers>
+#include <random>
+#include <string>
+#include <vector>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "edited_case.hpp"
+#include <boresight/app/audit/case_graph.hpp>
+#include <boresight/app/audit/plausibility_checks.hpp>
+#include <boresight/app/io/drive_numbers.hpp>
+#include <boresight/app/redesign/antenna_model.hpp>
+
+namespace boresight::app {
+namespace {
+
+using testing::AllOf;
+using testing::Each;
+using testing::HasSubstr;
+using testing::IsEmpty;
+using testing::Ne;
+using testing::Not;
+
+const std::string viscous = "viscous = { value = \"2.075 N.m.s/rad\"";
+const std::string breakaway = "breakaway = { value = \"16.83 N.m\"";
+const std::string supply_pressure = "supply_pressure = { value = \"2000 psi\"";
+
+Implausibilities found_in(const Case& antenna, const std::string& check) {
+  Implausibilities found;
+  for (const Implausibility& one : implausibilities(antenna, case_graph(antenna))) {
+    if (one.check == check) found.push_back(one);
+  }
+  return found;
+}
+
+Implausibilities found_in(const EditedCase& edited, const std::string& check) {
+  return found_in(parse_case(edited.text(), "case.toml"), check);
+}
+
+Implausibilities against_supply(EditedCase edited) {
+  return found_in(edited, "friction against the supply");
+}
+
+std::string campaign_case(const std::string& name) {
+  return BORESIGHT_SOURCE_DIR "/tests/data/campaigns/" + name + "/case.toml";
+}
+
+TEST(FrictionAgainstTheSupply, SaysThatTheSlewRateIsOutOfReach) {
+  const Case antenna = read_case(case_path("dss14-70m"));
+  const double slewing = 0.25 * std::numbers::pi / 180.0 * gear_ratio(antenna);
+  const auto found = against_supply(EditedCase());
+  ASSERT_EQ(found.size(), 1U);
+  EXPECT_EQ(found[0].id, "friction_curve.viscous");
+  EXPECT_THAT(found[0].reasoning,
+              AllOf(HasSubstr("The supply cannot slew the antenna against its friction"),
+                    HasSubstr("'0.25 deg/s'"), HasSubstr("'2.075 N.m.s/rad' (assumed)"),
+                    HasSubstr("'2000 psi' (assumed)"), HasSubstr("the slew rate is out of reach")));
+  ASSERT_EQ(found[0].numbers.size(), 4U);
+  EXPECT_NEAR(found[0].numbers[1].value, 10.33 + 63.29 + 2.075 * slewing, 1e-9);
+  EXPECT_NEAR(found[0].numbers[2].value, supply_torque(antenna), 1e-9);
+  EXPECT_GT(found[0].numbers[3].value, 1.0);
+}
+
+TEST(FrictionAgainstTheSupply, SaysHowMuchOfTheTorqueIsGone) {
+  EXPECT_THAT(
+      against_supply(EditedCase().replace(viscous, "viscous = { value = \"0.2 N.m.s/rad\"")),
+      IsEmpty());
+  const std::string large = "viscous = { value = \"0.6 N.m.s/rad\"";
+  const auto found = against_supply(EditedCase().replace(viscous, large));
+  ASSERT_EQ(found.size(), 1U);
+  EXPECT_THAT(found[0].reasoning,
+              AllOf(HasSubstr("Friction takes 47 % of the supply's torque"),
+                    HasSubstr("wind and acceleration"), Not(HasSubstr("cannot"))));
+  EXPECT_THAT(against_supply(EditedCase().replace(viscous, large + ", uncertainty = \"50 %\"")),
+              IsEmpty())
+      << "within two standard uncertainties";
+}
+
+TEST(FrictionAgainstTheSupply, SaysThatTheAntennaCannotBreakAway) {
+  const auto found =
+      against_supply(EditedCase().replace(breakaway, "breakaway = { value = \"400 N.m\""));
+  ASSERT_EQ(found.size(), 1U);
+  EXPECT_EQ(found[0].id, "friction_curve.breakaway");
+  EXPECT_THAT(found[0].reasoning,
+              AllOf(HasSubstr("The supply cannot move the antenna against its friction"),
+                    HasSubstr("'400 N.m'"), Not(HasSubstr("slew"))));
+  // A pressure in the wrong unit.
+  const auto weak =
+      against_supply(EditedCase()
+                         .replace(supply_pressure, "supply_pressure = { value = \"2000 kPa\"")
+                         .replace(breakaway, "breakaway = { value = \"60 N.m\""));
+  ASSERT_EQ(weak.size(), 1U);
+  EXPECT_EQ(weak[0].id, "friction_curve.breakaway");
+}
+
+TEST(FrictionAgainstTheSupply, LeavesAloneWhatTheSupplyOvercomes) {
+  for (const std::string name : {"full", "paper-like"}) {
+    EXPECT_THAT(found_in(read_case(campaign_case(name)), "friction against the supply"), IsEmpty())
+        << name;
+  }
+  // 1 N.m.s/rad where the records were made with 0.125, "to be identified".
+  EXPECT_EQ(found_in(read_case(campaign_case("small-dish")), "friction against the supply").size(),
+            1U);
+}
+
+TEST(FrictionTests, MustLieOnTheCurve) {
+  const std::string check = "friction tests";
+  EXPECT_THAT(found_in(EditedCase(), check), IsEmpty());
+  // Without the part that saturates the curve has neither the tests' intercept nor their slope.
+  const auto found = found_in(EditedCase().replace("saturating = { value = \"63.29 N.m\"",
+                                                   "saturating = { value = \"0 N.m\""),
+                              check);
+  ASSERT_EQ(found.size(), 2U);
+  EXPECT_EQ(found[0].id, "friction_tests.constant_speed_coulomb");
+  EXPECT_THAT(found[0].reasoning, AllOf(HasSubstr("'69.49 N.m'"), HasSubstr("10.3 and 18.2 N.m")));
+  EXPECT_EQ(found[1].id, "friction_tests.constant_speed_slope");
+  EXPECT_THAT(found[1].reasoning, AllOf(HasSubstr("'5.21 N.m/rpm'"), HasSubstr("2.08 N.m.s/rad")));
+  const auto low =
+      found_in(EditedCase().replace("\"69.49 N.m\", also = \"615.00 in.lbf\"", "\"5 N.m\""), check);
+  ASSERT_EQ(low.size(), 1U);
+  EXPECT_EQ(low[0].id, "friction_tests.constant_speed_coulomb");
+}
+
+Quantity exactly(double value) {
+  Quantity quantity;
+  quantity.value = value;
+  return quantity;
+}
+
+// Least squares through friction at a few speeds, from far below to far above the curve's rates.
+FrictionTestsEntry tests_on(const plant::FrictionCurve& curve, std::mt19937_64& random) {
+  std::uniform_real_distribution<double> decades(-3.0, 2.0);
+  const int count = std::uniform_int_distribution<int>(2, 6)(random);
+  double n = 0.0, w = 0.0, t = 0.0, ww = 0.0, wt = 0.0;
+  for (int i = 0; i < count; ++i) {
+    const double rate = std::pow(10.0, decades(random));
+    const double torque = plant::friction_torque(curve, rate);
+    n += 1.0;
+    w += rate;
+    t += torque;
+    ww += rate * rate;
+    wt += rate * torque;
+  }
+  FrictionTestsEntry tests;
+  const double slope = (n * wt - w * t) / (n * ww - w * w);
+  tests.constant_speed_slope = exactly(slope);
+  tests.constant_speed_coulomb = exactly((t - slope * w) / n);
+  return tests;
+}
+
+TEST(FrictionTests, DoNotContradictTheCurveAtAnySpeeds) {
+  Case antenna = read_case(case_path("dss14-64m"));
+  const auto graph = case_graph(antenna);
+  const CaseNumbers numbers = case_numbers(antenna, graph);
+  const plant::FrictionCurve curve = friction_curve(antenna);
+  std::mt19937_64 random(1);
+  for (int k = 0; k < 1000; ++k) {
+    antenna.friction_tests = tests_on(curve, random);
+    Implausibilities found;
+    check_friction_tests(numbers, found);
+    ASSERT_THAT(found, IsEmpty()) << antenna.friction_tests.constant_speed_slope->value << " "
+                                  << antenna.friction_tests.constant_speed_coulomb->value;
+  }
+}
+
+// The 70-m case with a return pressure for records beside that of its simulation, 60 psi.
+Implausibilities return_pressures(const std::string& recorded) {
+  EditedCase edited;
+  edited.replace(supply_pressure, "return_pressure = " + recorded + "\n" + supply_pressure);
+  return found_in(edited, "return pressure");
+}
+
+TEST(ReturnPressures, OfRecordsAndSimulationAreOne) {
+  EXPECT_THAT(found_in(EditedCase(), "return pressure"), IsEmpty());
+  EXPECT_THAT(return_pressures("\"62 psi\""), IsEmpty());
+  EXPECT_THAT(return_pressures("{ value = \"80 psi\", uncertainty = \"15 psi\" }"), IsEmpty());
+  const auto found = return_pressures("\"600 psi\"");
+  ASSERT_EQ(found.size(), 1U);
+  EXPECT_EQ(found[0].id, "simulation.return_pressure");
+  EXPECT_THAT(found[0].reasoning,
+              AllOf(HasSubstr("'600 psi' by drive.return_pressure"), HasSubstr("'60 psi'"),
+                    HasSubstr("one of the two is wrong")));
+  const Case campaign = read_case(BORESIGHT_SOURCE_DIR "/cases/dss14-70m/campaign.toml");
+  EXPECT_THAT(implausibilities(campaign, case_graph(campaign)),
+              Each(testing::Field(&Implausibility::check, Ne("return pressure"))));
+}
+
+}  // namespace
+}  // namespace boresight::app

@@ -5,6 +5,7 @@
 
 #include <boresight/app/page/decision.hpp>
 #include <boresight/app/page/study_decision.hpp>
+#include <boresight/app/redesign/assumed_inputs.hpp>
 #include <boresight/app/redesign/matching_verdict.hpp>
 #include <boresight/app/redesign/tuning_verdict.hpp>
 
@@ -14,25 +15,30 @@ namespace {
 using Sentences = std::vector<std::string>;
 
 std::string audited(const AuditReport& report) {
-  if (report.findings.empty() && report.implausible.empty()) {
-    if (report.checked == 0) {
-      return "The case states no derived numbers to compare, and nothing in it is physically "
-             "implausible.";
-    }
-    return fmt::format("The case's {} printed numbers hang together: design on them.",
-                       report.checked);
+  const std::size_t departing = report.findings.size();
+  if (departing > 0) {
+    return fmt::format(
+        "{} of {} printed numbers {} not follow from the others: mend those that move a headline "
+        "result before designing on them.",
+        departing, report.checked, departing == 1 ? "does" : "do");
   }
-  return fmt::format(
-      "{} of {} printed numbers do not follow from the others and {} physical checks fail: mend "
-      "those that move a headline result before designing on them.",
-      report.findings.size(), report.checked, report.implausible.size());
+  const bool sound = report.implausible.empty();
+  if (report.checked == 0) {
+    return std::string("The case states no derived numbers to compare") +
+           (sound ? ", and nothing in it is physically implausible." : ".");
+  }
+  return (report.checked == 1
+              ? "The case's one printed number that can be compared agrees"
+              : fmt::format("The case's {} printed numbers hang together", report.checked)) +
+         (sound ? ": design on the case." : ".");
 }
 
-std::string assumptions(std::size_t count) {
-  if (count == 0) return "No input of the case is assumed.";
+std::string assumptions(const std::vector<Quantity>& assumed) {
+  const std::size_t count = count_of_antenna(assumed);
+  if (count == 0) return "No number of the antenna is assumed.";
   return fmt::format(
-      "{} inputs are assumed, in value or in uncertainty: every number here stands on them until "
-      "they are measured.",
+      "{} numbers of the antenna are assumed, in value or in uncertainty: every number here stands "
+      "on them until they are measured.",
       count);
 }
 
@@ -52,6 +58,11 @@ Sentences audit_decision(const AuditReport& report) {
     sentences.push_back(fmt::format(
         "The one that moves a headline result most is {} '{}', by {:.3g} %.", largest->id,
         largest->forms.empty() ? std::string() : largest->forms.front().text, 100.0 * change));
+  }
+  if (!report.implausible.empty()) {
+    sentences.push_back(fmt::format(
+        "{}. {} before designing on the case.", failing_checks(report.implausible),
+        report.implausible.size() == 1 ? "Explain or mend it" : "Explain or mend each"));
   }
   return sentences;
 }
@@ -112,7 +123,7 @@ Sentences redesign_decision(const Report& report) {
       sentences.push_back(std::move(text));
     }
   }
-  sentences.push_back(assumptions(report.assumed.size()));
+  sentences.push_back(assumptions(report.assumed));
   return sentences;
 }
 
@@ -128,7 +139,7 @@ std::vector<std::string> decision(const Report& report) {
   }
   if (report.tuned) {
     auto sentences = decision(*report.tuned, report.time_domain, report.limit);
-    if (sentences.size() < 3) sentences.push_back(assumptions(report.assumed.size()));
+    if (sentences.size() < 3) sentences.push_back(assumptions(report.assumed));
     return sentences;
   }
   Sentences sentences;
@@ -142,7 +153,7 @@ std::vector<std::string> decision(const Report& report) {
     sentences = model_decision(*report.plant);
   }
   if (sentences.size() < 3 && report.command != "redesign" && report.command != "audit") {
-    sentences.push_back(assumptions(report.assumed.size()));
+    sentences.push_back(assumptions(report.assumed));
   }
   return sentences;
 }

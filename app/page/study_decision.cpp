@@ -6,9 +6,10 @@
 #include <boresight/app/match/match_verdict.hpp>
 #include <boresight/app/page/decision.hpp>
 #include <boresight/app/page/study_decision.hpp>
-#include <boresight/app/report/negligible.hpp>
+#include <boresight/app/report/influences.hpp>
 #include <boresight/app/report/present_gains.hpp>
 #include <boresight/app/report/sky_units.hpp>
+#include <boresight/app/tune/tune_study.hpp>
 
 namespace boresight::app {
 namespace {
@@ -17,15 +18,6 @@ using Sentences = std::vector<std::string>;
 
 double mdeg(double angle) {
   return angle / millidegree;
-}
-
-const TunedLaw* best_of(const TuneSection& section, TunedFor purpose) {
-  const TunedLaw* best = nullptr;
-  for (const auto& law : section.laws) {
-    if (law.tuned_for != purpose || !law.usable()) continue;
-    if (best == nullptr || law.beam_rms < best->beam_rms) best = &law;
-  }
-  return best;
 }
 
 // Whether flywheels or loops come first, where both can be told.
@@ -62,8 +54,10 @@ std::string first_change(const MatchSection& section, const MatchSeries& best) {
 std::string deciding_friction(const MatchSection& section) {
   const FrictionThreshold* threshold = nullptr;
   double slope = 0.0;
+  // A slope beyond those that the case knows is no question to be measured.
+  const double most = 1.5 * std::max(section.friction, section.tracking_friction);
   for (const auto& one : section.thresholds) {
-    if (!one.slope || one.spread_at_nominal < one.spread) continue;
+    if (!one.slope || *one.slope > most || one.spread_at_nominal < one.spread) continue;
     if (threshold != nullptr && *one.slope >= slope) continue;
     threshold = &one;
     slope = *one.slope;
@@ -88,9 +82,8 @@ Sentences unstable_now(const TuneSection& section) {
   return sentences;
 }
 
-}  // namespace
-
-std::vector<std::string> decision(const MatchSection& section) {
+// Of structures that do not hunt; `others_hunt`: some were left out.
+Sentences decide_inertia(const MatchSection& section, bool others_hunt) {
   const MatchSeries* best = nullptr;
   std::size_t best_point = 0;
   double least = HUGE_VAL;
@@ -100,7 +93,12 @@ std::vector<std::string> decision(const MatchSection& section) {
     best_point = *series.best;
     least = series.values[best_point].beam_rms;
   }
-  if (best == nullptr) return {"No structure meets the goals at any motor inertia."};
+  if (best == nullptr) {
+    return {others_hunt
+                ? "Every structure that meets the goals hunts beyond the tightest budget on the "
+                  "nonlinear antenna: look at the friction before the motors."
+                : "No structure meets the goals at any motor inertia."};
+  }
   const std::size_t built = as_built(section);
   const MatchPoint& point = section.points[best_point];
   const MatchValue& present = best->values[built];
@@ -128,6 +126,50 @@ std::vector<std::string> decision(const MatchSection& section) {
   return sentences;
 }
 
+}  // namespace
+
+std::vector<std::string> decision(const MatchSection& section) {
+  MatchSection kept = section;
+  std::erase_if(kept.series, [&](const MatchSeries& series) { return hunts(section, series); });
+  Sentences sentences = decide_inertia(kept, kept.series.size() < section.series.size());
+  for (const auto& series : section.series) {
+    if (!series.best || !hunts(section, series) || kept.series.empty()) continue;
+    sentences.push_back(fmt::format(
+        "Not {}, with {:.3f} on the linear plant: on the nonlinear antenna it hunts by +-{:.2f} "
+        "mdeg, beyond the tightest budget of {:.3f}.",
+        series.name, mdeg(series.values[*series.best].beam_rms),
+        mdeg(design::hunting_amplitude(hunting_of(section, series))),
+        mdeg(section.tightest_budget)));
+  }
+  return sentences;
+}
+
+namespace {
+
+// Whether there are several candidates to choose from, and no two of their means over the draws
+// differ by what decides anything.
+bool all_alike(const EvaluateSection& section, const DecisionSection& draws) {
+  double least = HUGE_VAL, largest = 0.0;
+  int fit = 0;
+  for (std::size_t i = 0; i < draws.candidates.size(); ++i) {
+    if (!section.candidates[draws.candidates[i].candidate].feasible()) continue;
+    ++fit;
+    least = std::min(least, draws.statistics.options[i].mean);
+    largest = std::max(largest, draws.statistics.options[i].mean);
+  }
+  return fit > 1 && largest < (1.0 + negligible_change) * least;
+}
+
+// Why a candidate's law is not to be built.
+std::string_view why_not(const Candidate& candidate) {
+  const CandidateLaw* law = candidate.chosen_law();
+  if (law == nullptr) return "has no stable law";
+  if (!law->goals_met) return "misses a hard goal on some plant";
+  return law->still ? "fails its verification" : "hunts beyond the tightest budget";
+}
+
+}  // namespace
+
 std::vector<std::string> decision(const EvaluateSection& section) {
   Sentences sentences;
   if (section.decision && !section.candidates.empty()) {
@@ -140,21 +182,32 @@ std::vector<std::string> decision(const EvaluateSection& section) {
     const std::string currency = section.currency.empty() ? "of cost" : section.currency;
     const std::string mean = fmt::format("{:.3f} mdeg rms on average over {} draws in {:g} m/s",
                                          options[choice].mean, draws.draws, section.wind_speed);
+    const bool fit = chosen.feasible();
     std::string text =
-        chosen.path.empty()
+        !fit ? fmt::format("Nothing is to be chosen yet: {} comes nearest with {}, but {}",
+                           chosen.name, mean, why_not(chosen))
+        : chosen.path.empty()
             ? fmt::format("No proposal is worth its cost: the antenna as it is has {}", mean)
             : fmt::format("Choose {}: {}, at {:g} {}", chosen.name, mean, chosen.cost, currency);
-    if (choice != draws.best) {
+    if (fit && choice != draws.best && best.feasible()) {
       text += fmt::format("; {} lowers that by {:.1f} %, too little to pay {:g} {} for", best.name,
                           100.0 * (1.0 - options[draws.best].mean / options[choice].mean),
                           best.cost, currency);
     }
     sentences.push_back(text + ".");
-    sentences.push_back(fmt::format(
-        "{} is the best of all with probability {:.2f}, and breaks a hard goal on a share of "
-        "{:.3f} of the draws.",
-        chosen.path.empty() ? "The antenna as it is" : chosen.name, options[choice].best.value,
-        place.outside_goals.value));
+    const std::string name = chosen.path.empty() ? "The antenna as it is" : chosen.name;
+    if (all_alike(section, draws)) {
+      sentences.push_back(
+          fmt::format("All that are fit lie within {:.0f} % of one another, which is no "
+                      "difference: choose by what else they change. {} breaks a hard goal on a "
+                      "share of {:.3f} of the draws.",
+                      100.0 * negligible_change, name, place.outside_goals.value));
+    } else {
+      sentences.push_back(fmt::format(
+          "{} is the best of all with probability {:.2f}, and breaks a hard goal on a share of "
+          "{:.3f} of the draws.",
+          name, options[choice].best.value, place.outside_goals.value));
+    }
   }
   std::string front;
   double before = HUGE_VAL;
@@ -179,24 +232,27 @@ std::vector<std::string> decision(const EvaluateSection& section) {
 std::vector<std::string> decision(const TuneSection& section,
                                   const std::optional<TimeDomainSection>& time_domain,
                                   const std::optional<design::PointingLimit>& limit) {
-  const TunedLaw* robust = best_of(section, TunedFor::robust);
-  const TunedLaw* best = robust != nullptr ? robust : best_of(section, TunedFor::nominal);
+  const TunedLaw* best = best_law(section);
   Sentences sentences = unstable_now(section);
   if (best == nullptr) {
     sentences.emplace_back("No law that was tuned meets the hard goals of this case.");
     return sentences;
   }
-  std::string text = fmt::format(
-      "On the linear plant {} is best, with {:.3f} mdeg rms in {:g} m/s, {}", best->structure,
-      mdeg(best->beam_rms), best->wind_speed,
-      robust != nullptr ? fmt::format("its goals held on each of {} plants", section.ensemble_size)
-                        : std::string("its goals held on the nominal plant only"));
+  std::string text =
+      fmt::format("On the linear plant {} is best, with {:.3f} mdeg rms in {:g} m/s, {}",
+                  best->structure, mdeg(best->beam_rms), best->wind_speed,
+                  best->tuned_for == TunedFor::robust
+                      ? fmt::format("its goals held on each of {} plants", section.ensemble_size)
+                      : std::string("its goals held on the nominal plant only"));
   if (!section.budgets.empty() && !best->speed_limits.empty()) {
-    const double limit_speed = best->speed_limits.front();
-    text += fmt::format("; it meets {} ({}) up to {}, the supply's torque not counted",
-                        section.budgets.front().name, section.budgets.front().band,
+    const double limit_speed = std::min(best->speed_limits.front(), section.supply_wind_speed);
+    text += fmt::format("; it meets {} ({}) up to {}", section.budgets.front().name,
+                        section.budgets.front().band,
                         std::isfinite(limit_speed) ? fmt::format("{:.1f} m/s", limit_speed)
                                                    : std::string("the 60 m/s looked at"));
+    if (limit_speed < best->speed_limits.front()) {
+      text += ", where the mean wind torque alone reaches the supply's";
+    }
   }
   text += '.';
   for (const auto& shortfall : section.shortfalls) {
@@ -208,9 +264,7 @@ std::vector<std::string> decision(const TuneSection& section,
         "Friction, hunting and slewing were not examined: no law ran on the nonlinear antenna, "
         "which takes a [simulation] in the case.");
   } else {
-    sentences.push_back(fmt::format(
-        "On the nonlinear antenna {} comes first, with {:.3f} mdeg: commission that one.",
-        time_domain->law, mdeg(time_domain->result.wind.beam_rms)));
+    sentences.push_back(decide(*time_domain));
   }
   if (limit && limit->least_rms > 0.0) {
     sentences.push_back(fmt::format(

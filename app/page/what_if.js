@@ -59,7 +59,7 @@
 
   const drawing = panel.querySelector(".curve");
   const draw = (chosen, where) => {
-    const box = { left: 52, right: 500, top: 14, bottom: 232 };
+    const box = { left: 52, right: 500, top: 20, bottom: 232 };
     const disks = sizes[0];
     const curves = table.structures.map((name, s) => disks.map((_, d) => look(s, [d, ...where.slice(1)]).rms));
     const budget = table.budgets.map(({ rms_mdeg }) => rms_mdeg);
@@ -100,7 +100,7 @@
     const here = look(chosen, where);
     if (here.rms !== null) drawing.append(text("circle", { cx: x(here.values[0]), cy: y(here.rms), r: 5, fill: "#fff", stroke: "#174a74", "stroke-width": 2.4 }));
     drawing.append(text("text", { x: (box.left + box.right) / 2, y: box.bottom + 36, "text-anchor": "middle", "font-weight": 600 }, "flywheel disks on each motor"));
-    drawing.append(text("text", { x: box.left, y: 8, "font-weight": 600 }, "beam rms (mdeg)"));
+    drawing.append(text("text", { x: box.left, y: 11, "font-weight": 600 }, "beam rms (mdeg)"));
   };
 
   const answer = panel.querySelector(".answer");

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -9,15 +10,6 @@ namespace boresight::app {
 namespace {
 
 constexpr double two_pi = 2.0 * std::numbers::pi;
-
-std::vector<plant::GearStage> gear_stages(const Case& antenna) {
-  std::vector<plant::GearStage> stages;
-  stages.reserve(antenna.gear_train.stages.size());
-  for (const auto& stage : antenna.gear_train.stages) {
-    stages.push_back({stage.driven_teeth.value, stage.driving_teeth.value});
-  }
-  return stages;
-}
 
 identification::Uncertain uncertain(const Quantity& quantity) {
   return {quantity.value, quantity.standard_uncertainty};
@@ -36,13 +28,7 @@ identification::Uncertain part_inertia(const Case& antenna, const AssemblyPart& 
     throw InvalidInput(
         fmt::format("part_inertia: '{}' has neither inertia nor dimensions", part.name));
   }
-  const double inertia =
-      plant::disk_inertia(part.radius->value, part.length->value, density->value);
-  // J goes with R^4, H and rho.
-  const double relative = std::hypot(4.0 * part.radius->standard_uncertainty / part.radius->value,
-                                     part.length->standard_uncertainty / part.length->value,
-                                     density->standard_uncertainty / density->value);
-  return {inertia, inertia * relative};
+  return uncertain(solid_disk(*part.radius, *part.length, *density));
 }
 
 // Of an alternative, at the motor shaft.
@@ -98,10 +84,6 @@ plant::WindModel wind_model(const std::string& name) {
 
 }  // namespace
 
-double gear_ratio(const Case& antenna) {
-  return plant::gear_ratio(gear_stages(antenna));
-}
-
 double gear_train_inertia(const Case& antenna) {
   const auto stages = gear_stages(antenna);
   double sum = 0.0;
@@ -129,36 +111,17 @@ double antenna_inertia(const Case& antenna, const AntennaAlternative& alternativ
 }
 
 double bulk_modulus(const Case& antenna) {
-  const OilEntry& oil = antenna.oil;
-  if (oil.bulk_modulus) return oil.bulk_modulus->value;
-  double mean = 0.0;
-  for (const auto& line : oil.lines) {
-    mean += plant::bulk_modulus_from_slosh(line.length.value, line.slosh_frequency.value,
-                                           oil.density.value) /
-            static_cast<double>(oil.lines.size());
-  }
-  return mean;
+  return bulk_modulus_of(antenna.oil).value;
 }
 
 double oil_stiffness(const Case& antenna, plant::EfficiencyInStiffness efficiency) {
-  const OilEntry& oil = antenna.oil;
-  const MotorEntry& motor = antenna.motor;
-  return plant::oil_stiffness({static_cast<double>(motor.count), motor.displacement.value,
-                               motor.torque_efficiency.value, motor.volumetric_efficiency.value,
-                               bulk_modulus(antenna), oil.volume_1.value, oil.volume_2.value,
-                               efficiency});
+  plant::HydraulicDrive drive = hydraulic_drive(antenna);
+  drive.efficiency_in_stiffness = efficiency;
+  return plant::oil_stiffness(drive);
 }
 
 double oil_stiffness(const Case& antenna) {
-  return oil_stiffness(antenna, antenna.oil.efficiency_in_stiffness
-                                    ? plant::EfficiencyInStiffness::both
-                                    : plant::EfficiencyInStiffness::none);
-}
-
-double supply_torque(const Case& antenna) {
-  const MotorEntry& motor = antenna.motor;
-  return antenna.drive.supply_pressure.value * motor.torque_efficiency.value *
-         static_cast<double>(motor.count) * motor.displacement.value;
+  return plant::oil_stiffness(hydraulic_drive(antenna));
 }
 
 plant::AntennaPlant make_plant(const Case& antenna, const PlantVariant& variant) {
@@ -184,15 +147,8 @@ plant::AntennaPlant make_plant(const Case& antenna, const PlantVariant& variant)
   return plant;
 }
 
-plant::FrictionCurve friction_curve(const Case& antenna) {
-  const FrictionCurveEntry& curve = antenna.friction_curve;
-  return {curve.coulomb.value,    curve.breakaway.value,       curve.stribeck_rate.value,
-          curve.saturating.value, curve.saturating_rate.value, curve.viscous.value};
-}
-
-double tracking_friction(const Case& antenna) {
-  return plant::friction_slope(friction_curve(antenna),
-                               antenna.drive.tracking_rate.value * gear_ratio(antenna));
+double largest_viscous_friction(const Case& antenna) {
+  return std::max(tracking_friction(antenna), antenna.drive.viscous_friction.value);
 }
 
 design::TrackingProblem make_problem(const Case& antenna, const PlantVariant& variant) {
@@ -213,6 +169,13 @@ design::TrackingProblem make_problem(const Case& antenna, const PlantVariant& va
   return problem;
 }
 
+double supply_wind_speed(const Case& antenna, const design::TrackingProblem& problem) {
+  const double speed = problem.wind.mean_speed;
+  // The torque goes with the square of the speed.
+  return speed * std::sqrt(supply_torque(antenna) * problem.gear_ratio /
+                           std::abs(plant::mean_wind_torque(problem.wind.site, speed)));
+}
+
 design::HardGoals make_goals(const Case& antenna) {
   const GoalsEntry& entry = antenna.goals;
   design::HardGoals goals;
@@ -227,8 +190,7 @@ design::HardGoals make_goals(const Case& antenna) {
   if (entry.crest_factor) {
     goals.crest_factor = entry.crest_factor->value;
     goals.gust_torque = supply_torque(antenna);
-    goals.gust_demand = antenna.simulation ? antenna.simulation->valve_stroke.value
-                                           : antenna.drive.slew_rate.value * gear_ratio(antenna);
+    goals.gust_demand = largest_demand(antenna);
   }
   return goals;
 }
@@ -342,6 +304,12 @@ std::vector<PointingBudget> make_budgets(const Case& antenna) {
     budgets.push_back(std::move(budget));
   }
   return budgets;
+}
+
+double tightest_budget(const Case& antenna) {
+  const auto budgets = make_budgets(antenna);
+  const auto tightest = std::ranges::min_element(budgets, {}, &PointingBudget::rms);
+  return tightest != budgets.end() ? tightest->rms : 1e-3 * std::numbers::pi / 180.0;
 }
 
 std::optional<double> disks_at_unit_ratio(const Case& antenna, double load_inertia) {

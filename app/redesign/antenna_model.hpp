@@ -5,6 +5,7 @@
 #include <vector>
 
 #include <boresight/app/io/case_file.hpp>
+#include <boresight/app/io/drive_numbers.hpp>
 #include <boresight/design/design_study.hpp>
 #include <boresight/design/pointing.hpp>
 #include <boresight/identification/inertia_methods.hpp>
@@ -28,7 +29,6 @@ struct PlantVariant {
   double structure_frequency_scale = 1.0;
 };
 
-double gear_ratio(const Case& antenna);
 /// Gear train and counter-torque motors at the motor shaft (kg m2).
 double gear_train_inertia(const Case& antenna);
 /// All motors with `disks` flywheel disks each (kg m2).
@@ -42,21 +42,15 @@ double bulk_modulus(const Case& antenna);
 double oil_stiffness(const Case& antenna, plant::EfficiencyInStiffness efficiency);
 double oil_stiffness(const Case& antenna);
 
-/// Torque of all motors at the supply pressure (N m).
-double supply_torque(const Case& antenna);
-
 plant::AntennaPlant make_plant(const Case& antenna, const PlantVariant& variant = {});
-plant::FrictionCurve friction_curve(const Case& antenna);
-/// Slope of the friction curve at the tracking rate (N m s/rad of motor).
-double tracking_friction(const Case& antenna);
+/// The most viscous friction that a linear plant may have (N m s/rad): tracking_friction, or what
+/// the case states for it.
+double largest_viscous_friction(const Case& antenna);
 design::TrackingProblem make_problem(const Case& antenna, const PlantVariant& variant = {});
-/// The time between the controller's samples (s) that a dead time speaks of: one sample of
-/// computing and half of one of holding.
-inline double sample_time_of(double dead_time) {
-  return dead_time / 1.5;
-}
-/// Goals against saturation: valve demand within the valve's stroke (without a [simulation], what
-/// the slew rate takes) and torque within the supply's.
+/// Mean wind speed (m/s) at which the mean wind torque alone reaches the supply's.
+double supply_wind_speed(const Case& antenna, const design::TrackingProblem& problem);
+/// Goals against saturation: valve demand within the valve's stroke (largest_demand) and torque
+/// within the supply's.
 design::HardGoals make_goals(const Case& antenna);
 design::SoftGoal make_soft_goal(const Case& antenna);
 /// The winds of the site by their share of the time; empty if the case does not state them.
@@ -73,6 +67,8 @@ struct PointingBudget {
   std::optional<double> wind_speed;  // m/s, up to which it must be met
 };
 std::vector<PointingBudget> make_budgets(const Case& antenna);
+/// Rms error an axis (rad) of the tightest of them; 1 mdeg where the case states none.
+double tightest_budget(const Case& antenna);
 
 struct PointingBand {
   std::string name;

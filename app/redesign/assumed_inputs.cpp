@@ -57,4 +57,10 @@ std::vector<Quantity> assumed_inputs(const Case& antenna, const NonlinearInputs&
   return assumed;
 }
 
+std::size_t count_of_antenna(const std::vector<Quantity>& assumed) {
+  return static_cast<std::size_t>(std::ranges::count_if(assumed, [](const Quantity& quantity) {
+    return !quantity.key.starts_with("goals.") && !quantity.key.starts_with("pointing.");
+  }));
+}
+
 }  // namespace boresight::app

@@ -28,4 +28,7 @@ struct NonlinearInputs {
 /// [instruments] and drive.return_pressure where a case has records and lacks them.
 std::vector<Quantity> assumed_inputs(const Case& antenna, const NonlinearInputs& nonlinear = {});
 
+/// How many of them describe the antenna, and not what is asked of it (goals, pointing).
+std::size_t count_of_antenna(const std::vector<Quantity>& assumed);
+
 }  // namespace boresight::app

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include <boresight/app/redesign/assumed_inputs.hpp>
 #include <boresight/app/redesign/matching_verdict.hpp>
 #include <boresight/app/redesign/sections.hpp>
 #include <boresight/app/redesign/tuning_verdict.hpp>
@@ -105,13 +106,29 @@ std::vector<std::string> conclude(const Report& report) {
     conclude_identification(*report.identification, sentences);
   }
   if (report.tuning) conclude_tuning(report, *report.tuning, sentences);
+  if (report.plant && report.plant->tracking_slope < 0.0) {
+    sentences.push_back(fmt::format(
+        "Friction falls with the rate at the tracking rate, by {:.3g} N.m.s/rad: the drive may "
+        "stick "
+        "and slip there. No linear plant says what that does (they take 0); {}",
+        -report.plant->tracking_slope,
+        report.time_domain ? "the nonlinear antenna below does."
+                           : "the nonlinear antenna, which takes a [simulation], does."));
+  }
   if (report.time_domain) sentences.push_back(conclude(*report.time_domain));
   if (report.matching) conclude_matching(report, *report.matching, sentences);
-  if (report.tuning && !report.assumed.empty()) {
-    sentences.push_back(
-        fmt::format("{} inputs of this case are assumed, in value or in uncertainty (listed "
-                    "above). Every rms here stands on them until they are measured.",
-                    report.assumed.size()));
+  if (report.tuning) {
+    const auto& effects = report.tuning->input_effects;
+    std::string first = measure_first(effects, report.tuning->design.beam_rms);
+    if (!first.empty()) sentences.push_back(std::move(first));
+    const std::size_t antenna = count_of_antenna(report.assumed);
+    if (antenna > 0) {
+      sentences.push_back(
+          fmt::format("{} numbers that this case states of the antenna are assumed, in value or in "
+                      "uncertainty (listed above). Every rms here stands on them until they are "
+                      "measured.",
+                      antenna));
+    }
   }
   return sentences;
 }

@@ -164,7 +164,7 @@ PlantSection describe_plant(const Case& antenna) {
       motor_inertia(antenna, antenna.motor.flywheel_disks), section.reflected_inertia);
   section.rigid_frequency =
       plant::hydraulic_frequency(section.plant.drive.oil_stiffness, section.reflected_inertia);
-  section.tracking_friction = tracking_friction(antenna);
+  section.tracking_slope = tracking_slope(antenna);
   section.modes = plant::plant_modes(section.plant);
   section.hydraulic = plant::hydraulic_mode(section.modes);
   section.supply_torque = supply_torque(antenna);

@@ -2,10 +2,9 @@
 #include <cmath>
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <boresight/app/redesign/matching_verdict.hpp>
-#include <boresight/app/report/negligible.hpp>
+#include <boresight/app/report/influences.hpp>
 #include <boresight/app/report/sky_units.hpp>
 
 namespace boresight::app {
@@ -13,10 +12,6 @@ namespace {
 
 // Of the rms: a change that flywheels may be worth.
 constexpr double worth_flywheels = 0.05;
-
-bool usable(const design::Design& design) {
-  return design.tuning.status == design::TuningStatus::optimal && design.verification.passed;
-}
 
 const design::Design& least_of(const MatchingSeries& series) {
   return *std::ranges::min_element(series.designs, {}, &design::Design::beam_rms);
@@ -26,12 +21,6 @@ const design::Design& least_of(const MatchingSeries& series) {
 std::string range_of(const MatchingSection& section) {
   return fmt::format("from {:g} to {:g} disks on each motor", section.rows.front().disks,
                      section.rows.back().disks);
-}
-
-std::string moved_by_more(const Report& report) {
-  const auto moves = what_moves_rms(report);
-  if (moves.empty()) return "";
-  return fmt::format(" More hangs on {}.", fmt::join(moves, ", "));
 }
 
 // What the one-to-one rule is worth along the first series.
@@ -68,7 +57,7 @@ MatchingVerdict::MatchingVerdict(const MatchingSection& section) : section_(sect
   }
   for (const auto& series : section.series) {
     unusable_ += static_cast<std::size_t>(std::ranges::count_if(
-        series.designs, [](const design::Design& design) { return !usable(design); }));
+        series.designs, [](const design::Design& design) { return !design.usable(); }));
   }
 }
 
@@ -122,24 +111,19 @@ bool MatchingVerdict::friction_decides() const {
   return std::max(one, two) > worth_flywheels && std::min(one, two) < negligible_change;
 }
 
-std::vector<std::string> what_moves_rms(const Report& report) {
-  std::vector<std::pair<double, std::string>> moves;
-  const auto add = [&](double change, std::string what) {
-    if (std::isfinite(change) && change > negligible_change) {
-      moves.emplace_back(change, std::move(what));
-    }
-  };
+std::string what_matters_more(const Report& report) {
+  Influences influences;
   if (report.tuning && !report.tuning->wind_alternatives.empty()) {
     const auto [least, most] =
         std::ranges::minmax(report.tuning->wind_alternatives, {},
                             [](const auto& alternative) { return alternative.beam_rms; });
-    add(most.beam_rms / least.beam_rms - 1.0, "the wind model");
+    influences.add(most.beam_rms / least.beam_rms - 1.0, "the wind model");
   }
   for (const auto& choice : report.choices) {
     const auto& reference = report.choices.front().design;
-    if (!choice.design || !reference || !usable(*choice.design) || !usable(*reference)) continue;
-    add(std::abs(choice.design->beam_rms / reference->beam_rms - 1.0),
-        fmt::format("'{}'", choice.name));
+    if (!choice.design || !reference || !choice.design->usable() || !reference->usable()) continue;
+    influences.add(std::abs(choice.design->beam_rms / reference->beam_rms - 1.0),
+                   fmt::format("'{}'", choice.name));
   }
   if (report.matching && report.matching->rows.size() > 1) {
     const MatchingVerdict verdict(*report.matching);
@@ -149,22 +133,16 @@ std::vector<std::string> what_moves_rms(const Report& report) {
     };
     for (const auto& series : report.matching->series) {
       if (series.viscous_friction != first.viscous_friction || verdict.unusable() > 0) continue;
-      add(std::abs(rms(series) / rms(first) - 1.0),
-          fmt::format("{} instead of {}", control::to_string(series.structure),
-                      control::to_string(first.structure)));
+      influences.add(std::abs(rms(series) / rms(first) - 1.0),
+                     fmt::format("{} instead of {}", control::to_string(series.structure),
+                                 control::to_string(first.structure)));
     }
     if (const MatchingSeries* other = verdict.other_friction();
         other != nullptr && verdict.unusable() == 0) {
-      add(std::abs(rms(*other) / rms(first) - 1.0), "the friction slope");
+      influences.add(std::abs(rms(*other) / rms(first) - 1.0), "the friction slope");
     }
   }
-  std::ranges::stable_sort(moves, std::greater{}, [](const auto& move) { return move.first; });
-  std::vector<std::string> texts;
-  for (const auto& [change, what] : moves) {
-    if (texts.size() == 3) break;
-    texts.push_back(fmt::format("{} (by {:.0f} %)", what, 100.0 * change));
-  }
-  return texts;
+  return influences.sentence();
 }
 
 void conclude_matching(const Report& report, const MatchingSection& section,
@@ -197,7 +175,7 @@ void conclude_matching(const Report& report, const MatchingSection& section,
     sentences.push_back(fmt::format(
         "Over all inertias looked at, {}, the rms of each loop changes by at most {:.1f} %: the "
         "motors' inertia hardly matters here, and no rule of matching does.{}",
-        range_of(section), 100.0 * verdict.largest_span(), moved_by_more(report)));
+        range_of(section), 100.0 * verdict.largest_span(), what_matters_more(report)));
     return;
   }
   std::string text;
@@ -222,7 +200,7 @@ std::string decide_matching(const Report& report, const MatchingSection& section
   if (verdict.flat()) {
     return fmt::format(
         "Leave the motors' inertia as it is: {}, re-tuned, the rms changes by at most {:.1f} %.{}",
-        range_of(section), 100.0 * verdict.largest_span(), moved_by_more(report));
+        range_of(section), 100.0 * verdict.largest_span(), what_matters_more(report));
   }
   const std::size_t end = verdict.better_end();
   const MatchingSeries& series = section.series.front();

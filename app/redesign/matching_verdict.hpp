@@ -44,9 +44,9 @@ class MatchingVerdict {
   std::size_t unusable_ = 0;
 };
 
-/// What moves the rms by more than negligible_change beside the motors' inertia, most first, at
-/// most three: "the wind model (by 97 %)"; empty if nothing in the report does.
-std::vector<std::string> what_moves_rms(const Report& report);
+/// What moves the rms by more than negligible_change beside the motors' inertia, as
+/// Influences::sentence.
+std::string what_matters_more(const Report& report);
 
 /// Appends what a matching study means.
 void conclude_matching(const Report& report, const MatchingSection& section,

@@ -60,10 +60,7 @@ void judge_in_wind(const Case& antenna, const design::TrackingProblem& problem,
       plant::structure_response(problem.plant.structure, evaluator.response().frequency);
   section.encoder_held_rms = design::beam_rms_at_speed(
       problem, evaluator, structure.beam_per_wind.abs2(), 0.0, problem.wind.mean_speed);
-  section.supply_wind_speed =
-      problem.wind.mean_speed *
-      std::sqrt(supply_torque(antenna) * problem.gear_ratio /
-                std::abs(plant::mean_wind_torque(problem.wind.site, problem.wind.mean_speed)));
+  section.supply_wind_speed = supply_wind_speed(antenna, problem);
   double compliance = 0.0;
   for (const auto& mode : problem.plant.structure.modes) {
     compliance += mode.wind_fraction * mode.beam_weight / mode.stiffness;
@@ -110,6 +107,9 @@ TuningSection tuning_section(const Case& antenna, const StudyOptions& options,
   }
   if (section.design.tuning.status != design::TuningStatus::unstable) {
     judge_in_wind(antenna, problem, section);
+    constexpr std::size_t most_effects = 10;
+    section.input_effects = input_effects(antenna, section.design.tuning.law, section.goals,
+                                          section.design.beam_rms, most_effects, options.threads);
   }
   return section;
 }

@@ -16,10 +16,6 @@ std::string budget_text(const PointingBudget& budget) {
   return fmt::format("{} ({}: {:.3f} mdeg)", budget.name, budget.band, budget.rms / millidegree);
 }
 
-bool usable(const design::Design& design) {
-  return design.tuning.status == design::TuningStatus::optimal && design.verification.passed;
-}
-
 // What the gains of the case do on its plant.
 std::string present_text(const TuningSection& section, const TuningSection::PresentLaw& law) {
   if (law.design.tuning.status == design::TuningStatus::unstable) {
@@ -31,12 +27,38 @@ std::string present_text(const TuningSection& section, const TuningSection::Pres
                   law.design.verification.passed
                       ? ""
                       : fmt::format(" and miss a goal ({})", law.design.verification.failure));
-  if (usable(section.design)) {
+  if (section.design.usable()) {
     text += fmt::format("; the tuned {} changes that by {:+.1f} %",
                         control::to_string(section.structure),
                         100.0 * (section.design.beam_rms / law.design.beam_rms - 1.0));
   }
   return text + ".";
+}
+
+// What becomes of the law, tuned on one plant, on others.
+std::string robustness_text(const TuningSection& section) {
+  if (!section.ensemble) return "";
+  const auto plants = static_cast<int>(section.ensemble->members.size());
+  const int within = section.ensemble->within_goals;
+  if (within == plants) {
+    return fmt::format("Held on {} plants that may be the true one, it keeps its goals on all.",
+                       plants);
+  }
+  const int unstable = plants - section.ensemble->stable;
+  return fmt::format(
+      "It was tuned on one plant: held on {} that may be the true one, it keeps its goals on "
+      "{}{}. `boresight tune` tunes laws to keep them on all.",
+      plants, within, unstable > 0 ? fmt::format(" and is unstable on {}", unstable) : "");
+}
+
+// Where most of the error is what no loop sees.
+std::string unseen_text(const TuningSection& section) {
+  if (!(section.encoder_held_rms >= 0.9 * section.design.beam_rms)) return "";
+  return "Nearly all of the error is bending of the structure that the encoder does not see: a "
+         "loop "
+         "that holds the encoder still, other motors or flywheels hardly lower it. What does is a "
+         "stiffer structure, less wind on it, or a loop that moves the encoder against the bending "
+         "(structures with +C, LQG), if friction lets it.";
 }
 
 // Gains that only the bounds of the search hold.
@@ -98,7 +120,7 @@ std::vector<std::string> unmet_needs(const TuningSection& section) {
 }
 
 std::string not_examined(const Report& report) {
-  if (report.time_domain || !report.tuning || !usable(report.tuning->design)) return "";
+  if (report.time_domain || !report.tuning || !report.tuning->design.usable()) return "";
   return "Friction, hunting and slewing were not examined: the case has no [simulation], and every "
          "rms here is of linear loops.";
 }
@@ -138,6 +160,7 @@ void conclude_tuning(const Report& report, const TuningSection& section,
   }
   add(text + ".");
   for (auto& need : unmet_needs(section)) add(std::move(need));
+  add(robustness_text(section));
   add(bound_text(section));
 
   const auto by_rms = [](const TuningSection::WindAlternative& x,
@@ -153,6 +176,7 @@ void conclude_tuning(const Report& report, const TuningSection& section,
       plant::to_string(section.wind_model), least->beam_rms / millidegree,
       plant::to_string(least->model), most->beam_rms / millidegree, plant::to_string(most->model),
       section.encoder_held_rms / millidegree));
+  add(unseen_text(section));
   add(bending_text(section));
   add(not_examined(report));
 }
@@ -175,20 +199,38 @@ std::vector<std::string> decide_tuning(const Report& report, const TuningSection
     return sentences;
   }
   auto needs = unmet_needs(section);
-  std::string text = fmt::format(
-      "{} {}: it points within {:.3f} mdeg rms an axis in {:g} m/s of wind",
-      needs.empty() && sentences.empty() ? "Run the drive as built on"
-                                         : "The best law found for the drive as built is",
-      structure, section.design.beam_rms / millidegree, section.design_speed);
+  const bool met = needs.empty();
+  std::string unsteady = report.time_domain ? not_still(*report.time_domain) : "";
+  const bool robust = !section.ensemble || section.ensemble->within_goals ==
+                                               static_cast<int>(section.ensemble->members.size());
+  std::string text =
+      fmt::format("{} {}: it points within {:.3f} mdeg rms an axis in {:g} m/s of wind",
+                  met && robust && unsteady.empty() && sentences.empty()
+                      ? "Run the drive as built on"
+                      : "The best law found for the drive as built is",
+                  structure, section.design.beam_rms / millidegree, section.design_speed);
   if (report.time_domain) {
     text += fmt::format(" ({:.3f} on the nonlinear antenna)",
                         report.time_domain->result.wind.beam_rms / millidegree);
   }
-  if (!section.budgets.empty() && needs.empty()) {
+  if (!section.budgets.empty() && met) {
     const auto& budget = section.budgets.front();
     text += fmt::format("; {} {}", budget_text(budget.budget), met_text(section, budget));
+    // In the wind of the simulation the linear speed can be judged.
+    if (report.time_domain &&
+        reached_wind_speed(section, budget) >= report.time_domain->wind_speed &&
+        !(report.time_domain->result.wind.beam_rms <= budget.budget.rms)) {
+      text += fmt::format(" by the linear figure, but simulated not in {:g} m/s",
+                          report.time_domain->wind_speed);
+    }
   }
-  if (auto missing = not_examined(report); !missing.empty()) needs.push_back(std::move(missing));
+  if (!robust) needs.push_back(robustness_text(section));
+  if (!unsteady.empty()) needs.push_back(std::move(unsteady));
+  const std::string slow = report.time_domain ? slew_out_of_reach(*report.time_domain) : "";
+  const std::string first = measure_first(section.input_effects, section.design.beam_rms);
+  for (auto sentence : {unseen_text(section), slow, not_examined(report), first}) {
+    if (!sentence.empty()) needs.push_back(std::move(sentence));
+  }
   sentences.push_back(
       fmt::format("{}.{}{}", text, needs.empty() ? "" : " ", fmt::join(needs, " ")));
   return sentences;

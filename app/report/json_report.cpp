@@ -102,7 +102,7 @@ Json plant_json(const PlantSection& section) {
           {"oil_stiffness_N_m_per_rad", drive.oil_stiffness},
           {"leakage_rate_per_s", drive.leakage_rate},
           {"viscous_friction_N_m_s_per_rad", drive.viscous_friction},
-          {"tracking_friction_slope_N_m_s_per_rad", section.tracking_friction},
+          {"tracking_friction_slope_N_m_s_per_rad", section.tracking_slope},
           {"gear_stiffness_N_m_per_rad", section.plant.structure.gear_stiffness},
           {"valve_frequency_Hz", drive.valve_corner / two_pi},
           {"supply_torque_N_m", section.supply_torque},
@@ -158,6 +158,17 @@ Json tuning_json(const TuningSection& section) {
                                {"beam_rms_mdeg", number(design.beam_rms / millidegree)}});
   }
   json["ensemble"] = section.ensemble ? ensemble_json(*section.ensemble) : Json(nullptr);
+  json["input_effects"] = Json::array();
+  for (const auto& effect : section.input_effects) {
+    json["input_effects"].push_back(
+        {{"key", effect.quantity.key},
+         {"basis", to_string(effect.quantity.basis)},
+         {"value_si", effect.quantity.value},
+         {"moved_by_si", effect.moved_by},
+         {"uncertainty_unstated", effect.unstated},
+         {"lower_beam_rms_mdeg", number(effect.low_rms / millidegree)},
+         {"higher_beam_rms_mdeg", number(effect.high_rms / millidegree)}});
+  }
   json["budgets"] = Json::array();
   for (const auto& result : section.budgets) {
     json["budgets"].push_back({{"name", result.budget.name},

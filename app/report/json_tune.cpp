@@ -136,6 +136,7 @@ Json tune_json(const TuneSection& section) {
           {"goals", goals_json(section)},
           {"bands", std::move(bands)},
           {"budgets", std::move(budgets)},
+          {"supply_wind_speed_m_per_s", number(section.supply_wind_speed)},
           {"ensemble_source", section.ensemble_source},
           {"ensemble_members", section.ensemble_size},
           {"starts", section.starts},

@@ -11,6 +11,7 @@
 #include <boresight/app/identify/campaign_section.hpp>
 #include <boresight/app/match/match_section.hpp>
 #include <boresight/app/redesign/antenna_model.hpp>
+#include <boresight/app/redesign/input_effects.hpp>
 #include <boresight/app/simulate/time_domain.hpp>
 #include <boresight/app/tune/measured_study.hpp>
 #include <boresight/app/tune/tune_section.hpp>
@@ -40,8 +41,8 @@ struct PlantSection {
   double gear_ratio = 1.0;
   double reflected_inertia = 0.0;
   double motor_to_load_ratio = 0.0;
-  double rigid_frequency = 0.0;    // Hz, all inertia rigid on the oil spring
-  double tracking_friction = 0.0;  // N m s/rad
+  double rigid_frequency = 0.0;  // Hz, all inertia rigid on the oil spring
+  double tracking_slope = 0.0;   // N m s/rad, of the friction curve
   std::vector<plant::PlantMode> modes;
   plant::PlantMode hydraulic;
   double supply_torque = 0.0;     // N m
@@ -95,8 +96,12 @@ struct TuningSection {
   };
   std::vector<BandLoss> losses;
   std::vector<BudgetResult> budgets;
-  /// The law on plants drawn from what the records leave open; of cases with records.
+  /// The law with its gains held on plants that may be the true one: drawn from what the records
+  /// leave open, or the case's ensemble. None without a stable law.
   std::optional<design::EnsembleResult> ensemble;
+  std::string ensemble_source;
+  /// The numbers of the case that its rms hangs on most; empty without a stable law.
+  std::vector<InputEffect> input_effects;
 };
 
 /// The same loop tuned on what another choice among contradictory numbers would make of the plant.
@@ -164,5 +169,9 @@ struct Report {
   /// The user stopped the work: the sections here are whole, others are missing.
   bool interrupted = false;
 };
+
+/// A report of that command on a case, whose sections are still missing.
+Report begin_report(std::string command, const Case& antenna, std::string case_path,
+                    std::uint64_t seed);
 
 }  // namespace boresight::app

@@ -79,9 +79,33 @@ bool follows_from_other_column(const Finding& finding) {
                      });
 }
 
-}  // namespace
+// Of the printed numbers that can be compared, how many places do not follow.
+std::string compared_numbers(const AuditReport& report) {
+  if (!report.findings.empty()) {
+    return fmt::format("Of {} printed {} compared, {} not follow", report.checked,
+                       report.checked == 1 ? "number" : "numbers",
+                       report.findings.size() == 1
+                           ? "1 place does"
+                           : fmt::format("{} places do", report.findings.size()));
+  }
+  if (report.checked == 0) {
+    return "The case states no derived numbers to compare ([[stated]])";
+  }
+  constexpr std::size_t named = 6;
+  const std::vector<std::string> first(
+      report.compared.begin(), report.compared.begin() + static_cast<std::ptrdiff_t>(std::min(
+                                                             named, report.compared.size())));
+  return fmt::format(
+      "{} ({}{})",
+      report.checked == 1
+          ? "The one printed number that can be compared agrees"
+          : fmt::format("All {} printed numbers that can be compared agree", report.checked),
+      fmt::join(first, ", "), report.compared.size() > named ? ", ..." : "");
+}
 
-std::string audit_summary(const AuditReport& report) {
+// Which of the printed numbers that do not follow matter; a failed physical check moves no number.
+std::string moved_results(const AuditReport& report) {
+  if (report.findings.empty()) return "";
   std::vector<const Finding*> matter;
   for (const Finding& finding : report.findings) {
     // Right in itself where it follows from another column: the finding there is the one to mend.
@@ -89,29 +113,11 @@ std::string audit_summary(const AuditReport& report) {
       matter.push_back(&finding);
     }
   }
+  if (matter.empty())
+    return " None of these printed numbers moves a headline result by more than 0.1 %.";
   std::stable_sort(matter.begin(), matter.end(), [](const Finding* a, const Finding* b) {
     return largest_change(*a) > largest_change(*b);
   });
-  if (report.checked == 0 && report.implausible.empty()) {
-    return "The case states no derived numbers to compare ([[stated]]), and nothing in it is "
-           "physically implausible.";
-  }
-  if (report.findings.empty() && report.implausible.empty()) {
-    constexpr std::size_t named = 6;
-    const std::vector<std::string> first(
-        report.compared.begin(), report.compared.begin() + static_cast<std::ptrdiff_t>(std::min(
-                                                               named, report.compared.size())));
-    return fmt::format(
-        "{} ({}{}), and nothing in the case is physically implausible.",
-        report.checked == 1
-            ? "The one printed number that can be compared agrees"
-            : fmt::format("All {} printed numbers that can be compared agree", report.checked),
-        fmt::join(first, ", "), report.compared.size() > named ? ", ..." : "");
-  }
-  std::string text = fmt::format(
-      "Of {} printed numbers compared, {} places do not follow; {} physical checks fail.",
-      report.checked, report.findings.size(), report.implausible.size());
-  if (matter.empty()) return text + " None of them moves a headline result by more than 0.1 %.";
   std::vector<std::string> moved;
   std::set<std::pair<std::string, std::string>> named;  // a number may fail several comparisons
   for (const Finding* finding : matter) {
@@ -121,10 +127,22 @@ std::string audit_summary(const AuditReport& report) {
     moved.push_back(fmt::format("{} '{}' ({} {})", finding->id, number, most.id,
                                 percent(most.relative_change())));
   }
-  return text + fmt::format(
-                    " Those that move a headline result by more than 0.1 % are {}; the "
-                    "others can stand without harm.",
-                    fmt::join(moved, "; "));
+  return fmt::format(" The printed {} by more than 0.1 % {} {}; the others can stand without harm.",
+                     moved.size() == 1 ? "number that moves a headline result"
+                                       : "numbers that move a headline result",
+                     moved.size() == 1 ? "is" : "are", fmt::join(moved, "; "));
+}
+
+}  // namespace
+
+std::string audit_summary(const AuditReport& report) {
+  const std::string compared = compared_numbers(report);
+  if (report.findings.empty() && report.implausible.empty()) {
+    return fmt::format("{}, and nothing in {} is physically implausible.", compared,
+                       report.checked == 0 ? "it" : "the case");
+  }
+  return fmt::format("{}; {}.{}", compared, failing_checks(report.implausible),
+                     moved_results(report));
 }
 
 Document document_of(const AuditReport& report) {

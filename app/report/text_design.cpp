@@ -91,14 +91,16 @@ Document wind_part(const TuningSection& section) {
       "  ");
 }
 
-std::string ensemble_text(const design::EnsembleResult& ensemble, const design::HardGoals& goals) {
+std::string ensemble_text(const design::EnsembleResult& ensemble, std::string_view source,
+                          const design::HardGoals& goals) {
   const auto& worst = ensemble.members[ensemble.worst];
   const double peak = *std::ranges::max_element(worst.sensitivity_peaks);
   return fmt::format(
-      "The same gains on {} plants drawn from what the records leave open: {} stable, {} within "
+      "The same gains on {} plants {}: {} stable, {} within "
       "every goal; beam rms {} .. {} mdeg, median {}, 95 % below {}. The worst, {}, {}.",
-      ensemble.members.size(), ensemble.stable, ensemble.within_goals, mdeg(ensemble.least_rms),
-      mdeg(ensemble.largest_rms), mdeg(ensemble.median_rms), mdeg(ensemble.high_rms), worst.name,
+      ensemble.members.size(), source, ensemble.stable, ensemble.within_goals,
+      mdeg(ensemble.least_rms), mdeg(ensemble.largest_rms), mdeg(ensemble.median_rms),
+      mdeg(ensemble.high_rms), worst.name,
       worst.stable
           ? fmt::format("has a sensitivity peak of {:.3f} where {:g} is allowed and a valve effort "
                         "of {:.3f} rad/s where {:g} is",
@@ -128,6 +130,29 @@ Document present_part(const TuningSection& section) {
 }
 
 }  // namespace
+
+// What the law's rms owes to single numbers of the case.
+Document effects_part(const TuningSection& section) {
+  if (section.input_effects.empty()) return {};
+  Document text = wrapped(
+      "One number of the case moved at a time, gains held: by its standard uncertainty, or by a "
+      "tenth (marked *) where its value is assumed and the case gives none; of shares the others "
+      "give way. What moves the rms most comes first.",
+      "  ");
+  std::vector<std::vector<std::string>> rows{
+      {"number", "as", "value", "moved by", "rms mdeg, lower", "higher"}};
+  for (const auto& effect : section.input_effects) {
+    const Quantity& quantity = effect.quantity;
+    const auto rms = [](double angle) {
+      return std::isfinite(angle) ? mdeg(angle) : std::string("unstable");
+    };
+    rows.push_back({quantity.key, std::string(to_string(quantity.basis)), quantity.text,
+                    fmt::format("{:.3g} %{}", 100.0 * effect.moved_by / std::abs(quantity.value),
+                                effect.unstated ? "*" : ""),
+                    rms(effect.low_rms), rms(effect.high_rms)});
+  }
+  return text + table(rows, "lllrrr");
+}
 
 Document document_of(const TuningSection& section) {
   const Design& design = section.design;
@@ -181,7 +206,9 @@ Document document_of(const TuningSection& section) {
                   "  ");
   text += "\n";
   if (section.ensemble)
-    text += wrapped(ensemble_text(*section.ensemble, section.goals), "  ") + "\n";
+    text +=
+        wrapped(ensemble_text(*section.ensemble, section.ensemble_source, section.goals), "  ") +
+        "\n";
   std::vector<std::vector<std::string>> rows{{"wind model, same gains", "beam rms mdeg"}};
   for (const auto& alternative : section.wind_alternatives) {
     rows.push_back({std::string(plant::to_string(alternative.model)), mdeg(alternative.beam_rms)});
@@ -214,7 +241,7 @@ Document document_of(const TuningSection& section) {
                               "reaches the supply's at {:.1f} m/s.",
                               section.supply_wind_speed),
                   "  ");
-  return text;
+  return text + effects_part(section);
 }
 
 std::string choices_heading(const std::vector<ChoiceResult>& choices) {

@@ -32,6 +32,7 @@ std::string verdict(const Candidate& candidate) {
   if (!candidate.chosen) return "no stable law";
   const auto& law = candidate.laws[*candidate.chosen];
   if (!law.goals_met) return "misses goals";
+  if (!law.still) return "HUNTS";
   return law.design.verification.passed ? "verified" : "NOT VERIFIED";
 }
 
@@ -85,8 +86,9 @@ Document time_domain_table(const EvaluateSection& section) {
          wrapped(fmt::format(
                      "Every law ran on the nonlinear antenna of its proposal, in one record of "
                      "{:g} s at {:g} m/s (seed {}): friction curve with bristles, orifices, "
-                     "backlash, the limits of stroke and command, the encoder's steps, the lines' "
-                     "waves, sampling. Laws and proposals are compared by the rms of their linear "
+                     "the limits of stroke and command, the encoder's steps, sampling, and the "
+                     "backlash and the lines' waves where the case has them. Laws and proposals "
+                     "are compared by the rms of their linear "
                      "loops over the plants times the factor by which the simulated rms stands "
                      "above the linear plant's in the same record; losses, speed limits and the "
                      "draws have that factor too, as if it were the same on every plant and in "
@@ -201,8 +203,8 @@ Document service_table(const EvaluateSection& section) {
              "rest to rest that the drive has reserve for against friction, at 0.2 deg/s2 at most.",
              "  ") +
          (stroke_stated ? Document()
-                        : wrapped("The case has no [simulation], which would state the valve's "
-                                  "stroke: assumed is what its slew rate takes.",
+                        : wrapped("The case states no valve stroke (drive.valve_rated_flow or "
+                                  "[simulation]): assumed is what its slew rate takes.",
                                   "  "));
 }
 

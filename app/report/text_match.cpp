@@ -40,7 +40,7 @@ Document motors_part(const MatchSection& section) {
              fmt::format(
                  "R: motors over gear train and antenna. deg/s2: at the sky, by what the "
                  "supply's torque leaves beyond friction at {:.3g} deg/s, the case's slew rate "
-                 "or four fifths of what the supply holds. slew: {:.3g} deg at that rate and "
+                 "or four fifths of what supply and valve hold. slew: {:.3g} deg at that rate and "
                  "acceleration. rule zeta: 1/2 sqrt(J_L/J_m). of best a: acceleration for given "
                  "torque over the most at any gear ratio.",
                  section.slew_rate / degree, section.slew_distance / degree),

@@ -33,7 +33,7 @@ Document document_of(const PlantSection& section) {
        row("oil stiffness", drive.oil_stiffness, "N.m/rad"),
        row("leakage rate", drive.leakage_rate, "1/s"),
        row("viscous friction", drive.viscous_friction, "N.m.s/rad"),
-       row("friction slope at tracking rate", section.tracking_friction, "N.m.s/rad"),
+       row("friction slope at tracking rate", section.tracking_slope, "N.m.s/rad"),
        row("gear stiffness", structure.gear_stiffness, "N.m/rad"),
        row("valve", drive.valve_corner / two_pi, "Hz"),
        row("supply torque", section.supply_torque, "N.m"),

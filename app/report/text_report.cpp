@@ -35,9 +35,8 @@ Document document_of(const std::vector<Quantity>& assumed) {
 }
 
 Document document_of(const Report& report) {
-  Document text = verbatim(fmt::format("Boresight {} {}: {} ({} axis)\ncase {}, seed {}\n",
-                                       BORESIGHT_VERSION, report.command, report.title, report.axis,
-                                       report.case_path, report.seed));
+  Document text =
+      report_title(report.command, report.title, report.axis, report.case_path, report.seed);
   if (report.interrupted) text += "INTERRUPTED: what follows is whole, the rest is missing.\n";
   if (report.campaign) text += document_of(*report.campaign);
   if (report.identification && (!report.campaign || rests_on_tests(*report.identification))) {

@@ -158,19 +158,21 @@ Document candidates_part(const TimeDomainSection& section) {
       return "-";
     };
     const auto& slew = result.slew;
-    rows.push_back(
-        {law, mdeg(result.wind.predicted_rms),
-         result.wind.status == RunStatus::complete
-             ? mdeg(result.wind.beam_rms)
-             : std::string(design::to_string(result.wind.status)),
-         amplitude(true), amplitude(false),
-         result.reversal ? mdeg(result.reversal->beam_error) : "-",
-         slew && slew->settling_time ? fmt::format("{:.2f}", *slew->settling_time) : "-"});
+    rows.push_back({law, mdeg(result.wind.predicted_rms),
+                    result.wind.status == RunStatus::complete
+                        ? mdeg(result.wind.beam_rms)
+                        : std::string(design::to_string(result.wind.status)),
+                    amplitude(true), amplitude(false),
+                    result.reversal ? mdeg(result.reversal->beam_error) : "-",
+                    !slew ? "-"
+                    : slew->settling_time
+                        ? fmt::format("{:.2f}", *slew->settling_time)
+                        : fmt::format("> {:g}", section.options.settling_watched)});
   }
   return "\n" + table(rows, "l") +
          wrapped(
-             "Beam in mdeg at the sky, one record of wind; the law of the least simulated rms is "
-             "the one above.",
+             "Beam in mdeg at the sky, one record of wind; the law of the least simulated rms that "
+             "does not hunt beyond the tightest budget is the one above.",
              "  ");
 }
 
@@ -179,15 +181,16 @@ Document candidates_part(const TimeDomainSection& section) {
 Document document_of(const TimeDomainSection& section) {
   return heading("In the time domain, on the nonlinear antenna: " + section.law) +
          wind_part(section) + hunting_part(section) + reversal_part(section) + slew_part(section) +
-         wrapped(fmt::format("The controller: sampled every {:g} s with one sample of computing, "
-                             "feedforward of rate and acceleration, commands shaped to the limits "
-                             "above, anti-windup. Assumed, not in the case: {:g} deg/s2 of command "
-                             "acceleration, and encoder steps of {} mdeg, those whose rounding is "
-                             "the case's encoder noise. Differences are of the rms with and "
-                             "without each influence, the others on.",
-                             section.sample_time, section.options.limits.acceleration / degree,
-                             mdeg(section.encoder_resolution)),
-                 "  ") +
+         wrapped(
+             fmt::format("The controller: sampled every {:g} s with one sample of computing, "
+                         "feedforward of rate and acceleration, commands shaped to the limits "
+                         "above, anti-windup. The encoder's steps are {} mdeg, whose rounding is "
+                         "the case's encoder noise. Assumed, not in the case: {:g} deg/s2 of "
+                         "command acceleration. Differences are of the rms with and "
+                         "without each influence, the others on.",
+                         section.sample_time, mdeg(section.encoder_resolution),
+                         section.options.limits.acceleration / degree),
+             "  ") +
          candidates_part(section);
 }
 

@@ -90,6 +90,12 @@ Document pointing_part(const TuneSection& section) {
         budget.band, budget.convention, mdeg(budget.rms),
         budget.wind_speed ? fmt::format("; {:g} m/s asked for", *budget.wind_speed) : "");
   }
+  if (!section.budgets.empty() && std::isfinite(section.supply_wind_speed)) {
+    text += wrapped(fmt::format("Supply torque not counted: the mean wind torque alone reaches the "
+                                "supply's at {:.1f} m/s.",
+                                section.supply_wind_speed),
+                    "  ");
+  }
   for (const auto& band : section.bands) {
     text +=
         fmt::format("  dB {}: mean loss over two equal axes, beamwidth {:.3f} mdeg at {:g} GHz{}\n",

@@ -174,6 +174,69 @@ TEST(TuningVerdict, SaysThatANeedIsNotMet) {
   EXPECT_THAT(decision(report).front(), HasSubstr("Run the drive as built on PI with lag"));
 }
 
+TEST(TuningVerdict, SaysOnHowManyPlantsTheLawHolds) {
+  Report report = tuned_report();
+  design::EnsembleResult ensemble;
+  ensemble.members.resize(30);
+  ensemble.stable = 29;
+  ensemble.within_goals = 6;
+  report.tuning->ensemble = ensemble;
+  EXPECT_THAT(tuning_conclusions(report),
+              Contains(HasSubstr("held on 30 that may be the true one, it keeps its goals on 6 and "
+                                 "is unstable on 1. `boresight tune`")));
+  EXPECT_THAT(decision(report).front(),
+              AllOf(HasSubstr("it keeps its goals on 6"), Not(HasSubstr("Run the drive"))));
+  report.tuning->ensemble->stable = report.tuning->ensemble->within_goals = 30;
+  EXPECT_THAT(tuning_conclusions(report), Contains(HasSubstr("it keeps its goals on all.")));
+  EXPECT_THAT(decision(report).front(), Not(HasSubstr("keeps its goals")));
+}
+
+TEST(TuningVerdict, HoldsABudgetAgainstTheSimulation) {
+  Report report = tuned_report();
+  report.tuning->budgets = {budget(0.5, 12.5)};
+  TimeDomainSection& section = report.time_domain.emplace();
+  section.options.settled_error = 0.5 * millidegree;
+  section.wind_speed = 12.0;
+  section.result.wind.beam_rms = 0.49 * millidegree;
+  EXPECT_THAT(decision(report).front(),
+              AllOf(HasSubstr("is met up to 12.5 m/s"), Not(HasSubstr("simulated not"))));
+  section.result.wind.beam_rms = 0.51 * millidegree;
+  EXPECT_THAT(decision(report).front(),
+              HasSubstr("is met up to 12.5 m/s by the linear figure, but simulated not in 12 m/s"));
+  // Where the linear figure itself ends below, the simulation says nothing more.
+  report.tuning->budgets = {budget(0.5, 11.0)};
+  EXPECT_THAT(decision(report).front(), Not(HasSubstr("simulated not")));
+}
+
+TEST(TuningVerdict, RunsNoDriveThatHunts) {
+  Report report = tuned_report();
+  EXPECT_THAT(decision(report).front(), HasSubstr("Run the drive"));
+  TimeDomainSection& section = report.time_domain.emplace();
+  section.options.settled_error = 0.5 * millidegree;
+  design::HuntingResult rest;
+  rest.limit_cycle = true;
+  rest.beam_amplitude = 0.7 * millidegree;
+  section.result.hunting = {rest};
+  EXPECT_THAT(decision(report).front(), HasSubstr("Run the drive"));
+  section.result.hunting[0].beam_amplitude = 0.8 * millidegree;
+  EXPECT_THAT(decision(report).front(),
+              AllOf(HasSubstr("it hunts by +-0.80 mdeg, beyond the tightest budget of 0.500"),
+                    Not(HasSubstr("Run the drive"))));
+  section.result.hunting[0] = {};
+  section.result.hunting[0].status = design::RunStatus::lost;
+  EXPECT_THAT(decision(report).front(),
+              AllOf(HasSubstr("was not seen to hold still"), Not(HasSubstr("Run the drive"))));
+}
+
+TEST(TuningVerdict, SaysWhereNoLoopHelps) {
+  Report report = tuned_report();
+  report.tuning->encoder_held_rms = 0.44 * millidegree;
+  EXPECT_THAT(tuning_conclusions(report), Each(Not(HasSubstr("that the encoder does not see"))));
+  report.tuning->encoder_held_rms = 0.46 * millidegree;
+  EXPECT_THAT(tuning_conclusions(report), Contains(HasSubstr("that the encoder does not see")));
+  EXPECT_THAT(decision(report).front(), HasSubstr("that the encoder does not see"));
+}
+
 TEST(TuningVerdict, WarnsOfPresentGainsThatThePlantCallsUnstable) {
   Report report = tuned_report();
   EXPECT_THAT(tuning_conclusions(report), Each(Not(HasSubstr("present gains"))));

@@ -108,9 +108,43 @@ TEST(MatchDecision, SetsStructuresAgainstFlywheels) {
 TEST(MatchDecision, AsksForTheFrictionSlopeOnlyWhereItDecides) {
   MatchSection section = section_of({series_of("PI", {0.4, 0.5, 0.6})});
   section.thresholds = {threshold_of(0.5)};
+  section.tracking_friction = 12.0;
   EXPECT_THAT(decision(section), Contains(HasSubstr("Measure the friction slope")));
   section.thresholds = {threshold_of(0.01)};
   EXPECT_THAT(decision(section), Each(Not(HasSubstr("Measure the friction slope"))));
+  // A slope that no friction of the case comes near to is nothing to measure.
+  section.thresholds = {threshold_of(0.5)};
+  section.tracking_friction = 0.05;
+  EXPECT_THAT(decision(section), Each(Not(HasSubstr("Measure the friction slope"))));
+}
+
+// Runs every point on the nonlinear antenna: a limit cycle of that amplitude at rest.
+MatchSeries hunting(MatchSeries series, double amplitude_mdeg) {
+  design::HuntingResult rest;
+  rest.limit_cycle = amplitude_mdeg > 0.0;
+  rest.beam_amplitude = amplitude_mdeg * millidegree;
+  for (auto& value : series.values) value.time_domain = MatchTimeDomain{{rest}, {}};
+  return series;
+}
+
+TEST(MatchDecision, PutsNoStructureFirstThatHuntsBeyondTheBudget) {
+  const auto with = [](double amplitude_mdeg) {
+    MatchSection section =
+        section_of({hunting(series_of("PI", {0.4, 0.5, 0.6}), 0.1),
+                    hunting(series_of("DPF+C", {0.1, 0.11, 0.12}), amplitude_mdeg)});
+    section.tightest_budget = 0.5 * millidegree;
+    return decision(section);
+  };
+  EXPECT_THAT(with(0.7).front(), HasSubstr("comes with DPF+C loops"));
+  const auto barred = with(0.71);
+  EXPECT_THAT(barred.front(), HasSubstr("comes with PI loops"));
+  EXPECT_THAT(barred, Contains(HasSubstr("Not DPF+C, with 0.100 on the linear plant: on the "
+                                         "nonlinear antenna it hunts by +-0.71 mdeg")));
+  EXPECT_THAT(barred, Each(Not(HasSubstr("change the loops first"))));
+  MatchSection alone = section_of({hunting(series_of("PI", {0.4, 0.5, 0.6}), 3.0)});
+  alone.tightest_budget = 0.5 * millidegree;
+  EXPECT_THAT(decision(alone),
+              ElementsAre(HasSubstr("hunts beyond the tightest budget on the nonlinear antenna")));
 }
 
 TEST(MatchConclusions, ConfirmNoRuleByALeastAtTheUpperEnd) {
@@ -176,6 +210,43 @@ TEST(EvaluateDecision, ChoosesWhatGainsEnough) {
   ASSERT_TRUE(section.decision);
   EXPECT_EQ(worth_its_cost(section, *section.decision), 2U);
   EXPECT_THAT(decision(section).front(), HasSubstr("Choose proposal 2"));
+}
+
+TEST(EvaluateDecision, ChoosesNothingThatHunts) {
+  auto section = proposals_of({{0.0, 0.64}, {60.0, 0.5}, {420.0, 0.42}});
+  ASSERT_TRUE(section.decision);
+  const auto make_hunt = [&](std::size_t i) {
+    CandidateLaw& law = section.candidates[i].laws[0];
+    law.still = false;
+    design::HuntingResult rest;
+    rest.limit_cycle = true;
+    rest.beam_amplitude = 3.03 * millidegree;
+    law.time_domain.emplace().hunting = {rest};
+    law.time_domain->wind.beam_rms = law.time_domain->wind.continuous_rms = law.member_rms;
+  };
+  make_hunt(2);
+  EXPECT_EQ(worth_its_cost(section, *section.decision), 1U);
+  EXPECT_THAT(decision(section).front(),
+              AllOf(HasSubstr("Choose proposal 1"), Not(HasSubstr("proposal 2"))));
+  EXPECT_THAT(conclude(section), Contains(HasSubstr("these hunt beyond the tightest budget: "
+                                                    "proposal 2 with  (+-3.03 mdeg)")));
+  make_hunt(0);
+  make_hunt(1);
+  EXPECT_THAT(decision(section).front(),
+              AllOf(HasSubstr("Nothing is to be chosen yet: proposal 2 comes nearest"),
+                    HasSubstr("hunts beyond the tightest budget")));
+}
+
+TEST(EvaluateDecision, GivesNoProbabilityToWhatIsNoDifference) {
+  const auto alike = proposals_of({{0.0, 0.5133}, {20.0, 0.5131}});
+  EXPECT_THAT(decision(alike), Contains(HasSubstr("which is no difference")));
+  EXPECT_THAT(decision(alike), Each(Not(HasSubstr("probability"))));
+  // One alone is like no other: nothing is said of all.
+  auto single = alike;
+  single.candidates[1].laws[0].goals_met = false;
+  EXPECT_THAT(decision(single), Each(Not(HasSubstr("which is no difference"))));
+  const auto apart = proposals_of({{0.0, 0.64}, {60.0, 0.5}});
+  EXPECT_THAT(decision(apart), Contains(HasSubstr("with probability")));
 }
 
 }  // namespace

@@ -1,0 +1,198 @@
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <string_view>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include <boresight/app/redesign/antenna_model.hpp>
+#include <boresight/app/redesign/input_effects.hpp>
+#include <boresight/app/report/influences.hpp>
+#include <boresight/app/report/sky_units.hpp>
+#include <boresight/design/parallel_loop.hpp>
+#include <boresight/design/plant_ensemble.hpp>
+#include <boresight/plant/error.hpp>
+
+namespace boresight::app {
+namespace {
+
+constexpr double unstated_share = 0.1;
+
+// A number as the case states it, and where it works.
+struct Input {
+  const Quantity* stated = nullptr;
+  double* value = nullptr;
+};
+
+void add(std::vector<Quantity*>& places, std::optional<Quantity>& quantity) {
+  if (quantity) places.push_back(&*quantity);
+}
+
+// Those that a case keeps as quantities, in its order.
+std::vector<Quantity*> quantities_of(Case& c) {
+  std::vector<Quantity*> places{&c.antenna.dish_diameter,   &c.antenna.inertia,
+                                &c.motor.inertia,           &c.motor.displacement,
+                                &c.motor.torque_efficiency, &c.motor.volumetric_efficiency};
+  add(places, c.oil.bulk_modulus);
+  if (!c.oil.bulk_modulus) {
+    places.push_back(&c.oil.density);
+    for (auto& line : c.oil.lines) {
+      places.push_back(&line.length);
+      places.push_back(&line.slosh_frequency);
+    }
+  }
+  places.insert(places.end(),
+                {&c.oil.volume_1, &c.oil.volume_2, &c.drive.leakage_rate, &c.drive.viscous_friction,
+                 &c.drive.valve_frequency, &c.drive.valve_damping});
+  StructureEntry& structure = c.structure;
+  places.insert(places.end(),
+                {&structure.locked_rotor_frequency, &structure.gear_damping_ratio,
+                 &structure.bull_gear_wind_fraction, &structure.bull_gear_beam_weight});
+  for (auto& mode : structure.modes) {
+    places.insert(places.end(), {&mode.frequency, &mode.damping_ratio, &mode.inertia_fraction,
+                                 &mode.wind_fraction, &mode.beam_weight});
+  }
+  places.insert(places.end(), {&c.sensors.encoder_noise, &c.sensors.tachometer_noise,
+                               &c.sensors.noise_bandwidth, &c.sensors.tachometer_frequency});
+  add(places, c.sensors.torque_noise);
+  places.insert(places.end(), {&c.controller_delay, &c.wind.air_density, &c.wind.torque_coefficient,
+                               &c.wind.gradient_coefficient, &c.wind.coherence_decay});
+  // What another number of the case gives has no key of its own, and what records gave no text.
+  std::erase_if(places, [](const Quantity* one) { return one->key.empty() || one->text.empty(); });
+  return places;
+}
+
+// With the gusts' strength and length, which a case keeps as the plant takes them.
+std::vector<Input> linear_inputs(Case& c) {
+  std::vector<Input> inputs;
+  for (Quantity* quantity : quantities_of(c)) inputs.push_back({quantity, &quantity->value});
+  plant::GustSpectrum& gusts = c.wind.gusts;
+  for (const auto& [key, value] :
+       {std::pair{"wind.surface_drag", &gusts.surface_drag},
+        std::pair{"wind.turbulence_intensity", &gusts.turbulence_intensity},
+        std::pair{"wind.length_scale", &gusts.length_scale}}) {
+    const auto stated = std::ranges::find(c.quantities, std::string_view(key), &Quantity::key);
+    if (stated != c.quantities.end()) inputs.push_back({&*stated, value});
+  }
+  return inputs;
+}
+
+bool is_unstated(const Quantity& quantity) {
+  return quantity.basis == Basis::assumed && !quantity.uncertainty_given;
+}
+
+// Bull gear's and modes' shares of wind and beam, each of which sum to 1.
+std::array<std::vector<double*>, 2> shares(StructureEntry& structure) {
+  std::array<std::vector<double*>, 2> groups{
+      {{&structure.bull_gear_wind_fraction.value}, {&structure.bull_gear_beam_weight.value}}};
+  for (auto& mode : structure.modes) {
+    groups[0].push_back(&mode.wind_fraction.value);
+    groups[1].push_back(&mode.beam_weight.value);
+  }
+  return groups;
+}
+
+void move(Case& antenna, std::size_t which, double by) {
+  double* moved = linear_inputs(antenna)[which].value;
+  for (const auto& group : shares(antenna.structure)) {
+    if (std::ranges::find(group, moved) == group.end()) continue;
+    double others = 0.0;
+    for (const double* one : group) others += one == moved ? 0.0 : *one;
+    if (others == 0.0) continue;  // nothing can give way: a sum other than 1 is no antenna
+    for (double* one : group) {
+      if (one != moved) *one *= (others - by) / others;
+    }
+  }
+  *moved += by;
+}
+
+// Not a number where the loop is unstable; nothing where no antenna can be made of the case.
+std::optional<double> held_rms(const Case& antenna, const control::ControlLaw& law,
+                               const design::HardGoals& goals) {
+  try {
+    const design::TrackingProblem problem = make_problem(antenna);
+    return design::judge(problem, {{"moved", problem.plant}}, law, goals, 1)
+        .members.front()
+        .beam_rms;
+  } catch (const InvalidInput&) {
+    return std::nullopt;
+  }
+}
+
+std::string range_text(const InputEffect& effect) {
+  const auto mdeg = [](double rms) {
+    return std::isfinite(rms) ? fmt::format("{:.3f}", rms / millidegree) : std::string("unstable");
+  };
+  const double share = 100.0 * effect.moved_by / std::abs(effect.quantity.value);
+  return fmt::format("{} ({} to {} mdeg over +-{:.3g} %)", effect.quantity.key,
+                     mdeg(effect.low_rms), mdeg(effect.high_rms), share);
+}
+
+}  // namespace
+
+double InputEffect::change(double rms) const {
+  if (!std::isfinite(low_rms) || !std::isfinite(high_rms)) {
+    return std::numeric_limits<double>::infinity();
+  }
+  return std::max(std::abs(low_rms - rms), std::abs(high_rms - rms)) / rms;
+}
+
+std::vector<InputEffect> input_effects(const Case& antenna, const control::ControlLaw& law,
+                                       const design::HardGoals& goals, double rms, std::size_t most,
+                                       unsigned threads) {
+  Case whole = antenna;
+  std::vector<InputEffect> effects;
+  std::vector<std::size_t> which;
+  const auto inputs = linear_inputs(whole);
+  for (std::size_t i = 0; i < inputs.size(); ++i) {
+    InputEffect effect;
+    const Quantity& stated = *inputs[i].stated;
+    effect.quantity = stated;
+    effect.unstated = is_unstated(stated);
+    effect.moved_by =
+        effect.unstated ? unstated_share * std::abs(stated.value) : stated.standard_uncertainty;
+    if (!(effect.moved_by > 0.0) || stated.value == 0.0) continue;
+    effects.push_back(std::move(effect));
+    which.push_back(i);
+  }
+  std::vector<std::optional<double>> held(2 * effects.size());
+  design::for_each_index(held.size(), threads, [&](std::size_t job) {
+    const double by = effects[job / 2].moved_by;
+    Case moved = antenna;
+    move(moved, which[job / 2], job % 2 == 0 ? -by : by);
+    held[job] = held_rms(moved, law, goals);
+  });
+  std::vector<InputEffect> kept;
+  constexpr double worth_a_row = 1e-3;
+  for (std::size_t i = 0; i < effects.size(); ++i) {
+    const auto &low = held[2 * i], &high = held[2 * i + 1];
+    if (!low || !high) continue;
+    effects[i].low_rms = *low;
+    effects[i].high_rms = *high;
+    if (effects[i].change(rms) >= worth_a_row) kept.push_back(std::move(effects[i]));
+  }
+  effects = std::move(kept);
+  std::ranges::stable_sort(effects, [&](const InputEffect& x, const InputEffect& y) {
+    return x.change(rms) > y.change(rms);
+  });
+  if (effects.size() > most) effects.resize(most);
+  return effects;
+}
+
+std::string measure_first(const std::vector<InputEffect>& effects, double rms) {
+  constexpr std::size_t most = 3;
+  std::vector<std::string> named;
+  for (const auto& effect : effects) {
+    if (named.size() == most || effect.change(rms) < negligible_change) break;
+    named.push_back(range_text(effect));
+  }
+  if (named.empty()) return "";
+  return fmt::format(
+      "Of the numbers that the case states, the rms hangs most on {}: measure {} first.",
+      fmt::join(named, ", "), named.size() == 1 ? "that" : "those");
+}
+
+}  // namespace boresight::app

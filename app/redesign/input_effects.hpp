@@ -1,0 +1,42 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include <boresight/app/io/case_file.hpp>
+#include <boresight/control/control_law.hpp>
+#include <boresight/design/goals.hpp>
+
+namespace boresight::app {
+
+/// What a tuned law's rms owes to one number of the case.
+struct InputEffect {
+  Quantity quantity;
+  /// How far it is moved to either side, in its SI unit (Hz for frequencies): by the standard
+  /// uncertainty that the case gives, else, where its value is assumed, by a tenth of it, else by
+  /// the printed digits' rounding.
+  double moved_by = 0.0;
+  /// Whether that is a tenth, for want of an uncertainty.
+  bool unstated = false;
+  /// Beam rms (rad, one axis at the sky, in the case's design wind) with the number lower and
+  /// higher, gains held. NaN where the loop is unstable there.
+  double low_rms = 0.0, high_rms = 0.0;
+
+  /// The larger change from `rms` as a share of it; infinite where the loop is unstable.
+  double change(double rms) const;
+};
+
+/// The numbers that linear plant and wind are made of, moved one at a time with all gains held: the
+/// `most` that change the rms most, the largest first. Of shares that sum to 1 (wind, beam) the
+/// others give way in proportion. Left out is what changes the rms by less than a thousandth, what
+/// leaves no antenna, and what was identified from records: what those leave open is not the case's
+/// uncertainty. The same for any number of threads.
+std::vector<InputEffect> input_effects(const Case& antenna, const control::ControlLaw& law,
+                                       const design::HardGoals& goals, double rms, std::size_t most,
+                                       unsigned threads);
+
+/// Which of them to measure first, in a sentence; empty where none changes the rms by what decides
+/// anything.
+std::string measure_first(const std::vector<InputEffect>& effects, double rms);
+
+}  // namespace boresight::app

@@ -1,0 +1,18 @@
+#include <utility>
+
+#include <boresight/app/report/report.hpp>
+
+namespace boresight::app {
+
+Report begin_report(std::string command, const Case& antenna, std::string case_path,
+                    std::uint64_t seed) {
+  Report report;
+  report.command = std::move(command);
+  report.title = antenna.title;
+  report.axis = antenna.axis;
+  report.case_path = std::move(case_path);
+  report.seed = seed;
+  return report;
+}
+
+}  // namespace boresight::app

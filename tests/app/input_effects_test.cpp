@@ -1,0 +1,144 @@
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "edited_case.hpp"
+#include <boresight/app/redesign/antenna_model.hpp>
+#include <boresight/app/redesign/input_effects.hpp>
+#include <boresight/app/report/sky_units.hpp>
+#include <boresight/design/design_study.hpp>
+
+namespace boresight::app {
+namespace {
+
+using testing::HasSubstr;
+using testing::Not;
+
+constexpr std::size_t all = 1000;
+
+design::Design tuned(const Case& antenna) {
+  design::DesignTask task;
+  task.problem = make_problem(antenna);
+  task.goals = make_goals(antenna);
+  task.options.starts = 2;
+  return design::solve(task);
+}
+
+const InputEffect& effect_of(const std::vector<InputEffect>& effects, const std::string& key) {
+  const auto found = std::ranges::find_if(
+      effects, [&](const InputEffect& one) { return one.quantity.key == key; });
+  if (found == effects.end()) throw std::runtime_error("no effect of " + key);
+  return *found;
+}
+
+TEST(InputEffects, AreWhatTheClosedLoopSays) {
+  const Case antenna =
+      parse_case(EditedCase()
+                     .replace_line("air_density = {",
+                                   "air_density = { value = \"1.1 kg/m3\", uncertainty = \"3 %\" }")
+                     .text(),
+                 "case.toml");
+  const design::Design design = tuned(antenna);
+  ASSERT_TRUE(design.usable());
+  const auto& law = design.tuning.law;
+  const auto effects = input_effects(antenna, law, make_goals(antenna), design.beam_rms, all, 2);
+  // The wind's torque goes with the density, and the sensors' noise does not.
+  const InputEffect& density = effect_of(effects, "wind.air_density");
+  EXPECT_FALSE(density.unstated);
+  EXPECT_NEAR(density.moved_by, 0.033, 1e-12);
+  EXPECT_NEAR(density.high_rms, std::hypot(1.03 * design.wind_rms, design.noise_rms),
+              1e-5 * design.beam_rms);
+  EXPECT_NEAR(density.low_rms, std::hypot(0.97 * design.wind_rms, design.noise_rms),
+              1e-5 * design.beam_rms);
+  // An assumed number without an uncertainty is moved by a tenth; the torque goes with it as well.
+  const InputEffect& coefficient = effect_of(effects, "wind.torque_coefficient");
+  EXPECT_TRUE(coefficient.unstated);
+  EXPECT_DOUBLE_EQ(coefficient.moved_by, 0.1 * antenna.wind.torque_coefficient.value);
+  // Davenport's gusts go with the root of the drag.
+  const InputEffect& drag = effect_of(effects, "wind.surface_drag");
+  EXPECT_NEAR(drag.high_rms, std::hypot(std::sqrt(1.1) * design.wind_rms, design.noise_rms),
+              1e-5 * design.beam_rms);
+  // What is moved is the plant that a case with that number has: here of the dead time.
+  const InputEffect& delay = effect_of(effects, "controller.delay");
+  Case later = antenna;
+  later.controller_delay.value += delay.moved_by;
+  EXPECT_NEAR(delay.high_rms, design::assess(make_problem(later), law, make_goals(later)).beam_rms,
+              1e-5 * design.beam_rms);
+  // In falling order, the same for any number of threads, and cut where asked.
+  for (std::size_t i = 1; i < effects.size(); ++i) {
+    EXPECT_GE(effects[i - 1].change(design.beam_rms), effects[i].change(design.beam_rms));
+  }
+  const auto few = input_effects(antenna, law, make_goals(antenna), design.beam_rms, 3, 1);
+  ASSERT_EQ(few.size(), 3U);
+  for (std::size_t i = 0; i < few.size(); ++i) {
+    EXPECT_EQ(few[i].quantity.key, effects[i].quantity.key);
+    EXPECT_EQ(few[i].high_rms, effects[i].high_rms);
+  }
+}
+
+TEST(InputEffects, LeaveOutWhatRecordsGave) {
+  Case antenna = read_case(case_path("dss14-70m"));
+  const design::Design design = tuned(antenna);
+  ASSERT_TRUE(design.usable());
+  const auto has_inertia = [&] {
+    const auto effects =
+        input_effects(antenna, design.tuning.law, make_goals(antenna), design.beam_rms, all, 2);
+    return std::ranges::any_of(
+        effects, [](const InputEffect& one) { return one.quantity.key == "antenna.inertia"; });
+  };
+  EXPECT_TRUE(has_inertia());
+  antenna.antenna.inertia.text.clear();
+  EXPECT_FALSE(has_inertia());
+}
+
+TEST(InputEffects, KeepTheSumOfShares) {
+  const Case antenna = read_case(case_path("dss14-70m"));
+  const design::Design design = tuned(antenna);
+  ASSERT_TRUE(design.usable());
+  const auto effects =
+      input_effects(antenna, design.tuning.law, make_goals(antenna), design.beam_rms, all, 2);
+  // More of the beam on the lowest mode, less on all others.
+  const InputEffect& weight = effect_of(effects, "structure.mode[0].beam_weight");
+  Case heavier = antenna;
+  const double others = 1.0 - heavier.structure.modes[0].beam_weight.value;
+  const double left = (others - weight.moved_by) / others;
+  heavier.structure.bull_gear_beam_weight.value *= left;
+  for (auto& mode : heavier.structure.modes) mode.beam_weight.value *= left;
+  heavier.structure.modes[0].beam_weight.value =
+      antenna.structure.modes[0].beam_weight.value + weight.moved_by;
+  EXPECT_NEAR(
+      weight.high_rms,
+      design::assess(make_problem(heavier), design.tuning.law, make_goals(heavier)).beam_rms,
+      1e-5 * design.beam_rms);
+}
+
+TEST(InputEffects, SayWhatToMeasureFirst) {
+  InputEffect effect;
+  effect.quantity.key = "wind.torque_coefficient";
+  effect.quantity.value = 0.1;
+  effect.moved_by = 0.01;
+  effect.low_rms = 0.45 * millidegree;
+  effect.high_rms = 0.55 * millidegree;
+  const double rms = 0.5 * millidegree;
+  EXPECT_NEAR(effect.change(rms), 0.1, 1e-12);
+  EXPECT_THAT(measure_first({effect}, rms),
+              HasSubstr("wind.torque_coefficient (0.450 to 0.550 mdeg over +-10 %): measure that"));
+  InputEffect unstable = effect;
+  unstable.quantity.key = "structure.mode[0].frequency";
+  unstable.high_rms = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_EQ(unstable.change(rms), std::numeric_limits<double>::infinity());
+  EXPECT_THAT(measure_first({unstable, effect}, rms),
+              HasSubstr("frequency (0.450 to unstable mdeg over +-10 %), wind"));
+  effect.low_rms = 0.495 * millidegree;
+  effect.high_rms = 0.505 * millidegree;
+  EXPECT_EQ(measure_first({effect}, rms), "");
+  EXPECT_THAT(measure_first({unstable, effect}, rms), Not(HasSubstr("wind")));
+}
+
+}  // namespace
+}  // namespace boresight::app

@@ -55,6 +55,9 @@ struct Design {
   double valve_effort = 0.0;  // rad/s
   /// Margins of the loops cut at each of control::loop_breaks.
   std::array<control::Margins, 3> margins;
+
+  /// Whether it meets the hard goals and its verification.
+  bool usable() const { return tuning.status == TuningStatus::optimal && verification.passed; }
 };
 
 /// Tunes and verifies one task. @throws as tune.

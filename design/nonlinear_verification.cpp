@@ -368,6 +368,20 @@ void check(const NonlinearVerificationOptions& options) {
 
 }  // namespace
 
+double hunting_amplitude(const std::vector<HuntingResult>& hunting) {
+  double largest = 0.0;
+  for (const auto& run : hunting) {
+    if (run.limit_cycle) largest = std::max(largest, run.beam_amplitude);
+  }
+  return largest;
+}
+
+bool holds_still(const std::vector<HuntingResult>& hunting, double error) {
+  return hunting_amplitude(hunting) <= std::numbers::sqrt2 * error &&
+         std::ranges::all_of(
+             hunting, [](const HuntingResult& run) { return run.status == RunStatus::complete; });
+}
+
 NonlinearVerification verify_in_time(const TrackingProblem& problem, const SimulatedLoop& loop,
                                      const NonlinearVerificationOptions& options) {
   check(options);

@@ -112,6 +112,13 @@ struct NonlinearVerification {
   std::optional<SlewResult> slew;
 };
 
+/// Largest beam amplitude of its limit cycles (rad); 0 without any.
+double hunting_amplitude(const std::vector<HuntingResult>& hunting);
+/// Whether the loop keeps its beam within an rms `error` (rad) where nothing but friction and its
+/// own torque moves it: no hunting run failed, and no limit cycle has an amplitude above sqrt(2) of
+/// that.
+bool holds_still(const std::vector<HuntingResult>& hunting, double error);
+
 /// The loop of a tuned law on the nonlinear antenna: in wind, hunting, reversing, slewing. Runs
 /// that fail or lose the target are stated in their result. The same result for any number of
 /// threads. `problem`: what the law was tuned on, for its wind and the linear prediction.

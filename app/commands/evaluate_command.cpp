@@ -47,12 +47,14 @@ int run(EvaluateArguments arguments) {
   if (!report.evaluated) return internal_error;
   int code = done;
   for (const auto& candidate : report.evaluated->candidates) {
-    if (candidate.feasible()) continue;
-    const bool met = candidate.chosen && candidate.laws[*candidate.chosen].goals_met;
+    const CandidateLaw* law = candidate.chosen_law();
+    const bool met = law != nullptr && law->goals_met;
+    // Hunting is no hard goal: the report says it, and does not choose such a law.
+    if (met && law->design.verification.passed) continue;
     fmt::print(stderr, "boresight: {}: {}\n", candidate.name,
-               !candidate.chosen ? "no structure has a stable law"
-               : met             ? "no law that meets its goals passes its verification"
-                                 : "no law meets the hard goals on every plant");
+               law == nullptr ? "no structure has a stable law"
+               : met          ? "no law that meets its goals passes its verification"
+                              : "no law meets the hard goals on every plant");
     if (code != infeasible) code = met ? numerical : infeasible;
   }
   return code;
@@ -77,12 +79,7 @@ Report evaluate_case(const EvaluateArguments& arguments, const std::function<boo
   if (!options.structures.empty()) asked_structures(antenna, options.structures);
   arguments.outputs.require_writable();
 
-  Report report;
-  report.command = "evaluate";
-  report.title = antenna.title;
-  report.axis = antenna.axis;
-  report.case_path = arguments.case_path;
-  report.seed = arguments.seed;
+  Report report = begin_report("evaluate", antenna, arguments.case_path, arguments.seed);
   ProgressLine progress("tuning and comparing proposals");
   std::optional<PlantUncertainty> uncertainty;
   try {

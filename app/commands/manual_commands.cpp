@@ -21,7 +21,7 @@ std::string completion_for(const std::string& shell, const ProgramText& program)
   if (shell == "fish") return fish_completion(program);
   const std::vector<std::string_view> known(completion_shells().begin(), completion_shells().end());
   throw InvalidInput(fmt::format("completion: expected one of {}, found {}{}", quoted_list(known),
-                                 app::quoted(shell), did_you_mean(shell, known)));
+                                 in_quotes(shell), did_you_mean(shell, known)));
 }
 
 }  // namespace

@@ -38,12 +38,7 @@ int run(const Arguments& arguments) {
   options.threads = all_or(options.threads);
   options.interrupted = interrupt_requested;
   options.variants = !arguments.no_variants;
-  Report report;
-  report.command = "match";
-  report.title = antenna.title;
-  report.axis = antenna.axis;
-  report.case_path = arguments.case_path;
-  report.seed = options.seed;
+  Report report = begin_report("match", antenna, arguments.case_path, options.seed);
   watch_for_interrupt();
   std::vector<design::EnsembleMember> members;
   try {

@@ -80,7 +80,7 @@ std::string refused_option(const CLI::App& command, const std::vector<std::strin
     }
     return fmt::format("{}expected one of the options, found {}{}",
                        command.get_parent() == nullptr ? "" : command.get_name() + ": ",
-                       app::quoted(name), did_you_mean(name, names_of(known)));
+                       in_quotes(name), did_you_mean(name, names_of(known)));
   }
   return {};
 }
@@ -97,7 +97,7 @@ std::string explained(const CLI::App& program, const std::vector<std::string>& a
   if (first.starts_with("-")) return refused_option(program, {first});
   if (std::ranges::find(commands, first) == commands.end()) {
     return fmt::format("expected one of the commands {}, found {}{}",
-                       quoted_list(names_of(commands)), app::quoted(first),
+                       quoted_list(names_of(commands)), in_quotes(first),
                        did_you_mean(first, names_of(commands)));
   }
   const std::string option =

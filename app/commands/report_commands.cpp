@@ -17,6 +17,8 @@
 #include <boresight/app/redesign/sections.hpp>
 #include <boresight/app/report/json_report.hpp>
 #include <boresight/app/report/text_report.hpp>
+#include <boresight/app/tune/plant_members.hpp>
+#include <boresight/design/plant_ensemble.hpp>
 
 namespace boresight::app {
 namespace {
@@ -46,6 +48,20 @@ void fill_identification(const Case& antenna, const StudyOptions& options, Repor
       record_figures(report.campaign->notes, campaign_traces(antenna, options.threads));
 }
 
+// The tuned law on other plants that may be the true one: those that the records leave open,
+// without records those of the case.
+void judge_on_ensemble(const Case& antenna, const Case& designed, const StudyOptions& options,
+                       const std::optional<CampaignSection>& campaign, TuningSection& section) {
+  if (campaign && campaign->grey_box) {
+    section.ensemble = judge_identified(antenna, designed, *campaign->grey_box, section, options);
+    section.ensemble_source = "drawn from what the records leave open";
+  } else if (section.design.tuning.status != design::TuningStatus::unstable) {
+    section.ensemble = design::judge(section.problem, plant_members(designed, options.seed),
+                                     section.design.tuning.law, section.goals, options.threads);
+    section.ensemble_source = "of the case's ensemble";
+  }
+}
+
 void fill_redesign(const Case& antenna, const StudyOptions& options, Report& report) {
   fill_identification(antenna, options, report);
   report.audit = audit(antenna);
@@ -67,9 +83,8 @@ void fill_redesign(const Case& antenna, const StudyOptions& options, Report& rep
                                                law.structure.name(), options.seed, options.threads);
     report.assumed = assumed_inputs(designed, {.time_runs = report.time_domain.has_value()});
   }
-  if (report.campaign && report.campaign->grey_box && report.tuning) {
-    report.tuning->ensemble =
-        judge_identified(antenna, designed, *report.campaign->grey_box, *report.tuning, options);
+  if (report.tuning) {
+    judge_on_ensemble(antenna, designed, options, report.campaign, *report.tuning);
   }
   report.conclusions = conclude(report);
 }
@@ -110,12 +125,7 @@ int run(const Command& command, const Arguments& arguments) {
   StudyOptions options;
   options.seed = arguments.seed;
   options.threads = all_or(arguments.threads);
-  Report report;
-  report.command = command.name;
-  report.title = antenna.title;
-  report.axis = antenna.axis;
-  report.case_path = arguments.case_path;
-  report.seed = arguments.seed;
+  Report report = begin_report(command.name, antenna, arguments.case_path, arguments.seed);
   report.assumed = assumed_inputs(antenna);
   {
     ProgressLine progress(command.work);

@@ -20,6 +20,7 @@
 #include <boresight/app/io/field.hpp>
 #include <boresight/app/io/record_mat_writer.hpp>
 #include <boresight/app/io/wording.hpp>
+#include <boresight/app/montecarlo/held_law.hpp>
 #include <boresight/app/page/report_page.hpp>
 #include <boresight/app/redesign/antenna_model.hpp>
 #include <boresight/app/redesign/assumed_inputs.hpp>
@@ -49,13 +50,24 @@ void check_tests(const std::vector<std::string>& tests) {
   for (const auto& test : tests) {
     if (std::ranges::find(known, test) == known.end()) {
       throw InvalidInput(fmt::format("simulate: expected tests out of {}, found {}{}",
-                                     fmt::join(known, ", "), app::quoted(test),
+                                     fmt::join(known, ", "), in_quotes(test),
                                      did_you_mean(test, {known.begin(), known.end()})));
     }
     if (std::ranges::count(tests, test) != 1) {
       throw InvalidInput(fmt::format("simulate: expected each test once, found '{}' again", test));
     }
   }
+}
+
+SimulatedLaw law_of(const Case& antenna, const std::string& gains, const std::string& structure) {
+  SimulatedLaw asked;
+  if (auto named = named_law(antenna, gains, structure)) {
+    asked.law = std::move(named->law);
+    asked.source = std::move(named->source);
+  } else if (!structure.empty()) {
+    asked.structure = structure_named(antenna, structure);
+  }
+  return asked;
 }
 
 using Record = std::variant<DriveRecord, PositionRecord>;
@@ -121,8 +133,9 @@ class Campaign {
     const auto seed = arguments_.seed;
     if (name == "tracking" || name == "slew") {
       const auto make = name == "slew" ? run_slew : run_tracking;
-      runs_.push_back({name, name, [this, make, seed](const RunProgress& progress) -> Record {
-                         return make(antenna_, seed, progress);
+      const SimulatedLaw law = law_of(antenna_, arguments_.gains, arguments_.structure);
+      runs_.push_back({name, name, [this, make, law, seed](const RunProgress& progress) -> Record {
+                         return make(antenna_, law, seed, progress);
                        }});
       return;
     }
@@ -266,6 +279,13 @@ Subcommand add_simulate(CLI::App& program) {
                   "of the records: csv, rounded as a recorder's digits; mat, version 5, every bit")
       ->check(CLI::IsMember({"csv", "mat"}))
       ->capture_default_str();
+  sub->add_option("--gains", arguments->gains,
+                  "the law of tracking and slew: 'tuned' (on the case's plant, now), 'case' (that "
+                  "the antenna runs on now), or a report of tune or redesign in JSON")
+      ->capture_default_str();
+  sub->add_option("--structure", arguments->structure,
+                  "its structure, as `boresight tune` takes it (default: PI with lag; of a report: "
+                  "any)");
   sub->add_option("--sample-rate", arguments->sample_rate,
                   "samples a second of the records (default: as the case has it); slosh is sampled "
                   "at 1000 or more")

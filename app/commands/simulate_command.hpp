@@ -19,7 +19,12 @@ struct SimulateArguments {
   Outputs outputs;
   std::uint64_t seed = 1;
   double sample_rate = 0.0;  // Hz, of the records; 0: as the case has it
-  unsigned threads = 1;      // so many records at a time; they do not depend on it
+  /// Of tracking and slew: 'tuned' (nominally, now), 'case' (that the antenna runs on now), or a
+  /// report of tune or redesign in JSON; and the structure, empty: the first there is, or PI with
+  /// lag.
+  std::string gains = "tuned";
+  std::string structure;
+  unsigned threads = 1;  // so many records at a time; they do not depend on it
 };
 
 /// Runs the tests on the nonlinear antenna of the case and writes a record of each, TEST.csv

@@ -29,7 +29,7 @@ std::vector<double> read_speeds(const std::vector<std::string>& texts) {
     try {
       speeds.push_back(parse_quantity(text, Kind::speed).value);
     } catch (const InvalidInput& error) {
-      throw InvalidInput(fmt::format("--speed {}: {}", app::quoted(text), error.what()));
+      throw InvalidInput(fmt::format("--speed {}: {}", in_quotes(text), error.what()));
     }
   }
   return speeds;
@@ -63,12 +63,7 @@ Report tune_case(const TuneArguments& arguments, const std::function<bool()>& in
   if (!options.structures.empty()) asked_structures(antenna, options.structures);
   arguments.outputs.require_writable();
 
-  Report report;
-  report.command = "tune";
-  report.title = antenna.title;
-  report.axis = antenna.axis;
-  report.case_path = arguments.case_path;
-  report.seed = arguments.seed;
+  Report report = begin_report("tune", antenna, arguments.case_path, arguments.seed);
   if (!arguments.measured_record.empty()) {
     if (!arguments.outputs.mat_path.empty()) {
       throw InvalidInput("tune: expected --mat with a model to write, found --measured");

@@ -99,8 +99,10 @@ class Study {
     task.law.goals_met = task.law.design.tuning.status == TuningStatus::optimal &&
                          task.law.ensemble->within_goals == static_cast<int>(members.size());
     if (options_.time_domain) {
-      task.law.time_domain = run_in_time_domain(antenna, make_problem(antenna), law,
-                                                comparison_options(antenna, options_.seed));
+      const auto options = comparison_options(antenna, options_.seed);
+      task.law.time_domain = run_in_time_domain(antenna, make_problem(antenna), law, options);
+      task.law.still = !task.law.time_domain ||
+                       design::holds_still(task.law.time_domain->hunting, options.settled_error);
     }
   }
 

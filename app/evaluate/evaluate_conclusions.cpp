@@ -2,12 +2,13 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <optional>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include <boresight/app/evaluate/evaluate_section.hpp>
-#include <boresight/app/report/negligible.hpp>
+#include <boresight/app/report/influences.hpp>
 #include <boresight/app/report/sky_units.hpp>
 
 namespace boresight::app {
@@ -48,8 +49,8 @@ std::string against_as_it_is(const EvaluateSection& section) {
       "re-tuned ({:.4f} mdeg): ",
       law->structure, plant::to_string(section.wind_model), section.wind_speed,
       section.time_domain
-          ? ", each rms of linear loops raised by what friction, backlash, orifices, limits and "
-            "encoder steps did to that law in a simulated record"
+          ? ", each rms of linear loops raised by what friction, orifices, limits and all else "
+            "that is not linear did to that law in a simulated record"
           : ", linear loops only",
       rms_of(base) / millidegree);
   text += better.empty() ? "nothing lowers it" : fmt::format("lowered {}", fmt::join(better, ", "));
@@ -136,7 +137,8 @@ std::string on_the_front(const EvaluateSection& section) {
 // What of the choice by the least mean is not worth paying for.
 std::string not_worth_paying(const EvaluateSection& section, const DecisionSection& decision) {
   const std::size_t choice = worth_its_cost(section, decision);
-  if (choice == decision.best) return "";
+  const Candidate& best = section.candidates[decision.candidates[decision.best].candidate];
+  if (choice == decision.best || !best.feasible()) return "";
   const auto& options = decision.statistics.options;
   return fmt::format(
       "{} is {:.1f} % better than {} on average, too little to pay for: {}.",
@@ -239,31 +241,70 @@ std::string what_to_test(const EvaluateSection& section, const DecisionSection& 
       decision.inputs[input], best->held_out_gain, best->fitted.gain, tests.perfect.gain);
 }
 
-std::string out_of_reach(const EvaluateSection& section) {
-  std::vector<std::string> infeasible, slow;
+std::optional<double> slew_stroke(const Candidate& candidate) {
+  return candidate.figures ? candidate.figures->slew_stroke_margin : std::nullopt;
+}
+
+// What the antenna as it is does not reach either is no fault of a proposal, and says more of the
+// case's numbers than of the drive.
+std::vector<std::string> short_of_stroke(const EvaluateSection& section) {
+  const Candidate& base = section.candidates.front();
+  const double as_it_is = base.path.empty() ? slew_stroke(base).value_or(1.0) : 1.0;
+  const bool stated_too_high = as_it_is < 1.0;
+  // Rounding lowers nothing.
+  const double enough = stated_too_high ? as_it_is * (1.0 - 1e-9) : 1.0;
+  std::vector<std::string> slow;
   for (const auto& candidate : section.candidates) {
-    if (!candidate.feasible()) infeasible.push_back(candidate.name);
-    if (!candidate.figures) continue;
-    const auto& figures = *candidate.figures;
-    if (figures.slew_stroke_margin && *figures.slew_stroke_margin < 1.0) {
-      slow.push_back(fmt::format("{} (stroke {:.2f} of what the slew rate takes)", candidate.name,
-                                 *figures.slew_stroke_margin));
-    }
+    const auto stroke = slew_stroke(candidate);
+    if (!stroke || *stroke >= enough) continue;
+    slow.push_back(
+        fmt::format("{} (stroke {:.2f} of what the slew rate takes)", candidate.name, *stroke));
   }
-  std::string text;
-  if (!infeasible.empty()) {
-    text += fmt::format(
-        "Not to be built as they stand: no law of {} meets every hard goal on every plant and "
-        "passes its verification; their rows show what comes closest. ",
-        fmt::join(infeasible, ", "));
+  std::vector<std::string> sentences;
+  if (stated_too_high) {
+    sentences.push_back(fmt::format(
+        "The stated slew rate is out of reach of the drive as it is (stroke {:.2f} of what it "
+        "takes): check drive.slew_rate, the valve and the supply.",
+        as_it_is));
   }
   if (!slow.empty()) {
-    text += fmt::format(
-        "Their valves' stroke does not reach the slew rate of today: {}. Pumps and valves would "
-        "have to grow with them, at a cost that is not in these files.",
-        fmt::join(slow, "; "));
+    sentences.push_back(fmt::format(
+        "{}: {}. Pumps and valves would have to grow with them, at a cost that is not in these "
+        "files.",
+        stated_too_high ? "These proposals lower the stroke further"
+                        : "Their valves' stroke does not reach the slew rate of today",
+        fmt::join(slow, "; ")));
   }
-  return text;
+  return sentences;
+}
+
+std::string out_of_reach(const EvaluateSection& section) {
+  std::vector<std::string> infeasible, hunting;
+  for (const auto& candidate : section.candidates) {
+    const CandidateLaw* law = candidate.chosen_law();
+    if (law == nullptr || !law->goals_met || !law->design.verification.passed) {
+      infeasible.push_back(candidate.name);
+    } else if (!law->still && law->time_domain) {
+      hunting.push_back(
+          fmt::format("{} with {} (+-{:.2f} mdeg)", candidate.name, law->structure,
+                      design::hunting_amplitude(law->time_domain->hunting) / millidegree));
+    }
+  }
+  std::vector<std::string> sentences = short_of_stroke(section);
+  if (!infeasible.empty()) {
+    sentences.insert(
+        sentences.begin(),
+        fmt::format("Not to be built as they stand: no law of {} meets every hard goal on every "
+                    "plant and passes its verification; their rows show what comes closest.",
+                    fmt::join(infeasible, ", ")));
+  }
+  if (!hunting.empty()) {
+    sentences.push_back(
+        fmt::format("Not chosen, whatever their rms in wind: by friction alone these hunt beyond "
+                    "the tightest budget: {}.",
+                    fmt::join(hunting, ", ")));
+  }
+  return fmt::format("{}", fmt::join(sentences, " "));
 }
 
 }  // namespace

@@ -38,7 +38,9 @@ struct CandidateLaw {
   /// What laws and proposals are compared by: member_rms times nonlinear_factor.
   double compared_rms() const { return member_rms * nonlinear_factor(); }
   bool stable() const { return design.tuning.status != design::TuningStatus::unstable; }
-  bool usable() const { return goals_met && design.verification.passed; }
+  /// Hunts by no more than the tightest budget (design::holds_still); true without a simulation.
+  bool still = true;
+  bool usable() const { return goals_met && design.verification.passed && still; }
 };
 
 /// A slew of `distance` from rest to rest with what the drive can do, with its reserve

@@ -95,10 +95,10 @@ CandidateFigures figures_of(const Case& antenna, const CandidateLaw& tuned,
   figures.supply_margin =
       supply_torque(antenna) / (mean + crest * std::sqrt(evaluation.wind_torque_variance));
   const double slewing = antenna.drive.slew_rate.value * problem.gear_ratio;
-  const double stroke = antenna.simulation ? antenna.simulation->valve_stroke.value : slewing;
+  const double stroke = largest_demand(antenna);
   figures.demand_margin = stroke / (drive.leakage_rate / drive.oil_stiffness * mean +
                                     crest * std::sqrt(evaluation.wind_demand_variance));
-  if (antenna.simulation) figures.slew_stroke_margin = stroke / slewing;
+  if (antenna.simulation || rated_stroke(antenna)) figures.slew_stroke_margin = stroke / slewing;
   figures.slew = slew_of(antenna, motor_inertia(antenna, antenna.motor.flywheel_disks) +
                                       gear_train_inertia(antenna) + antenna_inertia(antenna));
   const auto climate = make_climate(antenna);
@@ -148,19 +148,19 @@ void check_together(const std::vector<Proposal>& proposals) {
           one.name_location, "name",
           fmt::format("expected another name than {}, which is the antenna without proposals, "
                       "found it",
-                      quoted(as_it_is)));
+                      in_quotes(as_it_is)));
     }
     for (std::size_t k = 0; k < i; ++k) {
       if (proposals[k].name == one.name) {
         refuse_at(one.name_location, "name",
                   fmt::format("expected a name of its own, found {}, which {} has too",
-                              quoted(one.name), proposals[k].path));
+                              in_quotes(one.name), proposals[k].path));
       }
       if (proposals[k].cost.currency != one.cost.currency) {
         refuse_at(one.cost_location, "cost.currency",
                   fmt::format("expected the currency of {}, {}, since costs are compared, found {}",
-                              proposals[k].path, quoted(proposals[k].cost.currency),
-                              quoted(one.cost.currency)));
+                              proposals[k].path, in_quotes(proposals[k].cost.currency),
+                              in_quotes(one.cost.currency)));
       }
     }
   }

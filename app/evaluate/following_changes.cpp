@@ -89,8 +89,8 @@ void follow_sampling(const Case& before, const Proposal& proposal, Case& after) 
   if (rate != nullptr) {
     const double sample = 1.0 / rate->number.value;
     if (delay == nullptr) {
-      after.controller_delay.value = 1.5 * sample;
-      after.controller_delay.text = fmt::format("{:.4g} s", 1.5 * sample);
+      after.controller_delay.value = dead_time_of(sample);
+      after.controller_delay.text = fmt::format("{:.4g} s", after.controller_delay.value);
     } else if (after.controller_delay.value < 0.5 * sample) {
       refuse_change(*delay,
                     fmt::format("expected at least the {:.4g} s that holding a sample takes at "
@@ -108,9 +108,10 @@ void follow_sampling(const Case& before, const Proposal& proposal, Case& after) 
   for (const auto& mode : after.structure.modes) {
     fastest = std::max(fastest, mode.frequency.value);
   }
-  const double sampled = rate != nullptr ? rate->number.value : 1.5 / after.controller_delay.value;
+  const double sampled =
+      rate != nullptr ? rate->number.value : 1.0 / sample_time_of(after.controller_delay.value);
   const auto* slow = rate != nullptr ? rate : delay;
-  const bool slower = sampled < 1.5 / before.controller_delay.value;
+  const bool slower = sampled < 1.0 / sample_time_of(before.controller_delay.value);
   if (slow != nullptr && slower && sampled < 2.0 * fastest) {
     refuse_change(
         *slow, fmt::format("expected a sampling of at least {:.4g} Hz, twice the fastest mode of "

@@ -67,8 +67,8 @@ class ChangeTable {
 
   void whole_number(const ProposedChange& change, const char* key) const {
     if (!change.multiplies && change.number.value != std::round(change.number.value)) {
-      reader_.refuse(key,
-                     fmt::format("expected a whole number, found {}", quoted(change.number.text)));
+      reader_.refuse(
+          key, fmt::format("expected a whole number, found {}", in_quotes(change.number.text)));
     }
   }
 
@@ -108,7 +108,7 @@ class ProposalReader {
         proposal_.name, [](char c) { return static_cast<unsigned char>(c) < 0x20U || c == 0x7F; });
     if (blank || control || character_count(proposal_.name) > 60) {
       file_.refuse("name", fmt::format("expected a name of 1 to 60 printable characters, found {}",
-                                       quoted(proposal_.name)));
+                                       in_quotes(proposal_.name)));
     }
     proposal_.description = file_.text("description");
     if (file_.has("risks")) proposal_.risks = file_.texts("risks");
@@ -121,8 +121,8 @@ class ProposalReader {
       std::set<std::string> once;
       for (const auto& name : proposal_.structures) {
         if (!once.insert(name).second) {
-          file_.refuse("structures",
-                       fmt::format("expected each structure once, found {} again", quoted(name)));
+          file_.refuse("structures", fmt::format("expected each structure once, found {} again",
+                                                 in_quotes(name)));
         }
       }
     }
@@ -212,7 +212,7 @@ class ProposalReader {
       const std::string name = assemblies[i].text("name");
       if (!names.insert(name).second) {
         assemblies[i].refuse(
-            "name", fmt::format("expected each assembly once, found {} again", quoted(name)));
+            "name", fmt::format("expected each assembly once, found {} again", in_quotes(name)));
       }
       ChangeTable inner(std::move(assemblies[i]), node.find("assembly")->elements[i]);
       const std::size_t before = proposal_.changes.size();

@@ -31,8 +31,8 @@ class Application {
     apply_modes();
     apply_motor();
     if (const auto* rate = proposal_.find("controller.sample_rate")) {
-      note_before(rate->key,
-                  fmt::format("{:.4g} Hz by the delay", 1.5 / before_.controller_delay.value));
+      note_before(rate->key, fmt::format("{:.4g} Hz by the delay",
+                                         1.0 / sample_time_of(before_.controller_delay.value)));
     }
     follow_sampling(before_, proposal_, after_);
     follow_drive(before_, proposal_, after_);
@@ -55,7 +55,7 @@ class Application {
       } catch (const InvalidInput& error) {
         refuse_at(
             proposal_.structures_location, "structures",
-            fmt::format("expected loop structures, found {}: {}", quoted(name), error.what()));
+            fmt::format("expected loop structures, found {}: {}", in_quotes(name), error.what()));
       }
     }
   }
@@ -163,7 +163,7 @@ class Application {
       for (const auto& assembly : assemblies) known.emplace_back(assembly.name);
       refuse_change(change,
                     fmt::format("expected an assembly of the case ({}), found {}{}",
-                                quoted_list(known), quoted(name), did_you_mean(name, known)));
+                                quoted_list(known), in_quotes(name), did_you_mean(name, known)));
     }
     if (!found->inertia && change.multiplies) {
       refuse_change(change,
@@ -314,7 +314,7 @@ class Application {
     if (change.key == "motor.flywheel_disks") return value == before_.motor.flywheel_disks;
     if (change.key == "oil.bulk_modulus") return value == bulk_modulus(before_);
     if (change.key == "controller.sample_rate") {
-      return 1.5 / value == before_.controller_delay.value;
+      return dead_time_of(1.0 / value) == before_.controller_delay.value;
     }
     if (change.key.starts_with("gear_train.stage["))
       return gear_ratio(after_) == gear_ratio(before_);

@@ -5,7 +5,7 @@
 
 #include <boresight/app/match/match_study.hpp>
 #include <boresight/app/match/match_verdict.hpp>
-#include <boresight/app/report/negligible.hpp>
+#include <boresight/app/report/influences.hpp>
 #include <boresight/app/report/sky_units.hpp>
 
 namespace boresight::app {
@@ -76,7 +76,7 @@ void conclude_weight(const MatchSection& section, std::vector<std::string>& sent
   std::string first, last;
   for (const auto& series : section.series) {
     const auto& value = series.values[*built];
-    if (!value.found) continue;
+    if (!value.found || hunts(section, series)) continue;
     if (value.beam_rms < least) {
       least = value.beam_rms;
       first = series.name;

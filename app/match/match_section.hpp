@@ -131,6 +131,7 @@ struct MatchSection {
   double tracking_rate = 0.0;      // rad/s at the sky
   double tracking_friction = 0.0;  // N m s/rad
   double friction = 0.0;           // N m s/rad, of the linear plant
+  double tightest_budget = 0.0;    // rad rms at the sky; 1 mdeg where the case has none
 };
 
 }  // namespace boresight::app

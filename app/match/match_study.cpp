@@ -8,6 +8,7 @@
 #include <boresight/app/match/match_study.hpp>
 #include <boresight/app/simulate/nonlinear_model.hpp>
 #include <boresight/app/tune/asked_structures.hpp>
+#include <boresight/design/drive_reach.hpp>
 #include <boresight/design/parallel_loop.hpp>
 #include <boresight/plant/antenna_parameters.hpp>
 #include <boresight/plant/error.hpp>
@@ -49,15 +50,25 @@ std::vector<MatchPoint> points_of(const Case& antenna, const MatchOptions& optio
   return points;
 }
 
-// The case's slew rate, or four fifths of the highest that the supply holds against friction, if
-// that is less (as design::within_reach has it).
+// The case's slew rate, or four fifths of the highest that the supply holds against friction if
+// that is less (as design::within_reach has it): on the nonlinear antenna, or without a simulation
+// by the torque and by what the valve lets through without load.
 double rate_within_reach(const Case& antenna) {
   const double ratio = gear_ratio(antenna);
+  if (antenna.simulation) {
+    constexpr double any_acceleration = std::numeric_limits<double>::infinity();
+    return design::within_reach(make_nonlinear_antenna(antenna),
+                                plant::reflected_inertia(make_plant(antenna)),
+                                {antenna.drive.slew_rate.value * ratio, any_acceleration})
+               .rate /
+           ratio;
+  }
+  const double open = largest_demand(antenna) / ratio;
   const auto curve = friction_curve(antenna);
   const double supply = supply_torque(antenna);
   const double wanted = antenna.drive.slew_rate.value;
-  double low = 0.0, high = wanted;
-  if (plant::friction_torque(curve, wanted * ratio) < supply) return wanted;
+  double low = 0.0, high = std::min(wanted, open);
+  if (wanted <= open && plant::friction_torque(curve, wanted * ratio) < supply) return wanted;
   for (int i = 0; i < 40; ++i) {
     const double middle = 0.5 * (low + high);
     (plant::friction_torque(curve, middle * ratio) < supply ? low : high) = middle;
@@ -234,6 +245,7 @@ MatchSection match_motors(const Case& antenna, const std::vector<design::Ensembl
   section.tracking_rate = antenna.drive.tracking_rate.value;
   section.tracking_friction = tracking_friction(antenna);
   section.friction = antenna.drive.viscous_friction.value;
+  section.tightest_budget = tightest_budget(antenna);
   section.points = points_of(antenna, options);
   for (auto& point : section.points) describe(antenna, section, point);
   section.goals = make_goals(antenna);

@@ -1,14 +1,10 @@
 #include <algorithm>
 #include <cmath>
-#include <functional>
-#include <utility>
-#include <vector>
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <boresight/app/match/match_verdict.hpp>
-#include <boresight/app/report/negligible.hpp>
+#include <boresight/app/report/influences.hpp>
 
 namespace boresight::app {
 
@@ -34,40 +30,40 @@ bool hardly_matters(const MatchSection& section) {
 }
 
 std::string what_matters_more(const MatchSection& section) {
-  std::vector<std::pair<double, std::string>> moves;
-  const auto add = [&](double change, std::string what) {
-    if (std::isfinite(change) && change > negligible_change) {
-      moves.emplace_back(change, std::move(what));
-    }
-  };
+  Influences influences;
   const MatchValue* least = nullptr;
   const MatchValue* largest = nullptr;
   for (const auto& series : section.series) {
     const MatchValue& value = series.values[as_built(section)];
-    if (!value.found) continue;
+    if (!value.found || hunts(section, series)) continue;
     if (least == nullptr || value.beam_rms < least->beam_rms) least = &value;
     if (largest == nullptr || value.beam_rms > largest->beam_rms) largest = &value;
   }
   if (least != nullptr && largest != nullptr) {
-    add(largest->beam_rms / least->beam_rms - 1.0, "the loop structure");
+    influences.add(largest->beam_rms / least->beam_rms - 1.0, "the loop structure");
   }
   for (const auto& variants : section.variants) {
     const MatchVariant& own = variants.variants.front();
     if (!own.best) continue;
     for (const auto& variant : variants.variants) {
       if (!variant.best) continue;
-      add(std::abs(variant.rms[*variant.best] / own.rms[*own.best] - 1.0),
-          fmt::format("'{}' with {}", variant.name, variants.structure));
+      influences.add(std::abs(variant.rms[*variant.best] / own.rms[*own.best] - 1.0),
+                     fmt::format("'{}' with {}", variant.name, variants.structure));
     }
   }
-  if (moves.empty()) return "";
-  std::ranges::stable_sort(moves, std::greater{}, [](const auto& move) { return move.first; });
-  std::vector<std::string> texts;
-  for (const auto& [change, what] : moves) {
-    if (texts.size() == 3) break;
-    texts.push_back(fmt::format("{} (by {:.0f} %)", what, 100.0 * change));
-  }
-  return fmt::format(" More hangs on {}.", fmt::join(texts, ", "));
+  return influences.sentence();
+}
+
+std::vector<design::HuntingResult> hunting_of(const MatchSection& section,
+                                              const MatchSeries& series) {
+  const std::size_t built = as_built(section);
+  const std::size_t best = series.best.value_or(built);
+  const auto& run = series.values[series.values[best].time_domain ? best : built].time_domain;
+  return run ? run->hunting : std::vector<design::HuntingResult>();
+}
+
+bool hunts(const MatchSection& section, const MatchSeries& series) {
+  return !design::holds_still(hunting_of(section, series), section.tightest_budget);
 }
 
 std::size_t as_built(const MatchSection& section) {

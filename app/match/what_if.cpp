@@ -63,10 +63,10 @@ WhatIfTable what_if(const Case& antenna, const MatchSection& section,
     table.disks.push_back(section.points[p].disks);
   }
   for (const auto& series : section.series) table.structures.push_back(series.name);
-  table.leakage_rates = scaled(table.leakage_rate, {0.3, 0.5, 0.75, 1.0, 1.3});
+  table.leakage_rates = scaled(table.leakage_rate, {0.3, 0.4, 0.5, 0.62, 0.75, 0.87, 1.0, 1.3});
   const double tracking = section.tracking_friction;
-  table.friction_slopes =
-      rising({0.0, section.friction, tracking / 3.0, tracking / 1.5, tracking, 1.5 * tracking});
+  table.friction_slopes = rising({0.0, 0.5 * section.friction, section.friction, tracking / 3.0,
+                                  tracking / 1.5, tracking, 1.5 * tracking});
   table.wind_speeds = scaled(section.wind_speed, {0.5, 0.75, 1.0, 1.25, 1.5, 2.0});
 
   const std::size_t laws = table.structures.size() * points.size();

@@ -111,6 +111,13 @@ HeldLaw law_of_report(const Case& antenna, const std::string& path, const std::s
   }
 }
 
+std::optional<HeldLaw> named_law(const Case& antenna, const std::string& gains,
+                                 const std::string& structure) {
+  if (gains == "tuned") return std::nullopt;
+  return gains == "case" ? present_law(antenna, structure)
+                         : law_of_report(antenna, gains, structure);
+}
+
 HeldLaw tuned_law(const Case& antenna, const PlantEnsemble& ensemble, const std::string& structure,
                   std::uint64_t seed, unsigned threads, const std::function<bool()>& interrupted) {
   TuneOptions options;

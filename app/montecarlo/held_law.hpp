@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <string>
 
 #include <boresight/app/io/case_file.hpp>
@@ -29,6 +30,11 @@ HeldLaw present_law(const Case& antenna, const std::string& structure);
 /// unless that is empty; robust before nominal, then goals met before missed, then the least rms.
 /// @throws InvalidInput naming the file if there is none.
 HeldLaw law_of_report(const Case& antenna, const std::string& path, const std::string& structure);
+
+/// What the options --gains and --structure name: with "case" present_law, with a path
+/// law_of_report; nothing with "tuned". @throws InvalidInput as they do
+std::optional<HeldLaw> named_law(const Case& antenna, const std::string& gains,
+                                 const std::string& structure);
 
 /// The best robust law of a structure, tuned now.
 /// @throws InfeasibleRequirement if no stable law is found; Interrupted.

@@ -128,9 +128,8 @@ HeldLaw law_from(const std::string& text, const Case& antenna) {
 HeldLaw make_law(const MonteCarloArguments& arguments, const Population& population,
                  const std::function<bool()>& interrupted) {
   const Case& antenna = population->antenna;
-  if (arguments.gains == "case") return present_law(antenna, arguments.structure);
-  if (arguments.gains != "tuned") {
-    return law_of_report(antenna, arguments.gains, arguments.structure);
+  if (auto named = named_law(antenna, arguments.gains, arguments.structure)) {
+    return std::move(*named);
   }
   std::string structure = arguments.structure;
   if (structure.empty() && !antenna.tuning.structures.empty()) {

@@ -142,9 +142,8 @@ Document plants_part(const MonteCarloSection& section, const std::vector<Notable
 }  // namespace
 
 Document document_of(const MonteCarloSection& section) {
-  Document text = verbatim(fmt::format("Boresight {} montecarlo: {} ({} axis)\ncase {}, seed {}\n",
-                                       BORESIGHT_VERSION, section.title, section.axis,
-                                       section.case_path, section.seed));
+  Document text =
+      report_title("montecarlo", section.title, section.axis, section.case_path, section.seed);
   if (section.interrupted) {
     text += fmt::format("INTERRUPTED: {} of {} plants were judged; what follows is of these.\n",
                         section.plants, section.plants_asked);

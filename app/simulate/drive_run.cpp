@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <boresight/app/redesign/antenna_model.hpp>
+#include <boresight/app/report/sky_units.hpp>
 #include <boresight/app/simulate/drive_run.hpp>
 #include <boresight/app/simulate/nonlinear_model.hpp>
 #include <boresight/app/simulate/recorder_filter.hpp>
@@ -181,7 +182,6 @@ DriveRecord run_drive_test(const Case& antenna, const AntennaTest& test, std::ui
   result.record.columns.push_back({"time", "s", decimals_of(0.5 * test.sample_time),
                                    Eigen::VectorXd::LinSpaced(samples, 0.0, result.duration)});
   Recording recording(result, antenna, plan.interval, stride);
-  constexpr double megapascal = 1e6;
   const std::uint64_t noise = noise_seed(seed, test.name);
   const int decimals = decimals_of(recorder_of(antenna).pressure_resolution.value / megapascal);
   for (std::size_t motor = 0; motor < motors; ++motor) {

@@ -6,7 +6,6 @@
 #include <boresight/app/redesign/antenna_model.hpp>
 #include <boresight/app/simulate/nonlinear_model.hpp>
 #include <boresight/plant/error.hpp>
-#include <boresight/plant/hydraulics.hpp>
 #include <boresight/plant/normal_numbers.hpp>
 
 namespace boresight::app {
@@ -101,19 +100,7 @@ plant::NonlinearAntenna make_nonlinear_antenna(const Case& antenna) {
     details.backlash = entry.backlash->value;
     details.preload_torque = entry.preload_torque.value;
   }
-  const MotorEntry& motor = antenna.motor;
-  const OilEntry& oil = antenna.oil;
-  const plant::HydraulicDrive drive{static_cast<double>(motor.count),
-                                    motor.displacement.value,
-                                    motor.torque_efficiency.value,
-                                    motor.volumetric_efficiency.value,
-                                    bulk_modulus(antenna),
-                                    oil.volume_1.value,
-                                    oil.volume_2.value,
-                                    oil.efficiency_in_stiffness
-                                        ? plant::EfficiencyInStiffness::both
-                                        : plant::EfficiencyInStiffness::none};
-  return plant::make_nonlinear_antenna(make_plant(antenna), drive, details);
+  return plant::make_nonlinear_antenna(make_plant(antenna), hydraulic_drive(antenna), details);
 }
 
 plant::NonlinearAntenna make_recorded_antenna(const Case& antenna) {

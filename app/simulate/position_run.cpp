@@ -7,6 +7,7 @@
 #include <boresight/app/redesign/antenna_model.hpp>
 #include <boresight/app/simulate/nonlinear_model.hpp>
 #include <boresight/app/simulate/position_run.hpp>
+#include <boresight/design/design_study.hpp>
 #include <boresight/design/drive_reach.hpp>
 #include <boresight/design/simulated_loop.hpp>
 #include <boresight/design/tuner.hpp>
@@ -37,17 +38,18 @@ struct PositionRun {
 };
 
 double controller_sample_time(const Case& antenna) {
-  return antenna.controller_delay.value / 1.5;
+  return sample_time_of(antenna.controller_delay.value);
 }
 
 double run_interval(const Case& antenna) {
   return controller_sample_time(antenna) / static_cast<double>(intervals_per_sample);
 }
 
-// Beam rms of the linear design in wind of that mean speed (rad at the sky).
+// Beam rms of the linear design in wind of that mean speed (rad at the sky); none of an unstable
+// one.
 std::optional<double> predicted_rms(const design::TrackingProblem& problem,
                                     const design::TuningResult& tuned, double mean_speed) {
-  if (mean_speed <= 0.0) return std::nullopt;
+  if (mean_speed <= 0.0 || tuned.status == design::TuningStatus::unstable) return std::nullopt;
   if (mean_speed == problem.wind.mean_speed) {
     return std::sqrt(tuned.evaluation.beam_variance()) / problem.gear_ratio;
   }
@@ -56,15 +58,22 @@ std::optional<double> predicted_rms(const design::TrackingProblem& problem,
                                    tuned.evaluation.noise_variance, mean_speed);
 }
 
-PositionRun run_position_loop(const Case& antenna, const Course& course, std::uint64_t seed,
-                              const RunProgress& progress) {
-  const auto problem = make_problem(antenna);
-  const auto tuned =
-      design::tune(problem, control::LoopStructure::pi_with_lag(), make_goals(antenna), {});
+design::TuningResult law_of_run(const Case& antenna, const design::TrackingProblem& problem,
+                                const SimulatedLaw& asked) {
+  if (asked.law) return design::assess(problem, *asked.law, make_goals(antenna)).tuning;
+  auto tuned = design::tune(problem, asked.structure, make_goals(antenna), {});
   if (tuned.status != design::TuningStatus::optimal) {
-    throw InfeasibleRequirement(fmt::format(
-        "{}: no control law meets the hard goals, so there is none to simulate", antenna.path));
+    throw InfeasibleRequirement(
+        fmt::format("{}: no {} law meets the hard goals, so there is none to simulate",
+                    antenna.path, control::to_string(asked.structure)));
   }
+  return tuned;
+}
+
+PositionRun run_position_loop(const Case& antenna, const SimulatedLaw& asked, const Course& course,
+                              std::uint64_t seed, const RunProgress& progress) {
+  const auto problem = make_problem(antenna);
+  const auto tuned = law_of_run(antenna, problem, asked);
   const auto loop =
       design::make_simulated_loop(problem, make_nonlinear_antenna(antenna), tuned.law);
   design::LoopRunOptions options;
@@ -79,6 +88,12 @@ PositionRun run_position_loop(const Case& antenna, const Course& course, std::ui
   auto run = design::run_loop(loop, course.loop, options);
   if (run.status == design::RunStatus::failed) throw NumericalFailure(run.message);
   return {std::move(run), predicted_rms(problem, tuned, course.mean_wind_speed)};
+}
+
+std::string described(const SimulatedLaw& asked) {
+  return fmt::format("by {}, {}",
+                     control::to_string(asked.law ? asked.law->structure : asked.structure),
+                     asked.source);
 }
 
 double rms_about_mean(const VectorXd& values) {
@@ -188,7 +203,8 @@ WindCourse recorded_wind(const Case& antenna, const plant::WindRecord& record,
 
 }  // namespace
 
-PositionRecord run_tracking(const Case& antenna, std::uint64_t seed, const RunProgress& progress) {
+PositionRecord run_tracking(const Case& antenna, const SimulatedLaw& law, std::uint64_t seed,
+                            const RunProgress& progress) {
   constexpr double settle = 60.0;
   constexpr double measured = 600.0;
   const auto wind = make_problem(antenna).wind;
@@ -205,18 +221,19 @@ PositionRecord run_tracking(const Case& antenna, std::uint64_t seed, const RunPr
       interval,
       VectorXd::LinSpaced(samples, 0.0, rate * interval * static_cast<double>(samples - 1)),
       VectorXd::Constant(samples, rate), VectorXd::Zero(samples), gusts.torque};
-  const auto run = run_position_loop(antenna, course, seed, progress);
+  const auto run = run_position_loop(antenna, law, course, seed, progress);
   PositionRecord record = describe(antenna, run, course);
   judge(record, static_cast<Index>(std::llround(settle / interval)));
   record.predicted_rms = run.predicted_rms;
   record.test = "tracking";
-  record.description =
-      fmt::format("tracking at {:.3g} mdeg/s in {}",
-                  antenna.drive.tracking_rate.value / millidegree_at_sky, gusts.description);
+  record.description = fmt::format("tracking at {:.3g} mdeg/s {} in {}",
+                                   antenna.drive.tracking_rate.value / millidegree_at_sky,
+                                   described(law), gusts.description);
   return record;
 }
 
-PositionRecord run_slew(const Case& antenna, std::uint64_t seed, const RunProgress& progress) {
+PositionRecord run_slew(const Case& antenna, const SimulatedLaw& law, std::uint64_t seed,
+                        const RunProgress& progress) {
   constexpr double distance = 1.0 * degree;
   constexpr double still = 5.0;  // s before
   constexpr double hold = 60.0;  // s after
@@ -242,14 +259,14 @@ PositionRecord run_slew(const Case& antenna, std::uint64_t seed, const RunProgre
       design::shaped_course(limits, sample_time, samples, intervals_per_sample, [&](double t) {
         return control::CommandSample{t > still ? distance * gear : 0.0, 0.0, 0.0};
       });
-  const auto run = run_position_loop(antenna, course, seed, progress);
+  const auto run = run_position_loop(antenna, law, course, seed, progress);
   const Index end = moved * intervals_per_sample;
   const double interval = course.loop.interval;
   PositionRecord record = describe(antenna, run, course);
   record.test = "slew";
   record.description =
-      fmt::format("{:.3g} deg at up to {:.3g} deg/s and {:.2g} deg/s2", distance / degree,
-                  course.loop.reference_rate.maxCoeff() / (gear * degree),
+      fmt::format("{:.3g} deg {} at up to {:.3g} deg/s and {:.2g} deg/s2", distance / degree,
+                  described(law), course.loop.reference_rate.maxCoeff() / (gear * degree),
                   limits.acceleration / (gear * degree));
   if (attainable < wanted) {
     record.description += fmt::format(

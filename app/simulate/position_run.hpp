@@ -5,10 +5,19 @@
 #include <string>
 
 #include <boresight/app/simulate/drive_run.hpp>
+#include <boresight/control/control_law.hpp>
 
 namespace boresight::app {
 
-/// The antenna under its tuned position loop, in the time domain.
+/// Which law a simulated position loop runs on.
+struct SimulatedLaw {
+  /// Tuned for the case's own plant where there is no law.
+  control::LoopStructure structure = control::LoopStructure::pi_with_lag();
+  std::optional<control::ControlLaw> law;
+  std::string source = "tuned now";  // of its gains, in words
+};
+
+/// The antenna under its position loop, in the time domain.
 struct PositionRecord {
   std::string test;
   std::string description;
@@ -32,17 +41,19 @@ struct PositionRecord {
   RunEvents events;
 };
 
-/// Tracks at the case's rate in wind of its design speed for 600 s after 60 s to settle: tuned PI
-/// with lag in its sampled form (control::AntennaController: feedforward, anti-windup), all noise,
+/// Tracks at the case's rate in wind of its design speed for 600 s after 60 s to settle: the law in
+/// its sampled form (control::AntennaController: feedforward, anti-windup), all noise,
 /// friction, orifices and lines. The controller's sample time is two thirds of the case's delay,
 /// which is one sample of computing and half of one of holding. @throws as run_drive_test, and
 /// InfeasibleRequirement if no law meets the goals or, for a slew, if the supply cannot move the
 /// antenna.
-PositionRecord run_tracking(const Case& antenna, std::uint64_t seed, const RunProgress& progress);
+PositionRecord run_tracking(const Case& antenna, const SimulatedLaw& law, std::uint64_t seed,
+                            const RunProgress& progress);
 
 /// One degree through the command preprocessor, at the case's slew rate, or at 0.8 times what the
 /// supply can hold against friction if that is less, and at 0.2 deg/s2, or with half the torque the
 /// supply has left at that rate if that is less, in still air, then 60 s of holding.
-PositionRecord run_slew(const Case& antenna, std::uint64_t seed, const RunProgress& progress);
+PositionRecord run_slew(const Case& antenna, const SimulatedLaw& law, std::uint64_t seed,
+                        const RunProgress& progress);
 
 }  // namespace boresight::app

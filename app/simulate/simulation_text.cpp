@@ -113,8 +113,8 @@ Document limits_part(const SimulationReport& report) {
 }  // namespace
 
 Document document_of(const SimulationReport& report) {
-  Document text = verbatim(fmt::format("boresight simulate: {}\n{}, {} axis, seed {}\n",
-                                       report.case_path, report.title, report.axis, report.seed));
+  Document text =
+      report_title("simulate", report.title, report.axis, report.case_path, report.seed);
   text += heading("What was run");
   for (const auto& record : report.drive) {
     text += wrapped(fmt::format("{}: {}", record.test, record.description), "  ", "  ");

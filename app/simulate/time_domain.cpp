@@ -3,6 +3,7 @@
 #include <numbers>
 
 #include <boresight/app/redesign/antenna_model.hpp>
+#include <boresight/app/report/influences.hpp>
 #include <boresight/app/simulate/nonlinear_model.hpp>
 #include <boresight/app/simulate/time_domain.hpp>
 #include <boresight/plant/error.hpp>
@@ -25,10 +26,7 @@ TimeDomainSection plan(const Case& antenna, const design::TrackingProblem& probl
   options.tracking_rate = antenna.drive.tracking_rate.value;
   options.slew_distance = 1.0 * degree;
   options.limits = {antenna.drive.slew_rate.value, 0.2 * degree};
-  options.settled_error = 1e-3 * degree;
-  const auto budgets = make_budgets(antenna);
-  const auto tightest = std::ranges::min_element(budgets, {}, &PointingBudget::rms);
-  if (tightest != budgets.end()) options.settled_error = tightest->rms;
+  options.settled_error = tightest_budget(antenna);
   options.threads = threads;
   return section;
 }
@@ -42,6 +40,31 @@ void simulate(const Case& antenna, const design::TrackingProblem& problem,
 }
 
 }  // namespace
+
+std::size_t best_in_time(const std::vector<TimeDomainSection::Candidate>& candidates,
+                         double error) {
+  const auto still = [&](const TimeDomainSection::Candidate& one) {
+    return std::isfinite(one.result.wind.beam_rms) &&
+           design::holds_still(one.result.hunting, error);
+  };
+  const bool some_still = std::ranges::any_of(candidates, still);
+  const auto rms = [&](const TimeDomainSection::Candidate& one) {
+    const double value = one.result.wind.beam_rms;
+    return (some_still && !still(one)) || std::isnan(value) ? HUGE_VAL : value;
+  };
+  const double least = rms(*std::ranges::min_element(candidates, {}, rms));
+  std::size_t best = 0;
+  double least_hunting = HUGE_VAL;
+  for (std::size_t i = 0; i < candidates.size(); ++i) {
+    if (!(rms(candidates[i]) <= (1.0 + negligible_change) * least)) continue;
+    const double hunting = design::hunting_amplitude(candidates[i].result.hunting);
+    if (hunting < least_hunting * (1.0 - negligible_change)) {
+      least_hunting = hunting;
+      best = i;
+    }
+  }
+  return best;
+}
 
 std::optional<TimeDomainSection> verify_in_time_domain(const Case& antenna,
                                                        const design::TrackingProblem& problem,
@@ -61,17 +84,15 @@ std::optional<TimeDomainSection> choose_in_time_domain(const Case& antenna,
   if (laws.empty()) throw InvalidInput("choose_in_time_domain: expected laws, found none");
   if (!antenna.simulation) return std::nullopt;
   std::vector<TimeDomainSection::Candidate> candidates;
-  std::size_t best = 0;
+  double error = 0.0;
   for (const auto& [description, law] : laws) {
     TimeDomainSection section = plan(antenna, problem, description, seed, threads);
     section.options.explain = false;
     simulate(antenna, problem, law, section);
     candidates.push_back({description, std::move(section.result)});
-    // False for a NaN on the left, which an incomplete run has.
-    const double least = candidates[best].result.wind.beam_rms;
-    const double own = candidates.back().result.wind.beam_rms;
-    if (own < least || (std::isnan(least) && !std::isnan(own))) best = candidates.size() - 1;
+    error = section.options.settled_error;
   }
+  const std::size_t best = best_in_time(candidates, error);
   auto chosen = verify_in_time_domain(antenna, problem, laws[best].law, laws[best].description,
                                       seed, threads);
   if (chosen && candidates.size() > 1) chosen->candidates = std::move(candidates);

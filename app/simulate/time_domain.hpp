@@ -46,9 +46,14 @@ struct DescribedLaw {
   control::ControlLaw law;
 };
 
-/// The law of least beam rms in wind on the nonlinear antenna, verified as above; the others'
-/// results stand among its candidates. A law whose run does not complete is never the one, unless
-/// none completes. None for a case without a [simulation] table.
+/// Which of several laws is best on the nonlinear antenna: of those that hold still within `error`
+/// (rad rms; design::holds_still) the one of least beam rms in wind, and of those within
+/// negligible_change of it the one that hunts least, the first where they are alike. Of all if none
+/// holds still; a law whose run in wind did not complete is never the one, unless none did.
+std::size_t best_in_time(const std::vector<TimeDomainSection::Candidate>& candidates, double error);
+
+/// The best_in_time of laws within the tightest budget, verified as above; the others' results
+/// stand among its candidates. None for a case without a [simulation] table.
 /// @throws InvalidInput without laws; as design::verify_in_time.
 std::optional<TimeDomainSection> choose_in_time_domain(const Case& antenna,
                                                        const design::TrackingProblem& problem,
@@ -62,6 +67,16 @@ design::NonlinearVerificationOptions comparison_options(const Case& antenna, std
 std::optional<design::NonlinearVerification> run_in_time_domain(
     const Case& antenna, const design::TrackingProblem& problem, const control::ControlLaw& law,
     const design::NonlinearVerificationOptions& options);
+
+/// In a sentence that the drive cannot slew as the case asks; empty if it can.
+std::string slew_out_of_reach(const TimeDomainSection& section);
+
+/// In a sentence that the law does not hold the antenna still (design::holds_still) within the
+/// tightest budget; empty if it does.
+std::string not_still(const TimeDomainSection& section);
+
+/// What is to be done with the law, in a sentence or two for the decision box.
+std::string decide(const TimeDomainSection& section);
 
 /// The section of the terminal's report.
 std::string to_text(const TimeDomainSection& section);

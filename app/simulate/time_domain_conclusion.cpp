@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include <fmt/format.h>
 
@@ -41,15 +42,6 @@ std::string conclude_wind(const TimeDomainSection& section) {
                     excess);
 }
 
-// The largest beam amplitude of limit cycles (rad); 0 without any.
-double hunting_of(const design::NonlinearVerification& result) {
-  double largest = 0.0;
-  for (const auto& hunting : result.hunting) {
-    if (hunting.limit_cycle) largest = std::max(largest, hunting.beam_amplitude);
-  }
-  return largest;
-}
-
 // Why this law and not the one that the linear plant puts first.
 std::string conclude_choice(const TimeDomainSection& section) {
   const auto linear = [](const TimeDomainSection::Candidate& candidate) {
@@ -64,13 +56,72 @@ std::string conclude_choice(const TimeDomainSection& section) {
   text += wind.status == RunStatus::complete
               ? fmt::format("it points within {:.3f}", wind.beam_rms / millidegree)
               : fmt::format("it does not hold ({})", design::to_string(wind.status));
-  if (const double hunting = hunting_of(first->result); hunting > 0.0) {
+  if (const double hunting = design::hunting_amplitude(first->result.hunting); hunting > 0.0) {
     text += fmt::format(" and hunts by +-{:.2f}", hunting / millidegree);
   }
   return text + fmt::format(": {} is better. ", section.law);
 }
 
 }  // namespace
+
+std::string slew_out_of_reach(const TimeDomainSection& section) {
+  const auto& slew = section.result.slew;
+  if (!slew || slew->within_reach) return "";
+  constexpr double degree = std::numbers::pi / 180.0;
+  const auto& asked = section.options.limits;
+  if (!(slew->limits.rate < asked.rate)) return "";
+  return fmt::format(
+      "The slew rate of {:.3g} deg/s is out of reach: against its friction, by its valve and "
+      "supply "
+      "with some reserve, this drive does {:.3g} deg/s.",
+      asked.rate / degree, slew->limits.rate / degree);
+}
+
+std::string not_still(const TimeDomainSection& section) {
+  const double error = section.options.settled_error;
+  const auto& hunting = section.result.hunting;
+  if (design::holds_still(hunting, error)) return "";
+  const double amplitude = design::hunting_amplitude(hunting);
+  if (!(amplitude > std::numbers::sqrt2 * error)) {
+    return "On the nonlinear antenna it was not seen to hold still: a run at rest or at the "
+           "tracking "
+           "rate did not end.";
+  }
+  return fmt::format(
+      "On the nonlinear antenna it hunts by +-{:.2f} mdeg, beyond the tightest budget of {:.3f}: "
+      "`boresight tune` looks for a law that holds still.",
+      amplitude / millidegree, error / millidegree);
+}
+
+std::string decide(const TimeDomainSection& section) {
+  const double error = section.options.settled_error;
+  const auto amplitude = [](const design::NonlinearVerification& result) {
+    return design::hunting_amplitude(result.hunting) / millidegree;
+  };
+  if (!design::holds_still(section.result.hunting, error)) {
+    return fmt::format(
+        "On the nonlinear antenna no law holds still: {} comes nearest with {:.3f} mdeg in wind, "
+        "but hunts by +-{:.2f} mdeg, beyond the tightest budget of {:.3f}. Commission none of them "
+        "before the friction has been looked at.",
+        section.law, section.result.wind.beam_rms / millidegree, amplitude(section.result),
+        error / millidegree);
+  }
+  std::string text =
+      fmt::format("On the nonlinear antenna {} comes first, with {:.3f} mdeg: commission that one.",
+                  section.law, section.result.wind.beam_rms / millidegree);
+  for (const auto& candidate : section.candidates) {
+    if (design::holds_still(candidate.result.hunting, error) ||
+        !(candidate.result.wind.beam_rms < section.result.wind.beam_rms)) {
+      continue;
+    }
+    text += fmt::format(
+        " Not {}: it has {:.3f} in wind, but hunts by +-{:.2f} mdeg, beyond the tightest budget of "
+        "{:.3f}.",
+        candidate.law, candidate.result.wind.beam_rms / millidegree, amplitude(candidate.result),
+        error / millidegree);
+  }
+  return text;
+}
 
 std::string conclude(const TimeDomainSection& section) {
   std::string text = conclude_choice(section) + conclude_wind(section);
@@ -85,6 +136,7 @@ std::string conclude(const TimeDomainSection& section) {
     text += fmt::format(" Turning round at the tracking rate it errs by up to {:.1f} mdeg.",
                         reversal->beam_error / millidegree);
   }
+  if (const std::string slow = slew_out_of_reach(section); !slow.empty()) text += " " + slow;
   return text;
 }
 

@@ -22,36 +22,36 @@ namespace boresight::app {
 namespace {
 
 using Eigen::Index;
-using identification::DriveRecord;
 
 constexpr double two_pi = 2.0 * std::numbers::pi;
 
-const DriveRecord& record_named(const identification::Campaign& campaign,
-                                const CampaignNotes& notes, const std::string& name) {
+const identification::DriveRecord& record_named(const identification::Campaign& campaign,
+                                                const CampaignNotes& notes,
+                                                const std::string& name) {
   std::vector<std::string> names;
   for (const auto& note : notes.records) {
     if (note.name == name && !note.refusal.empty()) {
       throw InvalidInput(
-          fmt::format("--measured {}: the record was left out: {}", quoted(name), note.refusal));
+          fmt::format("--measured {}: the record was left out: {}", in_quotes(name), note.refusal));
     }
     names.push_back(note.name);
   }
-  const auto found = std::ranges::find(campaign.records, name, &DriveRecord::name);
+  const auto found = std::ranges::find(campaign.records, name, &identification::DriveRecord::name);
   if (found == campaign.records.end()) {
     throw InvalidInput(fmt::format("--measured {}: expected a record of the case, one of {}",
-                                   quoted(name), fmt::join(names, ", ")));
+                                   in_quotes(name), fmt::join(names, ", ")));
   }
   if (!found->valve_command || found->inlet_pressure.empty() || found->outlet_pressure.empty()) {
     throw InvalidInput(fmt::format(
         "--measured {}: expected a record with valve command and pressures, found none of {}: "
         "record them, or state their columns in [record_columns]",
-        quoted(name), found->valve_command ? "the pressures" : "the valve command"));
+        in_quotes(name), found->valve_command ? "the pressures" : "the valve command"));
   }
   if (found->rate_loop_closed) {
     throw InvalidInput(
         fmt::format("--measured {}: expected a test with the rate loop open: closed, the valve "
                     "command answers the noise that the response is to be freed of",
-                    quoted(name)));
+                    in_quotes(name)));
   }
   return *found;
 }
@@ -102,7 +102,7 @@ std::optional<EncoderColumn> encoder_of(const Case& antenna, const RecordNotes& 
     remarks.push_back(fmt::format(
         "column {} is not used: it needs an angle's unit and a number in each of the record's {} "
         "samples",
-        quoted(column->name), samples));
+        in_quotes(column->name), samples));
     return std::nullopt;
   }
   const auto& reversed = antenna.campaign.columns.reversed;
@@ -170,7 +170,7 @@ void judge_on_case(const design::TrackingProblem& problem, MeasuredLaw& row) {
 
 // Of the same record where it tells it, else as the case states it.
 void find_oil(const Case& antenna, const identification::Campaign& campaign,
-              const DriveRecord& record, MeasuredTuneSection& section) {
+              const identification::DriveRecord& record, MeasuredTuneSection& section) {
   section.oil = {oil_stiffness(antenna), antenna.drive.leakage_rate.value};
   section.oil_source = "stated by the case";
   try {
@@ -229,7 +229,7 @@ MeasuredTuneSection tune_measured(const Case& antenna, const MeasuredStudyOption
 
   CampaignNotes notes;
   const identification::Campaign campaign = make_campaign(antenna, notes);
-  const DriveRecord& record = record_named(campaign, notes, options.record);
+  const identification::DriveRecord& record = record_named(campaign, notes, options.record);
   MeasuredTuneSection section;
   section.record = options.record;
   const auto note = std::ranges::find(notes.records, options.record, &RecordNotes::name);
@@ -244,7 +244,7 @@ MeasuredTuneSection tune_measured(const Case& antenna, const MeasuredStudyOption
     throw NumericalFailure(
         fmt::format("--measured {}: the drive moves one way for {:.3g} s at most ({} samples); a "
                     "response needs 1000 samples",
-                    quoted(options.record), section.length, part.samples));
+                    in_quotes(options.record), section.length, part.samples));
   }
   section.mean_rate = record.motor_rate.values.segment(part.first, part.samples).mean();
   const auto& valve = record.valve_command;

@@ -64,7 +64,7 @@ MemberRanges member_ranges(const Case& antenna) {
   return {stated(ensemble.structure_frequency, 0.95, 1.05),
           stated(ensemble.oil_stiffness, 0.8, 1.33),
           stated(ensemble.leakage_rate, 0.3 * leakage, leakage),
-          stated(ensemble.viscous_friction, 0.0, tracking_friction(antenna))};
+          stated(ensemble.viscous_friction, 0.0, largest_viscous_friction(antenna))};
 }
 
 std::vector<design::EnsembleMember> plant_members(const Case& antenna, std::uint64_t seed) {

@@ -18,7 +18,7 @@ struct MemberRanges {
 };
 
 /// Those of the case's [ensemble]; what it leaves out: 0.95 to 1.05, 0.8 to 1.33, 0.3 times to once
-/// the case's leakage rate, and 0 to the friction slope at the tracking rate.
+/// the case's leakage rate, and 0 to largest_viscous_friction.
 MemberRanges member_ranges(const Case& antenna);
 
 /// Plants that may be the true one: the case's own ("nominal"), five corners with one end of one

@@ -79,6 +79,28 @@ void conclude_before_and_after(const TuneSection& section, std::vector<std::stri
   }
 }
 
+// The budgets that are needed up to a wind speed, and are met there.
+void conclude_budgets(const TuneSection& section, std::vector<std::string>& sentences) {
+  for (const auto& budget : section.budgets) {
+    if (!budget.wind_speed || section.supply_wind_speed < *budget.wind_speed) continue;
+    const TunedLaw* law = best_law(section, budget.wind_speed);
+    if (law == nullptr || law->beam_rms > budget.rms) continue;
+    std::string text = fmt::format(
+        "The budget '{}' in band {} ({}) is met at the {:g} m/s that it is needed up to: {} ({}) "
+        "has {} on the case's plant",
+        budget.name, budget.band, mdeg(budget.rms), *budget.wind_speed, law->structure,
+        to_string(law->tuned_for), mdeg(law->beam_rms));
+    if (law->ensemble) {
+      const auto& ensemble = *law->ensemble;
+      const auto within = std::ranges::count_if(ensemble.members, [&](const auto& one) {
+        return one.stable && one.beam_rms <= budget.rms;
+      });
+      text += fmt::format(", and meets it on {} of {} plants", within, ensemble.members.size());
+    }
+    sentences.push_back(text + ".");
+  }
+}
+
 // Laws that are good for the nominal plant only, and what it costs to be good for all.
 void conclude_robustness(const TuneSection& section, std::vector<std::string>& sentences) {
   for (const auto& row : section.laws) {
@@ -123,6 +145,7 @@ std::vector<std::string> conclude(const TuneSection& section) {
     return sentences;
   }
   conclude_best(section, sentences);
+  conclude_budgets(section, sentences);
   conclude_robustness(section, sentences);
   return sentences;
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -54,6 +55,8 @@ struct TuneSection {
   bool minimises_climate = false;       // the climate's mean square in the place of one speed's
   std::vector<PointingBand> bands;
   std::vector<PointingBudget> budgets;
+  /// Mean wind speed (m/s) whose torque alone reaches the supply's: speed limits do not count it.
+  double supply_wind_speed = std::numeric_limits<double>::infinity();
   std::string ensemble_source;  // what its members were drawn from
   std::size_t ensemble_size = 0;
   int starts = 0;

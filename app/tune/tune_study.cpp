@@ -18,7 +18,7 @@ namespace {
 using design::TuningStatus;
 
 // Of every structure and wind speed: no tuning, or a nominal and a robust one.
-struct Unit {
+struct TuningUnit {
   std::string name;
   control::LoopStructure structure;
   double wind_speed = 0.0;
@@ -46,7 +46,7 @@ class Study {
     }
   }
 
-  void search(Unit& unit) const {
+  void search(TuningUnit& unit) const {
     if (!unit.present) {
       search(unit, TunedFor::nominal);
       search(unit, TunedFor::robust);
@@ -58,7 +58,7 @@ class Study {
   }
 
   // Starts each law of a unit from those of its parts, so that none is worse than what it extends.
-  void improve(Unit& unit, const std::vector<Unit>& units) const {
+  void improve(TuningUnit& unit, const std::vector<TuningUnit>& units) const {
     bool other_nominal = false;
     for (auto& row : unit.laws) {
       if (stopped()) return;
@@ -78,7 +78,7 @@ class Study {
   }
 
   // What the laws mean at the sky and on the ensemble.
-  void finish(Unit& unit) const {
+  void finish(TuningUnit& unit) const {
     for (auto& row : unit.laws) {
       finish(row);
       const bool every_member = !row.ensemble || row.ensemble->within_goals ==
@@ -96,7 +96,7 @@ class Study {
     return problem;
   }
 
-  static TunedLaw new_row(const Unit& unit, TunedFor purpose) {
+  static TunedLaw new_row(const TuningUnit& unit, TunedFor purpose) {
     TunedLaw row;
     row.structure = unit.name;
     row.tuned_for = purpose;
@@ -106,7 +106,7 @@ class Study {
 
   bool stopped() const { return options_.interrupted && options_.interrupted(); }
 
-  design::DesignTask task_of(const Unit& unit, TunedFor purpose) const {
+  design::DesignTask task_of(const TuningUnit& unit, TunedFor purpose) const {
     design::DesignTask task;
     task.name = unit.name;
     task.problem = problem_at(unit.wind_speed);
@@ -126,7 +126,7 @@ class Study {
     return task;
   }
 
-  void search(Unit& unit, TunedFor purpose) const {
+  void search(TuningUnit& unit, TunedFor purpose) const {
     if (stopped()) {
       unit.not_run.push_back(
           fmt::format("{}, {}, {:g} m/s", unit.name, to_string(purpose), unit.wind_speed));
@@ -208,7 +208,7 @@ std::string short_name(const control::LoopStructure& structure) {
   return structure.name();
 }
 
-std::vector<Unit> units_of(const Case& antenna, const TuneSection& section) {
+std::vector<TuningUnit> units_of(const Case& antenna, const TuneSection& section) {
   std::vector<control::LoopStructure> structures;
   for (const auto& name : section.structures) {
     structures.push_back(loop_structure(antenna.loops, name));
@@ -216,7 +216,7 @@ std::vector<Unit> units_of(const Case& antenna, const TuneSection& section) {
   const auto missing = design::missing_parts(structures);
   structures.insert(structures.end(), missing.begin(), missing.end());
   const auto parts = design::parts_of(structures);
-  std::vector<Unit> units;
+  std::vector<TuningUnit> units;
   for (const double speed : section.wind_speeds) {
     for (const auto& law : present_laws(antenna)) {
       units.push_back({short_name(law.structure), law.structure, speed, law});
@@ -224,7 +224,8 @@ std::vector<Unit> units_of(const Case& antenna, const TuneSection& section) {
     const std::size_t first = units.size();
     for (std::size_t s = 0; s < structures.size(); ++s) {
       const bool asked = s < section.structures.size();
-      Unit unit{asked ? section.structures[s] : short_name(structures[s]), structures[s], speed};
+      TuningUnit unit{asked ? section.structures[s] : short_name(structures[s]), structures[s],
+                      speed};
       unit.asked = asked;
       for (const std::size_t part : parts[s]) unit.parts.push_back(first + part);
       units.push_back(std::move(unit));
@@ -247,10 +248,11 @@ std::string_view to_string(TunedFor purpose) {
   return names.at(static_cast<std::size_t>(purpose));
 }
 
-const TunedLaw* best_law(const TuneSection& section) {
+const TunedLaw* best_law(const TuneSection& section, std::optional<double> wind_speed) {
   const TunedLaw* best = nullptr;
   for (const auto& row : section.laws) {
     if (row.tuned_for == TunedFor::present || !row.usable()) continue;
+    if (wind_speed && row.wind_speed != *wind_speed) continue;
     const bool first_choice = best == nullptr || row.tuned_for > best->tuned_for;
     if (first_choice || (row.tuned_for == best->tuned_for && row.wind_speed == best->wind_speed &&
                          row.beam_rms < best->beam_rms)) {
@@ -280,6 +282,7 @@ TuneSection tune_structures(const Case& antenna, const PlantEnsemble& ensemble,
 
   const Study study(antenna, ensemble, options, section);
   section.problem = make_problem(antenna);
+  section.supply_wind_speed = supply_wind_speed(antenna, section.problem);
   section.wind_model = section.problem.wind.model;
   auto units = units_of(antenna, section);
   std::vector<std::vector<std::size_t>> parts;

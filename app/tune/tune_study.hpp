@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -36,8 +37,9 @@ struct PlantEnsemble {
 TuneSection tune_structures(const Case& antenna, const PlantEnsemble& ensemble,
                             const TuneOptions& options);
 
-/// The best law that meets all it must, robust ones before nominal ones; null if there is none.
-const TunedLaw* best_law(const TuneSection& section);
+/// The best law that meets all it must, robust ones before nominal ones: at one wind speed, or at
+/// the first that such a law was tuned for. Null if there is none.
+const TunedLaw* best_law(const TuneSection& section, std::optional<double> wind_speed = {});
 
 /// What of the goals, budgets and plant the laws of a finished study do not reach, with the closest
 /// that they do. Empty if every wind speed has a law that meets everything.

@@ -9,6 +9,7 @@
 #include <boresight/app/tune/tune_study.hpp>
 
 namespace boresight::app {
+
 namespace {
 
 using design::GoalKind;
@@ -118,24 +119,25 @@ void find_unmet_goals(const TuneSection& section, double speed, TunedFor purpose
                    standing_goals(*nearest, section.goals))});
 }
 
-const TunedLaw* least_rms(const TuneSection& section, double speed) {
-  const TunedLaw* best = nullptr;
-  for (const auto* row : rows_at(section, speed)) {
-    if (!row->goals_met) continue;
-    if (best == nullptr || row->beam_rms < best->beam_rms) best = row;
-  }
-  return best;
-}
-
 void find_unreached_rms(const TuneSection& section, std::vector<Shortfall>& shortfalls) {
   for (std::size_t i = 0; i < section.budgets.size(); ++i) {
     const PointingBudget& budget = section.budgets[i];
     if (!budget.wind_speed) continue;
-    const TunedLaw* best = least_rms(section, *budget.wind_speed);
+    if (section.supply_wind_speed < *budget.wind_speed) {
+      shortfalls.push_back(
+          {fmt::format("The budget '{}' in band {} cannot be met up to {:g} m/s by any law.",
+                       budget.name, budget.band, *budget.wind_speed),
+           fmt::format("The mean wind torque alone reaches the supply's at {:.1f} m/s.",
+                       section.supply_wind_speed)});
+      continue;
+    }
+    const TunedLaw* best = best_law(section, budget.wind_speed);
     if (best == nullptr || best->beam_rms <= met * budget.rms) continue;
     double limit = 0.0;
     for (const auto* row : rows_at(section, *budget.wind_speed)) {
-      if (row->goals_met) limit = std::max(limit, row->speed_limits[i]);
+      if (row->goals_met && row->tuned_for == best->tuned_for) {
+        limit = std::max(limit, row->speed_limits[i]);
+      }
     }
     shortfalls.push_back(
         {fmt::format("The budget '{}' in band {} ({:.4f} mdeg) cannot be met up to {:g} m/s.",
@@ -149,7 +151,7 @@ void find_unreached_rms(const TuneSection& section, std::vector<Shortfall>& shor
   }
   if (!section.beam_rms_goal) return;
   const double speed = section.wind_speeds.front();
-  const TunedLaw* best = least_rms(section, speed);
+  const TunedLaw* best = best_law(section, speed);
   if (best == nullptr || best->beam_rms <= met * *section.beam_rms_goal) return;
   shortfalls.push_back({fmt::format("A beam rms of {:.4f} mdeg cannot be met at {:g} m/s.",
                                     *section.beam_rms_goal / millidegree, speed),

@@ -50,7 +50,7 @@ const std::vector<Mistake>& mistakes() {
       {"MissingTableForAMisspeltOne", "[friction_curve]\n", "[^friction_curves]\n",
        "friction_curve", "a table", "nothing: key is missing (is 'friction_curves' misspelt?)"},
       {"MissingTable", "[controller]\ndelay", "[sensors.^more]\ndelay", "sensors.more",
-       "one of the keys 'encoder_noise'", "an unknown key"},
+       "one of the keys 'encoder_bits', 'encoder_noise'", "an unknown key"},
       {"UnknownKey", "[tachometer]\n", "[tachometer]\n^gain = \"1 V\"\n", "tachometer.gain",
        "one of the keys 'motor_teeth', 'recorder_limit'", "an unknown key"},
       {"UnknownKeyNearAKnownOne", "density = { value = \"7832", "^densty = { value = \"7832",

@@ -1,12 +1,9 @@
-#include <fstream>
-#include <iterator>
 #include <string>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <boresight/app/io/case_file.hpp>
-#include <boresight/plant/error.hpp>
+#include "edited_case.hpp"
 
 namespace boresight::app {
 namespace {
@@ -15,17 +12,10 @@ using testing::HasSubstr;
 
 // What the small dish's case says with one text of it replaced.
 std::string refusal(const std::string& old, const std::string& replacement) {
-  std::ifstream file(BORESIGHT_SOURCE_DIR "/tests/data/campaigns/small-dish/case.toml");
-  std::string text{std::istreambuf_iterator<char>(file), {}};
+  std::string text = content_of(BORESIGHT_SOURCE_DIR "/tests/data/campaigns/small-dish/case.toml");
   const std::size_t at = text.find(old);
   if (at == std::string::npos) return "not in the case: " + old;
-  text.replace(at, old.size(), replacement);
-  try {
-    parse_case(text, "case.toml");
-  } catch (const InvalidInput& error) {
-    return error.what();
-  }
-  return "taken";
+  return refusal_of(text.replace(at, old.size(), replacement));
 }
 
 TEST(CaseCampaign, RefusesARecordWithItsPlace) {

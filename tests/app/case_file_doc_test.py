@@ -23,6 +23,10 @@ for mark in ("[[structure.prediction]]", "[instruments]", "[record_columns]", "[
 # Nor has it those that only tuning reads.
 CASE += (SOURCE / "tests/data/tuning/tables.toml").read_text(encoding="utf-8")
 CASE += "\n[[remark]]\nplace = 'here'\ntext = 'the last table'\n"
+# Tests at steady rates stand instead of the friction curve's numbers.
+TESTS = "[[friction_curve.test]]"
+TESTED = re.sub(r"^\[friction_curve\]\n(?:(?!\[).*\n)*",
+                f"{TESTS}\nrate = '0.1 deg/s'\ntorque = '60 N.m'\n\n", CASE, flags=re.M)
 
 # Titles in the document of what has no header in a case.
 ROOT = "The file itself"
@@ -67,9 +71,10 @@ def refusal(text, command="model"):
 
 
 def block_of(table):
-    """Begin and end of the keys of a table's first entry in the case."""
-    begin = 0 if table == ROOT else re.search(rf"^{re.escape(table)}\n", CASE, re.M).end()
-    return begin, CASE.index("\n[", begin) + 1
+    """A case that has the table, and begin and end of the keys of its first entry there."""
+    case = TESTED if table == TESTS else CASE
+    begin = 0 if table == ROOT else re.search(rf"^{re.escape(table)}\n", case, re.M).end()
+    return case, begin, case.index("\n[", begin) + 1
 
 
 class CaseFileDocument(unittest.TestCase):
@@ -86,8 +91,8 @@ class CaseFileDocument(unittest.TestCase):
                     text = CASE.replace("[[pointing.band]]", "[pointing]\nnobodys_key = 1\n\n"
                                         "[[pointing.band]]", 1)
                 else:
-                    begin, _ = block_of(table)
-                    text = CASE[:begin] + "nobodys_key = 1\n" + CASE[begin:]
+                    case, begin, _ = block_of(table)
+                    text = case[:begin] + "nobodys_key = 1\n" + case[begin:]
                 message = refusal(text)
                 self.assertIn("nobodys_key: expected one of the keys", message)
                 listed = message.split("one of the keys ")[1].split(", found")[0]
@@ -97,14 +102,14 @@ class CaseFileDocument(unittest.TestCase):
         for table, keys in documented_keys().items():
             if table in (QUANTITY, ROOT, "[pointing]"):
                 continue
-            begin, end = block_of(table)
-            block = CASE[begin:end]
+            case, begin, end = block_of(table)
+            block = case[begin:end]
             for key, needed in keys.items():
                 line = re.search(rf"^{key} = .*\n", block, re.M)
                 if line is None:
                     continue
                 with self.subTest(table=table, key=key):
-                    message = refusal(CASE[:begin] + block.replace(line.group(0), "") + CASE[end:])
+                    message = refusal(case[:begin] + block.replace(line.group(0), "") + case[end:])
                     if needed == "yes":
                         self.assertIn(f".{key}: expected", message)
                         self.assertIn("key is missing", message)

@@ -24,12 +24,7 @@ Case with(const std::string& more) {
 }
 
 std::string refusal(const std::string& more) {
-  try {
-    with(more);
-  } catch (const InvalidInput& error) {
-    return error.what();
-  }
-  return "";
+  return refusal_of(EditedCase().text() + "\n" + more);
 }
 
 // A text of tables.toml replaced.
@@ -175,12 +170,7 @@ TEST(CaseTuning, RefusesEmptyRangesAndClimates) {
 }
 
 std::string edited_refusal(const std::string& old, const std::string& other) {
-  try {
-    parse_case(EditedCase().replace(old, other).text(), "case.toml");
-  } catch (const InvalidInput& error) {
-    return error.what();
-  }
-  return "";
+  return refusal_of(EditedCase().replace(old, other).text());
 }
 
 const std::string peak_line = "[goals]\n";
@@ -254,15 +244,20 @@ TEST(CasePointing, TakesTheFeedsTaperForTheBeamwidth) {
   EXPECT_GT(factor("edge_taper = \"12 dB\"\nillumination = \"gaussian\""), 64.0);
   EXPECT_NE(factor("edge_taper = \"12 dB\"\nillumination_exponent = \"2\""),
             factor("edge_taper = \"12 dB\""));
+  // 61 deg of 70 m at 32 GHz.
+  EXPECT_NEAR(factor("beamwidth = \"8.163991 mdeg\""), 61.0, 1e-3);
   const auto message = [&](const std::string& keys) {
     return edited_refusal(stated, "frequency = \"32 GHz\"\n" + keys);
   };
-  EXPECT_THAT(message(""), HasSubstr("pointing.band[1].beamwidth_factor: expected either "
-                                     "beamwidth_factor or edge_taper, found neither"));
+  EXPECT_THAT(message(""),
+              HasSubstr("pointing.band[1].beamwidth_factor: expected either beamwidth, "
+                        "beamwidth_factor or edge_taper, found none"));
   EXPECT_THAT(message("beamwidth_factor = \"61 deg\"\nedge_taper = \"9 dB\""),
-              HasSubstr("found both"));
+              HasSubstr("found several"));
   EXPECT_THAT(message("beamwidth_factor = \"61 deg\"\nillumination = \"gaussian\""),
               HasSubstr("expected it beside edge_taper only"));
+  EXPECT_THAT(message("beamwidth = \"0.2 deg\""),
+              HasSubstr("pointing.band[1].beamwidth: expected 3.83 to 15.3 mdeg"));
   EXPECT_THAT(message("edge_taper = \"9 dB\"\nillumination = \"gaussian\"\n"
                       "illumination_exponent = \"2\""),
               HasSubstr("expected it with the illumination 'parabola' only"));

@@ -6,6 +6,8 @@
 #include <string_view>
 
 #include "program_run.hpp"
+#include <boresight/app/io/case_file.hpp>
+#include <boresight/plant/error.hpp>
 
 namespace boresight::app {
 
@@ -39,6 +41,14 @@ class EditedCase {
     return *this;
   }
 
+  /// Replaces the line that begins so, and stands in the file once, by others or, empty, by none.
+  EditedCase& replace_line(const std::string& begin, const std::string& replacement) {
+    const std::size_t at = text_.find("\n" + begin);
+    if (at == std::string::npos) throw std::runtime_error("not in the case: " + begin);
+    return replace(text_.substr(at, text_.find('\n', at + 1) - at),
+                   replacement.empty() ? "" : "\n" + replacement);
+  }
+
   /// Marks the first occurrence of a text.
   EditedCase& mark(const std::string& text) {
     place(text_.find(text));
@@ -60,5 +70,15 @@ class EditedCase {
   int line_ = 0;
   int column_ = 0;
 };
+
+/// Why the program does not take a case of this text; "taken" if it does.
+inline std::string refusal_of(const std::string& text) {
+  try {
+    parse_case(text, "case.toml");
+  } catch (const InvalidInput& error) {
+    return error.what();
+  }
+  return "taken";
+}
 
 }  // namespace boresight::app

@@ -22,7 +22,6 @@ namespace {
 
 using identification::Interval;
 using testing::Contains;
-using testing::Field;
 using testing::HasSubstr;
 using testing::Not;
 
@@ -235,7 +234,7 @@ TEST(IdentifyCampaign, ListsTheCasesNumbersThatTheRecordsContradict) {
     return identify_campaign(antenna, {}).contradictions;
   };
   const auto wrong = contradicted("1.60 GPa");
-  ASSERT_THAT(wrong, Contains(Field(&Contradiction::key, "oil.bulk_modulus")));
+  ASSERT_THAT(wrong, Contains(testing::Field(&Contradiction::key, "oil.bulk_modulus")));
   const auto found = std::find_if(wrong.begin(), wrong.end(), [](const Contradiction& one) {
     return one.key == "oil.bulk_modulus";
   });
@@ -243,7 +242,7 @@ TEST(IdentifyCampaign, ListsTheCasesNumbersThatTheRecordsContradict) {
   EXPECT_FALSE(found->assumed);
   EXPECT_LT(found->normalised, -5.0);
   EXPECT_THAT(contradicted("1.38 GPa"),
-              Not(Contains(Field(&Contradiction::key, "oil.bulk_modulus"))));
+              Not(Contains(testing::Field(&Contradiction::key, "oil.bulk_modulus"))));
 }
 
 TEST(IdentifyCampaign, StopsWhenProgressSaysSo) {

@@ -11,8 +11,11 @@
 
 #include "edited_case.hpp"
 #include <boresight/app/io/csv_table.hpp>
+#include <boresight/app/redesign/antenna_model.hpp>
 #include <boresight/app/simulate/drive_run.hpp>
 #include <boresight/app/simulate/nonlinear_model.hpp>
+#include <boresight/app/simulate/position_run.hpp>
+#include <boresight/design/tuner.hpp>
 #include <boresight/plant/error.hpp>
 
 namespace boresight::app {
@@ -144,6 +147,36 @@ TEST(DriveRun, EndsWhereItIsToldAndSaysSo) {
   const auto samples = run.record.columns.front().values.size();
   EXPECT_LT(samples, test.command.size());
   EXPECT_GT(samples, test.command.size() / 4);
+}
+
+TEST(PositionRun, RunsOnTheLawItIsGiven) {
+  const Case antenna = reference_case();
+  SimulatedLaw given;
+  given.law = design::tune(make_problem(antenna), given.structure, make_goals(antenna), {}).law;
+  given.source = "of a report";
+  const auto tuned = run_slew(antenna, {}, 1, {});
+  const auto same = run_slew(antenna, given, 1, {});
+  EXPECT_THAT(tuned.description, HasSubstr("by PI with lag, tuned now"));
+  EXPECT_THAT(same.description, HasSubstr("by PI with lag, of a report"));
+  ASSERT_EQ(tuned.record.columns.size(), same.record.columns.size());
+  for (std::size_t i = 0; i < same.record.columns.size(); ++i) {
+    EXPECT_EQ(tuned.record.columns[i].values, same.record.columns[i].values);
+  }
+  // Other gains move it otherwise.
+  const auto& gains = control::gain_descriptions(given.structure);
+  for (std::size_t i = 0; i < gains.size(); ++i) {
+    if (gains[i].name == "position gain") given.law->gains[i] *= 0.5;
+  }
+  const auto slower = run_slew(antenna, given, 1, {});
+  EXPECT_NE(slower.record.columns[2].values, same.record.columns[2].values);
+}
+
+TEST(SimulateCommand, NamesTheGainsThatAreNotThere) {
+  const ScratchFolder folder;
+  const auto none = run_program({"simulate", case_path("dss14-70m"), "slew", "--gains", "case",
+                                 "--folder", folder.file("a")});
+  EXPECT_EQ(none.exit_code, 2);
+  EXPECT_THAT(none.errors, HasSubstr("--gains case: expected [gains] in the case, found none"));
 }
 
 TEST(SimulateCommand, WritesTheRecordAndRepeatsIt) {

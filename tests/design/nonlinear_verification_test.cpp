@@ -216,6 +216,23 @@ TEST(NonlinearVerification, RunsWithoutAUsableEndAreStatedResults) {
   EXPECT_FALSE(weak.slew->within_reach);
 }
 
+TEST(NonlinearVerification, HoldsStillWithinTheRmsOfASine) {
+  std::vector<HuntingResult> result;
+  EXPECT_EQ(hunting_amplitude(result), 0.0);
+  EXPECT_TRUE(holds_still(result, 1e-6));
+  HuntingResult rest, moving;
+  rest.beam_amplitude = 1.0;  // of what is no limit cycle does not count
+  moving.limit_cycle = true;
+  moving.beam_amplitude = 1e-5;
+  result = {rest, moving};
+  EXPECT_EQ(hunting_amplitude(result), 1e-5);
+  // A sine has an rms of its amplitude over the root of 2.
+  EXPECT_TRUE(holds_still(result, 1.001e-5 / std::sqrt(2.0)));
+  EXPECT_FALSE(holds_still(result, 0.999e-5 / std::sqrt(2.0)));
+  result[0].status = RunStatus::failed;
+  EXPECT_FALSE(holds_still(result, 1.0));
+}
+
 TEST(NonlinearVerification, RefusesOptionsOutOfRange) {
   const auto message = [](const auto& change) -> std::string {
     auto wanted = options();

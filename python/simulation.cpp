@@ -38,8 +38,8 @@ std::vector<Record> simulate(const app::Case& antenna, const std::string& test,
           {run.test, std::move(run.description), run.sample_time, std::move(run.record)});
     }
     if (records.empty()) {
-      auto run = test == "slew" ? app::run_slew(antenna, seed, progress)
-                                : app::run_tracking(antenna, seed, progress);
+      auto run = test == "slew" ? app::run_slew(antenna, {}, seed, progress)
+                                : app::run_tracking(antenna, {}, seed, progress);
       records.push_back(
           {run.test, std::move(run.description), run.sample_time, std::move(run.record)});
     }

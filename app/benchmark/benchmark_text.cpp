@@ -164,7 +164,8 @@ Document document_of(const BenchmarkReport& report) {
   const auto& system = report.controller.system;
   std::vector<std::string> read = system.inputs;
   std::erase(read, "rate_disturbance");
-  Document text = verbatim(fmt::format("{}\n{}\n", report.title, report.case_path));
+  Document text =
+      report_title("benchmark", report.title, report.axis, report.case_path, std::nullopt);
   text += heading(fmt::format("Disturbance rejection, protocol {}", design::rejection_protocol));
   text += wrapped(
       fmt::format("Controller: {}; {}, {} states, reads {}.", report.controller.description,

@@ -10,10 +10,10 @@
 namespace boresight::app {
 namespace {
 
-using identification::DriveRecord;
 using identification::Signal;
 
-const DriveRecord& find_record(const std::vector<LoadedRecord>& records, const std::string& name) {
+const identification::DriveRecord& find_record(const std::vector<LoadedRecord>& records,
+                                               const std::string& name) {
   std::vector<std::string> known;
   for (const auto& one : records) {
     if (one.notes.name == name) {
@@ -39,7 +39,7 @@ design::RecordedChannel channel(const Eigen::VectorXd& values, const std::vector
   return {values, valid, sample_time};
 }
 
-design::RecordedChannel torque_of(const DriveRecord& record,
+design::RecordedChannel torque_of(const identification::DriveRecord& record,
                                   const identification::DriveKnowledge& knowledge) {
   std::vector<bool> valid;
   for (const auto& signal : record.inlet_pressure) valid = both(valid, signal.valid);
@@ -47,7 +47,8 @@ design::RecordedChannel torque_of(const DriveRecord& record,
   return channel(identification::recorded_torque(record, knowledge), valid, record.sample_time);
 }
 
-design::RecordedChannel rate_error(const DriveRecord& record, const Signal& command) {
+design::RecordedChannel rate_error(const identification::DriveRecord& record,
+                                   const Signal& command) {
   return channel(record.motor_rate.values - command.values,
                  both(record.motor_rate.valid, command.valid), record.sample_time);
 }
@@ -70,8 +71,8 @@ std::vector<ChannelComparison> compare_case_records(const Case& antenna, const s
         fmt::format("commission: expected two records to compare, found '{}' twice", before));
   }
   const auto records = load_records(antenna, threads);
-  const DriveRecord& first = find_record(records, before);
-  const DriveRecord& second = find_record(records, after);
+  const identification::DriveRecord& first = find_record(records, before);
+  const identification::DriveRecord& second = find_record(records, after);
   CampaignNotes notes;
   const auto knowledge = drive_knowledge(antenna, notes);
   std::vector<ChannelComparison> result;

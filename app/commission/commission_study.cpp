@@ -12,6 +12,7 @@
 #include <boresight/app/redesign/assumed_inputs.hpp>
 #include <boresight/app/redesign/sections.hpp>
 #include <boresight/app/report/sky_units.hpp>
+#include <boresight/app/simulate/time_domain.hpp>
 #include <boresight/app/tune/engineer_units.hpp>
 #include <boresight/plant/error.hpp>
 
@@ -47,7 +48,7 @@ control::ControlLaw given_law(const Case& antenna, const CommissionOptions& opti
             parse_quantity(text->substr(symbol.size() + 1), gain_kind(block.path, block.kind, i))
                 .value);
       } catch (const InvalidInput& error) {
-        throw InvalidInput(fmt::format("--gains {}: {}", quoted(*text), error.what()));
+        throw InvalidInput(fmt::format("--gains {}: {}", in_quotes(*text), error.what()));
       }
     }
   }
@@ -55,7 +56,7 @@ control::ControlLaw given_law(const Case& antenna, const CommissionOptions& opti
     const std::string symbol = text.substr(0, text.find('='));
     if (std::ranges::find(known, symbol) == known.end()) {
       throw InvalidInput(fmt::format("--gains {}: expected KEY=VALUE with a key of {}, found none",
-                                     quoted(text), fmt::join(known, ", ")));
+                                     in_quotes(text), fmt::join(known, ", ")));
     }
   }
   control::validate(law);
@@ -99,11 +100,6 @@ double round_down(double value) {
     if (step * decade <= value * (1.0 + 1e-12)) return step * decade;
   }
   return decade;
-}
-
-double largest_demand(const Case& antenna) {
-  return antenna.simulation ? antenna.simulation->valve_stroke.value
-                            : antenna.drive.slew_rate.value * gear_ratio(antenna);
 }
 
 // In rad/s or rad at the sky, a round number of mdeg.
@@ -276,8 +272,26 @@ void predict(const design::CommissioningPlan& plan, ChannelComparison& channel) 
   if (channel.channel == "valve command") set(first.windy_valve, last.windy_valve);
 }
 
+// The linear plant of the stages does not know friction. In still air: the wind is theirs.
+std::optional<double> hunting_beyond_budget(const Case& antenna,
+                                            const design::TrackingProblem& problem,
+                                            const control::ControlLaw& law, std::uint64_t seed) {
+  auto options = comparison_options(antenna, seed);
+  options.wind_duration = 1.0;
+  const auto run = run_in_time_domain(antenna, problem, law, options);
+  if (!run || design::holds_still(run->hunting, options.settled_error)) return std::nullopt;
+  return design::hunting_amplitude(run->hunting);
+}
+
 void conclude_plan(const CommissionReport& report, const Case& antenna,
                    std::vector<std::string>& sentences) {
+  if (report.hunting) {
+    sentences.push_back(fmt::format(
+        "On the nonlinear antenna {} hunts by +-{:.2f} mdeg, beyond the tightest budget: the "
+        "stages below are those of linear loops. Measure the friction before this law is set, or "
+        "plan for another.",
+        report.structure, *report.hunting / millidegree));
+  }
   const auto& first = report.plan.stages.front();
   const auto& last = report.plan.stages.back();
   const double sky = gear_ratio(antenna) * millidegree;
@@ -396,6 +410,7 @@ CommissionReport plan_commission(const Case& antenna, const PlantEnsemble& ensem
                                              report.options);
     for (auto& channel : report.comparisons) predict(report.plan, channel);
     report.sheets = make_sheets(antenna, report);
+    report.hunting = hunting_beyond_budget(antenna, problem, target, options.seed);
   } catch (const InfeasibleRequirement& error) {
     without_plan(error);
   } catch (const NumericalFailure& error) {

@@ -82,6 +82,9 @@ struct CommissionReport {
   /// is one.
   std::exception_ptr failure;
   std::string no_plan;
+  /// Beam amplitude (rad) by which the law hunts on the nonlinear antenna, where that is beyond the
+  /// tightest budget; none where it is not, or the case has no [simulation].
+  std::optional<double> hunting;
   std::vector<StageSheet> sheets;
   std::string before, after;
   std::vector<ChannelComparison> comparisons;

@@ -149,8 +149,8 @@ Document plan_part(const CommissionReport& report) {
 }  // namespace
 
 Document document_of(const CommissionReport& report) {
-  Document text = verbatim(fmt::format("{}\n{}\ncase {}, seed {}\n", report.title, report.axis,
-                                       report.case_path, report.seed));
+  Document text =
+      report_title("commission", report.title, report.axis, report.case_path, report.seed);
   text += heading("Commissioning plan for " + report.structure);
   text += report.failure == nullptr ? plan_part(report) : wrapped("None: " + report.no_plan, "  ");
   text += comparison_part(report);

@@ -1,6 +1,8 @@
 #include <iterator>
 #include <utility>
 
+#include <fmt/format.h>
+
 #include <boresight/app/document/document.hpp>
 
 namespace boresight::app {
@@ -59,6 +61,13 @@ Document table(std::vector<std::vector<std::string>> rows, std::string_view alig
 
 Document verbatim(std::string_view text) {
   return {{Verbatim{std::string(text)}}};
+}
+
+Document report_title(std::string_view command, std::string_view title, std::string_view axis,
+                      std::string_view case_path, std::optional<std::uint64_t> seed) {
+  return verbatim(fmt::format("Boresight {} {}: {} ({} axis)\ncase {}{}\n", BORESIGHT_VERSION,
+                              command, title, axis, case_path,
+                              seed ? fmt::format(", seed {}", *seed) : ""));
 }
 
 }  // namespace boresight::app

@@ -1,6 +1,8 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <variant>
@@ -64,5 +66,8 @@ Document wrapped(std::string_view paragraph, std::string_view indent,
 Document table(std::vector<std::vector<std::string>> rows, std::string_view alignment = "l",
                std::size_t header_rows = 1);
 Document verbatim(std::string_view text);
+/// The two lines that every report begins with; `seed` where the work draws numbers.
+Document report_title(std::string_view command, std::string_view title, std::string_view axis,
+                      std::string_view case_path, std::optional<std::uint64_t> seed);
 
 }  // namespace boresight::app

@@ -32,9 +32,9 @@ std::string tagged(std::string_view tag, std::string_view attributes, std::strin
 }
 
 // One page as it grows.
-class Page {
+class Elements {
  public:
-  explicit Page(const AfterHeading& after_heading) : after_heading_(after_heading) {}
+  explicit Elements(const AfterHeading& after_heading) : after_heading_(after_heading) {}
 
   void operator()(const Heading& heading) {
     close_section();
@@ -150,7 +150,7 @@ std::string escaped_html(std::string_view text) {
 }
 
 std::string to_html(const Document& document, const AfterHeading& after_heading) {
-  Page page(after_heading);
+  Elements page(after_heading);
   for (const Block& block : document.blocks) std::visit(page, block);
   return page.finish();
 }

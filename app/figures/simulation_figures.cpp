@@ -63,8 +63,10 @@ void mark_starts(const DriveRecord& record, FigurePanel& panel) {
     if (!start || !(record.sample_time > 0.0)) continue;
     const auto at = static_cast<Eigen::Index>(start->time / record.sample_time);
     if (at < 0 || at >= tachometer->values.size()) continue;
-    panel.marks.push_back({start->time, tachometer->values[at],
-                           upward ? "breaks away upward" : "breaks away downward"});
+    FigureMark& mark = panel.marks.emplace_back();
+    mark.x = start->time;
+    mark.y = tachometer->values[at];
+    mark.label = upward ? "breaks away upward" : "breaks away downward";
   }
   for (const auto& channel : record.clipped) {
     panel.lines.push_back(vertical_line(

@@ -1,4 +1,7 @@
+#include <algorithm>
+
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <boresight/app/identify/first_tests.hpp>
 
@@ -7,6 +10,41 @@ namespace {
 
 bool measured(const Quantity& quantity) {
   return quantity.basis == Basis::measured;
+}
+
+// Keys of the friction curve's numbers that nobody measured; a rate is none where the part that it
+// belongs to is zero.
+std::vector<std::string> unmeasured_friction(const FrictionCurveEntry& curve) {
+  std::vector<std::string> keys;
+  const auto add = [&](const char* key, const Quantity& quantity, bool counts = true) {
+    if (counts && !measured(quantity)) keys.emplace_back(key);
+  };
+  add("coulomb", curve.coulomb);
+  add("breakaway", curve.breakaway);
+  add("stribeck_rate", curve.stribeck_rate, curve.breakaway.value > curve.coulomb.value);
+  add("saturating", curve.saturating);
+  add("saturating_rate", curve.saturating_rate, curve.saturating.value > 0.0);
+  add("viscous", curve.viscous);
+  return keys;
+}
+
+bool nothing_measured(const FrictionCurveEntry& curve) {
+  const auto all = {&curve.coulomb,    &curve.breakaway,       &curve.stribeck_rate,
+                    &curve.saturating, &curve.saturating_rate, &curve.viscous};
+  return std::none_of(all.begin(), all.end(),
+                      [](const Quantity* quantity) { return measured(*quantity); });
+}
+
+std::string shown_friction(const FrictionCurveEntry& curve) {
+  if (nothing_measured(curve)) {
+    return "they show the friction curve, which the case does not have as measured";
+  }
+  const auto keys = unmeasured_friction(curve);
+  if (keys.empty()) return "they check the friction curve, which the case has as measured";
+  return fmt::format(
+      "of the friction curve they show what the case does not have as measured ({}), and check the "
+      "rest",
+      fmt::join(keys, ", "));
 }
 
 std::string how_to_practise(const Case& antenna) {
@@ -27,8 +65,6 @@ std::string how_to_practise(const Case& antenna) {
 }  // namespace
 
 std::vector<std::string> first_tests(const Case& antenna) {
-  const bool friction_known =
-      measured(antenna.friction_curve.coulomb) && measured(antenna.friction_curve.viscous);
   const bool modulus_known = antenna.oil.bulk_modulus && measured(*antenna.oil.bulk_modulus);
   std::vector<std::string> sentences{
       "The case has no records, so nothing here rests on the drive's motion but what the case "
@@ -40,8 +76,7 @@ std::vector<std::string> first_tests(const Case& antenna) {
   sentences.push_back(fmt::format(
       "Then a slow ramp and constant speeds, some of them below the rate at which friction levels "
       "off, both ways: {}.",
-      friction_known ? "they check the friction curve, which the case has as measured"
-                     : "they show the friction curve, which the case does not have as measured"));
+      shown_friction(antenna.friction_curve)));
   if (!modulus_known && antenna.oil.lines.empty()) {
     sentences.emplace_back(
         "A slosh test with a transducer at the motors' end of each line shows the oil's bulk "

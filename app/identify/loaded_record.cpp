@@ -20,7 +20,6 @@
 namespace boresight::app {
 namespace {
 
-using identification::CleanRecord;
 using identification::DefectHandling;
 using identification::DefectKind;
 using identification::TestKind;
@@ -81,7 +80,7 @@ void check_names(const Case& antenna, const std::vector<LoadedRecord>& works) {
     }
     refuse_at(location, key,
               fmt::format("expected a column of one record at least, found {}{} where they have {}",
-                          app::quoted(name), did_you_mean(name, names), columns_of(all)));
+                          in_quotes(name), did_you_mean(name, names), columns_of(all)));
   };
   const RecordColumnsEntry& entry = antenna.campaign.columns;
   for (const auto* command : {&entry.rate_command, &entry.valve_command}) {
@@ -92,7 +91,7 @@ void check_names(const Case& antenna, const std::vector<LoadedRecord>& works) {
 }
 
 void refuse(LoadedRecord& work, DefectKind kind, const std::string& reason) {
-  CleanRecord& clean = work.clean;
+  identification::CleanRecord& clean = work.clean;
   clean.record.reset();
   clean.refusal = reason;
   clean.defects.push_back(
@@ -142,7 +141,7 @@ void recognise(const Case& antenna, std::vector<LoadedRecord>& works) {
   }
   const double fastest = identification::fastest_motion(all);
   for (std::size_t i = 0; i < works.size(); ++i) {
-    CleanRecord& clean = works[i].clean;
+    identification::CleanRecord& clean = works[i].clean;
     if (!clean.record || !antenna.campaign.records[i].test.empty()) continue;
     works[i].notes.test_guessed = true;
     clean.record->test = identification::recognised_test(*clean.record, fastest);

@@ -65,7 +65,7 @@ class Mapper {
       throw InvalidInput(
           fmt::format("{}: expected a column for each signal, found {} taken for two "
                       "(say which is which in [record_columns])",
-                      table_.path, quoted(column.name)));
+                      table_.path, in_quotes(column.name)));
     }
     Measured result{column, {}, column.unit, "record_columns." + key, {}};
     std::string remark;
@@ -80,7 +80,7 @@ class Mapper {
       }
       if (!own && !column.unit.empty()) {
         remark =
-            fmt::format("the file states the unit {}, which is not known", quoted(column.unit));
+            fmt::format("the file states the unit {}, which is not known", in_quotes(column.unit));
       }
     } else if (own) {
       result.unit = *own;
@@ -88,8 +88,8 @@ class Mapper {
       throw InvalidInput(fmt::format(
           "{}: expected a unit of column {}, found {} (say it in the case: record_columns.{} = "
           "\"{} [unit]\")",
-          table_.path, quoted(column.name),
-          column.unit.empty() ? "none in the file or the case" : quoted(column.unit), key,
+          table_.path, in_quotes(column.name),
+          column.unit.empty() ? "none in the file or the case" : in_quotes(column.unit), key,
           column.name));
     }
     result.source = {signal, column.name, result.unit_text, chosen.guessed, remark};
@@ -98,7 +98,7 @@ class Mapper {
 
   [[noreturn]] void refuse_kind(const Measured& measured, const std::string& expected) const {
     throw InvalidInput(fmt::format("{}: expected {} in column {}, found '{}', {}", table_.path,
-                                   expected, quoted(measured.column.name), measured.unit_text,
+                                   expected, in_quotes(measured.column.name), measured.unit_text,
                                    measured_by(measured.unit.dimension)));
   }
 
@@ -198,10 +198,10 @@ class Mapper {
                                      const std::string& reason) {
     if (wanted) {
       throw InvalidInput(fmt::format("{}: {} for {} of {}, found none", antenna_.path, reason,
-                                     quoted(column.column.name), table_.path));
+                                     in_quotes(column.column.name), table_.path));
     }
-    notes_.remarks.push_back(
-        fmt::format("column {} is not used: {}, found none", quoted(column.column.name), reason));
+    notes_.remarks.push_back(fmt::format("column {} is not used: {}, found none",
+                                         in_quotes(column.column.name), reason));
     return std::nullopt;
   }
 
@@ -216,8 +216,8 @@ class Mapper {
         dimension_of(Kind::angular_rate)) {
       refuse_at(scale->location, scale->key,
                 fmt::format("expected a rate per '{}', in which {} has column {}, found {}",
-                            column.unit_text, table_.path, quoted(column.column.name),
-                            quoted(scale->text)));
+                            column.unit_text, table_.path, in_quotes(column.column.name),
+                            in_quotes(scale->text)));
     }
     return channel(column, column.unit.factor * scale->value * gear);
   }
@@ -227,7 +227,7 @@ class Mapper {
     const RecordColumn& column = table_.columns[chosen.index];
     if (!chosen.guessed || recorded_unit(column.unit)) return false;
     notes_.remarks.push_back(
-        fmt::format("column {} is not used: it has no known unit", quoted(column.name)));
+        fmt::format("column {} is not used: it has no known unit", in_quotes(column.name)));
     return true;
   }
 

@@ -28,7 +28,7 @@ ColumnEntry read_column(TableReader& table, const std::string& key, const std::s
   if (column.name.empty() || (unit && column.unit.empty())) {
     table.refuse(key, fmt::format("expected a column's name, with its unit in brackets if the file "
                                   "states none ('tach [V]'), found {}",
-                                  app::quoted(text)));
+                                  in_quotes(text)));
   }
   if (unit) {
     try {
@@ -104,7 +104,7 @@ std::optional<Quantity> read_scale(TableReader& table, const std::string& key) {
   }
   table.refuse(key, fmt::format("expected a rate per recorded volt, ampere or 1, above 0 (such as "
                                 "14 rad/(s.V), 2 rad/(s.mA), 150 rad/s), found {}",
-                                app::quoted(text)));
+                                in_quotes(text)));
 }
 
 InstrumentsEntry read_instruments(TableReader& table) {
@@ -144,7 +144,7 @@ void read_campaign(TableReader& file, Case& antenna) {
                                          : std::filesystem::path(entry.file).stem().string();
     if (!names.insert(entry.name).second) {
       table.refuse(table.has("name") ? "name" : "file",
-                   "expected a name of its own, found " + app::quoted(entry.name) + " again");
+                   "expected a name of its own, found " + in_quotes(entry.name) + " again");
     }
     if (may_have(table, "test")) {
       entry.test = table.choice("test", {"slosh", "fast-ramp", "slow-ramp", "constant-speed",

@@ -18,7 +18,7 @@ void read_stated(TableReader& file, Case& antenna) {
       entry.refuse("quantity",
                    "expected the id of a derived quantity or input (docs/case-file.md "
                    "lists them), found " +
-                       quoted(stated.quantity));
+                       in_quotes(stated.quantity));
     }
     stated.value = entry.quantity("value", *kind);
     entry.finish();
@@ -71,7 +71,7 @@ std::string read_name(TableReader& entry, std::set<std::string>& names) {
   std::string name = entry.text("name");
   if (name.empty()) entry.refuse("name", "expected a name, found an empty text");
   if (!names.insert(name).second) {
-    entry.refuse("name", "expected a name of its own, found " + quoted(name) + " again");
+    entry.refuse("name", "expected a name of its own, found " + in_quotes(name) + " again");
   }
   return name;
 }

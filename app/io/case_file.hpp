@@ -115,8 +115,6 @@ struct DriveEntry {
   Quantity valve_damping;
   /// Flow at a total pressure drop over both edges, the valve fully open.
   std::optional<Quantity> valve_rated_flow, valve_rated_pressure_drop;
-  /// No-load motor rate with the valve fully open by them (rad/s).
-  std::optional<Quantity> rated_stroke;
   Quantity supply_pressure;
   Quantity slew_rate;
   Quantity tracking_rate;

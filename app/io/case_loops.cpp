@@ -97,7 +97,7 @@ BlockEntry read_block(TableReader& table, std::map<std::string, int>& symbols) {
     gain.finish();
     if (upper.value <= lower.value) {
       gain.refuse("upper", fmt::format("expected more than the lower bound {}, found {}",
-                                       quoted(lower.text), quoted(upper.text)));
+                                       in_quotes(lower.text), in_quotes(upper.text)));
     }
     auto [name, symbol] = name_and_symbol(entry.block.path, entry.block.kind, words);
     if (const int before = symbols[symbol]++; before > 0) {
@@ -128,7 +128,7 @@ LoopEntry read_loop(TableReader& table, std::set<std::string>& names) {
   LoopEntry entry;
   const std::string name = read_name(table, names);
   if (is_usual(name)) {
-    table.refuse("name", "expected a name that no usual structure has, found " + quoted(name));
+    table.refuse("name", "expected a name that no usual structure has, found " + in_quotes(name));
   }
   std::vector<control::LoopBlock> blocks;
   std::map<std::string, int> symbols;
@@ -192,7 +192,7 @@ std::optional<RangeEntry> read_range(TableReader& table, const char* key, Kind k
   ends->finish();
   if (entry.upper.value < entry.lower.value) {
     ends->refuse("upper", fmt::format("expected at least the lower end {}, found {}",
-                                      quoted(entry.lower.text), quoted(entry.upper.text)));
+                                      in_quotes(entry.lower.text), in_quotes(entry.upper.text)));
   }
   return entry;
 }
@@ -219,7 +219,7 @@ control::LoopStructure loop_structure(const std::vector<LoopEntry>& own, const s
   std::vector<std::string> names;
   for (const auto& entry : own) {
     if (entry.structure.name() == name) return entry.structure;
-    names.push_back(quoted(entry.structure.name()));
+    names.push_back(in_quotes(entry.structure.name()));
   }
   if (is_usual(name)) return control::LoopStructure::named(name);
   std::vector<std::string_view> known(usual_structures().begin(), usual_structures().end());
@@ -227,7 +227,7 @@ control::LoopStructure loop_structure(const std::vector<LoopEntry>& own, const s
   throw InvalidInput(
       fmt::format("expected {}PI-0, PI, DPF, LL or FULL, with +N (notch) and +C (compliance "
                   "compensation) behind it as wanted, found {}{}",
-                  names.empty() ? "" : fmt::format("{}, ", fmt::join(names, ", ")), quoted(name),
+                  names.empty() ? "" : fmt::format("{}, ", fmt::join(names, ", ")), in_quotes(name),
                   did_you_mean(name, known)));
 }
 

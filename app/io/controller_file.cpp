@@ -1,4 +1,3 @@
-#include <algorithm>
 #include <cerrno>
 #include <cmath>
 #include <filesystem>
@@ -59,7 +58,7 @@ const Signal& signal_of(const std::array<Signal, count>& known, const std::strin
   }
   const auto near = nearest_name(name, names);
   throw InvalidInput(fmt::format("{}: {}: expected one of {}, found {}{}", file, what,
-                                 fmt::join(names, ", "), app::quoted(name),
+                                 fmt::join(names, ", "), in_quotes(name),
                                  near.empty() ? "" : fmt::format(" (did you mean '{}'?)", near)));
 }
 
@@ -74,7 +73,7 @@ double factor_of(const std::string& unit, const Signal& signal, const std::strin
   }
   if (read.dimension != parse_unit(describe(signal.kind).si_unit).dimension) {
     throw InvalidInput(fmt::format("{}: unit of {}: expected {}, found {}", file, signal.name,
-                                   expectation(signal.kind), app::quoted(unit)));
+                                   expectation(signal.kind), in_quotes(unit)));
   }
   return read.factor;
 }
@@ -112,7 +111,7 @@ void check_sizes(const ControllerText& text, const std::string& file) {
   }
   if (text.angles != "motor" && text.angles != "sky") {
     throw InvalidInput(
-        fmt::format("{}: angles: expected motor or sky, found {}", file, app::quoted(text.angles)));
+        fmt::format("{}: angles: expected motor or sky, found {}", file, in_quotes(text.angles)));
   }
   const auto units = [&](const char* name, const std::vector<std::string>& list,
                          Eigen::Index count) {
@@ -151,19 +150,6 @@ std::string content_of_file(const std::string& path) {
 }
 
 }  // namespace
-
-std::string chosen_part(const std::vector<std::string>& parts, const std::string& asked,
-                        const std::string& file) {
-  constexpr const char* usual = "controller";
-  const auto has = [&](const std::string& part) {
-    return std::ranges::find(parts, part) != parts.end();
-  };
-  if (asked.empty()) return has(usual) ? usual : "";
-  if (has(asked)) return asked;
-  throw InvalidInput(
-      fmt::format("{}: expected a part {}, found {}", file, app::quoted(asked),
-                  parts.empty() ? "none" : fmt::format("{}", fmt::join(parts, ", "))));
-}
 
 ControllerFile parse_controller(std::string_view content, const std::string& name,
                                 double gear_ratio, const ControllerNames& names) {
@@ -288,7 +274,7 @@ GainsFile law_of_report(const std::string& text, const std::string& path, const 
     if (row == nullptr) {
       throw InvalidInput(fmt::format(
           "{}: expected a tuned law that meets its goals{}, found none", path,
-          structure.empty() ? "" : fmt::format(" of structure {}", app::quoted(structure))));
+          structure.empty() ? "" : fmt::format(" of structure {}", in_quotes(structure))));
     }
     GainsFile file;
     const auto name = row->at("structure").get<std::string>();
@@ -302,7 +288,7 @@ GainsFile law_of_report(const std::string& text, const std::string& path, const 
         const auto found = written.find(block.gains[i].symbol);
         if (found == written.end()) {
           throw InvalidInput(fmt::format("{}: expected a gain {} of {}, found none", path,
-                                         block.gains[i].symbol, app::quoted(name)));
+                                         block.gains[i].symbol, in_quotes(name)));
         }
         file.law.gains.push_back(
             parse_quantity(found->second, gain_kind(block.path, block.kind, i)).value);

@@ -20,7 +20,7 @@ using Json = nlohmann::ordered_json;
 }
 
 double number_of(const Json& value, const std::string& file, const char* key) {
-  if (!value.is_number()) refuse(file, key, "numbers", app::quoted(value.dump().substr(0, 40)));
+  if (!value.is_number()) refuse(file, key, "numbers", in_quotes(value.dump().substr(0, 40)));
   return value.get<double>();
 }
 
@@ -30,7 +30,7 @@ Eigen::MatrixXd matrix_of(const Json& json, const std::string& file, const char*
   if (!json.contains(key)) return Eigen::MatrixXd::Zero(rows_if_empty, columns_if_empty);
   const Json& value = json.at(key);
   if (value.is_number()) return Eigen::MatrixXd::Constant(1, 1, value.get<double>());
-  if (!value.is_array()) refuse(file, key, "a list of rows", app::quoted(value.type_name()));
+  if (!value.is_array()) refuse(file, key, "a list of rows", in_quotes(value.type_name()));
   const auto rows = static_cast<Eigen::Index>(value.size());
   if (rows == 0) return Eigen::MatrixXd::Zero(rows_if_empty, columns_if_empty);
   Eigen::MatrixXd matrix;
@@ -54,10 +54,10 @@ std::vector<std::string> texts_of(const Json& json, const std::string& file, con
   std::vector<std::string> texts;
   if (!json.contains(key)) return texts;
   const Json& value = json.at(key);
-  if (!value.is_array()) refuse(file, key, "a list of texts", app::quoted(value.type_name()));
+  if (!value.is_array()) refuse(file, key, "a list of texts", in_quotes(value.type_name()));
   for (const auto& text : value) {
     if (!text.is_string())
-      refuse(file, key, "a list of texts", app::quoted(text.dump().substr(0, 40)));
+      refuse(file, key, "a list of texts", in_quotes(text.dump().substr(0, 40)));
     texts.push_back(text.get<std::string>());
   }
   return texts;
@@ -88,11 +88,11 @@ ControllerText controller_from_json(std::string_view content, const std::string&
     json = Json::parse(content);
   } catch (const Json::exception& error) {
     throw InvalidInput(fmt::format("{}: expected a MAT file of version 5 or JSON, found: {}", name,
-                                   app::quoted(std::string_view(error.what()).substr(0, 200))));
+                                   in_quotes(std::string_view(error.what()).substr(0, 200))));
   }
   if (!json.is_object()) {
     throw InvalidInput(fmt::format("{}: expected an object with A, B, C, D, found {}", name,
-                                   app::quoted(json.type_name())));
+                                   in_quotes(json.type_name())));
   }
   json = part_of(std::move(json), name, part);
   static constexpr std::array known{"format", "A",           "B",           "C",
@@ -104,7 +104,7 @@ ControllerText controller_from_json(std::string_view content, const std::string&
       throw InvalidInput(fmt::format("{}: expected the keys {}, found {}", name,
                                      "A, B, C, D, inputs, outputs, sample_time, input_units, "
                                      "output_units, angles, states, title",
-                                     app::quoted(key)));
+                                     in_quotes(key)));
     }
   }
   if (!json.contains("D")) refuse(name, "D", "a list of rows", "none");
@@ -124,7 +124,7 @@ ControllerText controller_from_json(std::string_view content, const std::string&
     if (json.contains("angles")) text.angles = json.at("angles").get<std::string>();
   } catch (const Json::exception& error) {
     throw InvalidInput(fmt::format("{}: expected a controller, found: {}", name,
-                                   app::quoted(std::string_view(error.what()).substr(0, 200))));
+                                   in_quotes(std::string_view(error.what()).substr(0, 200))));
   }
   return text;
 }

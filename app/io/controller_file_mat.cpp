@@ -93,7 +93,7 @@ class ControllerCollector {
     if (array.elements > 0) values = array.rest.numbers(array.rest.next());
     if (values.size() != array.elements) {
       array.rest.refuse(fmt::format("{} numbers in {} that should have {}", values.size(),
-                                    app::quoted(name), array.elements));
+                                    in_quotes(name), array.elements));
     }
     if (read)
       throw InvalidInput(fmt::format("{}: {}: expected it once, found it again", file_, name));

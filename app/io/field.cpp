@@ -25,7 +25,7 @@ bool is_blank(const TomlNode& node) {
 std::string found_text(const TomlNode& node) {
   switch (node.type) {
     case TomlType::text:
-      return is_blank(node) ? "'?', a blank to fill in" : quoted(node.text);
+      return is_blank(node) ? "'?', a blank to fill in" : in_quotes(node.text);
     case TomlType::integer:
       return "the integer " + node.text;
     case TomlType::number:
@@ -72,13 +72,13 @@ void refuse_field(const Field& field, std::string_view expected, std::string_vie
 
 std::string did_you_mean(std::string_view misspelt, const std::vector<std::string_view>& known) {
   const std::string_view nearest = nearest_name(misspelt, known);
-  return nearest.empty() ? "" : fmt::format(" (did you mean {}?)", quoted(nearest));
+  return nearest.empty() ? "" : fmt::format(" (did you mean {}?)", in_quotes(nearest));
 }
 
 std::string quoted_list(const std::vector<std::string_view>& names) {
   std::string list;
   for (const std::string_view name : names) {
-    list += (list.empty() ? "" : ", ") + quoted(name);
+    list += (list.empty() ? "" : ", ") + in_quotes(name);
   }
   return list;
 }
@@ -201,7 +201,7 @@ void check_range(const Field& field, const PrintedNumber& number, Kind kind, con
             fmt::format("expected {} {}, found {}{}", with_article(name),
                         bounds(bound(range.minimum, Range::any().minimum), range.minimum_excluded,
                                bound(range.maximum, Range::any().maximum)),
-                        quoted(number.text),
+                        in_quotes(number.text),
                         converted ? fmt::format(", which is {:.6g}{}", number.value, unit) : ""));
 }
 

@@ -116,10 +116,10 @@ class Chooser {
     if (found.size() == 1) return {found[0], false};
     refuse_at(entry.location, entry.key,
               found.empty() ? fmt::format("expected a column of {}, found {}{} where it has {}",
-                                          table_.path, quoted(entry.name),
+                                          table_.path, in_quotes(entry.name),
                                           did_you_mean(entry.name, names), columns_of(table_))
                             : fmt::format("expected one column of {}, found {} named {}",
-                                          table_.path, found.size(), quoted(entry.name)));
+                                          table_.path, found.size(), in_quotes(entry.name)));
   }
 
   template <typename Condition>
@@ -148,7 +148,7 @@ class Chooser {
       names.push_back(column.name);
     }
     remarks.push_back(fmt::format("no column {}, which {} names{}: taken as not recorded",
-                                  quoted(entry->name), entry->key,
+                                  in_quotes(entry->name), entry->key,
                                   did_you_mean(entry->name, names)));
     return true;
   }

@@ -255,7 +255,7 @@ RecordHeader read_record_header(std::string_view content, const std::string& nam
         content, odd->begin, name,
         fmt::format("expected a number, found {} (columns of text, dates and times of day "
                     "are not read: leave them out)",
-                    quoted(odd->text)));
+                    in_quotes(odd->text)));
   }
   if (!found) {
     refuse_record(content, above.empty() ? 0 : above.back().end, name,
@@ -291,7 +291,7 @@ RecordHeader read_record_header(std::string_view content, const std::string& nam
     if (numbers_among && !chosen->comment && !is_number(cell.text, header.separator) &&
         !marks_no_number(cell.text)) {
       refuse_record(content, cell.begin, name,
-                    fmt::format("expected a number, found {}", quoted(cell.text)));
+                    fmt::format("expected a number, found {}", in_quotes(cell.text)));
     }
   }
   if (names.size() < 2 || names.size() > most_columns) {

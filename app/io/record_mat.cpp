@@ -44,7 +44,7 @@ class Collector {
     if (!left_out_.empty()) {
       std::string names;
       for (std::size_t i = 0; i < std::min<std::size_t>(left_out_.size(), 8); ++i) {
-        names += (i == 0 ? "" : ", ") + quoted(left_out_[i]);
+        names += (i == 0 ? "" : ", ") + in_quotes(left_out_[i]);
       }
       if (left_out_.size() > 8) names += fmt::format(" and {} more", left_out_.size() - 8);
       table.remarks.push_back(fmt::format("no vectors of numbers, left out: {}", names));
@@ -69,7 +69,7 @@ class Collector {
     std::vector<double> values = array.rest.numbers(array.rest.next());
     if (values.size() != array.elements) {
       array.rest.refuse(fmt::format("{} numbers in {} that should have {}", values.size(),
-                                    quoted(name), array.elements));
+                                    in_quotes(name), array.elements));
     }
     const auto rows = static_cast<std::size_t>(array.dimensions[0]);
     const auto width = static_cast<std::size_t>(array.dimensions[1]);

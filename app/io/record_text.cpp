@@ -134,13 +134,13 @@ class RowReader {
     if (std::isinf(value)) {
       refuse_record(
           content_, begin, name_,
-          fmt::format("expected a number that fits double precision, found {}", quoted(cell)));
+          fmt::format("expected a number that fits double precision, found {}", in_quotes(cell)));
     }
     if (marks_no_number(cell)) return no_number;
     refuse_record(content_, begin, name_,
                   fmt::format("expected a number, found {} (a missing one is left empty, or nan, "
                               "na, null or -; a comment begins with # or %)",
-                              quoted(cell)));
+                              in_quotes(cell)));
   }
 
   void refuse_surplus(const char* begin, const char* end) const {

@@ -350,9 +350,9 @@ ExactUnit read_unit(std::string_view text, const UnitPlace& place) {
 
 void refuse_token(const UnitPlace& place, int column, std::string_view token,
                   std::string_view remedy) {
-  std::string found = token.empty() ? "nothing" : quoted(token);
+  std::string found = token.empty() ? "nothing" : in_quotes(token);
   if (token != place.whole) {
-    found += " in " + quoted(place.whole);
+    found += " in " + in_quotes(place.whole);
   }
   throw UnitError(fmt::format("expected {}, found {} ({})", place.expected, found, remedy), column);
 }

@@ -92,12 +92,12 @@ double factor_of(const std::string& path, int line, std::string_view name, std::
   try {
     found = parse_unit(unit);
   } catch (const UnitError& error) {
-    refuse_line(path, line, fmt::format("column {}: {}", quoted(name), error.what()));
+    refuse_line(path, line, fmt::format("column {}: {}", in_quotes(name), error.what()));
   }
   if (found->dimension != own.dimension) {
     refuse_line(path, line,
-                fmt::format("column {}: expected {}, found the unit {}", quoted(name),
-                            expectation(kind), quoted(unit)));
+                fmt::format("column {}: expected {}, found the unit {}", in_quotes(name),
+                            expectation(kind), in_quotes(unit)));
   }
   return found->factor / own.factor;
 }
@@ -119,8 +119,9 @@ Header header_of(const std::string& path, const Line& line,
     if (bracket != std::string_view::npos) {
       unit = cell.substr(bracket + 1);
       if (!unit.ends_with(']')) {
-        refuse_line(path, line.number,
-                    fmt::format("expected columns written 'name [unit]', found {}", quoted(cell)));
+        refuse_line(
+            path, line.number,
+            fmt::format("expected columns written 'name [unit]', found {}", in_quotes(cell)));
       }
       unit = trimmed(unit.substr(0, unit.size() - 1));
     }
@@ -129,11 +130,11 @@ Header header_of(const std::string& path, const Line& line,
     if (column == columns.end()) {
       refuse_line(path, line.number,
                   fmt::format("expected columns out of {}, found {}", fmt::join(known, ", "),
-                              quoted(name)));
+                              in_quotes(name)));
     }
     if (std::ranges::find(header.names, name) != header.names.end()) {
       refuse_line(path, line.number,
-                  fmt::format("expected each column once, found {} again", quoted(name)));
+                  fmt::format("expected each column once, found {} again", in_quotes(name)));
     }
     header.names.emplace_back(name);
     header.factors.push_back(factor_of(path, line.number, name, unit, column->kind));
@@ -178,7 +179,7 @@ std::map<std::string, Eigen::VectorXd> read_unit_table(const std::string& path,
       if (read.ec != std::errc() || read.ptr != end || !std::isfinite(number)) {
         refuse_line(path, line.number,
                     fmt::format("column '{}': expected a finite number, found {}", header.names[i],
-                                quoted(cells[i])));
+                                in_quotes(cells[i])));
       }
       values[i][row] = number * header.factors[i];
     }

@@ -143,7 +143,7 @@ ExactUnit unit_of_kind(std::string_view text, const UnitPlace& place, Kind kind)
   const ExactUnit unit = read_unit(text, place);
   if (unit.dimension != dimension_of(kind)) {
     throw UnitError(
-        fmt::format("expected {}, found {}, {} ({})", place.expected, quoted(place.whole),
+        fmt::format("expected {}, found {}, {} ({})", place.expected, in_quotes(place.whole),
                     measured_by(unit.dimension), dimension_remedy(kind, unit.dimension)),
         place.column);
   }
@@ -177,7 +177,7 @@ PrintedNumber parse_quantity(std::string_view text, Kind kind) {
     unit = unit_of_kind(unit_text, unit_place, kind);
   } else if (kind != Kind::number) {
     throw UnitError(fmt::format("expected {}, found {}, which has no unit (write '{} {}')",
-                                place.expected, quoted(written), written, usual_unit(kind)),
+                                place.expected, in_quotes(written), written, usual_unit(kind)),
                     place.column);
   }
 

@@ -8,7 +8,7 @@ namespace boresight::app {
 
 /// Text from outside as a message shows it: in single quotes, control characters and bytes that are
 /// not UTF-8 as \xNN, cut after 60 characters. Keeps a hostile file from driving the terminal.
-std::string quoted(std::string_view text);
+std::string in_quotes(std::string_view text);
 
 /// Characters (code points) of a UTF-8 text. A stray byte counts as one or none, never fails.
 int character_count(std::string_view text);

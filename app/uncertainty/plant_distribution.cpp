@@ -29,10 +29,6 @@ double uniform(std::uint64_t state, std::uint64_t index) {
 constexpr std::uint64_t uniform_stream = 0x5eed0001;
 constexpr std::uint64_t normal_stream = 0x5eed0002;
 
-double relative_uncertainty(const Quantity& quantity) {
-  return quantity.value != 0.0 ? quantity.standard_uncertainty / std::abs(quantity.value) : 0.0;
-}
-
 // Logarithms of a draw's factors against the estimate's case, in the order of PlantDraw::values;
 // the friction slope's stays 0. Nothing where it leaves the antenna no inertia.
 std::optional<Eigen::VectorXd> log_factors(const Case& identified,
@@ -120,7 +116,10 @@ PlantDistribution PlantDistribution::of_ranges(const Case& antenna) {
     const auto i = static_cast<Eigen::Index>(place(input));
     distribution.factor_(i, i) = marginal.deviation;
   }
-  distribution.source_ = "independent draws from the ranges and uncertainties of the case";
+  distribution.source_ =
+      "independent draws of structure frequencies, oil stiffness, leakage and friction slope from "
+      "the "
+      "[ensemble]'s ranges and of the inertias by their uncertainties";
   distribution.list_inputs();
   return distribution;
 }
@@ -158,7 +157,7 @@ PlantDistribution PlantDistribution::of_records(
   Marginal& friction = distribution.marginals_.at(place(UncertainInput::friction_slope));
   friction = {};
   friction.lower = 0.0;
-  friction.upper = tracking_friction(identified);
+  friction.upper = largest_viscous_friction(identified);
   distribution.source_ = "draws from what the records leave open, with their correlations";
   distribution.list_inputs();
   return distribution;

@@ -1,8 +1,8 @@
 """Every command that the documentation shows is run: here, by another test, or, for a reason, by nobody.
 
 A command is a line of a code block, or a code span, that begins with ./dev, boresight, cmake, mpirun or
-.ci. One of `boresight` without placeholders is run as it stands, in a folder that has the project's cases;
-one with placeholders (CASE, FILE) must be what the command line takes. ELSEWHERE names the rest, and must
+.ci. One of `boresight` that names no stand-in is run as it stands, in a folder that has the project's cases;
+one with stand-ins (CASE, FILE) must be what the command line takes. ELSEWHERE names the rest, and must
 name nothing else.
 
 usage: commands_test.py PROGRAM SOURCE_FOLDER
@@ -82,13 +82,13 @@ def refusal(line):
     words = shlex.split(line)[1:]
     if len(words) == 1:  # the command's name
         words.append("--help")
-    placeholder = any(re.fullmatch(r"[A-Z][A-Z_.]*(?:=[A-Z]+)?|\w+=VALUE", word) for word in words)
+    stand_in = any(re.fullmatch(r"[A-Z][A-Z_.]*(?:=[A-Z]+)?|\w+=VALUE", word) for word in words)
     with tempfile.TemporaryDirectory() as folder:
         for name in ("cases", "docs", "tests"):
             pathlib.Path(folder, name).symlink_to(SOURCE / name)
         result = subprocess.run([str(PROGRAM), *words], cwd=folder, capture_output=True, text=True,
                                 check=False, timeout=600)
-    if result.returncode == 0 or (placeholder and "--help" not in result.stderr
+    if result.returncode == 0 or (stand_in and "--help" not in result.stderr
                                   and "misspelt" not in result.stderr):
         return ""
     return result.stderr or f"exit code {result.returncode}"

@@ -7,6 +7,7 @@
 #include <boresight/app/evaluate/following_changes.hpp>
 #include <boresight/app/evaluate/proposed_case.hpp>
 #include <boresight/app/io/field.hpp>
+#include <boresight/app/io/structure_numbers.hpp>
 #include <boresight/app/io/wording.hpp>
 #include <boresight/app/redesign/antenna_model.hpp>
 #include <boresight/plant/error.hpp>
@@ -51,7 +52,7 @@ class Application {
   void check_structures() const {
     for (const auto& name : proposal_.structures) {
       try {
-        loop_structure(before_.loops, name);
+        loop_structure(before_, name);
       } catch (const InvalidInput& error) {
         refuse_at(
             proposal_.structures_location, "structures",
@@ -217,6 +218,13 @@ class Application {
           rotor, mode.frequency.value);
       if (locked != nullptr || modes != nullptr)
         refuse_change(locked != nullptr ? *locked : *modes, message);
+    }
+    try {
+      structure_specifications(after_.structure);
+    } catch (const InvalidInput& error) {
+      if (locked != nullptr || modes != nullptr) {
+        refuse_change(locked != nullptr ? *locked : *modes, error.what());
+      }
     }
   }
 

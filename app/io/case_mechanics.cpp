@@ -8,6 +8,7 @@
 #include <boresight/app/io/case_sections.hpp>
 #include <boresight/app/io/drive_numbers.hpp>
 #include <boresight/app/io/modes_file.hpp>
+#include <boresight/app/io/structure_numbers.hpp>
 #include <boresight/app/io/unit_table.hpp>
 #include <boresight/app/io/wording.hpp>
 
@@ -61,7 +62,8 @@ RotatingAssembly read_assembly(TableReader& entry, long stages, NamesInUse& name
 
 // Fills the structure from an export of a finite-element program.
 void take_modes_file(TableReader& table, const std::string& name, Case& antenna) {
-  for (const char* key : {"bull_gear_wind_fraction", "bull_gear_beam_weight", "mode"}) {
+  for (const char* key :
+       {"bull_gear_wind_fraction", "bull_gear_beam_weight", "mode_frequencies", "mode"}) {
     if (table.has(key)) {
       table.refuse(key, "expected either a modes_file or what it says, found both");
     }
@@ -96,6 +98,16 @@ void take_modes_file(TableReader& table, const std::string& name, Case& antenna)
     structure.modes.push_back({number(mode.frequency), number(mode.damping_ratio),
                                number(mode.inertia_fraction), number(mode.wind_fraction),
                                number(mode.beam_weight)});
+  }
+}
+
+// Frequencies with the motors held must belong to an antenna of the stated inertia fractions.
+void check_motors_held(const TableReader& table, const StructureEntry& structure) {
+  if (!structure.motors_held) return;
+  try {
+    structure_specifications(structure);
+  } catch (const InvalidInput& error) {
+    table.refuse("mode_frequencies", error.what());
   }
 }
 
@@ -145,6 +157,7 @@ Quantity disk_inertia_of(const TableReader& table, const MotorInertias& stated) 
 // As built and bare: both as stated, or one by the other and the disks.
 void take_motor_inertias(const TableReader& table, const MotorInertias& stated, MotorEntry& motor) {
   motor.disk_inertia = disk_inertia_of(table, stated);
+  motor.disk_radius = stated.disk_radius;
   const char* disk = stated.disk ? "disk_inertia" : "disk_radius";
   const double disks = motor.flywheel_disks * motor.disk_inertia.value;
   const double of_disks = motor.flywheel_disks * motor.disk_inertia.standard_uncertainty;
@@ -262,6 +275,10 @@ void read_structure(TableReader& file, Case& antenna) {
         table.quantity("bull_gear_wind_fraction", Kind::number, share);
     structure.bull_gear_beam_weight =
         table.quantity("bull_gear_beam_weight", Kind::number, Range::between(-10.0, 10.0));
+    if (table.optional_text("mode_frequencies")) {
+      structure.motors_held =
+          table.choice("mode_frequencies", {"bull_gear_held", "motors_held"}) == "motors_held";
+    }
   }
   structure.lowest_predicted =
       table.optional_quantity("lowest_predicted", Kind::frequency, Range::positive(1000.0));
@@ -291,6 +308,14 @@ void read_structure(TableReader& file, Case& antenna) {
     mode.inertia_fraction = entry.quantity("inertia_fraction", Kind::number, Range::positive(1.0));
     mode.wind_fraction = entry.quantity("wind_fraction", Kind::number, Range::between(-1.0, 1.0));
     mode.beam_weight = entry.quantity("beam_weight", Kind::number, Range::between(-10.0, 10.0));
+    const Quantity& below = structure.modes.empty() ? structure.locked_rotor_frequency
+                                                    : structure.modes.back().frequency;
+    if (structure.motors_held && mode.frequency.value <= below.value) {
+      entry.refuse("frequency",
+                   fmt::format("expected frequencies with the motors held that rise from "
+                               "locked_rotor_frequency, found {} behind {}",
+                               in_quotes(mode.frequency.text), in_quotes(below.text)));
+    }
     if (mode.frequency.value <= structure.locked_rotor_frequency.value) {
       entry.refuse(
           "frequency",
@@ -323,6 +348,7 @@ void read_structure(TableReader& file, Case& antenna) {
                              "1, found {:.6g}",
                              beam));
   }
+  check_motors_held(table, structure);
 }
 
 }  // namespace boresight::app

@@ -1,0 +1,246 @@
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <functional>
+#include <numbers>
+#include <optional>
+
+#include <Eigen/LU>
+#include <fmt/format.h>
+
+#include <boresight/plant/error.hpp>
+#include <boresight/plant/hermitian_eigen.hpp>
+#include <boresight/plant/motors_held_modes.hpp>
+
+namespace boresight::plant {
+namespace {
+
+using Eigen::Index;
+using Eigen::VectorXd;
+
+constexpr double two_pi = 2.0 * std::numbers::pi;
+constexpr std::size_t most_modes = 8;  // starts go with two to the power of their number
+
+[[noreturn]] void refuse(const std::string& message) {
+  throw InvalidInput("expected " + message);
+}
+
+// What the modes' squared frequencies with the bull gear held, the unknowns, must satisfy.
+struct Conditions {
+  VectorXd roots;   // s_0 to s_N
+  VectorXd shares;  // r_i
+
+  // Logarithms of left over right side.
+  VectorXd residuals(const VectorXd& x) const {
+    VectorXd sums = shares.array().log() + 2.0 * x.array().log();
+    for (Index i = 0; i < x.size(); ++i) {
+      for (Index l = 0; l < x.size(); ++l)
+        sums[i] += l == i ? 0.0 : std::log(std::abs(x[l] - x[i]));
+      sums[i] -= (roots.array() - x[i]).abs().log().sum();
+    }
+    return sums;
+  }
+
+  Eigen::MatrixXd slopes(const VectorXd& x) const {
+    Eigen::MatrixXd slopes = Eigen::MatrixXd::Zero(x.size(), x.size());
+    for (Index i = 0; i < x.size(); ++i) {
+      slopes(i, i) = 2.0 / x[i] + (roots.array() - x[i]).inverse().sum();
+      for (Index l = 0; l < x.size(); ++l) {
+        if (l == i) continue;
+        slopes(i, l) = 1.0 / (x[l] - x[i]);
+        slopes(i, i) -= slopes(i, l);
+      }
+    }
+    return slopes;
+  }
+
+  // As much of a step as keeps every unknown between its two roots, nine tenths of the way at most.
+  double allowed(const VectorXd& x, const VectorXd& step) const {
+    double share = 1.0;
+    for (Index i = 0; i < x.size(); ++i) {
+      const double end = step[i] > 0.0 ? roots[i + 1] : roots[i];
+      if (step[i] != 0.0) share = std::min(share, 0.9 * (end - x[i]) / step[i]);
+    }
+    return share;
+  }
+};
+
+std::optional<VectorXd> newton(const Conditions& conditions, VectorXd x) {
+  constexpr int most_steps = 60;
+  constexpr double exact = 1e-12, rounding = 1e-10, shortest = 1e-4;
+  VectorXd residuals = conditions.residuals(x);
+  for (int step = 0; step < most_steps; ++step) {
+    if (residuals.cwiseAbs().maxCoeff() < exact) return x;
+    const VectorXd whole = -conditions.slopes(x).fullPivLu().solve(residuals);
+    if (!whole.allFinite()) return std::nullopt;
+    double share = conditions.allowed(x, whole);
+    bool closer = false;
+    for (; !closer && share > shortest; share *= 0.5) {
+      const VectorXd next = x + share * whole;
+      const VectorXd there = conditions.residuals(next);
+      closer = there.norm() < (1.0 - 1e-4 * share) * residuals.norm();
+      if (!closer) continue;
+      x = next;
+      residuals = there;
+    }
+    if (!closer) break;
+  }
+  if (residuals.cwiseAbs().maxCoeff() < rounding) return x;
+  return std::nullopt;
+}
+
+// All solutions that are found, the largest product (softest gear spring) first.
+std::vector<VectorXd> solutions(const Conditions& conditions) {
+  constexpr std::array<double, 2> from_the_end{0.1, 0.001};
+  constexpr double same = 1e-6;
+  const VectorXd& roots = conditions.roots;
+  const Index modes = conditions.shares.size();
+  std::vector<VectorXd> found;
+  for (const double near : from_the_end) {
+    for (unsigned ends = 0; ends < (1U << static_cast<unsigned>(modes)); ++ends) {
+      VectorXd start(modes);
+      for (Index i = 0; i < modes; ++i) {
+        const bool lower = ((ends >> static_cast<unsigned>(i)) & 1U) != 0U;
+        start[i] = roots[i] + (lower ? near : 1.0 - near) * (roots[i + 1] - roots[i]);
+      }
+      const auto x = newton(conditions, start);
+      if (!x) continue;
+      const bool known = std::ranges::any_of(found, [&](const VectorXd& other) {
+        return ((*x - other).array() / other.array()).abs().maxCoeff() < same;
+      });
+      if (!known) found.push_back(*x);
+    }
+  }
+  std::ranges::sort(found, std::greater{}, [](const VectorXd& x) { return x.array().log().sum(); });
+  return found;
+}
+
+Conditions conditions_of(const StructureSpecification& stated) {
+  const auto modes = static_cast<Index>(stated.modes.size());
+  Conditions conditions{VectorXd(modes + 1), VectorXd(modes)};
+  const auto root = [](double frequency) { return std::pow(two_pi * frequency, 2); };
+  conditions.roots[0] = root(stated.locked_rotor_frequency);
+  double rest = 1.0;
+  for (Index i = 0; i < modes; ++i) {
+    const auto& mode = stated.modes[static_cast<std::size_t>(i)];
+    conditions.roots[i + 1] = root(mode.frequency);
+    conditions.shares[i] = mode.inertia_fraction;
+    rest -= mode.inertia_fraction;
+  }
+  conditions.shares /= rest;
+  return conditions;
+}
+
+void check(const StructureSpecification& stated) {
+  if (stated.modes.size() > most_modes) {
+    refuse(fmt::format("at most {} modes by their frequencies with the motors held, found {}",
+                       most_modes, stated.modes.size()));
+  }
+  double below = 0.0;
+  double sum = 0.0;
+  const auto rising = [&](double frequency) {
+    if (!(frequency > below) || !std::isfinite(frequency)) {
+      refuse(
+          fmt::format("frequencies with the motors held that rise from locked_rotor_frequency, "
+                      "found {:.6g} Hz behind {:.6g} Hz",
+                      frequency, below));
+    }
+    below = frequency;
+  };
+  rising(stated.locked_rotor_frequency);
+  for (const auto& mode : stated.modes) {
+    rising(mode.frequency);
+    if (!(mode.inertia_fraction > 0.0)) {
+      refuse(fmt::format("positive inertia fractions, found {:.6g}", mode.inertia_fraction));
+    }
+    sum += mode.inertia_fraction;
+  }
+  if (!(sum < 1.0)) {
+    refuse(fmt::format("inertia fractions that sum to less than 1, found {:.6g}", sum));
+  }
+}
+
+// What of the fractions would have an antenna: of one mode alone, else of all.
+[[noreturn]] void refuse_heavy(const StructureSpecification& stated) {
+  constexpr int steps = 20;
+  const auto exists = [&](const StructureSpecification& lighter) {
+    return !solutions(conditions_of(lighter)).empty();
+  };
+  for (int step = steps - 1; step > 0; --step) {
+    const double share = static_cast<double>(step) / steps;
+    for (std::size_t i = 0; i < stated.modes.size(); ++i) {
+      StructureSpecification lighter = stated;
+      lighter.modes[i].inertia_fraction *= share;
+      if (!exists(lighter)) continue;
+      refuse(fmt::format(
+          "inertia fractions of which an antenna has these frequencies with the motors held, found "
+          "none: the mode of {:.6g} Hz would need an inertia_fraction of some {:.2g} in the place "
+          "of {:.6g}, or more distance from the frequencies beside it",
+          stated.modes[i].frequency, lighter.modes[i].inertia_fraction,
+          stated.modes[i].inertia_fraction));
+    }
+  }
+  for (int step = steps - 1; step > 0; --step) {
+    const double share = static_cast<double>(step) / steps;
+    StructureSpecification lighter = stated;
+    for (auto& mode : lighter.modes) mode.inertia_fraction *= share;
+    if (!exists(lighter)) continue;
+    refuse(fmt::format(
+        "inertia fractions of which an antenna has these frequencies with the motors held, found "
+        "none: "
+        "with all of them {:.2g} times as large, and the rest at the bull gear, there is one",
+        share));
+  }
+  refuse(
+      "frequencies that an antenna of these inertia fractions has with the motors held, found "
+      "none");
+}
+
+}  // namespace
+
+std::vector<double> motors_held_frequencies(const Structure& structure) {
+  const auto modes = static_cast<Index>(structure.modes.size());
+  const double gear = structure.bull_gear_inertia;
+  const auto positive = [](const char* what, double value) {
+    if (!(value > 0.0)) {
+      throw InvalidInput(
+          fmt::format("motors_held_frequencies: expected a positive {}, found {:g}", what, value));
+    }
+  };
+  positive("bull gear inertia", gear);
+  positive("gear stiffness", structure.gear_stiffness);
+  // Angles times the root of their inertia.
+  Eigen::MatrixXd stiffness = Eigen::MatrixXd::Zero(modes + 1, modes + 1);
+  stiffness(0, 0) = structure.gear_stiffness / gear;
+  for (Index i = 0; i < modes; ++i) {
+    const auto& mode = structure.modes[static_cast<std::size_t>(i)];
+    positive("modal inertia", mode.inertia);
+    positive("modal stiffness", mode.stiffness);
+    stiffness(0, 0) += mode.stiffness / gear;
+    stiffness(i + 1, i + 1) = mode.stiffness / mode.inertia;
+    stiffness(0, i + 1) = stiffness(i + 1, 0) = -mode.stiffness / std::sqrt(mode.inertia * gear);
+  }
+  const auto eigen = hermitian_eigen(stiffness.cast<std::complex<double>>());
+  std::vector<double> frequencies;
+  for (const double square : eigen.values) {
+    frequencies.push_back(std::sqrt(std::max(square, 0.0)) / two_pi);
+  }
+  return frequencies;
+}
+
+std::vector<StructureSpecification> hold_bull_gear_of(const StructureSpecification& motors_held) {
+  check(motors_held);
+  if (motors_held.modes.empty()) return {motors_held};
+  const auto found = solutions(conditions_of(motors_held));
+  if (found.empty()) refuse_heavy(motors_held);
+  std::vector<StructureSpecification> antennas;
+  for (const VectorXd& x : found) {
+    antennas.push_back(motors_held);
+    for (std::size_t i = 0; i < motors_held.modes.size(); ++i) {
+      antennas.back().modes[i].frequency = std::sqrt(x[static_cast<Index>(i)]) / two_pi;
+    }
+  }
+  return antennas;
+}
+
+}  // namespace boresight::plant

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <vector>
+
+#include <boresight/plant/antenna_plant.hpp>
+
+namespace boresight::plant {
+
+/// Frequencies (Hz) of bull gear and modes on the gear spring with the motors held, the lowest
+/// first: what a hammer test or a finite-element program finds. Undamped; one more than modes.
+/// @throws InvalidInput unless inertias and stiffnesses are positive; NumericalFailure if the
+/// eigenvalues do not converge.
+std::vector<double> motors_held_frequencies(const Structure& structure);
+
+/// The antennas whose frequencies with the motors held are those stated: locked_rotor_frequency
+/// and, rising from there, those of the modes (at most 8). Each comes back with its modes'
+/// frequencies as they are with the bull gear held, the softest gear spring first; all else is as
+/// stated.
+///
+/// With s = (2 pi f)^2, x_i those of the modes with the bull gear held and r_i = J_i/J_b, the
+/// secular equation K_g = s (J_b + sum J_i x_i/(x_i - s)) has the N + 1 stated roots s_0 < ... <
+/// s_N if, for each mode,
+///   r_i x_i^2 prod_{l != i} |x_l - x_i| = prod_j |s_j - x_i|,    s_{i-1} < x_i < s_i,
+/// (residues of both sides of K_g - s (...) = J_b prod (s_j - s)/prod (x_i - s)). One mode has two
+/// such antennas or none, more modes often several: near the x_i's upper ends the antenna swings as
+/// one body on a soft gear spring at the lowest frequency, near their lower ends the bull gear
+/// alone does on a stiff one at the highest. Heavy modes close to one another have none. Damped
+/// Newton in the logarithms starts from either end of every x_i; antennas that two starts lead to
+/// count once.
+///
+/// @throws InvalidInput for an inertia fraction that is not positive, fractions that do not sum to
+/// less than 1, frequencies that are not positive or do not rise, more than 8 modes, and if no
+/// antenna is found: then with the mode whose inertia fraction, lowered least, gives one.
+std::vector<StructureSpecification> hold_bull_gear_of(const StructureSpecification& motors_held);
+
+}  // namespace boresight::plant

@@ -1,0 +1,140 @@
+// Structures that are stated by their frequencies with the motors held, and what an audit says.
+#include <string>
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "edited_case.hpp"
+#include <boresight/app/audit/case_graph.hpp>
+#include <boresight/app/audit/plausibility.hpp>
+#include <boresight/app/redesign/antenna_model.hpp>
+#include <boresight/plant/motors_held_modes.hpp>
+
+namespace boresight::app {
+namespace {
+
+using testing::AllOf;
+using testing::HasSubstr;
+using testing::IsEmpty;
+using testing::SizeIs;
+
+Case parsed(const EditedCase& edited) {
+  return parse_case(edited.text(), "case.toml");
+}
+
+EditedCase with_motors_held() {
+  EditedCase edited;
+  edited.replace("\ngear_damping_ratio =",
+                 "\nmode_frequencies = \"motors_held\"\ngear_damping_ratio =");
+  return edited;
+}
+
+// The 70-m antenna by the frequencies that it has with its motors held.
+EditedCase restated() {
+  const auto own =
+      plant::motors_held_frequencies(make_plant(read_case(case_path("dss14-70m"))).structure);
+  EditedCase edited = with_motors_held();
+  std::size_t mode = 0;
+  for (const std::string held : {"2.4 Hz", "3.4 Hz", "4.6 Hz", "6.2 Hz"}) {
+    edited.replace("\nfrequency = { value = \"" + held,
+                   fmt::format("\nfrequency = {{ value = \"{:.17g} Hz", own.at(++mode)));
+  }
+  return edited;
+}
+
+// An antenna of one mode with a fraction of its inertia.
+EditedCase of_one_mode(const std::string& frequency, const std::string& fraction) {
+  EditedCase edited = with_motors_held();
+  const std::string text = edited.text();
+  const std::size_t first = text.find("[[structure.mode]]");
+  const std::size_t end = text.find("\n# What a simulated test needs");
+  edited.replace(text.substr(first, end - first),
+                 "[[structure.mode]]\nfrequency = \"" + frequency +
+                     "\"\ndamping_ratio = \"0.01\"\ninertia_fraction = \"" + fraction +
+                     "\"\nwind_fraction = \"1\"\nbeam_weight = \"0.95\"\n");
+  return edited;
+}
+
+Implausibility found_in(const Case& antenna, const std::string& check) {
+  for (const auto& one : implausibilities(antenna, case_graph(antenna))) {
+    if (one.check == check) return one;
+  }
+  return {};
+}
+
+TEST(MotorsHeldCase, IsTheAntennaThatHasTheseFrequencies) {
+  const auto expected = make_plant(read_case(case_path("dss14-70m"))).structure;
+  const Case antenna = parsed(restated());
+  const auto found = make_plant(antenna).structure;
+  EXPECT_NEAR(found.gear_stiffness / expected.gear_stiffness, 1.0, 1e-9);
+  ASSERT_THAT(found.modes, SizeIs(4));
+  for (std::size_t i = 0; i < found.modes.size(); ++i) {
+    EXPECT_NEAR(found.modes[i].stiffness / expected.modes[i].stiffness, 1.0, 1e-9);
+    EXPECT_NEAR(found.modes[i].damping / expected.modes[i].damping, 1.0, 1e-9);
+  }
+  EXPECT_THAT(found_in(antenna, "motors held").reasoning, IsEmpty());
+}
+
+// So that what the rms hangs on moves what was measured.
+TEST(MotorsHeldCase, MovesWithAStatedFrequency) {
+  Case antenna = parsed(restated());
+  auto expected = plant::motors_held_frequencies(make_plant(antenna).structure);
+  antenna.structure.modes[1].frequency.value *= 1.01;
+  expected[2] *= 1.01;
+  const auto moved = plant::motors_held_frequencies(make_plant(antenna).structure);
+  for (std::size_t i = 0; i < moved.size(); ++i) EXPECT_NEAR(moved[i] / expected[i], 1.0, 1e-9);
+  const auto scaled = plant::motors_held_frequencies(
+      make_plant(antenna, {.structure_frequency_scale = 0.9}).structure);
+  for (std::size_t i = 0; i < moved.size(); ++i) EXPECT_NEAR(scaled[i] / moved[i], 0.9, 1e-9);
+}
+
+TEST(MotorsHeldCase, IsRefusedWhereThereIsNoSuchAntenna) {
+  EXPECT_THAT(refusal_of(with_motors_held().text()),
+              HasSubstr("structure.mode_frequencies: expected inertia fractions of which an "
+                        "antenna has these frequencies with the motors held, found none"));
+  EXPECT_THAT(refusal_of(of_one_mode("4.2 Hz", "0.5").text()),
+              HasSubstr("the mode of 4.2 Hz would need an inertia_fraction of some 0.38"));
+  EXPECT_THAT(refusal_of(with_motors_held().replace("\"3.4 Hz\"", "\"2.3 Hz\"").text()),
+              HasSubstr("expected frequencies with the motors held that rise from "
+                        "locked_rotor_frequency, found '2.3 Hz' behind '2.4 Hz'"));
+  EXPECT_THAT(refusal_of(EditedCase()
+                             .replace("\ngear_damping_ratio =",
+                                      "\nmode_frequencies = \"locked\"\ngear_damping_ratio =")
+                             .text()),
+              HasSubstr("structure.mode_frequencies"));
+}
+
+TEST(MotorsHeldCase, NamesTheOtherAntennaOfTheSameFrequencies) {
+  const Case antenna = parsed(of_one_mode("4 Hz", "0.2"));
+  // x^2 (1 + r) - (s0 + s1) x + s0 s1 = 0 with r = 1/4: 3.403 and 2.103 Hz.
+  const auto found = found_in(antenna, "motors held");
+  EXPECT_THAT(found.reasoning,
+              AllOf(HasSubstr("2 antennas of these inertia fractions"), HasSubstr("softest"),
+                    HasSubstr("modes at 3.403 Hz"), HasSubstr("with 2.103 Hz")))
+      << found.reasoning;
+  ASSERT_THAT(found.numbers, SizeIs(2));
+  EXPECT_NEAR(found.numbers[0].value, make_plant(antenna).structure.gear_stiffness,
+              1e-6 * found.numbers[0].value);
+  EXPECT_LT(found.numbers[0].value, found.numbers[1].value);
+}
+
+TEST(StructuralPredictions, AreComparedWithThePlant) {
+  const auto predicting = [](const std::string& second) {
+    const std::string axis = "lowest_predicted_axis = \"azimuth\"";
+    return parsed(
+        EditedCase().replace(axis, axis +
+                                       "\n[[structure.prediction]]\nfrequency = \"2.05 Hz\"\n"
+                                       "[[structure.prediction]]\nfrequency = \"" +
+                                       second + "\"\n"));
+  };
+  EXPECT_THAT(found_in(predicting("3.3 Hz"), "structural predictions").reasoning, IsEmpty());
+  const auto found = found_in(predicting("4 Hz"), "structural predictions");
+  EXPECT_THAT(found.reasoning, AllOf(HasSubstr("swings at 3.226 Hz for '4 Hz' (-19 %)"),
+                                     HasSubstr("structure.mode_frequencies")))
+      << found.reasoning;
+  EXPECT_THAT(found.numbers, SizeIs(2));
+}
+
+}  // namespace
+}  // namespace boresight::app

@@ -50,16 +50,16 @@ control::LoopStructure structure_named(const Case& antenna, const std::string& n
   }
   for (const auto* base : {"PI-0", "PI", "DPF", "LL", "FULL"}) {
     for (const auto* added : {"", "+N", "+C", "+N+C"}) {
-      auto structure = control::LoopStructure::named(std::string(base) + added);
+      auto structure = loop_structure(antenna, std::string(base) + added);
       if (structure.name() == name) return structure;
     }
   }
-  return loop_structure(antenna.loops, name);
+  return loop_structure(antenna, name);
 }
 
 HeldLaw present_law(const Case& antenna, const std::string& structure) {
   for (const auto& law : present_laws(antenna)) {
-    if (structure.empty() || law.structure == loop_structure(antenna.loops, structure)) {
+    if (structure.empty() || law.structure == loop_structure(antenna, structure)) {
       return {law, structure.empty() ? law.structure.name() : structure,
               "the gains that the case says the antenna runs on"};
     }
@@ -100,7 +100,7 @@ HeldLaw law_of_report(const Case& antenna, const std::string& path, const std::s
       const Json& design = report.at("tuning").at("design");
       const auto name = design.at("structure").get<std::string>();
       if (!structure.empty() &&
-          loop_structure(antenna.loops, structure) != structure_named(antenna, name)) {
+          loop_structure(antenna, structure) != structure_named(antenna, name)) {
         refuse(path, fmt::format("only one of {}", name));
       }
       return {read_law(antenna, path, design, name), structure.empty() ? name : structure, path};

@@ -44,7 +44,8 @@ Json draw_json(const PlantDraw& draw) {
           {"leakage_rate_1", draw[leakage_rate]},
           {"friction_slope_N_m_s_per_rad", draw[friction_slope]},
           {"antenna_inertia_1", draw[antenna_inertia]},
-          {"motor_inertia_1", draw[motor_inertia]}};
+          {"motor_inertia_1", draw[motor_inertia]},
+          {"wind_torque_1", draw[wind_torque]}};
 }
 
 std::string_view standing_text(design::Standing standing) {
@@ -179,12 +180,13 @@ std::string to_csv(const MonteCarloOutcome& outcome) {
   const auto& section = outcome.section;
   fmt::memory_buffer text;
   const auto out = std::back_inserter(text);
-  fmt::format_to(out,
-                 "plant,structure_frequency_1,oil_stiffness_1,leakage_rate_1,"
-                 "friction_slope_N_m_s_per_rad,antenna_inertia_1,motor_inertia_1,standing,"
-                 "beam_rms_mdeg,climate_beam_rms_mdeg,valve_effort_rad_per_s,rate_loop_peak_1,"
-                 "valve_command_peak_1,position_loop_peak_1,worst_goal_ratio_1,"
-                 "retuned_beam_rms_mdeg\n");
+  fmt::format_to(
+      out,
+      "plant,structure_frequency_1,oil_stiffness_1,leakage_rate_1,"
+      "friction_slope_N_m_s_per_rad,antenna_inertia_1,motor_inertia_1,wind_torque_1,"
+      "standing,beam_rms_mdeg,climate_beam_rms_mdeg,valve_effort_rad_per_s,rate_loop_peak_1,"
+      "valve_command_peak_1,position_loop_peak_1,worst_goal_ratio_1,"
+      "retuned_beam_rms_mdeg\n");
   // An empty cell for what there is not.
   const auto cell = [&](double value) {
     if (std::isfinite(value)) {

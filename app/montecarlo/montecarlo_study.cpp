@@ -286,7 +286,7 @@ MonteCarloOutcome run_montecarlo(const MonteCarloArguments& arguments, Ranks& ra
     Case antenna = read_case(arguments.case_path);
     if (!arguments.structure.empty()) {
       try {
-        loop_structure(antenna.loops, arguments.structure);
+        loop_structure(antenna, arguments.structure);
       } catch (const InvalidInput& error) {
         throw InvalidInput(fmt::format("--structure: {}", error.what()));
       }

@@ -1,4 +1,6 @@
+#include <algorithm>
 #include <array>
+#include <numbers>
 #include <numeric>
 
 #include <fmt/format.h>
@@ -51,9 +53,21 @@ double between(const MemberRanges::Ends& ends, double share) {
   return ends.lower + share * (ends.upper - ends.lower);
 }
 
-MemberRanges::Ends stated(const std::optional<RangeEntry>& range, double lower, double upper) {
-  if (!range) return {lower, upper};
+MemberRanges::Ends stated(const std::optional<RangeEntry>& range, const MemberRanges::Ends& usual) {
+  if (!range) return usual;
   return {range->lower.value, range->upper.value};
+}
+
+MemberRanges::Ends both(const MemberRanges::Ends& one, const MemberRanges::Ends& other) {
+  return {std::min(one.lower, other.lower), std::max(one.upper, other.upper)};
+}
+
+// Of a number, `scale` times the factors about 1 that its stated uncertainty leaves.
+MemberRanges::Ends spread(const Quantity& quantity, double scale) {
+  constexpr double least = 0.05;
+  if (!quantity.uncertainty_given) return {scale, scale};
+  const double half = std::numbers::sqrt3 * relative_uncertainty(quantity);
+  return {scale * std::max(1.0 - half, least), scale * (1.0 + half)};
 }
 
 }  // namespace
@@ -61,10 +75,20 @@ MemberRanges::Ends stated(const std::optional<RangeEntry>& range, double lower, 
 MemberRanges member_ranges(const Case& antenna) {
   const EnsembleEntry& ensemble = antenna.ensemble;
   const double leakage = antenna.drive.leakage_rate.value;
-  return {stated(ensemble.structure_frequency, 0.95, 1.05),
-          stated(ensemble.oil_stiffness, 0.8, 1.33),
-          stated(ensemble.leakage_rate, 0.3 * leakage, leakage),
-          stated(ensemble.viscous_friction, 0.0, largest_viscous_friction(antenna))};
+  const MemberRanges spread = spread_of_stated(antenna);
+  return {stated(ensemble.structure_frequency, both({0.95, 1.05}, spread.structure_frequency)),
+          stated(ensemble.oil_stiffness, both({0.8, 1.33}, spread.oil_stiffness)),
+          stated(ensemble.leakage_rate, both({0.3 * leakage, leakage}, spread.leakage_rate)),
+          stated(ensemble.viscous_friction, {0.0, largest_viscous_friction(antenna)})};
+}
+
+MemberRanges spread_of_stated(const Case& antenna) {
+  const Quantity& leakage = antenna.drive.leakage_rate;
+  const double friction = antenna.drive.viscous_friction.value;
+  return {spread(antenna.structure.locked_rotor_frequency, 1.0),
+          antenna.oil.bulk_modulus ? spread(*antenna.oil.bulk_modulus, 1.0) : MemberRanges::Ends{},
+          spread(leakage, leakage.value),
+          {friction, friction}};
 }
 
 std::vector<design::EnsembleMember> plant_members(const Case& antenna, std::uint64_t seed) {

@@ -28,6 +28,11 @@ double uniform(std::uint64_t state, std::uint64_t index) {
 // Streams of a seed: shares of uniform inputs, normal numbers of the others.
 constexpr std::uint64_t uniform_stream = 0x5eed0001;
 constexpr std::uint64_t normal_stream = 0x5eed0002;
+constexpr std::uint64_t wind_stream = 0x5eed0003;
+
+// Inputs of the first two streams. The wind's has its own, so that the others' numbers stay the
+// same whether it varies or not.
+constexpr std::size_t plant_inputs = place(UncertainInput::wind_torque);
 
 // Logarithms of a draw's factors against the estimate's case, in the order of PlantDraw::values;
 // the friction slope's stays 0. Nothing where it leaves the antenna no inertia.
@@ -36,7 +41,7 @@ std::optional<Eigen::VectorXd> log_factors(const Case& identified,
   const double antenna = draw.inertia - draw.motor_inertia - gear_train_inertia(identified);
   if (!(antenna > 0.0)) return std::nullopt;
   using enum UncertainInput;
-  Eigen::VectorXd logs = Eigen::VectorXd::Zero(uncertain_inputs);
+  Eigen::VectorXd logs = Eigen::VectorXd::Zero(plant_inputs);
   const auto set = [&](UncertainInput input, double value, double of_case) {
     if (value > 0.0 && of_case > 0.0) {
       logs(static_cast<Eigen::Index>(place(input))) = std::log(value / of_case);
@@ -56,8 +61,8 @@ std::optional<Eigen::VectorXd> log_factors(const Case& identified,
 
 std::string_view to_string(UncertainInput input) {
   static constexpr std::array<std::string_view, uncertain_inputs> names{
-      "structure frequency", "oil stiffness",   "leakage rate",
-      "friction slope",      "antenna inertia", "motor inertia"};
+      "structure frequency", "oil stiffness", "leakage rate", "friction slope",
+      "antenna inertia",     "motor inertia", "wind torque"};
   return names.at(place(input));
 }
 
@@ -68,7 +73,8 @@ PlantVariant variant_of(const Case& antenna, const PlantDraw& draw) {
           .oil_stiffness = draw[oil_stiffness] * app::oil_stiffness(antenna),
           .leakage_rate = draw[leakage_rate] * antenna.drive.leakage_rate.value,
           .motor_inertia_scale = draw[motor_inertia],
-          .structure_frequency_scale = draw[structure_frequency]};
+          .structure_frequency_scale = draw[structure_frequency],
+          .wind_torque_scale = draw[wind_torque]};
 }
 
 plant::AntennaPlant make_plant(const Case& antenna, const PlantDraw& draw) {
@@ -78,6 +84,19 @@ plant::AntennaPlant make_plant(const Case& antenna, const PlantDraw& draw) {
 double PlantDistribution::Marginal::at(double share) const {
   if (uniform) return lower + share * (upper - lower);
   return std::exp(centre - deviation * std::numbers::sqrt2 * boost::math::erfc_inv(2.0 * share));
+}
+
+void PlantDistribution::set_wind_torque(const Case& antenna) {
+  const auto stated = [](const Quantity& quantity) {
+    return quantity.uncertainty_given ? relative_uncertainty(quantity) : 0.0;
+  };
+  Marginal& marginal = marginals_.at(place(UncertainInput::wind_torque));
+  marginal.uniform = false;
+  marginal.deviation =
+      std::hypot(stated(antenna.wind.torque_coefficient), stated(antenna.wind.air_density));
+  if (marginal.deviation > 0.0) {
+    source_ += "; the wind torque by the uncertainties stated of its coefficient and of the air";
+  }
 }
 
 void PlantDistribution::list_inputs() {
@@ -107,7 +126,7 @@ PlantDistribution PlantDistribution::of_ranges(const Case& antenna) {
                    ranges.leakage_rate.upper / leakage);
   }
   uniform_within(friction_slope, ranges.viscous_friction.lower, ranges.viscous_friction.upper);
-  distribution.factor_ = Eigen::MatrixXd::Zero(uncertain_inputs, uncertain_inputs);
+  distribution.factor_ = Eigen::MatrixXd::Zero(plant_inputs, plant_inputs);
   for (const auto& [input, quantity] : {std::pair{antenna_inertia, &antenna.antenna.inertia},
                                         std::pair{motor_inertia, &antenna.motor.inertia}}) {
     Marginal& marginal = distribution.marginals_.at(place(input));
@@ -120,6 +139,7 @@ PlantDistribution PlantDistribution::of_ranges(const Case& antenna) {
       "independent draws of structure frequencies, oil stiffness, leakage and friction slope from "
       "the "
       "[ensemble]'s ranges and of the inertias by their uncertainties";
+  distribution.set_wind_torque(antenna);
   distribution.list_inputs();
   return distribution;
 }
@@ -127,7 +147,7 @@ PlantDistribution PlantDistribution::of_ranges(const Case& antenna) {
 PlantDistribution PlantDistribution::of_records(
     const Case& identified, const std::vector<identification::DriveEstimate>& draws) {
   constexpr Eigen::Index least = 20;
-  Eigen::MatrixXd logs(static_cast<Eigen::Index>(draws.size()), uncertain_inputs);
+  Eigen::MatrixXd logs(static_cast<Eigen::Index>(draws.size()), plant_inputs);
   Eigen::Index kept = 0;
   for (const auto& draw : draws) {
     if (const auto row = log_factors(identified, draw)) logs.row(kept++) = row->transpose();
@@ -145,9 +165,9 @@ PlantDistribution PlantDistribution::of_records(
   // Inputs that the records say nothing of have rows of zeros: a diagonal of rounding's size keeps
   // the factor defined and their draws where they are.
   const Eigen::MatrixXd lifted =
-      covariance + 1e-24 * Eigen::MatrixXd::Identity(uncertain_inputs, uncertain_inputs);
+      covariance + 1e-24 * Eigen::MatrixXd::Identity(plant_inputs, plant_inputs);
   distribution.factor_ = lifted.llt().matrixL();
-  for (std::size_t i = 0; i < uncertain_inputs; ++i) {
+  for (std::size_t i = 0; i < plant_inputs; ++i) {
     const auto row = static_cast<Eigen::Index>(i);
     Marginal& marginal = distribution.marginals_.at(i);
     marginal.uniform = false;
@@ -159,13 +179,14 @@ PlantDistribution PlantDistribution::of_records(
   friction.lower = 0.0;
   friction.upper = largest_viscous_friction(identified);
   distribution.source_ = "draws from what the records leave open, with their correlations";
+  distribution.set_wind_torque(identified);
   distribution.list_inputs();
   return distribution;
 }
 
 PlantDraw PlantDistribution::draw(std::uint64_t seed, std::uint64_t index) const {
   const plant::NormalNumbers normals(seed, normal_stream);
-  constexpr std::uint64_t pairs = (uncertain_inputs + 1) / 2;
+  constexpr std::uint64_t pairs = (plant_inputs + 1) / 2;
   std::array<double, 2 * pairs> standard{};
   for (std::uint64_t k = 0; k < pairs; ++k) {
     const auto pair = normals.pair(index * pairs + k);
@@ -174,10 +195,10 @@ PlantDraw PlantDistribution::draw(std::uint64_t seed, std::uint64_t index) const
   }
   const std::uint64_t shares = plant::splitmix64(seed, uniform_stream);
   PlantDraw draw;
-  for (std::size_t i = 0; i < uncertain_inputs; ++i) {
+  for (std::size_t i = 0; i < plant_inputs; ++i) {
     const Marginal& marginal = marginals_.at(i);
     if (marginal.uniform) {
-      draw.values.at(i) = marginal.at(uniform(shares, index * uncertain_inputs + i));
+      draw.values.at(i) = marginal.at(uniform(shares, index * plant_inputs + i));
       continue;
     }
     double sum = marginal.centre;
@@ -186,6 +207,9 @@ PlantDraw PlantDistribution::draw(std::uint64_t seed, std::uint64_t index) const
     }
     draw.values.at(i) = std::exp(sum);
   }
+  const Marginal& wind = marginals_.at(place(UncertainInput::wind_torque));
+  const double of_wind = plant::NormalNumbers(seed, wind_stream).pair(index).real();
+  draw.values.at(place(UncertainInput::wind_torque)) = std::exp(wind.deviation * of_wind);
   return draw;
 }
 

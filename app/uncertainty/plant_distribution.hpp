@@ -21,15 +21,16 @@ enum class UncertainInput {
   friction_slope,       // N m s/rad at the motor shaft
   antenna_inertia,      // factor
   motor_inertia,        // factor, flywheels included
+  wind_torque,          // factor
 };
-inline constexpr std::size_t uncertain_inputs = 6;
+inline constexpr std::size_t uncertain_inputs = 7;
 /// "structure frequency" and so on.
 std::string_view to_string(UncertainInput input);
 
 /// One plant that may be the true one: factors on the numbers of a case, whatever a proposal makes
 /// of them, and the slope of the friction.
 struct PlantDraw {
-  std::array<double, uncertain_inputs> values{1.0, 1.0, 1.0, 0.0, 1.0, 1.0};
+  std::array<double, uncertain_inputs> values{1.0, 1.0, 1.0, 0.0, 1.0, 1.0, 1.0};
 
   double operator[](UncertainInput input) const {
     return values.at(static_cast<std::size_t>(input));
@@ -43,11 +44,13 @@ plant::AntennaPlant make_plant(const Case& antenna, const PlantDraw& draw);
 class PlantDistribution {
  public:
   /// Independent, uniform over the case's ensemble ranges (tune/plant_members.hpp); the inertias
-  /// lognormal with the case's own uncertainties.
+  /// lognormal with the case's own uncertainties, and the wind torque with those that the case
+  /// states of torque coefficient and air density, none otherwise.
   static PlantDistribution of_ranges(const Case& antenna);
   /// Lognormal with mean and covariance of what the records leave open, about `identified` (the
   /// case at the estimate, identify/identified_case.hpp); the friction slope uniform from 0 to that
-  /// at the tracking rate. Draws that leave the antenna no inertia are passed over.
+  /// at the tracking rate; the wind torque as in of_ranges. Draws that leave the antenna no inertia
+  /// are passed over.
   /// @throws InvalidInput for fewer than 20 draws.
   static PlantDistribution of_records(const Case& identified,
                                       const std::vector<identification::DriveEstimate>& draws);
@@ -74,6 +77,7 @@ class PlantDistribution {
 
     double at(double share) const;
   };
+  void set_wind_torque(const Case& antenna);
   void list_inputs();
 
   std::array<Marginal, uncertain_inputs> marginals_;

@@ -106,6 +106,55 @@ TEST(PlantDistribution, AFactorOfOneIsTheCase) {
               1.21 * own.structure.gear_stiffness, 1e-12 * own.structure.gear_stiffness);
 }
 
+// Two stated uncertainties together, and no other number of a draw moves.
+TEST(PlantDistribution, DrawsTheWindTorqueByItsStatedUncertainties) {
+  Case windy = reference();
+  windy.wind.torque_coefficient.uncertainty_given = true;
+  windy.wind.torque_coefficient.standard_uncertainty = 0.2 * windy.wind.torque_coefficient.value;
+  windy.wind.air_density.uncertainty_given = true;
+  windy.wind.air_density.standard_uncertainty = 0.05 * windy.wind.air_density.value;
+  const auto calm = PlantDistribution::of_ranges(reference());
+  const auto distribution = PlantDistribution::of_ranges(windy);
+  EXPECT_EQ(calm.inputs().size() + 1, distribution.inputs().size());
+  EXPECT_EQ(distribution.inputs().back(), UncertainInput::wind_torque);
+  double square = 0.0;
+  constexpr std::uint64_t count = 20000;
+  for (std::uint64_t i = 0; i < count; ++i) {
+    PlantDraw draw = distribution.draw(7, i);
+    square += std::pow(std::log(draw[UncertainInput::wind_torque]), 2) / count;
+    draw.values.at(place(UncertainInput::wind_torque)) = 1.0;
+    ASSERT_EQ(draw.values, calm.draw(7, i).values);
+  }
+  const double relative = std::hypot(0.2, 0.05);
+  EXPECT_NEAR(std::sqrt(square), relative, 4.0 * relative / std::sqrt(2.0 * count));
+}
+
+// The sequence of the six inputs of the plant, whatever else is drawn.
+TEST(PlantDistribution, KeepsTheSequenceOfItsDraws) {
+  const auto ranges = member_ranges(reference());
+  const auto distribution = PlantDistribution::of_ranges(reference());
+  const std::uint64_t stream = plant::splitmix64(7, 0x5eed0001);
+  for (std::uint64_t i = 0; i < 5; ++i) {
+    const double share =
+        (static_cast<double>(plant::splitmix64(stream, 6 * i + 1) >> 12U) + 0.5) * 0x1p-52;
+    EXPECT_DOUBLE_EQ(distribution.draw(7, i)[UncertainInput::oil_stiffness],
+                     ranges.oil_stiffness.lower +
+                         share * (ranges.oil_stiffness.upper - ranges.oil_stiffness.lower));
+  }
+}
+
+TEST(PlantDistribution, AWindTorqueIsThatOfThePlant) {
+  PlantDraw draw = PlantDistribution::of_ranges(reference()).median();
+  const auto calm = make_plant(reference(), draw).structure;
+  draw.values.at(place(UncertainInput::wind_torque)) = 1.2;
+  const auto windy = make_plant(reference(), draw).structure;
+  EXPECT_EQ(windy.bull_gear_wind_fraction, 1.2 * calm.bull_gear_wind_fraction);
+  for (std::size_t i = 0; i < calm.modes.size(); ++i) {
+    EXPECT_EQ(windy.modes[i].wind_fraction, 1.2 * calm.modes[i].wind_fraction);
+    EXPECT_EQ(windy.modes[i].stiffness, calm.modes[i].stiffness);
+  }
+}
+
 TEST(PlantDistribution, RefusesWhatIsNoShare) {
   const auto distribution = PlantDistribution::of_ranges(reference());
   EXPECT_THROW(distribution.at_shares({0.5}), InvalidInput);

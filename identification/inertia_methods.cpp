@@ -132,7 +132,8 @@ InertiaIdentification identify_inertia(const DriveEvidence& evidence,
                [=](Point point) { return motors(point) + printed * parts(point) / nominal; });
   }
 
-  const Formula density = inputs.add("oil density", evidence.oil_density);
+  Formula density;
+  if (!evidence.lines.empty()) density = inputs.add("oil density", evidence.oil_density);
   std::vector<Formula> line_moduli;
   std::vector<std::size_t> line_targets;
   for (const auto& line : evidence.lines) {

@@ -51,7 +51,7 @@ struct DriveEvidence {
   Uncertain displacement;   // one motor, m3/rad
   Uncertain torque_efficiency;
   Uncertain volumetric_efficiency;
-  Uncertain oil_density;
+  Uncertain oil_density;  // for lines alone
   std::vector<Line> lines;
   std::optional<Uncertain> bulk_modulus;  // else the mean over the lines
   Uncertain volume_1;

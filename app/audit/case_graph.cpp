@@ -200,7 +200,7 @@ class GraphBuilder {
 
   void add_oil() {
     const OilEntry& oil = case_.oil;
-    input("oil.density", "density of the oil", oil.density);
+    if (oil.density) input("oil.density", "density of the oil", *oil.density);
     std::vector<std::string> moduli;
     for (const OilLine& line : oil.lines) {
       const std::string name = "line." + line.name;

@@ -41,10 +41,15 @@ std::vector<Implausibility> implausibilities(const Case& antenna,
   check_friction_tests(numbers, found);
   check_coulomb_levels(numbers, found);
   check_valve_stroke(numbers, found);
+  check_inertia_against_dish(numbers, found);
+  check_flywheels(numbers, found);
   check_return_pressures(numbers, found);
   check_recorder_limit(numbers, found);
   check_wave_speeds(numbers, found);
   check_structural_bound(numbers, found);
+  check_structural_predictions(numbers, found);
+  check_motors_held_antennas(numbers, found);
+  check_ensemble_ranges(numbers, found);
   check_carrier_frequencies(numbers, found);
   return found;
 }

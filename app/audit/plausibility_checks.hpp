@@ -17,6 +17,18 @@ struct CaseNumbers {
 };
 CaseNumbers case_numbers(const Case& antenna, const identification::AuditGraph& graph);
 
+/// Torque of all motors (N m), with its standard uncertainty.
+struct MotorTorque {
+  double value = 0.0;
+  double uncertainty = 0.0;
+};
+/// At the supply pressure, the return pressure not taken off.
+MotorTorque torque_of_supply(const CaseNumbers& numbers);
+/// By the friction curve, to first order.
+MotorTorque friction_at_slew_rate(const CaseNumbers& numbers);
+/// Whether that is more than the supply's torque, by more than two standard uncertainties.
+bool friction_stops_slewing(const CaseNumbers& numbers);
+
 using Implausibilities = std::vector<Implausibility>;
 
 void check_inertia_remainders(const CaseNumbers& numbers, Implausibilities& found);
@@ -24,6 +36,9 @@ void check_expected_resonance(const CaseNumbers& numbers, Implausibilities& foun
 void check_coincidences(const CaseNumbers& numbers, Implausibilities& found);
 void check_structural_bound(const CaseNumbers& numbers, Implausibilities& found);
 void check_wave_speeds(const CaseNumbers& numbers, Implausibilities& found);
+void check_structural_predictions(const CaseNumbers& numbers, Implausibilities& found);
+void check_motors_held_antennas(const CaseNumbers& numbers, Implausibilities& found);
+void check_ensemble_ranges(const CaseNumbers& numbers, Implausibilities& found);
 void check_carrier_frequencies(const CaseNumbers& numbers, Implausibilities& found);
 void check_friction_slope(const CaseNumbers& numbers, Implausibilities& found);
 void check_friction_against_supply(const CaseNumbers& numbers, Implausibilities& found);
@@ -31,6 +46,8 @@ void check_friction_tests(const CaseNumbers& numbers, Implausibilities& found);
 void check_coulomb_levels(const CaseNumbers& numbers, Implausibilities& found);
 void check_impulse_order(const CaseNumbers& numbers, Implausibilities& found);
 void check_valve_stroke(const CaseNumbers& numbers, Implausibilities& found);
+void check_inertia_against_dish(const CaseNumbers& numbers, Implausibilities& found);
+void check_flywheels(const CaseNumbers& numbers, Implausibilities& found);
 void check_return_pressures(const CaseNumbers& numbers, Implausibilities& found);
 void check_recorder_limit(const CaseNumbers& numbers, Implausibilities& found);
 

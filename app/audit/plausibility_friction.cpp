@@ -17,35 +17,8 @@ namespace {
 constexpr double large_share = 0.4;  // of the supply's torque
 constexpr double clear_factor = 1.5;
 
-/// N m of all motors, with its standard uncertainty.
-struct Torque {
-  double value = 0.0;
-  double uncertainty = 0.0;
-};
-
 std::string as_written(const Quantity& quantity) {
   return fmt::format("'{}'{}", quantity.text, quantity.basis == Basis::assumed ? " (assumed)" : "");
-}
-
-Torque torque_of_supply(const CaseNumbers& numbers) {
-  const MotorEntry& motor = numbers.antenna.motor;
-  const double relative = std::hypot(relative_uncertainty(numbers.antenna.drive.supply_pressure),
-                                     relative_uncertainty(motor.displacement),
-                                     relative_uncertainty(motor.torque_efficiency));
-  return {numbers.supply_torque, relative * numbers.supply_torque};
-}
-
-// To first order. The rates at which the curve falls and levels off hardly show at slew rate.
-Torque friction_at_slew_rate(const CaseNumbers& numbers) {
-  const FrictionCurveEntry& entry = numbers.antenna.friction_curve;
-  const plant::FrictionCurve curve = friction_curve(numbers.antenna);
-  const double rate = numbers.slew_rate_at_motor;
-  const double of_rate = rate * relative_uncertainty(numbers.antenna.drive.slew_rate);
-  return {
-      plant::friction_torque(curve, rate),
-      std::hypot(
-          std::hypot(entry.coulomb.standard_uncertainty, entry.saturating.standard_uncertainty),
-          rate * entry.viscous.standard_uncertainty, of_rate * plant::friction_slope(curve, rate))};
 }
 
 const Quantity& largest_part(const FrictionCurveEntry& curve, double rate) {
@@ -58,7 +31,7 @@ const Quantity& largest_part(const FrictionCurveEntry& curve, double rate) {
           })->second;
 }
 
-std::string taken_by_friction(const CaseNumbers& numbers, const Torque& friction,
+std::string taken_by_friction(const CaseNumbers& numbers, const MotorTorque& friction,
                               const Quantity& most, bool at_rest) {
   if (at_rest) {
     return fmt::format("to break away takes {:.3g} N.m, by {} {}", friction.value, most.key,
@@ -72,7 +45,7 @@ std::string taken_by_friction(const CaseNumbers& numbers, const Torque& friction
 }
 
 // Of what takes more than the whole of the supply's torque, or a large share of it.
-std::string too_much_friction(const CaseNumbers& numbers, const Torque& friction,
+std::string too_much_friction(const CaseNumbers& numbers, const MotorTorque& friction,
                               const Quantity& most, bool at_rest, bool impossible) {
   std::string claim = fmt::format("Friction takes {:.0f} % of the supply's torque",
                                   100.0 * friction.value / numbers.supply_torque);
@@ -154,30 +127,58 @@ void compare(const std::string& what, const Quantity& tested, const Reach& reach
         {"most by the curve", reach.most, unit}}});
 }
 
+// More than that share of the supply's torque, by more than two standard uncertainties.
+bool above(const MotorTorque& friction, double share, const MotorTorque& supply) {
+  return friction.value - share * supply.value >
+         2.0 * std::hypot(friction.uncertainty, share * supply.uncertainty);
+}
+
 }  // namespace
+
+MotorTorque torque_of_supply(const CaseNumbers& numbers) {
+  const MotorEntry& motor = numbers.antenna.motor;
+  const double relative = std::hypot(relative_uncertainty(numbers.antenna.drive.supply_pressure),
+                                     relative_uncertainty(motor.displacement),
+                                     relative_uncertainty(motor.torque_efficiency));
+  return {numbers.supply_torque, relative * numbers.supply_torque};
+}
+
+// The rates at which the curve falls and levels off hardly show at slew rate.
+MotorTorque friction_at_slew_rate(const CaseNumbers& numbers) {
+  const FrictionCurveEntry& entry = numbers.antenna.friction_curve;
+  const plant::FrictionCurve curve = friction_curve(numbers.antenna);
+  const double rate = numbers.slew_rate_at_motor;
+  const double of_rate = rate * relative_uncertainty(numbers.antenna.drive.slew_rate);
+  return {
+      plant::friction_torque(curve, rate),
+      std::hypot(
+          std::hypot(entry.coulomb.standard_uncertainty, entry.saturating.standard_uncertainty),
+          rate * entry.viscous.standard_uncertainty, of_rate * plant::friction_slope(curve, rate))};
+}
+
+bool friction_stops_slewing(const CaseNumbers& numbers) {
+  return above(friction_at_slew_rate(numbers), 1.0, torque_of_supply(numbers));
+}
 
 void check_friction_against_supply(const CaseNumbers& numbers, Implausibilities& found) {
   const FrictionCurveEntry& curve = numbers.antenna.friction_curve;
-  const Torque supply = torque_of_supply(numbers);
-  const Torque starting{curve.breakaway.value, curve.breakaway.standard_uncertainty};
-  const Torque slewing = friction_at_slew_rate(numbers);
-  const auto above = [&](const Torque& friction, double share) {
-    return friction.value - share * supply.value >
-           2.0 * std::hypot(friction.uncertainty, share * supply.uncertainty);
-  };
+  const MotorTorque supply = torque_of_supply(numbers);
+  const MotorTorque starting{curve.breakaway.value, curve.breakaway.standard_uncertainty};
+  const MotorTorque slewing = friction_at_slew_rate(numbers);
   // What cannot even break away need not be told that it slews too slowly.
-  const bool at_rest = starting.value >= slewing.value || above(starting, 1.0);
-  const Torque& friction = at_rest ? starting : slewing;
-  if (!above(friction, large_share)) return;
+  const bool at_rest = starting.value >= slewing.value || above(starting, 1.0, supply);
+  const MotorTorque& friction = at_rest ? starting : slewing;
+  if (!above(friction, large_share, supply)) return;
   const Quantity& most =
       at_rest ? curve.breakaway : largest_part(curve, numbers.slew_rate_at_motor);
-  found.push_back({"friction against the supply",
-                   most.key,
-                   too_much_friction(numbers, friction, most, at_rest, above(friction, 1.0)),
-                   {{"breakaway", starting.value, "N.m"},
-                    {"friction at slew rate", slewing.value, "N.m"},
-                    {"supply torque", supply.value, "N.m"},
-                    {"share of the supply torque", friction.value / supply.value, "1"}}});
+  found.push_back(
+      {"friction against the supply",
+       most.key,
+       too_much_friction(numbers, friction, most, at_rest, above(friction, 1.0, supply)),
+       {{"breakaway", starting.value, "N.m"},
+        {"friction at slew rate", slewing.value, "N.m"},
+        {"supply torque", supply.value, "N.m"},
+        {"share of the supply torque", friction.value / supply.value, "1"}}});
 }
 
 void check_friction_tests(const CaseNumbers& numbers, Implausibilities& found) {

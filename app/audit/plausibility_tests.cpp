@@ -5,7 +5,6 @@
 #include <fmt/format.h>
 
 #include <boresight/app/audit/plausibility_checks.hpp>
-#include <boresight/app/io/drive_numbers.hpp>
 #include <boresight/plant/hydraulics.hpp>
 
 namespace boresight::app {
@@ -105,61 +104,6 @@ void check_coulomb_levels(const CaseNumbers& numbers, Implausibilities& found) {
        {{"constant speed", intercept, "N.m"},
         {"slow ramp", ramp, "N.m"},
         {"factor", factor, "1"}}});
-}
-
-void check_valve_stroke(const CaseNumbers& numbers, Implausibilities& found) {
-  struct Stroke {
-    std::string how;
-    Quantity rate;
-  };
-  const Case& antenna = numbers.antenna;
-  const DriveEntry& drive = antenna.drive;
-  std::vector<Stroke> strokes;
-  if (antenna.simulation && antenna.simulation->valve_stroke_stated) {
-    strokes.push_back(
-        {fmt::format("by simulation.valve_stroke '{}'", antenna.simulation->valve_stroke.text),
-         antenna.simulation->valve_stroke});
-  }
-  if (const auto rated = rated_stroke(antenna);
-      rated && drive.valve_rated_flow && drive.valve_rated_pressure_drop) {
-    strokes.push_back(
-        {fmt::format("by its rated flow of '{}' at '{}'", drive.valve_rated_flow->text,
-                     drive.valve_rated_pressure_drop->text),
-         *rated});
-  }
-  const double slewing = numbers.slew_rate_at_motor;
-  const double of_slewing = slewing * relative_uncertainty(drive.slew_rate);
-  for (const Stroke& stroke : strokes) {
-    const double reached = stroke.rate.value;
-    const double uncertainty = std::hypot(of_slewing, stroke.rate.standard_uncertainty);
-    if (slewing - reached <= 2.0 * uncertainty) continue;
-    found.push_back(
-        {"valve stroke",
-         "drive.slew_rate",
-         fmt::format(
-             "Slewing at '{}' takes {:.3g} rad/s of the motors; the valve, fully open, lets "
-             "them turn at {:.3g} rad/s without load {}, {:.0f} % of that: the antenna "
-             "cannot slew so fast, or a number of valve, supply, motors or gear ratio is "
-             "wrong.",
-             drive.slew_rate.text, slewing, reached, stroke.how, 100.0 * reached / slewing),
-         {{"motor rate at slew rate", slewing, "rad/s"}, {"valve stroke", reached, "rad/s"}}});
-  }
-  if (strokes.size() < 2) return;
-  const Quantity& stated = strokes[0].rate;
-  const Quantity& rated = strokes[1].rate;
-  const double difference = std::abs(stated.value - rated.value);
-  if (difference <= 0.05 * rated.value ||
-      difference <= 2.0 * std::hypot(stated.standard_uncertainty, rated.standard_uncertainty)) {
-    return;
-  }
-  found.push_back(
-      {"valve stroke",
-       "simulation.valve_stroke",
-       fmt::format("The valve, fully open, lets the motors turn at {:.3g} rad/s without "
-                   "load {}, and at {:.3g} rad/s {}: one of the two is wrong.",
-                   stated.value, strokes[0].how, rated.value, strokes[1].how),
-       {{"valve stroke", stated.value, "rad/s"},
-        {"valve stroke by the rated flow", rated.value, "rad/s"}}});
 }
 
 void check_return_pressures(const CaseNumbers& numbers, Implausibilities& found) {

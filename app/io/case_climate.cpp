@@ -1,4 +1,6 @@
+#include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <numbers>
 
 #include <boresight/app/io/case_sections.hpp>
@@ -13,7 +15,7 @@ double share(TableReader& entry) {
 }
 
 // One entry is one speed or one Weibull law; several make a mixture.
-void read_speeds(TableReader& entry, std::vector<design::WeightedSpeed>& speeds) {
+design::ClimatePart read_part(TableReader& entry, const WindEntry& wind) {
   const Range usual = Range::between(0.1, 60.0);
   const auto speed = entry.optional_quantity("speed", Kind::speed, usual);
   const auto scale = entry.optional_quantity("scale", Kind::speed, usual);
@@ -31,17 +33,24 @@ void read_speeds(TableReader& entry, std::vector<design::WeightedSpeed>& speeds)
       entry.refuse(shape ? "shape" : "highest",
                    "expected it beside a scale, found it beside a speed");
     }
-    speeds.push_back({speed->value, weight});
-    return;
+    return {at_dish_centre(wind, *speed).value, weight};
   }
-  if (!shape || !highest) {
+  if (!scale || !shape || !highest) {
     entry.refuse(shape ? "highest" : "shape",
                  "expected scale, shape and highest together, found not all");
   }
-  for (const auto& one : design::climate_speeds(
-           design::WeibullClimate{scale ? scale->value : 0.0, shape->value, highest->value})) {
-    speeds.push_back({one.speed, weight * one.weight});
-  }
+  return {design::WeibullClimate{at_dish_centre(wind, *scale).value, shape->value,
+                                 at_dish_centre(wind, *highest).value},
+          weight};
+}
+
+// Speeds and weights of one part.
+std::vector<design::WeightedSpeed> speeds_of(const design::ClimatePart& part) {
+  const auto* law = std::get_if<design::WeibullClimate>(&part.winds);
+  if (law == nullptr) return {{std::get<double>(part.winds), part.weight}};
+  auto speeds = design::climate_speeds(*law);
+  for (auto& one : speeds) one.weight *= part.weight;
+  return speeds;
 }
 
 // The torque coefficient in one attitude.
@@ -80,7 +89,10 @@ double read_coefficient(TableReader& entry, const Case& antenna, double directio
 
 void read_climate(TableReader& wind, Case& antenna) {
   std::vector<design::WeightedSpeed> speeds;
-  for (auto& entry : wind.tables("climate")) read_speeds(entry, speeds);
+  for (auto& entry : wind.tables("climate")) {
+    antenna.wind.climate_parts.push_back(read_part(entry, antenna.wind));
+    std::ranges::copy(speeds_of(antenna.wind.climate_parts.back()), std::back_inserter(speeds));
+  }
   if (!speeds.empty()) antenna.wind.climate = design::climate_speeds(speeds);
   const auto& attitude = antenna.wind.attitude;
   const auto& azimuth = antenna.antenna.azimuth;

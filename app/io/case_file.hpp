@@ -63,8 +63,9 @@ struct MotorEntry {
   long count = 1;
   Quantity inertia;  // one motor as built, flywheel included
   double flywheel_disks = 0.0;
-  Quantity rotor_inertia;  // one bare motor
-  Quantity disk_inertia;   // one flywheel disk
+  Quantity rotor_inertia;               // one bare motor
+  Quantity disk_inertia;                // one flywheel disk
+  std::optional<Quantity> disk_radius;  // where a solid disk is stated
   Quantity displacement;
   Quantity torque_efficiency;
   Quantity volumetric_efficiency;
@@ -78,7 +79,7 @@ struct OilLine {
 };
 
 struct OilEntry {
-  Quantity density;
+  std::optional<Quantity> density;       // always where there are lines, known by length or wave
   std::optional<Quantity> bulk_modulus;  // else the mean over the lines
   Quantity volume_1;
   Quantity volume_2;
@@ -158,6 +159,9 @@ struct StructureModeEntry {
 
 struct StructureEntry {
   Quantity locked_rotor_frequency;
+  /// Whether the modes' frequencies are with the motors held, as locked_rotor_frequency is; else
+  /// with the bull gear held.
+  bool motors_held = false;
   Quantity gear_damping_ratio;
   Quantity bull_gear_wind_fraction;
   Quantity bull_gear_beam_weight;
@@ -179,13 +183,24 @@ struct WindAttitude {
   double elevation = 0.0;
 };
 
+/// The mast that a case's mean speeds are from: they grow with the height above ground as
+/// height^shear_exponent, and a case holds them at the height of the dish's centre.
+struct WindMast {
+  double height = 0.0;       // m
+  double dish_height = 0.0;  // m
+  double shear_exponent = 0.0;
+  double speed_ratio = 1.0;  // mean speed at the dish's centre over that at the mast
+};
+
 struct WindEntry {
   Quantity air_density, torque_coefficient, gradient_coefficient, coherence_decay;
   Quantity design_speed;
+  std::optional<WindMast> mast;  // none: speeds are stated at the height of the dish's centre
   std::string model;
   plant::GustSpectrum gusts;
   /// How often which mean speed blows; empty: not stated.
   std::vector<design::WeightedSpeed> climate;
+  std::vector<design::ClimatePart> climate_parts;  // the same as the case states it
   /// Root of the mean square of the torque coefficients over the attitudes that the case gives.
   std::optional<double> climate_torque_coefficient;
   /// Torque coefficients over yaw and elevation; torque_coefficient is then the table's.
@@ -269,9 +284,10 @@ Case read_case(const std::string& path);
 /// Same, of a text; files that it names stand relative to the path's folder.
 Case parse_case(std::string_view text, const std::string& path);
 
-/// A loop structure by the name of one of the case's own, or else as control::LoopStructure::named.
+/// A loop structure by the name of one of the case's own, or else as control::LoopStructure::named,
+/// with bounds for the case's antenna (LoopStructure::with_bounds_for, driven_load).
 /// @throws InvalidInput listing them
-control::LoopStructure loop_structure(const std::vector<LoopEntry>& own, const std::string& name);
+control::LoopStructure loop_structure(const Case& antenna, const std::string& name);
 
 /// Puts other goals in the place of the case's: each change reads KEY=VALUE, with a key and value
 /// of [goals], "valve_effort=0.4 rad/s".

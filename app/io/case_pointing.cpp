@@ -107,6 +107,9 @@ void read_pointing(TableReader& file, Case& antenna) {
     }
     budget.wind_speed =
         entry.optional_quantity("wind_speed", Kind::speed, Range::between(0.1, 60.0));
+    if (budget.wind_speed) {
+      budget.wind_speed = at_dish_centre(antenna.wind, *budget.wind_speed);
+    }
     entry.finish();
     if (!budget.loss && !budget.rms) {
       entry.refuse("loss", "expected either loss (dB) or rms (angle), found neither");

@@ -30,6 +30,8 @@ void read_structure(TableReader& file, Case& antenna);
 void read_campaign(TableReader& file, Case& antenna);
 void read_sensors(TableReader& file, Case& antenna);
 void read_wind(TableReader& file, Case& antenna);
+/// A mean wind speed as the case states it, at the height of the dish's centre.
+Quantity at_dish_centre(const WindEntry& wind, const Quantity& stated);
 void read_pointing(TableReader& file, Case& antenna);
 void read_goals(TableReader& file, Case& antenna);
 /// Wind speeds and attitudes by their shares, within [wind].

@@ -14,8 +14,14 @@ namespace {
 
 constexpr double degree = std::numbers::pi / 180.0;
 
-// What the keys of a spectrum say; each belongs to some of the spectra.
-plant::GustSpectrum read_gusts(TableReader& table) {
+/// What the keys of a spectrum say, and the height of the dish's centre if it is stated.
+struct Gusts {
+  plant::GustSpectrum spectrum;
+  std::optional<Quantity> height;
+};
+
+// Each of the keys belongs to some of the spectra, the height beside a mast's to all.
+Gusts read_gusts(TableReader& table) {
   const std::string spectrum =
       table.has("spectrum")
           ? table.choice("spectrum", {"davenport", "von_karman", "kaimal", "eurocode"})
@@ -30,8 +36,10 @@ plant::GustSpectrum read_gusts(TableReader& table) {
       table.optional_text(key);  // a known key all the same
       return std::nullopt;
     }
-    const bool either = spectrum == "von_karman" && (std::string_view(key) == "length_scale" ||
-                                                     std::string_view(key) == "height");
+    const bool is_height = std::string_view(key) == "height";
+    const bool either =
+        (spectrum == "von_karman" && (std::string_view(key) == "length_scale" || is_height)) ||
+        (spectrum == "davenport" && is_height);
     return either ? table.optional_quantity(key, kind, range) : table.quantity(key, kind, range);
   };
   const Range length = Range::positive(1e4);
@@ -43,23 +51,55 @@ plant::GustSpectrum read_gusts(TableReader& table) {
   const double intensity = value(
       takes("turbulence_intensity", Kind::number, Range::positive(1.0), {"von_karman", "kaimal"}));
   const auto scale = takes("length_scale", Kind::length, length, {"von_karman"});
-  const auto height = takes("height", Kind::length, length, {"von_karman", "kaimal", "eurocode"});
+  std::set<std::string> with_height{"von_karman", "kaimal", "eurocode"};
+  if (table.has("mast_height")) with_height.insert("davenport");
+  const auto height = takes("height", Kind::length, length, with_height);
   const double roughness = value(takes("roughness_length", Kind::length, length, {"eurocode"}));
   const double lowest = value(takes("minimum_height", Kind::length, length, {"eurocode"}));
-  if (spectrum == "davenport") return plant::davenport_gusts(drag);
+  if (spectrum == "davenport") return {plant::davenport_gusts(drag), height};
   if (spectrum == "von_karman") {
-    if (scale.has_value() == height.has_value()) {
+    const bool both = scale && height && !table.has("mast_height");
+    if (both || (!scale && !height)) {
       table.refuse("length_scale", std::string("expected either length_scale or height, found ") +
                                        (scale ? "both" : "neither"));
     }
-    return plant::von_karman_gusts(
-        intensity, scale ? scale->value : plant::von_karman_length_scale(value(height)));
+    return {plant::von_karman_gusts(
+                intensity, scale ? scale->value : plant::von_karman_length_scale(value(height))),
+            height};
   }
-  if (spectrum == "kaimal") return plant::kaimal_gusts(intensity, value(height));
+  if (spectrum == "kaimal") return {plant::kaimal_gusts(intensity, value(height)), height};
   if (std::min(value(height), lowest) <= roughness) {
     table.refuse("roughness_length", "expected a length below height and minimum_height");
   }
-  return plant::eurocode_gusts(value(height), roughness, lowest);
+  return {plant::eurocode_gusts(value(height), roughness, lowest), height};
+}
+
+std::optional<WindMast> read_mast(TableReader& table, const std::optional<Quantity>& height) {
+  const auto mast_height =
+      table.optional_quantity("mast_height", Kind::length, Range::positive(1e4));
+  if (!mast_height) {
+    if (table.has("shear_exponent")) {
+      table.refuse("shear_exponent", "expected a mast_height beside it, found none");
+    }
+    table.optional_text("shear_exponent");
+    return std::nullopt;
+  }
+  if (!height) {
+    table.refuse("mast_height",
+                 "expected the height of the dish's centre, height, beside it, found none");
+  }
+  const double exponent = table
+                              .quantity_or("shear_exponent", Kind::number, Range::between(0.0, 1.0),
+                                           0.14, "power law over open country")
+                              .value;
+  return WindMast{mast_height->value, height->value, exponent,
+                  std::pow(height->value / mast_height->value, exponent)};
+}
+
+// Gusts are as strong at either height, and the less of the mean speed where that is more.
+void raise(plant::GustSpectrum& gusts, double speed_ratio) {
+  gusts.surface_drag /= speed_ratio * speed_ratio;
+  if (gusts.kind != plant::GustSpectrumKind::eurocode) gusts.turbulence_intensity /= speed_ratio;
 }
 
 // Sorted, without repetitions.
@@ -173,6 +213,10 @@ void read_wind_record(TableReader& table, WindEntry& wind, const std::string& ca
   plant::WindRecord record;
   record.sample_time = step;
   record.speed = columns.at("speed");
+  if (wind.mast) {
+    const double more = (wind.mast->speed_ratio - 1.0) * record.speed.mean();
+    record.speed = (record.speed.array() + more).max(0.0).matrix().eval();
+  }
   if (const auto direction = columns.find("direction"); direction != columns.end()) {
     record.direction = direction->second;
   }
@@ -191,13 +235,25 @@ void read_wind_record(TableReader& table, WindEntry& wind, const std::string& ca
 
 }  // namespace
 
+Quantity at_dish_centre(const WindEntry& wind, const Quantity& stated) {
+  if (!wind.mast) return stated;
+  const double ratio = wind.mast->speed_ratio;
+  Quantity speed = derived_quantity(stated, Kind::speed, ratio * stated.value, "m/s");
+  speed.standard_uncertainty = ratio * stated.standard_uncertainty;
+  return speed;
+}
+
 void read_wind(TableReader& file, Case& antenna) {
   TableReader table = file.table("wind");
   WindEntry& wind = antenna.wind;
   wind.model = table.choice("model", {"uniform", "vickery", "coherence"});
   wind.design_speed = table.quantity("design_speed", Kind::speed, Range::between(0.1, 60.0));
   wind.air_density = table.quantity("air_density", Kind::density, Range::between(0.1, 2.0));
-  wind.gusts = read_gusts(table);
+  const auto [gusts, height] = read_gusts(table);
+  wind.gusts = gusts;
+  wind.mast = read_mast(table, height);
+  if (wind.mast) raise(wind.gusts, wind.mast->speed_ratio);
+  wind.design_speed = at_dish_centre(wind, wind.design_speed);
   read_torque_coefficient(table, antenna);
   wind.gradient_coefficient =
       table.quantity("gradient_coefficient", Kind::number, Range::not_negative(10.0));

@@ -20,6 +20,12 @@ double gear_ratio(const Case& antenna) {
   return plant::gear_ratio(gear_stages(antenna));
 }
 
+control::DrivenLoad driven_load(const Case& antenna) {
+  const double ratio = gear_ratio(antenna);
+  return {antenna.structure.locked_rotor_frequency.value,
+          antenna.antenna.inertia.value / (ratio * ratio)};
+}
+
 Quantity solid_disk(const Quantity& radius, const Quantity& length, const Quantity& density) {
   const double value = plant::disk_inertia(radius.value, length.value, density.value);
   Quantity inertia = derived_quantity(radius, Kind::inertia, value, "kg.m2");
@@ -32,13 +38,16 @@ Quantity solid_disk(const Quantity& radius, const Quantity& length, const Quanti
 
 Quantity bulk_modulus_of(const OilEntry& oil) {
   if (oil.bulk_modulus) return *oil.bulk_modulus;
+  if (!oil.density) {
+    throw InvalidInput("expected a bulk modulus or a density of the oil, found neither");
+  }
   const auto lines = static_cast<double>(oil.lines.size());
   Quantity mean;
   mean.kind = Kind::pressure;
   double variance = 0.0;
   for (const OilLine& line : oil.lines) {
     const double modulus = plant::bulk_modulus_from_slosh(
-        line.length.value, line.slosh_frequency.value, oil.density.value);
+        line.length.value, line.slosh_frequency.value, oil.density->value);
     mean.value += modulus / lines;
     variance += std::pow(2.0 * modulus / lines *
                              std::hypot(relative_uncertainty(line.length),
@@ -46,7 +55,7 @@ Quantity bulk_modulus_of(const OilEntry& oil) {
                          2);
   }
   mean.standard_uncertainty =
-      std::hypot(std::sqrt(variance), mean.value * relative_uncertainty(oil.density));
+      std::hypot(std::sqrt(variance), mean.value * relative_uncertainty(*oil.density));
   return mean;
 }
 
@@ -83,6 +92,23 @@ double supply_torque(const Case& antenna) {
   return antenna.drive.supply_pressure.value * plant::torque_per_pressure(hydraulic_drive(antenna));
 }
 
+plant::OffsetTorque offset_torque(const Case& antenna) {
+  if (!antenna.simulation) return {};
+  const SimulationEntry& entry = *antenna.simulation;
+  const auto value_or_0 = [](const std::optional<Quantity>& quantity) {
+    return quantity ? quantity->value : 0.0;
+  };
+  return {entry.offset_torque.value, value_or_0(entry.offset_cosine), value_or_0(entry.offset_sine),
+          value_or_0(antenna.antenna.elevation), gear_ratio(antenna)};
+}
+
+double torque_for_wind(const Case& antenna) {
+  const double friction = plant::friction_torque(
+      friction_curve(antenna), antenna.drive.tracking_rate.value * gear_ratio(antenna));
+  const double offset = plant::offset_torque(offset_torque(antenna), 0.0).value;
+  return std::max(0.0, supply_torque(antenna) - friction - std::abs(offset));
+}
+
 std::optional<Quantity> rated_stroke(const Case& antenna,
                                      const std::optional<Quantity>& return_pressure) {
   const auto& flow = antenna.drive.valve_rated_flow;
@@ -115,6 +141,18 @@ double largest_demand(const Case& antenna) {
   if (antenna.simulation) return antenna.simulation->valve_stroke.value;
   if (const auto rated = rated_stroke(antenna)) return rated->value;
   return antenna.drive.slew_rate.value * gear_ratio(antenna);
+}
+
+std::string demand_assumption(const Case& antenna) {
+  if (antenna.simulation) {
+    const Quantity& stroke = antenna.simulation->valve_stroke;
+    if (stroke.basis != Basis::assumed) return "";
+    return fmt::format("a valve stroke of {} that is assumed{}", stroke.text,
+                       stroke.source.empty() ? "" : fmt::format(" ({})", stroke.source));
+  }
+  if (rated_stroke(antenna)) return "";
+  return fmt::format("a valve stroke of {:.4g} rad/s that is assumed (what the slew rate takes)",
+                     largest_demand(antenna));
 }
 
 }  // namespace boresight::app

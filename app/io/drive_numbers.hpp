@@ -1,9 +1,12 @@
 #pragma once
 
 #include <optional>
+#include <string>
 #include <vector>
 
 #include <boresight/app/io/case_file.hpp>
+#include <boresight/control/loop_structure.hpp>
+#include <boresight/plant/drive_elements.hpp>
 #include <boresight/plant/friction.hpp>
 #include <boresight/plant/gear_train.hpp>
 #include <boresight/plant/hydraulics.hpp>
@@ -14,6 +17,9 @@ namespace boresight::app {
 
 std::vector<plant::GearStage> gear_stages(const Case& antenna);
 double gear_ratio(const Case& antenna);
+
+/// What the bounds of the usual loop structures follow: the antenna on its locked rotor.
+control::DrivenLoad driven_load(const Case& antenna);
 
 /// Inertia of a solid disk (kg m2) about its axis; value and standard uncertainty to first order.
 Quantity solid_disk(const Quantity& radius, const Quantity& length, const Quantity& density);
@@ -33,6 +39,12 @@ double tracking_friction(const Case& antenna);
 plant::HydraulicDrive hydraulic_drive(const Case& antenna);
 /// Torque of all motors at the supply pressure (N m), the return pressure not taken off.
 double supply_torque(const Case& antenna);
+/// Torque of gravity and the like that the motors hold, by [simulation]; none without that table.
+plant::OffsetTorque offset_torque(const Case& antenna);
+/// What of it is left against wind (N m): the supply's less the friction at the tracking rate and
+/// the magnitude of the offset torque at antenna.elevation, since the wind may blow the way that
+/// both resist; 0 where they take all of it.
+double torque_for_wind(const Case& antenna);
 
 /// No-load rate of the motors (rad/s) with the valve fully open, by its rated flow; nothing if the
 /// case does not state that flow. The flow goes with the root of the drop over both edges, which
@@ -47,6 +59,9 @@ std::optional<Quantity> rated_stroke(const Case& antenna);
 /// The largest rate (rad/s of motor) that may be asked of the valve: simulation.valve_stroke; else
 /// by its rated flow; else what the slew rate takes.
 double largest_demand(const Case& antenna);
+/// What largest_demand rests on where the case states no number of its valve for it, in words;
+/// empty where it does.
+std::string demand_assumption(const Case& antenna);
 
 /// The time between the controller's samples (s) that a dead time speaks of, and back: one sample
 /// of computing and half of one of holding.

@@ -9,7 +9,9 @@
 #include "edited_case.hpp"
 #include <boresight/app/io/case_file.hpp>
 #include <boresight/app/io/drive_numbers.hpp>
+#include <boresight/app/redesign/antenna_model.hpp>
 #include <boresight/app/redesign/assumed_inputs.hpp>
+#include <boresight/identification/inertia_methods.hpp>
 #include <boresight/plant/error.hpp>
 
 namespace boresight::app {
@@ -57,6 +59,17 @@ TEST(CaseDrive, TurnsALeakageFlowIntoTheRate) {
       effect(rate(beta, v1, v2 + oil.volume_2.standard_uncertainty, flow, 7e6)) +
       effect(1.1 * nominal) + effect(1.03 * nominal);
   EXPECT_NEAR(leakage.standard_uncertainty / std::sqrt(variance), 1.0, 0.01);
+}
+
+TEST(CaseDrive, NeedsADensityForLinesAlone) {
+  EditedCase edited("dss14-64m");
+  edited.replace_line("density = { value = \"850 kg/m3\"", "");
+  const Case antenna = parse_case(edited.text(), "case.toml");
+  EXPECT_FALSE(antenna.oil.density);
+  EXPECT_EQ(oil_stiffness(antenna), oil_stiffness(read_case(case_path("dss14-64m"))));
+  EXPECT_NO_THROW(identification::identify_inertia(make_evidence(antenna), {100, 1}));
+  EXPECT_THAT(refusal_of(edited.text() + "\n[[oil.line]]\nname = \"one\"\nlength = \"13 m\"\n"),
+              HasSubstr("oil.density: expected a density of the oil for the pressure waves"));
 }
 
 TEST(CaseDrive, TakesTheBulkModulusOfTheLinesForLeakage) {

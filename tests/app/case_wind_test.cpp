@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <string>
@@ -11,6 +12,7 @@
 #include <boresight/app/io/case_file.hpp>
 #include <boresight/app/io/unit_table.hpp>
 #include <boresight/app/redesign/antenna_model.hpp>
+#include <boresight/app/report/wind_mast.hpp>
 #include <boresight/app/simulate/nonlinear_model.hpp>
 #include <boresight/app/simulate/position_run.hpp>
 #include <boresight/design/tuner.hpp>
@@ -93,6 +95,17 @@ TEST(UnitTable, RefusesWithFileAndLine) {
   EXPECT_THROW(read_unit_table(folder.file("none.csv"), {}), InvalidInput);
 }
 
+// Gusts sampled at 4 Hz.
+std::string wind_record(double seconds, const std::string& direction = "") {
+  std::string text = "time [s],speed [m/s]";
+  if (!direction.empty()) text += ",direction [deg]";
+  for (int i = 0; 0.25 * i <= seconds; ++i) {
+    text += fmt::format("\n{:.15g},{:.15g}", 0.25 * i, 8.0 + 2.0 * std::sin(0.3 * i));
+    if (!direction.empty()) text += "," + direction;
+  }
+  return text;
+}
+
 TEST(CaseWind, TakesEachSpectrum) {
   const ScratchFolder folder;
   const auto problem = [&](const std::string& lines) {
@@ -126,6 +139,72 @@ TEST(CaseWind, TakesEachSpectrum) {
   }
 }
 
+TEST(CaseWind, RaisesTheMastsWindToTheDish) {
+  const ScratchFolder folder;
+  folder.write("wind.csv", wind_record(30.0));
+  const std::string climate =
+      "[[wind.climate]]\nscale = \"5 m/s\"\nshape = \"2\"\nhighest = \"20 m/s\"\n"
+      "[[wind.climate]]\nspeed = \"12 m/s\"\n\n[[pointing.budget]]\nname = \"asked\"\n"
+      "band = \"X\"\nrms = \"2 mdeg\"\nwind_speed = \"15 m/s\"\n\n";
+  const auto with = [&](const std::string& lines) {
+    EditedCase edited;
+    edited.replace(drag, drag + "\nrecord = \"wind.csv\"\n" + lines);
+    edited.replace("[[pointing.band]]\nname = \"X\"", climate + "[[pointing.band]]\nname = \"X\"");
+    return edited_case(folder, edited);
+  };
+  const Case at_dish = with("");
+  const Case on_mast = with("mast_height = \"10 m\"\nheight = \"40 m\"");
+  const double ratio = std::pow(4.0, 0.14);
+  ASSERT_TRUE(on_mast.wind.mast);
+  EXPECT_NEAR(on_mast.wind.mast->speed_ratio, ratio, 1e-12);
+  EXPECT_NEAR(on_mast.wind.design_speed.value, ratio * 10.0, 1e-12);
+  EXPECT_NEAR(relative_uncertainty(on_mast.wind.design_speed),
+              relative_uncertainty(at_dish.wind.design_speed), 1e-15);
+  ASSERT_EQ(on_mast.wind.climate.size(), at_dish.wind.climate.size());
+  for (std::size_t i = 0; i < at_dish.wind.climate.size(); ++i) {
+    EXPECT_NEAR(on_mast.wind.climate[i].speed, ratio * at_dish.wind.climate[i].speed, 1e-9);
+    EXPECT_NEAR(on_mast.wind.climate[i].weight, at_dish.wind.climate[i].weight, 1e-9);
+  }
+  EXPECT_NEAR(on_mast.budgets.front().wind_speed.value().value, ratio * 15.0, 1e-12);
+  // Gusts are as strong at either height, in m/s.
+  EXPECT_NEAR(plant::gust_variance(on_mast.wind.gusts, ratio * 10.0),
+              plant::gust_variance(at_dish.wind.gusts, 10.0), 1e-12);
+  const auto& raised = on_mast.wind.record.value().speed;
+  const auto& recorded = at_dish.wind.record.value().speed;
+  EXPECT_NEAR(raised.mean(), ratio * recorded.mean(), 1e-9);
+  EXPECT_NEAR(raised[3] - raised[7], recorded[3] - recorded[7], 1e-12);
+  // The exponent counts among the assumptions where the case does not state it.
+  const auto exponent =
+      std::ranges::find(on_mast.quantities, std::string("wind.shear_exponent"), &Quantity::key);
+  ASSERT_NE(exponent, on_mast.quantities.end());
+  EXPECT_EQ(exponent->basis, Basis::assumed);
+  EXPECT_EQ(exponent->text, "0.14");
+  const Case stated = with("mast_height = \"10 m\"\nheight = \"40 m\"\nshear_exponent = \"0.2\"");
+  EXPECT_NEAR(stated.wind.design_speed.value, std::pow(4.0, 0.2) * 10.0, 1e-12);
+  EXPECT_THAT(mast_in_words(stated.wind.mast.value()),
+              testing::AllOf(HasSubstr("40 m above ground"), HasSubstr("a mast of 10 m"),
+                             HasSubstr("times 1.32"), HasSubstr("exponent 0.2")));
+}
+
+TEST(CaseWind, KeepsTheSpectrumsOwnHeightBesideAMast) {
+  const ScratchFolder folder;
+  const auto gusts = [&](const std::string& lines) {
+    return edited_case(folder, EditedCase().replace(drag, lines)).wind.gusts;
+  };
+  const std::string mast = "\nheight = \"40 m\"\nmast_height = \"10 m\"";
+  const double ratio = std::pow(4.0, 0.14);
+  EXPECT_EQ(gusts("spectrum = \"kaimal\"\nturbulence_intensity = \"0.18\"" + mast),
+            plant::kaimal_gusts(0.18 / ratio, 40.0));
+  EXPECT_EQ(gusts("spectrum = \"von_karman\"\nturbulence_intensity = \"0.18\"\n"
+                  "length_scale = \"130 m\"" +
+                  mast),
+            plant::von_karman_gusts(0.18 / ratio, 130.0));
+  EXPECT_EQ(gusts("spectrum = \"eurocode\"\nroughness_length = \"5 cm\"\n"
+                  "minimum_height = \"2 m\"" +
+                  mast),
+            plant::eurocode_gusts(40.0, 0.05, 2.0));
+}
+
 TEST(CaseWind, RefusesKeysOfOtherSpectraAndMissingOnes) {
   const ScratchFolder folder;
   const std::pair<std::string, const char*> wrong[] = {
@@ -144,6 +223,10 @@ TEST(CaseWind, RefusesKeysOfOtherSpectraAndMissingOnes) {
       {drag + "\nheight = \"40 m\"",
        "expected it with the spectrum eurocode or kaimal or von_karman only, found it with "
        "davenport"},
+      {drag + "\nmast_height = \"10 m\"",
+       "wind.mast_height: expected the height of the dish's centre, height, beside it, found none"},
+      {drag + "\nshear_exponent = \"0.2\"",
+       "wind.shear_exponent: expected a mast_height beside it, found none"},
       {drag + "\ndirection = \"40 deg\"", "wind.direction: expected a torque_table beside it"}};
   for (const auto& [lines, message] : wrong) {
     EXPECT_THAT(refusal(folder, EditedCase().replace(drag, lines)), HasSubstr(message)) << lines;
@@ -200,17 +283,6 @@ TEST(CaseWind, RefusesTablesThatDoNotServe) {
   folder.write("torque.csv",
                "yaw [deg],elevation [deg],coefficient\n0,0,1\n0,90,1\n60,0,1\n60,90,1\n");
   EXPECT_THAT(refusal(folder, case_with_table()), HasSubstr("wind.torque_table: "));
-}
-
-// Gusts sampled at 4 Hz.
-std::string wind_record(double seconds, const std::string& direction = "") {
-  std::string text = "time [s],speed [m/s]";
-  if (!direction.empty()) text += ",direction [deg]";
-  for (int i = 0; 0.25 * i <= seconds; ++i) {
-    text += fmt::format("\n{:.15g},{:.15g}", 0.25 * i, 8.0 + 2.0 * std::sin(0.3 * i));
-    if (!direction.empty()) text += "," + direction;
-  }
-  return text;
 }
 
 EditedCase case_with_record() {

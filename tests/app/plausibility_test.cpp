@@ -1,4 +1,4 @@
-// What of friction, supply and pressures an audit holds against one another.
+// What of friction, supply, valve, pressures and sizes an audit holds against one another.
 #include <cmath>
 #include <numbers>
 #include <random>
@@ -13,6 +13,8 @@
 #include <boresight/app/audit/plausibility_checks.hpp>
 #include <boresight/app/io/drive_numbers.hpp>
 #include <boresight/app/redesign/antenna_model.hpp>
+#include <boresight/app/simulate/nonlinear_model.hpp>
+#include <boresight/design/drive_reach.hpp>
 
 namespace boresight::app {
 namespace {
@@ -186,6 +188,75 @@ TEST(ReturnPressures, OfRecordsAndSimulationAreOne) {
   const Case campaign = read_case(BORESIGHT_SOURCE_DIR "/cases/dss14-70m/campaign.toml");
   EXPECT_THAT(implausibilities(campaign, case_graph(campaign)),
               Each(testing::Field(&Implausibility::check, Ne("return pressure"))));
+}
+
+const std::string slower = "viscous = { value = \"0.20 N.m.s/rad\"";
+
+TEST(ValveStroke, GoesAgainstFrictionAndOffset) {
+  // 150 rad/s without load: 125 rad/s against the 99 N.m of friction and 6 N.m of offset are not
+  // within reach.
+  EditedCase edited;
+  edited.replace(viscous, slower);
+  const auto found = found_in(edited, "valve stroke");
+  ASSERT_EQ(found.size(), 1U);
+  EXPECT_EQ(found[0].id, "drive.slew_rate");
+  EXPECT_THAT(found[0].reasoning,
+              AllOf(HasSubstr("friction and offset"), HasSubstr("150 rad/s without load"),
+                    HasSubstr("out of reach")));
+  ASSERT_EQ(found[0].numbers.size(), 5U);
+  const Case antenna = parse_case(edited.text(), "case.toml");
+  const double slewing = 0.25 * std::numbers::pi / 180.0 * gear_ratio(antenna);
+  EXPECT_NEAR(found[0].numbers[2].value, 10.33 + 63.29 + 0.2 * slewing + 5.65, 1e-3);
+  EXPECT_NEAR(found[0].numbers[3].value, supply_torque(antenna) * (1.0 - 60.0 / 2000.0), 1e-9);
+  // Studies find the same, but for the valve's overlap.
+  const double studies = design::attainable_rate(make_nonlinear_antenna(antenna), slewing);
+  EXPECT_LT(found[0].numbers[4].value, slewing);
+  EXPECT_GE(found[0].numbers[4].value, studies);
+  EXPECT_NEAR(found[0].numbers[4].value, studies, 0.03 * slewing);
+}
+
+TEST(ValveStroke, IsEnoughWhereTheValveIsLarger) {
+  EditedCase edited;
+  edited.replace(viscous, slower);
+  edited.replace("valve_stroke = { value = \"150 rad/s\"",
+                 "valve_stroke = { value = \"170 rad/s\"");
+  EXPECT_THAT(found_in(edited, "valve stroke"), IsEmpty());
+  // That no valve does is said of the friction.
+  EXPECT_THAT(found_in(EditedCase(), "valve stroke"), IsEmpty());
+}
+
+TEST(InertiaAgainstTheDish, FindsAnotherUnitAndARadius) {
+  const std::string check = "inertia against the dish";
+  EXPECT_THAT(found_in(EditedCase(), check), IsEmpty());
+  EXPECT_THAT(found_in(read_case(campaign_case("small-dish")), check), IsEmpty());
+  const auto light =
+      found_in(EditedCase().replace("2.41667e8 lbf.ft.s2", "2.41667e8 lbm.ft2"), check);
+  ASSERT_EQ(light.size(), 1U);
+  EXPECT_EQ(light[0].id, "antenna.inertia");
+  EXPECT_THAT(light[0].reasoning, AllOf(HasSubstr("'2.41667e8 lbm.ft2'"), HasSubstr("0.0061 kg/m3"),
+                                        HasSubstr("Sommerville")));
+  const auto small =
+      found_in(EditedCase().replace("{ value = \"70 m\"", "{ value = \"35 m\""), check);
+  ASSERT_EQ(small.size(), 1U);
+  EXPECT_THAT(small[0].reasoning, HasSubstr("a radius stands for the diameter"));
+}
+
+TEST(Flywheel, MustNotBurstNorOutweighTheAntenna) {
+  EXPECT_THAT(found_in(EditedCase(), "flywheel"), IsEmpty());
+  // 125 rad/s of the motors: 12.5 m/s at the rim, or 250 m/s.
+  EditedCase usual("dss14-64m"), burst("dss14-64m");
+  for (EditedCase* edited : {&usual, &burst})
+    edited->replace_line("inertia = { value = \"0.17712", "");
+  usual.replace_line("disk_inertia", "disk_radius = \"10 cm\"\ndisk_length = \"1 cm\"");
+  burst.replace_line("disk_inertia", "disk_radius = \"2 m\"\ndisk_length = \"1 mm\"");
+  EXPECT_THAT(found_in(usual, "flywheel"), IsEmpty());
+  const auto found = found_in(burst, "flywheel");
+  ASSERT_EQ(found.size(), 2U);
+  EXPECT_EQ(found[0].id, "motor.disk_radius");
+  EXPECT_THAT(found[0].reasoning, HasSubstr("251 m/s"));
+  EXPECT_NEAR(found[0].numbers[0].value * 2.0, found[0].numbers[1].value, 1e-9);
+  EXPECT_EQ(found[1].id, "motor.disk_radius");
+  EXPECT_GT(found[1].numbers[0].value, 10.0 * found[1].numbers[1].value);
 }
 
 }  // namespace

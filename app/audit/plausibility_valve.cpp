@@ -1,0 +1,168 @@
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include <boresight/app/audit/plausibility_checks.hpp>
+#include <boresight/app/io/drive_numbers.hpp>
+
+namespace boresight::app {
+namespace {
+
+struct Stroke {
+  std::string how;
+  Quantity rate;
+};
+
+std::vector<Stroke> strokes_of(const Case& antenna) {
+  std::vector<Stroke> strokes;
+  if (antenna.simulation && antenna.simulation->valve_stroke_stated) {
+    strokes.push_back(
+        {fmt::format("by simulation.valve_stroke '{}'", antenna.simulation->valve_stroke.text),
+         antenna.simulation->valve_stroke});
+  }
+  const DriveEntry& drive = antenna.drive;
+  if (const auto rated = rated_stroke(antenna);
+      rated && drive.valve_rated_flow && drive.valve_rated_pressure_drop) {
+    strokes.push_back(
+        {fmt::format("by its rated flow of '{}' at '{}'", drive.valve_rated_flow->text,
+                     drive.valve_rated_pressure_drop->text),
+         *rated});
+  }
+  return strokes;
+}
+
+/// What the motors must hold while they turn, and what the supply has for it and for the valve's
+/// drop. N m of all motors.
+class LoadedDrive {
+ public:
+  explicit LoadedDrive(const CaseNumbers& numbers)
+      : numbers_(numbers),
+        curve_(friction_curve(numbers.antenna)),
+        offset_(std::abs(plant::offset_torque(offset_torque(numbers.antenna), 0.0).value)),
+        leakage_(numbers.antenna.drive.leakage_rate.value / numbers.oil_stiffness) {
+    const Case& antenna = numbers.antenna;
+    const auto& back =
+        antenna.simulation ? antenna.simulation->return_pressure : antenna.campaign.return_pressure;
+    const double share = back ? back->value / antenna.drive.supply_pressure.value : 0.0;
+    const MotorTorque supply = torque_of_supply(numbers);
+    available_ = {supply.value * (1.0 - share), supply.uncertainty};
+  }
+
+  const MotorTorque& available() const { return available_; }
+  bool has_offset() const { return offset_ > 0.0; }
+  // Either way, so that the offset resists.
+  double load(double rate) const { return plant::friction_torque(curve_, rate) + offset_; }
+
+  // What load and valve, fully open, need together beyond the pressure that there is: the valve's
+  // flow goes with the root of its drop, and some of it leaks past the motors.
+  double excess(double rate, double stroke) const {
+    const double torque = load(rate);
+    const double share = (rate + leakage_ * torque) / stroke;
+    return torque - available_.value * (1.0 - share * share);
+  }
+
+  double uncertainty(const Quantity& stroke) const {
+    const double rate = numbers_.slew_rate_at_motor;
+    const double square = std::pow(rate / stroke.value, 2);
+    const double of_share = 2.0 * std::hypot(relative_uncertainty(numbers_.antenna.drive.slew_rate),
+                                             relative_uncertainty(stroke));
+    return std::hypot(friction_at_slew_rate(numbers_).uncertainty,
+                      available_.value * square * of_share,
+                      available_.uncertainty * (1.0 - square));
+  }
+
+  double attainable_rate(double stroke) const {
+    double lowest = 0.0, highest = numbers_.slew_rate_at_motor;
+    for (int i = 0; i < 30; ++i) {
+      const double middle = 0.5 * (lowest + highest);
+      (excess(middle, stroke) <= 0.0 ? lowest : highest) = middle;
+    }
+    return lowest;
+  }
+
+ private:
+  const CaseNumbers& numbers_;
+  plant::FrictionCurve curve_;
+  double offset_ = 0.0;
+  double leakage_ = 0.0;
+  MotorTorque available_;
+};
+
+void check_without_load(const CaseNumbers& numbers, const Stroke& stroke, Implausibilities& found) {
+  const double slewing = numbers.slew_rate_at_motor;
+  const double reached = stroke.rate.value;
+  found.push_back(
+      {"valve stroke",
+       "drive.slew_rate",
+       fmt::format("Slewing at '{}' takes {:.3g} rad/s of the motors; the valve, fully open, lets "
+                   "them turn at {:.3g} rad/s without load {}, {:.0f} % of that: the antenna "
+                   "cannot slew so fast, or a number of valve, supply, motors or gear ratio is "
+                   "wrong.",
+                   numbers.antenna.drive.slew_rate.text, slewing, reached, stroke.how,
+                   100.0 * reached / slewing),
+       {{"motor rate at slew rate", slewing, "rad/s"}, {"valve stroke", reached, "rad/s"}}});
+}
+
+void check_under_load(const CaseNumbers& numbers, const Stroke& stroke, Implausibilities& found) {
+  // That the supply cannot turn the motors so fast with any valve is said of the friction.
+  if (friction_stops_slewing(numbers)) return;
+  const LoadedDrive drive(numbers);
+  const double slewing = numbers.slew_rate_at_motor;
+  if (drive.excess(slewing, stroke.rate.value) <= 2.0 * drive.uncertainty(stroke.rate)) return;
+  const double load = drive.load(slewing);
+  const double reached = drive.attainable_rate(stroke.rate.value);
+  found.push_back(
+      {"valve stroke",
+       "drive.slew_rate",
+       fmt::format(
+           "Slewing at '{}' takes {:.3g} rad/s of the motors and {:.3g} N.m against {}, "
+           "{:.0f} % of what the supply has above the return, which is off the valve's "
+           "drop: fully open it lets them turn at {:.3g} rad/s without load {}, but against "
+           "their load at {:.3g} rad/s at most, {:.0f} % of the slew rate: that is out of "
+           "reach, or a number of friction, valve, supply, motors or gear ratio is wrong.",
+           numbers.antenna.drive.slew_rate.text, slewing, load,
+           drive.has_offset() ? "friction and offset" : "friction",
+           100.0 * load / drive.available().value, stroke.rate.value, stroke.how, reached,
+           100.0 * reached / slewing),
+       {{"motor rate at slew rate", slewing, "rad/s"},
+        {"valve stroke", stroke.rate.value, "rad/s"},
+        {"load at slew rate", load, "N.m"},
+        {"supply torque above the return's", drive.available().value, "N.m"},
+        {"motor rate against the load", reached, "rad/s"}}});
+}
+
+}  // namespace
+
+void check_valve_stroke(const CaseNumbers& numbers, Implausibilities& found) {
+  const double slewing = numbers.slew_rate_at_motor;
+  const double of_slewing = slewing * relative_uncertainty(numbers.antenna.drive.slew_rate);
+  const std::vector<Stroke> strokes = strokes_of(numbers.antenna);
+  for (const Stroke& stroke : strokes) {
+    const double uncertainty = std::hypot(of_slewing, stroke.rate.standard_uncertainty);
+    if (slewing - stroke.rate.value > 2.0 * uncertainty) {
+      check_without_load(numbers, stroke, found);
+    } else {
+      check_under_load(numbers, stroke, found);
+    }
+  }
+  if (strokes.size() < 2) return;
+  const Quantity& stated = strokes[0].rate;
+  const Quantity& rated = strokes[1].rate;
+  const double difference = std::abs(stated.value - rated.value);
+  if (difference <= 0.05 * rated.value ||
+      difference <= 2.0 * std::hypot(stated.standard_uncertainty, rated.standard_uncertainty)) {
+    return;
+  }
+  found.push_back(
+      {"valve stroke",
+       "simulation.valve_stroke",
+       fmt::format("The valve, fully open, lets the motors turn at {:.3g} rad/s without "
+                   "load {}, and at {:.3g} rad/s {}: one of the two is wrong.",
+                   stated.value, strokes[0].how, rated.value, strokes[1].how),
+       {{"valve stroke", stated.value, "rad/s"},
+        {"valve stroke by the rated flow", rated.value, "rad/s"}}});
+}
+
+}  // namespace boresight::app

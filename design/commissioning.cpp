@@ -221,7 +221,7 @@ ControlLaw assumed_start(Plants& plants, const ControlLaw& target, double limit,
     }
   }
   throw InfeasibleRequirement(fmt::format(
-      "plan_commissioning: the gains of the antenna as found are not known, and the law chosen, "
+      "the gains of the antenna as found are not known, and the law chosen, "
       "without pressure feedback, has no peaks of S below {:g} on every plant even with its gains "
       "divided by {:g}: give the gains found",
       limit, largest_detuning));
@@ -280,7 +280,7 @@ CommissioningPlan plan_commissioning(const TrackingProblem& problem,
       std::max(plants.worst_peak({target, true, false}), plants.worst_peak({target, false, false}));
   if (!std::isfinite(own)) {
     throw InfeasibleRequirement(
-        "plan_commissioning: the law chosen is unstable on a plant that may be the true one: "
+        "the law chosen is unstable on a plant that may be the true one: "
         "choose a law that is tuned robustly");
   }
   if (own > options.sensitivity_limit) {
@@ -323,17 +323,17 @@ CommissioningPlan plan_commissioning(const TrackingProblem& problem,
     path = commissioning_path(*start, target, plan.largest_step, allowed, why_not);
   }
   if (!path) {
-    throw InfeasibleRequirement(fmt::format(
-        "plan_commissioning: no path of gains with peaks of S below {:g} on every plant was found, "
-        "with steps down to a factor of {:.3g}: {}",
-        limit, plan.largest_step, why_not));
+    throw InfeasibleRequirement(
+        fmt::format("no path of gains with peaks of S below {:g} on every plant was found, "
+                    "with steps down to a factor of {:.3g}: {}",
+                    limit, plan.largest_step, why_not));
   }
   for (const auto& stage : *path) {
     plan.stages.push_back(plants.look_at(stage.kind, stage.law));
     if (options.progress) options.progress(plan.stages.size(), path->size());
     if (!all_stable(plan.stages.back())) {
       throw NumericalFailure(
-          fmt::format("plan_commissioning: a stage of the {} is unstable on {} of {} plants by its "
+          fmt::format("a stage of the {} is unstable on {} of {} plants by its "
                       "eigenvalues, though not by its frequency response",
                       to_string(stage.kind),
                       plan.stages.back().expected.plants - plan.stages.back().expected.stable,

@@ -103,7 +103,10 @@ struct PlantMode {
 /// states, normalised to 1 over all.
 std::vector<PlantMode> plant_modes(const AntennaPlant& plant);
 
-/// The mode in which the motors swing on the oil spring: largest participation of oil and motors.
+/// The mode in which the whole antenna swings on the oil spring, the structure bending in series:
+/// the lowest of those that move the oil. It is the only one that stays the same as inertia or
+/// stiffness change; with oil stiffer than the structure the motors' largest swing passes from mode
+/// to mode above it.
 /// Where friction and leakage overdamp it, its two real poles p1, p2 are given as one mode of
 /// frequency sqrt(p1 p2) and damping ratio (p1 + p2)/(2 sqrt(p1 p2)) above 1.
 /// @throws NumericalFailure if no mode moves them.

@@ -77,30 +77,26 @@ std::vector<PlantMode> plant_modes(const AntennaPlant& plant) {
 }
 
 PlantMode hydraulic_mode(const std::vector<PlantMode>& modes) {
-  std::vector<PlantMode> real;
-  PlantMode best;
+  // Valve and tachometer stand in series with the rest: they move no oil but by rounding.
+  constexpr double rounding = 1e-9;
+  std::vector<PlantMode> real, swinging;
   for (const auto& mode : modes) {
-    if (mode.frequency == 0.0) continue;
-    if (mode.pole.imag() == 0.0) {
-      real.push_back(mode);
-    } else if (mode.oil_participation > best.oil_participation) {
-      best = mode;
-    }
+    if (mode.frequency == 0.0 || mode.oil_participation < rounding) continue;
+    (mode.pole.imag() == 0.0 ? real : swinging).push_back(mode);
   }
-  std::stable_sort(real.begin(), real.end(), [](const PlantMode& x, const PlantMode& y) {
-    return x.oil_participation > y.oil_participation;
-  });
-  if (real.size() >= 2 && real[1].oil_participation > best.oil_participation) {
+  if (real.size() >= 2) {
+    std::ranges::stable_sort(real, {}, &PlantMode::frequency);
     const double first = -real[0].pole.real(), second = -real[1].pole.real();
-    best = real[0];
-    best.frequency = std::sqrt(first * second) / (2.0 * std::numbers::pi);
-    best.damping_ratio = (first + second) / (2.0 * std::sqrt(first * second));
-    best.description = "hydraulic: motors on the oil spring, overdamped";
+    PlantMode both = real[0].oil_participation > real[1].oil_participation ? real[0] : real[1];
+    both.frequency = std::sqrt(first * second) / (2.0 * std::numbers::pi);
+    both.damping_ratio = (first + second) / (2.0 * std::sqrt(first * second));
+    both.description = "hydraulic: motors on the oil spring, overdamped";
+    swinging.push_back(std::move(both));
   }
-  if (best.oil_participation == 0.0) {
+  if (swinging.empty()) {
     throw NumericalFailure("hydraulic_mode: no mode of the plant moves motors and oil");
   }
-  return best;
+  return *std::ranges::min_element(swinging, {}, &PlantMode::frequency);
 }
 
 }  // namespace boresight::plant

@@ -30,7 +30,7 @@ void add_assumed(const std::vector<Proposal>& proposals, std::vector<Quantity>& 
     assumed.back().key = fmt::format("{}: {}", proposal.name, key);
   };
   for (const auto& proposal : proposals) {
-    add(proposal, proposal.cost.amount, "cost.amount");
+    if (proposal.cost) add(proposal, proposal.cost->amount, "cost.amount");
     for (const auto& change : proposal.changes) add(proposal, change.number, change.key);
   }
 }

@@ -15,8 +15,10 @@
 #include <boresight/app/page/report_page.hpp>
 #include <boresight/app/redesign/assumed_inputs.hpp>
 #include <boresight/app/redesign/sections.hpp>
+#include <boresight/app/redesign/tuning_verdict.hpp>
 #include <boresight/app/report/json_report.hpp>
 #include <boresight/app/report/text_report.hpp>
+#include <boresight/app/tune/budgets_on_plants.hpp>
 #include <boresight/app/tune/plant_members.hpp>
 #include <boresight/design/plant_ensemble.hpp>
 
@@ -52,14 +54,22 @@ void fill_identification(const Case& antenna, const StudyOptions& options, Repor
 // without records those of the case.
 void judge_on_ensemble(const Case& antenna, const Case& designed, const StudyOptions& options,
                        const std::optional<CampaignSection>& campaign, TuningSection& section) {
-  if (campaign && campaign->grey_box) {
-    section.ensemble = judge_identified(antenna, designed, *campaign->grey_box, section, options);
-    section.ensemble_source = "drawn from what the records leave open";
-  } else if (section.design.tuning.status != design::TuningStatus::unstable) {
-    section.ensemble = design::judge(section.problem, plant_members(designed, options.seed),
-                                     section.design.tuning.law, section.goals, options.threads);
-    section.ensemble_source = "of the case's ensemble";
-  }
+  if (section.design.tuning.status == design::TuningStatus::unstable) return;
+  constexpr std::size_t drawn_plants = 200;
+  const bool recorded = campaign && campaign->grey_box;
+  const auto members = recorded
+                           ? identified_ensemble(antenna, campaign->grey_box->draws, drawn_plants)
+                           : plant_members(designed, options.seed);
+  if (members.empty()) return;
+  const auto& law = section.design.tuning.law;
+  section.ensemble = design::judge(section.problem, members, law, section.goals, options.threads);
+  section.ensemble_source =
+      recorded ? "drawn from what the records leave open" : "of the case's ensemble";
+  std::vector<PointingBudget> budgets;
+  for (const auto& result : section.budgets) budgets.push_back(result.budget);
+  const auto met = plants_within_budgets(section.problem, members, law, section.goals, budgets, 1.0,
+                                         options.threads);
+  for (std::size_t i = 0; i < met.size(); ++i) section.budgets[i].plants_met = met[i];
 }
 
 void fill_redesign(const Case& antenna, const StudyOptions& options, Report& report) {
@@ -156,7 +166,11 @@ int run(const Command& command, const Arguments& arguments) {
                report.tuning->design.verification.failure);
     return numerical;
   }
-  return done;
+  const auto unmet = report.tuning ? unmet_needs(*report.tuning) : std::vector<std::string>{};
+  for (const auto& sentence : unmet) {
+    fmt::print(stderr, "boresight: {}: {}\n", arguments.case_path, sentence);
+  }
+  return unmet.empty() ? done : infeasible;
 }
 
 }  // namespace

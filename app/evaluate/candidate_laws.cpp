@@ -6,6 +6,7 @@
 
 #include <boresight/app/evaluate/candidate_laws.hpp>
 #include <boresight/app/simulate/time_domain.hpp>
+#include <boresight/app/tune/budgets_on_plants.hpp>
 #include <boresight/app/tune/engineer_units.hpp>
 #include <boresight/app/tune/plant_members.hpp>
 #include <boresight/design/parallel_loop.hpp>
@@ -104,6 +105,9 @@ class Study {
       task.law.still = !task.law.time_domain ||
                        design::holds_still(task.law.time_domain->hunting, options.settled_error);
     }
+    task.law.budgets_met =
+        plants_within_budgets(make_problem(antenna), members, law, search.goals,
+                              make_budgets(antenna), task.law.nonlinear_factor(), 1);
   }
 
  private:
@@ -141,9 +145,9 @@ std::vector<Task> tasks_of(const std::vector<Case>& cases,
   for (std::size_t candidate = 0; candidate < cases.size(); ++candidate) {
     std::vector<control::LoopStructure> structures;
     for (const auto& name : names[candidate]) {
-      structures.push_back(loop_structure(cases[candidate].loops, name));
+      structures.push_back(loop_structure(cases[candidate], name));
     }
-    const auto missing = design::missing_parts(structures);
+    const auto missing = design::missing_parts(structures, driven_load(cases[candidate]));
     structures.insert(structures.end(), missing.begin(), missing.end());
     const auto parts = design::parts_of(structures);
     const std::size_t first = tasks.size();

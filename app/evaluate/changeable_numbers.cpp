@@ -15,7 +15,7 @@ const std::vector<ChangeableNumber>& changeable_numbers() {
       {"motor", "displacement", Kind::displacement, Range::positive(1.0),
        [](Case& c) { return &c.motor.displacement; }},
       {"oil", "density", Kind::density, Range::between(500.0, 2000.0),
-       [](Case& c) { return &c.oil.density; }},
+       [](Case& c) { return c.oil.density ? &*c.oil.density : nullptr; }},
       {"oil", "volume_1", Kind::volume, Range::positive(100.0),
        [](Case& c) { return &c.oil.volume_1; }},
       {"oil", "volume_2", Kind::volume, Range::positive(100.0),

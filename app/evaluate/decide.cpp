@@ -176,15 +176,33 @@ class Decision {
       one.outside_goals = share_of(outside_.col(column));
     }
     section_.statistics = design::compare_options(rms_);
-    std::vector<double> costs;
-    for (const auto& one : section_.candidates) costs.push_back(candidates_[one.candidate].cost);
-    section_.front_shares = design::front_shares(costs, rms_);
+    find_front_shares();
     const auto& options = section_.statistics.options;
     std::vector<std::size_t> order(options.size());
     for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
     std::ranges::stable_sort(order, {}, [&](std::size_t i) { return options[i].mean; });
     section_.best = order[0];
     section_.second = order[1];
+  }
+
+  // Of those with a cost.
+  void find_front_shares() {
+    section_.front_shares.assign(section_.candidates.size(),
+                                 std::numeric_limits<double>::quiet_NaN());
+    std::vector<double> costs;
+    std::vector<Eigen::Index> columns;
+    for (std::size_t i = 0; i < section_.candidates.size(); ++i) {
+      const auto& cost = candidates_[section_.candidates[i].candidate].cost;
+      if (!cost) continue;
+      costs.push_back(*cost);
+      columns.push_back(static_cast<Eigen::Index>(i));
+    }
+    if (costs.empty()) return;
+    const Eigen::MatrixXd rms = rms_(Eigen::all, columns);
+    const auto shares = design::front_shares(costs, rms);
+    for (std::size_t k = 0; k < shares.size(); ++k) {
+      section_.front_shares[static_cast<std::size_t>(columns[k])] = shares[k];
+    }
   }
 
   double difference(HeldCandidate& best, HeldCandidate& second,

@@ -7,7 +7,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <boresight/app/evaluate/evaluate_section.hpp>
+#include <boresight/app/evaluate/proposal_effects.hpp>
 #include <boresight/app/report/influences.hpp>
 #include <boresight/app/report/sky_units.hpp>
 
@@ -18,6 +18,11 @@ namespace {
 double rms_of(const Candidate& candidate) {
   const CandidateLaw* law = candidate.chosen_law();
   return law == nullptr ? std::numeric_limits<double>::quiet_NaN() : law->compared_rms();
+}
+
+// What has no cost may cost anything.
+double cost_of(const Candidate& candidate) {
+  return candidate.cost.value_or(std::numeric_limits<double>::infinity());
 }
 
 std::string share(const design::Probability& probability) {
@@ -110,12 +115,12 @@ std::string on_the_front(const EvaluateSection& section) {
   std::vector<std::string> steps;
   for (std::size_t k = 0; k < section.front.size(); ++k) {
     const auto& candidate = section.candidates[section.front[k]];
-    std::string step = fmt::format("{} ({:g} {}, {:.4f} mdeg)", candidate.name, candidate.cost,
+    std::string step = fmt::format("{} ({:g} {}, {:.4f} mdeg)", candidate.name, cost_of(candidate),
                                    section.currency, rms_of(candidate) / millidegree);
     if (k > 0) {
       const auto& before = section.candidates[section.front[k - 1]];
       const double gained = (rms_of(before) - rms_of(candidate)) / millidegree;
-      const double paid = candidate.cost - before.cost;
+      const double paid = cost_of(candidate) - cost_of(before);
       const double share = 1.0 - rms_of(candidate) / rms_of(before);
       if (share < negligible_change) {
         step += fmt::format(", only {:.1f} % less than the one before: nothing to pay for",
@@ -132,6 +137,20 @@ std::string on_the_front(const EvaluateSection& section) {
       "On the front of cost and rms, each better than all that cost less: {}.{} A proposal off the "
       "front is dearer and no better than one on it.",
       fmt::join(steps, "; "), assumed ? " Costs marked as assumed were quoted by nobody." : "");
+}
+
+std::string without_cost(const EvaluateSection& section) {
+  std::vector<std::string> names;
+  for (const auto& candidate : section.candidates) {
+    if (!candidate.path.empty() && !candidate.cost) names.push_back(candidate.name);
+  }
+  if (names.empty()) return "";
+  return section.currency.empty()
+             ? std::string(
+                   "No proposal states a cost ([cost] of its file): they are compared by "
+                   "what they do, and there is no front of cost and rms.")
+             : fmt::format("Without a cost ([cost] of its file), and so not on the front: {}.",
+                           fmt::join(names, ", "));
 }
 
 // What of the choice by the least mean is not worth paying for.
@@ -324,9 +343,9 @@ std::size_t worth_its_cost(const EvaluateSection& section, const DecisionSection
     if (!candidate(i).feasible() || !(options[i].mean <= (1.0 + negligible_change) * least)) {
       continue;
     }
-    const bool cheaper = candidate(i).cost < candidate(choice).cost;
-    const bool better =
-        candidate(i).cost == candidate(choice).cost && options[i].mean < options[choice].mean;
+    const double cost = cost_of(candidate(i)), least_cost = cost_of(candidate(choice));
+    const bool cheaper = cost < least_cost;
+    const bool better = cost == least_cost && options[i].mean < options[choice].mean;
     if (!chosen || cheaper || better) choice = i;
     chosen = true;
   }
@@ -341,7 +360,10 @@ std::vector<std::string> conclude(const EvaluateSection& section) {
   if (section.candidates.empty()) return sentences;
   add(against_as_it_is(section));
   add(in_the_time_domain(section));
+  add(plants_within_needs(section));
+  add(changed_motion(section));
   add(on_the_front(section));
+  add(without_cost(section));
   if (section.decision) {
     add(chances(section, *section.decision));
     add(not_worth_paying(section, *section.decision));

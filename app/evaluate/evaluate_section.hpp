@@ -32,6 +32,11 @@ struct CandidateLaw {
   /// asked for, for a law that is not stable and for a case without [simulation].
   std::optional<design::NonlinearVerification> time_domain;
 
+  /// On how many of the ensemble's plants each budget is met in the wind that it is needed up to,
+  /// by linear loops times nonlinear_factor; none for a budget without such a wind. Empty without a
+  /// stable law.
+  std::vector<std::optional<int>> budgets_met;
+
   /// The simulated beam's rms over that of the linear plant in the same record; 1 without a
   /// simulation, infinite if that did not complete.
   double nonlinear_factor() const;
@@ -50,16 +55,19 @@ struct SlewFigures {
   double rate = 0.0, acceleration = 0.0;  // 0: the supply cannot move it against its friction
   double rate_asked = 0.0;
   std::optional<double> time;  // s
+  /// What the drive has reserve for at that rate, whatever is asked.
+  double reachable_acceleration = 0.0;
 };
 
 /// What the chosen law and the drive do, at the design's wind speed with the mean of the plant.
 /// Rms, losses and speed limits with the law's nonlinear_factor, also at other wind speeds.
 struct CandidateFigures {
-  std::vector<double> losses;                // dB, one a band
-  std::optional<double> climate_rms;         // rad
-  std::vector<double> climate_losses;        // dB, one a band; empty without a climate
-  std::vector<double> speed_limits;          // m/s, one a budget
-  double supply_margin = 0.0;                // supply torque over the largest in gusts
+  std::vector<double> losses;          // dB, one a band
+  std::optional<double> climate_rms;   // rad
+  std::vector<double> climate_losses;  // dB, one a band; empty without a climate
+  std::vector<double> speed_limits;    // m/s, one a budget
+  /// What friction and offset leave of the supply's torque, over the largest in gusts.
+  double supply_margin = 0.0;
   double demand_margin = 0.0;                // valve stroke over the largest demand in gusts
   std::optional<double> slew_stroke_margin;  // valve stroke over the slew rate at the motor
   std::optional<SlewFigures> slew;           // of cases with a [simulation]
@@ -70,7 +78,8 @@ struct Candidate {
   std::string name;
   std::string path;  // of the proposal; empty for the antenna as it is
   std::string description;
-  double cost = 0.0, cost_uncertainty = 0.0;
+  std::optional<double> cost;  // 0 of the antenna as it is; none if the proposal states none
+  double cost_uncertainty = 0.0;
   bool cost_assumed = false;
   std::vector<std::string> risks;
   std::vector<ChangeRow> changes;
@@ -87,6 +96,9 @@ struct Candidate {
   /// None if no structure is stable.
   const CandidateLaw* chosen_law() const { return chosen ? &laws[*chosen] : nullptr; }
   bool feasible() const { return chosen && laws[*chosen].usable(); }
+  /// The beam's largest after turning round at the tracking rate (rad), with the chosen law on the
+  /// nonlinear antenna; none where that did not run, or not to its end.
+  std::optional<double> reversal_error() const;
 };
 
 /// What the draws say of one candidate with its gains held.
@@ -103,8 +115,9 @@ struct DecisionSection {
   std::string source;                      // of the draws
   std::vector<CandidateDraws> candidates;  // those with a stable law, in the table's order
   design::DecisionStatistics statistics;   // options in the same order
-  std::vector<double> front_shares;        // of draws in which it is on the front of cost and rms
-  std::vector<std::string> inputs;         // that vary
+  /// Of draws in which it is on the front of cost and rms; NaN without a cost.
+  std::vector<double> front_shares;
+  std::vector<std::string> inputs;  // that vary
   /// The two of least expected rms, as places in `candidates`.
   std::size_t best = 0, second = 0;
   /// Of rms of second less best, mdeg.
@@ -120,7 +133,7 @@ struct EvaluateSection {
   plant::WindModel wind_model = plant::WindModel::coherence;
   bool climate = false;  // the case has one
   bool minimises_climate = false;
-  std::string currency;  // empty: no proposal costs anything
+  std::string currency;  // empty: no proposal states a cost
   std::string ensemble_source;
   std::size_t ensemble_size = 0;
   int starts = 0;
@@ -129,15 +142,16 @@ struct EvaluateSection {
   /// How laws ran on the nonlinear antenna; none if they did not.
   std::optional<design::NonlinearVerificationOptions> time_domain;
   std::vector<Candidate> candidates;  // the antenna as it is first
-  /// On the front of cost and compared_rms, as places in `candidates`, in rising cost.
+  /// On the front of cost and compared_rms, as places in `candidates`, in rising cost; empty if no
+  /// proposal states a cost.
   std::vector<std::size_t> front;
   std::optional<DecisionSection> decision;
   std::vector<std::string> not_run;  // what an interrupt left out
 };
 
 /// The place in `decision.candidates` of the one to choose: of those that meet every goal the
-/// cheapest whose mean rms over the draws lies within negligible_change of the least of them;
-/// decision.best if none meets its goals.
+/// cheapest whose mean rms over the draws lies within negligible_change of the least of them, one
+/// without a cost counting as dearer than any; decision.best if none meets its goals.
 std::size_t worth_its_cost(const EvaluateSection& section, const DecisionSection& decision);
 
 /// A few paragraphs that say what the section means, with its conditions.

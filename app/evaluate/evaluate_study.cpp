@@ -51,6 +51,10 @@ std::optional<SlewFigures> slew_of(const Case& antenna, double inertia) {
   const double wanted = std::min(slew.rate_asked * ratio, 0.999 * open);
   const auto limits = design::within_reach(make_nonlinear_antenna(antenna), inertia,
                                            {wanted, acceleration * ratio});
+  constexpr double any_acceleration = std::numeric_limits<double>::infinity();
+  const auto reach =
+      design::within_reach(make_nonlinear_antenna(antenna), inertia, {wanted, any_acceleration});
+  slew.reachable_acceleration = std::max(0.0, reach.acceleration / ratio);
   slew.rate = std::max(0.0, limits.rate / ratio);
   slew.acceleration = std::max(0.0, limits.acceleration / ratio);
   if (slew.rate > 0.0 && slew.acceleration > 0.0) {
@@ -93,7 +97,7 @@ CandidateFigures figures_of(const Case& antenna, const CandidateLaw& tuned,
                                problem.gear_ratio);
   const auto& drive = problem.plant.drive;
   figures.supply_margin =
-      supply_torque(antenna) / (mean + crest * std::sqrt(evaluation.wind_torque_variance));
+      torque_for_wind(antenna) / (mean + crest * std::sqrt(evaluation.wind_torque_variance));
   const double slewing = antenna.drive.slew_rate.value * problem.gear_ratio;
   const double stroke = largest_demand(antenna);
   figures.demand_margin = stroke / (drive.leakage_rate / drive.oil_stiffness * mean +
@@ -126,11 +130,12 @@ Candidate describe_candidate(const ProposedCase& proposed, const Proposal& propo
   candidate.name = proposal.name;
   candidate.path = proposal.path;
   candidate.description = proposal.description;
-  candidate.cost = proposal.cost.amount.value;
-  if (proposal.cost.amount.uncertainty_given) {
-    candidate.cost_uncertainty = proposal.cost.amount.standard_uncertainty;
+  if (proposal.cost) {
+    const Quantity& amount = proposal.cost->amount;
+    candidate.cost = amount.value;
+    if (amount.uncertainty_given) candidate.cost_uncertainty = amount.standard_uncertainty;
+    candidate.cost_assumed = amount.basis == Basis::assumed;
   }
-  candidate.cost_assumed = proposal.cost.amount.basis == Basis::assumed;
   candidate.risks = proposal.risks;
   candidate.changes = proposed.changes;
   candidate.consequences = proposed.consequences;
@@ -156,25 +161,26 @@ void check_together(const std::vector<Proposal>& proposals) {
                   fmt::format("expected a name of its own, found {}, which {} has too",
                               in_quotes(one.name), proposals[k].path));
       }
-      if (proposals[k].cost.currency != one.cost.currency) {
+      if (one.cost && proposals[k].cost && proposals[k].cost->currency != one.cost->currency) {
         refuse_at(one.cost_location, "cost.currency",
                   fmt::format("expected the currency of {}, {}, since costs are compared, found {}",
-                              proposals[k].path, in_quotes(proposals[k].cost.currency),
-                              in_quotes(one.cost.currency)));
+                              proposals[k].path, in_quotes(proposals[k].cost->currency),
+                              in_quotes(one.cost->currency)));
       }
     }
   }
 }
 
-// In rising cost, by the rms of those with a usable law.
+// In rising cost, by the rms of those with a usable law and a cost.
 std::vector<std::size_t> front_of(const std::vector<Candidate>& candidates) {
   std::vector<std::size_t> places;
   std::vector<design::CostPoint> points;
   for (std::size_t i = 0; i < candidates.size(); ++i) {
     const CandidateLaw* law = candidates[i].chosen_law();
     if (law == nullptr || !law->usable() || !std::isfinite(law->compared_rms())) continue;
+    if (!candidates[i].cost) continue;
     places.push_back(i);
-    points.push_back({candidates[i].cost, law->compared_rms()});
+    points.push_back({*candidates[i].cost, law->compared_rms()});
   }
   std::vector<std::size_t> front;
   for (const std::size_t i : design::pareto_front(points)) front.push_back(places[i]);
@@ -188,6 +194,14 @@ double CandidateLaw::nonlinear_factor() const {
   const auto& wind = time_domain->wind;
   const bool complete = wind.status == design::RunStatus::complete;
   return complete ? wind.beam_rms / wind.continuous_rms : std::numeric_limits<double>::infinity();
+}
+
+std::optional<double> Candidate::reversal_error() const {
+  const CandidateLaw* law = chosen_law();
+  if (law == nullptr || !law->time_domain || !law->time_domain->reversal) return std::nullopt;
+  const auto& reversal = *law->time_domain->reversal;
+  if (reversal.status != design::RunStatus::complete) return std::nullopt;
+  return reversal.beam_error;
 }
 
 plant::AntennaPlant proposed_plant(const Case& as_is, const Case& proposed, const PlantDraw& draw) {
@@ -218,7 +232,7 @@ EvaluateSection evaluate_proposals(const Case& antenna, const std::vector<Propos
   }
   std::vector<std::string> structures = options.structures;
   if (structures.empty()) structures = {"PI"};
-  for (const auto& name : structures) loop_structure(antenna.loops, name);
+  for (const auto& name : structures) loop_structure(antenna, name);
 
   EvaluateSection section;
   section.bands = make_bands(antenna);
@@ -227,7 +241,9 @@ EvaluateSection evaluate_proposals(const Case& antenna, const std::vector<Propos
   section.wind_model = make_problem(antenna).wind.model;
   section.climate = !make_climate(antenna).empty();
   section.minimises_climate = antenna.goals.over_climate;
-  section.currency = proposals.front().cost.currency;
+  for (const auto& proposal : proposals) {
+    if (proposal.cost) section.currency = proposal.cost->currency;
+  }
   section.starts = options.starts != 0 ? options.starts : static_cast<int>(antenna.tuning.starts);
   if (section.starts == 0) section.starts = design::TuningOptions{}.starts;
   if (section.minimises_climate && !section.climate) {
@@ -239,6 +255,7 @@ EvaluateSection evaluate_proposals(const Case& antenna, const std::vector<Propos
   std::vector<Case> cases{antenna};
   section.candidates.push_back(describe_candidate(antenna));
   section.candidates.front().name = as_it_is;
+  section.candidates.front().cost = 0.0;
   section.candidates.front().description = "the antenna of the case, re-tuned";
   std::vector<std::vector<std::string>> names{structures};
   for (const auto& proposal : proposals) {
@@ -273,7 +290,7 @@ EvaluateSection evaluate_proposals(const Case& antenna, const std::vector<Propos
     if (!candidate.chosen) return;
     candidate.figures = figures_of(cases[i], candidate.laws[*candidate.chosen], section);
   });
-  section.front = front_of(section.candidates);
+  if (!section.currency.empty()) section.front = front_of(section.candidates);
   const bool stopped = options.interrupted && options.interrupted();
   if (!stopped && section.not_run.empty()) {
     section.decision = decide(section.candidates, cases, uncertainty.distribution, options);

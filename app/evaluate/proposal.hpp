@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -28,7 +29,7 @@ struct Proposal {
   std::string name;
   Location name_location;
   std::string description;
-  ProposedCost cost;
+  std::optional<ProposedCost> cost;  // none: nobody has priced it
   Location cost_location;
   std::vector<std::string> risks;
   /// Loop structures to tune it with; empty: those of the antenna as it is.

@@ -133,14 +133,17 @@ class ProposalReader {
   }
 
   void read_cost() {
-    TableReader table = file_.table("cost");
-    proposal_.cost_location = table.location();
-    proposal_.cost.amount = table.quantity("amount", Kind::number, Range::not_negative(1e15));
-    proposal_.cost.currency = table.text("currency");
-    if (proposal_.cost.currency.empty()) {
-      table.refuse("currency", "expected a currency such as 'kUSD of 2026', found ''");
+    auto table = file_.optional_table("cost");
+    if (!table) return;
+    proposal_.cost_location = table->location();
+    ProposedCost cost;
+    cost.amount = table->quantity("amount", Kind::number, Range::not_negative(1e15));
+    cost.currency = table->text("currency");
+    if (cost.currency.empty()) {
+      table->refuse("currency", "expected a currency such as 'kUSD of 2026', found ''");
     }
-    table.finish();
+    table->finish();
+    proposal_.cost = std::move(cost);
   }
 
   // A table of the file with its tree; none if the file has not got it.

@@ -57,19 +57,19 @@ Figure front_figure(const EvaluateSection& section) {
   FigureSeries front{.name = "front", .style = SeriesStyle::steps};
   for (const auto& candidate : section.candidates) {
     const CandidateLaw* law = candidate.chosen_law();
-    if (law == nullptr || !std::isfinite(law->compared_rms())) continue;
+    if (law == nullptr || !candidate.cost || !std::isfinite(law->compared_rms())) continue;
     FigureSeries& series = candidate.feasible() ? meets : misses;
-    series.x.push_back(candidate.cost);
-    series.x_lower.push_back(candidate.cost - candidate.cost_uncertainty);
-    series.x_upper.push_back(candidate.cost + candidate.cost_uncertainty);
+    series.x.push_back(*candidate.cost);
+    series.x_lower.push_back(*candidate.cost - candidate.cost_uncertainty);
+    series.x_upper.push_back(*candidate.cost + candidate.cost_uncertainty);
     series.y.push_back(finite_rms(law->compared_rms()));
     series.labels.push_back(candidate.name);
   }
   for (const std::size_t place : section.front) {
     const Candidate& candidate = section.candidates[place];
     const CandidateLaw* law = candidate.chosen_law();
-    if (law == nullptr) continue;
-    front.x.push_back(candidate.cost);
+    if (law == nullptr || !candidate.cost) continue;
+    front.x.push_back(*candidate.cost);
     front.y.push_back(finite_rms(law->compared_rms()));
   }
   if (!meets.x.empty()) panel.series.push_back(std::move(meets));
@@ -250,7 +250,7 @@ Figure sobol_figure(const EvaluateSection& section, const DecisionSection& decis
 
 std::vector<Figure> evaluate_figures(const EvaluateSection& section) {
   std::vector<Figure> figures;
-  figures.push_back(front_figure(section));
+  if (!section.currency.empty()) figures.push_back(front_figure(section));
   figures.push_back(spread_figure(section));
   std::erase_if(figures, [](const Figure& figure) {
     const auto& series = figure.panels.front().series;

@@ -38,10 +38,12 @@ Json slew_json(const SlewFigures& slew) {
           {"rate_deg_per_s", number(slew.rate / degree)},
           {"rate_asked_deg_per_s", number(slew.rate_asked / degree)},
           {"acceleration_deg_per_s2", number(slew.acceleration / degree)},
+          {"reachable_acceleration_deg_per_s2", number(slew.reachable_acceleration / degree)},
           {"time_s", optional_number(slew.time)}};
 }
 
-Json figures_json(const EvaluateSection& section, const CandidateFigures& figures) {
+Json figures_json(const EvaluateSection& section, const Candidate& candidate,
+                  const CandidateFigures& figures) {
   Json bands = Json::array();
   for (std::size_t i = 0; i < section.bands.size(); ++i) {
     bands.push_back(
@@ -51,10 +53,16 @@ Json figures_json(const EvaluateSection& section, const CandidateFigures& figure
           figures.climate_losses.empty() ? Json(nullptr) : number(figures.climate_losses[i])}});
   }
   Json budgets = Json::array();
+  const CandidateLaw* law = candidate.chosen_law();
   for (std::size_t i = 0; i < section.budgets.size(); ++i) {
-    budgets.push_back({{"name", section.budgets[i].name},
-                       {"band", section.budgets[i].band},
-                       {"wind_speed_limit_m_per_s", number(figures.speed_limits[i])}});
+    const bool judged = law != nullptr && i < law->budgets_met.size();
+    budgets.push_back(
+        {{"name", section.budgets[i].name},
+         {"band", section.budgets[i].band},
+         {"wind_speed_limit_m_per_s", number(figures.speed_limits[i])},
+         {"needed_wind_speed_m_per_s", optional_number(section.budgets[i].wind_speed)},
+         {"plants_met",
+          judged && law->budgets_met[i] ? Json(*law->budgets_met[i]) : Json(nullptr)}});
   }
   return {{"climate_beam_rms_mdeg", optional_number(figures.climate_rms, millidegree)},
           {"bands", std::move(bands)},
@@ -62,6 +70,7 @@ Json figures_json(const EvaluateSection& section, const CandidateFigures& figure
           {"supply_margin_1", number(figures.supply_margin)},
           {"gust_stroke_margin_1", number(figures.demand_margin)},
           {"slew_stroke_margin_1", optional_number(figures.slew_stroke_margin)},
+          {"reversal_beam_error_mdeg", optional_number(candidate.reversal_error(), millidegree)},
           {"slew", figures.slew ? slew_json(*figures.slew) : Json(nullptr)}};
 }
 
@@ -84,24 +93,24 @@ Json candidate_json(const EvaluateSection& section, const Candidate& candidate) 
   }
   Json laws = Json::array();
   for (const auto& law : candidate.laws) laws.push_back(law_json(law));
-  return {
-      {"name", candidate.name},
-      {"path", text_or_null(candidate.path)},
-      {"description", candidate.description},
-      {"cost_1", number(candidate.cost)},
-      {"cost_uncertainty_1", number(candidate.cost_uncertainty)},
-      {"cost_assumed", candidate.cost_assumed},
-      {"risks", candidate.risks},
-      {"changes", std::move(changes)},
-      {"consequences", std::move(consequences)},
-      {"reflected_inertia_kg_m2", number(candidate.reflected_inertia)},
-      {"motor_inertia_kg_m2", number(candidate.motor_inertia)},
-      {"motor_to_load_ratio_1", number(candidate.motor_to_load_ratio)},
-      {"feasible", candidate.feasible()},
-      {"chosen_structure",
-       candidate.chosen ? Json(candidate.laws[*candidate.chosen].structure) : Json(nullptr)},
-      {"laws", std::move(laws)},
-      {"figures", candidate.figures ? figures_json(section, *candidate.figures) : Json(nullptr)}};
+  return {{"name", candidate.name},
+          {"path", text_or_null(candidate.path)},
+          {"description", candidate.description},
+          {"cost_1", optional_number(candidate.cost)},
+          {"cost_uncertainty_1", number(candidate.cost_uncertainty)},
+          {"cost_assumed", candidate.cost_assumed},
+          {"risks", candidate.risks},
+          {"changes", std::move(changes)},
+          {"consequences", std::move(consequences)},
+          {"reflected_inertia_kg_m2", number(candidate.reflected_inertia)},
+          {"motor_inertia_kg_m2", number(candidate.motor_inertia)},
+          {"motor_to_load_ratio_1", number(candidate.motor_to_load_ratio)},
+          {"feasible", candidate.feasible()},
+          {"chosen_structure",
+           candidate.chosen ? Json(candidate.laws[*candidate.chosen].structure) : Json(nullptr)},
+          {"laws", std::move(laws)},
+          {"figures", candidate.figures ? figures_json(section, candidate, *candidate.figures)
+                                        : Json(nullptr)}};
 }
 
 }  // namespace

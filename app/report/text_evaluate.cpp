@@ -37,10 +37,11 @@ std::string verdict(const Candidate& candidate) {
 }
 
 std::string cost_text(const Candidate& candidate) {
+  if (!candidate.cost) return "-";
   if (candidate.cost_uncertainty > 0.0) {
-    return fmt::format("{:g} +- {:g}", candidate.cost, candidate.cost_uncertainty);
+    return fmt::format("{:g} +- {:g}", *candidate.cost, candidate.cost_uncertainty);
   }
-  return fmt::format("{:g}", candidate.cost);
+  return fmt::format("{:g}", *candidate.cost);
 }
 
 void fill(std::vector<std::string>& cells, std::size_t columns) {
@@ -135,18 +136,27 @@ Document loop_table(const EvaluateSection& section) {
     rows.push_back(std::move(cells));
   }
   return table(rows, "ll") +
-         wrapped(fmt::format(
-                     "cost in {}; linear: rms of the beam on the nominal plant by the spectrum; {}"
-                     "over plants: root of the mean square over the {} plants of the ensemble{}, "
-                     "worst: the largest of them; worst plant: the one farthest from its hard "
-                     "goals. hydr. and zeta: frequency and damping of the oil's mode with the "
-                     "structure bending, no loop closed.",
-                     section.currency,
-                     simulated ? "simulated: in one record of wind on the nonlinear antenna; "
-                                 "factor: that over the linear plant's rms in the same record; "
-                               : "",
-                     section.ensemble_size, simulated ? ", of linear loops, times the factor" : ""),
-                 "  ");
+         wrapped(
+             fmt::format(
+                 "cost{}; linear: rms of the beam on the nominal plant by the spectrum; {}"
+                 "over plants: root of the mean square over the {} plants of the ensemble{}, "
+                 "worst: the largest of them; worst plant: the one farthest from its hard "
+                 "goals. hydr. and zeta: frequency and damping of the oil's mode with the "
+                 "structure bending, no loop closed.",
+                 section.currency.empty() ? ": stated by no proposal" : " in " + section.currency,
+                 simulated ? "simulated: in one record of wind on the nonlinear antenna; "
+                             "factor: that over the linear plant's rms in the same record; "
+                           : "",
+                 section.ensemble_size, simulated ? ", of linear loops, times the factor" : ""),
+             "  ");
+}
+
+// "24/30": plants on which the candidate's law meets a budget where it is needed.
+std::string plants_text(const EvaluateSection& section, const Candidate& candidate,
+                        std::size_t budget) {
+  const CandidateLaw* law = candidate.chosen_law();
+  if (law == nullptr || budget >= law->budgets_met.size() || !law->budgets_met[budget]) return "-";
+  return fmt::format("{}/{}", *law->budgets_met[budget], section.ensemble_size);
 }
 
 Document service_table(const EvaluateSection& section) {
@@ -159,6 +169,7 @@ Document service_table(const EvaluateSection& section) {
   }
   for (std::size_t i = 0; i < section.budgets.size(); ++i) {
     rows[0].push_back(fmt::format("({}) m/s", i + 1));
+    if (section.budgets[i].wind_speed) rows[0].push_back(fmt::format("({}) plants", i + 1));
   }
   const bool stroke_stated =
       std::ranges::any_of(section.candidates, [](const Candidate& candidate) {
@@ -166,23 +177,30 @@ Document service_table(const EvaluateSection& section) {
       });
   for (const char* name :
        {"torque margin", stroke_stated ? "stroke, gusts" : "assumed stroke, gusts", "stroke, slew",
-        "slew deg/s", "10 deg s"}) {
+        "slew deg/s", "10 deg s", "accel. deg/s2"}) {
     rows[0].emplace_back(name);
   }
+  if (section.time_domain) rows[0].emplace_back("reversal mdeg");
   for (const auto& candidate : section.candidates) {
     std::vector<std::string> cells{candidate.name};
     if (candidate.figures) {
       const auto& figures = *candidate.figures;
       for (const double loss : figures.losses) cells.push_back(fixed(loss, 4));
       for (const double loss : figures.climate_losses) cells.push_back(fixed(loss, 4));
-      for (const double limit : figures.speed_limits) cells.push_back(speed(limit));
+      for (std::size_t i = 0; i < figures.speed_limits.size(); ++i) {
+        cells.push_back(speed(figures.speed_limits[i]));
+        if (section.budgets[i].wind_speed) cells.push_back(plants_text(section, candidate, i));
+      }
       cells.push_back(fixed(figures.supply_margin, 2));
       cells.push_back(fixed(figures.demand_margin, 1));
       cells.push_back(figures.slew_stroke_margin ? fixed(*figures.slew_stroke_margin, 2) : "-");
       if (figures.slew) {
         cells.push_back(fixed(figures.slew->rate / degree, 3));
         cells.push_back(figures.slew->time ? fixed(*figures.slew->time, 1) : "never");
+        cells.push_back(fixed(figures.slew->reachable_acceleration / degree, 3));
       }
+      fill(cells, rows[0].size() - (section.time_domain ? 1 : 0));
+      if (const auto error = candidate.reversal_error()) cells.push_back(mdeg(*error));
     }
     fill(cells, rows[0].size());
     rows.push_back(std::move(cells));
@@ -190,17 +208,28 @@ Document service_table(const EvaluateSection& section) {
   Document text = table(rows, "l");
   for (std::size_t i = 0; i < section.budgets.size(); ++i) {
     const auto& budget = section.budgets[i];
-    text += fmt::format("  ({}) {}, band {}, {}: {} mdeg, met up to that mean wind speed\n", i + 1,
-                        budget.name, budget.band, budget.convention, mdeg(budget.rms));
+    text +=
+        fmt::format("  ({}) {}, band {}, {}: {} mdeg, met up to that mean wind speed{}\n", i + 1,
+                    budget.name, budget.band, budget.convention, mdeg(budget.rms),
+                    budget.wind_speed
+                        ? fmt::format("; plants: met on so many at the {:g} m/s it is needed up to",
+                                      *budget.wind_speed)
+                        : "");
   }
   return text +
          wrapped(
              "dB: mean loss over two equal axes on the nominal plant, and the speeds up to which "
-             "budgets are met, with the factor above where there is one. torque margin: supply "
-             "torque over mean wind torque and the gusts' crest, friction left out; stroke, gusts: "
+             "budgets are met, with the factor above where there is one. torque margin: what "
+             "friction at the tracking rate and offset leave of the supply's torque, over mean "
+             "wind "
+             "torque and the gusts' crest; stroke, gusts: "
              "valve stroke over the demand in the same; stroke, slew: valve stroke over the slew "
              "rate, below 1 the rate is out of reach. slew: rate and time of a 10 deg move from "
-             "rest to rest that the drive has reserve for against friction, at 0.2 deg/s2 at most.",
+             "rest to rest that the drive has reserve for against friction, at 0.2 deg/s2 at most; "
+             "accel.: the most it has reserve for at that rate, half of what the torque left "
+             "beyond "
+             "friction gives. reversal: the beam's largest error after turning round at the "
+             "tracking rate.",
              "  ") +
          (stroke_stated ? Document()
                         : wrapped("The case states no valve stroke (drive.valve_rated_flow or "
@@ -224,11 +253,13 @@ Document changes_part(const EvaluateSection& section) {
       }
       for (const auto& one : candidate.consequences) {
         const std::string unit = one.unit == "1" ? "" : " " + one.unit;
-        rows.push_back({"  " + one.quantity, fmt::format("{:.5g}{}", one.before, unit),
-                        fmt::format("{:.5g}{}", one.after, unit),
-                        "follows from " + one.follows_from});
+        const std::string before = fmt::format("{:.5g}{}", one.before, unit);
+        const std::string after = fmt::format("{:.5g}{}", one.after, unit);
+        // Nothing to the digits printed.
+        if (before == after) continue;
+        rows.push_back({"  " + one.quantity, before, after, "follows from " + one.follows_from});
       }
-      text += table(rows, "llll");
+      if (rows.size() > 1) text += table(rows, "llll");
     }
     for (const auto& risk : candidate.risks) text += wrapped("Risk: " + risk, "  ", "  ");
   }
@@ -295,13 +326,15 @@ Document document_of(const EvaluateSection& section) {
   for (const std::size_t i : section.front) {
     const auto& candidate = section.candidates[i];
     const CandidateLaw* law = candidate.chosen_law();
-    if (law == nullptr) continue;
-    names.push_back(fmt::format("{} ({:g}, {} mdeg)", candidate.name, candidate.cost,
+    if (law == nullptr || !candidate.cost) continue;
+    names.push_back(fmt::format("{} ({:g}, {} mdeg)", candidate.name, *candidate.cost,
                                 mdeg(law->compared_rms())));
   }
-  text += "\n" + wrapped(fmt::format("Front of cost ({}) and rms over the plants: {}.",
-                                     section.currency, fmt::join(names, "; ")),
-                         "  ");
+  if (!section.currency.empty()) {
+    text += "\n" + wrapped(fmt::format("Front of cost ({}) and rms over the plants: {}.",
+                                       section.currency, fmt::join(names, "; ")),
+                           "  ");
+  }
   text += time_domain_table(section);
   if (section.decision) text += document_of(section, *section.decision);
   text += heading("What each proposal changes, and what follows") + changes_part(section);

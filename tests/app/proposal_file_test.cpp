@@ -41,8 +41,9 @@ TEST(ProposalFile, ReadsValuesAndFactors) {
   EXPECT_EQ(proposal.name, "new motors");
   EXPECT_THAT(proposal.risks, ElementsAre("leak", "slow"));
   EXPECT_THAT(proposal.structures, ElementsAre("PI", "DPF"));
-  EXPECT_DOUBLE_EQ(proposal.cost.amount.value, 350.0);
-  EXPECT_DOUBLE_EQ(proposal.cost.amount.standard_uncertainty, 105.0);
+  ASSERT_TRUE(proposal.cost);
+  EXPECT_DOUBLE_EQ(proposal.cost->amount.value, 350.0);
+  EXPECT_DOUBLE_EQ(proposal.cost->amount.standard_uncertainty, 105.0);
   ASSERT_EQ(proposal.changes.size(), 5U);
   const auto* displacement = proposal.find("motor.displacement");
   ASSERT_NE(displacement, nullptr);
@@ -52,6 +53,13 @@ TEST(ProposalFile, ReadsValuesAndFactors) {
   EXPECT_EQ(displacement->number.source, "frame");
   ASSERT_NE(proposal.find("gear_train.stage[3].driving_teeth"), nullptr);
   EXPECT_EQ(proposal.find("motor.inertia"), nullptr);
+}
+
+TEST(ProposalFile, MayLeaveOutItsCost) {
+  const Proposal proposal =
+      parse_proposal("name = 'a'\ndescription = 'b'\n[motor]\ncount = 6\n", "p.toml");
+  EXPECT_FALSE(proposal.cost);
+  EXPECT_NE(proposal.find("motor.count"), nullptr);
 }
 
 struct Refusal {
@@ -100,8 +108,9 @@ TEST(ProposalFile, RefusesWhatItCannotMean) {
 }
 
 TEST(ProposalFile, RefusesABadHead) {
-  EXPECT_EQ(refusal("name = 'a'\ndescription = 'b'\n"),
-            "p.toml:1:1: cost: expected a table, found nothing: key is missing");
+  EXPECT_EQ(refusal("name = 'a'\ndescription = 'b'\n[cost]\ncurrency = 'x'\n"),
+            "p.toml:3:1: cost.amount: expected a number (such as 0.5, 5 %), found nothing: key is "
+            "missing");
   EXPECT_THAT(refusal("nam = 'a'\n"), HasSubstr("name: expected a text, found nothing"));
   EXPECT_THAT(refusal("name = ' '\n"),
               HasSubstr("expected a name of 1 to 60 printable characters"));
@@ -125,9 +134,10 @@ TEST(ProposalFile, ReadsEveryProposalOfTheCases) {
   const std::filesystem::path folder = BORESIGHT_SOURCE_DIR "/cases/dss14-70m/proposals";
   for (const auto& entry : std::filesystem::directory_iterator(folder)) {
     const Proposal proposal = read_proposal(entry.path().string());
-    EXPECT_EQ(proposal.cost.currency, "kUSD") << entry.path();
-    EXPECT_EQ(proposal.cost.amount.basis, Basis::assumed) << entry.path();
-    EXPECT_FALSE(proposal.cost.amount.source.empty()) << entry.path();
+    ASSERT_TRUE(proposal.cost) << entry.path();
+    EXPECT_EQ(proposal.cost->currency, "kUSD") << entry.path();
+    EXPECT_EQ(proposal.cost->amount.basis, Basis::assumed) << entry.path();
+    EXPECT_FALSE(proposal.cost->amount.source.empty()) << entry.path();
     ++read;
   }
   EXPECT_GE(read, 7);

@@ -91,6 +91,24 @@ TEST(HydraulicMode, OfARigidAntennaIsTheClosedForm) {
   }
 }
 
+TEST(HydraulicMode, StaysOneModeAsFlywheelsAreAdded) {
+  // With oil stiffer than the structure the motors' largest swing is in a mode above.
+  for (const double stiffness : {1.0, 3.0, 6.0}) {
+    AntennaPlant plant = reference::antenna(0.0);
+    plant.drive.oil_stiffness *= stiffness;
+    PlantMode before = hydraulic_mode(plant_modes(plant));
+    EXPECT_LT(before.frequency, reference::structure().locked_rotor_frequency);
+    for (double disks = 2.0; disks <= 48.0; disks += 2.0) {
+      plant.drive.motor_inertia = reference::antenna(disks).drive.motor_inertia;
+      const PlantMode mode = hydraulic_mode(plant_modes(plant));
+      EXPECT_LT(mode.frequency, before.frequency) << stiffness << ", " << disks;
+      EXPECT_GT(mode.frequency, 0.93 * before.frequency) << stiffness << ", " << disks;
+      EXPECT_GT(mode.damping_ratio, before.damping_ratio) << stiffness << ", " << disks;
+      before = mode;
+    }
+  }
+}
+
 TEST(HydraulicMode, NeedsAModeThatMovesTheOil) {
   EXPECT_THAT([] { hydraulic_mode({}); },
               ThrowsMessage<NumericalFailure>(HasSubstr("no mode of the plant")));

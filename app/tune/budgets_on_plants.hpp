@@ -1,0 +1,21 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include <boresight/app/redesign/antenna_model.hpp>
+#include <boresight/design/plant_ensemble.hpp>
+
+namespace boresight::app {
+
+/// On how many plants that may be the true one each budget is met, one number a budget, with the
+/// law's gains held in the wind that the budget is needed up to, whatever the problem's own wind;
+/// none for a budget that states no wind_speed. `factor`: of the rms, over that of linear loops.
+/// The supply's torque is not counted. Does not depend on the thread count.
+/// @throws as design::judge.
+std::vector<std::optional<int>> plants_within_budgets(
+    const design::TrackingProblem& problem, const std::vector<design::EnsembleMember>& members,
+    const control::ControlLaw& law, const design::HardGoals& goals,
+    const std::vector<PointingBudget>& budgets, double factor, unsigned threads);
+
+}  // namespace boresight::app

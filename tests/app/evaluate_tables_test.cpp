@@ -1,0 +1,52 @@
+// What the tables of an evaluation leave out: rows that hold nothing to the digits printed.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <boresight/app/document/document_text.hpp>
+#include <boresight/app/report/evaluate_report.hpp>
+
+namespace boresight::app {
+namespace {
+
+using testing::AllOf;
+using testing::HasSubstr;
+using testing::Not;
+
+TEST(EvaluateTables, NameTestsThatAreWorthNothingWithoutRowsOfZeros) {
+  EvaluateSection section;
+  section.candidates.resize(1);
+  section.candidates[0].name = "as it is";
+  DecisionSection decision;
+  decision.candidates.resize(1);
+  decision.statistics.options.resize(1);
+  decision.front_shares = {1.0};
+  decision.inputs = {"leakage", "oil stiffness", "bearing"};
+  design::TestValue tests;
+  tests.inputs.resize(3);
+  tests.inputs[0].fitted = {3e-4, 1e-5};
+  // A held-out gain may be negative.
+  tests.inputs[1].held_out_gain = -1e-9;
+  decision.tests = tests;
+  const std::string text = to_text(document_of(section, decision));
+  EXPECT_THAT(text, AllOf(HasSubstr("leakage"), HasSubstr("0.00030"),
+                          HasSubstr("Nothing to the digits printed: oil stiffness, bearing.")));
+  EXPECT_THAT(text, Not(HasSubstr("bearing ")));
+}
+
+TEST(EvaluateTables, LeaveOutWhatFollowsByLessThanTheDigitsPrinted) {
+  EvaluateSection section;
+  section.candidates.resize(1);
+  Candidate& candidate = section.candidates[0];
+  candidate.name = "filter";
+  candidate.path = "filter.toml";
+  candidate.consequences = {{"dead time", "s", 0.03, 0.015, "samples", ""},
+                            {"gear ratio", "1", 28730.0, 28730.0001, "teeth", ""}};
+  const std::string text = to_text(document_of(section));
+  EXPECT_THAT(text, AllOf(HasSubstr("dead time"), Not(HasSubstr("gear ratio"))));
+  // Without a [cost] the cell is empty, and nothing is said of a currency.
+  EXPECT_THAT(text,
+              AllOf(HasSubstr("cost: stated by no proposal"), Not(HasSubstr("Front of cost"))));
+}
+
+}  // namespace
+}  // namespace boresight::app

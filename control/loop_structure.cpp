@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <set>
 
 #include <fmt/format.h>
@@ -120,6 +121,27 @@ void check_gains(const std::string& name, const std::vector<LoopBlock>& blocks,
   }
 }
 
+double nearest_power_of_ten(double factor) {
+  return std::pow(10.0, std::clamp(std::round(std::log10(factor)), -6.0, 6.0));
+}
+
+// By which gain `k` of a block changes with a load that is so much faster and heavier.
+double gain_factor(const LoopBlock& block, std::size_t k, double faster, double heavier) {
+  if (block.kind == BlockKind::notch && k > 0) return 1.0;
+  if (block.kind != BlockKind::gain) return faster;
+  switch (block.path) {
+    case LoopPath::rate:
+      break;
+    case LoopPath::pressure:
+      return 1.0 / (heavier * faster);
+    case LoopPath::position:
+      return faster;
+    case LoopPath::compliance:
+      return 1.0 / (heavier * faster * faster);
+  }
+  return 1.0;
+}
+
 }  // namespace
 
 std::string_view to_string(LoopPath path) {
@@ -217,6 +239,29 @@ LoopStructure LoopStructure::named(std::string_view short_name) {
   LoopStructure structure = *found->second;
   if (notch) structure = structure.with_notch();
   return compliance ? structure.with_compliance_compensation() : structure;
+}
+
+LoopStructure LoopStructure::with_bounds_for(const DrivenLoad& load) const {
+  for (const double number : {load.frequency, load.inertia}) {
+    if (!(number > 0.0) || !std::isfinite(number)) {
+      throw InvalidInput(
+          fmt::format("driven load: expected frequency and inertia above 0 and "
+                      "finite, found {:g} Hz and {:g} kg.m2",
+                      load.frequency, load.inertia));
+    }
+  }
+  const DrivenLoad usual;
+  const double faster = load.frequency / usual.frequency;
+  const double heavier = load.inertia / usual.inertia;
+  std::vector<LoopBlock> blocks = this->blocks();
+  for (LoopBlock& one : blocks) {
+    for (std::size_t k = 0; k < one.gains.size(); ++k) {
+      const double moved = nearest_power_of_ten(gain_factor(one, k, faster, heavier));
+      one.gains[k].lower *= moved;
+      one.gains[k].upper *= moved;
+    }
+  }
+  return {name(), std::move(blocks)};
 }
 
 const std::string& LoopStructure::name() const {

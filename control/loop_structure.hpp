@@ -45,6 +45,12 @@ struct LoopBlock {
 
 inline constexpr std::size_t most_gains = 16;
 
+/// What a drive moves, as far as it says how large the gains of its loops can be.
+struct DrivenLoad {
+  double frequency = 2.0;  // Hz: the structure's lowest with the motors held
+  double inertia = 0.4;    // kg m2 of the antenna, at the motor shaft
+};
+
 /// Which blocks a control law is made of: a value, cheap to copy. Each path is the product of its
 /// blocks; a path without blocks is absent (pressure, compliance). Gain vectors hold the blocks'
 /// gains in their order.
@@ -58,7 +64,7 @@ class LoopStructure {
   /// compliance path, or no washout in the pressure path (it would fight the load).
   LoopStructure(std::string name, std::vector<LoopBlock> blocks);
 
-  // The usual ones, with bounds that hold for drives of antennas.
+  // The usual ones, with bounds for loads like the default of DrivenLoad.
   static const LoopStructure& pi();                 // rate and position PI
   static const LoopStructure& pi_with_lag();        // PI, lag in the rate loop
   static const LoopStructure& pressure_feedback();  // PI with lag, dynamic pressure feedback
@@ -71,6 +77,15 @@ class LoopStructure {
   /// By its short name: PI-0, PI, DPF, LL, FULL, each also with +N (notch) and +C (compliance
   /// compensation). @throws InvalidInput listing them.
   static LoopStructure named(std::string_view short_name);
+  /// With the bounds moved to another load than the default, that of the 70-m antenna DSS-14.
+  /// Plants that are alike but for their units of time and torque have laws that are alike but for
+  /// them: corners and position gain go with the frequency w, the pressure feedback's gain with
+  /// 1/(J w) and the compliance with 1/(J w^2); it is the structure's, as the encoder sees the oil
+  /// spring give way. Rate gain and damping ratios are plain numbers and stay. Bounds move by the
+  /// whole power of ten that is nearest to that factor, 1e-6 to 1e6: they are decades wide, and so
+  /// stand still while an antenna changes a little.
+  /// @throws InvalidInput unless frequency and inertia are positive and finite
+  LoopStructure with_bounds_for(const DrivenLoad& load) const;
 
   const std::string& name() const;
   const std::vector<LoopBlock>& blocks() const;

@@ -12,6 +12,7 @@ namespace {
 
 using control::BlockKind;
 using control::ControlLaw;
+using control::DrivenLoad;
 using control::GainDescription;
 using control::LoopBlock;
 using control::LoopPath;
@@ -50,11 +51,11 @@ double neutral_gain(const LoopBlock& block, std::size_t k) {
   return middle(gain.lower, gain.upper);
 }
 
-std::vector<LoopStructure> usual_structures_with_lag() {
+std::vector<LoopStructure> usual_structures_with_lag(const DrivenLoad& load) {
   std::vector<LoopStructure> usual;
   for (const char* base : {"PI", "DPF", "LL", "FULL"}) {
     for (const char* added : {"", "+N", "+C", "+N+C"}) {
-      usual.push_back(LoopStructure::named(std::string(base) + added));
+      usual.push_back(LoopStructure::named(std::string(base) + added).with_bounds_for(load));
     }
   }
   return usual;
@@ -106,9 +107,10 @@ std::vector<std::vector<std::size_t>> parts_of(const std::vector<LoopStructure>&
   return parts;
 }
 
-std::vector<LoopStructure> missing_parts(const std::vector<LoopStructure>& structures) {
+std::vector<LoopStructure> missing_parts(const std::vector<LoopStructure>& structures,
+                                         const DrivenLoad& load) {
   std::vector<LoopStructure> all = structures;
-  for (auto& usual : usual_structures_with_lag()) {
+  for (auto& usual : usual_structures_with_lag(load)) {
     if (std::ranges::find(structures, usual) == structures.end()) all.push_back(std::move(usual));
   }
   std::vector<bool> wanted(all.size(), false);

@@ -18,9 +18,10 @@ std::vector<std::vector<std::size_t>> parts_of(
     const std::vector<control::LoopStructure>& structures);
 
 /// The usual structures with lag (LoopStructure::named) that are not in a list and that one of the
-/// list extends directly: what is worth tuning first.
+/// list extends directly: what is worth tuning first. `load` is what their bounds are for, as those
+/// of the usual ones in the list.
 std::vector<control::LoopStructure> missing_parts(
-    const std::vector<control::LoopStructure>& structures);
+    const std::vector<control::LoopStructure>& structures, const control::DrivenLoad& load = {});
 
 /// Tunes a list of structures of which some start from the laws of others: `search` of each place,
 /// then `improve` of each that has parts (parts_of), after that of all its parts. On up to

@@ -19,6 +19,20 @@ bool within(double value, double least, double most) {
   return value >= least && value <= most;
 }
 
+double highest_of(const ClimatePart& part) {
+  const auto* law = std::get_if<WeibullClimate>(&part.winds);
+  return law != nullptr ? law->highest : std::get<double>(part.winds);
+}
+
+// How much of the part's time its speed is at most that.
+double share_of(const ClimatePart& part, double speed) {
+  if (speed >= highest_of(part) * (1.0 - 1e-9)) return 1.0;
+  const auto* law = std::get_if<WeibullClimate>(&part.winds);
+  if (law == nullptr) return 0.0;
+  const auto below = [&](double v) { return -std::expm1(-std::pow(v / law->scale, law->shape)); };
+  return below(std::max(0.0, speed)) / below(law->highest);
+}
+
 }  // namespace
 
 std::vector<WeightedSpeed> climate_speeds(const WeibullClimate& climate) {
@@ -66,6 +80,24 @@ std::vector<WeightedSpeed> climate_speeds(const std::vector<WeightedSpeed>& tabl
     if (weight > negligible * sum) speeds.push_back({speed, weight / sum});
   }
   return speeds;
+}
+
+double share_of_time(const std::vector<ClimatePart>& climate, double speed) {
+  double sum = 0.0, below = 0.0;
+  for (const auto& part : climate) {
+    sum += part.weight;
+    below += part.weight * share_of(part, speed);
+  }
+  if (!(sum > 0.0)) {
+    throw InvalidInput("share_of_time: expected a climate of a weight above 0, found none");
+  }
+  return below / sum;
+}
+
+double highest_speed(const std::vector<ClimatePart>& climate) {
+  double highest = 0.0;
+  for (const auto& part : climate) highest = std::max(highest, highest_of(part));
+  return highest;
 }
 
 }  // namespace boresight::design

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <variant>
 #include <vector>
 
 namespace boresight::design {
@@ -28,5 +29,22 @@ std::vector<WeightedSpeed> climate_speeds(const WeibullClimate& climate);
 /// The given speeds with their weights scaled to the sum 1, those of weight 0 left out.
 /// @throws InvalidInput for none, a speed that is not above 0, a negative or no positive weight.
 std::vector<WeightedSpeed> climate_speeds(const std::vector<WeightedSpeed>& table);
+
+/// A part of a site's climate: one mean speed (m/s, above 0) or a Weibull law, and its share of the
+/// time. Shares need not sum to 1.
+struct ClimatePart {
+  std::variant<double, WeibullClimate> winds;
+  double weight = 1.0;  // above 0
+};
+
+/// Share of the climate's time (0 to 1) in which the mean speed is at most `speed` (m/s; infinite:
+/// all of it). Of a Weibull law
+///   (1 - exp(-(v/scale)^shape))/(1 - exp(-(highest/scale)^shape)),
+/// exactly and not by the speeds of climate_speeds; a single speed counts from itself on.
+/// @throws InvalidInput for no part, or no positive weight.
+double share_of_time(const std::vector<ClimatePart>& climate, double speed);
+
+/// The highest mean speed (m/s) that the climate knows; 0 without a part.
+double highest_speed(const std::vector<ClimatePart>& climate);
 
 }  // namespace boresight::design

@@ -31,7 +31,7 @@ constexpr double move_ramp = 2.0;
 constexpr double largest_angle_step = 100.0 * millidegree;
 
 control::ControlLaw given_law(const Case& antenna, const CommissionOptions& options) {
-  control::ControlLaw law{loop_structure(antenna.loops, options.structure), {}};
+  control::ControlLaw law{loop_structure(antenna, options.structure), {}};
   std::vector<std::string> known;
   for (const auto& block : law.structure.blocks()) {
     for (std::size_t i = 0; i < block.gains.size(); ++i) {
@@ -389,7 +389,7 @@ CommissionReport plan_commission(const Case& antenna, const PlantEnsemble& ensem
   }
   const double rate = move_share * antenna.drive.slew_rate.value * problem.gear_ratio;
   report.move = {rate, rate / move_ramp};
-  loop_structure(antenna.loops, options.structure);
+  loop_structure(antenna, options.structure);
   if (!options.before.empty()) {
     report.comparisons =
         compare_case_records(antenna, options.before, options.after, options.threads);

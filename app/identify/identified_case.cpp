@@ -121,15 +121,4 @@ std::vector<design::EnsembleMember> identified_ensemble(
   return members;
 }
 
-std::optional<design::EnsembleResult> judge_identified(const Case& antenna, const Case& designed,
-                                                       const identification::GreyBoxResult& found,
-                                                       const TuningSection& tuning,
-                                                       const StudyOptions& options) {
-  constexpr std::size_t plants = 200;
-  const auto& result = tuning.design.tuning;
-  const auto members = identified_ensemble(antenna, found.draws, plants);
-  if (result.status == design::TuningStatus::unstable || members.empty()) return std::nullopt;
-  return design::judge(make_problem(designed), members, result.law, tuning.goals, options.threads);
-}
-
 }  // namespace boresight::app

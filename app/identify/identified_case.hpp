@@ -24,11 +24,4 @@ std::vector<design::EnsembleMember> identified_ensemble(
     const Case& antenna, const std::vector<identification::DriveEstimate>& draws,
     std::size_t count);
 
-/// The tuned law, its gains held, on 200 plants of the identified distribution; nothing where no
-/// law was found. `designed`: the case at the estimate.
-std::optional<design::EnsembleResult> judge_identified(const Case& antenna, const Case& designed,
-                                                       const identification::GreyBoxResult& found,
-                                                       const TuningSection& tuning,
-                                                       const StudyOptions& options);
-
 }  // namespace boresight::app

@@ -101,7 +101,7 @@ void check_drive(const TableReader& table, const Case& antenna) {
 void read_oil(TableReader& file, Case& antenna) {
   TableReader table = file.table("oil");
   OilEntry& oil = antenna.oil;
-  oil.density = table.quantity("density", Kind::density, Range::between(500.0, 2000.0));
+  oil.density = table.optional_quantity("density", Kind::density, Range::between(500.0, 2000.0));
   oil.bulk_modulus =
       table.optional_quantity("bulk_modulus", Kind::pressure, Range::between(1e7, 1e10));
   oil.volume_1 = table.quantity("volume_1", Kind::volume, Range::positive(100.0));
@@ -121,6 +121,10 @@ void read_oil(TableReader& file, Case& antenna) {
   if (!oil.bulk_modulus && oil.lines.empty()) {
     table.refuse("bulk_modulus",
                  "expected a bulk modulus, or lines with slosh frequencies, found neither");
+  }
+  if (!oil.density && !antenna.campaign.lines.empty()) {
+    table.refuse("density",
+                 "expected a density of the oil for the pressure waves in its lines, found none");
   }
 }
 

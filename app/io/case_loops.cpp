@@ -8,6 +8,7 @@
 #include <fmt/ranges.h>
 
 #include <boresight/app/io/case_sections.hpp>
+#include <boresight/app/io/drive_numbers.hpp>
 #include <boresight/app/io/field.hpp>
 #include <boresight/app/io/usual_structures.hpp>
 #include <boresight/app/io/wording.hpp>
@@ -157,7 +158,7 @@ PresentGainsEntry read_gains(TableReader& table, const Case& antenna) {
   PresentGainsEntry entry;
   const std::string name = table.text("structure");
   try {
-    entry.structure = loop_structure(antenna.loops, name);
+    entry.structure = loop_structure(antenna, name);
   } catch (const InvalidInput& error) {
     table.refuse("structure", error.what());
   }
@@ -215,15 +216,17 @@ Kind gain_kind(control::LoopPath path, control::BlockKind kind, std::size_t inde
   return Kind::number;
 }
 
-control::LoopStructure loop_structure(const std::vector<LoopEntry>& own, const std::string& name) {
+control::LoopStructure loop_structure(const Case& antenna, const std::string& name) {
   std::vector<std::string> names;
-  for (const auto& entry : own) {
+  for (const auto& entry : antenna.loops) {
     if (entry.structure.name() == name) return entry.structure;
     names.push_back(in_quotes(entry.structure.name()));
   }
-  if (is_usual(name)) return control::LoopStructure::named(name);
+  if (is_usual(name)) {
+    return control::LoopStructure::named(name).with_bounds_for(driven_load(antenna));
+  }
   std::vector<std::string_view> known(usual_structures().begin(), usual_structures().end());
-  for (const auto& entry : own) known.push_back(entry.structure.name());
+  for (const auto& entry : antenna.loops) known.push_back(entry.structure.name());
   throw InvalidInput(
       fmt::format("expected {}PI-0, PI, DPF, LL or FULL, with +N (notch) and +C (compliance "
                   "compensation) behind it as wanted, found {}{}",
@@ -246,7 +249,7 @@ void read_loops(TableReader& file, Case& antenna) {
     table->finish();
     for (const auto& name : antenna.tuning.structures) {
       try {
-        loop_structure(antenna.loops, name);
+        loop_structure(antenna, name);
       } catch (const InvalidInput& error) {
         table->refuse("structures", error.what());
       }

@@ -232,7 +232,7 @@ control::ControlLaw law_from(TableReader& table, const Case& antenna) {
   control::ControlLaw law;
   const std::string name = table.text("structure");
   try {
-    law.structure = loop_structure(antenna.loops, name);
+    law.structure = loop_structure(antenna, name);
   } catch (const InvalidInput& error) {
     table.refuse("structure", error.what());
   }
@@ -278,7 +278,7 @@ GainsFile law_of_report(const std::string& text, const std::string& path, const 
     }
     GainsFile file;
     const auto name = row->at("structure").get<std::string>();
-    file.law.structure = loop_structure(antenna.loops, name);
+    file.law.structure = loop_structure(antenna, name);
     std::map<std::string, std::string> written;
     for (const auto& gain : row->at("gains_as_written")) {
       written[gain.at("symbol").get<std::string>()] = gain.at("value").get<std::string>();

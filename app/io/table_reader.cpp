@@ -219,7 +219,8 @@ Quantity TableReader::quantity_or(std::string_view key, Kind kind, Range range, 
 Quantity TableReader::assume(std::string_view key, Kind kind, double value, std::string source) {
   Quantity quantity;
   quantity.value = value;
-  quantity.text = fmt::format("{:.4g} {}", value, describe(kind).si_unit);
+  quantity.text = fmt::format("{:.4g}", value);
+  if (kind != Kind::number) quantity.text += fmt::format(" {}", describe(kind).si_unit);
   quantity.kind = kind;
   quantity.basis = Basis::assumed;
   quantity.source = std::move(source);

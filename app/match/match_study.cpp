@@ -264,7 +264,7 @@ MatchSection match_motors(const Case& antenna, const std::vector<design::Ensembl
     task.motor_inertia.push_back(
         make_plant(antenna, {.flywheel_disks = point.disks}).drive.motor_inertia);
   }
-  for (const auto& name : names) task.structures.push_back(loop_structure(antenna.loops, name));
+  for (const auto& name : names) task.structures.push_back(loop_structure(antenna, name));
   design::MatchingOptions how;
   how.starts = options.starts;
   how.seed = options.seed;

@@ -107,10 +107,15 @@ Sentences model_decision(const PlantSection& plant) {
       "The loops must live with a hydraulic mode at {:.3g} Hz, damping ratio {:.2g}, and motors "
       "that carry {:.2f} times the inertia they drive.",
       plant.hydraulic.frequency, plant.hydraulic.damping_ratio, plant.motor_to_load_ratio)};
-  if (plant.supply_torque > 0.0) {
+  if (plant.torque_for_wind > 0.0) {
     sentences.push_back(fmt::format(
-        "The mean wind of the design takes {:.0f} % of the torque that the supply can give.",
-        100.0 * std::abs(plant.mean_wind_torque) / plant.supply_torque));
+        "The mean wind of the design takes {:.0f} % of what friction and offset leave of the "
+        "supply's torque.",
+        100.0 * std::abs(plant.mean_wind_torque) / plant.torque_for_wind));
+  } else if (plant.supply_torque > 0.0) {
+    sentences.emplace_back(
+        "Friction at the tracking rate and offset take all of the supply's torque: none is left "
+        "for the wind.");
   }
   return sentences;
 }

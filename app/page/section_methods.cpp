@@ -62,9 +62,9 @@ constexpr std::array entries = std::to_array<Entry>({
      {"least beam rms under hard goals, on exact frequency responses with gradients; verified by "
       "eigenvalues and Lyapunov equations",
       "design/tuner.hpp"}},
-    {"Gains, before and after",
-     {"the tuned law's parameters in the case's units", "control/control_law.hpp"}},
     {"Gains, SI", {"the tuned law's parameters", "control/control_law.hpp"}},
+    // Also "Gains, before and after", where there are present ones.
+    {"Gains", {"the tuned law's parameters in the case's units", "control/control_law.hpp"}},
     {"What limits each law",
      {"prices of the active goals, by the optimum's first-order conditions",
       "design/active_multipliers.hpp"}},

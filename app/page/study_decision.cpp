@@ -6,6 +6,7 @@
 #include <boresight/app/match/match_verdict.hpp>
 #include <boresight/app/page/decision.hpp>
 #include <boresight/app/page/study_decision.hpp>
+#include <boresight/app/report/climate_wording.hpp>
 #include <boresight/app/report/influences.hpp>
 #include <boresight/app/report/present_gains.hpp>
 #include <boresight/app/report/sky_units.hpp>
@@ -188,11 +189,13 @@ std::vector<std::string> decision(const EvaluateSection& section) {
                            chosen.name, mean, why_not(chosen))
         : chosen.path.empty()
             ? fmt::format("No proposal is worth its cost: the antenna as it is has {}", mean)
-            : fmt::format("Choose {}: {}, at {:g} {}", chosen.name, mean, chosen.cost, currency);
+            : fmt::format("Choose {}: {}, {}", chosen.name, mean,
+                          chosen.cost ? fmt::format("at {:g} {}", *chosen.cost, currency)
+                                      : std::string("at a cost that its file does not state"));
     if (fit && choice != draws.best && best.feasible()) {
-      text += fmt::format("; {} lowers that by {:.1f} %, too little to pay {:g} {} for", best.name,
+      text += fmt::format("; {} lowers that by {:.1f} %, too little to pay {}for", best.name,
                           100.0 * (1.0 - options[draws.best].mean / options[choice].mean),
-                          best.cost, currency);
+                          best.cost ? fmt::format("{:g} {} ", *best.cost, currency) : "");
     }
     sentences.push_back(text + ".");
     const std::string name = chosen.path.empty() ? "The antenna as it is" : chosen.name;
@@ -216,9 +219,9 @@ std::vector<std::string> decision(const EvaluateSection& section) {
     const CandidateLaw* law = candidate.chosen_law();
     if (law == nullptr || law->compared_rms() > (1.0 - negligible_change) * before) continue;
     before = law->compared_rms();
-    if (candidate.path.empty()) continue;
+    if (candidate.path.empty() || !candidate.cost) continue;
     front += fmt::format("{}{} ({:g} {}, {:.3f} mdeg)", front.empty() ? "" : ", ", candidate.name,
-                         candidate.cost, section.currency, mdeg(law->compared_rms()));
+                         *candidate.cost, section.currency, mdeg(law->compared_rms()));
   }
   if (!front.empty()) {
     sentences.push_back(fmt::format(
@@ -246,12 +249,14 @@ std::vector<std::string> decision(const TuneSection& section,
                       : std::string("its goals held on the nominal plant only"));
   if (!section.budgets.empty() && !best->speed_limits.empty()) {
     const double limit_speed = std::min(best->speed_limits.front(), section.supply_wind_speed);
-    text += fmt::format("; it meets {} ({}) up to {}", section.budgets.front().name,
+    text += fmt::format("; it meets {} ({}) up to {}{}", section.budgets.front().name,
                         section.budgets.front().band,
                         std::isfinite(limit_speed) ? fmt::format("{:.1f} m/s", limit_speed)
-                                                   : std::string("the 60 m/s looked at"));
+                                                   : std::string("the 60 m/s looked at"),
+                        climate_text(section.climate, limit_speed));
     if (limit_speed < best->speed_limits.front()) {
-      text += ", where the mean wind torque alone reaches the supply's";
+      text +=
+          ", where the mean wind takes all that friction and offset leave of the supply's torque";
     }
   }
   text += '.';

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include <boresight/app/io/structure_numbers.hpp>
 #include <boresight/app/redesign/antenna_model.hpp>
 
 namespace boresight::app {
@@ -55,18 +56,10 @@ identification::Uncertain assembly_inertia(const Case& antenna, const RotatingAs
 }
 
 plant::Structure make_structure(const Case& antenna, double frequency_scale) {
-  const StructureEntry& structure = antenna.structure;
-  plant::StructureSpecification specification;
+  auto specification = structure_specification(antenna.structure);
   specification.antenna_inertia = antenna_inertia(antenna);
-  specification.bull_gear_wind_fraction = structure.bull_gear_wind_fraction.value;
-  specification.bull_gear_beam_weight = structure.bull_gear_beam_weight.value;
-  specification.locked_rotor_frequency = structure.locked_rotor_frequency.value * frequency_scale;
-  specification.gear_damping_ratio = structure.gear_damping_ratio.value;
-  for (const auto& mode : structure.modes) {
-    specification.modes.push_back({mode.frequency.value * frequency_scale, mode.damping_ratio.value,
-                                   mode.inertia_fraction.value, mode.wind_fraction.value,
-                                   mode.beam_weight.value});
-  }
+  specification.locked_rotor_frequency *= frequency_scale;
+  for (auto& mode : specification.modes) mode.frequency *= frequency_scale;
   return plant::make_structure(specification);
 }
 
@@ -143,7 +136,11 @@ plant::AntennaPlant make_plant(const Case& antenna, const PlantVariant& variant)
                          variant.antenna_inertia.value_or(antenna_inertia(antenna)) /
                          antenna_inertia(antenna);
   plant.structure.bull_gear_inertia *= lighter;
-  for (auto& mode : plant.structure.modes) mode.inertia *= lighter;
+  plant.structure.bull_gear_wind_fraction *= variant.wind_torque_scale;
+  for (auto& mode : plant.structure.modes) {
+    mode.inertia *= lighter;
+    mode.wind_fraction *= variant.wind_torque_scale;
+  }
   return plant;
 }
 
@@ -170,10 +167,21 @@ design::TrackingProblem make_problem(const Case& antenna, const PlantVariant& va
 }
 
 double supply_wind_speed(const Case& antenna, const design::TrackingProblem& problem) {
+  const double left = torque_for_wind(antenna);
+  if (!(left > 0.0)) return 0.0;
   const double speed = problem.wind.mean_speed;
   // The torque goes with the square of the speed.
-  return speed * std::sqrt(supply_torque(antenna) * problem.gear_ratio /
+  return speed * std::sqrt(left * problem.gear_ratio /
                            std::abs(plant::mean_wind_torque(problem.wind.site, speed)));
+}
+
+double static_bending(const design::TrackingProblem& problem) {
+  double compliance = 0.0;
+  for (const auto& mode : problem.plant.structure.modes) {
+    compliance += mode.wind_fraction * mode.beam_weight / mode.stiffness;
+  }
+  return compliance * plant::mean_wind_torque(problem.wind.site, problem.wind.mean_speed) /
+         (problem.gear_ratio * problem.gear_ratio);
 }
 
 design::HardGoals make_goals(const Case& antenna) {
@@ -189,7 +197,13 @@ design::HardGoals make_goals(const Case& antenna) {
   if (entry.bandwidth) goals.bandwidth = entry.bandwidth->value;
   if (entry.crest_factor) {
     goals.crest_factor = entry.crest_factor->value;
-    goals.gust_torque = supply_torque(antenna);
+    goals.gust_torque = torque_for_wind(antenna);
+    if (!(*goals.gust_torque > 0.0)) {
+      throw InvalidInput(fmt::format(
+          "goals.crest_factor: expected a supply torque above friction and offset at the tracking "
+          "rate, found {:.4g} N.m, which they take",
+          supply_torque(antenna)));
+    }
     goals.gust_demand = largest_demand(antenna);
   }
   return goals;
@@ -251,7 +265,7 @@ identification::DriveEvidence make_evidence(const Case& antenna) {
   evidence.torque_efficiency = uncertain(motor.torque_efficiency);
   evidence.volumetric_efficiency = uncertain(motor.volumetric_efficiency);
   const OilEntry& oil = antenna.oil;
-  evidence.oil_density = uncertain(oil.density);
+  if (oil.density) evidence.oil_density = uncertain(*oil.density);
   for (const auto& line : oil.lines) {
     evidence.lines.push_back({line.name, uncertain(line.length), uncertain(line.slosh_frequency)});
   }

@@ -27,6 +27,9 @@ struct PlantVariant {
   double motor_inertia_scale = 1.0;
   /// Multiplies the frequencies of locked rotor and modes.
   double structure_frequency_scale = 1.0;
+  /// Multiplies the shares of the wind torque that act on bull gear and modes, which is a wind
+  /// torque so many times as large.
+  double wind_torque_scale = 1.0;
 };
 
 /// Gear train and counter-torque motors at the motor shaft (kg m2).
@@ -47,10 +50,16 @@ plant::AntennaPlant make_plant(const Case& antenna, const PlantVariant& variant 
 /// the case states for it.
 double largest_viscous_friction(const Case& antenna);
 design::TrackingProblem make_problem(const Case& antenna, const PlantVariant& variant = {});
-/// Mean wind speed (m/s) at which the mean wind torque alone reaches the supply's.
+/// Mean wind speed (m/s) at which the mean wind torque takes all that friction at the tracking rate
+/// and the offset torque leave of the supply's (torque_for_wind); 0 where they leave nothing,
+/// infinite without mean torque.
 double supply_wind_speed(const Case& antenna, const design::TrackingProblem& problem);
+/// What the mean wind bends the structure between encoder and beam (rad at the sky): no part of any
+/// rms, and seen by no encoder.
+double static_bending(const design::TrackingProblem& problem);
 /// Goals against saturation: valve demand within the valve's stroke (largest_demand) and torque
-/// within the supply's.
+/// within what friction and offset leave of the supply's (torque_for_wind).
+/// @throws InvalidInput for a crest_factor where they leave nothing.
 design::HardGoals make_goals(const Case& antenna);
 design::SoftGoal make_soft_goal(const Case& antenna);
 /// The winds of the site by their share of the time; empty if the case does not state them.

@@ -168,6 +168,7 @@ PlantSection describe_plant(const Case& antenna) {
   section.modes = plant::plant_modes(section.plant);
   section.hydraulic = plant::hydraulic_mode(section.modes);
   section.supply_torque = supply_torque(antenna);
+  section.torque_for_wind = torque_for_wind(antenna);
   const auto problem = make_problem(antenna);
   section.mean_wind_torque =
       plant::mean_wind_torque(problem.wind.site, problem.wind.mean_speed) / section.gear_ratio;

@@ -38,7 +38,7 @@ std::vector<Quantity*> quantities_of(Case& c) {
                                 &c.motor.torque_efficiency, &c.motor.volumetric_efficiency};
   add(places, c.oil.bulk_modulus);
   if (!c.oil.bulk_modulus) {
-    places.push_back(&c.oil.density);
+    add(places, c.oil.density);
     for (auto& line : c.oil.lines) {
       places.push_back(&line.length);
       places.push_back(&line.slosh_frequency);
@@ -96,7 +96,10 @@ std::array<std::vector<double*>, 2> shares(StructureEntry& structure) {
 }
 
 void move(Case& antenna, std::size_t which, double by) {
-  double* moved = linear_inputs(antenna)[which].value;
+  const Input input = linear_inputs(antenna)[which];
+  double* moved = input.value;
+  // A number that works converted, as of a wind mast, moves by the same share.
+  by *= *moved / input.stated->value;
   for (const auto& group : shares(antenna.structure)) {
     if (std::ranges::find(group, moved) == group.end()) continue;
     double others = 0.0;

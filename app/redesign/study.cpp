@@ -35,7 +35,7 @@ double ratio_of(const Case& antenna, const design::TrackingProblem& problem, dou
 std::vector<design::DesignTask> tuning_tasks(const Case& antenna, const StudyOptions& options) {
   std::vector<design::DesignTask> tasks;
   for (int i = 0; i < seed_count; ++i) {
-    tasks.push_back(make_task(antenna, options, "as built", {}, LoopStructure::pi_with_lag()));
+    tasks.push_back(make_task(antenna, options, "as built", {}, loop_structure(antenna, "PI")));
     tasks.back().options.seed = options.seed + static_cast<std::uint64_t>(i);
   }
   return tasks;
@@ -55,23 +55,24 @@ void judge_in_wind(const Case& antenna, const design::TrackingProblem& problem,
     section.wind_alternatives.push_back(
         {model, design::beam_rms_at_speed(alternative, evaluator, transmission, noise,
                                           problem.wind.mean_speed)});
+    for (const auto& budget : make_budgets(antenna)) {
+      section.wind_alternatives.back().speed_limits.push_back(
+          design::wind_speed_limit(alternative, evaluator, law, noise, budget.rms));
+    }
   }
   const auto structure =
       plant::structure_response(problem.plant.structure, evaluator.response().frequency);
   section.encoder_held_rms = design::beam_rms_at_speed(
       problem, evaluator, structure.beam_per_wind.abs2(), 0.0, problem.wind.mean_speed);
   section.supply_wind_speed = supply_wind_speed(antenna, problem);
-  double compliance = 0.0;
-  for (const auto& mode : problem.plant.structure.modes) {
-    compliance += mode.wind_fraction * mode.beam_weight / mode.stiffness;
-  }
-  section.static_bending = compliance *
-                           plant::mean_wind_torque(problem.wind.site, problem.wind.mean_speed) /
-                           (problem.gear_ratio * problem.gear_ratio);
+  section.static_bending = static_bending(problem);
   for (const auto& band : make_bands(antenna)) {
     section.losses.push_back(
-        {band, design::pointing_loss_db(section.design.beam_rms, band.beamwidth,
-                                        design::LossConvention::mean_loss_two_axes)});
+        {band,
+         design::pointing_loss_db(section.design.beam_rms, band.beamwidth,
+                                  design::LossConvention::mean_loss_two_axes),
+         design::pointing_loss_db(section.static_bending, band.beamwidth,
+                                  design::LossConvention::mean_loss_one_axis)});
   }
   for (const auto& budget : make_budgets(antenna)) {
     section.budgets.push_back(
@@ -102,6 +103,9 @@ TuningSection tuning_section(const Case& antenna, const StudyOptions& options,
   section.wind_model = problem.wind.model;
   section.wind_site = problem.wind.site;
   section.wind_attitude = antenna.wind.attitude;
+  section.wind_mast = antenna.wind.mast;
+  section.climate = antenna.wind.climate_parts;
+  section.demand_assumption = demand_assumption(antenna);
   for (const auto& law : present_laws(antenna)) {
     section.present.push_back({law.structure.name(), design::assess(problem, law, section.goals)});
   }
@@ -162,7 +166,7 @@ MatchingPlan plan_matching(const Case& antenna, const StudyOptions& options) {
     frictions = {{linear, "linear plant and tracking rate alike"}};
   }
   for (const auto& [friction, name] : frictions) {
-    for (const auto& structure : {LoopStructure::pi_with_lag(), LoopStructure::pi()}) {
+    for (const auto& structure : {loop_structure(antenna, "PI"), loop_structure(antenna, "PI-0")}) {
       plan.section.series.push_back({name, friction, structure, {}});
       for (const auto& row : plan.section.rows) {
         plan.tasks.push_back(make_task(antenna, options, row.label,
@@ -203,7 +207,7 @@ std::vector<Choice> plan_choices(const Case& antenna, const StudyOptions& option
   const double inertia = fixed + antenna_inertia(antenna);
   const auto add = [&](std::string name, std::string says, const PlantVariant& variant) {
     Choice choice;
-    choice.task = make_task(antenna, options, name, variant, LoopStructure::pi_with_lag());
+    choice.task = make_task(antenna, options, name, variant, loop_structure(antenna, "PI"));
     const auto& plant = choice.task->problem.plant;
     choice.result = {
         std::move(name),

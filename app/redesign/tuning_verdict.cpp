@@ -1,16 +1,21 @@
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include <boresight/app/redesign/tuning_verdict.hpp>
+#include <boresight/app/report/assumed_demand.hpp>
+#include <boresight/app/report/climate_wording.hpp>
 #include <boresight/app/report/present_gains.hpp>
 #include <boresight/app/report/sky_units.hpp>
 
 namespace boresight::app {
 namespace {
+
+bool meets_need(const PointingBudget& budget, double reached) {
+  return !budget.wind_speed || reached >= *budget.wind_speed * (1.0 - 1e-6);
+}
 
 std::string budget_text(const PointingBudget& budget) {
   return fmt::format("{} ({}: {:.3f} mdeg)", budget.name, budget.band, budget.rms / millidegree);
@@ -51,6 +56,25 @@ std::string robustness_text(const TuningSection& section) {
       plants, within, unstable > 0 ? fmt::format(" and is unstable on {}", unstable) : "");
 }
 
+// On how many plants the needed budgets are met in the wind they are needed up to; `short_of_all`:
+// only those that the case's own plant meets there and some other plant does not.
+std::string needs_on_plants(const TuningSection& section, bool short_of_all) {
+  if (!section.ensemble) return "";
+  const auto plants = static_cast<int>(section.ensemble->members.size());
+  std::vector<std::string> needs;
+  for (const auto& result : section.budgets) {
+    const PointingBudget& budget = result.budget;
+    if (!budget.wind_speed || !result.plants_met) continue;
+    const bool nominal = meets_need(budget, reached_wind_speed(section, result));
+    if (short_of_all && (!nominal || *result.plants_met == plants)) continue;
+    needs.push_back(fmt::format("{} in {:g} m/s on {}", budget_text(budget), *budget.wind_speed,
+                                *result.plants_met));
+  }
+  if (needs.empty()) return "";
+  return fmt::format("Of {} plants that may be the true one it meets {}.", plants,
+                     fmt::join(needs, ", "));
+}
+
 // Where most of the error is what no loop sees.
 std::string unseen_text(const TuningSection& section) {
   if (!(section.encoder_held_rms >= 0.9 * section.design.beam_rms)) return "";
@@ -71,6 +95,45 @@ std::string bound_text(const TuningSection& section) {
       fmt::join(names, ", "));
 }
 
+// Of the wind models, those that meet a budget up to where it is needed, or those that do not.
+std::vector<std::string_view> models(const TuningSection& section, std::size_t budget, bool met) {
+  std::vector<std::string_view> names;
+  for (const auto& one : section.wind_alternatives) {
+    if (budget >= one.speed_limits.size()) continue;
+    const double reached = std::min(one.speed_limits[budget], section.supply_wind_speed);
+    if (meets_need(section.budgets[budget].budget, reached) == met) {
+      names.push_back(plant::to_string(one.model));
+    }
+  }
+  return names;
+}
+
+// Where another wind model than the case's would give another answer.
+std::string wind_model_text(const TuningSection& section) {
+  std::string verdicts;
+  for (std::size_t i = 0; i < section.budgets.size(); ++i) {
+    const auto meeting = models(section, i, true), missing = models(section, i, false);
+    if (meeting.empty() || missing.empty()) continue;
+    verdicts += fmt::format("; {} is met up to where it is needed by {}, and not by {}",
+                            budget_text(section.budgets[i].budget), fmt::join(meeting, ", "),
+                            fmt::join(missing, ", "));
+  }
+  constexpr double worth_a_sentence = 0.2;
+  const double own = section.design.beam_rms;
+  std::string others;
+  bool apart = false;
+  for (const auto& one : section.wind_alternatives) {
+    if (one.model == section.wind_model) continue;
+    apart = apart || std::abs(one.beam_rms / own - 1.0) > worth_a_sentence;
+    others += fmt::format("{}{:.3f} mdeg by {}", others.empty() ? "" : " and ",
+                          one.beam_rms / millidegree, plant::to_string(one.model));
+  }
+  if (verdicts.empty() && !apart) return "";
+  return fmt::format(
+      "Much hangs on the wind model: the same gains have {:.3f} mdeg by the case's, {}, but {}{}.",
+      own / millidegree, plant::to_string(section.wind_model), others, verdicts);
+}
+
 // The mean wind bends what no servo sees.
 std::string bending_text(const TuningSection& section) {
   const auto smallest = std::ranges::min_element(
@@ -87,34 +150,36 @@ std::string bending_text(const TuningSection& section) {
 }  // namespace
 
 double reached_wind_speed(const TuningSection& section, const BudgetResult& budget) {
-  const double supply = section.supply_wind_speed > 0.0 ? section.supply_wind_speed
-                                                        : std::numeric_limits<double>::infinity();
-  return std::min(budget.wind_speed_limit, supply);
+  return std::min(budget.wind_speed_limit, section.supply_wind_speed);
 }
 
 std::string met_text(const TuningSection& section, const BudgetResult& budget) {
   const double reached = reached_wind_speed(section, budget);
   if (!(reached > 0.0)) return "is met in no wind";
-  if (!std::isfinite(reached)) return "is met up to the 60 m/s looked at";
+  const std::string share = climate_text(section.climate, reached);
+  if (!std::isfinite(reached)) return "is met up to the 60 m/s looked at" + share;
   if (reached < budget.wind_speed_limit) {
     return fmt::format(
-        "would be met up to the {:.1f} m/s at which the mean wind torque alone reaches the "
-        "supply's",
-        reached);
+        "would be met up to the {:.1f} m/s at which the mean wind takes all that friction and "
+        "offset leave of the supply's torque{}",
+        reached, share);
   }
-  return fmt::format("is met up to {:.1f} m/s", reached);
+  return fmt::format("is met up to {:.1f} m/s{}", reached, share);
 }
 
 std::vector<std::string> unmet_needs(const TuningSection& section) {
   std::vector<std::string> sentences;
+  if (!section.design.usable()) return sentences;
   for (const auto& result : section.budgets) {
-    if (!result.budget.wind_speed) continue;
-    const double needed = *result.budget.wind_speed;
-    if (reached_wind_speed(section, result) >= needed * (1.0 - 1e-6)) continue;
+    const PointingBudget& budget = result.budget;
+    if (!budget.wind_speed || meets_need(budget, reached_wind_speed(section, result))) continue;
     sentences.push_back(fmt::format(
-        "NOT MET: {} is needed up to {:g} m/s; with this law it {}. `boresight tune` looks for a "
-        "loop structure that meets it.",
-        budget_text(result.budget), needed, met_text(section, result)));
+        "NOT MET: {} is needed up to {:g} m/s; as built, with the best {} law found, it {}. {}",
+        budget_text(budget), *budget.wind_speed, control::to_string(section.structure),
+        met_text(section, result),
+        meets_need(budget, section.supply_wind_speed)
+            ? "`boresight tune` looks for a loop structure that meets it."
+            : "No loop structure changes that: the drive lacks torque."));
   }
   return sentences;
 }
@@ -138,9 +203,10 @@ void conclude_tuning(const Report& report, const TuningSection& section,
     return;
   }
   if (design.tuning.status != design::TuningStatus::optimal) {
-    add(fmt::format("No {} law meets the hard goals; the nearest exceeds one by {:.1f} %.",
+    add(fmt::format("No {} law meets the hard goals; the nearest exceeds one by {:.1f} %.{}",
                     control::to_string(section.structure),
-                    100.0 * (design.tuning.worst_goal_ratio - 1.0)));
+                    100.0 * (design.tuning.worst_goal_ratio - 1.0),
+                    assumed_demand(design.tuning, section.demand_assumption)));
     return;
   }
   if (!design.verification.passed) {
@@ -161,6 +227,7 @@ void conclude_tuning(const Report& report, const TuningSection& section,
   add(text + ".");
   for (auto& need : unmet_needs(section)) add(std::move(need));
   add(robustness_text(section));
+  add(needs_on_plants(section, false));
   add(bound_text(section));
 
   const auto by_rms = [](const TuningSection::WindAlternative& x,
@@ -182,7 +249,8 @@ void conclude_tuning(const Report& report, const TuningSection& section,
 }
 
 std::vector<std::string> decide_tuning(const Report& report, const TuningSection& section) {
-  std::vector<std::string> sentences;
+  std::vector<std::string> sentences = unmet_needs(section);
+  const bool met = sentences.empty();
   for (const auto& law : section.present) {
     if (law.design.tuning.status == design::TuningStatus::unstable) {
       sentences.push_back(unstable_present_gains(law.structure));
@@ -190,7 +258,9 @@ std::vector<std::string> decide_tuning(const Report& report, const TuningSection
   }
   const std::string structure(control::to_string(section.structure));
   if (section.design.tuning.status != design::TuningStatus::optimal) {
-    sentences.push_back(fmt::format("No {} law meets the hard goals of this case.", structure));
+    sentences.push_back(
+        fmt::format("No {} law meets the hard goals of this case.{}", structure,
+                    assumed_demand(section.design.tuning, section.demand_assumption)));
     return sentences;
   }
   if (!section.design.verification.passed) {
@@ -198,8 +268,7 @@ std::vector<std::string> decide_tuning(const Report& report, const TuningSection
         "The best {} law found fails its verification: decide nothing on it.", structure));
     return sentences;
   }
-  auto needs = unmet_needs(section);
-  const bool met = needs.empty();
+  std::vector<std::string> more;
   std::string unsteady = report.time_domain ? not_still(*report.time_domain) : "";
   const bool robust = !section.ensemble || section.ensemble->within_goals ==
                                                static_cast<int>(section.ensemble->members.size());
@@ -224,15 +293,17 @@ std::vector<std::string> decide_tuning(const Report& report, const TuningSection
                           report.time_domain->wind_speed);
     }
   }
-  if (!robust) needs.push_back(robustness_text(section));
-  if (!unsteady.empty()) needs.push_back(std::move(unsteady));
+  if (!robust) more.push_back(robustness_text(section));
+  if (auto few = needs_on_plants(section, true); !few.empty()) more.push_back(std::move(few));
+  if (!unsteady.empty()) more.push_back(std::move(unsteady));
   const std::string slow = report.time_domain ? slew_out_of_reach(*report.time_domain) : "";
+  const std::string stroke = report.time_domain ? assumed_stroke(*report.time_domain) : "";
   const std::string first = measure_first(section.input_effects, section.design.beam_rms);
-  for (auto sentence : {unseen_text(section), slow, not_examined(report), first}) {
-    if (!sentence.empty()) needs.push_back(std::move(sentence));
+  for (auto sentence : {wind_model_text(section), bending_text(section), unseen_text(section), slow,
+                        stroke, not_examined(report), first}) {
+    if (!sentence.empty()) more.push_back(std::move(sentence));
   }
-  sentences.push_back(
-      fmt::format("{}.{}{}", text, needs.empty() ? "" : " ", fmt::join(needs, " ")));
+  sentences.push_back(fmt::format("{}.{}{}", text, more.empty() ? "" : " ", fmt::join(more, " ")));
   return sentences;
 }
 

@@ -8,13 +8,15 @@
 namespace boresight::app {
 
 /// Mean wind speed (m/s) up to which a budget is met with the gains held, and the supply's torque
-/// still carries the mean wind; infinite if neither ends within the search.
+/// still carries the mean wind, friction and offset; infinite if neither ends within the search.
 double reached_wind_speed(const TuningSection& section, const BudgetResult& budget);
 
-/// "is met up to 10.1 m/s", with what ends it where that is the supply.
+/// "is met up to 10.1 m/s", with what ends it where that is the supply, and with the share of the
+/// climate's time.
 std::string met_text(const TuningSection& section, const BudgetResult& budget);
 
-/// One sentence for each budget that states a wind speed it is needed up to and is not met so far.
+/// In one or two sentences each budget that states a wind speed it is needed up to and is not met
+/// so far by a law that is good otherwise; none without such a law.
 std::vector<std::string> unmet_needs(const TuningSection& section);
 
 /// What the report's linear study leaves out for want of a [simulation]; empty if it has one or if
@@ -25,7 +27,8 @@ std::string not_examined(const Report& report);
 void conclude_tuning(const Report& report, const TuningSection& section,
                      std::vector<std::string>& sentences);
 
-/// For the decision box: a warning of each unstable present law, then one paragraph.
+/// For the decision box: what is needed and not met, a warning of each unstable present law, then
+/// one paragraph.
 std::vector<std::string> decide_tuning(const Report& report, const TuningSection& section);
 
 }  // namespace boresight::app

@@ -42,6 +42,11 @@ Json text_or_null(const std::string& text) {
   return text.empty() ? Json(nullptr) : Json(text);
 }
 
+Json share_of_time_json(const std::vector<design::ClimatePart>& climate, double speed) {
+  if (climate.empty() || std::isnan(speed)) return nullptr;
+  return number(design::share_of_time(climate, speed));
+}
+
 Json mode_json(const plant::PlantMode& mode) {
   return {{"description", mode.description},
           {"frequency_Hz", number(mode.frequency)},

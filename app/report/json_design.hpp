@@ -1,11 +1,13 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include <nlohmann/json.hpp>
 
 #include <boresight/design/design_study.hpp>
 #include <boresight/design/plant_ensemble.hpp>
+#include <boresight/design/wind_climate.hpp>
 
 namespace boresight::app {
 
@@ -15,6 +17,10 @@ using Json = nlohmann::ordered_json;
 Json number(double value);
 /// null for an empty text.
 Json text_or_null(const std::string& text);
+
+/// Share of the climate's time up to a speed (m/s); null without a climate, or if it is not a
+/// number.
+Json share_of_time_json(const std::vector<design::ClimatePart>& climate, double speed);
 
 Json mode_json(const plant::PlantMode& mode);
 /// A tuned law with its verification, "design" of docs/report.schema.json.

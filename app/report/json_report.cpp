@@ -2,6 +2,7 @@
 #include <numbers>
 
 #include <boresight/app/figures/figure_json.hpp>
+#include <boresight/app/redesign/tuning_verdict.hpp>
 #include <boresight/app/report/evaluate_report.hpp>
 #include <boresight/app/report/json_assumed.hpp>
 #include <boresight/app/report/json_audit.hpp>
@@ -15,6 +16,7 @@
 #include <boresight/app/report/match_report.hpp>
 #include <boresight/app/report/measured_report.hpp>
 #include <boresight/app/report/sky_units.hpp>
+#include <boresight/app/report/wind_mast.hpp>
 
 namespace boresight::app {
 namespace {
@@ -106,6 +108,7 @@ Json plant_json(const PlantSection& section) {
           {"gear_stiffness_N_m_per_rad", section.plant.structure.gear_stiffness},
           {"valve_frequency_Hz", drive.valve_corner / two_pi},
           {"supply_torque_N_m", section.supply_torque},
+          {"torque_for_wind_N_m", section.torque_for_wind},
           {"mean_wind_torque_N_m", section.mean_wind_torque},
           {"rigid_hydraulic_frequency_Hz", section.rigid_frequency},
           {"hydraulic_mode", mode_json(section.hydraulic)},
@@ -130,6 +133,7 @@ Json tuning_json(const TuningSection& section) {
     goals.push_back({{"loop_break", control::to_string(control::loop_breaks[b])},
                      {"sensitivity_peak_1", section.goals.sensitivity_peak[b]}});
   }
+  if (section.wind_mast) json["wind_mast"] = mast_json(*section.wind_mast);
   json["sensitivity_goals"] = std::move(goals);
   json["valve_effort_goal_rad_per_s"] = section.goals.valve_effort;
   json["seeds"] = Json::array();
@@ -140,15 +144,19 @@ Json tuning_json(const TuningSection& section) {
   }
   json["wind_models"] = Json::array();
   for (const auto& alternative : section.wind_alternatives) {
+    Json limits = Json::array();
+    for (const double limit : alternative.speed_limits) limits.push_back(number(limit));
     json["wind_models"].push_back({{"model", plant::to_string(alternative.model)},
-                                   {"beam_rms_mdeg", number(alternative.beam_rms / millidegree)}});
+                                   {"beam_rms_mdeg", number(alternative.beam_rms / millidegree)},
+                                   {"budget_wind_speed_limits_m_per_s", std::move(limits)}});
   }
   json["bands"] = Json::array();
   for (const auto& loss : section.losses) {
     json["bands"].push_back({{"name", loss.band.name},
                              {"frequency_Hz", loss.band.frequency},
                              {"beamwidth_mdeg", loss.band.beamwidth / millidegree},
-                             {"mean_loss_two_axes_dB", number(loss.mean_loss_db)}});
+                             {"mean_loss_two_axes_dB", number(loss.mean_loss_db)},
+                             {"static_bending_loss_dB", number(loss.static_bending_db)}});
   }
   json["present"] = Json::array();
   for (const auto& [structure, design] : section.present) {
@@ -171,11 +179,15 @@ Json tuning_json(const TuningSection& section) {
   }
   json["budgets"] = Json::array();
   for (const auto& result : section.budgets) {
-    json["budgets"].push_back({{"name", result.budget.name},
-                               {"band", result.budget.band},
-                               {"convention", result.budget.convention},
-                               {"rms_mdeg", result.budget.rms / millidegree},
-                               {"wind_speed_limit_m_per_s", number(result.wind_speed_limit)}});
+    json["budgets"].push_back(
+        {{"name", result.budget.name},
+         {"band", result.budget.band},
+         {"convention", result.budget.convention},
+         {"rms_mdeg", result.budget.rms / millidegree},
+         {"wind_speed_limit_m_per_s", number(result.wind_speed_limit)},
+         {"plants_met", result.plants_met ? Json(*result.plants_met) : Json(nullptr)},
+         {"share_of_time_1",
+          share_of_time_json(section.climate, reached_wind_speed(section, result))}});
   }
   return json;
 }

@@ -1,8 +1,10 @@
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
 #include <boresight/app/report/json_tune.hpp>
 #include <boresight/app/report/sky_units.hpp>
+#include <boresight/app/report/wind_mast.hpp>
 
 namespace boresight::app {
 namespace {
@@ -87,7 +89,10 @@ Json law_json(const TuneSection& section, const TunedLaw& row) {
   for (std::size_t i = 0; i < row.speed_limits.size(); ++i) {
     budgets.push_back({{"name", section.budgets[i].name},
                        {"band", section.budgets[i].band},
-                       {"wind_speed_limit_m_per_s", number(row.speed_limits[i])}});
+                       {"wind_speed_limit_m_per_s", number(row.speed_limits[i])},
+                       {"share_of_time_1",
+                        share_of_time_json(section.climate, std::min(row.speed_limits[i],
+                                                                     section.supply_wind_speed))}});
   }
   const auto& tuning = row.design.tuning;
   return {{"structure", row.structure},
@@ -130,19 +135,21 @@ Json tune_json(const TuneSection& section) {
   for (const auto& one : section.shortfalls) {
     shortfalls.push_back({{"infeasible", one.infeasible}, {"closest", one.closest}});
   }
-  return {{"structures", section.structures},
-          {"wind_speeds_m_per_s", section.wind_speeds},
-          {"wind_model", plant::to_string(section.wind_model)},
-          {"goals", goals_json(section)},
-          {"bands", std::move(bands)},
-          {"budgets", std::move(budgets)},
-          {"supply_wind_speed_m_per_s", number(section.supply_wind_speed)},
-          {"ensemble_source", section.ensemble_source},
-          {"ensemble_members", section.ensemble_size},
-          {"starts", section.starts},
-          {"laws", std::move(laws)},
-          {"not_run", section.not_run},
-          {"shortfalls", std::move(shortfalls)}};
+  Json json{{"structures", section.structures},
+            {"wind_speeds_m_per_s", section.wind_speeds},
+            {"wind_model", plant::to_string(section.wind_model)},
+            {"goals", goals_json(section)},
+            {"bands", std::move(bands)},
+            {"budgets", std::move(budgets)},
+            {"supply_wind_speed_m_per_s", number(section.supply_wind_speed)},
+            {"ensemble_source", section.ensemble_source},
+            {"ensemble_members", section.ensemble_size},
+            {"starts", section.starts},
+            {"laws", std::move(laws)},
+            {"not_run", section.not_run},
+            {"shortfalls", std::move(shortfalls)}};
+  if (section.wind_mast) json["wind_mast"] = mast_json(*section.wind_mast);
+  return json;
 }
 
 }  // namespace boresight::app

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -46,6 +47,7 @@ struct PlantSection {
   std::vector<plant::PlantMode> modes;
   plant::PlantMode hydraulic;
   double supply_torque = 0.0;     // N m
+  double torque_for_wind = 0.0;   // N m, what friction and offset leave of it
   double mean_wind_torque = 0.0;  // N m at the motor, design speed
   /// Records whose reconciled estimate the plant is; 0: as the case states it.
   std::size_t records = 0;
@@ -55,6 +57,9 @@ struct PlantSection {
 struct BudgetResult {
   PointingBudget budget;
   double wind_speed_limit = 0.0;  // m/s
+  /// Plants of the ensemble on which it is met in the wind that it is needed up to; none for a
+  /// budget that states no such wind and without an ensemble.
+  std::optional<int> plants_met = std::nullopt;
 };
 
 struct TuningSection {
@@ -72,6 +77,7 @@ struct TuningSection {
   plant::WindModel wind_model = plant::WindModel::coherence;
   plant::WindSite wind_site;
   std::optional<WindAttitude> wind_attitude;  // none: one torque coefficient for all
+  std::optional<WindMast> wind_mast;          // none: the case states speeds at the dish's centre
   struct SeedResult {
     std::uint64_t seed = 0;
     double beam_rms = 0.0;  // rad
@@ -81,21 +87,25 @@ struct TuningSection {
   int seeds_within_1_percent = 0;
   struct WindAlternative {
     plant::WindModel model = plant::WindModel::coherence;
-    double beam_rms = 0.0;  // rad, same gains
+    double beam_rms = 0.0;                  // rad, same gains
+    std::vector<double> speed_limits = {};  // m/s, one a budget
   };
   std::vector<WindAlternative> wind_alternatives;
   /// Rms of the bending between bull gear and beam that no encoder sees, with the encoder held
   /// perfectly still (rad). Not a bound: a loop can move the encoder against the bending.
   double encoder_held_rms = 0.0;
-  /// Mean wind speed (m/s) whose mean torque is the supply's; infinite without mean torque.
-  double supply_wind_speed = 0.0;
+  /// Mean wind speed (m/s) at which the supply's torque ends: supply_wind_speed of antenna_model.
+  double supply_wind_speed = std::numeric_limits<double>::infinity();
   double static_bending = 0.0;  // rad under the mean wind: calibration's job, not the servo's
   struct BandLoss {
     PointingBand band;
-    double mean_loss_db = 0.0;  // two equal axes
+    double mean_loss_db = 0.0;       // two equal axes, static bending left out
+    double static_bending_db = 0.0;  // what that would add on this axis
   };
   std::vector<BandLoss> losses;
   std::vector<BudgetResult> budgets;
+  std::vector<design::ClimatePart> climate;  // of the site; empty if the case states none
+  std::string demand_assumption;             // that a goal on gusts rests on; empty if stated
   /// The law with its gains held on plants that may be the true one: drawn from what the records
   /// leave open, or the case's ensemble. None without a stable law.
   std::optional<design::EnsembleResult> ensemble;

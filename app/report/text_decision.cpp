@@ -1,6 +1,9 @@
+#include <algorithm>
 #include <cmath>
+#include <initializer_list>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <boresight/app/document/document.hpp>
 #include <boresight/app/report/evaluate_report.hpp>
@@ -24,6 +27,19 @@ std::string share(const design::Probability& probability) {
                      probability.upper);
 }
 
+// Whether numbers are nothing to the digits printed.
+bool all_nothing(std::initializer_list<std::string> printed) {
+  return std::ranges::all_of(printed, [](const std::string& text) {
+    return text.find_first_of("123456789i") == std::string::npos;
+  });
+}
+
+// The names of rows that would hold nothing but zeros.
+Document left_out(const std::vector<std::string>& names) {
+  if (names.empty()) return {};
+  return wrapped(fmt::format("Nothing to the digits printed: {}.", fmt::join(names, ", ")), "  ");
+}
+
 Document chances_table(const EvaluateSection& section, const DecisionSection& decision) {
   Rows rows{{"proposal", "mean mdeg", "+-", "5 %", "50 %", "95 %", "is the best", "regret mdeg",
              "+-", "on the front", "outside goals", "unstable"}};
@@ -36,7 +52,8 @@ Document chances_table(const EvaluateSection& section, const DecisionSection& de
     cells.push_back(share(statistics.best));
     cells.push_back(fixed(statistics.expected_regret, 4));
     cells.push_back(fixed(statistics.regret_error, 4));
-    cells.push_back(fixed(decision.front_shares[i], 3));
+    cells.push_back(std::isnan(decision.front_shares[i]) ? "-"
+                                                         : fixed(decision.front_shares[i], 3));
     cells.push_back(share(one.outside_goals));
     cells.push_back(share(one.unstable));
     rows.push_back(std::move(cells));
@@ -70,14 +87,20 @@ Document inputs_table(const EvaluateSection& section, const DecisionSection& dec
   const auto& second = section.candidates[decision.candidates[decision.second].candidate].name;
   const auto& indices = decision.sobol->outputs.front();
   Rows rows{{"input", "at 5 %", "at 95 %", "swing", "first order", "", "total", ""}};
+  std::vector<std::string> nothing;
   const auto interval = [](const design::EstimatedIndex& index) {
     return fmt::format("[{:.3f}, {:.3f}]", index.lower, index.upper);
   };
   for (const auto& bar : decision.tornado->bars) {
     const auto& one = indices.inputs[bar.input];
-    rows.push_back({decision.inputs[bar.input], fixed(bar.at_low, 4), fixed(bar.at_high, 4),
-                    fixed(bar.swing, 4), fixed(one.first_order.value, 3), interval(one.first_order),
-                    fixed(one.total.value, 3), interval(one.total)});
+    const std::string swing = fixed(bar.swing, 4), first = fixed(one.first_order.value, 3),
+                      total = fixed(one.total.value, 3);
+    if (all_nothing({swing, first, total})) {
+      nothing.push_back(decision.inputs[bar.input]);
+      continue;
+    }
+    rows.push_back({decision.inputs[bar.input], fixed(bar.at_low, 4), fixed(bar.at_high, 4), swing,
+                    first, interval(one.first_order), total, interval(one.total)});
   }
   Document text =
       "\n" +
@@ -89,18 +112,24 @@ Document inputs_table(const EvaluateSection& section, const DecisionSection& dec
                   second, best, decision.tornado->at_median, std::sqrt(indices.variance),
                   decision.sobol->evaluations),
               "  ");
-  return text + table(rows, "l");
+  return text + (rows.size() > 1 ? table(rows, "l") : Document()) + left_out(nothing);
 }
 
 Document tests_table(const EvaluateSection& section, const DecisionSection& decision) {
   if (!decision.tests) return {};
   const auto& tests = *decision.tests;
   Rows rows{{"knowing", "lowers the rms by", "+-", "held out", "+-"}};
+  std::vector<std::string> nothing;
   for (std::size_t k = 0; k < tests.inputs.size(); ++k) {
     const auto& one = tests.inputs[k];
-    rows.push_back({decision.inputs[k], fixed(one.fitted.gain, 5),
-                    fixed(one.fitted.standard_error, 5), fixed(one.held_out_gain, 5),
-                    fixed(one.held_out_error, 5)});
+    const std::string gain = fixed(one.fitted.gain, 5), error = fixed(one.fitted.standard_error, 5),
+                      held_out = fixed(one.held_out_gain, 5),
+                      held_out_error = fixed(one.held_out_error, 5);
+    if (all_nothing({gain, error, held_out, held_out_error})) {
+      nothing.push_back(decision.inputs[k]);
+      continue;
+    }
+    rows.push_back({decision.inputs[k], gain, error, held_out, held_out_error});
   }
   rows.push_back({"everything", fixed(tests.perfect.gain, 5),
                   fixed(tests.perfect.standard_error, 5), "-", "-"});
@@ -112,7 +141,7 @@ Document tests_table(const EvaluateSection& section, const DecisionSection& deci
                          "if one input is known exactly. Fitted is biased high, held out low.",
                          choice),
              "  ") +
-         table(rows, "l");
+         table(rows, "l") + left_out(nothing);
 }
 
 }  // namespace

@@ -7,8 +7,11 @@
 #include <fmt/ranges.h>
 
 #include <boresight/app/document/document.hpp>
+#include <boresight/app/redesign/tuning_verdict.hpp>
+#include <boresight/app/report/climate_wording.hpp>
 #include <boresight/app/report/sky_units.hpp>
 #include <boresight/app/report/text_report.hpp>
+#include <boresight/app/report/wind_mast.hpp>
 
 namespace boresight::app {
 namespace {
@@ -76,7 +79,7 @@ Document breaks_part(const TuningSection& section) {
 // Gusts and torque that the rms values rest on.
 Document wind_part(const TuningSection& section) {
   const auto gusts = plant::site_gusts(section.wind_site);
-  return wrapped(
+  Document text = wrapped(
       fmt::format("Gusts by the {} spectrum, {:.1f} % of the mean speed rms; torque coefficient "
                   "{:.4g}{}.",
                   plant::to_string(gusts.kind),
@@ -89,6 +92,8 @@ Document wind_part(const TuningSection& section) {
                                     section.wind_attitude->elevation / (1e3 * millidegree))
                       : ""),
       "  ");
+  if (section.wind_mast) text += wrapped(mast_in_words(*section.wind_mast), "  ");
+  return text;
 }
 
 std::string ensemble_text(const design::EnsembleResult& ensemble, std::string_view source,
@@ -106,6 +111,12 @@ std::string ensemble_text(const design::EnsembleResult& ensemble, std::string_vi
                         "of {:.3f} rad/s where {:g} is",
                         peak, goals.sensitivity_peak[0], worst.valve_effort, goals.valve_effort)
           : "is not stable");
+}
+
+// "24/30": plants of the ensemble on which a budget is met where it is needed.
+std::string plants_text(const TuningSection& section, const BudgetResult& result) {
+  if (!result.plants_met || !section.ensemble) return "-";
+  return fmt::format("{}/{}", *result.plants_met, section.ensemble->members.size());
 }
 
 // What the antenna's own gains do; nothing of a case that states none.
@@ -218,29 +229,54 @@ Document document_of(const TuningSection& section) {
   rows.push_back({"static bending by the mean wind (calibration's job, not in the rms)",
                   mdeg(section.static_bending)});
   text += table(rows) + wind_part(section) + "\n";
-  rows = {{"band", "beamwidth mdeg", "mean loss dB, two equal axes"}};
+  rows = {{"band", "beamwidth mdeg", "mean loss dB, two equal axes", "static bending would add"}};
   for (const auto& loss : section.losses) {
     rows.push_back({fmt::format("{} {:g} GHz", loss.band.name, loss.band.frequency / 1e9),
                     fmt::format("{:.3f}", loss.band.beamwidth / millidegree),
-                    fmt::format("{:.4f}", loss.mean_loss_db)});
+                    fmt::format("{:.4f}", loss.mean_loss_db),
+                    fmt::format("{:.4f}", loss.static_bending_db)});
   }
-  text += table(rows) + "\n";
+  text +=
+      table(rows) +
+      wrapped(
+          "Left out of the losses is what the mean wind bends the antenna. It changes as slowly as "
+          "the mean wind, and is for a boresight scan or a wind term of the pointing model to take "
+          "away: no loop sees it.",
+          "  ") +
+      "\n";
   rows = {{"budget", "band", "convention", "rms mdeg", "met up to m/s", "km/h"}};
   const bool needed = std::ranges::any_of(
       section.budgets, [](const BudgetResult& one) { return one.budget.wind_speed.has_value(); });
-  if (needed) rows.front().emplace_back("needed m/s");
+  if (needed) rows.front().insert(rows.front().end(), {"needed m/s", "there on plants"});
+  const bool climate = !section.climate.empty();
+  if (climate) rows.front().emplace_back("of the time");
   for (const auto& result : section.budgets) {
     rows.push_back({result.budget.name, result.budget.band, result.budget.convention,
                     mdeg(result.budget.rms), speed(result.wind_speed_limit, 1.0),
                     speed(result.wind_speed_limit, 3.6)});
     const auto& need = result.budget.wind_speed;
-    if (needed) rows.back().push_back(need ? fmt::format("{:g}", *need) : "-");
+    if (needed) {
+      rows.back().push_back(need ? fmt::format("{:g}", *need) : "-");
+      rows.back().push_back(plants_text(section, result));
+    }
+    if (climate) {
+      rows.back().push_back(percent_of_time(section.climate, reached_wind_speed(section, result)));
+    }
   }
-  text += table(rows, "lllrrrr");
-  text += wrapped(fmt::format("Gains held, supply torque not counted: the mean wind torque alone "
-                              "reaches the supply's at {:.1f} m/s.",
-                              section.supply_wind_speed),
-                  "  ");
+  text += table(rows, "lllrrrrrr");
+  if (std::isfinite(section.supply_wind_speed)) {
+    text +=
+        wrapped(fmt::format("Gains held, supply torque not counted: at {:.1f} m/s the mean wind "
+                            "takes all that friction and offset leave of it.",
+                            section.supply_wind_speed),
+                "  ");
+  }
+  if (climate) {
+    text += wrapped(fmt::format("Of the climate's time, of which the supply's torque counts; its "
+                                "highest speed is {:.4g} m/s.",
+                                design::highest_speed(section.climate)),
+                    "  ");
+  }
   return text + effects_part(section);
 }
 

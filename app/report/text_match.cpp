@@ -38,7 +38,9 @@ Document motors_part(const MatchSection& section) {
   return table(rows, "rrrrrrrrrl") +
          wrapped(
              fmt::format(
-                 "R: motors over gear train and antenna. deg/s2: at the sky, by what the "
+                 "R: motors over gear train and antenna. hydr., zeta: the lowest mode, the antenna "
+                 "on "
+                 "the oil spring with the structure bending. deg/s2: at the sky, by what the "
                  "supply's torque leaves beyond friction at {:.3g} deg/s, the case's slew rate "
                  "or four fifths of what supply and valve hold. slew: {:.3g} deg at that rate and "
                  "acceleration. rule zeta: 1/2 sqrt(J_L/J_m). of best a: acceleration for given "

@@ -37,6 +37,7 @@ Document document_of(const PlantSection& section) {
        row("gear stiffness", structure.gear_stiffness, "N.m/rad"),
        row("valve", drive.valve_corner / two_pi, "Hz"),
        row("supply torque", section.supply_torque, "N.m"),
+       row("what friction at tracking rate and offset leave", section.torque_for_wind, "N.m"),
        row("mean wind torque at design speed", section.mean_wind_torque, "N.m")},
       "l", 0);
   text += "\n";

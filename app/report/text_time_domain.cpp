@@ -129,12 +129,14 @@ Document slew_part(const TimeDomainSection& section) {
     text += fmt::format(" (what the drive can do of {:.3g} deg/s and {:.3g} deg/s2)",
                         asked.rate / degree, asked.acceleration / degree);
   }
+  const std::string bound = mdeg(section.options.settled_error);
   const std::string settled =
-      slew.settling_time
-          ? fmt::format("within {} mdeg {:.2f} s after the end of the command",
-                        mdeg(section.options.settled_error), *slew.settling_time)
-          : fmt::format("not within {} mdeg {:g} s after the end of the command",
-                        mdeg(section.options.settled_error), section.options.settling_watched);
+      !slew.settling_time ? fmt::format("not within {} mdeg {:g} s after the end of the command",
+                                        bound, section.options.settling_watched)
+      : *slew.settling_time > 0.0
+          ? fmt::format("within {} mdeg {:.2f} s after the end of the command", bound,
+                        *slew.settling_time)
+          : fmt::format("within {} mdeg from the end of the command on", bound);
   text += std::isfinite(slew.largest_error)
               ? fmt::format(": {}; error up to {:.2f} mdeg on the way, overshoot {:.2f} mdeg.",
                             settled, slew.largest_error / millidegree, slew.overshoot / millidegree)
@@ -164,10 +166,10 @@ Document candidates_part(const TimeDomainSection& section) {
                         : std::string(design::to_string(result.wind.status)),
                     amplitude(true), amplitude(false),
                     result.reversal ? mdeg(result.reversal->beam_error) : "-",
-                    !slew ? "-"
-                    : slew->settling_time
-                        ? fmt::format("{:.2f}", *slew->settling_time)
-                        : fmt::format("> {:g}", section.options.settling_watched)});
+                    !slew                  ? "-"
+                    : !slew->settling_time ? fmt::format("> {:g}", section.options.settling_watched)
+                    : *slew->settling_time > 0.0 ? fmt::format("{:.2f}", *slew->settling_time)
+                                                 : std::string("at once")});
   }
   return "\n" + table(rows, "l") +
          wrapped(

@@ -6,8 +6,11 @@
 #include <fmt/ranges.h>
 
 #include <boresight/app/document/document.hpp>
+#include <boresight/app/report/climate_wording.hpp>
 #include <boresight/app/report/sky_units.hpp>
 #include <boresight/app/report/text_report.hpp>
+#include <boresight/app/report/wind_mast.hpp>
+#include <boresight/app/tune/gains_at_bounds.hpp>
 
 namespace boresight::app {
 namespace {
@@ -27,9 +30,13 @@ std::string decibel(double factor) {
                                                : "none";
 }
 
-std::string speed(double limit) {
+// With a climate also the share of its time up to that speed or, if less, the supply's.
+std::string speed(const TuneSection& section, double limit) {
   if (std::isnan(limit)) return "-";
-  return std::isfinite(limit) ? fmt::format("{:.2f}", limit) : "> 60";
+  std::string text = std::isfinite(limit) ? fmt::format("{:.2f}", limit) : "> 60";
+  if (section.climate.empty()) return text;
+  return fmt::format("{} ({})", text,
+                     percent_of_time(section.climate, std::min(limit, section.supply_wind_speed)));
 }
 
 std::string loss(double rms, const PointingBand& band) {
@@ -47,6 +54,29 @@ std::string verdict(const TunedLaw& row) {
 std::vector<std::string> first_cells(const TunedLaw& row) {
   return {row.structure, std::string(to_string(row.tuned_for)),
           fmt::format("{:g}", row.wind_speed)};
+}
+
+// What the mean wind's bending would add to the losses.
+Document bending_part(const TuneSection& section) {
+  if (section.bands.empty() || section.wind_speeds.empty()) return {};
+  design::TrackingProblem problem = section.problem;
+  problem.wind.mean_speed = section.wind_speeds.front();
+  const double bending = static_bending(problem);
+  std::vector<std::string> losses;
+  for (const auto& band : section.bands) {
+    losses.push_back(
+        fmt::format("{:.4f} dB in band {}",
+                    design::pointing_loss_db(bending, band.beamwidth,
+                                             design::LossConvention::mean_loss_one_axis),
+                    band.name));
+  }
+  return wrapped(
+      fmt::format(
+          "Left out of the losses is what the mean wind bends the antenna, {} mdeg in {:g} "
+          "m/s. It changes as slowly as the mean wind, and is for a boresight scan or a wind "
+          "term of the pointing model to take away. Left in, it would add {}.",
+          mdeg(std::abs(bending)), problem.wind.mean_speed, fmt::join(losses, ", ")),
+      "  ");
 }
 
 Document pointing_part(const TuneSection& section) {
@@ -78,11 +108,12 @@ Document pointing_part(const TuneSection& section) {
       cells.push_back(mdeg(rms));
       for (const auto& band : section.bands) cells.push_back(loss(rms, band));
     }
-    for (const double limit : row.speed_limits) cells.push_back(speed(limit));
+    for (const double limit : row.speed_limits) cells.push_back(speed(section, limit));
     cells.push_back(verdict(row));
     rows.push_back(std::move(cells));
   }
   Document text = table(rows, "ll");
+  if (section.wind_mast) text += wrapped(mast_in_words(*section.wind_mast), "  ");
   for (std::size_t i = 0; i < section.budgets.size(); ++i) {
     const auto& budget = section.budgets[i];
     text += fmt::format(
@@ -91,10 +122,17 @@ Document pointing_part(const TuneSection& section) {
         budget.wind_speed ? fmt::format("; {:g} m/s asked for", *budget.wind_speed) : "");
   }
   if (!section.budgets.empty() && std::isfinite(section.supply_wind_speed)) {
-    text += wrapped(fmt::format("Supply torque not counted: the mean wind torque alone reaches the "
-                                "supply's at {:.1f} m/s.",
+    text += wrapped(fmt::format("Supply torque not counted: at {:.1f} m/s the mean wind takes all "
+                                "that friction and offset leave of it.",
                                 section.supply_wind_speed),
                     "  ");
+  }
+  if (!section.budgets.empty() && !section.climate.empty()) {
+    text += wrapped(
+        fmt::format("In brackets the share of the climate's time up to that speed, or up to the "
+                    "supply's if that is less; the climate's highest speed is {:.4g} m/s.",
+                    design::highest_speed(section.climate)),
+        "  ");
   }
   for (const auto& band : section.bands) {
     text +=
@@ -102,7 +140,7 @@ Document pointing_part(const TuneSection& section) {
                     band.name, band.beamwidth / millidegree, band.frequency / 1e9,
                     band.illumination.empty() ? "" : ", " + band.illumination);
   }
-  return text;
+  return text + bending_part(section);
 }
 
 Document robustness_part(const TuneSection& section) {
@@ -139,7 +177,7 @@ Document robustness_part(const TuneSection& section) {
              "  ");
 }
 
-// One table a structure and wind speed: the gains before and after.
+// One table a structure and wind speed: present gains, where there are any, and tuned ones.
 Document gains_part(const TuneSection& section) {
   Document text;
   for (std::size_t i = 0; i < section.laws.size(); ++i) {
@@ -179,14 +217,13 @@ Document limits_part(const TuneSection& section) {
     for (const auto& limit : tuning.limits) limits.push_back(limit.description());
     if (limits.empty()) limits = tuning.active_goals;
     if (limits.empty()) limits.emplace_back("no goal");
-    text += wrapped(fmt::format("{}, {}, {:g} m/s: {}.{}", row.structure, to_string(row.tuned_for),
-                                row.wind_speed, fmt::join(limits, "; "),
-                                tuning.gains_at_bound.empty()
-                                    ? ""
-                                    : fmt::format(" At the bound of the search: {}.",
-                                                  fmt::join(tuning.gains_at_bound, ", "))),
+    text += wrapped(fmt::format("{}, {}, {:g} m/s: {}.", row.structure, to_string(row.tuned_for),
+                                row.wind_speed, fmt::join(limits, "; ")),
                     "  ", "  ");
   }
+  std::vector<const TunedLaw*> laws;
+  for (const auto& row : section.laws) laws.push_back(&row);
+  for (const auto& sentence : gains_at_bounds(laws)) text += wrapped(sentence, "  ", "  ");
   return text;
 }
 
@@ -231,7 +268,9 @@ Document document_of(const TuneSection& section) {
     text += wrapped(fmt::format("Not run: {}.", fmt::join(section.not_run, "; ")), "  ");
   }
   text += pointing_part(section) + "\n" + robustness_part(section);
-  text += heading("Gains, before and after") + gains_part(section);
+  const bool before = std::ranges::any_of(
+      section.laws, [](const TunedLaw& row) { return row.tuned_for == TunedFor::present; });
+  text += heading(before ? "Gains, before and after" : "Gains") + gains_part(section);
   text += heading("What limits each law, and what 1 % more of the limit would buy");
   return text + limits_part(section);
 }

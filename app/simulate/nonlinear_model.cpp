@@ -85,17 +85,12 @@ plant::NonlinearAntenna make_nonlinear_antenna(const Case& antenna) {
   details.overlap = entry.valve_overlap.value * entry.valve_stroke.value;
   details.makeup_pressure = entry.makeup_pressure.value;
   details.air_fraction = entry.air_fraction.value;
-  details.oil_density = antenna.oil.density.value;
+  if (antenna.oil.density) details.oil_density = antenna.oil.density->value;
   details.line_lengths = line_lengths(antenna);
   details.line_damping_ratio = entry.line_damping_ratio.value;
   details.friction = {friction_curve(antenna), entry.bristle_stiffness.value,
                       entry.bristle_damping.value, 0.0};
-  const auto value_or_0 = [](const std::optional<Quantity>& quantity) {
-    return quantity ? quantity->value : 0.0;
-  };
-  details.offset = {entry.offset_torque.value, value_or_0(entry.offset_cosine),
-                    value_or_0(entry.offset_sine), value_or_0(antenna.antenna.elevation),
-                    gear_ratio(antenna)};
+  details.offset = offset_torque(antenna);
   if (entry.backlash) {
     details.backlash = entry.backlash->value;
     details.preload_torque = entry.preload_torque.value;

@@ -58,14 +58,20 @@ std::optional<double> predicted_rms(const design::TrackingProblem& problem,
                                    tuned.evaluation.noise_variance, mean_speed);
 }
 
+control::LoopStructure structure_of_run(const Case& antenna, const SimulatedLaw& asked) {
+  if (asked.law) return asked.law->structure;
+  return asked.structure ? *asked.structure : loop_structure(antenna, "PI");
+}
+
 design::TuningResult law_of_run(const Case& antenna, const design::TrackingProblem& problem,
                                 const SimulatedLaw& asked) {
   if (asked.law) return design::assess(problem, *asked.law, make_goals(antenna)).tuning;
-  auto tuned = design::tune(problem, asked.structure, make_goals(antenna), {});
+  const auto structure = structure_of_run(antenna, asked);
+  auto tuned = design::tune(problem, structure, make_goals(antenna), {});
   if (tuned.status != design::TuningStatus::optimal) {
     throw InfeasibleRequirement(
         fmt::format("{}: no {} law meets the hard goals, so there is none to simulate",
-                    antenna.path, control::to_string(asked.structure)));
+                    antenna.path, control::to_string(structure)));
   }
   return tuned;
 }
@@ -90,10 +96,8 @@ PositionRun run_position_loop(const Case& antenna, const SimulatedLaw& asked, co
   return {std::move(run), predicted_rms(problem, tuned, course.mean_wind_speed)};
 }
 
-std::string described(const SimulatedLaw& asked) {
-  return fmt::format("by {}, {}",
-                     control::to_string(asked.law ? asked.law->structure : asked.structure),
-                     asked.source);
+std::string described(const Case& antenna, const SimulatedLaw& asked) {
+  return fmt::format("by {}, {}", structure_of_run(antenna, asked).name(), asked.source);
 }
 
 double rms_about_mean(const VectorXd& values) {
@@ -228,7 +232,7 @@ PositionRecord run_tracking(const Case& antenna, const SimulatedLaw& law, std::u
   record.test = "tracking";
   record.description = fmt::format("tracking at {:.3g} mdeg/s {} in {}",
                                    antenna.drive.tracking_rate.value / millidegree_at_sky,
-                                   described(law), gusts.description);
+                                   described(antenna, law), gusts.description);
   return record;
 }
 
@@ -266,7 +270,7 @@ PositionRecord run_slew(const Case& antenna, const SimulatedLaw& law, std::uint6
   record.test = "slew";
   record.description =
       fmt::format("{:.3g} deg {} at up to {:.3g} deg/s and {:.2g} deg/s2", distance / degree,
-                  described(law), course.loop.reference_rate.maxCoeff() / (gear * degree),
+                  described(antenna, law), course.loop.reference_rate.maxCoeff() / (gear * degree),
                   limits.acceleration / (gear * degree));
   if (attainable < wanted) {
     record.description += fmt::format(

@@ -11,8 +11,8 @@ namespace boresight::app {
 
 /// Which law a simulated position loop runs on.
 struct SimulatedLaw {
-  /// Tuned for the case's own plant where there is no law.
-  control::LoopStructure structure = control::LoopStructure::pi_with_lag();
+  /// Tuned for the case's own plant where there is no law; none is PI with lag.
+  std::optional<control::LoopStructure> structure;
   std::optional<control::ControlLaw> law;
   std::string source = "tuned now";  // of its gains, in words
 };

@@ -33,18 +33,23 @@ Document drive_part(const SimulationReport& report) {
   return heading("Tests of the drive (true values, at the motor shaft)") + table(rows);
 }
 
+// Seconds after the end of the slew's command.
+std::string settling_text(const PositionRecord& record) {
+  if (record.settling_time) {
+    return *record.settling_time > 0.0 ? fmt::format("{:.2f}", *record.settling_time) : "at once";
+  }
+  return record.test == "slew" && record.complete ? "never" : "-";
+}
+
 Document position_part(const SimulationReport& report) {
   if (report.position.empty()) return {};
   Rows rows{
       {"test", "s", "beam rms", "linear", "encoder rms", "beam mean", "settled s", "overshoot"}};
   for (const auto& record : report.position) {
-    const bool slew = record.test == "slew";
     rows.push_back({record.test, length_of(record.duration, record.complete),
                     in_millidegrees(record.beam_rms), in_millidegrees(record.predicted_rms),
                     in_millidegrees(record.encoder_rms), in_millidegrees(record.beam_mean),
-                    record.settling_time ? fmt::format("{:.2f}", *record.settling_time)
-                                         : std::string(slew && record.complete ? "never" : "-"),
-                    in_millidegrees(record.overshoot)});
+                    settling_text(record), in_millidegrees(record.overshoot)});
   }
   return heading("Position loop, tuned PI with lag, at the sky (mdeg)") + table(rows);
 }

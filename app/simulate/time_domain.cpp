@@ -6,6 +6,7 @@
 #include <boresight/app/report/influences.hpp>
 #include <boresight/app/simulate/nonlinear_model.hpp>
 #include <boresight/app/simulate/time_domain.hpp>
+#include <boresight/design/drive_reach.hpp>
 #include <boresight/plant/error.hpp>
 
 namespace boresight::app {
@@ -19,6 +20,7 @@ TimeDomainSection plan(const Case& antenna, const design::TrackingProblem& probl
   TimeDomainSection section;
   section.law = description;
   section.wind_speed = problem.wind.mean_speed;
+  section.stroke_assumption = demand_assumption(antenna);
   // Rounding to steps q errs by q/sqrt(12) rms.
   section.encoder_resolution = std::sqrt(12.0) * antenna.sensors.encoder_noise.value;
   auto& options = section.options;
@@ -31,12 +33,23 @@ TimeDomainSection plan(const Case& antenna, const design::TrackingProblem& probl
   return section;
 }
 
+// Whether the supply holds that rate (rad/s of motor) with a valve of twice the stroke.
+bool held_with_more_stroke(plant::NonlinearAntenna model, double rate) {
+  model.valve.stroke_limit *= 2.0;
+  return design::attainable_rate(model, rate) >= rate;
+}
+
 void simulate(const Case& antenna, const design::TrackingProblem& problem,
               const control::ControlLaw& law, TimeDomainSection& section) {
   auto loop = design::make_simulated_loop(problem, make_nonlinear_antenna(antenna), law);
   section.sample_time = loop.sample_time;
   loop.encoder_resolution = section.encoder_resolution * problem.gear_ratio;
   section.result = design::verify_in_time(problem, loop, section.options);
+  const auto& slew = section.result.slew;
+  const double asked = section.options.limits.rate;
+  section.slew_hangs_on_stroke = slew && slew->limits.rate < asked &&
+                                 !section.stroke_assumption.empty() &&
+                                 held_with_more_stroke(loop.antenna, asked * problem.gear_ratio);
 }
 
 }  // namespace

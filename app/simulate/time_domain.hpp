@@ -20,6 +20,10 @@ struct TimeDomainSection {
   double encoder_resolution = 0.0;
   design::NonlinearVerificationOptions options;
   design::NonlinearVerification result;
+  /// What the valve's stroke rests on where the case does not know it (demand_assumption).
+  std::string stroke_assumption;
+  /// The slew rate asked for is out of reach only for want of stroke: with twice of it it is not.
+  bool slew_hangs_on_stroke = false;
   /// The laws that this one was chosen from, itself included, influences not told apart; empty
   /// where there was no choice.
   struct Candidate {
@@ -70,6 +74,11 @@ std::optional<design::NonlinearVerification> run_in_time_domain(
 
 /// In a sentence that the drive cannot slew as the case asks; empty if it can.
 std::string slew_out_of_reach(const TimeDomainSection& section);
+
+/// In a sentence that a valve stroke which the case assumes decides what the nonlinear antenna says
+/// beside the linear one: the rms in wind, or the slew rate. Empty where it is stated or decides
+/// neither.
+std::string assumed_stroke(const TimeDomainSection& section);
 
 /// In a sentence that the law does not hold the antenna still (design::holds_still) within the
 /// tightest budget; empty if it does.

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include <boresight/app/report/influences.hpp>
 #include <boresight/app/report/sky_units.hpp>
 #include <boresight/app/simulate/time_domain.hpp>
 
@@ -77,6 +78,23 @@ std::string slew_out_of_reach(const TimeDomainSection& section) {
       asked.rate / degree, slew->limits.rate / degree);
 }
 
+std::string assumed_stroke(const TimeDomainSection& section) {
+  if (section.stroke_assumption.empty()) return "";
+  const design::WindResult& wind = section.result.wind;
+  const bool rms = std::ranges::any_of(wind.influences, [&](const auto& influence) {
+    return influence.influence == design::Influence::limits &&
+           influence.difference > negligible_change * wind.beam_rms;
+  });
+  if (!rms && !section.slew_hangs_on_stroke) return "";
+  const char* hanging = !rms                           ? "The slew rate within reach rests"
+                        : section.slew_hangs_on_stroke ? "The simulated rms and the slew rate rest"
+                                                       : "The simulated rms rests";
+  return fmt::format(
+      "{} on {}: state simulation.valve_stroke or the valve's rated flow before taking that for an "
+      "answer.",
+      hanging, section.stroke_assumption);
+}
+
 std::string not_still(const TimeDomainSection& section) {
   const double error = section.options.settled_error;
   const auto& hunting = section.result.hunting;
@@ -120,6 +138,7 @@ std::string decide(const TimeDomainSection& section) {
         candidate.law, candidate.result.wind.beam_rms / millidegree, amplitude(candidate.result),
         error / millidegree);
   }
+  if (const std::string stroke = assumed_stroke(section); !stroke.empty()) text += " " + stroke;
   return text;
 }
 
@@ -136,7 +155,9 @@ std::string conclude(const TimeDomainSection& section) {
     text += fmt::format(" Turning round at the tracking rate it errs by up to {:.1f} mdeg.",
                         reversal->beam_error / millidegree);
   }
-  if (const std::string slow = slew_out_of_reach(section); !slow.empty()) text += " " + slow;
+  for (const auto& sentence : {slew_out_of_reach(section), assumed_stroke(section)}) {
+    if (!sentence.empty()) text += " " + sentence;
+  }
   return text;
 }
 

@@ -15,7 +15,7 @@ std::vector<std::string> asked_structures(const Case& antenna, std::vector<std::
   }
   for (const auto& name : asked) {
     try {
-      loop_structure(antenna.loops, name);
+      loop_structure(antenna, name);
     } catch (const InvalidInput& error) {
       throw InvalidInput(fmt::format("--structure: {}", error.what()));
     }

@@ -225,7 +225,7 @@ MeasuredTuneSection tune_measured(const Case& antenna, const MeasuredStudyOption
   std::vector<std::string> names = options.structures;
   if (names.empty()) names = {"PI", "DPF"};
   std::vector<control::LoopStructure> structures;
-  for (const auto& name : names) structures.push_back(loop_structure(antenna.loops, name));
+  for (const auto& name : names) structures.push_back(loop_structure(antenna, name));
 
   CampaignNotes notes;
   const identification::Campaign campaign = make_campaign(antenna, notes);

@@ -1,11 +1,14 @@
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <boresight/app/report/assumed_demand.hpp>
 #include <boresight/app/report/present_gains.hpp>
 #include <boresight/app/report/sky_units.hpp>
+#include <boresight/app/tune/gains_at_bounds.hpp>
 #include <boresight/app/tune/tune_study.hpp>
 
 namespace boresight::app {
@@ -32,8 +35,9 @@ std::string limits_of(const TunedLaw& row) {
   return texts.empty() ? "no goal" : fmt::format("{}", fmt::join(texts, "; "));
 }
 
-// The best usable law of each purpose.
+// The best usable law of each purpose, and what only the bounds of the search hold of them.
 void conclude_best(const TuneSection& section, std::vector<std::string>& sentences) {
+  std::vector<const TunedLaw*> concluded;
   for (const double speed : section.wind_speeds) {
     for (const auto purpose : {TunedFor::nominal, TunedFor::robust}) {
       const TunedLaw* best = nullptr;
@@ -43,17 +47,14 @@ void conclude_best(const TuneSection& section, std::vector<std::string>& sentenc
       }
       if (best == nullptr) continue;
       sentences.push_back(fmt::format(
-          "At {:g} m/s the best {} is {} with {} rms. Limited by {}.", speed,
+          "At {:g} m/s the best {} is {} with {} rms. Limited by {}.{}", speed,
           purpose == TunedFor::robust ? "law that keeps its goals on every plant" : "nominal law",
-          best->structure, mdeg(best->beam_rms), limits_of(*best)));
-      const auto& bounds = best->design.tuning.gains_at_bound;
-      if (bounds.empty()) continue;
-      sentences.back() += fmt::format(
-          " The search ended at its bound for: {}. A gain there is no optimum; what lies beyond "
-          "was not looked at.",
-          fmt::join(bounds, ", "));
+          best->structure, mdeg(best->beam_rms), limits_of(*best),
+          assumed_demand(best->design.tuning, section.demand_assumption)));
+      concluded.push_back(best);
     }
   }
+  std::ranges::move(gains_at_bounds(concluded), std::back_inserter(sentences));
 }
 
 void conclude_before_and_after(const TuneSection& section, std::vector<std::string>& sentences) {

@@ -49,13 +49,18 @@ struct TuneSection {
   std::vector<std::string> structures;
   std::vector<double> wind_speeds;  // m/s: the design's and those that budgets ask for
   plant::WindModel wind_model = plant::WindModel::coherence;
+  std::optional<WindMast> wind_mast;  // none: the case states speeds at the dish's centre
   design::HardGoals goals;
   design::SoftGoal soft_goal;
   std::optional<double> beam_rms_goal;  // rad
   bool minimises_climate = false;       // the climate's mean square in the place of one speed's
   std::vector<PointingBand> bands;
   std::vector<PointingBudget> budgets;
-  /// Mean wind speed (m/s) whose torque alone reaches the supply's: speed limits do not count it.
+  std::vector<design::ClimatePart> climate;  // of the site; empty if the case states none
+  /// What goals on the valve's demand in gusts rest on where no number of it is stated.
+  std::string demand_assumption;
+  /// Mean wind speed (m/s) at which the supply's torque ends (supply_wind_speed of antenna_model):
+  /// speed limits do not count it.
   double supply_wind_speed = std::numeric_limits<double>::infinity();
   std::string ensemble_source;  // what its members were drawn from
   std::size_t ensemble_size = 0;

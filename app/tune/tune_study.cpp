@@ -211,9 +211,9 @@ std::string short_name(const control::LoopStructure& structure) {
 std::vector<TuningUnit> units_of(const Case& antenna, const TuneSection& section) {
   std::vector<control::LoopStructure> structures;
   for (const auto& name : section.structures) {
-    structures.push_back(loop_structure(antenna.loops, name));
+    structures.push_back(loop_structure(antenna, name));
   }
-  const auto missing = design::missing_parts(structures);
+  const auto missing = design::missing_parts(structures, driven_load(antenna));
   structures.insert(structures.end(), missing.begin(), missing.end());
   const auto parts = design::parts_of(structures);
   std::vector<TuningUnit> units;
@@ -284,6 +284,9 @@ TuneSection tune_structures(const Case& antenna, const PlantEnsemble& ensemble,
   section.problem = make_problem(antenna);
   section.supply_wind_speed = supply_wind_speed(antenna, section.problem);
   section.wind_model = section.problem.wind.model;
+  section.wind_mast = antenna.wind.mast;
+  section.climate = antenna.wind.climate_parts;
+  section.demand_assumption = demand_assumption(antenna);
   auto units = units_of(antenna, section);
   std::vector<std::vector<std::size_t>> parts;
   for (const auto& unit : units) parts.push_back(unit.parts);

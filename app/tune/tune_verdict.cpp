@@ -5,6 +5,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <boresight/app/report/assumed_demand.hpp>
+#include <boresight/app/report/climate_wording.hpp>
 #include <boresight/app/report/sky_units.hpp>
 #include <boresight/app/tune/tune_study.hpp>
 
@@ -114,9 +116,10 @@ void find_unmet_goals(const TuneSection& section, double speed, TunedFor purpose
       {fmt::format("No law of {} meets every hard goal at {:g} m/s{}{}.", fmt::join(names, ", "),
                    speed, robust ? " on " + plants : "",
                    standing > 1 ? ": the goals contradict one another" : ""),
-       fmt::format("{} comes nearest, {:.1f} % off its worst goals: {}.", label(*nearest),
+       fmt::format("{} comes nearest, {:.1f} % off its worst goals: {}.{}", label(*nearest),
                    100.0 * (nearest->design.tuning.worst_goal_ratio - 1.0),
-                   standing_goals(*nearest, section.goals))});
+                   standing_goals(*nearest, section.goals),
+                   assumed_demand(nearest->design.tuning, section.demand_assumption))});
 }
 
 void find_unreached_rms(const TuneSection& section, std::vector<Shortfall>& shortfalls) {
@@ -127,7 +130,8 @@ void find_unreached_rms(const TuneSection& section, std::vector<Shortfall>& shor
       shortfalls.push_back(
           {fmt::format("The budget '{}' in band {} cannot be met up to {:g} m/s by any law.",
                        budget.name, budget.band, *budget.wind_speed),
-           fmt::format("The mean wind torque alone reaches the supply's at {:.1f} m/s.",
+           fmt::format("At {:.1f} m/s the mean wind takes all that friction and offset leave of "
+                       "the supply's torque.",
                        section.supply_wind_speed)});
       continue;
     }
@@ -143,11 +147,11 @@ void find_unreached_rms(const TuneSection& section, std::vector<Shortfall>& shor
         {fmt::format("The budget '{}' in band {} ({:.4f} mdeg) cannot be met up to {:g} m/s.",
                      budget.name, budget.band, budget.rms / millidegree, *budget.wind_speed),
          fmt::format("{} comes nearest with {:.4f} mdeg, {:.3g} dB on two equal axes in band {}; "
-                     "the budget is met up to {:.2f} m/s.",
+                     "the budget is met up to {:.2f} m/s{}.",
                      label(*best), best->beam_rms / millidegree,
                      design::pointing_loss_db(best->beam_rms, budget.beamwidth,
                                               design::LossConvention::mean_loss_two_axes),
-                     budget.band, limit)});
+                     budget.band, limit, climate_text(section.climate, limit))});
   }
   if (!section.beam_rms_goal) return;
   const double speed = section.wind_speeds.front();

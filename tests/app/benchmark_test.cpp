@@ -15,7 +15,6 @@ namespace {
 
 using testing::HasSubstr;
 using testing::Not;
-using Json = nlohmann::json;
 
 std::string gains(const std::string& gain = "0.2") {
   return "\n[gains]\nstructure = \"PI\"\nkr = \"" + gain +
@@ -39,14 +38,17 @@ ProgramResult benchmark(const std::string& path, std::vector<std::string> more =
   return run_program(arguments);
 }
 
-bool assumes(const Json& sheet, const std::string& key) {
+bool assumes(const nlohmann::json& sheet, const std::string& key) {
   return std::ranges::any_of(sheet.at("assumed_inputs"),
-                             [&](const Json& input) { return input.at("key") == key; });
+                             [&](const nlohmann::json& input) { return input.at("key") == key; });
 }
 
 // Every number of both, by place.
-void expect_close(const Json& one, const Json& other, double tolerance, const std::string& place) {
-  ASSERT_EQ(one.type() == Json::value_t::null, other.type() == Json::value_t::null) << place;
+void expect_close(const nlohmann::json& one, const nlohmann::json& other, double tolerance,
+                  const std::string& place) {
+  ASSERT_EQ(one.type() == nlohmann::json::value_t::null,
+            other.type() == nlohmann::json::value_t::null)
+      << place;
   if (one.is_number()) {
     const double a = one.get<double>(), b = other.get<double>();
     EXPECT_NEAR(a, b, tolerance * std::max(std::abs(a), std::abs(b)) + 1e-300) << place;
@@ -74,8 +76,8 @@ TEST(Benchmark, ExportedControllerScoresAsTheLaw) {
     ASSERT_EQ(law.exit_code, 0) << law.errors;
     const auto given = benchmark(path, {"--controller", file, "--json", folder.file("given.json")});
     ASSERT_EQ(given.exit_code, 0) << given.errors;
-    const Json one = Json::parse(content_of(folder.file("law.json")));
-    const Json other = Json::parse(content_of(folder.file("given.json")));
+    const nlohmann::json one = nlohmann::json::parse(content_of(folder.file("law.json")));
+    const nlohmann::json other = nlohmann::json::parse(content_of(folder.file("given.json")));
     EXPECT_EQ(one.at("protocol_version"), 2);
     EXPECT_GT(one.at("score").at("torque_step").at("peak_mdeg_per_MN_m").get<double>(), 0.0);
     expect_close(one.at("score"), other.at("score"), 1e-8, "score");
@@ -94,17 +96,18 @@ TEST(Benchmark, UnitsOfAControllerDoNotMatter) {
   ASSERT_EQ(one.exit_code, 0) << one.errors;
   const double rpm_per_si = 30.0 / 3.141592653589793;
   const std::string scaled = folder.write("rpm.json", [&] {
-    Json json{{"inputs", {"tachometer", "encoder"}},
-              {"outputs", {"valve_command"}},
-              {"input_units", {"rpm", "mrad"}},
-              {"output_units", {"rpm"}}};
-    json["D"] = Json::array({Json::array({-0.2, -0.04 * rpm_per_si * 1e-3})});
+    nlohmann::json json{{"inputs", {"tachometer", "encoder"}},
+                        {"outputs", {"valve_command"}},
+                        {"input_units", {"rpm", "mrad"}},
+                        {"output_units", {"rpm"}}};
+    json["D"] = nlohmann::json::array({nlohmann::json::array({-0.2, -0.04 * rpm_per_si * 1e-3})});
     return json.dump();
   }());
   const auto other = benchmark(path, {"--controller", scaled, "--json", folder.file("other.json")});
   ASSERT_EQ(other.exit_code, 0) << other.errors;
-  expect_close(Json::parse(content_of(folder.file("one.json"))).at("score"),
-               Json::parse(content_of(folder.file("other.json"))).at("score"), 1e-9, "score");
+  expect_close(nlohmann::json::parse(content_of(folder.file("one.json"))).at("score"),
+               nlohmann::json::parse(content_of(folder.file("other.json"))).at("score"), 1e-9,
+               "score");
 }
 
 TEST(Benchmark, UnstableLoopIsStatedNotScored) {
@@ -114,7 +117,7 @@ TEST(Benchmark, UnstableLoopIsStatedNotScored) {
   EXPECT_THAT(run.errors, HasSubstr("the closed loop is unstable, slowest pole at +"));
   EXPECT_THAT(run.output, HasSubstr("UNSTABLE"));
   EXPECT_THAT(run.output, HasSubstr("WARNING: the present gains of PI with lag are unstable"));
-  const Json report = Json::parse(content_of(folder.file("out.json")));
+  const nlohmann::json report = nlohmann::json::parse(content_of(folder.file("out.json")));
   EXPECT_TRUE(report.at("score").is_null());
   EXPECT_FALSE(report.at("stability").at("stable").get<bool>());
 }
@@ -152,13 +155,14 @@ TEST(Benchmark, ComparesScoreSheetsOfOneProtocolOnly) {
       benchmark(path, {"--compare", folder.file("one.json"), "--json", folder.file("two.json")});
   ASSERT_EQ(run.exit_code, 0) << run.errors;
   EXPECT_THAT(run.output, HasSubstr("Beside another score sheet"));
-  const Json comparison = Json::parse(content_of(folder.file("two.json"))).at("comparison");
+  const nlohmann::json comparison =
+      nlohmann::json::parse(content_of(folder.file("two.json"))).at("comparison");
   EXPECT_GT(comparison.at("quantities").size(), 50U);
   for (const auto& row : comparison.at("quantities")) {
     if (row.at("ratio_1").is_null()) continue;
     EXPECT_DOUBLE_EQ(row.at("ratio_1").get<double>(), 1.0);
   }
-  Json other = Json::parse(content_of(folder.file("one.json")));
+  nlohmann::json other = nlohmann::json::parse(content_of(folder.file("one.json")));
   other["protocol_version"] = 1;
   const auto refused = benchmark(path, {"--compare", folder.write("other.json", other.dump())});
   EXPECT_EQ(refused.exit_code, 2);
@@ -173,7 +177,7 @@ TEST(Benchmark, IsTheSameForAnyNumberOfThreadsAndWritesItsCurves) {
   const std::string path = small_case(folder, gains(), true);
   const auto one = benchmark(path, {"--json", "-", "--curves", folder.file("curves")});
   ASSERT_EQ(one.exit_code, 0) << one.errors;
-  const Json sheet = Json::parse(one.output);
+  const nlohmann::json sheet = nlohmann::json::parse(one.output);
   EXPECT_EQ(sheet.at("score").at("nonlinear").at("hunting").size(), 2U);
   EXPECT_TRUE(assumes(sheet, "simulation.bristle_stiffness"));
   EXPECT_FALSE(assumes(sheet, "recorder.sample_rate"));
@@ -207,7 +211,10 @@ TEST(Benchmark, ScoresTheAntennaThatRecordsShow) {
   EXPECT_THAT(to_text(recorded), HasSubstr("drawn from what the records leave open"));
   EXPECT_THAT(to_text(as_stated), HasSubstr("Linear plant as the case states it;"));
   const auto from_records = [](const BenchmarkReport& report) {
-    return Json::parse(to_json(report)).at("conditions").at("plant_from_records").get<bool>();
+    return nlohmann::json::parse(to_json(report))
+        .at("conditions")
+        .at("plant_from_records")
+        .get<bool>();
   };
   EXPECT_TRUE(from_records(recorded));
   EXPECT_FALSE(from_records(as_stated));
@@ -229,7 +236,7 @@ TEST(Benchmark, InterruptLeavesWhatWasWhole) {
   EXPECT_FALSE(report.score.winds.empty());
   EXPECT_FALSE(report.score.reference);
   EXPECT_THAT(to_text(report), HasSubstr("Interrupted before: ensemble"));
-  const Json sheet = Json::parse(to_json(report));
+  const nlohmann::json sheet = nlohmann::json::parse(to_json(report));
   EXPECT_TRUE(sheet.at("interrupted").get<bool>());
   EXPECT_EQ(sheet.at("left_out").size(), 3U);
   EXPECT_TRUE(sheet.at("score").at("reference").is_null());

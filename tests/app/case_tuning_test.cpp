@@ -55,7 +55,7 @@ TEST(CaseTuning, ReadsAStructureOfTheEngineersOwn) {
   ASSERT_EQ(loop.present.size(), 6U);
   EXPECT_DOUBLE_EQ(loop.present[1].value, 0.127 * hertz);
   EXPECT_EQ(loop.present[1].source, "set in 1988");
-  EXPECT_EQ(loop_structure(antenna.loops, "PI with a second lag"), loop.structure);
+  EXPECT_EQ(loop_structure(antenna, "PI with a second lag"), loop.structure);
   EXPECT_THAT(antenna.tuning.structures, testing::ElementsAre("PI", "PI-0"));
   EXPECT_EQ(antenna.tuning.starts, 4);
 }
@@ -90,6 +90,29 @@ TEST(CaseTuning, NamesGainsAsTheUsualStructuresDo) {
   }
 }
 
+// The bounds of the usual structures are those of the reference antennas, and follow another.
+TEST(CaseTuning, BoundsFollowTheAntenna) {
+  const auto named = control::LoopStructure::named("FULL+N+C");
+  const auto bounds_of = [](const control::LoopStructure& structure) {
+    std::vector<double> bounds;
+    for (const auto& gain : structure.gains()) {
+      bounds.push_back(gain.lower);
+      bounds.push_back(gain.upper);
+    }
+    return bounds;
+  };
+  for (const char* antenna : {"dss14-70m", "dss14-64m"}) {
+    const Case reference = read_case(case_path(antenna));
+    EXPECT_EQ(bounds_of(loop_structure(reference, "FULL+N+C")), bounds_of(named)) << antenna;
+  }
+  Case small = with("");
+  small.structure.locked_rotor_frequency.value = 9.0;
+  small.antenna.inertia.value *= 1e-3;
+  const auto& gains = loop_structure(small, "PI+C").gains();
+  EXPECT_DOUBLE_EQ(gains[3].upper, 300.0);  // kp
+  EXPECT_DOUBLE_EQ(gains[5].upper, 10.0);   // cs
+}
+
 TEST(CaseTuning, ReadsThePresentGainsInTheEngineersUnits) {
   const Case antenna = with(tables());
   ASSERT_TRUE(antenna.present_gains.has_value());
@@ -109,6 +132,9 @@ TEST(CaseTuning, WeighsTheSitesWind) {
   }
   EXPECT_NEAR(sum, 1.0, 1e-12);
   EXPECT_NEAR(at_12, 0.1, 1e-9);
+  EXPECT_NEAR(design::share_of_time(antenna.wind.climate_parts, 20.0), 1.0, 1e-12);
+  EXPECT_NEAR(design::share_of_time(antenna.wind.climate_parts, 10.0),
+              0.9 * std::expm1(-4.0) / std::expm1(-16.0), 1e-12);
   ASSERT_TRUE(antenna.wind.climate_torque_coefficient.has_value());
   EXPECT_NEAR(*antenna.wind.climate_torque_coefficient, std::sqrt(0.75 * 0.01 + 0.25 * 0.04),
               1e-12);

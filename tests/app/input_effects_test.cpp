@@ -37,12 +37,13 @@ const InputEffect& effect_of(const std::vector<InputEffect>& effects, const std:
 }
 
 TEST(InputEffects, AreWhatTheClosedLoopSays) {
-  const Case antenna =
-      parse_case(EditedCase()
-                     .replace_line("air_density = {",
-                                   "air_density = { value = \"1.1 kg/m3\", uncertainty = \"3 %\" }")
-                     .text(),
-                 "case.toml");
+  const Case antenna = parse_case(
+      EditedCase()
+          .replace_line("air_density = {",
+                        "air_density = { value = \"1.1 kg/m3\", uncertainty = \"3 %\" }\n"
+                        "mast_height = \"10 m\"\nheight = \"40 m\"")
+          .text(),
+      "case.toml");
   const design::Design design = tuned(antenna);
   ASSERT_TRUE(design.usable());
   const auto& law = design.tuning.law;
@@ -59,7 +60,7 @@ TEST(InputEffects, AreWhatTheClosedLoopSays) {
   const InputEffect& coefficient = effect_of(effects, "wind.torque_coefficient");
   EXPECT_TRUE(coefficient.unstated);
   EXPECT_DOUBLE_EQ(coefficient.moved_by, 0.1 * antenna.wind.torque_coefficient.value);
-  // Davenport's gusts go with the root of the drag.
+  // Davenport's gusts go with the root of the drag, also where it is converted from a mast.
   const InputEffect& drag = effect_of(effects, "wind.surface_drag");
   EXPECT_NEAR(drag.high_rms, std::hypot(std::sqrt(1.1) * design.wind_rms, design.noise_rms),
               1e-5 * design.beam_rms);

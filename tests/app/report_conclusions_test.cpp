@@ -23,6 +23,7 @@ using testing::Each;
 using testing::HasSubstr;
 using testing::IsEmpty;
 using testing::Not;
+using testing::StartsWith;
 
 design::Design design_of(double rms_mdeg) {
   design::Design design;
@@ -153,22 +154,99 @@ TEST(TuningVerdict, EndsWhereTheSupplysTorqueEnds) {
                             budget(9.0, std::numeric_limits<double>::infinity())};
   const auto& budgets = report.tuning->budgets;
   EXPECT_EQ(met_text(*report.tuning, budgets[0]),
-            "would be met up to the 25.7 m/s at which the mean wind torque alone reaches the "
-            "supply's");
+            "would be met up to the 25.7 m/s at which the mean wind takes all that friction and "
+            "offset leave of the supply's torque");
   EXPECT_EQ(met_text(*report.tuning, budgets[1]), "is met up to 20.0 m/s");
   EXPECT_EQ(reached_wind_speed(*report.tuning, budgets[2]), 25.7);
   report.tuning->supply_wind_speed = std::numeric_limits<double>::infinity();
   EXPECT_EQ(met_text(*report.tuning, budgets[2]), "is met up to the 60 m/s looked at");
+  report.tuning->supply_wind_speed = 0.0;  // friction takes it all
+  EXPECT_EQ(met_text(*report.tuning, budgets[1]), "is met in no wind");
+}
+
+TEST(TuningVerdict, GivesTheShareOfTheClimatesTime) {
+  Report report = tuned_report();
+  TuningSection& section = *report.tuning;
+  section.wind_site.surface_drag = 0.005;
+  section.climate = {{5.0, 3.0}, {10.0, 1.0}};
+  section.budgets = {budget(1.0, 9.1), budget(2.0, 16.0), budget(9.0, 30.0)};
+  EXPECT_EQ(met_text(section, section.budgets[0]), "is met up to 9.1 m/s (75 % of the time)");
+  EXPECT_EQ(met_text(section, section.budgets[1]),
+            "is met up to 16.0 m/s, beyond the climate's highest speed of 10 m/s");
+  EXPECT_THAT(decision(report).front(), HasSubstr("9.1 m/s (75 % of the time)"));
+  // The supply ends before the law does.
+  section.supply_wind_speed = 7.0;
+  EXPECT_THAT(met_text(section, section.budgets[2]),
+              AllOf(HasSubstr("up to the 7.0 m/s"), HasSubstr("(75 % of the time)")));
+  EXPECT_THAT(to_text(document_of(section)), HasSubstr("of the time"));
+  section.climate.clear();
+  EXPECT_THAT(to_text(document_of(section)), Not(HasSubstr("of the time")));
+}
+
+TEST(TuningVerdict, SaysWhereTheWindModelDecides) {
+  Report report = tuned_report();
+  TuningSection& section = *report.tuning;
+  section.wind_model = plant::WindModel::coherence;
+  section.budgets = {budget(0.55, 12.8, 12.0)};
+  const auto with = [&](double uniform_rms, double uniform_limit) {
+    section.wind_alternatives = {
+        {plant::WindModel::uniform, uniform_rms * millidegree, {uniform_limit}},
+        {plant::WindModel::coherence, 0.5 * millidegree, {12.8}}};
+    return decision(report).front();
+  };
+  EXPECT_THAT(with(0.53, 12.3), Not(HasSubstr("wind model")));
+  EXPECT_THAT(with(0.61, 12.1),
+              HasSubstr("Much hangs on the wind model: the same gains have 0.500 mdeg by the "
+                        "case's, coherence, but 0.610 mdeg by uniform."));
+  EXPECT_THAT(with(0.57, 11.7),
+              HasSubstr("need (Ka: 0.550 mdeg) is met up to where it is needed by coherence, and "
+                        "not by uniform."));
+}
+
+TEST(TuningVerdict, DecidesNothingOnStaticBendingUnsaid) {
+  Report report = tuned_report();
+  report.tuning->budgets = {budget(1.6, 20.0)};
+  EXPECT_THAT(decision(report).front(), Not(HasSubstr("calibration")));
+  report.tuning->budgets = {budget(1.4, 19.0)};
+  EXPECT_THAT(decision(report).front(), HasSubstr("bends the antenna by 1.500 mdeg"));
+}
+
+TEST(TuningVerdict, SaysOnHowManyPlantsANeedIsMet) {
+  Report report = tuned_report();
+  design::EnsembleResult ensemble;
+  ensemble.members.resize(30);
+  ensemble.stable = ensemble.within_goals = 30;
+  report.tuning->ensemble = ensemble;
+  report.tuning->budgets = {budget(1.0, 16.9, 12.0), budget(2.0, 30.0)};
+  report.tuning->budgets[0].plants_met = 24;
+  const auto sentence = HasSubstr(
+      "Of 30 plants that may be the true one it meets need (Ka: 1.000 mdeg) in 12 m/s on 24.");
+  EXPECT_THAT(tuning_conclusions(report), Contains(sentence));
+  EXPECT_THAT(decision(report).front(), sentence);
+  // Met on all of them it decides nothing.
+  report.tuning->budgets[0].plants_met = 30;
+  EXPECT_THAT(decision(report).front(), Not(HasSubstr("plants that may be the true one it meets")));
 }
 
 TEST(TuningVerdict, SaysThatANeedIsNotMet) {
   Report report = tuned_report();
   report.tuning->budgets = {budget(0.1, 5.4, 12.0)};
-  EXPECT_THAT(tuning_conclusions(report),
-              Contains(HasSubstr("NOT MET: need (Ka: 0.100 mdeg) is needed up to 12 m/s; with this "
-                                 "law it is met up to 5.4 m/s.")));
+  EXPECT_THAT(
+      tuning_conclusions(report),
+      Contains(AllOf(HasSubstr("NOT MET: need (Ka: 0.100 mdeg) is needed up to 12 m/s; as "
+                               "built, with the best PI with lag law found, it is met up to "
+                               "5.4 m/s."),
+                     HasSubstr("`boresight tune` looks for"))));
+  design::Design unstable;
+  unstable.tuning.status = design::TuningStatus::unstable;
+  report.tuning->present = {{"PI without lag", unstable}};
   const auto decided = decision(report);
-  EXPECT_THAT(decided.front(), AllOf(HasSubstr("NOT MET"), Not(HasSubstr("Run the drive"))));
+  EXPECT_THAT(decided.front(), StartsWith("NOT MET"));
+  EXPECT_THAT(decided, Each(Not(HasSubstr("Run the drive"))));
+  report.tuning->present.clear();
+  report.tuning->supply_wind_speed = 11.0;
+  EXPECT_THAT(decision(report).front(), HasSubstr("No loop structure changes that"));
+  report.tuning->supply_wind_speed = 25.7;
   report.tuning->budgets = {budget(1.0, 16.9, 12.0)};
   EXPECT_THAT(unmet_needs(*report.tuning), IsEmpty());
   EXPECT_THAT(decision(report).front(), HasSubstr("Run the drive as built on PI with lag"));

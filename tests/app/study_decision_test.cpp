@@ -212,6 +212,31 @@ TEST(EvaluateDecision, ChoosesWhatGainsEnough) {
   EXPECT_THAT(decision(section).front(), HasSubstr("Choose proposal 2"));
 }
 
+TEST(EvaluateDecision, ChoosesWithoutACostOnlyWhatNothingPricedComesNear) {
+  auto section = proposals_of({{0.0, 0.64}, {60.0, 0.423}, {0.0, 0.42}});
+  ASSERT_TRUE(section.decision);
+  section.candidates[2].cost.reset();
+  section.front = {0, 1};
+  EXPECT_EQ(worth_its_cost(section, *section.decision), 1U);
+  EXPECT_THAT(decision(section).front(), HasSubstr("proposal 2 lowers that by 0.7 %, too little to "
+                                                   "pay for"));
+  EXPECT_THAT(conclude(section), Contains(HasSubstr("and so not on the front: proposal 2.")));
+  section.decision->statistics.options[2].mean = 0.3;
+  EXPECT_EQ(worth_its_cost(section, *section.decision), 2U);
+  EXPECT_THAT(
+      decision(section).front(),
+      AllOf(HasSubstr("Choose proposal 2"), HasSubstr("at a cost that its file does not state")));
+}
+
+TEST(EvaluateDecision, HasNoFrontWithoutCosts) {
+  auto section = proposals_of({{0.0, 0.64}, {60.0, 0.5}});
+  section.currency.clear();
+  section.front.clear();
+  section.candidates[1].cost.reset();
+  EXPECT_THAT(conclude(section), Contains(HasSubstr("No proposal states a cost")));
+  EXPECT_THAT(conclude(section), Each(Not(HasSubstr("On the front"))));
+}
+
 TEST(EvaluateDecision, ChoosesNothingThatHunts) {
   auto section = proposals_of({{0.0, 0.64}, {60.0, 0.5}, {420.0, 0.42}});
   ASSERT_TRUE(section.decision);

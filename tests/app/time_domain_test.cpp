@@ -81,6 +81,17 @@ TEST(TimeDomain, TextSaysWhatTheNumbersAre) {
   EXPECT_THAT(text, HasSubstr("24.16 s after the end of the command"));
 }
 
+TEST(TimeDomain, SaysInWordsThatASlewArrivesWithinItsBound) {
+  auto slew = section();
+  slew.result.slew->settling_time = 0.0;
+  slew.candidates = {{"PI, robust", slew.result}, {"DPF, robust", section().result}};
+  const std::string text = to_text(slew);
+  EXPECT_THAT(text, HasSubstr("0.5270 mdeg from the end of the command on;"));
+  EXPECT_THAT(text, Not(HasSubstr("0.00 s")));
+  EXPECT_THAT(text, HasSubstr("at once"));
+  EXPECT_THAT(text, HasSubstr("24.16"));
+}
+
 TEST(TimeDomain, DecidesForALawThatHoldsStill) {
   auto chosen = section();
   EXPECT_THAT(decide(chosen), HasSubstr("PI, robust comes first, with 0.600 mdeg: commission"));
@@ -122,6 +133,22 @@ TEST(TimeDomain, SaysThatTheSlewRateIsOutOfReach) {
   EXPECT_THAT(conclude(slow), HasSubstr("The slew rate of 0.25 deg/s is out of reach"));
   slow.result.slew->within_reach = true;
   EXPECT_THAT(conclude(slow), Not(HasSubstr("out of reach")));
+}
+
+TEST(TimeDomain, NamesAnAssumedStrokeThatDecides) {
+  auto assumed = section();
+  assumed.stroke_assumption = "a valve stroke of 150 rad/s that is assumed";
+  EXPECT_EQ(assumed_stroke(assumed), "");
+  assumed.slew_hangs_on_stroke = true;
+  EXPECT_THAT(conclude(assumed), HasSubstr("The slew rate within reach rests on a valve stroke of "
+                                           "150 rad/s that is assumed: state"));
+  design::InfluenceResult limits;
+  limits.influence = design::Influence::limits;
+  limits.difference = 0.1 * assumed.result.wind.beam_rms;
+  assumed.result.wind.influences = {limits};
+  EXPECT_THAT(decide(assumed), HasSubstr("The simulated rms and the slew rate rest on"));
+  assumed.stroke_assumption.clear();
+  EXPECT_EQ(assumed_stroke(assumed), "");
 }
 
 TEST(TimeDomain, TextSaysWhyThereAreNoNumbers) {

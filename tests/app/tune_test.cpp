@@ -11,8 +11,10 @@
 #include <gtest/gtest.h>
 
 #include "edited_case.hpp"
+#include <boresight/app/document/document_text.hpp>
 #include <boresight/app/redesign/antenna_model.hpp>
 #include <boresight/app/report/sky_units.hpp>
+#include <boresight/app/report/text_report.hpp>
 #include <boresight/app/tune/engineer_units.hpp>
 #include <boresight/app/tune/plant_members.hpp>
 #include <boresight/app/tune/tune_limit.hpp>
@@ -64,9 +66,13 @@ TEST(Shortfalls, NoLawHoldsWhatTheSupplyCannot) {
   const Case antenna = read_case(case_path("dss14-70m"));
   TuneSection section;
   section.supply_wind_speed = supply_wind_speed(antenna, make_problem(antenna));
-  // At that speed the mean torque is the supply's.
+  // At that speed mean wind, friction of tracking and gravity take all of the supply's torque.
+  const double friction = plant::friction_torque(
+      friction_curve(antenna), antenna.drive.tracking_rate.value * gear_ratio(antenna));
+  EXPECT_GT(friction, 0.0);
   EXPECT_NEAR(plant::mean_wind_torque(make_problem(antenna).wind.site, section.supply_wind_speed) /
-                  gear_ratio(antenna),
+                      gear_ratio(antenna) +
+                  friction + 5.65,
               supply_torque(antenna), 1e-9 * supply_torque(antenna));
   PointingBudget budget;
   budget.name = "need";
@@ -79,6 +85,35 @@ TEST(Shortfalls, NoLawHoldsWhatTheSupplyCannot) {
   const auto shortfalls = find_shortfalls(section);
   ASSERT_EQ(shortfalls.size(), 1U);
   EXPECT_THAT(shortfalls[0].infeasible, HasSubstr("by any law"));
+}
+
+TEST(Shortfalls, NoWindIsHeldWhereFrictionTakesTheSupply) {
+  Case antenna = read_case(case_path("dss14-70m"));
+  antenna.friction_curve.coulomb.value = supply_torque(antenna);
+  EXPECT_EQ(supply_wind_speed(antenna, make_problem(antenna)), 0.0);
+  antenna.goals.crest_factor = antenna.goals.sensitivity_peak;
+  EXPECT_THAT([&] { make_goals(antenna); },
+              testing::ThrowsMessage<InvalidInput>(HasSubstr("above friction and offset")));
+}
+
+TEST(Shortfalls, NameTheStrokeThatIsAssumed) {
+  TuneSection section;
+  section.wind_speeds = {12.0};
+  section.demand_assumption = demand_assumption(read_case(case_path("dss14-70m")));
+  EXPECT_THAT(section.demand_assumption, HasSubstr("150 rad/s that is assumed (1.2 times"));
+  TunedLaw law;
+  law.structure = "PI";
+  law.wind_speed = 12.0;
+  law.design.tuning.status = design::TuningStatus::infeasible;
+  law.design.tuning.worst_goal_ratio = 1.1;
+  design::LimitingGoal limit;
+  limit.goal.kind = design::GoalKind::gust_torque;
+  law.design.tuning.limits = {limit};
+  section.laws = {law};
+  ASSERT_EQ(find_shortfalls(section).size(), 1U);
+  EXPECT_THAT(find_shortfalls(section)[0].closest, Not(HasSubstr("assumed")));
+  section.laws[0].design.tuning.limits[0].goal.kind = design::GoalKind::gust_demand;
+  EXPECT_THAT(find_shortfalls(section)[0].closest, HasSubstr("150 rad/s that is assumed"));
 }
 
 // Friction that falls with the rate has no place in a linear plant, and stops no study.
@@ -217,7 +252,7 @@ TEST(Tune, SaysThatABudgetIsOutOfReach) {
   const ScratchFolder folder;
   EditedCase edited;
   edited.replace("name = \"stated Ka-band need\"\n",
-                 "name = \"stated Ka-band need\"\nwind_speed = \"24 m/s\"\n");
+                 "name = \"stated Ka-band need\"\nwind_speed = \"20 m/s\"\n");
   const std::string path = folder.write("case.toml", edited.text() + "\n[ensemble]\ndraws = 1\n");
   const std::string json = folder.file("report.json");
   const ProgramResult result = tune(path, {"--json", json});
@@ -225,7 +260,7 @@ TEST(Tune, SaysThatABudgetIsOutOfReach) {
   EXPECT_THAT(
       result.errors,
       ContainsRegex("The budget 'stated Ka-band need' in band Ka \\(2.0000 mdeg\\) cannot be "
-                    "met up to 24 m/s. PI-0 \\((nominal|robust)\\) comes nearest with "
+                    "met up to 20 m/s. PI-0 \\((nominal|robust)\\) comes nearest with "
                     "[0-9.]+ mdeg.*; the budget is met up to [0-9.]+ m/s"));
   EXPECT_THAT(result.output, HasSubstr("INFEASIBLE: The budget"));
   EXPECT_THAT(content_of(json), HasSubstr("\"infeasible\": \"The budget"));
@@ -259,7 +294,9 @@ TEST(TuneVerdict, HoldsABudgetAgainstALawThatIsGoodForAllPlants) {
   const auto shortfalls = find_shortfalls(section);
   ASSERT_EQ(shortfalls.size(), 1U);
   EXPECT_THAT(shortfalls[0].closest, HasSubstr("PI (robust) comes nearest with 1.3000 mdeg"));
-  EXPECT_THAT(shortfalls[0].closest, HasSubstr("met up to 11.08 m/s"));
+  EXPECT_THAT(shortfalls[0].closest, HasSubstr("met up to 11.08 m/s."));
+  section.climate = {{5.0, 9.0}, {15.0, 1.0}};
+  EXPECT_THAT(find_shortfalls(section)[0].closest, HasSubstr("11.08 m/s (90 % of the time)."));
   section.laws[1].beam_rms = 1.15 * millidegree;
   design::EnsembleResult ensemble;
   for (const double rms : {1.15, 1.19, 1.23}) {
@@ -278,6 +315,44 @@ TEST(TuneVerdict, HoldsABudgetAgainstALawThatIsGoodForAllPlants) {
 // Of the reference antenna with its whole ensemble: a structure is never worse than one that it
 // contains, and the robust law with compensation is the one that `match` finds from its neighbours
 // in inertia (0.3340 mdeg), not the optimum 2 % above it that random starts end in.
+TEST(TuneConclusions, NameABoundOnceWithTheLawsThatEndThere) {
+  TuneSection section;
+  section.wind_speeds = {12.0};
+  for (const char* structure : {"PI+C", "DPF+C"}) {
+    for (const auto purpose : {TunedFor::nominal, TunedFor::robust}) {
+      TunedLaw law;
+      law.structure = structure;
+      law.tuned_for = purpose;
+      law.wind_speed = 12.0;
+      law.goals_met = true;
+      law.design.verification.passed = true;
+      law.beam_rms = 1.0 * millidegree;
+      auto& tuning = law.design.tuning;
+      tuning.status = design::TuningStatus::optimal;
+      tuning.law.structure = control::LoopStructure::named(structure);
+      for (const auto& gain : tuning.law.structure.gains()) tuning.law.gains.push_back(gain.upper);
+      tuning.gains_at_bound = {"compliance"};
+      section.laws.push_back(std::move(law));
+    }
+  }
+  const auto count = [](const std::string& text, const std::string& part) {
+    int found = 0;
+    for (auto at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) ++found;
+    return found;
+  };
+  const auto sentences = conclude(section);
+  EXPECT_THAT(sentences,
+              Contains("The search ended at the upper bound of the compliance, cs = 0.1 "
+                       "rad/(N.m), with PI+C (nominal, 12 m/s), PI+C (robust, 12 m/s): no "
+                       "optimum, as what lies beyond was not looked at."));
+  const std::string text = to_text(document_of(section));
+  EXPECT_EQ(count(text, "The search ended at"), 1);
+  // Without present gains there is no before.
+  EXPECT_EQ(count(text, "before and after"), 0);
+  section.laws[0].tuned_for = TunedFor::present;
+  EXPECT_EQ(count(to_text(document_of(section)), "Gains, before and after"), 1);
+}
+
 TEST(Tune, FindsInAStructureAtLeastWhatItsPartsDo) {
   const Case antenna = read_case(case_path("dss14-70m"));
   TuneOptions options;

@@ -119,6 +119,28 @@ TEST(GainDescriptions, CoverTheBoundsOfTheStructures) {
   EXPECT_NE(to_string(LoopStructure::pi()), to_string(LoopStructure::pi_with_lag()));
 }
 
+TEST(LoopStructure, MovesItsBoundsByTheDecadesOfTheLoad) {
+  const auto usual = LoopStructure::named("FULL+N+C");
+  // Anything near the usual load keeps the very numbers.
+  const auto same = usual.with_bounds_for({1.2, 0.8});
+  // kT by 1/(5 x 0.0025) = 80 and cs by 1/(25 x 0.0025) = 16.
+  const auto other = usual.with_bounds_for({10.0, 0.001});
+  EXPECT_EQ(other.name(), usual.name());
+  for (std::size_t k = 0; k < usual.gains().size(); ++k) {
+    const auto& gain = usual.gains()[k];
+    EXPECT_EQ(same.gains()[k].lower, gain.lower);
+    EXPECT_EQ(same.gains()[k].upper, gain.upper);
+    const double moved = gain.unit == "1" ? 1.0 : gain.symbol == "kT" ? 100.0 : 10.0;
+    EXPECT_DOUBLE_EQ(other.gains()[k].lower, moved * gain.lower) << gain.symbol;
+    EXPECT_DOUBLE_EQ(other.gains()[k].upper, moved * gain.upper) << gain.symbol;
+  }
+  EXPECT_THAT(
+      [&] {
+        usual.with_bounds_for({0.0, 1.0});
+      },
+      ThrowsMessage<InvalidInput>(HasSubstr("found 0 Hz and 1 kg.m2")));
+}
+
 TEST(ControlLaw, GivesItsGainsBySymbol) {
   const ControlLaw law{LoopStructure::pi_with_lag(), {1, 2, 3, 4, 5}};
   EXPECT_EQ(gain(law, "wp"), 3.0);

@@ -1,10 +1,13 @@
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "reference_problem.hpp"
+#include <boresight/control/closed_loop.hpp>
+#include <boresight/control/step_characteristics.hpp>
 #include <boresight/design/design_study.hpp>
 #include <boresight/design/tuner.hpp>
 #include <boresight/plant/error.hpp>
@@ -116,6 +119,55 @@ TEST(Tune, EndsAtALocalOptimum) {
   }
 }
 
+// The same antenna with its time running faster and its torques larger.
+TrackingProblem faster_and_stronger(TrackingProblem problem, double faster, double stronger) {
+  const double inertia = stronger / (faster * faster), friction = stronger / faster;
+  auto& drive = problem.plant.drive;
+  drive.oil_stiffness *= stronger;
+  drive.leakage_rate *= faster;
+  drive.viscous_friction *= friction;
+  drive.motor_inertia *= inertia;
+  drive.valve_corner *= faster;
+  drive.tachometer_corner *= faster;
+  auto& structure = problem.plant.structure;
+  structure.bull_gear_inertia *= inertia;
+  structure.gear_stiffness *= stronger;
+  structure.gear_damping *= friction;
+  for (auto& mode : structure.modes) {
+    mode.inertia *= inertia;
+    mode.stiffness *= stronger;
+    mode.damping *= friction;
+  }
+  problem.delay /= faster;
+  problem.noise.tachometer_rms *= faster;
+  problem.noise.torque_rms *= stronger;
+  problem.noise.bandwidth *= faster;
+  problem.wind.mean_speed *= faster;
+  problem.wind.site.air_density *= inertia;
+  problem.rms_band.lowest *= faster;
+  problem.rms_band.highest *= faster;
+  return problem;
+}
+
+TEST(Tune, FindsTheSameLawInOtherUnitsOfTimeAndTorque) {
+  constexpr double faster = 10.0, stronger = 10.0;
+  const TrackingProblem problem = coarse_problem();
+  HardGoals goals;
+  goals.valve_effort *= faster;
+  const auto usual = LoopStructure::named("DPF+C");
+  const auto moved = usual.with_bounds_for({2.0 * faster, 0.4 * stronger / (faster * faster)});
+  const auto slow = tune(problem, usual, {}, coarse());
+  const auto fast = tune(faster_and_stronger(problem, faster, stronger), moved, goals, coarse());
+  EXPECT_EQ(slow.status, TuningStatus::optimal);
+  EXPECT_NEAR(fast.soft_rms / slow.soft_rms, 1.0, 1e-3);
+  EXPECT_EQ(fast.gains_at_bound, slow.gains_at_bound);
+  for (std::size_t k = 0; k < moved.gains().size(); ++k) {
+    const double factor = moved.gains()[k].upper / usual.gains()[k].upper;
+    EXPECT_NEAR(fast.law.gains[k] / slow.law.gains[k] / factor, 1.0, 0.02)
+        << usual.gains()[k].symbol;
+  }
+}
+
 TEST(Tune, GainsNothingByLessWind) {
   // The same law serves a calmer wind better: the optimum there cannot be worse.
   TrackingProblem calm = coarse_problem();
@@ -156,6 +208,43 @@ TEST(Tune, GivesTheSameBytesForTheSameSeed) {
   EXPECT_EQ(once.evaluation.wind_variance, again.evaluation.wind_variance);
   EXPECT_EQ(once.evaluations, again.evaluations);
   EXPECT_EQ(once.active_goals, again.active_goals);
+}
+
+double step_overshoot(const TrackingProblem& problem, const control::ControlLaw& law) {
+  plant::StateSpace loop = control::closed_loop(problem.plant, law, problem.delay);
+  // From minus the encoder's noise to the encoder: the step of the position command.
+  const auto input = plant::input_index(loop, "encoder_noise");
+  const auto output = plant::output_index(loop, "encoder");
+  loop.b = Eigen::MatrixXd(-loop.b.col(input));
+  loop.c = Eigen::MatrixXd(loop.c.row(output));
+  loop.d = Eigen::MatrixXd(-loop.d.block(output, input, 1, 1));
+  loop.inputs = {"command"};
+  loop.outputs = {"encoder"};
+  return control::step_characteristics(loop).overshoot;
+}
+
+// As docs/case-file.md has it of [goals].
+TEST(Tune, LimitsTheOvershootByThePhaseMargin) {
+  const TrackingProblem problem = coarse_problem();
+  const auto overshoot = [&](const char* structure, const HardGoals& goals) {
+    const auto tuned = tune(problem, LoopStructure::named(structure), goals, coarse());
+    return step_overshoot(problem, tuned.law);
+  };
+  const auto at_margin = [&](const char* structure, double degrees) {
+    HardGoals goals;
+    goals.phase_margin.fill(degrees * std::numbers::pi / 180.0);
+    return overshoot(structure, goals);
+  };
+  EXPECT_NEAR(at_margin("PI", 45.0), 0.35, 0.02);
+  EXPECT_NEAR(at_margin("DPF", 45.0), 0.24, 0.02);
+  EXPECT_NEAR(at_margin("PI", 60.0), 0.20, 0.045);
+  EXPECT_NEAR(at_margin("DPF", 60.0), 0.20, 0.045);
+  EXPECT_LT(at_margin("PI", 75.0), 0.05);
+  EXPECT_LT(at_margin("DPF", 75.0), 0.05);
+  HardGoals low_peak;
+  low_peak.sensitivity_peak.fill(1.2);
+  EXPECT_NEAR(overshoot("PI", low_peak), 0.25, 0.02);
+  EXPECT_NEAR(overshoot("DPF", low_peak), 0.21, 0.02);
 }
 
 TEST(Evaluation, OfExtremeGainsIsANumber) {

@@ -47,6 +47,21 @@ TEST(WindClimate, ScalesWithTheSpeed) {
   }
 }
 
+TEST(WindClimate, SharesOutTheTime) {
+  const WeibullClimate law{6.0, 2.0, 9.0};
+  const auto below = [](double v) { return 1.0 - std::exp(-v * v / 36.0); };
+  EXPECT_NEAR(share_of_time({{law}}, 5.0), below(5.0) / below(9.0), 1e-12);
+  EXPECT_EQ(share_of_time({{law}}, 9.0), 1.0);
+  EXPECT_EQ(share_of_time({{law}}, INFINITY), 1.0);
+  EXPECT_EQ(share_of_time({{law}}, 0.0), 0.0);
+  const std::vector<ClimatePart> mixture{{law, 3.0}, {12.0, 1.0}};
+  EXPECT_NEAR(share_of_time(mixture, 5.0), 0.75 * below(5.0) / below(9.0), 1e-12);
+  EXPECT_DOUBLE_EQ(share_of_time(mixture, 11.9), 0.75);
+  EXPECT_EQ(share_of_time(mixture, 12.0), 1.0);
+  EXPECT_EQ(highest_speed(mixture), 12.0);
+  EXPECT_THROW(share_of_time({}, 5.0), InvalidInput);
+}
+
 TEST(WindClimate, TakesATableOfSpeedsAndShares) {
   const auto speeds = climate_speeds({{5.0, 30.0}, {7.0, 0.0}, {10.0, 10.0}});
   ASSERT_EQ(speeds.size(), 2U);

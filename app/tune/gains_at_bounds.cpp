@@ -1,0 +1,52 @@
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <boresight/app/tune/gains_at_bounds.hpp>
+
+namespace boresight::app {
+namespace {
+
+struct ReachedBound {
+  std::string text;
+  std::vector<std::string> laws;
+};
+
+// "the upper bound of the compliance, cs = 0.1 rad/(N.m)": the one that the gain is nearer to.
+std::string bound_text(const control::GainDescription& gain, double value) {
+  const bool upper = value > std::sqrt(gain.lower * gain.upper);
+  return fmt::format("the {} bound of the {}, {} = {:g}{}", upper ? "upper" : "lower", gain.name,
+                     gain.symbol, upper ? gain.upper : gain.lower,
+                     gain.unit == "1" ? "" : " " + gain.unit);
+}
+
+}  // namespace
+
+std::vector<std::string> gains_at_bounds(const std::vector<const TunedLaw*>& laws) {
+  std::vector<ReachedBound> reached;
+  for (const TunedLaw* row : laws) {
+    if (row->tuned_for == TunedFor::present || !row->stable()) continue;
+    const auto& tuning = row->design.tuning;
+    const auto& descriptions = tuning.law.structure.gains();
+    for (std::size_t k = 0; k < descriptions.size(); ++k) {
+      const auto& names = tuning.gains_at_bound;
+      if (std::ranges::find(names, descriptions[k].name) == names.end()) continue;
+      const std::string text = bound_text(descriptions[k], tuning.law.gains.at(k));
+      auto found = std::ranges::find(reached, text, &ReachedBound::text);
+      if (found == reached.end()) found = reached.insert(found, {text, {}});
+      found->laws.push_back(fmt::format("{} ({}, {:g} m/s)", row->structure,
+                                        to_string(row->tuned_for), row->wind_speed));
+    }
+  }
+  std::vector<std::string> sentences;
+  for (const auto& bound : reached) {
+    sentences.push_back(fmt::format(
+        "The search ended at {}, with {}: no optimum, as what lies beyond was not looked at.",
+        bound.text, fmt::join(bound.laws, ", ")));
+  }
+  return sentences;
+}
+
+}  // namespace boresight::app

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include <boresight/identification/chi_squared.hpp>
 #include <boresight/identification/inertia_methods.hpp>
 #include <boresight/plant/error.hpp>
 
@@ -190,6 +191,10 @@ InertiaIdentification identify_inertia(const DriveEvidence& evidence,
                               propagated[method.ratio], propagated[method.remainder]});
   }
   return result;
+}
+
+bool ReconciledInertia::contradictory() const {
+  return heterogeneity > chi_squared_999(degrees_of_freedom);
 }
 
 ReconciledInertia reconcile(const std::vector<Uncertain>& estimates, double motor_inertia) {

@@ -106,6 +106,10 @@ struct ReconciledInertia {
   double motor_to_load_ratio = 0.0;
   double ratio_lower = 0.0;
   double ratio_upper = 0.0;  // infinity where the inertia's interval reaches the motors' own
+
+  /// Whether Cochran's Q is no chance (chi_squared_999): then the mean stands for none of the
+  /// methods, and there is no reconciled inertia.
+  bool contradictory() const;
 };
 
 /// Random-effects mean (DerSimonian and Laird, Controlled Clinical Trials 7, 1986): each method's

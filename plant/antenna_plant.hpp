@@ -94,13 +94,15 @@ struct PlantMode {
   std::complex<double> pole;       // rad/s, upper half plane
   double frequency = 0.0;          // |pole|/2 pi, Hz
   double damping_ratio = 0.0;      // -Re(pole)/|pole|
-  std::string description;         // what moves most: largest participation factor
+  std::string description;         // what moves most, or that it is hydraulic_mode; each its own
   double participation = 0.0;      // of the described part, 0..1
   double oil_participation = 0.0;  // of motors and oil spring, whatever moves most
 };
 
 /// Modes in order of frequency; a part's participation is the sum of |left_k right_k| over its
-/// states, normalised to 1 over all.
+/// states, normalised to 1 over all. A mode is described by the part of the largest, those of one
+/// description by a number too. hydraulic_mode is called so: with the participation of motors, oil
+/// spring, bull gear and gear spring together, or behind the structural mode that moves more.
 std::vector<PlantMode> plant_modes(const AntennaPlant& plant);
 
 /// The mode in which the whole antenna swings on the oil spring, the structure bending in series:

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <numbers>
 
 #include <fmt/format.h>
@@ -16,14 +17,15 @@ struct Part {
   std::vector<Eigen::Index> states;
 };
 
-constexpr const char* hydraulic_description = "hydraulic: motors on the oil spring";
+constexpr const char* oil_part = "motors between oil and gear springs";
+constexpr const char* gear_part = "gearbox: bull gear on the gear spring";
+constexpr const char* hydraulic_description =
+    "hydraulic: antenna on oil and gear springs in series";
 
 std::vector<Part> parts_of(const AntennaPlant& plant) {
   // State order of to_state_space.
-  std::vector<Part> parts{{"valve", {0, 1}},
-                          {hydraulic_description, {2, 3, 4}},
-                          {"gearbox: bull gear on the gear spring", {5, 6}},
-                          {"tachometer lag", {7}}};
+  std::vector<Part> parts{
+      {"valve", {0, 1}}, {oil_part, {2, 3, 4}}, {gear_part, {5, 6}}, {"tachometer lag", {7}}};
   Eigen::Index state = 8;
   for (std::size_t i = 0; i < plant.structure.modes.size(); ++i, state += 2) {
     const auto& mode = plant.structure.modes[i];
@@ -35,6 +37,38 @@ std::vector<Part> parts_of(const AntennaPlant& plant) {
   return parts;
 }
 
+// Which modes hydraulic_mode is: one, both poles of an overdamped one, the lower first, or none.
+std::vector<std::size_t> hydraulic_poles(const std::vector<PlantMode>& modes) {
+  // Valve and tachometer stand in series with the rest: they move no oil but by rounding.
+  constexpr double rounding = 1e-9;
+  std::vector<std::size_t> real, swinging;
+  for (std::size_t i = 0; i < modes.size(); ++i) {
+    if (modes[i].frequency == 0.0 || modes[i].oil_participation < rounding) continue;
+    (modes[i].pole.imag() == 0.0 ? real : swinging).push_back(i);
+  }
+  const auto by_frequency = [&](std::size_t i) { return modes[i].frequency; };
+  std::ranges::stable_sort(real, {}, by_frequency);
+  std::ranges::stable_sort(swinging, {}, by_frequency);
+  if (real.size() >= 2 &&
+      (swinging.empty() ||
+       std::sqrt(by_frequency(real[0]) * by_frequency(real[1])) < by_frequency(swinging.front()))) {
+    return {real[0], real[1]};
+  }
+  if (swinging.empty()) return {};
+  return {swinging.front()};
+}
+
+void number_the_alike(std::vector<PlantMode>& modes) {
+  std::map<std::string, int> alike, seen;
+  for (const auto& mode : modes) ++alike[mode.description];
+  for (auto& mode : modes) {
+    const int count = alike[mode.description];
+    if (count == 1) continue;
+    const int number = ++seen[mode.description];
+    mode.description += fmt::format(", {} of {}", number, count);
+  }
+}
+
 }  // namespace
 
 std::vector<PlantMode> plant_modes(const AntennaPlant& plant) {
@@ -43,11 +77,13 @@ std::vector<PlantMode> plant_modes(const AntennaPlant& plant) {
   const std::vector<Part> parts = parts_of(plant);
   const double scale = system.a.cwiseAbs().maxCoeff();
   std::vector<PlantMode> modes;
+  std::vector<double> gear_participation;
   for (Eigen::Index i = 0; i < eigen.values.size(); ++i) {
     const std::complex<double> pole = eigen.values[i];
     if (pole.imag() < 0.0) continue;
     const double magnitude = std::abs(pole);
     PlantMode mode;
+    gear_participation.push_back(0.0);
     mode.pole = pole;
     mode.frequency = magnitude / (2.0 * std::numbers::pi);
     if (magnitude < 1e-12 * scale) {
@@ -65,7 +101,8 @@ std::vector<PlantMode> plant_modes(const AntennaPlant& plant) {
       double share = 0.0;
       for (const Eigen::Index state : part.states) share += weight[state];
       share /= weight.sum();
-      if (part.description == hydraulic_description) mode.oil_participation = share;
+      if (part.description == oil_part) mode.oil_participation = share;
+      if (part.description == gear_part) gear_participation.back() = share;
       if (share > mode.participation) {
         mode.participation = share;
         mode.description = part.description;
@@ -73,30 +110,34 @@ std::vector<PlantMode> plant_modes(const AntennaPlant& plant) {
     }
     modes.push_back(std::move(mode));
   }
+  for (const std::size_t i : hydraulic_poles(modes)) {
+    PlantMode& mode = modes[i];
+    const double share = mode.oil_participation + gear_participation[i];
+    if (share < mode.participation) {
+      mode.description += ", the hydraulic mode";
+      continue;
+    }
+    mode.description = hydraulic_description;
+    mode.participation = share;
+  }
+  number_the_alike(modes);
   return modes;
 }
 
 PlantMode hydraulic_mode(const std::vector<PlantMode>& modes) {
-  // Valve and tachometer stand in series with the rest: they move no oil but by rounding.
-  constexpr double rounding = 1e-9;
-  std::vector<PlantMode> real, swinging;
-  for (const auto& mode : modes) {
-    if (mode.frequency == 0.0 || mode.oil_participation < rounding) continue;
-    (mode.pole.imag() == 0.0 ? real : swinging).push_back(mode);
-  }
-  if (real.size() >= 2) {
-    std::ranges::stable_sort(real, {}, &PlantMode::frequency);
-    const double first = -real[0].pole.real(), second = -real[1].pole.real();
-    PlantMode both = real[0].oil_participation > real[1].oil_participation ? real[0] : real[1];
-    both.frequency = std::sqrt(first * second) / (2.0 * std::numbers::pi);
-    both.damping_ratio = (first + second) / (2.0 * std::sqrt(first * second));
-    both.description = "hydraulic: motors on the oil spring, overdamped";
-    swinging.push_back(std::move(both));
-  }
-  if (swinging.empty()) {
+  const auto poles = hydraulic_poles(modes);
+  if (poles.empty()) {
     throw NumericalFailure("hydraulic_mode: no mode of the plant moves motors and oil");
   }
-  return *std::ranges::min_element(swinging, {}, &PlantMode::frequency);
+  if (poles.size() == 1) return modes[poles.front()];
+  const PlantMode& slow = modes[poles[0]];
+  const PlantMode& fast = modes[poles[1]];
+  const double first = -slow.pole.real(), second = -fast.pole.real();
+  PlantMode both = slow.oil_participation > fast.oil_participation ? slow : fast;
+  both.frequency = std::sqrt(first * second) / (2.0 * std::numbers::pi);
+  both.damping_ratio = (first + second) / (2.0 * std::sqrt(first * second));
+  both.description = fmt::format("{}, overdamped", hydraulic_description);
+  return both;
 }
 
 }  // namespace boresight::plant

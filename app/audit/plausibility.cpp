@@ -34,6 +34,7 @@ std::vector<Implausibility> implausibilities(const Case& antenna,
   Implausibilities found;
   check_inertia_remainders(numbers, found);
   check_expected_resonance(numbers, found);
+  check_resonance_damping(numbers, found);
   check_impulse_order(numbers, found);
   check_coincidences(numbers, found);
   check_friction_slope(numbers, found);
@@ -48,6 +49,7 @@ std::vector<Implausibility> implausibilities(const Case& antenna,
   check_wave_speeds(numbers, found);
   check_structural_bound(numbers, found);
   check_structural_predictions(numbers, found);
+  check_structural_shares(numbers, found);
   check_motors_held_antennas(numbers, found);
   check_ensemble_ranges(numbers, found);
   check_carrier_frequencies(numbers, found);

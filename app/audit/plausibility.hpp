@@ -18,10 +18,11 @@ struct NamedNumber {
 /// An input or result that contradicts physics or the rest of the case.
 struct Implausibility {
   /// What the check looks at, closed: "inertia remainder", "friction slope", "wave speed",
-  /// "structural bound", "impulse order", "resonance expected", "recorder limit", "Coulomb levels",
-  /// "coincidence", "carrier frequency", "valve stroke", "friction against the supply", "friction
-  /// tests", "return pressure", "inertia against the dish", "flywheel", "structural
-  /// predictions", "motors held", "ensemble range".
+  /// "structural bound", "impulse order", "resonance expected", "resonance damping", "recorder
+  /// limit", "Coulomb levels", "coincidence", "carrier frequency", "valve stroke", "friction
+  /// against the supply", "friction tests", "return pressure", "inertia against the dish",
+  /// "flywheel", "structural predictions", "structural shares", "motors held",
+  /// "ensemble range".
   std::string check;
   /// The quantity, by id.
   std::string id;
@@ -46,7 +47,10 @@ struct Implausibility {
 ///   (tune/plant_members.hpp, spread_of_stated);
 /// - impulse order: of two inertias from an accelerating window, the one with more friction
 ///   subtracted is the larger;
-/// - resonance expected from masses and oil spring, more than three standard uncertainties away;
+/// - resonance expected from masses, oil spring and structure (plant::hydraulic_mode), more than
+///   three standard uncertainties away (redesign/resonance_verdict.hpp);
+/// - resonance damping: the measured damping ratio is more than a factor of 2 from that of the
+///   case's hydraulic mode;
 /// - recorder limit below the tachometer's voltage at slew rate;
 /// - Coulomb levels of two tests more than 1.5 apart;
 /// - valve stroke: the slew rate at the motor is beyond what the valve, fully open, lets the motors

@@ -33,10 +33,12 @@ using Implausibilities = std::vector<Implausibility>;
 
 void check_inertia_remainders(const CaseNumbers& numbers, Implausibilities& found);
 void check_expected_resonance(const CaseNumbers& numbers, Implausibilities& found);
+void check_resonance_damping(const CaseNumbers& numbers, Implausibilities& found);
 void check_coincidences(const CaseNumbers& numbers, Implausibilities& found);
 void check_structural_bound(const CaseNumbers& numbers, Implausibilities& found);
 void check_wave_speeds(const CaseNumbers& numbers, Implausibilities& found);
 void check_structural_predictions(const CaseNumbers& numbers, Implausibilities& found);
+void check_structural_shares(const CaseNumbers& numbers, Implausibilities& found);
 void check_motors_held_antennas(const CaseNumbers& numbers, Implausibilities& found);
 void check_ensemble_ranges(const CaseNumbers& numbers, Implausibilities& found);
 void check_carrier_frequencies(const CaseNumbers& numbers, Implausibilities& found);

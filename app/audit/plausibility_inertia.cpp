@@ -5,8 +5,6 @@
 
 #include <boresight/app/audit/plausibility_checks.hpp>
 #include <boresight/app/redesign/antenna_model.hpp>
-#include <boresight/identification/source_reading.hpp>
-#include <boresight/plant/gear_train.hpp>
 #include <boresight/plant/hydraulics.hpp>
 
 namespace boresight::app {
@@ -65,43 +63,6 @@ void check_inertia_remainders(const CaseNumbers& numbers, Implausibilities& foun
           {"remainder", remainder, "kg.m2"},
           {"antenna", numbers.antenna_at_motor, "kg.m2"}}});
   }
-}
-
-void check_expected_resonance(const CaseNumbers& numbers, Implausibilities& found) {
-  if (!numbers.antenna.resonance_frequency) return;
-  const Quantity& measured = *numbers.antenna.resonance_frequency;
-  const double rotating = numbers.motors + numbers.gear_train;
-  const auto frequency = [&](double load) {
-    return plant::hydraulic_frequency(numbers.oil_stiffness, rotating + load);
-  };
-  const double expected = frequency(numbers.antenna_at_motor);
-  // The relative uncertainty of the propagated frequency, about the value from the nearest prints.
-  const auto propagated =
-      identification::identify_inertia(make_evidence(numbers.antenna), {1000, 1})
-          .expected_frequency;
-  const double away = std::abs(measured.value / expected - 1.0) /
-                      std::hypot(relative_uncertainty(measured),
-                                 propagated.standard_uncertainty / propagated.value);
-  if (away <= 3.0) return;
-  Implausibility implausible{"resonance expected",
-                             "resonance.frequency",
-                             "",
-                             {{"measured", measured.value, "Hz"},
-                              {"expected", expected, "Hz"},
-                              {"without the antenna", frequency(0.0), "Hz"},
-                              {"standard uncertainties", away, "1"}}};
-  std::string others;
-  for (const AntennaAlternative& alternative : numbers.antenna.antenna.alternatives) {
-    const double load = antenna_inertia(numbers.antenna, alternative);
-    others += fmt::format(", {:.3f} Hz with the antenna of {}", frequency(load), alternative.name);
-    implausible.numbers.push_back({alternative.name, frequency(load), "Hz"});
-  }
-  implausible.reasoning = fmt::format(
-      "Masses and oil spring put the hydraulic mode at {:.3f} Hz{}, {:.3f} Hz with no antenna at "
-      "all; measured are {:.3g} Hz, {:.0f} standard uncertainties away: stiffness, masses or the "
-      "reading of the spectrum is wrong.",
-      expected, others, frequency(0.0), measured.value, away);
-  found.push_back(std::move(implausible));
 }
 
 void check_coincidences(const CaseNumbers& numbers, Implausibilities& found) {

@@ -1,11 +1,16 @@
 #include <algorithm>
 #include <cmath>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include <boresight/app/audit/plausibility_checks.hpp>
 #include <boresight/app/io/structure_numbers.hpp>
+#include <boresight/app/redesign/antenna_model.hpp>
+#include <boresight/app/report/sky_units.hpp>
 #include <boresight/plant/motors_held_modes.hpp>
 
 namespace boresight::app {
@@ -24,7 +29,57 @@ std::string held_frequencies(const plant::StructureSpecification& antenna) {
   return fmt::format("{} Hz", fmt::join(frequencies, ", "));
 }
 
+// With every body's shares of wind and beam those of the inertia.
+Case with_inertial_shares(Case antenna) {
+  StructureEntry& structure = antenna.structure;
+  double bull_gear = 1.0;
+  for (auto& mode : structure.modes) {
+    mode.wind_fraction.value = mode.beam_weight.value = mode.inertia_fraction.value;
+    bull_gear -= mode.inertia_fraction.value;
+  }
+  structure.bull_gear_wind_fraction.value = structure.bull_gear_beam_weight.value = bull_gear;
+  return antenna;
+}
+
 }  // namespace
+
+// A mode of little inertia that takes nearly all of wind or beam is soft under it: its modal
+// stiffness goes with its inertia.
+void check_structural_shares(const CaseNumbers& numbers, Implausibilities& found) {
+  constexpr double large = 0.5, clear_factor = 3.0;
+  const auto& modes = numbers.antenna.structure.modes;
+  std::vector<std::string> shares;
+  std::string first;
+  for (std::size_t i = 0; i < modes.size(); ++i) {
+    const double inertia = modes[i].inertia_fraction.value;
+    for (const auto& [name, share] : {std::pair{"wind_fraction", &modes[i].wind_fraction},
+                                      std::pair{"beam_weight", &modes[i].beam_weight}}) {
+      // Those of a modes file were computed, and are nobody's guess.
+      if (share->text.empty() || share->value <= std::max(large, clear_factor * inertia)) continue;
+      if (shares.empty()) first = share->key;
+      shares.push_back(fmt::format("a {} of {:.3g} on an inertia fraction of {:.3g}", name,
+                                   share->value, inertia));
+    }
+  }
+  if (shares.empty()) return;
+  const auto bending = [](const Case& antenna) {
+    return std::abs(static_bending(make_problem(antenna))) / millidegree;
+  };
+  const double stated = bending(numbers.antenna);
+  const double inertial = bending(with_inertial_shares(numbers.antenna));
+  found.push_back(
+      {"structural shares",
+       first,
+       fmt::format(
+           "A mode of [structure] takes most of wind or beam with little of the inertia, {}: "
+           "so soft a part bends the beam by {:.3g} mdeg from the encoder under the mean "
+           "wind of {:.3g} m/s; with shares of wind and beam equal to those of the inertia "
+           "it would be {:.3g} mdeg. Such bending decides the pointing error, and no loop "
+           "sees it: take the shares from a structural model (structure.modes_file).",
+           fmt::join(shares, " and "), stated, numbers.antenna.wind.design_speed.value, inertial),
+       {{"bending by the stated shares", stated, "mdeg"},
+        {"bending by the shares of the inertia", inertial, "mdeg"}}});
+}
 
 void check_structural_predictions(const CaseNumbers& numbers, Implausibilities& found) {
   const auto& predicted = numbers.antenna.campaign.locked_rotor_frequencies;

@@ -6,6 +6,7 @@
 
 #include <boresight/app/audit/plausibility_checks.hpp>
 #include <boresight/app/io/drive_numbers.hpp>
+#include <boresight/app/redesign/loaded_drive.hpp>
 
 namespace boresight::app {
 namespace {
@@ -33,62 +34,19 @@ std::vector<Stroke> strokes_of(const Case& antenna) {
   return strokes;
 }
 
-/// What the motors must hold while they turn, and what the supply has for it and for the valve's
-/// drop. N m of all motors.
-class LoadedDrive {
- public:
-  explicit LoadedDrive(const CaseNumbers& numbers)
-      : numbers_(numbers),
-        curve_(friction_curve(numbers.antenna)),
-        offset_(std::abs(plant::offset_torque(offset_torque(numbers.antenna), 0.0).value)),
-        leakage_(numbers.antenna.drive.leakage_rate.value / numbers.oil_stiffness) {
-    const Case& antenna = numbers.antenna;
-    const auto& back =
-        antenna.simulation ? antenna.simulation->return_pressure : antenna.campaign.return_pressure;
-    const double share = back ? back->value / antenna.drive.supply_pressure.value : 0.0;
-    const MotorTorque supply = torque_of_supply(numbers);
-    available_ = {supply.value * (1.0 - share), supply.uncertainty};
-  }
+LoadedDrive loaded_drive(const CaseNumbers& numbers) {
+  return {numbers.antenna, numbers.oil_stiffness, numbers.supply_torque};
+}
 
-  const MotorTorque& available() const { return available_; }
-  bool has_offset() const { return offset_ > 0.0; }
-  // Either way, so that the offset resists.
-  double load(double rate) const { return plant::friction_torque(curve_, rate) + offset_; }
-
-  // What load and valve, fully open, need together beyond the pressure that there is: the valve's
-  // flow goes with the root of its drop, and some of it leaks past the motors.
-  double excess(double rate, double stroke) const {
-    const double torque = load(rate);
-    const double share = (rate + leakage_ * torque) / stroke;
-    return torque - available_.value * (1.0 - share * share);
-  }
-
-  double uncertainty(const Quantity& stroke) const {
-    const double rate = numbers_.slew_rate_at_motor;
-    const double square = std::pow(rate / stroke.value, 2);
-    const double of_share = 2.0 * std::hypot(relative_uncertainty(numbers_.antenna.drive.slew_rate),
-                                             relative_uncertainty(stroke));
-    return std::hypot(friction_at_slew_rate(numbers_).uncertainty,
-                      available_.value * square * of_share,
-                      available_.uncertainty * (1.0 - square));
-  }
-
-  double attainable_rate(double stroke) const {
-    double lowest = 0.0, highest = numbers_.slew_rate_at_motor;
-    for (int i = 0; i < 30; ++i) {
-      const double middle = 0.5 * (lowest + highest);
-      (excess(middle, stroke) <= 0.0 ? lowest : highest) = middle;
-    }
-    return lowest;
-  }
-
- private:
-  const CaseNumbers& numbers_;
-  plant::FrictionCurve curve_;
-  double offset_ = 0.0;
-  double leakage_ = 0.0;
-  MotorTorque available_;
-};
+// Of the excess at the slew rate.
+double uncertainty(const CaseNumbers& numbers, const LoadedDrive& drive, const Quantity& stroke) {
+  const double square = std::pow(numbers.slew_rate_at_motor / stroke.value, 2);
+  const double of_share = 2.0 * std::hypot(relative_uncertainty(numbers.antenna.drive.slew_rate),
+                                           relative_uncertainty(stroke));
+  return std::hypot(friction_at_slew_rate(numbers).uncertainty,
+                    drive.available() * square * of_share,
+                    torque_of_supply(numbers).uncertainty * (1.0 - square));
+}
 
 void check_without_load(const CaseNumbers& numbers, const Stroke& stroke, Implausibilities& found) {
   const double slewing = numbers.slew_rate_at_motor;
@@ -108,9 +66,11 @@ void check_without_load(const CaseNumbers& numbers, const Stroke& stroke, Implau
 void check_under_load(const CaseNumbers& numbers, const Stroke& stroke, Implausibilities& found) {
   // That the supply cannot turn the motors so fast with any valve is said of the friction.
   if (friction_stops_slewing(numbers)) return;
-  const LoadedDrive drive(numbers);
+  const LoadedDrive drive = loaded_drive(numbers);
   const double slewing = numbers.slew_rate_at_motor;
-  if (drive.excess(slewing, stroke.rate.value) <= 2.0 * drive.uncertainty(stroke.rate)) return;
+  if (drive.excess(slewing, stroke.rate.value) <= 2.0 * uncertainty(numbers, drive, stroke.rate)) {
+    return;
+  }
   const double load = drive.load(slewing);
   const double reached = drive.attainable_rate(stroke.rate.value);
   found.push_back(
@@ -124,12 +84,12 @@ void check_under_load(const CaseNumbers& numbers, const Stroke& stroke, Implausi
            "reach, or a number of friction, valve, supply, motors or gear ratio is wrong.",
            numbers.antenna.drive.slew_rate.text, slewing, load,
            drive.has_offset() ? "friction and offset" : "friction",
-           100.0 * load / drive.available().value, stroke.rate.value, stroke.how, reached,
+           100.0 * load / drive.available(), stroke.rate.value, stroke.how, reached,
            100.0 * reached / slewing),
        {{"motor rate at slew rate", slewing, "rad/s"},
         {"valve stroke", stroke.rate.value, "rad/s"},
         {"load at slew rate", load, "N.m"},
-        {"supply torque above the return's", drive.available().value, "N.m"},
+        {"supply torque above the return's", drive.available(), "N.m"},
         {"motor rate against the load", reached, "rad/s"}}});
 }
 

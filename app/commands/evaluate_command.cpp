@@ -8,6 +8,7 @@
 #include <boresight/app/commands/evaluate_command.hpp>
 #include <boresight/app/commands/progress_line.hpp>
 #include <boresight/app/evaluate/evaluate_study.hpp>
+#include <boresight/app/evaluate/unfit_candidates.hpp>
 #include <boresight/app/figures/report_figures.hpp>
 #include <boresight/app/page/report_page.hpp>
 #include <boresight/app/redesign/assumed_inputs.hpp>
@@ -56,6 +57,10 @@ int run(EvaluateArguments arguments) {
                : met          ? "no law that meets its goals passes its verification"
                               : "no law meets the hard goals on every plant");
     if (code != infeasible) code = met ? numerical : infeasible;
+  }
+  for (const auto& sentence : unmet_needs(*report.evaluated)) {
+    fmt::print(stderr, "boresight: {}: {}\n", arguments.case_path, sentence);
+    code = infeasible;
   }
   return code;
 }

@@ -84,6 +84,8 @@ void fill_redesign(const Case& antenna, const StudyOptions& options, Report& rep
   report.plant = describe_plant(designed);
   if (report.campaign && report.campaign->grey_box) {
     report.plant->records = report.campaign->grey_box->records.size();
+  } else {
+    report.resonance = resonance_verdict(designed);
   }
   report.assumed = assumed_inputs(designed);
   redesign(designed, options, report);

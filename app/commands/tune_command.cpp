@@ -15,6 +15,7 @@
 #include <boresight/app/report/measured_report.hpp>
 #include <boresight/app/report/text_report.hpp>
 #include <boresight/app/tune/asked_structures.hpp>
+#include <boresight/app/tune/laws_in_time.hpp>
 #include <boresight/app/tune/tune_limit.hpp>
 #include <boresight/app/tune/tune_study.hpp>
 #include <boresight/app/uncertainty/designed_antenna.hpp>
@@ -42,8 +43,7 @@ std::vector<DescribedLaw> alternatives(const TuneSection& section, const TunedLa
     if (row.tuned_for != best.tuned_for || row.wind_speed != best.wind_speed || !row.usable()) {
       continue;
     }
-    laws.push_back(
-        {fmt::format("{}, {}", row.structure, to_string(row.tuned_for)), row.design.tuning.law});
+    laws.push_back({description_of(row), row.design.tuning.law});
   }
   return laws;
 }
@@ -107,6 +107,9 @@ Report tune_case(const TuneArguments& arguments, const std::function<bool()>& in
                                                arguments.seed, arguments.threads);
     if (report.time_domain) {
       report.assumed = assumed_inputs(antenna, {.time_runs = true});
+      judge_in_time(antenna, report.time_domain, best->tuned_for, arguments.seed, arguments.threads,
+                    interrupted, *report.tuned);
+      report.conclusions = conclude(*report.tuned);
       report.conclusions.push_back(conclude(*report.time_domain));
     }
   }

@@ -3,71 +3,18 @@
 #include <limits>
 #include <memory>
 #include <mutex>
+#include <utility>
 
 #include <fmt/format.h>
 
 #include <boresight/app/evaluate/evaluate_study.hpp>
-#include <boresight/app/report/sky_units.hpp>
-#include <boresight/design/held_gains_evaluator.hpp>
-#include <boresight/design/parallel_loop.hpp>
+#include <boresight/app/evaluate/held_candidate.hpp>
+#include <boresight/app/evaluate/pairs_by_structure.hpp>
 #include <boresight/design/pareto_front.hpp>
 #include <boresight/plant/error.hpp>
 
 namespace boresight::app {
 namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
-
-// A candidate's chosen law with its gains held, on plant after plant. Not to be shared between
-// threads: copies are independent.
-class HeldCandidate {
- public:
-  HeldCandidate(const Case& as_is, const Case& antenna, const CandidateLaw& law)
-      : as_is_(&as_is),
-        antenna_(&antenna),
-        nonlinear_factor_(law.nonlinear_factor()),
-        problem_(problem_of(antenna)),
-        goals_(make_goals(antenna)),
-        evaluator_(problem_, law.design.tuning.law, goals_) {}
-
-  struct Outcome {
-    double rms = 0.0;  // mdeg; infinite if unstable
-    bool within_goals = false;
-  };
-
-  Outcome judge(const PlantDraw& draw) {
-    const auto plant = proposed_plant(*as_is_, *antenna_, draw);
-    const auto values = evaluator_.evaluate(plant);
-    const bool stable =
-        evaluator_.near_the_axis(values) ? evaluator_.confirm(plant).stable() : values.stable;
-    if (!stable) return {infinity, false};
-    const double wind = problem_.climate.empty() ? values.wind_variance : values.climate_variance;
-    Outcome outcome;
-    outcome.rms = nonlinear_factor_ * std::sqrt(wind + values.noise_variance) /
-                  problem_.gear_ratio / millidegree;
-    outcome.within_goals = std::sqrt(values.effort_variance) <= goals_.valve_effort;
-    for (std::size_t b = 0; b < values.sensitivity_peaks.size(); ++b) {
-      if (values.sensitivity_peaks.at(b) > goals_.sensitivity_peak.at(b)) {
-        outcome.within_goals = false;
-      }
-    }
-    return outcome;
-  }
-
- private:
-  static design::TrackingProblem problem_of(const Case& antenna) {
-    auto problem = make_problem(antenna);
-    if (antenna.goals.over_climate) problem.climate = make_climate(antenna);
-    return problem;
-  }
-
-  const Case* as_is_;
-  const Case* antenna_;
-  double nonlinear_factor_;
-  design::TrackingProblem problem_;
-  design::HardGoals goals_;
-  design::HeldGainsEvaluator evaluator_;
-};
 
 // Pairs of candidates, each in one thread's hands at a time.
 class Pool {
@@ -109,7 +56,7 @@ class Decision {
  public:
   Decision(const std::vector<Candidate>& candidates, const std::vector<Case>& cases,
            const PlantDistribution& distribution, const EvaluateOptions& options)
-      : candidates_(candidates), distribution_(distribution), options_(options) {
+      : candidates_(candidates), cases_(cases), distribution_(distribution), options_(options) {
     for (std::size_t i = 0; i < candidates.size(); ++i) {
       const CandidateLaw* law = candidates[i].chosen_law();
       if (law == nullptr) {
@@ -130,8 +77,9 @@ class Decision {
   }
 
   DecisionSection run() {
-    if (held_.size() < 2 || !judge_draws()) return {};
+    if (held_.size() < 2 || !draw_outcomes()) return {};
     summarise();
+    if (!stopped()) hold_structures_apart();
     if (!stopped()) find_what_decides();
     if (!stopped()) value_tests();
     if (stopped()) return {};
@@ -142,28 +90,12 @@ class Decision {
   bool stopped() const { return options_.interrupted && options_.interrupted(); }
 
   // All candidates on the same draws. False if interrupted.
-  bool judge_draws() {
-    const auto draws = static_cast<Eigen::Index>(options_.draws);
-    const auto columns = static_cast<Eigen::Index>(held_.size());
-    rms_ = Eigen::MatrixXd::Constant(draws, columns, infinity);
-    outside_ = Eigen::ArrayXXd::Ones(draws, columns);
-    constexpr Eigen::Index block = 100;
-    const Eigen::Index blocks = (draws + block - 1) / block;
-    design::for_each_index(
-        static_cast<std::size_t>(blocks * columns), options_.threads, [&](std::size_t task) {
-          if (stopped()) return;
-          const auto index = static_cast<Eigen::Index>(task);
-          const Eigen::Index column = index / blocks;
-          const Eigen::Index first = (index % blocks) * block;
-          HeldCandidate held = held_[static_cast<std::size_t>(column)];
-          for (Eigen::Index d = first; d < std::min(draws, first + block); ++d) {
-            const auto outcome =
-                held.judge(distribution_.draw(options_.seed, static_cast<std::uint64_t>(d)));
-            rms_(d, column) = outcome.rms;
-            outside_(d, column) = outcome.within_goals ? 0.0 : 1.0;
-          }
-        });
-    return !stopped();
+  bool draw_outcomes() {
+    auto outcomes = judge_draws(held_, distribution_, options_);
+    if (!outcomes) return false;
+    rms_ = std::move(outcomes->rms);
+    outside_ = std::move(outcomes->outside);
+    return true;
   }
 
   void summarise() {
@@ -180,9 +112,20 @@ class Decision {
     const auto& options = section_.statistics.options;
     std::vector<std::size_t> order(options.size());
     for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
-    std::ranges::stable_sort(order, {}, [&](std::size_t i) { return options[i].mean; });
+    std::ranges::stable_sort(order, {}, [&](std::size_t i) {
+      return std::pair(!candidate(i).feasible(), options[i].mean);
+    });
     section_.best = order[0];
     section_.second = order[1];
+  }
+
+  void hold_structures_apart() {
+    auto pairs = compare_by_structure(section_, rms_, candidates_, cases_, distribution_, options_);
+    if (pairs) section_.by_structure = std::move(*pairs);
+  }
+
+  const Candidate& candidate(std::size_t place) const {
+    return candidates_[section_.candidates[place].candidate];
   }
 
   // Of those with a cost.
@@ -192,7 +135,7 @@ class Decision {
     std::vector<double> costs;
     std::vector<Eigen::Index> columns;
     for (std::size_t i = 0; i < section_.candidates.size(); ++i) {
-      const auto& cost = candidates_[section_.candidates[i].candidate].cost;
+      const auto& cost = candidate(i).cost;
       if (!cost) continue;
       costs.push_back(*cost);
       columns.push_back(static_cast<Eigen::Index>(i));
@@ -246,6 +189,12 @@ class Decision {
 
   void value_tests() {
     if (section_.inputs.empty()) return;
+    if (!candidate(section_.second).feasible()) {
+      section_.notes.emplace_back(
+          "Tests are not valued: fewer than two candidates are fit to be chosen, and there is no "
+          "choice for a test to change.");
+      return;
+    }
     if (!rms_.allFinite()) {
       section_.notes.emplace_back(
           "Tests are not valued: a candidate is unstable on some draws, and no finite loss can "
@@ -263,6 +212,7 @@ class Decision {
   }
 
   const std::vector<Candidate>& candidates_;
+  const std::vector<Case>& cases_;
   const PlantDistribution& distribution_;
   const EvaluateOptions& options_;
   std::vector<HeldCandidate> held_;

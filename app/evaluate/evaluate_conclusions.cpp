@@ -7,9 +7,14 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <boresight/app/evaluate/draw_conclusions.hpp>
+#include <boresight/app/evaluate/pairs_by_structure.hpp>
 #include <boresight/app/evaluate/proposal_effects.hpp>
+#include <boresight/app/evaluate/unfit_candidates.hpp>
 #include <boresight/app/report/influences.hpp>
 #include <boresight/app/report/sky_units.hpp>
+#include <boresight/app/report/wind_mast.hpp>
+#include <boresight/app/tune/gains_at_bounds.hpp>
 
 namespace boresight::app {
 namespace {
@@ -25,41 +30,42 @@ double cost_of(const Candidate& candidate) {
   return candidate.cost.value_or(std::numeric_limits<double>::infinity());
 }
 
-std::string share(const design::Probability& probability) {
-  return fmt::format("{:.3f} [{:.3f}, {:.3f}]", probability.value, probability.lower,
-                     probability.upper);
-}
-
-const std::string& name_of(const EvaluateSection& section, const DecisionSection& decision,
-                           std::size_t place) {
-  return section.candidates[decision.candidates[place].candidate].name;
-}
-
 std::string against_as_it_is(const EvaluateSection& section) {
   const Candidate& base = section.candidates.front();
   const CandidateLaw* law = base.chosen_law();
   if (!base.path.empty() || law == nullptr || !std::isfinite(rms_of(base))) return "";
-  std::vector<std::string> better, worse;
+  std::vector<std::string> better, worse, hunting;
   for (const auto& candidate : section.candidates) {
-    if (candidate.path.empty() || !candidate.feasible() || !std::isfinite(rms_of(candidate))) {
-      continue;
-    }
+    if (candidate.path.empty() || !std::isfinite(rms_of(candidate))) continue;
+    if (candidate.hunts()) hunting.push_back(candidate.name);
+    if (!candidate.feasible()) continue;
     const double change = rms_of(candidate) / rms_of(base) - 1.0;
+    const std::string& loops = candidate.chosen_law()->structure;
     auto& list = change < 0.0 ? better : worse;
-    list.push_back(fmt::format("{:.1f} % by {}", 100.0 * std::abs(change), candidate.name));
+    list.push_back(fmt::format("{:.1f} % by {}{}", 100.0 * std::abs(change), candidate.name,
+                               loops == law->structure ? "" : fmt::format(" ({} loops)", loops)));
   }
   std::string text = fmt::format(
-      "Conditions: {} loops on the antenna as it is, {} wind at {:g} m/s, gains re-tuned for each "
+      "Conditions: {} loops on the antenna as it is, {} wind at {:.3g} m/s, gains re-tuned for "
+      "each "
       "proposal{}. Root-mean-square beam error over the plants against the antenna as it is, "
-      "re-tuned ({:.4f} mdeg): ",
+      "re-tuned ({:.4f} mdeg{}): ",
       law->structure, plant::to_string(section.wind_model), section.wind_speed,
       section.time_domain
           ? ", each rms of linear loops raised by what friction, orifices, limits and all else "
             "that is not linear did to that law in a simulated record"
           : ", linear loops only",
-      rms_of(base) / millidegree);
-  text += better.empty() ? "nothing lowers it" : fmt::format("lowered {}", fmt::join(better, ", "));
+      rms_of(base) / millidegree, base.hunts() ? ", and it hunts" : "");
+  if (better.empty()) {
+    text += worse.empty() ? "no proposal fit to be chosen stands beside it" : "nothing lowers it";
+  } else {
+    text += fmt::format("lowered {}", fmt::join(better, ", "));
+  }
   if (!worse.empty()) text += fmt::format("; raised or left {}", fmt::join(worse, ", "));
+  if (!hunting.empty()) {
+    text += fmt::format(". Left out, as they hunt beyond the tightest budget: {}",
+                        fmt::join(hunting, ", "));
+  }
   return text + ".";
 }
 
@@ -153,145 +159,39 @@ std::string without_cost(const EvaluateSection& section) {
                            fmt::join(names, ", "));
 }
 
-// What of the choice by the least mean is not worth paying for.
-std::string not_worth_paying(const EvaluateSection& section, const DecisionSection& decision) {
-  const std::size_t choice = worth_its_cost(section, decision);
-  const Candidate& best = section.candidates[decision.candidates[decision.best].candidate];
-  if (choice == decision.best || !best.feasible()) return "";
-  const auto& options = decision.statistics.options;
-  return fmt::format(
-      "{} is {:.1f} % better than {} on average, too little to pay for: {}.",
-      name_of(section, decision, decision.best),
-      100.0 * (1.0 - options[decision.best].mean / options[choice].mean),
-      name_of(section, decision, choice),
-      section.candidates[decision.candidates[choice].candidate].path.empty()
-          ? "no proposal is worth its cost"
-          : fmt::format("of these {} is worth its cost", name_of(section, decision, choice)));
-}
-
-std::string chances(const EvaluateSection& section, const DecisionSection& decision) {
-  const auto& options = decision.statistics.options;
-  const auto pair = std::ranges::find_if(decision.statistics.pairs, [&](const auto& one) {
-    return (one.first == decision.best && one.second == decision.second) ||
-           (one.first == decision.second && one.second == decision.best);
-  });
-  if (pair == decision.statistics.pairs.end()) return "";
-  const bool turned = pair->first != decision.best;
-  const design::Probability better =
-      turned ? design::Probability{1.0 - pair->better.value, 1.0 - pair->better.upper,
-                                   1.0 - pair->better.lower}
-             : pair->better;
-  const double gain = (turned ? -1.0 : 1.0) * pair->mean_gain;
-  std::string text = fmt::format(
-      "Least mean rms with the gains held: {}, {:.4f} mdeg; it is the best of all with probability "
-      "{} and better than {} with probability {}, by {:.4f} +- {:.4f} mdeg on average. Choosing it "
-      "loses {:.4f} mdeg on average against whoever knew the plant.",
-      name_of(section, decision, decision.best), options[decision.best].mean,
-      share(options[decision.best].best), name_of(section, decision, decision.second),
-      share(better), gain, pair->gain_error, options[decision.best].expected_regret);
-  text += fmt::format(
-      " The intervals are those of {} draws ({}); another view of what is uncertain may move the "
-      "probabilities farther than that.",
-      decision.draws, decision.source);
-  if (section.time_domain) {
-    text +=
-        " Each law's factor of the nonlinear antenna comes from one record and is not drawn: of "
-        "proposals that lie a few per cent apart the probability says nothing.";
-  }
-  const auto& outside = decision.candidates[decision.best].outside_goals;
-  text += fmt::format(
-      " Its hard goals hold on the {} plants it was tuned for; of the draws, which move more "
-      "inputs and all at once, a share of {} breaks one.",
-      section.ensemble_size, share(outside));
-  return text;
-}
-
-std::string what_decides(const EvaluateSection& section, const DecisionSection& decision) {
-  if (!decision.sobol || decision.sobol->outputs.front().constant) return "";
-  const auto& indices = decision.sobol->outputs.front();
-  std::vector<std::size_t> order(indices.inputs.size());
-  std::iota(order.begin(), order.end(), std::size_t{0});
-  std::ranges::stable_sort(order, std::greater{},
-                           [&](std::size_t i) { return indices.inputs[i].total.value; });
-  std::vector<std::string> named;
-  for (const std::size_t i : order) {
-    if (named.size() == 3 || indices.inputs[i].total.value < 0.02) break;
-    named.push_back(fmt::format("{} ({:.0f} % of the variance, with its interactions)",
-                                decision.inputs[i], 100.0 * indices.inputs[i].total.value));
-  }
-  std::string text = fmt::format("The difference between {} and {} depends most on {}.",
-                                 name_of(section, decision, decision.second),
-                                 name_of(section, decision, decision.best), fmt::join(named, ", "));
-  if (decision.tornado) {
-    const auto turns = std::ranges::find_if(decision.tornado->bars, [&](const auto& bar) {
-      return std::min(bar.at_low, bar.at_high) < 0.0;
-    });
-    text += turns == decision.tornado->bars.end()
-                ? " No input turns it round alone within its middle 90 %."
-                : fmt::format(
-                      " Alone, {} turns it round: {:.4f} mdeg at its 5 % share, {:.4f} at "
-                      "its 95 % share.",
-                      decision.inputs[turns->input], turns->at_low, turns->at_high);
-  }
-  return text;
-}
-
-std::string what_to_test(const EvaluateSection& section, const DecisionSection& decision) {
-  if (!decision.tests) return "";
-  const auto& tests = *decision.tests;
-  const auto best =
-      std::ranges::max_element(tests.inputs, {}, [](const auto& one) { return one.held_out_gain; });
-  const double mean = tests.mean_loss[tests.choice];
-  const auto& choice = name_of(section, decision, tests.choice);
-  if (best == tests.inputs.end() || best->held_out_gain <= 2.0 * best->held_out_error ||
-      best->held_out_gain < 1e-4 * mean) {
-    return fmt::format(
-        "No test of one input would change the choice of {} for the better by more than chance "
-        "could feign; knowing everything would lower the expected rms by {:.4f} mdeg ({:.2f} %). "
-        "What tests are worth for the tuning itself is not in this figure: gains are held here.",
-        choice, std::max(0.0, tests.perfect.gain),
-        100.0 * std::max(0.0, tests.perfect.gain) / mean);
-  }
-  const auto input = static_cast<std::size_t>(best - tests.inputs.begin());
-  return fmt::format(
-      "Test first: {}. Known before the choice between the proposals, it lowers the expected rms "
-      "by {:.4f} to {:.4f} mdeg (held out and fitted) of the {:.4f} mdeg that knowing everything "
-      "would.",
-      decision.inputs[input], best->held_out_gain, best->fitted.gain, tests.perfect.gain);
-}
-
-std::optional<double> slew_stroke(const Candidate& candidate) {
-  return candidate.figures ? candidate.figures->slew_stroke_margin : std::nullopt;
+std::optional<double> slew_margin(const Candidate& candidate) {
+  return candidate.figures ? candidate.figures->slew_rate_margin : std::nullopt;
 }
 
 // What the antenna as it is does not reach either is no fault of a proposal, and says more of the
 // case's numbers than of the drive.
-std::vector<std::string> short_of_stroke(const EvaluateSection& section) {
+std::vector<std::string> short_of_slewing(const EvaluateSection& section) {
   const Candidate& base = section.candidates.front();
-  const double as_it_is = base.path.empty() ? slew_stroke(base).value_or(1.0) : 1.0;
+  const double as_it_is = base.path.empty() ? slew_margin(base).value_or(1.0) : 1.0;
   const bool stated_too_high = as_it_is < 1.0;
   // Rounding lowers nothing.
   const double enough = stated_too_high ? as_it_is * (1.0 - 1e-9) : 1.0;
   std::vector<std::string> slow;
   for (const auto& candidate : section.candidates) {
-    const auto stroke = slew_stroke(candidate);
-    if (!stroke || *stroke >= enough) continue;
-    slow.push_back(
-        fmt::format("{} (stroke {:.2f} of what the slew rate takes)", candidate.name, *stroke));
+    const auto margin = slew_margin(candidate);
+    if (!margin || *margin >= enough) continue;
+    slow.push_back(fmt::format("{} ({:.2f} of the slew rate)", candidate.name, *margin));
   }
   std::vector<std::string> sentences;
   if (stated_too_high) {
     sentences.push_back(fmt::format(
-        "The stated slew rate is out of reach of the drive as it is (stroke {:.2f} of what it "
-        "takes): check drive.slew_rate, the valve and the supply.",
+        "The stated slew rate is out of reach of the drive as it is (against friction and offset "
+        "it holds {:.2f} of it): check drive.slew_rate, the friction curve, the valve and the "
+        "supply.",
         as_it_is));
   }
   if (!slow.empty()) {
     sentences.push_back(fmt::format(
         "{}: {}. Pumps and valves would have to grow with them, at a cost that is not in these "
         "files.",
-        stated_too_high ? "These proposals lower the stroke further"
-                        : "Their valves' stroke does not reach the slew rate of today",
+        stated_too_high ? "These proposals slew more slowly still"
+                        : "Their drives do not hold the slew rate of today against friction and "
+                          "offset",
         fmt::join(slow, "; ")));
   }
   return sentences;
@@ -309,7 +209,7 @@ std::string out_of_reach(const EvaluateSection& section) {
                       design::hunting_amplitude(law->time_domain->hunting) / millidegree));
     }
   }
-  std::vector<std::string> sentences = short_of_stroke(section);
+  std::vector<std::string> sentences = short_of_slewing(section);
   if (!infeasible.empty()) {
     sentences.insert(
         sentences.begin(),
@@ -324,6 +224,17 @@ std::string out_of_reach(const EvaluateSection& section) {
                     fmt::join(hunting, ", ")));
   }
   return fmt::format("{}", fmt::join(sentences, " "));
+}
+
+// Of the laws compared.
+std::string ended_at_bounds(const EvaluateSection& section) {
+  std::vector<SearchedLaw> laws;
+  for (const auto& candidate : section.candidates) {
+    const CandidateLaw* law = candidate.chosen_law();
+    if (law == nullptr) continue;
+    laws.push_back({fmt::format("{} ({})", candidate.name, law->structure), &law->design.tuning});
+  }
+  return fmt::format("{}", fmt::join(gains_at_bounds(laws), " "));
 }
 
 }  // namespace
@@ -358,19 +269,21 @@ std::vector<std::string> conclude(const EvaluateSection& section) {
     if (!text.empty()) sentences.push_back(std::move(text));
   };
   if (section.candidates.empty()) return sentences;
+  if (section.wind_mast) add(conclude_mast(*section.wind_mast));
+  add(none_chosen(section));
   add(against_as_it_is(section));
+  if (section.decision) add(law_or_hardware(section, *section.decision));
   add(in_the_time_domain(section));
+  for (auto& need : unmet_needs(section)) add(std::move(need));
   add(plants_within_needs(section));
   add(changed_motion(section));
   add(on_the_front(section));
   add(without_cost(section));
   if (section.decision) {
-    add(chances(section, *section.decision));
-    add(not_worth_paying(section, *section.decision));
-    add(what_decides(section, *section.decision));
-    add(what_to_test(section, *section.decision));
+    for (auto& text : conclude_draws(section, *section.decision)) add(std::move(text));
   }
   add(out_of_reach(section));
+  add(ended_at_bounds(section));
   return sentences;
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -66,11 +67,13 @@ struct CandidateFigures {
   std::optional<double> climate_rms;   // rad
   std::vector<double> climate_losses;  // dB, one a band; empty without a climate
   std::vector<double> speed_limits;    // m/s, one a budget
+  /// Mean wind speed (m/s) at which the supply's torque ends: supply_wind_speed of antenna_model.
+  double supply_wind_speed = std::numeric_limits<double>::infinity();
   /// What friction and offset leave of the supply's torque, over the largest in gusts.
   double supply_margin = 0.0;
-  double demand_margin = 0.0;                // valve stroke over the largest demand in gusts
-  std::optional<double> slew_stroke_margin;  // valve stroke over the slew rate at the motor
-  std::optional<SlewFigures> slew;           // of cases with a [simulation]
+  double demand_margin = 0.0;              // valve stroke over the largest demand in gusts
+  std::optional<double> slew_rate_margin;  // app::slew_rate_margin
+  std::optional<SlewFigures> slew;         // of cases with a [simulation]
 };
 
 /// The antenna as it is, or as a proposal makes it.
@@ -96,6 +99,11 @@ struct Candidate {
   /// None if no structure is stable.
   const CandidateLaw* chosen_law() const { return chosen ? &laws[*chosen] : nullptr; }
   bool feasible() const { return chosen && laws[*chosen].usable(); }
+  /// Nothing but its hunting is against it.
+  bool hunts() const {
+    const CandidateLaw* law = chosen_law();
+    return law != nullptr && law->goals_met && law->design.verification.passed && !law->still;
+  }
   /// The beam's largest after turning round at the tracking rate (rad), with the chosen law on the
   /// nonlinear antenna; none where that did not run, or not to its end.
   std::optional<double> reversal_error() const;
@@ -108,6 +116,22 @@ struct CandidateDraws {
   design::Probability outside_goals;  // unstable, or a peak or the valve effort beyond its goal
 };
 
+/// Two candidates with laws of one structure on both: over the same draws, as PairComparison.
+struct SameStructure {
+  std::string structure;
+  design::Probability better;  // that the first is less
+  /// Of second less first (mdeg; positive: the first is better), and its standard error.
+  double mean_gain = 0.0, gain_error = 0.0;
+  bool first_usable = false, second_usable = false;  // CandidateLaw::usable
+};
+
+/// Two different antennas, as places in `candidates`, whose chosen laws differ in structure: what
+/// they do with each of the two on both, without one that was not tuned for both.
+struct PairByStructure {
+  std::size_t first = 0, second = 0;
+  std::vector<SameStructure> structures;
+};
+
 /// Chances, regrets and what they rest on. Losses are beam rms in mdeg, of linear loops times the
 /// law's nonlinear_factor.
 struct DecisionSection {
@@ -115,10 +139,12 @@ struct DecisionSection {
   std::string source;                      // of the draws
   std::vector<CandidateDraws> candidates;  // those with a stable law, in the table's order
   design::DecisionStatistics statistics;   // options in the same order
+  std::vector<PairByStructure> by_structure;
   /// Of draws in which it is on the front of cost and rms; NaN without a cost.
   std::vector<double> front_shares;
   std::vector<std::string> inputs;  // that vary
-  /// The two of least expected rms, as places in `candidates`.
+  /// The two of least expected rms, as places in `candidates`; any that is fit to be chosen comes
+  /// before those that are not.
   std::size_t best = 0, second = 0;
   /// Of rms of second less best, mdeg.
   std::optional<design::Tornado> tornado;
@@ -131,7 +157,8 @@ struct DecisionSection {
 struct EvaluateSection {
   double wind_speed = 0.0;  // m/s
   plant::WindModel wind_model = plant::WindModel::coherence;
-  bool climate = false;  // the case has one
+  std::optional<WindMast> wind_mast;  // none: the case states speeds at the dish's centre
+  bool climate = false;               // the case has one
   bool minimises_climate = false;
   std::string currency;  // empty: no proposal states a cost
   std::string ensemble_source;

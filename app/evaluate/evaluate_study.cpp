@@ -9,6 +9,7 @@
 #include <boresight/app/evaluate/evaluate_study.hpp>
 #include <boresight/app/io/field.hpp>
 #include <boresight/app/io/wording.hpp>
+#include <boresight/app/redesign/loaded_drive.hpp>
 #include <boresight/app/simulate/nonlinear_model.hpp>
 #include <boresight/app/simulate/time_domain.hpp>
 #include <boresight/design/drive_reach.hpp>
@@ -84,6 +85,7 @@ CandidateFigures figures_of(const Case& antenna, const CandidateLaw& tuned,
     }
     return found;
   };
+  figures.supply_wind_speed = supply_wind_speed(antenna, problem);
   figures.losses = losses(factor * std::sqrt(evaluation.beam_variance()) / problem.gear_ratio);
   for (const auto& budget : section.budgets) {
     figures.speed_limits.push_back(known ? design::wind_speed_limit(problem, evaluator, law,
@@ -98,11 +100,10 @@ CandidateFigures figures_of(const Case& antenna, const CandidateLaw& tuned,
   const auto& drive = problem.plant.drive;
   figures.supply_margin =
       torque_for_wind(antenna) / (mean + crest * std::sqrt(evaluation.wind_torque_variance));
-  const double slewing = antenna.drive.slew_rate.value * problem.gear_ratio;
-  const double stroke = largest_demand(antenna);
-  figures.demand_margin = stroke / (drive.leakage_rate / drive.oil_stiffness * mean +
-                                    crest * std::sqrt(evaluation.wind_demand_variance));
-  if (antenna.simulation || rated_stroke(antenna)) figures.slew_stroke_margin = stroke / slewing;
+  figures.demand_margin =
+      largest_demand(antenna) / (drive.leakage_rate / drive.oil_stiffness * mean +
+                                 crest * std::sqrt(evaluation.wind_demand_variance));
+  figures.slew_rate_margin = slew_rate_margin(antenna);
   figures.slew = slew_of(antenna, motor_inertia(antenna, antenna.motor.flywheel_disks) +
                                       gear_train_inertia(antenna) + antenna_inertia(antenna));
   const auto climate = make_climate(antenna);
@@ -161,10 +162,11 @@ void check_together(const std::vector<Proposal>& proposals) {
                   fmt::format("expected a name of its own, found {}, which {} has too",
                               in_quotes(one.name), proposals[k].path));
       }
-      if (one.cost && proposals[k].cost && proposals[k].cost->currency != one.cost->currency) {
+      const auto& other = proposals[k].cost;
+      if (one.cost && other && other->currency != one.cost->currency) {
         refuse_at(one.cost_location, "cost.currency",
                   fmt::format("expected the currency of {}, {}, since costs are compared, found {}",
-                              proposals[k].path, in_quotes(proposals[k].cost->currency),
+                              proposals[k].path, in_quotes(other->currency),
                               in_quotes(one.cost->currency)));
       }
     }
@@ -178,9 +180,10 @@ std::vector<std::size_t> front_of(const std::vector<Candidate>& candidates) {
   for (std::size_t i = 0; i < candidates.size(); ++i) {
     const CandidateLaw* law = candidates[i].chosen_law();
     if (law == nullptr || !law->usable() || !std::isfinite(law->compared_rms())) continue;
-    if (!candidates[i].cost) continue;
+    const auto& cost = candidates[i].cost;
+    if (!cost) continue;
     places.push_back(i);
-    points.push_back({*candidates[i].cost, law->compared_rms()});
+    points.push_back({*cost, law->compared_rms()});
   }
   std::vector<std::size_t> front;
   for (const std::size_t i : design::pareto_front(points)) front.push_back(places[i]);
@@ -239,6 +242,7 @@ EvaluateSection evaluate_proposals(const Case& antenna, const std::vector<Propos
   section.budgets = make_budgets(antenna);
   section.wind_speed = antenna.wind.design_speed.value;
   section.wind_model = make_problem(antenna).wind.model;
+  section.wind_mast = antenna.wind.mast;
   section.climate = !make_climate(antenna).empty();
   section.minimises_climate = antenna.goals.over_climate;
   for (const auto& proposal : proposals) {

@@ -8,6 +8,7 @@
 
 #include <boresight/app/evaluate/proposal_effects.hpp>
 #include <boresight/app/report/sky_units.hpp>
+#include <boresight/app/report/wind_mast.hpp>
 
 namespace boresight::app {
 namespace {
@@ -62,12 +63,14 @@ std::string plants_within_needs(const EvaluateSection& section) {
     std::vector<std::string> counts;
     for (const auto& candidate : section.candidates) {
       const CandidateLaw* law = candidate.chosen_law();
-      if (law == nullptr || i >= law->budgets_met.size() || !law->budgets_met[i]) continue;
-      counts.push_back(fmt::format("{} on {}", candidate.name, *law->budgets_met[i]));
+      if (law == nullptr || i >= law->budgets_met.size()) continue;
+      const auto& met = law->budgets_met[i];
+      if (met) counts.push_back(fmt::format("{} on {}", candidate.name, *met));
     }
     if (counts.empty()) continue;
-    needs.push_back(fmt::format("{} ({}: {:.3f} mdeg) is met in {:g} m/s by {}", budget.name,
+    needs.push_back(fmt::format("{} ({}: {:.3f} mdeg) is met in {:.3g} m/s{} by {}", budget.name,
                                 budget.band, budget.rms / millidegree, *budget.wind_speed,
+                                dish_and_mast(section.wind_mast, *budget.wind_speed),
                                 fmt::join(counts, ", ")));
   }
   if (needs.empty()) return "";

@@ -52,7 +52,7 @@ Responses responses(const DrawnLaw& drawn) {
 }
 
 std::string conditions(const DrawnLaw& drawn) {
-  return fmt::format("{}, {:g} m/s, wind model {}, linear plant with friction {:g} N.m.s/rad.",
+  return fmt::format("{}, {:.3g} m/s, wind model {}, linear plant with friction {:g} N.m.s/rad.",
                      drawn.name, drawn.problem.wind.mean_speed,
                      plant::to_string(drawn.problem.wind.model),
                      drawn.problem.plant.drive.viscous_friction);

@@ -109,7 +109,7 @@ Figure plant_figure(const MatchSection& section) {
       "match-plant", "Hydraulic mode and what the drive can do, against the motors' inertia",
       fmt::format(
           "The hydraulic mode of the flexible antenna with the rule \u00bd\u221a(J_L/J_m) "
-          "for its damping; the acceleration that the supply's torque leaves at the slew "
+          "for its damping; the acceleration that the drive has for slewing at the slew "
           "rate, and the time of a slew of {:.3g} deg at {:.3g} deg/s. Vertical lines are the "
           "classic rules, by the ratio R of motors to load.",
           section.slew_distance * 180.0 / std::numbers::pi,

@@ -62,7 +62,7 @@ Figure contributions(const TimeDomainSection& section, const std::string& headin
   Figure figure = make_figure(
       "time-domain-contributions", heading, "From the linear prediction to the nonlinear antenna",
       fmt::format(
-          "Beam rms at the sky, one axis, {}: {:g} s of wind of {:g} m/s, controller sampled "
+          "Beam rms at the sky, one axis, {}: {:g} s of wind of {:.3g} m/s, controller sampled "
           "every {:g} s. Each contribution is the rms with all influences less that without "
           "this one.",
           section.law, section.options.wind_duration, section.wind_speed, section.sample_time),
@@ -86,7 +86,7 @@ Figure candidates(const TimeDomainSection& section, const std::string& heading) 
   panel.series = {std::move(linear), std::move(simulated)};
   Figure figure = make_figure(
       "time-domain-laws", heading, "Tuned laws on the nonlinear antenna",
-      fmt::format("Beam rms at the sky in one record of wind of {:g} m/s; the law of the least "
+      fmt::format("Beam rms at the sky in one record of wind of {:.3g} m/s; the law of the least "
                   "simulated rms is the one verified.",
                   section.wind_speed),
       make_axis("beam rms", "mdeg"));

@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <boresight/app/identify/campaign_comparison.hpp>
-#include <boresight/identification/chi_squared.hpp>
 
 namespace boresight::app {
 
@@ -97,7 +96,7 @@ void average_methods(CampaignSection& section) {
   std::erase_if(estimates, [](const Uncertain& one) { return !(one.standard_uncertainty > 0.0); });
   if (estimates.size() < 2) return;
   const auto mean = identification::reconcile(estimates, motors);
-  if (mean.heterogeneity > identification::chi_squared_999(mean.degrees_of_freedom)) {
+  if (mean.contradictory()) {
     section.contradiction = fmt::format(
         "The methods contradict one another (Cochran's Q {:.1f} on {} degrees of freedom, between "
         "{}): no mean of them is an inertia. Look at the columns, units and stated numbers first.",

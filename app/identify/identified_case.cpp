@@ -70,6 +70,7 @@ void set_friction(Case& antenna, Replacement& replace,
   replace.set(curve.saturating, found.saturating_torque);
   replace.set(curve.saturating_rate, found.saturating_rate);
   replace.set(curve.viscous, found.viscous_friction);
+  curve.tests.clear();
   if (!antenna.simulation) return;
   replace.set(antenna.simulation->offset_torque, estimate.offset_as_recorded);
   replace.set(antenna.simulation->bristle_stiffness, estimate.bristle_stiffness);
@@ -101,6 +102,7 @@ Case with_identified(const Case& antenna, const identification::DriveEstimate& e
   set_inertias(identified, replace, estimate);
   set_oil(identified, replace, estimate);
   replace.set(identified.drive.leakage_rate, estimate.leakage_rate);
+  identified.drive.leakage_by_flow = false;
   set_friction(identified, replace, estimate);
   set_structure(identified, replace, estimate);
   return identified;

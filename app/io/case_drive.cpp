@@ -132,6 +132,8 @@ void read_tests(TableReader& file, Case& antenna) {
   if (auto table = file.optional_table("resonance")) {
     antenna.resonance_frequency =
         table->quantity("frequency", Kind::frequency, Range::positive(1000.0));
+    antenna.resonance_damping =
+        table->optional_quantity("damping_ratio", Kind::number, Range::positive(1.0));
     table->finish();
   }
   if (auto table = file.optional_table("tachometer")) read_tachometer(*table, antenna);
@@ -193,6 +195,7 @@ void read_drive(TableReader& file, Case& antenna) {
   if (leakage_rate) drive.leakage_rate = *leakage_rate;
   if (leakage_flow && leakage_pressure) {
     drive.leakage_rate = leakage_rate_by_flow(antenna.oil, *leakage_flow, *leakage_pressure);
+    drive.leakage_by_flow = true;
     if (drive.leakage_rate.value > decay.maximum) {
       table.refuse("leakage_flow", fmt::format("expected a leakage rate of at most {:g} 1/s, found "
                                                "one of {} by the oil's bulk modulus and volumes",

@@ -111,6 +111,8 @@ struct ImpulseResult {
 
 struct DriveEntry {
   Quantity leakage_rate;  // as stated, or by a flow at a pressure
+  /// By a flow: it then goes with the oil's bulk modulus, where a rate that was stated stays.
+  bool leakage_by_flow = false;
   Quantity viscous_friction;
   Quantity valve_frequency;
   Quantity valve_damping;
@@ -121,8 +123,17 @@ struct DriveEntry {
   Quantity tracking_rate;
 };
 
+/// Friction that was seen at a steady rate, all motors at the motor shaft.
+struct SteadyFrictionTest {
+  double rate = 0.0;      // rad/s of the motors; 0 for what just moved the antenna
+  double torque = 0.0;    // N m
+  double residual = 0.0;  // N m, of the torque over the curve through all tests
+};
+
 struct FrictionCurveEntry {
   Quantity coulomb, breakaway, stribeck_rate, saturating, saturating_rate, viscous;
+  /// The tests at steady rates that the curve goes through; empty if its numbers are stated.
+  std::vector<SteadyFrictionTest> tests;
 };
 
 /// What the linear plant leaves out and `boresight simulate` needs, all motors at the motor shaft.
@@ -249,7 +260,7 @@ struct Case {
   GearTrainEntry gear_train;
   MotorEntry motor;
   OilEntry oil;
-  std::optional<Quantity> resonance_frequency;
+  std::optional<Quantity> resonance_frequency, resonance_damping;
   /// If it has a voltage and a recorder limit; see campaign for one of another kind.
   std::optional<TachometerEntry> tachometer;
   FrictionTestsEntry friction_tests;

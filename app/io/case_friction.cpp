@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <set>
@@ -47,6 +48,15 @@ SteadyTest read_test(TableReader& entry, const Case& antenna) {
   return test;
 }
 
+// Tests are measured unless one says that it is not; what they do not tell follows from the rest.
+Basis basis_of(const std::vector<SteadyTest>& tests) {
+  Basis weakest = Basis::measured;
+  for (const auto& test : tests) {
+    weakest = std::max({weakest, test.said.basis, test.rate.basis});
+  }
+  return weakest;
+}
+
 void fit_tests(const std::vector<SteadyTest>& tests, double ratio, FrictionCurveEntry& friction) {
   std::vector<identification::SteadyFriction> points;
   double squares = 0.0, sum = 0.0;
@@ -60,20 +70,33 @@ void fit_tests(const std::vector<SteadyTest>& tests, double ratio, FrictionCurve
   const auto count = static_cast<double>(tests.size());
   const double relative =
       std::hypot(std::sqrt(squares / count), sum > 0.0 ? fit.scatter * count / sum : 0.0);
-  const auto found = [&](const Quantity& from, Kind kind, double value, const char* unit) {
+  const Basis told = basis_of(tests), untold = std::max(told, Basis::inferred);
+  const bool at_rest = std::ranges::any_of(points, [](const auto& p) { return p.rate == 0.0; });
+  const std::size_t moving = points.size() - (at_rest ? 1 : 0);
+  const auto found = [&](const Quantity& from, Kind kind, double value, const char* unit,
+                         bool by_tests = true) {
     Quantity quantity = derived_quantity(from, kind, value, unit);
     quantity.standard_uncertainty = relative * value;
+    quantity.basis = by_tests ? told : untold;
     return quantity;
   };
   const Quantity& torque = tests.front().said;
   const Quantity& rate = tests.front().rate;
   const plant::FrictionCurve& curve = fit.curve;
   friction.coulomb = found(torque, Kind::torque, curve.coulomb_torque, "N.m");
-  friction.breakaway = found(torque, Kind::torque, curve.breakaway_torque, "N.m");
-  friction.stribeck_rate = found(rate, Kind::angular_rate, curve.stribeck_rate, "rad/s");
+  friction.breakaway = found(torque, Kind::torque, curve.breakaway_torque, "N.m", at_rest);
+  friction.stribeck_rate =
+      found(rate, Kind::angular_rate, curve.stribeck_rate, "rad/s", points.size() >= 4);
   friction.saturating = found(torque, Kind::torque, 0.0, "N.m");
   friction.saturating_rate = found(rate, Kind::angular_rate, curve.saturating_rate, "rad/s");
-  friction.viscous = found(torque, Kind::viscous_friction, curve.viscous_friction, "N.m.s/rad");
+  friction.viscous =
+      found(torque, Kind::viscous_friction, curve.viscous_friction, "N.m.s/rad", moving >= 2);
+  friction.tests.clear();
+  for (const auto& point : points) {
+    const double by_curve =
+        point.rate > 0.0 ? plant::friction_torque(curve, point.rate) : curve.breakaway_torque;
+    friction.tests.push_back({point.rate, point.torque, point.torque - by_curve});
+  }
 }
 
 void read_tests_of_curve(TableReader& curve, std::vector<TableReader>& entries, Case& antenna) {

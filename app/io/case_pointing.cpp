@@ -1,5 +1,8 @@
+#include <algorithm>
 #include <numbers>
 #include <set>
+#include <string>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -27,11 +30,23 @@ Quantity factor_by_beamwidth(TableReader& entry, const Quantity& beamwidth, doub
   return factor;
 }
 
-// k as stated, by a measured beamwidth, or by how the feed lights the dish.
-void read_beamwidth_factor(TableReader& entry, double dish_diameter, BandEntry& band) {
+// The band of that name among those that are listed above.
+const BandEntry& band_above(TableReader& entry, const std::vector<BandEntry>& above,
+                            const std::string& name) {
+  const auto band = std::ranges::find(above, name, &BandEntry::name);
+  if (band == above.end()) {
+    entry.refuse("beamwidth_like",
+                 fmt::format("expected the name of a band listed above, found '{}'", name));
+  }
+  return *band;
+}
+
+// k as stated, by a measured beamwidth, as of another band, or by how the feed lights the dish.
+void read_beamwidth_factor(TableReader& entry, const Case& antenna, BandEntry& band) {
   auto stated = entry.optional_quantity("beamwidth_factor", Kind::angle, factor_range);
   const auto measured =
       entry.optional_quantity("beamwidth", Kind::angle, Range::positive(std::numbers::pi));
+  const auto like = entry.optional_text("beamwidth_like");
   const auto taper = entry.optional_quantity("edge_taper", Kind::level, Range::between(0.0, 60.0));
   // Beside a misspelt edge_taper they are no unknown keys.
   design::Illumination illumination;
@@ -44,15 +59,22 @@ void read_beamwidth_factor(TableReader& entry, double dish_diameter, BandEntry& 
       entry.optional_quantity("illumination_exponent", Kind::number, Range::between(0.5, 8.0));
   entry.finish();
   const int said = static_cast<int>(stated.has_value()) + static_cast<int>(measured.has_value()) +
-                   static_cast<int>(taper.has_value());
+                   static_cast<int>(like.has_value()) + static_cast<int>(taper.has_value());
   if (said != 1) {
     entry.refuse("beamwidth_factor",
-                 fmt::format("expected either beamwidth, beamwidth_factor or edge_taper, found {}",
+                 fmt::format("expected either beamwidth, beamwidth_factor, beamwidth_like or "
+                             "edge_taper, found {}",
                              said == 0 ? "none" : "several"));
   }
   if (measured) {
-    stated = factor_by_beamwidth(
-        entry, *measured, design::half_power_beamwidth(1.0, band.frequency.value, dish_diameter));
+    stated = factor_by_beamwidth(entry, *measured,
+                                 design::half_power_beamwidth(1.0, band.frequency.value,
+                                                              antenna.antenna.dish_diameter.value));
+  }
+  if (like) {
+    const BandEntry& other = band_above(entry, antenna.bands, *like);
+    stated = other.beamwidth_factor;
+    band.illumination = other.illumination;
   }
   for (const auto* key : {"illumination", "illumination_exponent"}) {
     if (stated && entry.has(key)) {
@@ -88,7 +110,7 @@ void read_pointing(TableReader& file, Case& antenna) {
     BandEntry band;
     band.name = read_name(entry, names);
     band.frequency = entry.quantity("frequency", Kind::frequency, Range::between(1e8, 1e13));
-    read_beamwidth_factor(entry, antenna.antenna.dish_diameter.value, band);
+    read_beamwidth_factor(entry, antenna, band);
     antenna.bands.push_back(std::move(band));
   }
   for (auto& entry : table.tables("budget", true)) {

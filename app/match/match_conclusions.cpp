@@ -1,12 +1,15 @@
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <boresight/app/match/match_study.hpp>
 #include <boresight/app/match/match_verdict.hpp>
 #include <boresight/app/report/influences.hpp>
 #include <boresight/app/report/sky_units.hpp>
+#include <boresight/app/report/wind_mast.hpp>
 
 namespace boresight::app {
 namespace {
@@ -127,12 +130,15 @@ void conclude_variants(const MatchSection& section, std::vector<std::string>& se
                       : ""));
   }
   for (const auto& one : section.thresholds) {
+    const std::string at_tracking =
+        one_friction(section)
+            ? ""
+            : fmt::format(", {:.0f} % with the {:.3g} of the friction curve at the tracking rate",
+                          100.0 * one.spread_at_tracking, section.tracking_friction);
     const std::string told = fmt::format(
         "({:.0f} % between the best and the worst number of disks with the linear plant's {:.3g} "
-        "N.m.s/rad, {:.0f} % with the {:.3g} of the friction curve at the tracking rate; tuned on "
-        "single plants)",
-        100.0 * one.spread_at_nominal, section.friction, 100.0 * one.spread_at_tracking,
-        section.tracking_friction);
+        "N.m.s/rad{}; tuned on single plants)",
+        100.0 * one.spread_at_nominal, section.friction, at_tracking);
     if (one.slope && one.spread_at_nominal < one.spread) {
       sentences.push_back(
           fmt::format("With {}, the inertia matters less than {:.0f} % already with the friction "
@@ -220,40 +226,61 @@ void conclude_rules(const MatchSection& section, std::vector<std::string>& sente
       100.0 * bare.acceleration_of_best_ratio));
 }
 
+// At which inertias a structure hunts; empty without a limit cycle.
+std::string hunting_at(const MatchSection& section, const MatchSeries& series) {
+  std::vector<std::string> places;
+  for (std::size_t i = 0; i < section.points.size(); ++i) {
+    const auto& run = series.values[i].time_domain;
+    if (!run) continue;
+    std::vector<std::string> rates;
+    for (const auto& one : run->hunting) {
+      if (!one.limit_cycle || one.status != design::RunStatus::complete) continue;
+      rates.emplace_back(one.rate == 0.0 ? "at rest" : "at the tracking rate");
+    }
+    if (rates.empty()) continue;
+    places.push_back(
+        fmt::format("{:.3g} disks {}", section.points[i].disks, fmt::join(rates, " and ")));
+  }
+  return fmt::format("{}", fmt::join(places, ", "));
+}
+
 void conclude_friction(const MatchSection& section, std::vector<std::string>& sentences) {
+  std::vector<std::string> errors;
+  std::map<std::string, std::vector<std::string>> alike;  // structures by where they hunt
   for (const auto& series : section.series) {
     double least = HUGE_VAL, largest = 0.0;
-    std::string hunting;
-    for (std::size_t i = 0; i < section.points.size(); ++i) {
-      const auto& run = series.values[i].time_domain;
-      if (!run) continue;
-      if (run->reversal && run->reversal->status == design::RunStatus::complete) {
-        least = std::min(least, run->reversal->encoder_error);
-        largest = std::max(largest, run->reversal->encoder_error);
-      }
-      for (const auto& one : run->hunting) {
-        if (one.limit_cycle && one.status == design::RunStatus::complete) {
-          hunting +=
-              fmt::format("{}{:.3g} disks {}", hunting.empty() ? "" : ", ", section.points[i].disks,
-                          one.rate == 0.0 ? "at rest" : "at the tracking rate");
-        }
-      }
+    for (const auto& value : series.values) {
+      if (!value.time_domain) continue;
+      const auto& reversal = value.time_domain->reversal;
+      if (!reversal || reversal->status != design::RunStatus::complete) continue;
+      least = std::min(least, reversal->encoder_error);
+      largest = std::max(largest, reversal->encoder_error);
     }
     if (!(largest > 0.0)) continue;
-    sentences.push_back(fmt::format(
-        "On the nonlinear antenna {} errs by {:.2f} to {:.2f} mdeg (encoder, largest) when the "
-        "sidereal rate reverses, over the inertias simulated; limit cycles: {}.",
-        series.name, least / millidegree, largest / millidegree,
-        hunting.empty() ? "none seen" : hunting));
+    errors.push_back(fmt::format("{:.2f} to {:.2f} mdeg with {}", least / millidegree,
+                                 largest / millidegree, series.name));
+    alike[hunting_at(section, series)].push_back(series.name);
   }
+  if (errors.empty()) return;
+  std::vector<std::string> cycles;
+  for (const auto& [places, names] : alike) {
+    cycles.push_back(
+        fmt::format("{} with {}", places.empty() ? "none seen" : places, fmt::join(names, ", ")));
+  }
+  sentences.push_back(fmt::format(
+      "On the nonlinear antenna the encoder errs by up to so much when the case's "
+      "tracking rate of {:.4g} mdeg/s reverses, over the inertias simulated: {}. Limit "
+      "cycles: {}.",
+      section.tracking_rate / millidegree, fmt::join(errors, ", "), fmt::join(cycles, "; ")));
 }
 
 }  // namespace
 
 std::vector<std::string> conclude(const MatchSection& section) {
   std::vector<std::string> sentences;
+  if (section.wind_mast) sentences.push_back(conclude_mast(*section.wind_mast));
   sentences.push_back(fmt::format(
-      "All of this is for wind by the {} model at {:g} m/s, the case's goals held on each of {} "
+      "All of this is for wind by the {} model at {:.3g} m/s, the case's goals held on each of {} "
       "plants, at the case's gear ratio and oil; the inputs listed as assumed set the scale.",
       plant::to_string(section.wind_model), section.wind_speed,
       std::max<std::size_t>(section.members, 1)));

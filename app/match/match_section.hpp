@@ -24,8 +24,9 @@ struct MatchPoint {
   double motor_to_load_ratio = 0.0;  // R: motors over gear train and antenna
   double reflected_inertia = 0.0;    // kg m2, of all
   plant::PlantMode hydraulic = {};
-  /// rad/s2 at the sky, at the slew rate: what the supply's torque leaves beyond friction there; 0
-  /// or less where it leaves nothing.
+  /// rad/s2 at the sky, at the slew rate: what the drive has reserve for there
+  /// (design::within_reach); of cases without [simulation] what the supply's torque leaves beyond
+  /// friction, the valve's drop not counted. 0 or less where nothing is left.
   double acceleration = 0.0;
   double slew_time = 0.0;  // s for slew_distance at the slew rate; infinite without acceleration
   double two_mass_damping = 0.0;  // the rule zeta = 1/2 sqrt(J_L/J_m)
@@ -117,6 +118,7 @@ struct MatchSection {
   std::optional<WhatIfTable> what_if;  // where a page asks for it
   double wind_speed = 0.0;
   plant::WindModel wind_model = plant::WindModel::coherence;
+  std::optional<WindMast> wind_mast;  // none: the case states speeds at the dish's centre
   design::HardGoals goals;
   design::SoftGoal soft_goal;
   std::size_t members = 0;
@@ -128,10 +130,11 @@ struct MatchSection {
   double slew_distance = 0.0;  // rad at the sky
   /// rad/s at the sky: the case's, or four fifths of what the supply holds against friction.
   double slew_rate = 0.0;
-  double tracking_rate = 0.0;      // rad/s at the sky
-  double tracking_friction = 0.0;  // N m s/rad
-  double friction = 0.0;           // N m s/rad, of the linear plant
-  double tightest_budget = 0.0;    // rad rms at the sky; 1 mdeg where the case has none
+  bool slew_by_simulation = false;  // rate and acceleration by design::within_reach
+  double tracking_rate = 0.0;       // rad/s at the sky
+  double tracking_friction = 0.0;   // N m s/rad
+  double friction = 0.0;            // N m s/rad, of the linear plant
+  double tightest_budget = 0.0;     // rad rms at the sky; 1 mdeg where the case has none
 };
 
 }  // namespace boresight::app

@@ -50,18 +50,21 @@ std::vector<MatchPoint> points_of(const Case& antenna, const MatchOptions& optio
   return points;
 }
 
+// Rate and acceleration at the motor with whatever acceleration the drive has reserve for.
+control::CommandLimits reach_of(const Case& antenna, double inertia) {
+  constexpr double any_acceleration = std::numeric_limits<double>::infinity();
+  return design::within_reach(
+      make_nonlinear_antenna(antenna), inertia,
+      {antenna.drive.slew_rate.value * gear_ratio(antenna), any_acceleration});
+}
+
 // The case's slew rate, or four fifths of the highest that the supply holds against friction if
 // that is less (as design::within_reach has it): on the nonlinear antenna, or without a simulation
 // by the torque and by what the valve lets through without load.
 double rate_within_reach(const Case& antenna) {
   const double ratio = gear_ratio(antenna);
   if (antenna.simulation) {
-    constexpr double any_acceleration = std::numeric_limits<double>::infinity();
-    return design::within_reach(make_nonlinear_antenna(antenna),
-                                plant::reflected_inertia(make_plant(antenna)),
-                                {antenna.drive.slew_rate.value * ratio, any_acceleration})
-               .rate /
-           ratio;
+    return reach_of(antenna, plant::reflected_inertia(make_plant(antenna))).rate / ratio;
   }
   const double open = largest_demand(antenna) / ratio;
   const auto curve = friction_curve(antenna);
@@ -84,9 +87,13 @@ void describe(const Case& antenna, const MatchSection& section, MatchPoint& poin
       plant::motor_to_load_ratio(point.motor_inertia, point.reflected_inertia);
   point.hydraulic = plant::hydraulic_mode(plant::plant_modes(plant));
   const double ratio = gear_ratio(antenna);
-  const double left = supply_torque(antenna) -
-                      plant::friction_torque(friction_curve(antenna), section.slew_rate * ratio);
-  point.acceleration = left / point.reflected_inertia / ratio;
+  if (section.slew_by_simulation) {
+    point.acceleration = reach_of(antenna, point.reflected_inertia).acceleration / ratio;
+  } else {
+    const double left = supply_torque(antenna) -
+                        plant::friction_torque(friction_curve(antenna), section.slew_rate * ratio);
+    point.acceleration = left / point.reflected_inertia / ratio;
+  }
   point.slew_time = std::numeric_limits<double>::infinity();
   if (point.acceleration > 0.0) {
     // Up to the slew rate and down again; what does not get there turns half way.
@@ -241,6 +248,7 @@ MatchSection match_motors(const Case& antenna, const std::vector<design::Ensembl
   const auto names = asked_structures(antenna, options.structures);
   MatchSection section;
   section.slew_rate = rate_within_reach(antenna);
+  section.slew_by_simulation = antenna.simulation.has_value();
   section.slew_distance = 10.0 * degree;
   section.tracking_rate = antenna.drive.tracking_rate.value;
   section.tracking_friction = tracking_friction(antenna);
@@ -257,6 +265,7 @@ MatchSection match_motors(const Case& antenna, const std::vector<design::Ensembl
   task.problem = make_problem(antenna);
   section.wind_speed = task.problem.wind.mean_speed;
   section.wind_model = task.problem.wind.model;
+  section.wind_mast = antenna.wind.mast;
   task.members = members;
   task.goals = section.goals;
   task.soft_goal = section.soft_goal;

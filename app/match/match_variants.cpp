@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include <boresight/app/match/match_study.hpp>
+#include <boresight/app/match/match_verdict.hpp>
 
 namespace boresight::app {
 namespace {
@@ -21,21 +22,25 @@ struct Change {
 
 std::vector<Change> changes_of(const Case& antenna, const MatchSection& section) {
   const double leakage = antenna.drive.leakage_rate.value;
-  std::vector<Change> changes{
-      {"the case's plant", {}, {}},
-      {"leakage x 0.3", {.leakage_rate = 0.3 * leakage}, {}},
-      {"leakage x 2", {.leakage_rate = 2.0 * leakage}, {}},
-      {fmt::format("friction slope {:.3g} N.m.s/rad (at tracking rate)", section.tracking_friction),
-       {.viscous_friction = section.tracking_friction},
-       {}},
-      {"structure frequencies x 0.9", {.structure_frequency_scale = 0.9}, {}},
-      {"structure frequencies x 1.1", {.structure_frequency_scale = 1.1}, {}},
-      {antenna.oil.efficiency_in_stiffness ? "oil stiffness without efficiencies"
-                                           : "oil stiffness with efficiencies",
-       {.oil_stiffness = oil_stiffness(antenna, antenna.oil.efficiency_in_stiffness
-                                                    ? plant::EfficiencyInStiffness::none
-                                                    : plant::EfficiencyInStiffness::both)},
-       {}}};
+  std::vector<Change> changes{{"the case's plant", {}, {}},
+                              {"leakage x 0.3", {.leakage_rate = 0.3 * leakage}, {}},
+                              {"leakage x 2", {.leakage_rate = 2.0 * leakage}, {}}};
+  if (!one_friction(section)) {
+    changes.push_back({fmt::format("friction slope {:.3g} N.m.s/rad (at tracking rate)",
+                                   section.tracking_friction),
+                       {.viscous_friction = section.tracking_friction},
+                       {}});
+  }
+  changes.insert(
+      changes.end(),
+      {{"structure frequencies x 0.9", {.structure_frequency_scale = 0.9}, {}},
+       {"structure frequencies x 1.1", {.structure_frequency_scale = 1.1}, {}},
+       {antenna.oil.efficiency_in_stiffness ? "oil stiffness without efficiencies"
+                                            : "oil stiffness with efficiencies",
+        {.oil_stiffness = oil_stiffness(antenna, antenna.oil.efficiency_in_stiffness
+                                                     ? plant::EfficiencyInStiffness::none
+                                                     : plant::EfficiencyInStiffness::both)},
+        {}}});
   for (const auto& alternative : antenna.antenna.alternatives) {
     changes.push_back({"antenna inertia of " + alternative.name,
                        {.antenna_inertia = antenna_inertia(antenna, alternative)},

@@ -66,6 +66,11 @@ bool hunts(const MatchSection& section, const MatchSeries& series) {
   return !design::holds_still(hunting_of(section, series), section.tightest_budget);
 }
 
+bool one_friction(const MatchSection& section) {
+  constexpr double same = 1e-9;
+  return std::abs(section.tracking_friction - section.friction) <= same * section.friction;
+}
+
 std::size_t as_built(const MatchSection& section) {
   const auto point = std::ranges::find_if(section.points, [](const MatchPoint& one) {
     return one.label.find("as built") != std::string::npos;

@@ -29,6 +29,9 @@ std::vector<design::HuntingResult> hunting_of(const MatchSection& section,
 /// choose, whatever its rms in wind.
 bool hunts(const MatchSection& section, const MatchSeries& series);
 
+/// Whether the linear plant has the friction slope of the curve at the tracking rate already.
+bool one_friction(const MatchSection& section);
+
 /// The point of the motors as built; the last where none is marked.
 std::size_t as_built(const MatchSection& section);
 

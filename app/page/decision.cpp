@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 #include <fmt/format.h>
 
@@ -122,7 +123,11 @@ Sentences model_decision(const PlantSection& plant) {
 
 Sentences redesign_decision(const Report& report) {
   Sentences sentences;
-  if (report.tuning) sentences = decide_tuning(report, *report.tuning);
+  if (report.resonance && report.resonance->contradicts()) {
+    sentences.push_back(resonance_sentence(*report.resonance));
+  }
+  if (report.tuning)
+    std::ranges::move(decide_tuning(report, *report.tuning), std::back_inserter(sentences));
   if (report.matching) {
     if (auto text = decide_matching(report, *report.matching); !text.empty()) {
       sentences.push_back(std::move(text));

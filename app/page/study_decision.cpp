@@ -2,7 +2,10 @@
 #include <cmath>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
+#include <boresight/app/evaluate/pairs_by_structure.hpp>
+#include <boresight/app/evaluate/unfit_candidates.hpp>
 #include <boresight/app/match/match_verdict.hpp>
 #include <boresight/app/page/decision.hpp>
 #include <boresight/app/page/study_decision.hpp>
@@ -10,6 +13,7 @@
 #include <boresight/app/report/influences.hpp>
 #include <boresight/app/report/present_gains.hpp>
 #include <boresight/app/report/sky_units.hpp>
+#include <boresight/app/report/wind_mast.hpp>
 #include <boresight/app/tune/tune_study.hpp>
 
 namespace boresight::app {
@@ -114,7 +118,7 @@ Sentences decide_inertia(const MatchSection& section, bool others_hunt) {
         section.points.back().disks, 100.0 * span, what_matters_more(section))};
   }
   Sentences sentences{fmt::format(
-      "The least rms, {:.3f} mdeg in {:g} m/s, comes with {} loops and {:g} disks on each motor "
+      "The least rms, {:.3f} mdeg in {:.3g} m/s, comes with {} loops and {:g} disks on each motor "
       "(ratio {:.2f}); from {:.1f} to {:.1f} disks it stays within 5 % of that.",
       mdeg(least), section.wind_speed, best->name, point.disks, point.motor_to_load_ratio,
       best->within_5_percent.lowest, best->within_5_percent.highest)};
@@ -161,18 +165,11 @@ bool all_alike(const EvaluateSection& section, const DecisionSection& draws) {
   return fit > 1 && largest < (1.0 + negligible_change) * least;
 }
 
-// Why a candidate's law is not to be built.
-std::string_view why_not(const Candidate& candidate) {
-  const CandidateLaw* law = candidate.chosen_law();
-  if (law == nullptr) return "has no stable law";
-  if (!law->goals_met) return "misses a hard goal on some plant";
-  return law->still ? "fails its verification" : "hunts beyond the tightest budget";
-}
-
 }  // namespace
 
 std::vector<std::string> decision(const EvaluateSection& section) {
-  Sentences sentences;
+  Sentences sentences = unmet_needs(section);
+  const std::string none = none_chosen(section);
   if (section.decision && !section.candidates.empty()) {
     const DecisionSection& draws = *section.decision;
     const std::size_t choice = worth_its_cost(section, draws);
@@ -181,12 +178,14 @@ std::vector<std::string> decision(const EvaluateSection& section) {
     const Candidate& best = section.candidates[draws.candidates[draws.best].candidate];
     const auto& options = draws.statistics.options;
     const std::string currency = section.currency.empty() ? "of cost" : section.currency;
-    const std::string mean = fmt::format("{:.3f} mdeg rms on average over {} draws in {:g} m/s",
+    const std::string mean = fmt::format("{:.3f} mdeg rms on average over {} draws in {:.3g} m/s",
                                          options[choice].mean, draws.draws, section.wind_speed);
     const bool fit = chosen.feasible();
+    const std::string yet = none.empty() ? "Nothing is to be chosen yet." : none;
     std::string text =
-        !fit ? fmt::format("Nothing is to be chosen yet: {} comes nearest with {}, but {}",
-                           chosen.name, mean, why_not(chosen))
+        !fit            ? fmt::format("{} {} comes nearest with {}, but {}", yet, chosen.name, mean,
+                                      why_not(chosen))
+        : !none.empty() ? fmt::format("{} The antenna as it is has {}", none, mean)
         : chosen.path.empty()
             ? fmt::format("No proposal is worth its cost: the antenna as it is has {}", mean)
             : fmt::format("Choose {}: {}, {}", chosen.name, mean,
@@ -198,6 +197,11 @@ std::vector<std::string> decision(const EvaluateSection& section) {
                           best.cost ? fmt::format("{:g} {} ", *best.cost, currency) : "");
     }
     sentences.push_back(text + ".");
+    const auto hunting = hunting_candidates(section);
+    if (none.empty() && !hunting.empty()) {
+      sentences.push_back(fmt::format("Left out, as they hunt beyond the tightest budget: {}.",
+                                      fmt::join(hunting, ", ")));
+    }
     const std::string name = chosen.path.empty() ? "The antenna as it is" : chosen.name;
     if (all_alike(section, draws)) {
       sentences.push_back(
@@ -205,11 +209,14 @@ std::vector<std::string> decision(const EvaluateSection& section) {
                       "difference: choose by what else they change. {} breaks a hard goal on a "
                       "share of {:.3f} of the draws.",
                       100.0 * negligible_change, name, place.outside_goals.value));
-    } else {
+    } else if (fit) {
       sentences.push_back(fmt::format(
           "{} is the best of all with probability {:.2f}, and breaks a hard goal on a share of "
           "{:.3f} of the draws.",
           name, options[choice].best.value, place.outside_goals.value));
+    }
+    if (auto cause = law_or_hardware(section, draws, choice); fit && !cause.empty()) {
+      sentences.push_back(std::move(cause));
     }
   }
   std::string front;
@@ -242,17 +249,18 @@ std::vector<std::string> decision(const TuneSection& section,
     return sentences;
   }
   std::string text =
-      fmt::format("On the linear plant {} is best, with {:.3f} mdeg rms in {:g} m/s, {}",
+      fmt::format("On the linear plant {} is best, with {:.3f} mdeg rms in {:.3g} m/s, {}",
                   best->structure, mdeg(best->beam_rms), best->wind_speed,
                   best->tuned_for == TunedFor::robust
                       ? fmt::format("its goals held on each of {} plants", section.ensemble_size)
                       : std::string("its goals held on the nominal plant only"));
-  if (!section.budgets.empty() && !best->speed_limits.empty()) {
+  if (!section.budgets.empty() && !best->speed_limits.empty() && !best->left_out()) {
     const double limit_speed = std::min(best->speed_limits.front(), section.supply_wind_speed);
-    text += fmt::format("; it meets {} ({}) up to {}{}", section.budgets.front().name,
+    text += fmt::format("; it meets {} ({}) up to {}{}{}", section.budgets.front().name,
                         section.budgets.front().band,
                         std::isfinite(limit_speed) ? fmt::format("{:.1f} m/s", limit_speed)
                                                    : std::string("the 60 m/s looked at"),
+                        dish_and_mast(section.wind_mast, limit_speed),
                         climate_text(section.climate, limit_speed));
     if (limit_speed < best->speed_limits.front()) {
       text +=
@@ -288,9 +296,10 @@ std::vector<std::string> decision(const MonteCarloSection& section) {
       100.0 * section.all_goals_met.value)};
   if (!section.budgets.empty()) {
     const auto& one = section.budgets.front();
-    sentences.push_back(fmt::format(
-        "{} (band {}, {:.3f} mdeg) is met on {:.1f} % of the plants in {:g} m/s.", one.budget.name,
-        one.budget.band, mdeg(one.budget.rms), 100.0 * one.met.value, section.wind_speed));
+    sentences.push_back(
+        fmt::format("{} (band {}, {:.3f} mdeg) is met on {:.1f} % of the plants in {:.3g} m/s.",
+                    one.budget.name, one.budget.band, mdeg(one.budget.rms), 100.0 * one.met.value,
+                    section.wind_speed));
   }
   const auto most = std::ranges::max_element(
       section.correlations, {}, [](const auto& one) { return std::abs(one.with_rms.value); });
@@ -314,7 +323,7 @@ std::vector<std::string> decision(const BenchmarkReport& report) {
                     report.controller.description, report.score.abscissa)};
   }
   const auto& score = report.score;
-  Sentences sentences{fmt::format("{} points within {:.3f} mdeg rms an axis in {:g} m/s of wind.",
+  Sentences sentences{fmt::format("{} points within {:.3f} mdeg rms an axis in {:.3g} m/s of wind.",
                                   report.controller.description, mdeg(score.design_wind.beam_rms),
                                   score.design_wind.mean_speed)};
   if (score.ensemble) {

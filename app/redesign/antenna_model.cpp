@@ -55,11 +55,11 @@ identification::Uncertain assembly_inertia(const Case& antenna, const RotatingAs
   return sum;
 }
 
-plant::Structure make_structure(const Case& antenna, double frequency_scale) {
-  auto specification = structure_specification(antenna.structure);
+plant::Structure make_structure(const Case& antenna, const PlantVariant& variant) {
+  auto specification = structure_specifications(antenna.structure).at(variant.structure);
   specification.antenna_inertia = antenna_inertia(antenna);
-  specification.locked_rotor_frequency *= frequency_scale;
-  for (auto& mode : specification.modes) mode.frequency *= frequency_scale;
+  specification.locked_rotor_frequency *= variant.structure_frequency_scale;
+  for (auto& mode : specification.modes) mode.frequency *= variant.structure_frequency_scale;
   return plant::make_structure(specification);
 }
 
@@ -117,6 +117,11 @@ double oil_stiffness(const Case& antenna) {
   return plant::oil_stiffness(hydraulic_drive(antenna));
 }
 
+double leakage_rate_at(const Case& antenna, double bulk_modulus_factor) {
+  const DriveEntry& drive = antenna.drive;
+  return drive.leakage_rate.value * (drive.leakage_by_flow ? bulk_modulus_factor : 1.0);
+}
+
 plant::AntennaPlant make_plant(const Case& antenna, const PlantVariant& variant) {
   plant::AntennaPlant plant;
   const double disks = variant.flywheel_disks.value_or(antenna.motor.flywheel_disks);
@@ -131,7 +136,7 @@ plant::AntennaPlant make_plant(const Case& antenna, const PlantVariant& variant)
   plant.drive.valve_damping = antenna.drive.valve_damping.value;
   plant.drive.tachometer_corner = two_pi * antenna.sensors.tachometer_frequency.value;
 
-  plant.structure = make_structure(antenna, variant.structure_frequency_scale);
+  plant.structure = make_structure(antenna, variant);
   const double lighter = variant.inertia_scale *
                          variant.antenna_inertia.value_or(antenna_inertia(antenna)) /
                          antenna_inertia(antenna);

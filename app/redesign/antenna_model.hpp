@@ -27,6 +27,8 @@ struct PlantVariant {
   double motor_inertia_scale = 1.0;
   /// Multiplies the frequencies of locked rotor and modes.
   double structure_frequency_scale = 1.0;
+  /// Which of the antennas that have the stated frequencies: structure_specifications.
+  std::size_t structure = 0;
   /// Multiplies the shares of the wind torque that act on bull gear and modes, which is a wind
   /// torque so many times as large.
   double wind_torque_scale = 1.0;
@@ -44,6 +46,9 @@ double bulk_modulus(const Case& antenna);
 /// Oil spring by the case's bulk modulus, or the mean of its lines (N m/rad).
 double oil_stiffness(const Case& antenna, plant::EfficiencyInStiffness efficiency);
 double oil_stiffness(const Case& antenna);
+/// Leakage rate (1/s) with a bulk modulus so many times the case's: so many times as high where the
+/// case states a flow, whose conductance stays; the case's where that states a rate, as measured.
+double leakage_rate_at(const Case& antenna, double bulk_modulus_factor);
 
 plant::AntennaPlant make_plant(const Case& antenna, const PlantVariant& variant = {});
 /// The most viscous friction that a linear plant may have (N m s/rad): tracking_friction, or what

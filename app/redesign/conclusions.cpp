@@ -9,6 +9,7 @@
 #include <boresight/app/redesign/sections.hpp>
 #include <boresight/app/redesign/tuning_verdict.hpp>
 #include <boresight/app/report/sky_units.hpp>
+#include <boresight/app/report/wind_mast.hpp>
 
 namespace boresight::app {
 namespace {
@@ -52,8 +53,30 @@ void conclude_campaign(const CampaignSection& section, const identification::Gre
   }
 }
 
+// The measured hydraulic frequency against the antenna's, and where they contradict each other what
+// has to give way.
+std::string resonance_text(const ResonanceVerdict& verdict, const IdentificationSection& section) {
+  std::string text = resonance_sentence(verdict);
+  if (!verdict.contradicts()) return text;
+  for (const auto& method : section.inertia.methods) {
+    const auto& left = method.antenna_remainder;
+    const auto& needs = section.inertia.methods.front().antenna_remainder;
+    const bool apart = left.upper < needs.lower || left.lower > needs.upper;
+    if (method.kind != identification::MethodKind::resonance || !apart) continue;
+    text += fmt::format(
+        " Of a rigid antenna it leaves {:.3f} to {:.3f} kg.m2 for what the mass properties put at "
+        "{:.3f} to {:.3f}.",
+        left.lower, left.upper, needs.lower, needs.upper);
+  }
+  return text +
+         " Oil stiffness (bulk modulus, volumes, the efficiencies in it), the masses, or the "
+         "reading of the resonance must give way.";
+}
+
 void conclude_identification(const IdentificationSection& section,
+                             const std::optional<ResonanceVerdict>& resonance,
                              std::vector<std::string>& sentences) {
+  if (resonance) sentences.push_back(resonance_text(*resonance, section));
   const auto& methods = section.inertia.methods;
   const bool tested =
       std::any_of(methods.begin(), methods.end(), [](const identification::InertiaMethod& method) {
@@ -83,17 +106,6 @@ void conclude_identification(const IdentificationSection& section,
         ratio, 1.0 + ratio);
   }
   sentences.push_back(std::move(text));
-  for (const auto& method : methods) {
-    const auto& left = method.antenna_remainder;
-    const auto& needs = methods.front().antenna_remainder;
-    if (method.kind != identification::MethodKind::resonance || left.upper >= needs.lower) continue;
-    sentences.push_back(fmt::format(
-        "The resonance leaves {:.3f} to {:.3f} kg.m2 for an antenna that the mass properties "
-        "put at {:.3f} to {:.3f}: within their input uncertainties the two contradict each "
-        "other. Oil stiffness (bulk modulus, volumes, the efficiencies in it), the masses, or "
-        "the reading of the resonance must give way.",
-        left.lower, left.upper, needs.lower, needs.upper));
-  }
 }
 
 }  // namespace
@@ -103,16 +115,19 @@ std::vector<std::string> conclude(const Report& report) {
   if (report.campaign && report.campaign->grey_box) {
     conclude_campaign(*report.campaign, *report.campaign->grey_box, sentences);
   } else if (report.identification) {
-    conclude_identification(*report.identification, sentences);
+    conclude_identification(*report.identification, report.resonance, sentences);
   }
-  if (report.tuning) conclude_tuning(report, *report.tuning, sentences);
+  if (report.tuning) {
+    if (const auto& mast = report.tuning->wind_mast) sentences.push_back(conclude_mast(*mast));
+    conclude_tuning(report, *report.tuning, sentences);
+  }
   if (report.plant && report.plant->tracking_slope < 0.0) {
     sentences.push_back(fmt::format(
         "Friction falls with the rate at the tracking rate, by {:.3g} N.m.s/rad: the drive may "
         "stick "
         "and slip there. No linear plant says what that does (they take 0); {}",
         -report.plant->tracking_slope,
-        report.time_domain ? "the nonlinear antenna below does."
+        report.time_domain ? "the nonlinear antenna, simulated above, does."
                            : "the nonlinear antenna, which takes a [simulation], does."));
   }
   if (report.time_domain) sentences.push_back(conclude(*report.time_domain));
@@ -124,9 +139,8 @@ std::vector<std::string> conclude(const Report& report) {
     const std::size_t antenna = count_of_antenna(report.assumed);
     if (antenna > 0) {
       sentences.push_back(
-          fmt::format("{} numbers that this case states of the antenna are assumed, in value or in "
-                      "uncertainty (listed above). Every rms here stands on them until they are "
-                      "measured.",
+          fmt::format("This redesign rests on {} numbers of the antenna that are assumed, in value "
+                      "or in uncertainty (listed above), until they are measured.",
                       antenna));
     }
   }

@@ -165,6 +165,8 @@ PlantSection describe_plant(const Case& antenna) {
   section.rigid_frequency =
       plant::hydraulic_frequency(section.plant.drive.oil_stiffness, section.reflected_inertia);
   section.tracking_slope = tracking_slope(antenna);
+  section.friction = friction_curve(antenna);
+  section.friction_tests = antenna.friction_curve.tests;
   section.modes = plant::plant_modes(section.plant);
   section.hydraulic = plant::hydraulic_mode(section.modes);
   section.supply_torque = supply_torque(antenna);

@@ -95,11 +95,51 @@ std::array<std::vector<double*>, 2> shares(StructureEntry& structure) {
   return groups;
 }
 
+// Of the body whose share of wind or beam this is; none of any other number.
+std::optional<double> inertia_fraction_of(const StructureEntry& structure, const Quantity& share) {
+  double bull_gear = 1.0;
+  for (const auto& mode : structure.modes) {
+    if (&share == &mode.wind_fraction || &share == &mode.beam_weight) {
+      return mode.inertia_fraction.value;
+    }
+    bull_gear -= mode.inertia_fraction.value;
+  }
+  const bool of_bull_gear =
+      &share == &structure.bull_gear_wind_fraction || &share == &structure.bull_gear_beam_weight;
+  return of_bull_gear ? std::optional(bull_gear) : std::nullopt;
+}
+
+// A guess of a share may as well be the inertia fraction, and as wrong the other way.
+std::pair<double, double> guessed_range(double share, double inertia_fraction) {
+  const double by = std::max(std::abs(share - inertia_fraction), unstated_share * share);
+  constexpr double rounding = 1e-9;
+  const double lower = share - by;
+  return {lower > rounding ? lower : 0.0, std::min(share + by, 1.0)};
+}
+
+// How far a number is moved; by nothing where nothing says how far.
+InputEffect planned(const Case& antenna, const Quantity& stated) {
+  InputEffect effect;
+  effect.quantity = stated;
+  effect.unstated = is_unstated(stated);
+  const auto fraction = inertia_fraction_of(antenna.structure, stated);
+  // A weight below 0 or above 1 is no guess of a share: a part that turns the beam against itself.
+  if (effect.unstated && fraction && stated.value >= 0.0 && stated.value <= 1.0) {
+    effect.range = guessed_range(stated.value, *fraction);
+    effect.moved_by =
+        std::max(stated.value - effect.range->first, effect.range->second - stated.value);
+  } else if (stated.value != 0.0) {
+    effect.moved_by =
+        effect.unstated ? unstated_share * std::abs(stated.value) : stated.standard_uncertainty;
+  }
+  return effect;
+}
+
 void move(Case& antenna, std::size_t which, double by) {
   const Input input = linear_inputs(antenna)[which];
   double* moved = input.value;
   // A number that works converted, as of a wind mast, moves by the same share.
-  by *= *moved / input.stated->value;
+  if (input.stated->value != 0.0) by *= *moved / input.stated->value;
   for (const auto& group : shares(antenna.structure)) {
     if (std::ranges::find(group, moved) == group.end()) continue;
     double others = 0.0;
@@ -110,6 +150,12 @@ void move(Case& antenna, std::size_t which, double by) {
     }
   }
   *moved += by;
+}
+
+// Of the oil on both sides (Pa/m3): a leakage flow makes a leakage rate in proportion to it.
+double pressure_per_volume(const Case& antenna) {
+  return bulk_modulus(antenna) *
+         (1.0 / antenna.oil.volume_1.value + 1.0 / antenna.oil.volume_2.value);
 }
 
 // Not a number where the loop is unstable; nothing where no antenna can be made of the case.
@@ -130,8 +176,11 @@ std::string range_text(const InputEffect& effect) {
     return std::isfinite(rms) ? fmt::format("{:.3f}", rms / millidegree) : std::string("unstable");
   };
   const double share = 100.0 * effect.moved_by / std::abs(effect.quantity.value);
-  return fmt::format("{} ({} to {} mdeg over +-{:.3g} %)", effect.quantity.key,
-                     mdeg(effect.low_rms), mdeg(effect.high_rms), share);
+  const std::string over =
+      effect.range ? fmt::format("{:.3g} to {:.3g}", effect.range->first, effect.range->second)
+                   : fmt::format("+-{:.3g} %", share);
+  return fmt::format("{} ({} to {} mdeg over {})", effect.quantity.key, mdeg(effect.low_rms),
+                     mdeg(effect.high_rms), over);
 }
 
 }  // namespace
@@ -151,21 +200,24 @@ std::vector<InputEffect> input_effects(const Case& antenna, const control::Contr
   std::vector<std::size_t> which;
   const auto inputs = linear_inputs(whole);
   for (std::size_t i = 0; i < inputs.size(); ++i) {
-    InputEffect effect;
-    const Quantity& stated = *inputs[i].stated;
-    effect.quantity = stated;
-    effect.unstated = is_unstated(stated);
-    effect.moved_by =
-        effect.unstated ? unstated_share * std::abs(stated.value) : stated.standard_uncertainty;
-    if (!(effect.moved_by > 0.0) || stated.value == 0.0) continue;
+    InputEffect effect = planned(whole, *inputs[i].stated);
+    if (!(effect.moved_by > 0.0)) continue;
     effects.push_back(std::move(effect));
     which.push_back(i);
   }
   std::vector<std::optional<double>> held(2 * effects.size());
   design::for_each_index(held.size(), threads, [&](std::size_t job) {
-    const double by = effects[job / 2].moved_by;
+    const InputEffect& effect = effects[job / 2];
+    const bool lower = job % 2 == 0;
+    double by = lower ? -effect.moved_by : effect.moved_by;
+    if (effect.range) {
+      by = (lower ? effect.range->first : effect.range->second) - effect.quantity.value;
+    }
     Case moved = antenna;
-    move(moved, which[job / 2], job % 2 == 0 ? -by : by);
+    move(moved, which[job / 2], by);
+    if (antenna.drive.leakage_by_flow) {
+      moved.drive.leakage_rate.value *= pressure_per_volume(moved) / pressure_per_volume(antenna);
+    }
     held[job] = held_rms(moved, law, goals);
   });
   std::vector<InputEffect> kept;
@@ -193,9 +245,8 @@ std::string measure_first(const std::vector<InputEffect>& effects, double rms) {
     named.push_back(range_text(effect));
   }
   if (named.empty()) return "";
-  return fmt::format(
-      "Of the numbers that the case states, the rms hangs most on {}: measure {} first.",
-      fmt::join(named, ", "), named.size() == 1 ? "that" : "those");
+  return fmt::format("Of the numbers of the case, the rms hangs most on {}: measure {} first.",
+                     fmt::join(named, ", "), named.size() == 1 ? "that" : "those");
 }
 
 }  // namespace boresight::app

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <boresight/app/io/case_file.hpp>
@@ -16,8 +18,13 @@ struct InputEffect {
   /// uncertainty that the case gives, else, where its value is assumed, by a tenth of it, else by
   /// the printed digits' rounding.
   double moved_by = 0.0;
-  /// Whether that is a tenth, for want of an uncertainty.
+  /// Whether that is a tenth or the range below, for want of an uncertainty.
   bool unstated = false;
+  /// Of a share of wind or beam that is guessed so: the values it is moved to, the inertia fraction
+  /// of its body (of the bull gear: what the modes leave) and as far to the other side, but not
+  /// beyond 0 and 1 if it lies between; a tenth where the fraction is nearer than that. moved_by is
+  /// then the larger of the two ways.
+  std::optional<std::pair<double, double>> range = std::nullopt;
   /// Beam rms (rad, one axis at the sky, in the case's design wind) with the number lower and
   /// higher, gains held. NaN where the loop is unstable there.
   double low_rms = 0.0, high_rms = 0.0;

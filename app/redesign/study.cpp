@@ -1,10 +1,10 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
-#include <numbers>
 
 #include <fmt/format.h>
 
+#include <boresight/app/redesign/choices.hpp>
 #include <boresight/app/redesign/sections.hpp>
 #include <boresight/app/tune/engineer_units.hpp>
 #include <boresight/design/parallel_loop.hpp>
@@ -194,88 +194,13 @@ MatchingSection finish_matching(MatchingPlan plan, std::vector<design::Design>::
   return std::move(plan.section);
 }
 
-struct Choice {
-  ChoiceResult result;
-  std::optional<design::DesignTask> task;
-};
-
-std::vector<Choice> plan_choices(const Case& antenna, const StudyOptions& options) {
-  std::vector<Choice> choices;
-  const double disks = antenna.motor.flywheel_disks;
-  const double motors = motor_inertia(antenna, disks);
-  const double fixed = motors + gear_train_inertia(antenna);
-  const double inertia = fixed + antenna_inertia(antenna);
-  const auto add = [&](std::string name, std::string says, const PlantVariant& variant) {
-    Choice choice;
-    choice.task = make_task(antenna, options, name, variant, loop_structure(antenna, "PI"));
-    const auto& plant = choice.task->problem.plant;
-    choice.result = {
-        std::move(name),
-        std::move(says),
-        plant.drive.oil_stiffness,
-        plant::reflected_inertia(plant),
-        plant::motor_to_load_ratio(variant.inertia_scale * motors, plant::reflected_inertia(plant)),
-        std::nullopt,
-        {}};
-    choices.push_back(std::move(choice));
-  };
-  add("reference", "masses and oil stiffness of the plant above", {});
-  for (const auto& alternative : antenna.antenna.alternatives) {
-    add("antenna of " + alternative.name, "another antenna inertia",
-        {.antenna_inertia = antenna_inertia(antenna, alternative)});
-  }
-  const std::size_t convention = choices.size();
-  const auto other = antenna.oil.efficiency_in_stiffness ? plant::EfficiencyInStiffness::none
-                                                         : plant::EfficiencyInStiffness::both;
-  add(antenna.oil.efficiency_in_stiffness ? "stiffness without efficiencies"
-                                          : "stiffness with efficiencies",
-      "the other convention for the oil spring", {.oil_stiffness = oil_stiffness(antenna, other)});
-  // The inertia a test found, with motors and gear train kept and the antenna taking the rest.
-  const auto add_test = [&](const std::string& name, double found, double stiffness) {
-    if (found - fixed > 0.05 * antenna_inertia(antenna)) {
-      add(name, "motors and gear train kept, the antenna takes the rest",
-          {.antenna_inertia = found - fixed, .oil_stiffness = stiffness});
-      return;
-    }
-    Choice choice;
-    choice.result = {name,
-                     "motors and gear train kept, the antenna takes the rest",
-                     stiffness,
-                     found,
-                     plant::motor_to_load_ratio(motors, found),
-                     std::nullopt,
-                     fmt::format("{:.3f} - {:.3f} leaves {:.3f} kg.m2 for an antenna of {:.3f}",
-                                 found, fixed, found - fixed, antenna_inertia(antenna))};
-    choices.push_back(std::move(choice));
-  };
-  if (antenna.resonance_frequency) {
-    const double frequency = antenna.resonance_frequency->value;
-    const double angular = 2.0 * std::numbers::pi * frequency;
-    const double found = plant::inertia_from_resonance(oil_stiffness(antenna), frequency);
-    add("masses right, stiffness from resonance",
-        fmt::format("oil spring raised so that the rigid masses ring at {:g} Hz", frequency),
-        {.oil_stiffness = inertia * angular * angular});
-    add_test("stiffness right, inertia from resonance", found, oil_stiffness(antenna));
-    const double stiffness = oil_stiffness(antenna, other);
-    add_test(antenna.oil.efficiency_in_stiffness ? "the same, stiffness without efficiencies"
-                                                 : "the same, stiffness with efficiencies",
-             plant::inertia_from_resonance(stiffness, frequency), stiffness);
-    add("stiffness right, all masses scaled",
-        fmt::format("every inertia times {:.3f}", found / inertia),
-        {.inertia_scale = found / inertia});
-  }
-  for (const auto& impulse : antenna.impulse_results) {
-    add_test("inertia from impulse, " + impulse.name + " friction", impulse.reflected_inertia.value,
-             oil_stiffness(antenna));
-  }
-  for (std::size_t i = 1; i < choices.size(); ++i) choices[i].result.contradicts = i != convention;
-  return choices;
-}
-
-std::vector<design::DesignTask> tasks_of(const std::vector<Choice>& choices) {
+std::vector<design::DesignTask> choice_tasks(const Case& antenna, const StudyOptions& options,
+                                             const std::vector<PlantChoice>& choices) {
   std::vector<design::DesignTask> tasks;
   for (const auto& choice : choices) {
-    if (choice.task) tasks.push_back(*choice.task);
+    if (!choice.variant) continue;
+    tasks.push_back(make_task(antenna, options, choice.result.name, *choice.variant,
+                              loop_structure(antenna, "PI")));
   }
   return tasks;
 }
@@ -284,23 +209,23 @@ std::vector<design::DesignTask> tasks_of(const std::vector<Choice>& choices) {
 
 void redesign(const Case& antenna, const StudyOptions& options, Report& report) {
   const auto tuning = tuning_tasks(antenna, options);
-  std::vector<Choice> choices = plan_choices(antenna, options);
-  const auto choice_tasks = tasks_of(choices);
+  std::vector<PlantChoice> choices = plant_choices(antenna);
+  const auto chosen_tasks = choice_tasks(antenna, options, choices);
   MatchingPlan matching = plan_matching(antenna, options);
 
   std::vector<design::DesignTask> tasks = tuning;
-  tasks.insert(tasks.end(), choice_tasks.begin(), choice_tasks.end());
+  tasks.insert(tasks.end(), chosen_tasks.begin(), chosen_tasks.end());
   tasks.insert(tasks.end(), matching.tasks.begin(), matching.tasks.end());
   auto designs = design::solve_all(tasks, options.threads, options.progress);
 
   const auto first_choice = designs.begin() + static_cast<std::ptrdiff_t>(tuning.size());
-  const auto first_match = first_choice + static_cast<std::ptrdiff_t>(choice_tasks.size());
+  const auto first_match = first_choice + static_cast<std::ptrdiff_t>(chosen_tasks.size());
   report.tuning = tuning_section(antenna, options, {designs.begin(), first_choice});
   std::vector<design::Design> chosen(first_choice, first_match);
-  design::improve_along(choice_tasks, chosen);
+  design::improve_along(chosen_tasks, chosen);
   auto design = chosen.begin();
   for (auto& choice : choices) {
-    if (choice.task) choice.result.design = std::move(*design++);
+    if (choice.variant) choice.result.design = std::move(*design++);
     report.choices.push_back(std::move(choice.result));
   }
   report.matching = finish_matching(std::move(matching), first_match, options.threads);

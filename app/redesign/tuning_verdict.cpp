@@ -9,6 +9,7 @@
 #include <boresight/app/report/climate_wording.hpp>
 #include <boresight/app/report/present_gains.hpp>
 #include <boresight/app/report/sky_units.hpp>
+#include <boresight/app/report/wind_mast.hpp>
 
 namespace boresight::app {
 namespace {
@@ -27,7 +28,7 @@ std::string present_text(const TuningSection& section, const TuningSection::Pres
     return unstable_present_gains(law.structure);
   }
   std::string text =
-      fmt::format("The present gains of {} point within {:.3f} mdeg in {:g} m/s{}", law.structure,
+      fmt::format("The present gains of {} point within {:.3f} mdeg in {:.3g} m/s{}", law.structure,
                   law.design.beam_rms / millidegree, section.design_speed,
                   law.design.verification.passed
                       ? ""
@@ -67,7 +68,8 @@ std::string needs_on_plants(const TuningSection& section, bool short_of_all) {
     if (!budget.wind_speed || !result.plants_met) continue;
     const bool nominal = meets_need(budget, reached_wind_speed(section, result));
     if (short_of_all && (!nominal || *result.plants_met == plants)) continue;
-    needs.push_back(fmt::format("{} in {:g} m/s on {}", budget_text(budget), *budget.wind_speed,
+    needs.push_back(fmt::format("{} in {:.3g} m/s{} on {}", budget_text(budget), *budget.wind_speed,
+                                dish_and_mast(section.wind_mast, *budget.wind_speed),
                                 *result.plants_met));
   }
   if (needs.empty()) return "";
@@ -142,7 +144,7 @@ std::string bending_text(const TuningSection& section) {
   const double bending = std::abs(section.static_bending);
   if (!(bending > smallest->budget.rms)) return "";
   return fmt::format(
-      "The mean wind of {:g} m/s bends the antenna by {:.3f} mdeg, which is no part of these rms "
+      "The mean wind of {:.3g} m/s bends the antenna by {:.3f} mdeg, which is no part of these rms "
       "values and more than all of {}: calibration has to take it away.",
       section.design_speed, bending / millidegree, budget_text(smallest->budget));
 }
@@ -156,15 +158,16 @@ double reached_wind_speed(const TuningSection& section, const BudgetResult& budg
 std::string met_text(const TuningSection& section, const BudgetResult& budget) {
   const double reached = reached_wind_speed(section, budget);
   if (!(reached > 0.0)) return "is met in no wind";
+  const std::string mast = dish_and_mast(section.wind_mast, reached);
   const std::string share = climate_text(section.climate, reached);
   if (!std::isfinite(reached)) return "is met up to the 60 m/s looked at" + share;
   if (reached < budget.wind_speed_limit) {
     return fmt::format(
-        "would be met up to the {:.1f} m/s at which the mean wind takes all that friction and "
+        "would be met up to the {:.1f} m/s{} at which the mean wind takes all that friction and "
         "offset leave of the supply's torque{}",
-        reached, share);
+        reached, mast, share);
   }
-  return fmt::format("is met up to {:.1f} m/s{}", reached, share);
+  return fmt::format("is met up to {:.1f} m/s{}{}", reached, mast, share);
 }
 
 std::vector<std::string> unmet_needs(const TuningSection& section) {
@@ -174,8 +177,9 @@ std::vector<std::string> unmet_needs(const TuningSection& section) {
     const PointingBudget& budget = result.budget;
     if (!budget.wind_speed || meets_need(budget, reached_wind_speed(section, result))) continue;
     sentences.push_back(fmt::format(
-        "NOT MET: {} is needed up to {:g} m/s; as built, with the best {} law found, it {}. {}",
-        budget_text(budget), *budget.wind_speed, control::to_string(section.structure),
+        "NOT MET: {} is needed up to {:.3g} m/s{}; as built, with the best {} law found, it {}. {}",
+        budget_text(budget), *budget.wind_speed,
+        dish_and_mast(section.wind_mast, *budget.wind_speed), control::to_string(section.structure),
         met_text(section, result),
         meets_need(budget, section.supply_wind_speed)
             ? "`boresight tune` looks for a loop structure that meets it."
@@ -217,7 +221,8 @@ void conclude_tuning(const Report& report, const TuningSection& section,
   }
   const bool repeated = 2 * section.seeds_within_1_percent > static_cast<int>(section.seeds.size());
   std::string text = fmt::format(
-      "As built, the best {} law found{} points within {:.3f} mdeg rms an axis in {:g} m/s of wind",
+      "As built, the best {} law found{} points within {:.3f} mdeg rms an axis in {:.3g} m/s of "
+      "wind",
       control::to_string(section.structure),
       repeated ? "" : " (not repeated by most seeds: look further)", design.beam_rms / millidegree,
       section.design_speed);
@@ -273,7 +278,7 @@ std::vector<std::string> decide_tuning(const Report& report, const TuningSection
   const bool robust = !section.ensemble || section.ensemble->within_goals ==
                                                static_cast<int>(section.ensemble->members.size());
   std::string text =
-      fmt::format("{} {}: it points within {:.3f} mdeg rms an axis in {:g} m/s of wind",
+      fmt::format("{} {}: it points within {:.3f} mdeg rms an axis in {:.3g} m/s of wind",
                   met && robust && unsteady.empty() && sentences.empty()
                       ? "Run the drive as built on"
                       : "The best law found for the drive as built is",
@@ -289,7 +294,7 @@ std::vector<std::string> decide_tuning(const Report& report, const TuningSection
     if (report.time_domain &&
         reached_wind_speed(section, budget) >= report.time_domain->wind_speed &&
         !(report.time_domain->result.wind.beam_rms <= budget.budget.rms)) {
-      text += fmt::format(" by the linear figure, but simulated not in {:g} m/s",
+      text += fmt::format(" by the linear figure, but simulated not in {:.3g} m/s",
                           report.time_domain->wind_speed);
     }
   }

@@ -59,6 +59,26 @@ Json pairs_json(const EvaluateSection& section, const DecisionSection& decision)
   return pairs;
 }
 
+Json by_structure_json(const EvaluateSection& section, const DecisionSection& decision) {
+  Json pairs = Json::array();
+  for (const auto& pair : decision.by_structure) {
+    Json structures = Json::array();
+    for (const auto& one : pair.structures) {
+      structures.push_back({{"structure", one.structure},
+                            {"first_is_better", share_json(one.better)},
+                            {"mean_gain_mdeg", number(one.mean_gain)},
+                            {"gain_error_mdeg", number(one.gain_error)},
+                            {"first_usable", one.first_usable},
+                            {"second_usable", one.second_usable}});
+    }
+    pairs.push_back(
+        {{"first", section.candidates[decision.candidates[pair.first].candidate].name},
+         {"second", section.candidates[decision.candidates[pair.second].candidate].name},
+         {"structures", std::move(structures)}});
+  }
+  return pairs;
+}
+
 Json inputs_json(const DecisionSection& decision) {
   Json inputs = Json::array();
   for (std::size_t k = 0; k < decision.inputs.size(); ++k) {
@@ -106,6 +126,7 @@ Json decision_json(const EvaluateSection& section, const DecisionSection& decisi
           {"source", decision.source},
           {"options", options_json(section, decision)},
           {"pairs", pairs_json(section, decision)},
+          {"pairs_by_structure", by_structure_json(section, decision)},
           {"least_mean_rms", name(decision.best)},
           {"second_least_mean_rms", name(decision.second)},
           {"difference_at_median_mdeg",

@@ -3,6 +3,7 @@
 #include <boresight/app/report/evaluate_report.hpp>
 #include <boresight/app/report/json_time_domain.hpp>
 #include <boresight/app/report/sky_units.hpp>
+#include <boresight/app/report/wind_mast.hpp>
 
 namespace boresight::app {
 namespace {
@@ -56,20 +57,20 @@ Json figures_json(const EvaluateSection& section, const Candidate& candidate,
   const CandidateLaw* law = candidate.chosen_law();
   for (std::size_t i = 0; i < section.budgets.size(); ++i) {
     const bool judged = law != nullptr && i < law->budgets_met.size();
+    const auto met = judged ? law->budgets_met[i] : std::nullopt;
     budgets.push_back(
         {{"name", section.budgets[i].name},
          {"band", section.budgets[i].band},
          {"wind_speed_limit_m_per_s", number(figures.speed_limits[i])},
          {"needed_wind_speed_m_per_s", optional_number(section.budgets[i].wind_speed)},
-         {"plants_met",
-          judged && law->budgets_met[i] ? Json(*law->budgets_met[i]) : Json(nullptr)}});
+         {"plants_met", met ? Json(*met) : Json(nullptr)}});
   }
   return {{"climate_beam_rms_mdeg", optional_number(figures.climate_rms, millidegree)},
           {"bands", std::move(bands)},
           {"budgets", std::move(budgets)},
           {"supply_margin_1", number(figures.supply_margin)},
           {"gust_stroke_margin_1", number(figures.demand_margin)},
-          {"slew_stroke_margin_1", optional_number(figures.slew_stroke_margin)},
+          {"slew_rate_margin_1", optional_number(figures.slew_rate_margin)},
           {"reversal_beam_error_mdeg", optional_number(candidate.reversal_error(), millidegree)},
           {"slew", figures.slew ? slew_json(*figures.slew) : Json(nullptr)}};
 }
@@ -122,7 +123,7 @@ Json evaluate_json(const EvaluateSection& section) {
   }
   Json front = Json::array();
   for (const std::size_t i : section.front) front.push_back(section.candidates[i].name);
-  return {
+  Json json{
       {"wind_speed_m_per_s", section.wind_speed},
       {"wind_model", plant::to_string(section.wind_model)},
       {"wind_climate_stated", section.climate},
@@ -136,6 +137,8 @@ Json evaluate_json(const EvaluateSection& section) {
       {"front", std::move(front)},
       {"decision", section.decision ? decision_json(section, *section.decision) : Json(nullptr)},
       {"not_run", section.not_run}};
+  if (section.wind_mast) json["wind_mast"] = mast_json(*section.wind_mast);
+  return json;
 }
 
 }  // namespace boresight::app

@@ -3,6 +3,7 @@
 #include <boresight/app/report/json_what_if.hpp>
 #include <boresight/app/report/match_report.hpp>
 #include <boresight/app/report/sky_units.hpp>
+#include <boresight/app/report/wind_mast.hpp>
 
 namespace boresight::app {
 namespace {
@@ -208,6 +209,7 @@ Json match_json(const MatchSection& section) {
             {"variants", std::move(variants)},
             {"friction_thresholds", std::move(thresholds)},
             {"rules", std::move(rules)}};
+  if (section.wind_mast) json["wind_mast"] = mast_json(*section.wind_mast);
   if (section.what_if) json["what_if"] = what_if_json(*section.what_if);
   return json;
 }

@@ -70,6 +70,7 @@ Json identification_json(const IdentificationSection& section) {
                           {"between_methods_kg_m2", number(one.between_methods)},
                           {"cochran_q_1", number(one.heterogeneity)},
                           {"degrees_of_freedom", one.degrees_of_freedom},
+                          {"contradictory", one.contradictory()},
                           {"motor_to_load_ratio_1", number(one.motor_to_load_ratio)},
                           {"motor_to_load_ratio_lower_95_1", number(one.ratio_lower)},
                           {"motor_to_load_ratio_upper_95_1", number(one.ratio_upper)}};
@@ -91,6 +92,23 @@ Json identification_json(const IdentificationSection& section) {
   return json;
 }
 
+Json friction_curve_json(const PlantSection& section) {
+  const plant::FrictionCurve& curve = section.friction;
+  Json tests = Json::array();
+  for (const auto& test : section.friction_tests) {
+    tests.push_back({{"motor_rate_rad_per_s", test.rate},
+                     {"torque_N_m", test.torque},
+                     {"residual_N_m", test.residual}});
+  }
+  return {{"coulomb_N_m", curve.coulomb_torque},
+          {"breakaway_N_m", curve.breakaway_torque},
+          {"stribeck_rate_rad_per_s", curve.stribeck_rate},
+          {"saturating_N_m", curve.saturating_torque},
+          {"saturating_rate_rad_per_s", curve.saturating_rate},
+          {"viscous_N_m_s_per_rad", curve.viscous_friction},
+          {"tests", std::move(tests)}};
+}
+
 Json plant_json(const PlantSection& section) {
   const auto& drive = section.plant.drive;
   Json modes = Json::array();
@@ -105,6 +123,7 @@ Json plant_json(const PlantSection& section) {
           {"leakage_rate_per_s", drive.leakage_rate},
           {"viscous_friction_N_m_s_per_rad", drive.viscous_friction},
           {"tracking_friction_slope_N_m_s_per_rad", section.tracking_slope},
+          {"friction_curve", friction_curve_json(section)},
           {"gear_stiffness_N_m_per_rad", section.plant.structure.gear_stiffness},
           {"valve_frequency_Hz", drive.valve_corner / two_pi},
           {"supply_torque_N_m", section.supply_torque},

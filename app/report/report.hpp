@@ -13,6 +13,7 @@
 #include <boresight/app/match/match_section.hpp>
 #include <boresight/app/redesign/antenna_model.hpp>
 #include <boresight/app/redesign/input_effects.hpp>
+#include <boresight/app/redesign/resonance_verdict.hpp>
 #include <boresight/app/simulate/time_domain.hpp>
 #include <boresight/app/tune/measured_study.hpp>
 #include <boresight/app/tune/tune_section.hpp>
@@ -44,6 +45,9 @@ struct PlantSection {
   double motor_to_load_ratio = 0.0;
   double rigid_frequency = 0.0;  // Hz, all inertia rigid on the oil spring
   double tracking_slope = 0.0;   // N m s/rad, of the friction curve
+  plant::FrictionCurve friction;
+  /// The case's tests at steady rates that the friction curve goes through; empty if it is stated.
+  std::vector<SteadyFrictionTest> friction_tests;
   std::vector<plant::PlantMode> modes;
   plant::PlantMode hydraulic;
   double supply_torque = 0.0;     // N m
@@ -163,6 +167,7 @@ struct Report {
   std::optional<AuditReport> audit;
   std::optional<CampaignSection> campaign;  // of cases with records
   std::optional<IdentificationSection> identification;
+  std::optional<ResonanceVerdict> resonance;  // measured without records of the drive
   std::optional<PlantSection> plant;
   std::optional<TuningSection> tuning;
   std::optional<MeasuredTuneSection> measured;   // of tune --measured

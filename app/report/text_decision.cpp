@@ -81,6 +81,32 @@ Document pairs_table(const EvaluateSection& section, const DecisionSection& deci
   return table(rows, "llrrrl");
 }
 
+// Pairs with one structure on both, the one that is more often better first.
+Document structures_table(const EvaluateSection& section, const DecisionSection& decision) {
+  const auto name = [&](std::size_t place) {
+    return section.candidates[decision.candidates[place].candidate].name;
+  };
+  Rows rows{{"proposal", "is better than", "both with", "with probability", "by mdeg", "+-"}};
+  for (const auto& pair : decision.by_structure) {
+    for (const auto& one : pair.structures) {
+      const auto& better = one.better;
+      const bool turned = better.value < 0.5;
+      rows.push_back({name(turned ? pair.second : pair.first),
+                      name(turned ? pair.first : pair.second), one.structure,
+                      turned ? share({1.0 - better.value, 1.0 - better.upper, 1.0 - better.lower})
+                             : share(better),
+                      fixed((turned ? -1.0 : 1.0) * one.mean_gain, 4), fixed(one.gain_error, 4)});
+    }
+  }
+  if (rows.size() == 1) return {};
+  return "\n" +
+         wrapped(
+             "Pairs above with different loops, with one structure on both, over the same draws: "
+             "what of their difference is not the law's.",
+             "  ") +
+         table(rows, "lllrrr");
+}
+
 Document inputs_table(const EvaluateSection& section, const DecisionSection& decision) {
   if (!decision.tornado || !decision.sobol) return {};
   const auto& best = section.candidates[decision.candidates[decision.best].candidate].name;
@@ -105,7 +131,7 @@ Document inputs_table(const EvaluateSection& section, const DecisionSection& dec
   Document text =
       "\n" +
       wrapped(fmt::format(
-                  "What decides between the two of least mean rms: rms of '{}' less that of '{}', "
+                  "What decides between the two best: rms of '{}' less that of '{}', "
                   "mdeg, {:.4f} with every input at its median, standard deviation {:.4f}; gains "
                   "held. One input at its 5 % and 95 % share, the others at their median; shares "
                   "of the difference's variance by Sobol' (of independent inputs, {} evaluations).",
@@ -162,6 +188,7 @@ Document document_of(const EvaluateSection& section, const DecisionSection& deci
       "(first order), for whoever dislikes risk (second order).",
       "  ");
   text += pairs_table(section, decision);
+  text += structures_table(section, decision);
   text += inputs_table(section, decision) + tests_table(section, decision);
   for (const auto& note : decision.notes) text += wrapped("Note: " + note, "  ");
   return text;

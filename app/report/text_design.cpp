@@ -9,6 +9,7 @@
 #include <boresight/app/document/document.hpp>
 #include <boresight/app/redesign/tuning_verdict.hpp>
 #include <boresight/app/report/climate_wording.hpp>
+#include <boresight/app/report/loss_wording.hpp>
 #include <boresight/app/report/sky_units.hpp>
 #include <boresight/app/report/text_report.hpp>
 #include <boresight/app/report/wind_mast.hpp>
@@ -142,13 +143,24 @@ Document present_part(const TuningSection& section) {
 
 }  // namespace
 
+std::string moved_text(const InputEffect& effect) {
+  const char* mark = effect.unstated ? "*" : "";
+  if (effect.range) {
+    return fmt::format("{:.3g} .. {:.3g}{}", effect.range->first, effect.range->second, mark);
+  }
+  return fmt::format("{:.3g} %{}", 100.0 * effect.moved_by / std::abs(effect.quantity.value), mark);
+}
+
 // What the law's rms owes to single numbers of the case.
 Document effects_part(const TuningSection& section) {
   if (section.input_effects.empty()) return {};
   Document text = wrapped(
       "One number of the case moved at a time, gains held: by its standard uncertainty, or by a "
-      "tenth (marked *) where its value is assumed and the case gives none; of shares the others "
-      "give way. What moves the rms most comes first.",
+      "tenth (marked *) where its value is assumed and the case gives none. A share of wind or "
+      "beam "
+      "that is assumed so (marked *, with its range) is moved to its body's share of the inertia "
+      "and as far the other way, from 0 to 1: a guess may be as wrong. Of shares the others give "
+      "way. What moves the rms most comes first.",
       "  ");
   std::vector<std::vector<std::string>> rows{
       {"number", "as", "value", "moved by", "rms mdeg, lower", "higher"}};
@@ -158,9 +170,7 @@ Document effects_part(const TuningSection& section) {
       return std::isfinite(angle) ? mdeg(angle) : std::string("unstable");
     };
     rows.push_back({quantity.key, std::string(to_string(quantity.basis)), quantity.text,
-                    fmt::format("{:.3g} %{}", 100.0 * effect.moved_by / std::abs(quantity.value),
-                                effect.unstated ? "*" : ""),
-                    rms(effect.low_rms), rms(effect.high_rms)});
+                    moved_text(effect), rms(effect.low_rms), rms(effect.high_rms)});
   }
   return text + table(rows, "lllrrr");
 }
@@ -168,7 +178,7 @@ Document effects_part(const TuningSection& section) {
 Document document_of(const TuningSection& section) {
   const Design& design = section.design;
   const auto& check = design.verification;
-  Document text = heading(fmt::format("Tuned loops: {}, as built, {:g} m/s, wind model {}",
+  Document text = heading(fmt::format("Tuned loops: {}, as built, {:.3g} m/s, wind model {}",
                                       control::to_string(section.structure), section.design_speed,
                                       plant::to_string(section.wind_model)));
   text += present_part(section);
@@ -233,9 +243,11 @@ Document document_of(const TuningSection& section) {
   for (const auto& loss : section.losses) {
     rows.push_back({fmt::format("{} {:g} GHz", loss.band.name, loss.band.frequency / 1e9),
                     fmt::format("{:.3f}", loss.band.beamwidth / millidegree),
-                    fmt::format("{:.4f}", loss.mean_loss_db),
-                    fmt::format("{:.4f}", loss.static_bending_db)});
+                    loss_text(loss.mean_loss_db), loss_text(loss.static_bending_db)});
   }
+  const bool far_out = std::ranges::any_of(section.losses, [](const auto& loss) {
+    return std::max(loss.mean_loss_db, loss.static_bending_db) > largest_parabola_loss;
+  });
   text +=
       table(rows) +
       wrapped(
@@ -243,20 +255,26 @@ Document document_of(const TuningSection& section) {
           "the mean wind, and is for a boresight scan or a wind term of the pointing model to take "
           "away: no loop sees it.",
           "  ") +
-      "\n";
-  rows = {{"budget", "band", "convention", "rms mdeg", "met up to m/s", "km/h"}};
+      (far_out ? wrapped(beyond_the_parabola(), "  ") : Document()) + "\n";
+  const auto& mast = section.wind_mast;
+  rows = {
+      {"budget", "band", "convention", "rms mdeg", "met up to m/s" + mast_column(mast), "km/h"}};
   const bool needed = std::ranges::any_of(
       section.budgets, [](const BudgetResult& one) { return one.budget.wind_speed.has_value(); });
-  if (needed) rows.front().insert(rows.front().end(), {"needed m/s", "there on plants"});
+  if (needed) {
+    rows.front().insert(rows.front().end(), {"needed m/s" + mast_column(mast), "there on plants"});
+  }
   const bool climate = !section.climate.empty();
   if (climate) rows.front().emplace_back("of the time");
   for (const auto& result : section.budgets) {
-    rows.push_back({result.budget.name, result.budget.band, result.budget.convention,
-                    mdeg(result.budget.rms), speed(result.wind_speed_limit, 1.0),
-                    speed(result.wind_speed_limit, 3.6)});
+    rows.push_back(
+        {result.budget.name, result.budget.band, result.budget.convention, mdeg(result.budget.rms),
+         speed(result.wind_speed_limit, 1.0) + speed_at_mast(mast, result.wind_speed_limit),
+         speed(result.wind_speed_limit, 3.6)});
     const auto& need = result.budget.wind_speed;
     if (needed) {
-      rows.back().push_back(need ? fmt::format("{:g}", *need) : "-");
+      rows.back().push_back(need ? fmt::format("{:.3g}{}", *need, speed_at_mast(mast, *need))
+                                 : "-");
       rows.back().push_back(plants_text(section, result));
     }
     if (climate) {

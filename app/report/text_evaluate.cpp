@@ -6,7 +6,9 @@
 
 #include <boresight/app/document/document.hpp>
 #include <boresight/app/report/evaluate_report.hpp>
+#include <boresight/app/report/loss_wording.hpp>
 #include <boresight/app/report/sky_units.hpp>
+#include <boresight/app/report/wind_mast.hpp>
 
 namespace boresight::app {
 namespace {
@@ -155,8 +157,9 @@ Document loop_table(const EvaluateSection& section) {
 std::string plants_text(const EvaluateSection& section, const Candidate& candidate,
                         std::size_t budget) {
   const CandidateLaw* law = candidate.chosen_law();
-  if (law == nullptr || budget >= law->budgets_met.size() || !law->budgets_met[budget]) return "-";
-  return fmt::format("{}/{}", *law->budgets_met[budget], section.ensemble_size);
+  if (law == nullptr || budget >= law->budgets_met.size()) return "-";
+  const auto& met = law->budgets_met[budget];
+  return met ? fmt::format("{}/{}", *met, section.ensemble_size) : "-";
 }
 
 Document service_table(const EvaluateSection& section) {
@@ -173,10 +176,10 @@ Document service_table(const EvaluateSection& section) {
   }
   const bool stroke_stated =
       std::ranges::any_of(section.candidates, [](const Candidate& candidate) {
-        return candidate.figures && candidate.figures->slew_stroke_margin;
+        return candidate.figures && candidate.figures->slew_rate_margin;
       });
   for (const char* name :
-       {"torque margin", stroke_stated ? "stroke, gusts" : "assumed stroke, gusts", "stroke, slew",
+       {"torque margin", stroke_stated ? "stroke, gusts" : "assumed stroke, gusts", "slew margin",
         "slew deg/s", "10 deg s", "accel. deg/s2"}) {
     rows[0].emplace_back(name);
   }
@@ -185,15 +188,15 @@ Document service_table(const EvaluateSection& section) {
     std::vector<std::string> cells{candidate.name};
     if (candidate.figures) {
       const auto& figures = *candidate.figures;
-      for (const double loss : figures.losses) cells.push_back(fixed(loss, 4));
-      for (const double loss : figures.climate_losses) cells.push_back(fixed(loss, 4));
+      for (const double loss : figures.losses) cells.push_back(loss_text(loss));
+      for (const double loss : figures.climate_losses) cells.push_back(loss_text(loss));
       for (std::size_t i = 0; i < figures.speed_limits.size(); ++i) {
         cells.push_back(speed(figures.speed_limits[i]));
         if (section.budgets[i].wind_speed) cells.push_back(plants_text(section, candidate, i));
       }
       cells.push_back(fixed(figures.supply_margin, 2));
       cells.push_back(fixed(figures.demand_margin, 1));
-      cells.push_back(figures.slew_stroke_margin ? fixed(*figures.slew_stroke_margin, 2) : "-");
+      cells.push_back(figures.slew_rate_margin ? fixed(*figures.slew_rate_margin, 2) : "-");
       if (figures.slew) {
         cells.push_back(fixed(figures.slew->rate / degree, 3));
         cells.push_back(figures.slew->time ? fixed(*figures.slew->time, 1) : "never");
@@ -208,23 +211,31 @@ Document service_table(const EvaluateSection& section) {
   Document text = table(rows, "l");
   for (std::size_t i = 0; i < section.budgets.size(); ++i) {
     const auto& budget = section.budgets[i];
-    text +=
-        fmt::format("  ({}) {}, band {}, {}: {} mdeg, met up to that mean wind speed{}\n", i + 1,
-                    budget.name, budget.band, budget.convention, mdeg(budget.rms),
-                    budget.wind_speed
-                        ? fmt::format("; plants: met on so many at the {:g} m/s it is needed up to",
-                                      *budget.wind_speed)
-                        : "");
+    text += fmt::format(
+        "  ({}) {}, band {}, {}: {} mdeg, met up to that mean wind speed{}\n", i + 1, budget.name,
+        budget.band, budget.convention, mdeg(budget.rms),
+        budget.wind_speed
+            ? fmt::format("; plants: met on so many at the {:.3g} m/s{} it is needed "
+                          "up to",
+                          *budget.wind_speed, dish_and_mast(section.wind_mast, *budget.wind_speed))
+            : "");
   }
-  return text +
+  const auto beyond = [](double loss) { return loss > largest_parabola_loss; };
+  const bool far_out = std::ranges::any_of(section.candidates, [&](const Candidate& candidate) {
+    return candidate.figures && (std::ranges::any_of(candidate.figures->losses, beyond) ||
+                                 std::ranges::any_of(candidate.figures->climate_losses, beyond));
+  });
+  return text + (far_out ? wrapped(beyond_the_parabola(), "  ") : Document()) +
          wrapped(
              "dB: mean loss over two equal axes on the nominal plant, and the speeds up to which "
              "budgets are met, with the factor above where there is one. torque margin: what "
              "friction at the tracking rate and offset leave of the supply's torque, over mean "
              "wind "
              "torque and the gusts' crest; stroke, gusts: "
-             "valve stroke over the demand in the same; stroke, slew: valve stroke over the slew "
-             "rate, below 1 the rate is out of reach. slew: rate and time of a 10 deg move from "
+             "valve stroke over the demand in the same; slew margin: the highest rate that the "
+             "drive "
+             "holds against friction and offset, the valve fully open, over the slew rate; below 1 "
+             "the rate is out of reach. slew: rate and time of a 10 deg move from "
              "rest to rest that the drive has reserve for against friction, at 0.2 deg/s2 at most; "
              "accel.: the most it has reserve for at that rate, half of what the torque left "
              "beyond "

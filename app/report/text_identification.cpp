@@ -78,6 +78,29 @@ Document methods_table(const IdentificationSection& section) {
   return table(rows);
 }
 
+// `without_antenna`: the inertia of motors and gear train.
+std::string reconciled_text(const identification::ReconciledInertia& one, double without_antenna) {
+  const std::string ratio = fmt::format("R = {:.2f}, interval {} .. {}", one.motor_to_load_ratio,
+                                        bound(one.ratio_lower, 2), bound(one.ratio_upper, 2));
+  const std::string scatter = fmt::format("Cochran's Q {:.1f} on {} degrees of freedom",
+                                          one.heterogeneity, one.degrees_of_freedom);
+  if (one.contradictory()) {
+    return fmt::format(
+        "No reconciled inertia: the methods contradict one another ({}; motors and gear train "
+        "alone are {:.3f} kg.m2). A random-effects mean of {} methods (the impulse results count "
+        "as one) would be {:.3f} kg.m2 ({:.2f} .. {:.2f}; {}), which stands for none of them.",
+        scatter, without_antenna, one.degrees_of_freedom + 1, one.value, one.lower, one.upper,
+        ratio);
+  }
+  return fmt::format(
+      "Reconciled: J = {:.3f} kg.m2, 95 % interval {:.2f} .. {:.2f} (motors and gear train alone "
+      "are {:.3f}); {}. Random-effects mean of {} methods (the impulse results count as one); "
+      "standard deviation between methods {:.3f} kg.m2; {}{}.",
+      one.value, one.lower, one.upper, without_antenna, ratio, one.degrees_of_freedom + 1,
+      one.between_methods, scatter,
+      one.heterogeneity > 2.0 * one.degrees_of_freedom ? ": they differ much" : "");
+}
+
 }  // namespace
 
 Document document_of(const IdentificationSection& section) {
@@ -105,23 +128,11 @@ Document document_of(const IdentificationSection& section) {
     }
   }
   if (section.reconciled) {
-    const auto& one = *section.reconciled;
-    text += "\n";
-    text += wrapped(fmt::format("Reconciled: J = {:.3f} kg.m2, 95 % interval {:.2f} .. {:.2f} "
-                                "(motors and gear train alone are {:.3f}); R = {:.2f}, interval "
-                                "{} .. {}. Random-effects mean of {} methods (the impulse "
-                                "results count as one); standard deviation between methods "
-                                "{:.3f} kg.m2; Cochran's Q {:.1f} on {} degrees of freedom{}.",
-                                one.value, one.lower, one.upper,
-                                inertia.methods.front().reflected_inertia.value -
-                                    inertia.methods.front().antenna_remainder.value,
-                                one.motor_to_load_ratio, bound(one.ratio_lower, 2),
-                                bound(one.ratio_upper, 2), one.degrees_of_freedom + 1,
-                                one.between_methods, one.heterogeneity, one.degrees_of_freedom,
-                                one.heterogeneity > 2.0 * one.degrees_of_freedom
-                                    ? ": the methods contradict one another"
-                                    : ""),
-                    "  ");
+    const auto& methods = inertia.methods.front();
+    text +=
+        "\n" + wrapped(reconciled_text(*section.reconciled, methods.reflected_inertia.value -
+                                                                methods.antenna_remainder.value),
+                       "  ");
   }
   text += heading("What the methods rest on");
   std::vector<std::vector<std::string>> rows{

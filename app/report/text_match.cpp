@@ -40,11 +40,15 @@ Document motors_part(const MatchSection& section) {
              fmt::format(
                  "R: motors over gear train and antenna. hydr., zeta: the lowest mode, the antenna "
                  "on "
-                 "the oil spring with the structure bending. deg/s2: at the sky, by what the "
-                 "supply's torque leaves beyond friction at {:.3g} deg/s, the case's slew rate "
-                 "or four fifths of what supply and valve hold. slew: {:.3g} deg at that rate and "
-                 "acceleration. rule zeta: 1/2 sqrt(J_L/J_m). of best a: acceleration for given "
-                 "torque over the most at any gear ratio.",
+                 "the oil spring with the structure bending. deg/s2: at the sky, {} at {:.3g} "
+                 "deg/s, the case's slew rate or four fifths of what supply and valve hold. slew: "
+                 "{:.3g} deg at that rate and acceleration. rule zeta: 1/2 sqrt(J_L/J_m). of best "
+                 "a: acceleration for given torque over the most at any gear ratio.",
+                 section.slew_by_simulation
+                     ? "what the drive has reserve for, half of what the torque left beyond the "
+                       "valve's drop and friction gives,"
+                     : "by what the supply's torque leaves beyond friction, without the valve's "
+                       "drop and without a reserve,",
                  section.slew_rate / degree, section.slew_distance / degree),
              "  ");
 }

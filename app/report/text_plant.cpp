@@ -1,3 +1,4 @@
+#include <cmath>
 #include <numbers>
 
 #include <fmt/format.h>
@@ -7,6 +8,31 @@
 #include <boresight/app/report/text_report.hpp>
 
 namespace boresight::app {
+namespace {
+
+Document friction_part(const PlantSection& section) {
+  constexpr double rounding = 1e-5;  // of the fit
+  const plant::FrictionCurve& curve = section.friction;
+  std::vector<std::vector<std::string>> rows{
+      {"axis mdeg/s", "motors rad/s", "friction N.m", "test less curve N.m"}};
+  for (const auto& test : section.friction_tests) {
+    rows.push_back({fmt::format("{:.4g}", test.rate / section.gear_ratio / millidegree),
+                    fmt::format("{:.4g}", test.rate), fmt::format("{:.4g}", test.torque),
+                    std::abs(test.residual) < rounding * test.torque
+                        ? "0"
+                        : fmt::format("{:+.2g}", test.residual)});
+  }
+  return "\n" +
+         wrapped(fmt::format("Friction curve through {} tests at steady rates: Coulomb {:.4g} N.m, "
+                             "breakaway {:.4g} N.m, Stribeck rate {:.4g} rad/s, viscous {:.4g} "
+                             "N.m.s/rad.",
+                             section.friction_tests.size(), curve.coulomb_torque,
+                             curve.breakaway_torque, curve.stribeck_rate, curve.viscous_friction),
+                 "  ") +
+         table(rows, "rrrr");
+}
+
+}  // namespace
 
 Document document_of(const PlantSection& section) {
   constexpr double two_pi = 2.0 * std::numbers::pi;
@@ -58,6 +84,7 @@ Document document_of(const PlantSection& section) {
                   section.hydraulic.frequency, section.hydraulic.damping_ratio,
                   section.rigid_frequency),
       "  ");
+  if (!section.friction_tests.empty()) text += friction_part(section);
   return text;
 }
 

@@ -48,11 +48,11 @@ std::string words_of(design::Influence influence) {
 Document wind_part(const TimeDomainSection& section) {
   const design::WindResult& wind = section.result.wind;
   if (wind.status != RunStatus::complete) {
-    return wrapped(fmt::format("In wind of {:g} m/s no rms: {}.", section.wind_speed,
+    return wrapped(fmt::format("In wind of {:.3g} m/s no rms: {}.", section.wind_speed,
                                ended(wind.status, wind.message)),
                    "  ");
   }
-  Rows rows{{fmt::format("beam in wind of {:g} m/s, {:g} s", section.wind_speed,
+  Rows rows{{fmt::format("beam in wind of {:.3g} m/s, {:g} s", section.wind_speed,
                          section.options.wind_duration),
              "rms mdeg", "without it"}};
   rows.push_back({"linear prediction", mdeg(wind.predicted_rms), ""});

@@ -7,6 +7,7 @@
 
 #include <boresight/app/document/document.hpp>
 #include <boresight/app/report/climate_wording.hpp>
+#include <boresight/app/report/loss_wording.hpp>
 #include <boresight/app/report/sky_units.hpp>
 #include <boresight/app/report/text_report.hpp>
 #include <boresight/app/report/wind_mast.hpp>
@@ -39,15 +40,24 @@ std::string speed(const TuneSection& section, double limit) {
                      percent_of_time(section.climate, std::min(limit, section.supply_wind_speed)));
 }
 
-std::string loss(double rms, const PointingBand& band) {
-  const double decibels =
-      design::pointing_loss_db(rms, band.beamwidth, design::LossConvention::mean_loss_two_axes);
-  return fixed(decibels, 4);
+double loss(double rms, const PointingBand& band) {
+  return design::pointing_loss_db(rms, band.beamwidth, design::LossConvention::mean_loss_two_axes);
+}
+
+// Whether a table of the laws' losses has one beyond the beam's parabola.
+bool far_out(const TuneSection& section) {
+  return std::ranges::any_of(section.laws, [&](const TunedLaw& row) {
+    const double rms = std::max(row.beam_rms, row.climate_rms.value_or(0.0));
+    return std::ranges::any_of(section.bands, [&](const PointingBand& band) {
+      return loss(rms, band) > largest_parabola_loss;
+    });
+  });
 }
 
 std::string verdict(const TunedLaw& row) {
   if (!row.stable()) return row.tuned_for == TunedFor::present ? "UNSTABLE" : "no stable law";
   if (!row.goals_met) return row.design.tuning.interrupted ? "not finished" : "misses goals";
+  if (row.in_time && !row.in_time->still) return "HUNTS";
   return row.design.verification.passed ? "verified" : "NOT VERIFIED";
 }
 
@@ -65,9 +75,9 @@ Document bending_part(const TuneSection& section) {
   std::vector<std::string> losses;
   for (const auto& band : section.bands) {
     losses.push_back(
-        fmt::format("{:.4f} dB in band {}",
-                    design::pointing_loss_db(bending, band.beamwidth,
-                                             design::LossConvention::mean_loss_one_axis),
+        fmt::format("{} dB in band {}",
+                    loss_text(design::pointing_loss_db(bending, band.beamwidth,
+                                                       design::LossConvention::mean_loss_one_axis)),
                     band.name));
   }
   return wrapped(
@@ -102,11 +112,11 @@ Document pointing_part(const TuneSection& section) {
     cells.push_back(!row.ensemble ? "-"
                     : all_stable  ? mdeg(row.ensemble->largest_rms)
                                   : "unstable");
-    for (const auto& band : section.bands) cells.push_back(loss(row.beam_rms, band));
+    for (const auto& band : section.bands) cells.push_back(loss_text(loss(row.beam_rms, band)));
     if (climate) {
       const double rms = row.climate_rms.value_or(std::nan(""));
       cells.push_back(mdeg(rms));
-      for (const auto& band : section.bands) cells.push_back(loss(rms, band));
+      for (const auto& band : section.bands) cells.push_back(loss_text(loss(rms, band)));
     }
     for (const double limit : row.speed_limits) cells.push_back(speed(section, limit));
     cells.push_back(verdict(row));
@@ -116,10 +126,12 @@ Document pointing_part(const TuneSection& section) {
   if (section.wind_mast) text += wrapped(mast_in_words(*section.wind_mast), "  ");
   for (std::size_t i = 0; i < section.budgets.size(); ++i) {
     const auto& budget = section.budgets[i];
-    text += fmt::format(
-        "  ({}) {}, band {}, {}: {} mdeg, met up to that mean wind speed{}\n", i + 1, budget.name,
-        budget.band, budget.convention, mdeg(budget.rms),
-        budget.wind_speed ? fmt::format("; {:g} m/s asked for", *budget.wind_speed) : "");
+    text += fmt::format("  ({}) {}, band {}, {}: {} mdeg, met up to that mean wind speed{}\n",
+                        i + 1, budget.name, budget.band, budget.convention, mdeg(budget.rms),
+                        budget.wind_speed
+                            ? fmt::format("; {:.3g} m/s{} asked for", *budget.wind_speed,
+                                          dish_and_mast(section.wind_mast, *budget.wind_speed))
+                            : "");
   }
   if (!section.budgets.empty() && std::isfinite(section.supply_wind_speed)) {
     text += wrapped(fmt::format("Supply torque not counted: at {:.1f} m/s the mean wind takes all "
@@ -140,6 +152,7 @@ Document pointing_part(const TuneSection& section) {
                     band.name, band.beamwidth / millidegree, band.frequency / 1e9,
                     band.illumination.empty() ? "" : ", " + band.illumination);
   }
+  if (far_out(section)) text += wrapped(beyond_the_parabola(), "  ");
   return text + bending_part(section);
 }
 
@@ -224,6 +237,7 @@ Document limits_part(const TuneSection& section) {
   std::vector<const TunedLaw*> laws;
   for (const auto& row : section.laws) laws.push_back(&row);
   for (const auto& sentence : gains_at_bounds(laws)) text += wrapped(sentence, "  ", "  ");
+  for (const auto& sentence : gain_trades(laws)) text += wrapped(sentence, "  ", "  ");
   return text;
 }
 

@@ -1,3 +1,5 @@
+#include <cmath>
+
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
@@ -10,6 +12,28 @@ std::string mast_in_words(const WindMast& mast) {
       "Wind speeds are those at the dish's centre, {:g} m above ground: the case's, on a mast of "
       "{:g} m, times {:.4g} by a power law with the exponent {:g}.",
       mast.dish_height, mast.height, mast.speed_ratio, mast.shear_exponent);
+}
+
+std::string dish_and_mast(const std::optional<WindMast>& mast, double speed) {
+  if (!mast || !std::isfinite(speed)) return "";
+  return fmt::format(" at the dish, {:.3g} at the mast", speed / mast->speed_ratio);
+}
+
+std::string speed_at_mast(const std::optional<WindMast>& mast, double speed) {
+  if (!mast || !std::isfinite(speed)) return "";
+  return fmt::format(" ({:.3g})", speed / mast->speed_ratio);
+}
+
+std::string mast_column(const std::optional<WindMast>& mast) {
+  return mast ? " (at the mast)" : "";
+}
+
+std::string conclude_mast(const WindMast& mast) {
+  return fmt::format(
+      "Wind speeds are those at the dish's centre, {:g} m above ground, where nothing else is "
+      "said: "
+      "divided by {:.4g} they are those on the case's mast of {:g} m.",
+      mast.dish_height, mast.speed_ratio, mast.height);
 }
 
 nlohmann::ordered_json mast_json(const WindMast& mast) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include <nlohmann/json_fwd.hpp>
@@ -10,6 +11,17 @@ namespace boresight::app {
 
 /// From which height to which the case's wind speeds were converted, in a sentence.
 std::string mast_in_words(const WindMast& mast);
+
+/// To stand behind a speed in m/s at the dish's centre: " at the dish, 7 at the mast"; empty where
+/// the case states speeds there.
+std::string dish_and_mast(const std::optional<WindMast>& mast, double speed);
+
+/// The same behind a speed of a table, " (7)", and what it is behind the column's "m/s".
+std::string speed_at_mast(const std::optional<WindMast>& mast, double speed);
+std::string mast_column(const std::optional<WindMast>& mast);
+
+/// For the head of conclusions, that speeds are those at the dish and what makes them the mast's.
+std::string conclude_mast(const WindMast& mast);
 
 /// "wind_mast" of docs/report.schema.json.
 nlohmann::ordered_json mast_json(const WindMast& mast);

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <string_view>
 
 #include <fmt/format.h>
 
@@ -13,16 +14,33 @@ namespace {
 
 using design::RunStatus;
 
+std::string_view cause_of(design::Influence influence) {
+  switch (influence) {
+    case design::Influence::friction:
+      return "friction";
+    case design::Influence::limits:
+      return "the limit of stroke, spool speed or command";
+    case design::Influence::quantisation:
+      return "the encoder's rounding to steps";
+    case design::Influence::orifice:
+      return "the flow through the valve's orifices";
+    case design::Influence::gear:
+      return "backlash";
+  }
+  return "";
+}
+
 std::string conclude_wind(const TimeDomainSection& section) {
   const design::WindResult& wind = section.result.wind;
   if (wind.status != RunStatus::complete) {
     return fmt::format(
-        "On the nonlinear antenna the {} law was not seen to hold in {:g} m/s of wind ({}): its "
+        "On the nonlinear antenna the {} law was not seen to hold in {:.3g} m/s of wind ({}): its "
         "linear figures stand alone.",
         section.law, section.wind_speed, design::to_string(wind.status));
   }
   std::string text = fmt::format(
-      "On the nonlinear antenna the {} law points within {:.3f} mdeg in {:g} m/s, where the linear "
+      "On the nonlinear antenna the {} law points within {:.3f} mdeg in {:.3g} m/s, where the "
+      "linear "
       "plant says {:.3f}",
       section.law, wind.beam_rms / millidegree, section.wind_speed,
       wind.predicted_rms / millidegree);
@@ -32,7 +50,7 @@ std::string conclude_wind(const TimeDomainSection& section) {
         return std::isfinite(influence.difference) ? influence.difference : 0.0;
       });
   if (most != wind.influences.end() && most->difference > 0.0) {
-    text += fmt::format("; {} alone is worth {:.3f}", design::to_string(most->influence),
+    text += fmt::format("; {} alone is worth {:.3f}", cause_of(most->influence),
                         most->difference / millidegree);
   }
   const double excess = 100.0 * (wind.beam_rms / wind.predicted_rms - 1.0);

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <boresight/app/report/sky_units.hpp>
 #include <boresight/app/tune/gains_at_bounds.hpp>
 
 namespace boresight::app {
@@ -24,11 +25,11 @@ std::string bound_text(const control::GainDescription& gain, double value) {
 
 }  // namespace
 
-std::vector<std::string> gains_at_bounds(const std::vector<const TunedLaw*>& laws) {
+std::vector<std::string> gains_at_bounds(const std::vector<SearchedLaw>& laws) {
   std::vector<ReachedBound> reached;
-  for (const TunedLaw* row : laws) {
-    if (row->tuned_for == TunedFor::present || !row->stable()) continue;
-    const auto& tuning = row->design.tuning;
+  for (const auto& one : laws) {
+    const auto& tuning = *one.tuning;
+    if (tuning.status == design::TuningStatus::unstable) continue;
     const auto& descriptions = tuning.law.structure.gains();
     for (std::size_t k = 0; k < descriptions.size(); ++k) {
       const auto& names = tuning.gains_at_bound;
@@ -36,8 +37,7 @@ std::vector<std::string> gains_at_bounds(const std::vector<const TunedLaw*>& law
       const std::string text = bound_text(descriptions[k], tuning.law.gains.at(k));
       auto found = std::ranges::find(reached, text, &ReachedBound::text);
       if (found == reached.end()) found = reached.insert(found, {text, {}});
-      found->laws.push_back(fmt::format("{} ({}, {:g} m/s)", row->structure,
-                                        to_string(row->tuned_for), row->wind_speed));
+      found->laws.push_back(one.name);
     }
   }
   std::vector<std::string> sentences;
@@ -45,6 +45,37 @@ std::vector<std::string> gains_at_bounds(const std::vector<const TunedLaw*>& law
     sentences.push_back(fmt::format(
         "The search ended at {}, with {}: no optimum, as what lies beyond was not looked at.",
         bound.text, fmt::join(bound.laws, ", ")));
+  }
+  return sentences;
+}
+
+std::vector<std::string> gains_at_bounds(const std::vector<const TunedLaw*>& laws) {
+  std::vector<SearchedLaw> searched;
+  for (const TunedLaw* row : laws) {
+    if (row->tuned_for == TunedFor::present) continue;
+    searched.push_back({fmt::format("{} ({}, {:.3g} m/s)", row->structure,
+                                    to_string(row->tuned_for), row->wind_speed),
+                        &row->design.tuning});
+  }
+  return gains_at_bounds(searched);
+}
+
+std::vector<std::string> gain_trades(const std::vector<const TunedLaw*>& laws) {
+  std::vector<std::string> sentences;
+  for (const TunedLaw* row : laws) {
+    if (!row->trade) continue;
+    const PositionGainTrade& trade = *row->trade;
+    const std::string plants =
+        row->ensemble ? fmt::format(", with every goal kept on {} of {} plants before tuning again",
+                                    trade.within_goals, row->ensemble->members.size())
+                      : "";
+    sentences.push_back(fmt::format(
+        "The bound of {} ({}, {:.3g} m/s) only stops a flat direction: its rate loop hardly acts, "
+        "and "
+        "kp x kr counts. With the same product kp = {} and kr = {} have {:.4f} mdeg, {:+.1f} %{}.",
+        row->structure, to_string(row->tuned_for), row->wind_speed, trade.position_gain,
+        trade.rate_gain, trade.beam_rms / millidegree,
+        100.0 * (trade.beam_rms / row->beam_rms - 1.0), plants));
   }
   return sentences;
 }

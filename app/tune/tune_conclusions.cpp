@@ -8,7 +8,9 @@
 #include <boresight/app/report/assumed_demand.hpp>
 #include <boresight/app/report/present_gains.hpp>
 #include <boresight/app/report/sky_units.hpp>
+#include <boresight/app/report/wind_mast.hpp>
 #include <boresight/app/tune/gains_at_bounds.hpp>
+#include <boresight/app/tune/laws_in_time.hpp>
 #include <boresight/app/tune/tune_study.hpp>
 
 namespace boresight::app {
@@ -47,14 +49,18 @@ void conclude_best(const TuneSection& section, std::vector<std::string>& sentenc
       }
       if (best == nullptr) continue;
       sentences.push_back(fmt::format(
-          "At {:g} m/s the best {} is {} with {} rms. Limited by {}.{}", speed,
+          "At {:.3g} m/s the best {} is {} with {} rms{}. Limited by {}.{}", speed,
           purpose == TunedFor::robust ? "law that keeps its goals on every plant" : "nominal law",
-          best->structure, mdeg(best->beam_rms), limits_of(*best),
-          assumed_demand(best->design.tuning, section.demand_assumption)));
+          best->structure, mdeg(best->beam_rms),
+          best->left_out() ? fmt::format(" by the linear plant, but it {} on the nonlinear antenna",
+                                         held_against(*best))
+                           : "",
+          limits_of(*best), assumed_demand(best->design.tuning, section.demand_assumption)));
       concluded.push_back(best);
     }
   }
   std::ranges::move(gains_at_bounds(concluded), std::back_inserter(sentences));
+  std::ranges::move(gain_trades(concluded), std::back_inserter(sentences));
 }
 
 void conclude_before_and_after(const TuneSection& section, std::vector<std::string>& sentences) {
@@ -69,8 +75,8 @@ void conclude_before_and_after(const TuneSection& section, std::vector<std::stri
       continue;
     }
     std::string text = fmt::format(
-        "The present gains of {} point within {} in {:g} m/s{}", row.structure, mdeg(row.beam_rms),
-        row.wind_speed,
+        "The present gains of {} point within {} in {:.3g} m/s{}", row.structure,
+        mdeg(row.beam_rms), row.wind_speed,
         row.goals_met ? "" : fmt::format(" and miss a goal ({})", row.design.verification.failure));
     if (after != nullptr && after->usable()) {
       text += fmt::format("; tuned, {} does so within {} ({:+.1f} %)", row.structure,
@@ -84,13 +90,17 @@ void conclude_before_and_after(const TuneSection& section, std::vector<std::stri
 void conclude_budgets(const TuneSection& section, std::vector<std::string>& sentences) {
   for (const auto& budget : section.budgets) {
     if (!budget.wind_speed || section.supply_wind_speed < *budget.wind_speed) continue;
-    const TunedLaw* law = best_law(section, budget.wind_speed);
-    if (law == nullptr || law->beam_rms > budget.rms) continue;
+    const TunedLaw* law = best_pointing_law(section, budget.wind_speed);
+    if (law == nullptr || law->budget_rms() > budget.rms) continue;
     std::string text = fmt::format(
-        "The budget '{}' in band {} ({}) is met at the {:g} m/s that it is needed up to: {} ({}) "
-        "has {} on the case's plant",
-        budget.name, budget.band, mdeg(budget.rms), *budget.wind_speed, law->structure,
-        to_string(law->tuned_for), mdeg(law->beam_rms));
+        "The budget '{}' in band {} ({}) is met at the {:.3g} m/s{} that it is needed up to: {} "
+        "({}) has {} on the case's plant{}",
+        budget.name, budget.band, mdeg(budget.rms), *budget.wind_speed,
+        dish_and_mast(section.wind_mast, *budget.wind_speed), law->structure,
+        to_string(law->tuned_for), mdeg(law->beam_rms),
+        law->in_time && !law->left_out()
+            ? fmt::format(", simulated on the nonlinear antenna {}", mdeg(law->in_time->beam_rms))
+            : "");
     if (law->ensemble) {
       const auto& ensemble = *law->ensemble;
       const auto within = std::ranges::count_if(ensemble.members, [&](const auto& one) {
@@ -111,7 +121,7 @@ void conclude_robustness(const TuneSection& section, std::vector<std::string>& s
     if (ensemble.within_goals == all) continue;
     const auto& worst = ensemble.members[ensemble.worst];
     std::string text = fmt::format(
-        "Tuned for the nominal plant, {} at {:g} m/s keeps its goals on {} of {} plants; the "
+        "Tuned for the nominal plant, {} at {:.3g} m/s keeps its goals on {} of {} plants; the "
         "worst, {}, {}",
         row.structure, row.wind_speed, ensemble.within_goals, all, worst.name,
         worst.stable
@@ -135,6 +145,7 @@ void conclude_robustness(const TuneSection& section, std::vector<std::string>& s
 
 std::vector<std::string> conclude(const TuneSection& section) {
   std::vector<std::string> sentences;
+  if (section.wind_mast) sentences.push_back(conclude_mast(*section.wind_mast));
   for (const auto& shortfall : section.shortfalls) {
     sentences.push_back("INFEASIBLE: " + shortfall.infeasible + " " + shortfall.closest);
   }

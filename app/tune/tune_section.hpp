@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cmath>
 #include <limits>
 #include <optional>
 #include <string>
@@ -19,6 +20,22 @@ enum class TunedFor {
 };
 std::string_view to_string(TunedFor purpose);
 
+/// What the nonlinear antenna makes of a law. At the sky, rad.
+struct LawInTime {
+  bool still = true;      // design::holds_still within the tightest budget
+  double hunting = 0.0;   // largest amplitude of the beam's limit cycles
+  double beam_rms = 0.0;  // in one record of wind; NaN if that run did not complete
+};
+
+/// Where a slow rate loop hardly acts, position and rate gain count by their product: how far the
+/// position gain of a law can be lowered, the product and all other gains held, before the rms on
+/// the case's plant is 1 % larger or the loop unstable.
+struct PositionGainTrade {
+  std::string position_gain, rate_gain;  // in the engineer's units
+  double beam_rms = 0.0;                 // rad
+  int within_goals = 0;                  // plants of the ensemble on which it keeps every goal
+};
+
 /// One row of the table: a law, judged.
 struct TunedLaw {
   std::string structure;  // as the user names it
@@ -32,7 +49,20 @@ struct TunedLaw {
   std::optional<double> climate_rms;  // rad, root of the mean square over the site's wind climate
   std::vector<double> speed_limits;   // m/s, one a budget
   std::optional<design::EnsembleResult> ensemble;
+  std::optional<LawInTime> in_time;  // where it ran on the nonlinear antenna
+  /// Of a position gain at the upper bound of the search that can be halved or lowered further.
+  std::optional<PositionGainTrade> trade;
 
+  /// Whether no budget is to be trusted to it: on the nonlinear antenna it hunts beyond the
+  /// tightest budget, or its run in wind did not complete.
+  bool left_out() const {
+    return in_time && (!in_time->still || !std::isfinite(in_time->beam_rms));
+  }
+  /// What budgets are held against: the larger of the linear and the simulated rms, where there is
+  /// one.
+  double budget_rms() const {
+    return in_time && in_time->beam_rms > beam_rms ? in_time->beam_rms : beam_rms;
+  }
   bool stable() const { return design.tuning.status != design::TuningStatus::unstable; }
   bool usable() const { return goals_met && design.verification.passed; }
 };

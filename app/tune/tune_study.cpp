@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 
 #include <fmt/format.h>
@@ -169,6 +170,50 @@ class Study {
       row.ensemble =
           design::judge(problem_at(row.wind_speed), ensemble_.members, law, section_.goals, 1);
     }
+    row.trade = trade_of(row);
+  }
+
+  std::optional<PositionGainTrade> trade_of(const TunedLaw& row) const {
+    const auto& tuning = row.design.tuning;
+    const auto& descriptions = tuning.law.structure.gains();
+    const auto rate = std::ranges::find(descriptions, "kr", &control::GainDescription::symbol);
+    const auto position = std::ranges::find(descriptions, "kp", &control::GainDescription::symbol);
+    if (rate == descriptions.end() || position == descriptions.end()) return std::nullopt;
+    const auto kr = static_cast<std::size_t>(rate - descriptions.begin());
+    const auto kp = static_cast<std::size_t>(position - descriptions.begin());
+    if (std::ranges::find(tuning.gains_at_bound, position->name) == tuning.gains_at_bound.end() ||
+        tuning.law.gains.at(kp) < std::sqrt(position->lower * position->upper)) {
+      return std::nullopt;
+    }
+    const auto lowered = [&](double factor) {
+      control::ControlLaw law = tuning.law;
+      law.gains.at(kp) /= factor;
+      law.gains.at(kr) *= factor;
+      return law;
+    };
+    design::TrackingProblem problem = problem_;
+    problem.wind.mean_speed = row.wind_speed;
+    const auto rms = [&](double factor) {
+      return design::judge(problem, {{"nominal", problem.plant}}, lowered(factor), section_.goals,
+                           1)
+          .members.front()
+          .beam_rms;
+    };
+    constexpr double alike = 1.01, worth_saying = 2.0;
+    double held = 1.0, beyond = 100.0;
+    while (beyond > 1.02 * held) {
+      const double middle = std::sqrt(held * beyond);
+      (rms(middle) <= alike * row.beam_rms ? held : beyond) = middle;
+    }
+    if (held < worth_saying) return std::nullopt;
+    const control::ControlLaw law = lowered(held);
+    const auto texts = in_engineers_units(antenna_, law);
+    PositionGainTrade trade{texts.at(kp), texts.at(kr), rms(held), 0};
+    if (!ensemble_.members.empty()) {
+      trade.within_goals =
+          design::judge(problem, ensemble_.members, law, section_.goals, 1).within_goals;
+    }
+    return trade;
   }
 
   const Case& antenna_;
@@ -241,6 +286,23 @@ bool only_unverified(const std::vector<TunedLaw>& laws) {
          std::ranges::none_of(laws, [&](const auto& row) { return tuned(row) && row.usable(); });
 }
 
+// The usable law of least `rms` of those that `counts`, robust ones before nominal ones.
+template <typename Counts, typename Rms>
+const TunedLaw* best_of(const TuneSection& section, std::optional<double> wind_speed,
+                        const Counts& counts, const Rms& rms) {
+  const TunedLaw* best = nullptr;
+  for (const auto& row : section.laws) {
+    if (row.tuned_for == TunedFor::present || !row.usable() || !counts(row)) continue;
+    if (wind_speed && row.wind_speed != *wind_speed) continue;
+    const bool first_choice = best == nullptr || row.tuned_for > best->tuned_for;
+    if (first_choice || (row.tuned_for == best->tuned_for && row.wind_speed == best->wind_speed &&
+                         std::invoke(rms, row) < std::invoke(rms, *best))) {
+      best = &row;
+    }
+  }
+  return best;
+}
+
 }  // namespace
 
 std::string_view to_string(TunedFor purpose) {
@@ -249,17 +311,19 @@ std::string_view to_string(TunedFor purpose) {
 }
 
 const TunedLaw* best_law(const TuneSection& section, std::optional<double> wind_speed) {
-  const TunedLaw* best = nullptr;
-  for (const auto& row : section.laws) {
-    if (row.tuned_for == TunedFor::present || !row.usable()) continue;
-    if (wind_speed && row.wind_speed != *wind_speed) continue;
-    const bool first_choice = best == nullptr || row.tuned_for > best->tuned_for;
-    if (first_choice || (row.tuned_for == best->tuned_for && row.wind_speed == best->wind_speed &&
-                         row.beam_rms < best->beam_rms)) {
-      best = &row;
-    }
-  }
-  return best;
+  return best_of(
+      section, wind_speed, [](const TunedLaw&) { return true; }, &TunedLaw::beam_rms);
+}
+
+const TunedLaw* best_pointing_law(const TuneSection& section, std::optional<double> wind_speed) {
+  const TunedLaw* linear = best_law(section, wind_speed);
+  if (linear == nullptr) return nullptr;
+  // A nominal law that did not run is no substitute for robust ones that failed.
+  const TunedLaw* held = best_of(
+      section, linear->wind_speed,
+      [&](const TunedLaw& row) { return row.tuned_for == linear->tuned_for && !row.left_out(); },
+      &TunedLaw::budget_rms);
+  return held != nullptr ? held : linear;
 }
 
 TuneSection tune_structures(const Case& antenna, const PlantEnsemble& ensemble,

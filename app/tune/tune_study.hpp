@@ -41,6 +41,11 @@ TuneSection tune_structures(const Case& antenna, const PlantEnsemble& ensemble,
 /// the first that such a law was tuned for. Null if there is none.
 const TunedLaw* best_law(const TuneSection& section, std::optional<double> wind_speed = {});
 
+/// Of the laws of its purpose and wind speed that are not left_out, that of the least budget_rms;
+/// best_law where all of them are.
+const TunedLaw* best_pointing_law(const TuneSection& section,
+                                  std::optional<double> wind_speed = {});
+
 /// What of the goals, budgets and plant the laws of a finished study do not reach, with the closest
 /// that they do. Empty if every wind speed has a law that meets everything.
 std::vector<Shortfall> find_shortfalls(const TuneSection& section);

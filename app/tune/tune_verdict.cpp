@@ -7,7 +7,10 @@
 
 #include <boresight/app/report/assumed_demand.hpp>
 #include <boresight/app/report/climate_wording.hpp>
+#include <boresight/app/report/loss_wording.hpp>
 #include <boresight/app/report/sky_units.hpp>
+#include <boresight/app/report/wind_mast.hpp>
+#include <boresight/app/tune/laws_in_time.hpp>
 #include <boresight/app/tune/tune_study.hpp>
 
 namespace boresight::app {
@@ -83,6 +86,35 @@ std::string label(const TunedLaw& row) {
   return fmt::format("{} ({})", row.structure, to_string(row.tuned_for));
 }
 
+// The rms that budgets are held against, and the linear plant's where it is another.
+std::string rms_text(const TunedLaw& row) {
+  return row.budget_rms() > row.beam_rms
+             ? fmt::format("{:.4f} mdeg on the nonlinear antenna ({:.4f} by the linear plant)",
+                           row.budget_rms() / millidegree, row.beam_rms / millidegree)
+             : fmt::format("{:.4f} mdeg", row.beam_rms / millidegree);
+}
+
+// What the linear plant puts before the law that is named, and why it is not the one.
+std::string left_out_text(const TuneSection& section, const TunedLaw& named) {
+  if (named.left_out()) {
+    return fmt::format(
+        " On the nonlinear antenna it {}, and no other law holds still and points in wind.",
+        held_against(named));
+  }
+  std::vector<std::string> texts;
+  for (const auto* row : rows_at(section, named.wind_speed)) {
+    if (row->tuned_for != named.tuned_for || !row->usable() || !row->left_out() ||
+        row->beam_rms >= named.budget_rms()) {
+      continue;
+    }
+    texts.push_back(fmt::format("{}, {:.4f} mdeg by the linear plant, {}", label(*row),
+                                row->beam_rms / millidegree, held_against(*row)));
+  }
+  if (texts.empty()) return "";
+  return fmt::format(" Left out for what they do on the nonlinear antenna: {}.",
+                     fmt::join(texts, "; "));
+}
+
 // Goals that no law of one wind speed and purpose meets.
 void find_unmet_goals(const TuneSection& section, double speed, TunedFor purpose,
                       std::vector<Shortfall>& shortfalls) {
@@ -113,7 +145,7 @@ void find_unmet_goals(const TuneSection& section, double speed, TunedFor purpose
   }
   const auto standing = nearest->design.tuning.limits.size();
   shortfalls.push_back(
-      {fmt::format("No law of {} meets every hard goal at {:g} m/s{}{}.", fmt::join(names, ", "),
+      {fmt::format("No law of {} meets every hard goal at {:.3g} m/s{}{}.", fmt::join(names, ", "),
                    speed, robust ? " on " + plants : "",
                    standing > 1 ? ": the goals contradict one another" : ""),
        fmt::format("{} comes nearest, {:.1f} % off its worst goals: {}.{}", label(*nearest),
@@ -128,39 +160,45 @@ void find_unreached_rms(const TuneSection& section, std::vector<Shortfall>& shor
     if (!budget.wind_speed) continue;
     if (section.supply_wind_speed < *budget.wind_speed) {
       shortfalls.push_back(
-          {fmt::format("The budget '{}' in band {} cannot be met up to {:g} m/s by any law.",
-                       budget.name, budget.band, *budget.wind_speed),
+          {fmt::format("The budget '{}' in band {} cannot be met up to {:.3g} m/s{} by any law.",
+                       budget.name, budget.band, *budget.wind_speed,
+                       dish_and_mast(section.wind_mast, *budget.wind_speed)),
            fmt::format("At {:.1f} m/s the mean wind takes all that friction and offset leave of "
                        "the supply's torque.",
                        section.supply_wind_speed)});
       continue;
     }
-    const TunedLaw* best = best_law(section, budget.wind_speed);
-    if (best == nullptr || best->beam_rms <= met * budget.rms) continue;
+    const TunedLaw* best = best_pointing_law(section, budget.wind_speed);
+    if (best == nullptr || best->budget_rms() <= met * budget.rms) continue;
     double limit = 0.0;
     for (const auto* row : rows_at(section, *budget.wind_speed)) {
-      if (row->goals_met && row->tuned_for == best->tuned_for) {
+      if (row->goals_met && row->tuned_for == best->tuned_for &&
+          row->left_out() == best->left_out()) {
         limit = std::max(limit, row->speed_limits[i]);
       }
     }
     shortfalls.push_back(
-        {fmt::format("The budget '{}' in band {} ({:.4f} mdeg) cannot be met up to {:g} m/s.",
-                     budget.name, budget.band, budget.rms / millidegree, *budget.wind_speed),
-         fmt::format("{} comes nearest with {:.4f} mdeg, {:.3g} dB on two equal axes in band {}; "
-                     "the budget is met up to {:.2f} m/s{}.",
-                     label(*best), best->beam_rms / millidegree,
-                     design::pointing_loss_db(best->beam_rms, budget.beamwidth,
-                                              design::LossConvention::mean_loss_two_axes),
-                     budget.band, limit, climate_text(section.climate, limit))});
+        {fmt::format("The budget '{}' in band {} ({:.4f} mdeg) cannot be met up to {:.3g} m/s{}.",
+                     budget.name, budget.band, budget.rms / millidegree, *budget.wind_speed,
+                     dish_and_mast(section.wind_mast, *budget.wind_speed)),
+         fmt::format("{} comes nearest with {}, {} dB on two equal axes in band {}; "
+                     "the budget is met up to {:.3g} m/s{}{}{}.{}",
+                     label(*best), rms_text(*best),
+                     loss_text(design::pointing_loss_db(best->budget_rms(), budget.beamwidth,
+                                                        design::LossConvention::mean_loss_two_axes),
+                               3),
+                     budget.band, limit, dish_and_mast(section.wind_mast, limit),
+                     best->budget_rms() > best->beam_rms ? " by the linear plant" : "",
+                     climate_text(section.climate, limit), left_out_text(section, *best))});
   }
   if (!section.beam_rms_goal) return;
   const double speed = section.wind_speeds.front();
-  const TunedLaw* best = best_law(section, speed);
-  if (best == nullptr || best->beam_rms <= met * *section.beam_rms_goal) return;
-  shortfalls.push_back({fmt::format("A beam rms of {:.4f} mdeg cannot be met at {:g} m/s.",
+  const TunedLaw* best = best_pointing_law(section, speed);
+  if (best == nullptr || best->budget_rms() <= met * *section.beam_rms_goal) return;
+  shortfalls.push_back({fmt::format("A beam rms of {:.4f} mdeg cannot be met at {:.3g} m/s.",
                                     *section.beam_rms_goal / millidegree, speed),
-                        fmt::format("{} comes nearest with {:.4f} mdeg.", label(*best),
-                                    best->beam_rms / millidegree)});
+                        fmt::format("{} comes nearest with {}.{}", label(*best), rms_text(*best),
+                                    left_out_text(section, *best))});
 }
 
 }  // namespace

@@ -5,11 +5,17 @@
 #include <gtest/gtest.h>
 
 #include "edited_case.hpp"
+#include <boresight/app/document/document_text.hpp>
+#include <boresight/app/identify/first_tests.hpp>
 #include <boresight/app/io/drive_numbers.hpp>
+#include <boresight/app/redesign/sections.hpp>
+#include <boresight/app/report/text_report.hpp>
 
 namespace boresight::app {
 namespace {
 
+using testing::AllOf;
+using testing::Contains;
 using testing::HasSubstr;
 
 // The 70-m case without its curve, and with tests behind it.
@@ -47,6 +53,37 @@ TEST(CaseFriction, GoesThroughTestsAtSteadyRates) {
   EXPECT_NEAR(relative_uncertainty(curve.coulomb), 0.05, 1e-9);
   EXPECT_EQ(curve.coulomb.kind, Kind::torque);
   EXPECT_EQ(curve.viscous.kind, Kind::viscous_friction);
+}
+
+TEST(CaseFriction, CountsTestsAsMeasuredAndKeepsWhatTheCurveLeavesOfThem) {
+  std::string tests = test("0 deg/s", "torque = \"90 N.m\"");
+  for (const auto* two : {"0.005 deg/s|70 N.m", "0.05 deg/s|60 N.m", "0.2 deg/s|75 N.m"}) {
+    const std::string both = two;
+    const std::size_t bar = both.find('|');
+    tests += test(both.substr(0, bar), "torque = \"" + both.substr(bar + 1) + "\"");
+  }
+  const Case antenna = parse_case(tested(tests), "case.toml");
+  const FrictionCurveEntry& curve = antenna.friction_curve;
+  for (const Quantity* quantity : {&curve.coulomb, &curve.breakaway, &curve.stribeck_rate}) {
+    EXPECT_EQ(quantity->basis, Basis::measured) << quantity->key;
+  }
+  ASSERT_EQ(curve.tests.size(), 4U);
+  EXPECT_NEAR(curve.tests[0].residual, 90.0 - curve.breakaway.value, 1e-9);
+  EXPECT_NEAR(curve.tests[3].residual,
+              75.0 - plant::friction_torque(friction_curve(antenna), curve.tests[3].rate), 1e-9);
+  EXPECT_TRUE(read_case(case_path("dss14-70m")).friction_curve.tests.empty());
+  EXPECT_THAT(first_tests(antenna), Contains(HasSubstr("which the case has as measured")));
+  EXPECT_THAT(to_text(document_of(describe_plant(antenna))),
+              AllOf(HasSubstr("Friction curve through 4 tests at steady rates: Coulomb "),
+                    HasSubstr("test less curve N.m")));
+
+  const Case guessed =
+      parse_case(tested(test("0.1 deg/s", "torque = { value = \"60 N.m\", basis = \"assumed\" }")),
+                 "case.toml");
+  EXPECT_EQ(guessed.friction_curve.coulomb.basis, Basis::assumed);
+  const Case one = parse_case(tested(test("0.1 deg/s", "torque = \"60 N.m\"")), "case.toml");
+  EXPECT_EQ(one.friction_curve.coulomb.basis, Basis::measured);
+  EXPECT_EQ(one.friction_curve.stribeck_rate.basis, Basis::inferred) << "one test shows none";
 }
 
 TEST(CaseFriction, TakesPressuresOverTheMotors) {

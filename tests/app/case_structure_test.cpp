@@ -1,4 +1,5 @@
 // Structures that are stated by their frequencies with the motors held, and what an audit says.
+#include <algorithm>
 #include <string>
 
 #include <fmt/format.h>
@@ -9,6 +10,7 @@
 #include <boresight/app/audit/case_graph.hpp>
 #include <boresight/app/audit/plausibility.hpp>
 #include <boresight/app/redesign/antenna_model.hpp>
+#include <boresight/app/redesign/choices.hpp>
 #include <boresight/plant/motors_held_modes.hpp>
 
 namespace boresight::app {
@@ -117,6 +119,23 @@ TEST(MotorsHeldCase, NamesTheOtherAntennaOfTheSameFrequencies) {
   EXPECT_NEAR(found.numbers[0].value, make_plant(antenna).structure.gear_stiffness,
               1e-6 * found.numbers[0].value);
   EXPECT_LT(found.numbers[0].value, found.numbers[1].value);
+}
+
+TEST(MotorsHeldCase, LetsTheOtherAntennaBeAChoiceOfTheRedesign) {
+  const Case antenna = parsed(of_one_mode("4 Hz", "0.2"));
+  const auto held = plant::motors_held_frequencies(make_plant(antenna).structure);
+  const auto choices = plant_choices(antenna);
+  const auto other = std::ranges::find_if(choices, [](const PlantChoice& choice) {
+    return choice.result.name.starts_with("antenna of gear spring ");
+  });
+  ASSERT_NE(other, choices.end());
+  const auto structure = make_plant(antenna, other->variant.value()).structure;
+  EXPECT_GT(structure.gear_stiffness, 1.5 * make_plant(antenna).structure.gear_stiffness);
+  EXPECT_EQ(other->result.name,
+            fmt::format("antenna of gear spring {:.3g} N.m/rad", structure.gear_stiffness));
+  EXPECT_FALSE(other->result.contradicts);
+  const auto again = plant::motors_held_frequencies(structure);
+  for (std::size_t i = 0; i < held.size(); ++i) EXPECT_NEAR(again[i] / held[i], 1.0, 1e-9);
 }
 
 TEST(StructuralPredictions, AreComparedWithThePlant) {

@@ -272,12 +272,20 @@ TEST(CasePointing, TakesTheFeedsTaperForTheBeamwidth) {
             factor("edge_taper = \"12 dB\""));
   // 61 deg of 70 m at 32 GHz.
   EXPECT_NEAR(factor("beamwidth = \"8.163991 mdeg\""), 61.0, 1e-3);
+  const Case both = read_case(case_path("dss14-70m"));
+  EXPECT_DOUBLE_EQ(factor("beamwidth_like = \"X\"") * std::numbers::pi / 180.0,
+                   both.bands[0].beamwidth_factor.value);
   const auto message = [&](const std::string& keys) {
     return edited_refusal(stated, "frequency = \"32 GHz\"\n" + keys);
   };
   EXPECT_THAT(message(""),
               HasSubstr("pointing.band[1].beamwidth_factor: expected either beamwidth, "
-                        "beamwidth_factor or edge_taper, found none"));
+                        "beamwidth_factor, beamwidth_like or edge_taper, found none"));
+  EXPECT_THAT(message("beamwidth_like = \"Ka\""),
+              HasSubstr("pointing.band[1].beamwidth_like: expected the name of a band listed "
+                        "above, found 'Ka'"));
+  EXPECT_THAT(message("beamwidth_factor = \"61 deg\"\nbeamwidth_like = \"X\""),
+              HasSubstr("found several"));
   EXPECT_THAT(message("beamwidth_factor = \"61 deg\"\nedge_taper = \"9 dB\""),
               HasSubstr("found several"));
   EXPECT_THAT(message("beamwidth_factor = \"61 deg\"\nillumination = \"gaussian\""),

@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include <boresight/app/evaluate/evaluate_section.hpp>
+#include <boresight/app/evaluate/unfit_candidates.hpp>
 #include <boresight/app/report/sky_units.hpp>
 
 namespace boresight::app {
@@ -19,12 +20,12 @@ using testing::Not;
 
 constexpr double degree = 1e3 * millidegree;
 
-Candidate candidate_of(const std::string& name, double stroke) {
+Candidate candidate_of(const std::string& name, double slew_margin) {
   Candidate candidate;
   candidate.name = name;
   if (name != "as it is") candidate.path = name + ".toml";
   candidate.figures.emplace();
-  candidate.figures->slew_stroke_margin = stroke;
+  candidate.figures->slew_rate_margin = slew_margin;
   return candidate;
 }
 
@@ -34,27 +35,27 @@ std::string concluded(const std::vector<Candidate>& candidates) {
   return fmt::format("{}", fmt::join(conclude(section), " "));
 }
 
-TEST(EvaluateConclusions, BlameAProposalForTheStrokeThatItTakes) {
+TEST(EvaluateConclusions, BlameAProposalForTheSlewRateThatItTakes) {
   EXPECT_THAT(
       concluded({candidate_of("as it is", 1.2), candidate_of("large motors", 0.85)}),
-      AllOf(HasSubstr("Their valves' stroke does not reach the slew rate of today: large motors "
-                      "(stroke 0.85 of what the slew rate takes). Pumps and valves"),
+      AllOf(HasSubstr("Their drives do not hold the slew rate of today against friction and "
+                      "offset: large motors (0.85 of the slew rate). Pumps and valves"),
             Not(HasSubstr("The stated slew rate"))));
   EXPECT_THAT(concluded({candidate_of("as it is", 1.2), candidate_of("no flywheels", 1.2)}),
-              Not(HasSubstr("stroke")));
+              Not(HasSubstr("slew rate")));
 }
 
 TEST(EvaluateConclusions, DoNotBlameProposalsForASlewRateOutOfReach) {
   EXPECT_THAT(concluded({candidate_of("as it is", 0.66), candidate_of("no flywheels", 0.66),
                          candidate_of("more pressure", 0.75)}),
-              AllOf(HasSubstr("The stated slew rate is out of reach of the drive as it is (stroke "
-                              "0.66 of what it takes): check drive.slew_rate"),
+              AllOf(HasSubstr("The stated slew rate is out of reach of the drive as it is (against "
+                              "friction and offset it holds 0.66 of it): check drive.slew_rate"),
                     Not(HasSubstr("Pumps and valves")), Not(HasSubstr("today"))));
   EXPECT_THAT(concluded({candidate_of("as it is", 0.66), candidate_of("no flywheels", 0.66),
                          candidate_of("large motors", 0.47)}),
               AllOf(HasSubstr("The stated slew rate is out of reach"),
-                    HasSubstr("These proposals lower the stroke further: large motors (stroke 0.47 "
-                              "of what the slew rate takes). Pumps and valves")));
+                    HasSubstr("These proposals slew more slowly still: large motors (0.47 of the "
+                              "slew rate). Pumps and valves")));
 }
 
 Candidate moving(const std::string& name, double acceleration, double reversal) {
@@ -77,6 +78,22 @@ TEST(EvaluateConclusions, SayWhatAProposalDoesToReversalsAndAcceleration) {
               AllOf(Not(HasSubstr("turning round")), Not(HasSubstr("Acceleration"))));
 }
 
+TEST(EvaluateConclusions, SayWhatSpeedsAreOnTheMast) {
+  EvaluateSection section;
+  section.ensemble_size = 30;
+  section.wind_mast = WindMast{10.0, 28.0, 0.14, 1.155};
+  section.budgets.resize(1);
+  section.budgets[0].name = "tracking";
+  section.budgets[0].wind_speed = 8.08537;
+  section.candidates.push_back(moving("as it is", 0.1, 5.0));
+  section.candidates.back().laws[0].budgets_met = {12};
+  EXPECT_THAT(conclude(section),
+              AllOf(Contains(HasSubstr("divided by 1.155 they are those on the case's mast of 10 "
+                                       "m.")),
+                    Contains(HasSubstr("is met in 8.09 m/s at the dish, 7 at the mast by as it is "
+                                       "on 12."))));
+}
+
 TEST(EvaluateConclusions, SayOnHowManyPlantsANeededBudgetIsMet) {
   EvaluateSection section;
   section.ensemble_size = 30;
@@ -93,6 +110,47 @@ TEST(EvaluateConclusions, SayOnHowManyPlantsANeededBudgetIsMet) {
       conclude(section),
       Contains("Of 30 plants that may be the true one tracking (Ka: 0.500 mdeg) is met in 12 "
                "m/s by as it is on 12, no flywheels on 25."));
+}
+
+TEST(EvaluateConclusions, SayThatNoCandidateMeetsANeededBudget) {
+  const auto told = [](double proposal_speed, bool still) {
+    EvaluateSection section;
+    PointingBudget& budget = section.budgets.emplace_back();
+    budget.name = "tracking";
+    budget.band = "Ka";
+    budget.rms = 0.5 * millidegree;
+    budget.wind_speed = 12.0;
+    section.candidates = {moving("as it is", 0.1, 5.0), moving("no flywheels", 0.1, 5.0)};
+    for (auto& candidate : section.candidates) {
+      CandidateLaw& law = candidate.laws[0];
+      law.goals_met = law.design.verification.passed = true;
+      candidate.figures->speed_limits = {8.0};
+    }
+    section.candidates[1].laws[0].still = still;
+    section.candidates[1].figures->speed_limits = {proposal_speed};
+    return unmet_needs(section);
+  };
+  EXPECT_THAT(told(12.0, true), testing::IsEmpty());
+  EXPECT_THAT(told(11.0, true),
+              testing::ElementsAre(AllOf(HasSubstr("NOT MET: tracking (Ka: 0.500 mdeg) is needed "
+                                                   "up to 12 m/s"),
+                                         HasSubstr("no flywheels comes nearest, with 11.0 m/s"))));
+  // What hunts meets nothing.
+  EXPECT_THAT(told(13.0, false),
+              testing::ElementsAre(HasSubstr("as it is comes nearest, with 8.0 m/s")));
+}
+
+TEST(EvaluateConclusions, NameGainsThatOnlyTheBoundsOfTheSearchHold) {
+  Candidate candidate = moving("as it is", 0.1, 5.0);
+  CandidateLaw& law = candidate.laws[0];
+  law.structure = "PI+C";
+  auto& tuning = law.design.tuning;
+  tuning.law.structure = control::LoopStructure::named("PI+C");
+  for (const auto& gain : tuning.law.structure.gains()) tuning.law.gains.push_back(gain.upper);
+  tuning.gains_at_bound = {"compliance"};
+  EXPECT_THAT(concluded({candidate}),
+              HasSubstr("The search ended at the upper bound of the compliance, cs = 0.1 "
+                        "rad/(N.m), with as it is (PI+C): no optimum"));
 }
 
 }  // namespace

@@ -48,5 +48,19 @@ TEST(EvaluateTables, LeaveOutWhatFollowsByLessThanTheDigitsPrinted) {
               AllOf(HasSubstr("cost: stated by no proposal"), Not(HasSubstr("Front of cost"))));
 }
 
+// Losses beyond the main beam are no numbers to compare.
+TEST(EvaluateTables, GiveNoLossWhereTheParabolaEnds) {
+  EvaluateSection section;
+  section.bands.resize(2);
+  section.candidates.resize(1);
+  section.candidates[0].figures.emplace().losses = {0.7424, 2.99};
+  EXPECT_THAT(to_text(document_of(section)),
+              AllOf(HasSubstr("0.7424  2.9900"), Not(HasSubstr("parabola"))));
+  section.candidates[0].figures->losses[1] = 10.7632;
+  EXPECT_THAT(to_text(document_of(section)),
+              AllOf(HasSubstr("0.7424     > 3"), Not(HasSubstr("10.76")),
+                    HasSubstr("> 3: beyond 3 dB the beam's parabola does not hold.")));
+}
+
 }  // namespace
 }  // namespace boresight::app

@@ -75,16 +75,17 @@ TEST(Evaluate, HoldsTheDriveToItsLimits) {
   const auto& section = *two_proposals().evaluated;
   const auto& base = *section.candidates[0].figures;
   const auto& larger = *section.candidates[2].figures;
-  EXPECT_NEAR(*larger.slew_stroke_margin / *base.slew_stroke_margin, 1.0 / 1.41, 1e-9);
-  EXPECT_LT(*larger.slew_stroke_margin, 1.0);
+  // Without load the valve lets the motors turn at 1.2 times the slew rate; against friction and
+  // offset not, and a slew keeps a fifth of what is left.
+  EXPECT_LT(*base.slew_rate_margin, 1.0);
+  EXPECT_LT(*larger.slew_rate_margin, 1.0);
   EXPECT_GT(larger.supply_margin, base.supply_margin);
   ASSERT_TRUE(base.slew && base.slew->time);
-  EXPECT_LE(base.slew->rate, base.slew->rate_asked);
+  EXPECT_NEAR(base.slew->rate / base.slew->rate_asked, 0.8 * *base.slew_rate_margin, 0.03);
   // Rest to rest takes at least the distance over the rate.
   EXPECT_GT(*base.slew->time, base.slew->distance / base.slew->rate);
   EXPECT_THAT(to_text(two_proposals()),
-              HasSubstr("Their valves' stroke does not reach the slew rate "
-                        "of today: displacement x 1.41"));
+              HasSubstr("The stated slew rate is out of reach of the drive as it is"));
 }
 
 TEST(Evaluate, ComparesOnTheSameDraws) {
@@ -199,6 +200,20 @@ TEST(Evaluate, KeepsProposalsThatMissTheirGoals) {
   EXPECT_THAT(run.errors, HasSubstr("boresight: slow valve: "));
   EXPECT_THAT(run.output, HasSubstr("as it is"));
   EXPECT_THAT(run.output, HasSubstr("Not to be built as they stand"));
+}
+
+TEST(Evaluate, EndsWithCode3WhereNoCandidateMeetsANeededBudget) {
+  const ScratchFolder folder;
+  const std::string antenna =
+      folder.write("case.toml", EditedCase()
+                                    .replace("name = \"stated Ka-band need\"",
+                                             "name = \"stated Ka-band need\"\n"
+                                             "wind_speed = \"50 m/s\"")
+                                    .text());
+  const auto run = run_program({"evaluate", antenna, proposal_path("half-flywheels"), "--draws",
+                                "100", "--starts", "2", "--time-domain", "none"});
+  EXPECT_EQ(run.exit_code, 3) << run.errors;
+  EXPECT_THAT(run.errors, HasSubstr(antenna + ": NOT MET: stated Ka-band need"));
 }
 
 TEST(Evaluate, RefusesBadProposalsBeforeAnyWork) {

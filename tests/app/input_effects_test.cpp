@@ -118,6 +118,51 @@ TEST(InputEffects, KeepTheSumOfShares) {
       1e-5 * design.beam_rms);
 }
 
+TEST(InputEffects, MoveGuessedSharesToTheInertia) {
+  const Case antenna =
+      parse_case(EditedCase()
+                     .replace("wind_fraction = { value = \"0.75\", basis = \"assumed\"",
+                              "wind_fraction = { value = \"0.75\", uncertainty = \"4 %\", basis = "
+                              "\"assumed\"")
+                     .text(),
+                 "case.toml");
+  const design::Design design = tuned(antenna);
+  ASSERT_TRUE(design.usable());
+  const auto effects =
+      input_effects(antenna, design.tuning.law, make_goals(antenna), design.beam_rms, all, 2);
+  const auto range = [&](const std::string& key) { return effect_of(effects, key).range; };
+  // 0.80 of the beam on 0.62 of the inertia, and 0.15 of the wind on 0.14.
+  EXPECT_NEAR(range("structure.mode[0].beam_weight").value().first, 0.62, 1e-12);
+  EXPECT_NEAR(range("structure.mode[0].beam_weight").value().second, 0.98, 1e-12);
+  EXPECT_NEAR(range("structure.mode[1].wind_fraction").value().first, 0.135, 1e-12);
+  // The bull gear has 0.13 of the inertia and no wind, and cannot have less.
+  EXPECT_EQ(range("structure.bull_gear_wind_fraction").value().first, 0.0);
+  EXPECT_NEAR(range("structure.bull_gear_wind_fraction").value().second, 0.13, 1e-12);
+  EXPECT_FALSE(range("structure.mode[0].wind_fraction"));
+  // A weight of -0.15 moves by a tenth.
+  EXPECT_FALSE(range("structure.mode[2].beam_weight"));
+}
+
+TEST(InputEffects, MoveTheLeakageRateThatAFlowMakes) {
+  const auto text = [](const std::string& volume) {
+    return EditedCase()
+        .replace("leakage_rate = { value = \"1.219 1/s\"",
+                 "leakage_pressure = \"7 MPa\"\nleakage_flow = { value = \"1.1 L/min\"")
+        .replace("volume_1 = { value = \"0.02455 m3\"", "volume_1 = { value = \"" + volume + "\"")
+        .text();
+  };
+  const Case antenna = parse_case(text("0.02455 m3"), "case.toml");
+  const design::Design design = tuned(antenna);
+  ASSERT_TRUE(design.usable());
+  const auto effects =
+      input_effects(antenna, design.tuning.law, make_goals(antenna), design.beam_rms, all, 2);
+  // Its uncertainty is 1 %.
+  const auto larger = make_problem(parse_case(text("0.0247955 m3"), "case.toml"));
+  EXPECT_NEAR(effect_of(effects, "oil.volume_1").high_rms,
+              design::assess(larger, design.tuning.law, make_goals(antenna)).beam_rms,
+              1e-9 * design.beam_rms);
+}
+
 TEST(InputEffects, SayWhatToMeasureFirst) {
   InputEffect effect;
   effect.quantity.key = "wind.torque_coefficient";

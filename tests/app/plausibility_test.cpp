@@ -225,6 +225,28 @@ TEST(ValveStroke, IsEnoughWhereTheValveIsLarger) {
   EXPECT_THAT(found_in(EditedCase(), "valve stroke"), IsEmpty());
 }
 
+TEST(StructuralShares, SayWhatASoftPartUnderTheWindMeans) {
+  const std::string check = "structural shares";
+  EXPECT_THAT(found_in(EditedCase(), check), IsEmpty());
+  const Case antenna = parse_case(
+      EditedCase()
+          .replace("inertia_fraction = { value = \"0.62\"", "inertia_fraction = { value = \"0.18\"")
+          .text(),
+      "case.toml");
+  const auto found = found_in(antenna, check);
+  ASSERT_EQ(found.size(), 1U);
+  EXPECT_EQ(found[0].id, "structure.mode[0].wind_fraction");
+  EXPECT_THAT(found[0].reasoning,
+              AllOf(HasSubstr("a wind_fraction of 0.75 on an inertia fraction of 0.18 and a "
+                              "beam_weight of 0.8 on an inertia fraction of 0.18"),
+                    HasSubstr("mean wind of 10 m/s")));
+  ASSERT_EQ(found[0].numbers.size(), 2U);
+  EXPECT_NEAR(found[0].numbers[0].value,
+              std::abs(static_bending(make_problem(antenna))) * 180e3 / std::numbers::pi, 1e-9);
+  // A part under little wind bends little.
+  EXPECT_LT(found[0].numbers[1].value, 0.5 * found[0].numbers[0].value);
+}
+
 TEST(InertiaAgainstTheDish, FindsAnotherUnitAndARadius) {
   const std::string check = "inertia against the dish";
   EXPECT_THAT(found_in(EditedCase(), check), IsEmpty());

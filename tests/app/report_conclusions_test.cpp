@@ -12,6 +12,7 @@
 #include <boresight/app/redesign/tuning_verdict.hpp>
 #include <boresight/app/report/sky_units.hpp>
 #include <boresight/app/report/text_report.hpp>
+#include <boresight/app/report/wind_mast.hpp>
 
 namespace boresight::app {
 namespace {
@@ -252,6 +253,21 @@ TEST(TuningVerdict, SaysThatANeedIsNotMet) {
   EXPECT_THAT(decision(report).front(), HasSubstr("Run the drive as built on PI with lag"));
 }
 
+TEST(TuningVerdict, GivesSpeedsOfBudgetsAtTheMastToo) {
+  Report report = tuned_report();
+  report.tuning->budgets = {budget(0.1, 4.03, 8.08537)};
+  EXPECT_THAT(tuning_conclusions(report), Each(Not(HasSubstr("at the mast"))));
+  report.tuning->wind_mast = WindMast{10.0, 28.0, 0.14, 1.155053};
+  EXPECT_THAT(tuning_conclusions(report),
+              Contains(AllOf(HasSubstr("needed up to 8.09 m/s at the dish, 7 at the mast;"),
+                             HasSubstr("met up to 4.0 m/s at the dish, 3.49 at the mast."))));
+  EXPECT_THAT(conclude_mast(*report.tuning->wind_mast),
+              HasSubstr("divided by 1.155 they are those on the case's mast of 10 m"));
+  EXPECT_THAT(to_text(document_of(*report.tuning)),
+              AllOf(HasSubstr("met up to m/s (at the mast)"), HasSubstr("4.03 (3.49)"),
+                    HasSubstr("8.09 (7)")));
+}
+
 TEST(TuningVerdict, SaysOnHowManyPlantsTheLawHolds) {
   Report report = tuned_report();
   design::EnsembleResult ensemble;
@@ -355,6 +371,20 @@ TEST(Choices, AreContradictionsOnlyWhereSourcesOrTestsDiffer) {
   EXPECT_THAT(choices_heading(choices), HasSubstr("leaves open"));
   choices.emplace_back().contradicts = true;
   EXPECT_THAT(choices_heading(choices), HasSubstr("contradict each other"));
+}
+
+TEST(IdentificationText, ReconcilesNoMethodsThatContradictOneAnother) {
+  IdentificationSection section;
+  section.inertia.methods.resize(2);
+  section.printed.resize(2);
+  section.reconciled = identification::reconcile({{0.8, 0.02}, {7.9, 3.0}}, 0.4);
+  EXPECT_THAT(to_text(document_of(section)), HasSubstr("Reconciled: J = "));
+  section.reconciled = identification::reconcile({{0.8, 0.02}, {7.9, 0.8}}, 0.4);
+  const std::string text = to_text(document_of(section));
+  EXPECT_THAT(text, HasSubstr("No reconciled inertia: the methods contradict one another "
+                              "(Cochran's Q 78."));
+  EXPECT_THAT(text, HasSubstr("would be 4.305 kg.m2 (0.76 .. 9.47;"));
+  EXPECT_THAT(text, Not(HasSubstr("Reconciled: J")));
 }
 
 TEST(IdentificationText, LeavesOutColumnsThatNoRowFills) {

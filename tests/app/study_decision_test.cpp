@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <string>
 #include <utility>
 #include <vector>
@@ -19,6 +20,7 @@ using testing::Each;
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::Not;
+using testing::StartsWith;
 
 // At 0 disks, 1 as built and 3.
 MatchSeries series_of(const std::string& name, const std::vector<double>& rms_mdeg) {
@@ -59,6 +61,38 @@ FrictionThreshold threshold_of(double at_nominal) {
   threshold.slope = 4.0;
   threshold.spread_at_nominal = at_nominal;
   return threshold;
+}
+
+TEST(MatchConclusions, GatherWhatTurningRoundDoesAndNameTheTrackingRate) {
+  MatchSection section =
+      section_of({series_of("PI", {0.4, 0.5, 0.6}), series_of("DPF", {0.4, 0.5, 0.6}),
+                  series_of("LL", {0.4, 0.5, 0.6})});
+  section.tracking_rate = 5.0 * millidegree;
+  section.friction = section.tracking_friction = 0.7;
+  section.thresholds = {threshold_of(0.002)};
+  for (auto& series : section.series) {
+    MatchTimeDomain run;
+    design::HuntingResult at_rest, tracking;
+    at_rest.limit_cycle = series.name != "LL";
+    tracking.rate = section.tracking_rate;
+    tracking.limit_cycle = series.name != "LL";
+    run.hunting = {at_rest, tracking};
+    run.reversal = design::ReversalResult{};
+    run.reversal->encoder_error = 2.0 * millidegree;
+    series.values[0].time_domain = run;
+  }
+  const auto sentences = conclude(section);
+  const auto about = std::ranges::count_if(sentences, [](const std::string& sentence) {
+    return sentence.find("On the nonlinear antenna") != std::string::npos;
+  });
+  EXPECT_EQ(about, 1);
+  EXPECT_THAT(sentences,
+              Contains(AllOf(HasSubstr("tracking rate of 5 mdeg/s reverses"),
+                             HasSubstr("2.00 to 2.00 mdeg with DPF"),
+                             HasSubstr("0 disks at rest and at the tracking rate with PI, DPF"),
+                             HasSubstr("none seen with LL"))));
+  EXPECT_THAT(sentences, Not(Contains(HasSubstr("of the friction curve at the tracking rate"))))
+      << "it is the linear plant's";
 }
 
 TEST(MatchDecision, OfOneFlatStructureIsToLeaveTheFlywheels) {
@@ -253,13 +287,27 @@ TEST(EvaluateDecision, ChoosesNothingThatHunts) {
   EXPECT_EQ(worth_its_cost(section, *section.decision), 1U);
   EXPECT_THAT(decision(section).front(),
               AllOf(HasSubstr("Choose proposal 1"), Not(HasSubstr("proposal 2"))));
+  EXPECT_THAT(decision(section),
+              Contains("Left out, as they hunt beyond the tightest budget: proposal 2."));
+  EXPECT_THAT(conclude(section), Contains(HasSubstr("lowered 21.9 % by proposal 1. Left out, as "
+                                                    "they hunt beyond the tightest budget: "
+                                                    "proposal 2.")));
   EXPECT_THAT(conclude(section), Contains(HasSubstr("these hunt beyond the tightest budget: "
                                                     "proposal 2 with  (+-3.03 mdeg)")));
-  make_hunt(0);
   make_hunt(1);
   EXPECT_THAT(decision(section).front(),
-              AllOf(HasSubstr("Nothing is to be chosen yet: proposal 2 comes nearest"),
-                    HasSubstr("hunts beyond the tightest budget")));
+              HasSubstr("All proposals hunt, the antenna as it is does not: none is chosen. The "
+                        "antenna as it is has 0.640 mdeg rms"));
+  make_hunt(0);
+  const std::string none = "All proposals hunt, as does the antenna as it is: none is chosen.";
+  const auto decided = decision(section);
+  EXPECT_THAT(decided.front(), AllOf(StartsWith(none + " proposal 2 comes nearest"),
+                                     HasSubstr("but hunts beyond the tightest budget")));
+  EXPECT_THAT(decided, Each(Not(HasSubstr("probability"))));
+  const auto sentences = conclude(section);
+  EXPECT_EQ(sentences.front(), none);
+  EXPECT_THAT(sentences,
+              Each(AllOf(Not(HasSubstr("nothing lowers it")), Not(HasSubstr("Least mean rms")))));
 }
 
 TEST(EvaluateDecision, GivesNoProbabilityToWhatIsNoDifference) {

@@ -183,6 +183,12 @@ TEST(TimeDomain, ConcludesWhatTheLinearFigureIsWorth) {
   EXPECT_THAT(text, HasSubstr("At rest it hunts by +-0.29 mdeg."));
   EXPECT_THAT(text, Not(HasSubstr("At the tracking rate it hunts")));
   EXPECT_THAT(text, HasSubstr("errs by up to 5.0 mdeg."));
+  auto throttled = section();
+  for (auto& influence : throttled.result.wind.influences) {
+    if (influence.influence == design::Influence::orifice) influence.difference = 0.3 * mdeg;
+  }
+  EXPECT_THAT(conclude(throttled),
+              HasSubstr("; the flow through the valve's orifices alone is worth 0.300."));
   auto calm = section();
   calm.result.wind.beam_rms = 0.49 * mdeg;
   EXPECT_THAT(conclude(calm), Not(HasSubstr("to spare")));

@@ -69,7 +69,7 @@ class Examples(unittest.TestCase):
             text = run("plant_bode", str(path))
             lines = path.read_text(encoding="utf-8").splitlines()
         rows = [{key: float(value) for key, value in row.items()} for row in csv.DictReader(lines)]
-        self.assertRegex(text, r"0\.8482 Hz  damping 0\.1519 .*motors on the oil spring")
+        self.assertRegex(text, r"0\.8482 Hz  damping 0\.1519 .*oil and gear springs")
         self.assertEqual(len(re.findall(r"^.* Hz  damping", text, re.M)), 9)
         first = rows[0]
         self.assertAlmostEqual(first["frequency_hz"], 0.01, delta=1e-9)

@@ -193,6 +193,13 @@ TEST(Reconcile, OfMethodsThatAgreeIsTheInverseVarianceMean) {
   EXPECT_LT(result.heterogeneity, 1.0);
 }
 
+TEST(Reconcile, IsContradictoryBeyondChanceOnly) {
+  // Cochran's Q is half the square of the difference in standard uncertainties: 8 and 18, where
+  // chance exceeds 10.8 on one degree of freedom once in a thousand times.
+  EXPECT_FALSE(reconcile({{1.0, 0.1}, {1.4, 0.1}}, 0.5).contradictory());
+  EXPECT_TRUE(reconcile({{1.0, 0.1}, {1.6, 0.1}}, 0.5).contradictory());
+}
+
 TEST(Reconcile, FollowsUnitsAndOrder) {
   const std::vector<Uncertain> one{{1.7, 0.05}, {1.4, 0.03}, {1.5, 0.08}};
   const std::vector<Uncertain> other{{15.0, 0.8}, {17.0, 0.5}, {14.0, 0.3}};

@@ -1,4 +1,7 @@
+#include <algorithm>
 #include <cmath>
+#include <set>
+#include <string>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -12,7 +15,10 @@
 namespace boresight::plant {
 namespace {
 
+using testing::AllOf;
+using testing::EndsWith;
 using testing::HasSubstr;
+using testing::StartsWith;
 using testing::ThrowsMessage;
 
 // The mode whose frequency is nearest, among the oscillating ones.
@@ -57,6 +63,39 @@ TEST(PlantModes, AreThePolesInOrder) {
     }
     EXPECT_EQ(poles, to_state_space(plant).a.rows());
   }
+}
+
+TEST(PlantModes, BearEachItsOwnNameAndOneIsTheHydraulicMode) {
+  for (const double softer : {1.0, 0.3, 0.03}) {
+    AntennaPlant plant = reference::antenna();
+    plant.drive.oil_stiffness *= softer;
+    plant.drive.valve_damping = 1.5;  // two real poles, which one name would not tell apart
+    const auto modes = plant_modes(plant);
+    std::set<std::string> names;
+    for (const auto& mode : modes) {
+      EXPECT_TRUE(names.insert(mode.description).second) << mode.description;
+    }
+    EXPECT_TRUE(names.contains("valve, 2 of 2"));
+    const auto called = std::ranges::find_if(modes, [](const PlantMode& mode) {
+      return mode.description == "hydraulic: antenna on oil and gear springs in series";
+    });
+    ASSERT_NE(called, modes.end());
+    EXPECT_EQ(called->frequency, hydraulic_mode(modes).frequency);
+  }
+}
+
+TEST(PlantModes, CallTheLowestHydraulicWhereTheStructureMovesMost) {
+  // Oil far stiffer than the structure, on which the antenna then swings.
+  AntennaPlant plant = reference::antenna();
+  plant.drive.oil_stiffness *= 10.0;
+  const auto modes = plant_modes(plant);
+  const auto lowest =
+      std::ranges::find_if(modes, [](const PlantMode& mode) { return mode.pole.imag() != 0.0; });
+  ASSERT_NE(lowest, modes.end());
+  EXPECT_GT(lowest->participation, 0.5);
+  EXPECT_THAT(lowest->description,
+              AllOf(StartsWith("structure: mode 1 ("), EndsWith(", the hydraulic mode")));
+  EXPECT_EQ(hydraulic_mode(modes).frequency, lowest->frequency);
 }
 
 TEST(HydraulicMode, FollowsFlywheelsAsTheOilSpringSays) {

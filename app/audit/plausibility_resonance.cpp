@@ -1,0 +1,75 @@
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include <boresight/app/audit/plausibility_checks.hpp>
+#include <boresight/app/redesign/antenna_model.hpp>
+#include <boresight/app/redesign/resonance_verdict.hpp>
+#include <boresight/plant/hydraulics.hpp>
+
+namespace boresight::app {
+namespace {
+
+plant::PlantMode flexible_mode(const Case& antenna, const PlantVariant& variant = {}) {
+  return plant::hydraulic_mode(plant::plant_modes(make_plant(antenna, variant)));
+}
+
+}  // namespace
+
+void check_expected_resonance(const CaseNumbers& numbers, Implausibilities& found) {
+  const auto verdict = resonance_verdict(numbers.antenna);
+  if (!verdict || !verdict->contradicts()) return;
+  const double rotating = numbers.motors + numbers.gear_train;
+  const auto rigid = [&](double load) {
+    return plant::hydraulic_frequency(numbers.oil_stiffness, rotating + load);
+  };
+  Implausibility implausible{"resonance expected",
+                             "resonance.frequency",
+                             "",
+                             {{"measured", verdict->measured, "Hz"},
+                              {"expected", verdict->expected, "Hz"},
+                              {"all masses rigid", rigid(numbers.antenna_at_motor), "Hz"},
+                              {"without the antenna", rigid(0.0), "Hz"},
+                              {"standard uncertainties", verdict->deviation(), "1"}}};
+  std::string others;
+  for (const AntennaAlternative& alternative : numbers.antenna.antenna.alternatives) {
+    const double frequency =
+        flexible_mode(numbers.antenna,
+                      {.antenna_inertia = antenna_inertia(numbers.antenna, alternative)})
+            .frequency;
+    others += fmt::format("; the flexible antenna has {:.3f} Hz with the inertia of {}", frequency,
+                          alternative.name);
+    implausible.numbers.push_back({alternative.name, frequency, "Hz"});
+  }
+  if (verdict->bulk_modulus) {
+    implausible.numbers.push_back({"bulk modulus for it", *verdict->bulk_modulus, "Pa"});
+  }
+  implausible.reasoning = fmt::format(
+      "{} All masses rigid on the oil spring would make it {:.3f} Hz, {:.3f} Hz with no antenna at "
+      "all{}. Stiffness, masses or the reading of the spectrum is wrong.",
+      resonance_sentence(*verdict), rigid(numbers.antenna_at_motor), rigid(0.0), others);
+  found.push_back(std::move(implausible));
+}
+
+void check_resonance_damping(const CaseNumbers& numbers, Implausibilities& found) {
+  if (!numbers.antenna.resonance_damping) return;
+  // Read off a decay by eye, and of a plant whose friction is a straight line.
+  constexpr double agrees = 2.0;
+  const double measured = numbers.antenna.resonance_damping->value;
+  const double expected = flexible_mode(numbers.antenna).damping_ratio;
+  if (std::max(measured, expected) <= agrees * std::min(measured, expected)) return;
+  const DriveEntry& drive = numbers.antenna.drive;
+  found.push_back(
+      {"resonance damping",
+       "resonance.damping_ratio",
+       fmt::format("The hydraulic mode of the case has the damping ratio {:.3g}, by the leakage "
+                   "rate of {:.3g} 1/s, viscous friction of {:.3g} N.m.s/rad and the structure; "
+                   "measured is {:.3g}, more than a factor of {:g} {}: leakage or friction is {} "
+                   "than stated, or other friction than the viscous damped that test.",
+                   expected, drive.leakage_rate.value, drive.viscous_friction.value, measured,
+                   agrees, measured > expected ? "above" : "below",
+                   measured > expected ? "larger" : "smaller"),
+       {{"measured", measured, "1"}, {"expected", expected, "1"}}});
+}
+
+}  // namespace boresight::app

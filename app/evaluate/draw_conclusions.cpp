@@ -1,0 +1,157 @@
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <numeric>
+#include <utility>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <boresight/app/evaluate/draw_conclusions.hpp>
+#include <boresight/app/evaluate/unfit_candidates.hpp>
+
+namespace boresight::app {
+namespace {
+
+std::string share(const design::Probability& probability) {
+  return fmt::format("{:.3f} [{:.3f}, {:.3f}]", probability.value, probability.lower,
+                     probability.upper);
+}
+
+const std::string& name_of(const EvaluateSection& section, const DecisionSection& decision,
+                           std::size_t place) {
+  return section.candidates[decision.candidates[place].candidate].name;
+}
+
+// What of the choice by the least mean is not worth paying for.
+std::string not_worth_paying(const EvaluateSection& section, const DecisionSection& decision) {
+  const std::size_t choice = worth_its_cost(section, decision);
+  const Candidate& best = section.candidates[decision.candidates[decision.best].candidate];
+  if (choice == decision.best || !best.feasible()) return "";
+  const auto& options = decision.statistics.options;
+  return fmt::format(
+      "{} is {:.1f} % better than {} on average, too little to pay for: {}.",
+      name_of(section, decision, decision.best),
+      100.0 * (1.0 - options[decision.best].mean / options[choice].mean),
+      name_of(section, decision, choice),
+      section.candidates[decision.candidates[choice].candidate].path.empty()
+          ? "no proposal is worth its cost"
+          : fmt::format("of these {} is worth its cost", name_of(section, decision, choice)));
+}
+
+std::string chances(const EvaluateSection& section, const DecisionSection& decision) {
+  const auto& options = decision.statistics.options;
+  const Candidate& best = section.candidates[decision.candidates[decision.best].candidate];
+  if (!best.feasible()) {
+    return fmt::format(
+        "Nothing is to be chosen by the {} draws: {} has the least mean rms with the gains held, "
+        "{:.4f} mdeg, but {}.",
+        decision.draws, best.name, options[decision.best].mean, why_not(best));
+  }
+  const auto pair = std::ranges::find_if(decision.statistics.pairs, [&](const auto& one) {
+    return (one.first == decision.best && one.second == decision.second) ||
+           (one.first == decision.second && one.second == decision.best);
+  });
+  if (pair == decision.statistics.pairs.end()) return "";
+  const bool turned = pair->first != decision.best;
+  const design::Probability better =
+      turned ? design::Probability{1.0 - pair->better.value, 1.0 - pair->better.upper,
+                                   1.0 - pair->better.lower}
+             : pair->better;
+  const double gain = (turned ? -1.0 : 1.0) * pair->mean_gain;
+  const bool some_unfit = std::ranges::any_of(decision.candidates, [&](const auto& one) {
+    return !section.candidates[one.candidate].feasible();
+  });
+  std::string text = fmt::format(
+      "Least mean rms with the gains held{}: {}, {:.4f} mdeg; it is the best of all with "
+      "probability {} and better than {} with probability {}, by {:.4f} +- {:.4f} mdeg on average. "
+      "Choosing it loses {:.4f} mdeg on average against whoever knew the plant.",
+      some_unfit ? ", of those fit to be chosen" : "", name_of(section, decision, decision.best),
+      options[decision.best].mean, share(options[decision.best].best),
+      name_of(section, decision, decision.second), share(better), gain, pair->gain_error,
+      options[decision.best].expected_regret);
+  text += fmt::format(
+      " The intervals are those of {} draws ({}); another view of what is uncertain may move the "
+      "probabilities farther than that.",
+      decision.draws, decision.source);
+  if (section.time_domain) {
+    text +=
+        " Each law's factor of the nonlinear antenna comes from one record and is not drawn: of "
+        "proposals that lie a few per cent apart the probability says nothing.";
+  }
+  const auto& outside = decision.candidates[decision.best].outside_goals;
+  text += fmt::format(
+      " Its hard goals hold on the {} plants it was tuned for; of the draws, which move more "
+      "inputs and all at once, a share of {} breaks one.",
+      section.ensemble_size, share(outside));
+  return text;
+}
+
+std::string what_decides(const EvaluateSection& section, const DecisionSection& decision) {
+  if (!decision.sobol || decision.sobol->outputs.front().constant) return "";
+  const auto& second = section.candidates[decision.candidates[decision.second].candidate];
+  if (!second.feasible()) return "";
+  const auto& indices = decision.sobol->outputs.front();
+  std::vector<std::size_t> order(indices.inputs.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::ranges::stable_sort(order, std::greater{},
+                           [&](std::size_t i) { return indices.inputs[i].total.value; });
+  std::vector<std::string> named;
+  for (const std::size_t i : order) {
+    if (named.size() == 3 || indices.inputs[i].total.value < 0.02) break;
+    named.push_back(fmt::format("{} ({:.0f} % of the variance, with its interactions)",
+                                decision.inputs[i], 100.0 * indices.inputs[i].total.value));
+  }
+  std::string text = fmt::format("The difference between {} and {} depends most on {}.",
+                                 name_of(section, decision, decision.second),
+                                 name_of(section, decision, decision.best), fmt::join(named, ", "));
+  if (decision.tornado) {
+    const auto turns = std::ranges::find_if(decision.tornado->bars, [&](const auto& bar) {
+      return std::min(bar.at_low, bar.at_high) < 0.0;
+    });
+    text += turns == decision.tornado->bars.end()
+                ? " No input turns it round alone within its middle 90 %."
+                : fmt::format(
+                      " Alone, {} turns it round: {:.4f} mdeg at its 5 % share, {:.4f} at "
+                      "its 95 % share.",
+                      decision.inputs[turns->input], turns->at_low, turns->at_high);
+  }
+  return text;
+}
+
+std::string what_to_test(const EvaluateSection& section, const DecisionSection& decision) {
+  if (!decision.tests) return "";
+  const auto& tests = *decision.tests;
+  const auto best =
+      std::ranges::max_element(tests.inputs, {}, [](const auto& one) { return one.held_out_gain; });
+  const double mean = tests.mean_loss[tests.choice];
+  const auto& choice = name_of(section, decision, tests.choice);
+  if (best == tests.inputs.end() || best->held_out_gain <= 2.0 * best->held_out_error ||
+      best->held_out_gain < 1e-4 * mean) {
+    return fmt::format(
+        "No test of one input would change the choice of {} for the better by more than chance "
+        "could feign; knowing everything would lower the expected rms by {:.4f} mdeg ({:.2f} %). "
+        "What tests are worth for the tuning itself is not in this figure: gains are held here.",
+        choice, std::max(0.0, tests.perfect.gain),
+        100.0 * std::max(0.0, tests.perfect.gain) / mean);
+  }
+  const auto input = static_cast<std::size_t>(best - tests.inputs.begin());
+  return fmt::format(
+      "Test first: {}. Known before the choice between the proposals, it lowers the expected rms "
+      "by {:.4f} to {:.4f} mdeg (held out and fitted) of the {:.4f} mdeg that knowing everything "
+      "would.",
+      decision.inputs[input], best->held_out_gain, best->fitted.gain, tests.perfect.gain);
+}
+
+}  // namespace
+
+std::vector<std::string> conclude_draws(const EvaluateSection& section,
+                                        const DecisionSection& decision) {
+  std::vector<std::string> sentences{
+      chances(section, decision), not_worth_paying(section, decision),
+      what_decides(section, decision), what_to_test(section, decision)};
+  std::erase(sentences, "");
+  return sentences;
+}
+
+}  // namespace boresight::app

@@ -1,0 +1,24 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <boresight/app/evaluate/evaluate_section.hpp>
+
+namespace boresight::app {
+
+/// Why a candidate's law is not to be built, to stand behind its name: "hunts beyond ...".
+std::string_view why_not(const Candidate& candidate);
+
+/// That no proposal is fit to be chosen, and why; empty where one is, or without proposals.
+std::string none_chosen(const EvaluateSection& section);
+
+/// The names of the candidates that only their hunting keeps from being chosen.
+std::vector<std::string> hunting_candidates(const EvaluateSection& section);
+
+/// In a sentence each budget that states a wind speed it is needed up to and that no candidate fit
+/// to be chosen meets so far on its nominal plant, with the one that comes nearest.
+std::vector<std::string> unmet_needs(const EvaluateSection& section);
+
+}  // namespace boresight::app

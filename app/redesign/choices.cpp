@@ -1,0 +1,123 @@
+#include <algorithm>
+#include <string>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include <boresight/app/io/structure_numbers.hpp>
+#include <boresight/app/redesign/choices.hpp>
+
+namespace boresight::app {
+namespace {
+
+class Choices {
+ public:
+  explicit Choices(const Case& antenna)
+      : antenna_(antenna), motors_(motor_inertia(antenna, antenna.motor.flywheel_disks)) {}
+
+  // Motors and gear train.
+  double fixed_inertia() const { return motors_ + gear_train_inertia(antenna_); }
+
+  // Of the numbers that the case states, or a convention or solution of the reckoning.
+  void add(std::string name, std::string says, const PlantVariant& variant) {
+    const auto plant = make_plant(antenna_, variant);
+    const double inertia = plant::reflected_inertia(plant);
+    choices_.push_back({{std::move(name),
+                         std::move(says),
+                         plant.drive.oil_stiffness,
+                         inertia,
+                         plant::motor_to_load_ratio(variant.inertia_scale * motors_, inertia),
+                         std::nullopt,
+                         {}},
+                        variant});
+  }
+
+  // Of another source or a test.
+  void add_contradiction(std::string name, std::string says, const PlantVariant& variant) {
+    add(std::move(name), std::move(says), variant);
+    choices_.back().result.contradicts = true;
+  }
+
+  // The inertia a test found, with motors and gear train kept and the antenna taking the rest.
+  void add_test(std::string name, double found, double stiffness) {
+    std::string says = "motors and gear train kept, the antenna takes the rest";
+    const double fixed = fixed_inertia(), stated = antenna_inertia(antenna_);
+    if (found - fixed > 0.05 * stated) {
+      add_contradiction(std::move(name), std::move(says),
+                        {.antenna_inertia = found - fixed, .oil_stiffness = stiffness});
+      return;
+    }
+    choices_.push_back({{std::move(name), std::move(says), stiffness, found,
+                         plant::motor_to_load_ratio(motors_, found), std::nullopt,
+                         fmt::format("{:.3f} - {:.3f} leaves {:.3f} kg.m2 for an antenna of {:.3f}",
+                                     found, fixed, found - fixed, stated),
+                         true},
+                        std::nullopt});
+  }
+
+  std::vector<PlantChoice> take() { return std::move(choices_); }
+
+ private:
+  const Case& antenna_;
+  double motors_ = 0.0;
+  std::vector<PlantChoice> choices_;
+};
+
+// By a resonance at that frequency (Hz); `other`: the oil spring by the other convention.
+void add_resonance(const Case& antenna, double frequency, double other, Choices& choices) {
+  const double own = oil_stiffness(antenna);
+  const double inertia = choices.fixed_inertia() + antenna_inertia(antenna);
+  const double found = plant::inertia_from_resonance(own, frequency);
+  // The oil spring goes with the inertia on it, at one frequency.
+  const double factor = inertia / found;
+  choices.add_contradiction(
+      "masses right, stiffness from resonance",
+      fmt::format("oil spring {} by a factor of {:.3g}{} so that the rigid masses ring at {:g} Hz",
+                  factor < 1.0 ? "lowered" : "raised", std::max(factor, 1.0 / factor),
+                  antenna.drive.leakage_by_flow ? ", and the leakage rate with it," : "",
+                  frequency),
+      {.oil_stiffness = factor * own, .leakage_rate = leakage_rate_at(antenna, factor)});
+  choices.add_test("stiffness right, inertia from resonance", found, own);
+  choices.add_test(antenna.oil.efficiency_in_stiffness
+                       ? "inertia from resonance, no efficiencies"
+                       : "inertia from resonance, with efficiencies",
+                   plant::inertia_from_resonance(other, frequency), other);
+  choices.add_contradiction("stiffness right, all masses scaled",
+                            fmt::format("every inertia times {:.3f}", found / inertia),
+                            {.inertia_scale = found / inertia});
+}
+
+}  // namespace
+
+std::vector<PlantChoice> plant_choices(const Case& antenna) {
+  Choices choices(antenna);
+  choices.add("reference", "masses and oil stiffness of the plant above", {});
+  for (const auto& alternative : antenna.antenna.alternatives) {
+    choices.add_contradiction("antenna of " + alternative.name, "another antenna inertia",
+                              {.antenna_inertia = antenna_inertia(antenna, alternative)});
+  }
+  const bool efficient = antenna.oil.efficiency_in_stiffness;
+  const double other = oil_stiffness(
+      antenna, efficient ? plant::EfficiencyInStiffness::none : plant::EfficiencyInStiffness::both);
+  // A convention changes no oil, and so no leakage rate.
+  choices.add(efficient ? "stiffness without efficiencies" : "stiffness with efficiencies",
+              "the other convention for the oil spring", {.oil_stiffness = other});
+  const std::size_t antennas = structure_specifications(antenna.structure).size();
+  for (std::size_t i = 1; i < antennas; ++i) {
+    const PlantVariant variant{.structure = i};
+    const double spring = make_plant(antenna, variant).structure.gear_stiffness;
+    choices.add(fmt::format("antenna of gear spring {:.3g} N.m/rad", spring),
+                "another antenna of the frequencies that the case states with the motors held",
+                variant);
+  }
+  if (antenna.resonance_frequency) {
+    add_resonance(antenna, antenna.resonance_frequency->value, other, choices);
+  }
+  for (const auto& impulse : antenna.impulse_results) {
+    choices.add_test("inertia from impulse, " + impulse.name + " friction",
+                     impulse.reflected_inertia.value, oil_stiffness(antenna));
+  }
+  return choices.take();
+}
+
+}  // namespace boresight::app

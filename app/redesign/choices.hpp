@@ -1,0 +1,22 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include <boresight/app/redesign/antenna_model.hpp>
+#include <boresight/app/report/report.hpp>
+
+namespace boresight::app {
+
+/// One choice among the numbers of a case, still without its design.
+struct PlantChoice {
+  ChoiceResult result;
+  std::optional<PlantVariant> variant;  // none where the choice leaves no plant
+};
+
+/// The case's own antenna first, then what else its numbers may mean: other antenna inertias, the
+/// other convention for the oil spring, other antennas of the frequencies stated with the motors
+/// held, and what resonance and impulses say of oil spring or inertia.
+std::vector<PlantChoice> plant_choices(const Case& antenna);
+
+}  // namespace boresight::app

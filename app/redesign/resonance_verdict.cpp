@@ -1,0 +1,117 @@
+#include <algorithm>
+#include <cmath>
+#include <utility>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include <boresight/app/redesign/antenna_model.hpp>
+#include <boresight/app/redesign/resonance_verdict.hpp>
+
+namespace boresight::app {
+namespace {
+
+constexpr double gigapascal = 1e9;  // Pa
+
+double hydraulic_frequency(const Case& antenna, const PlantVariant& variant) {
+  return plant::hydraulic_mode(plant::plant_modes(make_plant(antenna, variant))).frequency;
+}
+
+// With a bulk modulus so many times the case's.
+PlantVariant with_modulus(const Case& antenna, double factor) {
+  return {.oil_stiffness = factor * oil_stiffness(antenna),
+          .leakage_rate = leakage_rate_at(antenna, factor)};
+}
+
+// Where the frequency passes through the wanted one between two factors; nothing where it jumps
+// over it, as the mode's place passes to another.
+std::optional<double> crossing(const Case& antenna, double frequency, double lower, double upper) {
+  const auto above = [&](double factor) {
+    return hydraulic_frequency(antenna, with_modulus(antenna, factor)) > frequency;
+  };
+  const bool above_lower = above(lower);
+  if (above(upper) == above_lower) return std::nullopt;
+  constexpr int halvings = 40;
+  for (int i = 0; i < halvings; ++i) {
+    const double middle = std::sqrt(lower * upper);
+    (above(middle) == above_lower ? lower : upper) = middle;
+  }
+  const double found = hydraulic_frequency(antenna, with_modulus(antenna, lower));
+  constexpr double same = 1e-6;
+  return std::abs(found / frequency - 1.0) < same ? std::optional(lower) : std::nullopt;
+}
+
+double expected_uncertainty(const Case& antenna, double expected) {
+  const auto stiffness =
+      identification::identify_inertia(make_evidence(antenna), {1000, 1}).oil_stiffness;
+  const double oil = stiffness.standard_uncertainty / stiffness.value;
+  const auto upward = [](const Quantity& quantity) { return 1.0 + relative_uncertainty(quantity); };
+  PlantVariant heavier;
+  heavier.antenna_inertia = upward(antenna.antenna.inertia) * antenna_inertia(antenna);
+  double variance = 0.0;
+  for (const PlantVariant& moved :
+       {with_modulus(antenna, 1.0 + oil), heavier,
+        PlantVariant{.motor_inertia_scale = upward(antenna.motor.inertia)},
+        PlantVariant{.structure_frequency_scale =
+                         upward(antenna.structure.locked_rotor_frequency)}}) {
+    variance += std::pow(hydraulic_frequency(antenna, moved) - expected, 2);
+  }
+  return std::sqrt(variance);
+}
+
+}  // namespace
+
+double ResonanceVerdict::deviation() const {
+  return std::abs(measured - expected) / standard_uncertainty;
+}
+
+bool ResonanceVerdict::contradicts() const {
+  return deviation() > 3.0;
+}
+
+std::optional<double> bulk_modulus_for(const Case& antenna, double frequency) {
+  constexpr double farthest = 30.0;
+  constexpr int steps = 20;  // to either side
+  const double step = std::pow(farthest, 1.0 / steps);
+  // From the case's own outwards: of several the nearest.
+  for (int i = 0; i < steps; ++i) {
+    const double inner = std::pow(step, i), outer = std::pow(step, i + 1);
+    for (const auto& [lower, upper] : {std::pair{inner, outer}, {1.0 / outer, 1.0 / inner}}) {
+      if (const auto factor = crossing(antenna, frequency, lower, upper)) {
+        return *factor * bulk_modulus(antenna);
+      }
+    }
+  }
+  return std::nullopt;
+}
+
+std::optional<ResonanceVerdict> resonance_verdict(const Case& antenna) {
+  if (!antenna.resonance_frequency) return std::nullopt;
+  ResonanceVerdict verdict;
+  verdict.measured = antenna.resonance_frequency->value;
+  verdict.expected = hydraulic_frequency(antenna, {});
+  verdict.standard_uncertainty = std::hypot(antenna.resonance_frequency->standard_uncertainty,
+                                            expected_uncertainty(antenna, verdict.expected));
+  verdict.stated_bulk_modulus = bulk_modulus(antenna);
+  verdict.bulk_modulus = bulk_modulus_for(antenna, verdict.measured);
+  return verdict;
+}
+
+std::string resonance_sentence(const ResonanceVerdict& verdict) {
+  const double own = verdict.stated_bulk_modulus / gigapascal;
+  const std::string modulus =
+      verdict.bulk_modulus
+          ? fmt::format(
+                "a bulk modulus of {:.3g} GPa in the place of {:.3g} would make it, all "
+                "else as the case has it",
+                *verdict.bulk_modulus / gigapascal, own)
+          : fmt::format("no bulk modulus within a factor of 30 of the case's {:.3g} GPa makes it",
+                        own);
+  return fmt::format(
+      "The hydraulic frequency measured, {:.3g} Hz, {} the {:.3g} Hz of the case's flexible "
+      "antenna ({:.2g} standard uncertainties apart): {}.",
+      verdict.measured, verdict.contradicts() ? "contradicts" : "does not contradict",
+      verdict.expected, verdict.deviation(), modulus);
+}
+
+}  // namespace boresight::app

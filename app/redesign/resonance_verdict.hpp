@@ -1,0 +1,41 @@
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include <boresight/app/io/case_file.hpp>
+
+namespace boresight::app {
+
+/// The measured hydraulic frequency of a case against plant::hydraulic_mode of its flexible
+/// antenna.
+struct ResonanceVerdict {
+  double measured = 0.0;  // Hz
+  double expected = 0.0;  // Hz, of the flexible antenna
+  /// Standard uncertainty of their difference (Hz), to first order: of the reading, the oil
+  /// stiffness, the inertias of motors and antenna and the structure's frequencies.
+  double standard_uncertainty = 0.0;
+  double stated_bulk_modulus = 0.0;  // Pa, of the case, or the mean over its lines
+  /// Pa: bulk_modulus_for(measured).
+  std::optional<double> bulk_modulus = std::nullopt;
+
+  /// How many standard uncertainties the two are apart.
+  double deviation() const;
+  /// Whether that is more than 3.
+  bool contradicts() const;
+};
+
+/// Effective bulk modulus of the oil (Pa) at which plant::hydraulic_mode of the case's flexible
+/// antenna has that frequency (Hz), all else as in the case and the leakage rate as
+/// leakage_rate_at has it; nothing if none within a factor of 30 of the case's does, the nearest of
+/// several.
+std::optional<double> bulk_modulus_for(const Case& antenna, double frequency);
+
+/// Nothing for a case without a measured frequency.
+std::optional<ResonanceVerdict> resonance_verdict(const Case& antenna);
+
+/// In one sentence: both frequencies, how far they are apart, and the bulk modulus that would make
+/// the measured one.
+std::string resonance_sentence(const ResonanceVerdict& verdict);
+
+}  // namespace boresight::app

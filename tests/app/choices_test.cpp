@@ -1,0 +1,77 @@
+// What a redesign takes for the antenna where the case's numbers contradict one another.
+#include <algorithm>
+#include <stdexcept>
+#include <string>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "edited_case.hpp"
+#include <boresight/app/redesign/choices.hpp>
+
+namespace boresight::app {
+namespace {
+
+using testing::AllOf;
+using testing::HasSubstr;
+using testing::Not;
+
+// The 70-m antenna with a measured frequency.
+EditedCase measured_at(const std::string& frequency) {
+  EditedCase edited;
+  edited.replace("frequency = { value = \"0.97 Hz\"",
+                 "frequency = { value = \"" + frequency + "\"");
+  return edited;
+}
+
+EditedCase leaking_by_flow(EditedCase edited) {
+  return edited.replace_line("leakage_rate = ",
+                             "leakage_flow = \"6 L/min\"\nleakage_pressure = \"10 MPa\"");
+}
+
+PlantChoice choice_of(const Case& antenna, const std::string& name) {
+  const auto choices = plant_choices(antenna);
+  const auto found = std::ranges::find_if(
+      choices, [&](const PlantChoice& choice) { return choice.result.name == name; });
+  if (found == choices.end()) throw std::runtime_error("no such choice: " + name);
+  return *found;
+}
+
+plant::Drive drive_of(const Case& antenna, const PlantChoice& choice) {
+  return make_plant(antenna, choice.variant.value()).drive;
+}
+
+TEST(PlantChoices, SoftenTheOilWithTheLeakageThatItsFlowGives) {
+  const Case flow = parse_case(leaking_by_flow(measured_at("0.3 Hz")).text(), "case.toml");
+  const Case rate = parse_case(measured_at("0.3 Hz").text(), "case.toml");
+  const auto softer = choice_of(flow, "masses right, stiffness from resonance");
+  const auto own = make_plant(flow).drive, drive = drive_of(flow, softer);
+  EXPECT_LT(drive.oil_stiffness, 0.2 * own.oil_stiffness);
+  // One conductance of leakage.
+  EXPECT_NEAR(drive.leakage_rate / drive.oil_stiffness, own.leakage_rate / own.oil_stiffness,
+              1e-12 * own.leakage_rate / own.oil_stiffness);
+  EXPECT_THAT(softer.result.says,
+              AllOf(HasSubstr("oil spring lowered by a factor of 8."),
+                    HasSubstr(", and the leakage rate with it, so that"), HasSubstr("0.3 Hz")));
+  // A decay that was measured stays.
+  const auto measured = choice_of(rate, "masses right, stiffness from resonance");
+  EXPECT_EQ(drive_of(rate, measured).leakage_rate, make_plant(rate).drive.leakage_rate);
+  EXPECT_THAT(measured.result.says, Not(HasSubstr("leakage")));
+}
+
+TEST(PlantChoices, SayHowTheOilSpringIsMoved) {
+  const Case antenna = read_case(case_path("dss14-70m"));
+  EXPECT_THAT(choice_of(antenna, "masses right, stiffness from resonance").result.says,
+              HasSubstr("oil spring raised by a factor of 1.28 so that"));
+}
+
+TEST(PlantChoices, KeepTheLeakageOfTheOtherConvention) {
+  const Case antenna = parse_case(leaking_by_flow(EditedCase()).text(), "case.toml");
+  const auto other = choice_of(antenna, "stiffness without efficiencies");
+  EXPECT_EQ(drive_of(antenna, other).leakage_rate, make_plant(antenna).drive.leakage_rate);
+  EXPECT_FALSE(other.result.contradicts);
+  EXPECT_TRUE(choice_of(antenna, "inertia from resonance, no efficiencies").result.contradicts);
+}
+
+}  // namespace
+}  // namespace boresight::app

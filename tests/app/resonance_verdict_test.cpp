@@ -1,0 +1,92 @@
+// The measured hydraulic frequency against that of the flexible antenna.
+#include <string>
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "edited_case.hpp"
+#include <boresight/app/page/decision.hpp>
+#include <boresight/app/redesign/antenna_model.hpp>
+#include <boresight/app/redesign/resonance_verdict.hpp>
+#include <boresight/app/redesign/sections.hpp>
+
+namespace boresight::app {
+namespace {
+
+using testing::AllOf;
+using testing::Each;
+using testing::EndsWith;
+using testing::HasSubstr;
+using testing::Not;
+using testing::StartsWith;
+
+// The 70-m antenna, its leakage by a flow, with a bulk modulus (Pa) and a measured frequency.
+Case with_oil(double bulk_modulus, const std::string& measured = "0.97 Hz") {
+  return parse_case(
+      EditedCase()
+          .replace("value = \"1229 MPa\"", fmt::format("value = \"{:.17g} Pa\"", bulk_modulus))
+          .replace("frequency = { value = \"0.97 Hz\"",
+                   fmt::format("frequency = {{ value = \"{}\"", measured))
+          .replace_line("leakage_rate = ",
+                        "leakage_flow = \"6 L/min\"\nleakage_pressure = \"10 MPa\"")
+          .text(),
+      "case.toml");
+}
+
+double hydraulic_frequency(const Case& antenna) {
+  return plant::hydraulic_mode(plant::plant_modes(make_plant(antenna))).frequency;
+}
+
+TEST(BulkModulusFor, MakesTheFrequencyOfTheFlexibleAntenna) {
+  const Case antenna = with_oil(1.229e9);
+  for (const double frequency : {0.5, 0.97, 1.1}) {
+    const auto modulus = bulk_modulus_for(antenna, frequency);
+    ASSERT_TRUE(modulus);
+    // Read anew: with that modulus the leakage rate is another too.
+    EXPECT_NEAR(hydraulic_frequency(with_oil(*modulus)), frequency, 2e-6);
+  }
+}
+
+TEST(BulkModulusFor, IsNoneWhereTheStructureIsSofter) {
+  EXPECT_FALSE(bulk_modulus_for(with_oil(1.229e9), 20.0));
+}
+
+TEST(ResonanceVerdict, SaysWhatContradictsAndWhichOilWouldNot) {
+  const auto verdict = resonance_verdict(with_oil(1.229e9));
+  ASSERT_TRUE(verdict);
+  EXPECT_TRUE(verdict->contradicts());
+  EXPECT_EQ(resonance_sentence(*verdict),
+            fmt::format("The hydraulic frequency measured, 0.97 Hz, contradicts the {:.3g} Hz of "
+                        "the case's flexible antenna ({:.2g} standard uncertainties apart): a bulk "
+                        "modulus of {:.3g} GPa in the place of 1.23 would make it, all else as the "
+                        "case has it.",
+                        verdict->expected, verdict->deviation(), *verdict->bulk_modulus / 1e9));
+  const auto agreeing = resonance_verdict(with_oil(*verdict->bulk_modulus));
+  ASSERT_TRUE(agreeing);
+  EXPECT_LT(agreeing->deviation(), 0.01);
+  EXPECT_THAT(resonance_sentence(*agreeing), HasSubstr("does not contradict"));
+  const auto stiff = resonance_verdict(with_oil(1.229e9, "20 Hz"));
+  ASSERT_TRUE(stiff);
+  EXPECT_THAT(resonance_sentence(*stiff),
+              EndsWith("no bulk modulus within a factor of 30 of the case's 1.23 GPa makes it."));
+}
+
+TEST(ResonanceVerdict, StandsFirstAmongConclusionsAndInTheDecision) {
+  const Case antenna = with_oil(1.229e9);
+  Report report;
+  report.command = "redesign";
+  report.identification = identify(antenna, {});
+  report.resonance = resonance_verdict(antenna);
+  EXPECT_THAT(conclude(report).front(),
+              AllOf(StartsWith("The hydraulic frequency measured, 0.97 Hz, contradicts"),
+                    HasSubstr("Of a rigid antenna it leaves -0.0"),
+                    EndsWith("or the reading of the resonance must give way.")));
+  EXPECT_THAT(decision(report).front(), StartsWith("The hydraulic frequency measured"));
+  report.resonance = resonance_verdict(with_oil(*report.resonance->bulk_modulus));
+  EXPECT_THAT(conclude(report).front(), Not(HasSubstr("must give way")));
+  EXPECT_THAT(decision(report), Each(Not(HasSubstr("The hydraulic frequency measured"))));
+}
+
+}  // namespace
+}  // namespace boresight::app

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <complex>
 #include <functional>
 #include <numbers>
 #include <optional>
@@ -198,20 +199,22 @@ void check(const StructureSpecification& stated) {
 
 }  // namespace
 
-std::vector<double> motors_held_frequencies(const Structure& structure) {
+std::vector<MotorsHeldMode> motors_held_modes(const Structure& structure) {
   const auto modes = static_cast<Index>(structure.modes.size());
   const double gear = structure.bull_gear_inertia;
   const auto positive = [](const char* what, double value) {
     if (!(value > 0.0)) {
       throw InvalidInput(
-          fmt::format("motors_held_frequencies: expected a positive {}, found {:g}", what, value));
+          fmt::format("motors_held_modes: expected a positive {}, found {:g}", what, value));
     }
   };
   positive("bull gear inertia", gear);
   positive("gear stiffness", structure.gear_stiffness);
   // Angles times the root of their inertia.
   Eigen::MatrixXd stiffness = Eigen::MatrixXd::Zero(modes + 1, modes + 1);
+  VectorXd turn(modes + 1);  // of the whole antenna
   stiffness(0, 0) = structure.gear_stiffness / gear;
+  turn[0] = std::sqrt(gear);
   for (Index i = 0; i < modes; ++i) {
     const auto& mode = structure.modes[static_cast<std::size_t>(i)];
     positive("modal inertia", mode.inertia);
@@ -219,13 +222,17 @@ std::vector<double> motors_held_frequencies(const Structure& structure) {
     stiffness(0, 0) += mode.stiffness / gear;
     stiffness(i + 1, i + 1) = mode.stiffness / mode.inertia;
     stiffness(0, i + 1) = stiffness(i + 1, 0) = -mode.stiffness / std::sqrt(mode.inertia * gear);
+    turn[i + 1] = std::sqrt(mode.inertia);
   }
   const auto eigen = hermitian_eigen(stiffness.cast<std::complex<double>>());
-  std::vector<double> frequencies;
-  for (const double square : eigen.values) {
-    frequencies.push_back(std::sqrt(std::max(square, 0.0)) / two_pi);
+  const VectorXd participation =
+      (eigen.vectors.adjoint() * turn.cast<std::complex<double>>()).cwiseAbs2();
+  std::vector<MotorsHeldMode> held;
+  for (Index i = 0; i <= modes; ++i) {
+    held.push_back({std::sqrt(std::max(eigen.values[i], 0.0)) / two_pi,
+                    participation[i] / turn.squaredNorm()});
   }
-  return frequencies;
+  return held;
 }
 
 std::vector<StructureSpecification> hold_bull_gear_of(const StructureSpecification& motors_held) {

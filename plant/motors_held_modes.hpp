@@ -6,11 +6,21 @@
 
 namespace boresight::plant {
 
-/// Frequencies (Hz) of bull gear and modes on the gear spring with the motors held, the lowest
-/// first: what a hammer test or a finite-element program finds. Undamped; one more than modes.
+/// A vibration mode of bull gear and modes on the gear spring with the motors held.
+struct MotorsHeldMode {
+  double frequency = 0.0;         // Hz
+  double inertia_fraction = 0.0;  // effective, of the antenna inertia
+};
+
+/// These modes, the lowest first: what a hammer test or a finite-element program finds. Undamped;
+/// one more than modes with the bull gear held. With phi the shape, M the inertias and 1 the turn
+/// of the whole antenna, the effective inertia fraction is
+///   (phi^T M 1)^2 / ((phi^T M phi) (1^T M 1));
+/// the fractions sum to 1, and times (2 pi f)^2 to the gear stiffness over the antenna inertia.
+/// With the frequencies they determine the antenna.
 /// @throws InvalidInput unless inertias and stiffnesses are positive; NumericalFailure if the
 /// eigenvalues do not converge.
-std::vector<double> motors_held_frequencies(const Structure& structure);
+std::vector<MotorsHeldMode> motors_held_modes(const Structure& structure);
 
 /// The antennas whose frequencies with the motors held are those stated: locked_rotor_frequency
 /// and, rising from there, those of the modes (at most 8). Each comes back with its modes'

@@ -29,6 +29,14 @@ std::string held_frequencies(const plant::StructureSpecification& antenna) {
   return fmt::format("{} Hz", fmt::join(frequencies, ", "));
 }
 
+std::string effective_fractions(const plant::StructureSpecification& antenna) {
+  std::vector<std::string> fractions;
+  for (const auto& mode : plant::motors_held_modes(plant::make_structure(antenna))) {
+    fractions.push_back(fmt::format("{:.3f}", mode.inertia_fraction));
+  }
+  return fmt::format("whose motors-held modes have {} of the inertia", fmt::join(fractions, ", "));
+}
+
 // With every body's shares of wind and beam those of the inertia.
 Case with_inertial_shares(Case antenna) {
   StructureEntry& structure = antenna.structure;
@@ -85,17 +93,18 @@ void check_structural_predictions(const CaseNumbers& numbers, Implausibilities& 
   const auto& predicted = numbers.antenna.campaign.locked_rotor_frequencies;
   if (predicted.empty()) return;
   constexpr double agrees = 0.05;
-  const auto own = plant::motors_held_frequencies(
+  const auto own = plant::motors_held_modes(
       plant::make_structure(structure_specification(numbers.antenna.structure)));
   std::vector<std::string> apart;
   std::vector<NamedNumber> compared;
   for (std::size_t i = 0; i < std::min(own.size(), predicted.size()); ++i) {
-    const double difference = own[i] / predicted[i].value - 1.0;
+    const double frequency = own[i].frequency;
+    const double difference = frequency / predicted[i].value - 1.0;
     if (std::abs(difference) <= agrees) continue;
-    apart.push_back(fmt::format("{:.4g} Hz for '{}' ({:+.0f} %)", own[i], predicted[i].text,
+    apart.push_back(fmt::format("{:.4g} Hz for '{}' ({:+.0f} %)", frequency, predicted[i].text,
                                 100.0 * difference));
     compared.push_back({predicted[i].key, predicted[i].value, "Hz"});
-    compared.push_back({"plant for " + predicted[i].key, own[i], "Hz"});
+    compared.push_back({"plant for " + predicted[i].key, frequency, "Hz"});
   }
   if (apart.empty()) return;
   found.push_back(
@@ -120,16 +129,19 @@ void check_motors_held_antennas(const CaseNumbers& numbers, Implausibilities& fo
     const double spring = gear_spring(numbers, antennas[i]);
     springs.push_back({fmt::format("gear spring {}", i + 1), spring, "N.m/rad"});
     if (i == 0) continue;
-    others.push_back(fmt::format("{:.3g} N.m/rad with {}", spring, held_frequencies(antennas[i])));
+    others.push_back(fmt::format("{:.3g} N.m/rad with {}, {}", spring,
+                                 held_frequencies(antennas[i]), effective_fractions(antennas[i])));
   }
   found.push_back(
       {"motors held", "structure.mode_frequencies",
-       fmt::format("{} antennas of these inertia fractions have the stated frequencies with the "
-                   "motors held; the studies take the one with the softest gear spring, {:.3g} "
-                   "N.m/rad at the motor shaft with modes at {} with the bull gear held, and it "
-                   "may as well be {}: the stiffness of gears and bearings says which.",
-                   antennas.size(), springs[0].value, held_frequencies(antennas[0]),
-                   fmt::join(others, "; or ")),
+       fmt::format(
+           "{} antennas of these inertia fractions have the stated frequencies with the "
+           "motors held; the studies take the one with the softest gear spring, {:.3g} "
+           "N.m/rad at the motor shaft with modes at {} with the bull gear held, {}, and it "
+           "may as well be {}: the effective inertia fractions of a structural model with "
+           "the motors braked say which, or the stiffness of gears and bearings.",
+           antennas.size(), springs[0].value, held_frequencies(antennas[0]),
+           effective_fractions(antennas[0]), fmt::join(others, "; or ")),
        std::move(springs)});
 }
 

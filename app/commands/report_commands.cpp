@@ -168,7 +168,8 @@ int run(const Command& command, const Arguments& arguments) {
                report.tuning->design.verification.failure);
     return numerical;
   }
-  const auto unmet = report.tuning ? unmet_needs(*report.tuning) : std::vector<std::string>{};
+  const auto unmet =
+      report.tuning ? unmet_needs(*report.tuning, report.time_domain) : std::vector<std::string>{};
   for (const auto& sentence : unmet) {
     fmt::print(stderr, "boresight: {}: {}\n", arguments.case_path, sentence);
   }

@@ -57,7 +57,8 @@ std::string against_as_it_is(const EvaluateSection& section) {
           : ", linear loops only",
       rms_of(base) / millidegree, base.hunts() ? ", and it hunts" : "");
   if (better.empty()) {
-    text += worse.empty() ? "no proposal fit to be chosen stands beside it" : "nothing lowers it";
+    text +=
+        worse.empty() ? "none to compare, as no proposal is fit to be chosen" : "nothing lowers it";
   } else {
     text += fmt::format("lowered {}", fmt::join(better, ", "));
   }

@@ -6,6 +6,7 @@
 
 #include <boresight/app/figures/law_figures.hpp>
 #include <boresight/app/figures/tuning_figures.hpp>
+#include <boresight/app/redesign/matching_verdict.hpp>
 #include <boresight/app/report/sky_units.hpp>
 
 namespace boresight::app {
@@ -87,12 +88,13 @@ std::vector<Figure> matching_figures(const MatchingSection& section) {
   figure.panels[1].y = {.label = "hydraulic frequency", .unit = "Hz"};
   figure.panels[2].y = {.label = "hydraulic damping ratio"};
   for (const auto& series : section.series) {
-    FigureSeries rms{
-        .name = fmt::format("{}, {} ({:.3g} N.m.s/rad)", control::to_string(series.structure),
-                            series.friction, series.viscous_friction),
-        .style = SeriesStyle::line_and_points};
-    FigureSeries frequency{
-        .name = fmt::format("{} ({:.3g} N.m.s/rad)", series.friction, series.viscous_friction)};
+    const std::string friction =
+        series.friction.empty()
+            ? friction_text(series)
+            : fmt::format("{} ({:.3g} N.m.s/rad)", series.friction, series.viscous_friction);
+    FigureSeries rms{.name = fmt::format("{}, {}", control::to_string(series.structure), friction),
+                     .style = SeriesStyle::line_and_points};
+    FigureSeries frequency{.name = friction};
     FigureSeries damping = frequency;
     for (std::size_t i = 0; i < section.rows.size(); ++i) {
       const double disks = section.rows[i].disks;

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 #include <string>
 #include <utility>
 
@@ -6,6 +7,7 @@
 
 #include <boresight/app/io/structure_numbers.hpp>
 #include <boresight/app/redesign/choices.hpp>
+#include <boresight/app/redesign/resonance_verdict.hpp>
 
 namespace boresight::app {
 namespace {
@@ -38,9 +40,10 @@ class Choices {
     choices_.back().result.contradicts = true;
   }
 
-  // The inertia a test found, with motors and gear train kept and the antenna taking the rest.
-  void add_test(std::string name, double found, double stiffness) {
-    std::string says = "motors and gear train kept, the antenna takes the rest";
+  // The inertia a test found, with motors and gear train kept and the antenna taking the rest;
+  // `model`: what its formula takes the antenna for.
+  void add_test(std::string name, const std::string& model, double found, double stiffness) {
+    std::string says = model + "motors and gear train kept, the antenna takes the rest";
     const double fixed = fixed_inertia(), stated = antenna_inertia(antenna_);
     if (found - fixed > 0.05 * stated) {
       add_contradiction(std::move(name), std::move(says),
@@ -63,8 +66,29 @@ class Choices {
   std::vector<PlantChoice> choices_;
 };
 
+// The oil by which the flexible antenna resonates at that frequency (Hz), if that is other oil than
+// the case's.
+void add_flexible_resonance(const Case& antenna, double frequency, const std::string& leakage,
+                            Choices& choices) {
+  constexpr double same_oil = 0.01, gigapascal = 1e9;
+  const auto modulus = bulk_modulus_for(antenna, frequency);
+  if (!modulus) return;
+  const double factor = *modulus / bulk_modulus(antenna);
+  if (std::abs(factor - 1.0) <= same_oil) return;
+  choices.add_contradiction(
+      "oil for the resonance of the flexible antenna",
+      fmt::format("bulk modulus of {:.3g} GPa{} by which the flexible antenna has the measured "
+                  "{:g} Hz",
+                  *modulus / gigapascal, leakage.empty() ? "," : leakage, frequency),
+      {.oil_stiffness = factor * oil_stiffness(antenna),
+       .leakage_rate = leakage_rate_at(antenna, factor)});
+}
+
 // By a resonance at that frequency (Hz); `other`: the oil spring by the other convention.
 void add_resonance(const Case& antenna, double frequency, double other, Choices& choices) {
+  const std::string leakage =
+      antenna.drive.leakage_by_flow ? ", and the leakage rate with it," : "";
+  add_flexible_resonance(antenna, frequency, leakage, choices);
   const double own = oil_stiffness(antenna);
   const double inertia = choices.fixed_inertia() + antenna_inertia(antenna);
   const double found = plant::inertia_from_resonance(own, frequency);
@@ -73,17 +97,17 @@ void add_resonance(const Case& antenna, double frequency, double other, Choices&
   choices.add_contradiction(
       "masses right, stiffness from resonance",
       fmt::format("oil spring {} by a factor of {:.3g}{} so that the rigid masses ring at {:g} Hz",
-                  factor < 1.0 ? "lowered" : "raised", std::max(factor, 1.0 / factor),
-                  antenna.drive.leakage_by_flow ? ", and the leakage rate with it," : "",
+                  factor < 1.0 ? "lowered" : "raised", std::max(factor, 1.0 / factor), leakage,
                   frequency),
       {.oil_stiffness = factor * own, .leakage_rate = leakage_rate_at(antenna, factor)});
-  choices.add_test("stiffness right, inertia from resonance", found, own);
+  const std::string rigid = "by the resonance of rigid masses, ";
+  choices.add_test("stiffness right, inertia from resonance", rigid, found, own);
   choices.add_test(antenna.oil.efficiency_in_stiffness
                        ? "inertia from resonance, no efficiencies"
                        : "inertia from resonance, with efficiencies",
-                   plant::inertia_from_resonance(other, frequency), other);
+                   rigid, plant::inertia_from_resonance(other, frequency), other);
   choices.add_contradiction("stiffness right, all masses scaled",
-                            fmt::format("every inertia times {:.3f}", found / inertia),
+                            fmt::format("{}every inertia times {:.3f}", rigid, found / inertia),
                             {.inertia_scale = found / inertia});
 }
 
@@ -114,7 +138,7 @@ std::vector<PlantChoice> plant_choices(const Case& antenna) {
     add_resonance(antenna, antenna.resonance_frequency->value, other, choices);
   }
   for (const auto& impulse : antenna.impulse_results) {
-    choices.add_test("inertia from impulse, " + impulse.name + " friction",
+    choices.add_test("inertia from impulse, " + impulse.name + " friction", "",
                      impulse.reflected_inertia.value, oil_stiffness(antenna));
   }
   return choices.take();

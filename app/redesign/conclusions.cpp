@@ -95,9 +95,10 @@ void conclude_identification(const IdentificationSection& section,
   const double ratio = least->motor_to_load_ratio.value;
   std::string text = fmt::format(
       "The methods put the reflected inertia between {:.3f} kg.m2 ({}) and {:.3f} ({}), and the "
-      "motor-to-load ratio between {} and {}.",
+      "motor-to-load ratio between {} and {}{}.",
       least->reflected_inertia.value, least->name, most->reflected_inertia.value, most->name,
-      ratio_text(most->motor_to_load_ratio.value), ratio_text(ratio));
+      ratio_text(most->motor_to_load_ratio.value), ratio_text(ratio),
+      rigid_resonance_remark(resonance, *least, *most));
   if (ratio > 2.0 && std::isfinite(ratio)) {
     // dR/R = -(1 + R) dJ/J
     text += fmt::format(

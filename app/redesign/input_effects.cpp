@@ -109,9 +109,11 @@ std::optional<double> inertia_fraction_of(const StructureEntry& structure, const
   return of_bull_gear ? std::optional(bull_gear) : std::nullopt;
 }
 
-// A guess of a share may as well be the inertia fraction, and as wrong the other way.
+// A guess of a share may as well be the inertia fraction, and as wrong the other way; by half of it
+// where it is that fraction.
 std::pair<double, double> guessed_range(double share, double inertia_fraction) {
-  const double by = std::max(std::abs(share - inertia_fraction), unstated_share * share);
+  constexpr double half = 0.5;
+  const double by = std::max(std::abs(share - inertia_fraction), half * share);
   constexpr double rounding = 1e-9;
   const double lower = share - by;
   return {lower > rounding ? lower : 0.0, std::min(share + by, 1.0)};

@@ -111,6 +111,11 @@ bool MatchingVerdict::friction_decides() const {
   return std::max(one, two) > worth_flywheels && std::min(one, two) < negligible_change;
 }
 
+std::string friction_text(const MatchingSeries& series) {
+  if (!series.friction.empty()) return series.friction;
+  return fmt::format("friction slope {:.3g} N.m.s/rad", series.viscous_friction);
+}
+
 std::string what_matters_more(const Report& report) {
   Influences influences;
   if (report.tuning && !report.tuning->wind_alternatives.empty()) {
@@ -167,7 +172,7 @@ void conclude_matching(const Report& report, const MatchingSection& section,
       const MatchingSeries& series = section.series[i];
       text += fmt::format("{} {:+.1f} % ({}, {})", i == 0 ? "" : ",",
                           100.0 * verdict.change(series, end), control::to_string(series.structure),
-                          series.friction);
+                          friction_text(series));
     }
     sentences.push_back(text + ".");
   }
@@ -207,7 +212,8 @@ std::string decide_matching(const Report& report, const MatchingSection& section
   std::string text = fmt::format(
       "Going from {} as built to {}, re-tuned, changes the rms by {:+.1f} % with {} ({})",
       section.rows[verdict.built()].label, section.rows[end].label,
-      100.0 * verdict.change(series, end), control::to_string(series.structure), series.friction);
+      100.0 * verdict.change(series, end), control::to_string(series.structure),
+      friction_text(series));
   const MatchingSeries* other = verdict.other_friction();
   if (other == nullptr) return text + ".";
   const double one = verdict.change(series, end), two = verdict.change(*other, end);

@@ -44,6 +44,10 @@ class MatchingVerdict {
   std::size_t unusable_ = 0;
 };
 
+/// Which friction a series has: its name, or "friction slope 0.9 N.m.s/rad" where one slope is
+/// both.
+std::string friction_text(const MatchingSeries& series);
+
 /// What moves the rms by more than negligible_change beside the motors' inertia, as
 /// Influences::sentence.
 std::string what_matters_more(const Report& report);

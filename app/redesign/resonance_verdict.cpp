@@ -109,9 +109,19 @@ std::string resonance_sentence(const ResonanceVerdict& verdict) {
                         own);
   return fmt::format(
       "The hydraulic frequency measured, {:.3g} Hz, {} the {:.3g} Hz of the case's flexible "
-      "antenna ({:.2g} standard uncertainties apart): {}.",
+      "antenna ({:.3g} standard uncertainties apart): {}.",
       verdict.measured, verdict.contradicts() ? "contradicts" : "does not contradict",
       verdict.expected, verdict.deviation(), modulus);
+}
+
+std::string rigid_resonance_remark(const std::optional<ResonanceVerdict>& verdict,
+                                   const identification::InertiaMethod& least,
+                                   const identification::InertiaMethod& most) {
+  constexpr auto resonance = identification::MethodKind::resonance;
+  const bool of_rigid = least.kind == resonance || most.kind == resonance;
+  if (!of_rigid || !verdict || verdict->contradicts()) return "";
+  return "; the resonance's figure is of a rigid antenna, and the flexible one does not contradict "
+         "the masses";
 }
 
 }  // namespace boresight::app

@@ -4,6 +4,7 @@
 #include <string>
 
 #include <boresight/app/io/case_file.hpp>
+#include <boresight/identification/inertia_methods.hpp>
 
 namespace boresight::app {
 
@@ -37,5 +38,12 @@ std::optional<ResonanceVerdict> resonance_verdict(const Case& antenna);
 /// In one sentence: both frequencies, how far they are apart, and the bulk modulus that would make
 /// the measured one.
 std::string resonance_sentence(const ResonanceVerdict& verdict);
+
+/// Ends a sentence on the range of inertia by methods, of which these give least and most: that the
+/// resonance's figure is of a rigid antenna, where it is one of them and the measured frequency
+/// does not contradict the flexible antenna. Else empty.
+std::string rigid_resonance_remark(const std::optional<ResonanceVerdict>& verdict,
+                                   const identification::InertiaMethod& least,
+                                   const identification::InertiaMethod& most);
 
 }  // namespace boresight::app

@@ -163,7 +163,7 @@ MatchingPlan plan_matching(const Case& antenna, const StudyOptions& options) {
                                                         {tracking, "slope at tracking rate"}};
   // Twice the same study would tell nothing.
   if (std::abs(tracking - linear) <= 1e-9 * std::max(tracking, linear)) {
-    frictions = {{linear, "linear plant and tracking rate alike"}};
+    frictions = {{linear, ""}};
   }
   for (const auto& [friction, name] : frictions) {
     for (const auto& structure : {loop_structure(antenna, "PI"), loop_structure(antenna, "PI-0")}) {

@@ -170,17 +170,28 @@ std::string met_text(const TuningSection& section, const BudgetResult& budget) {
   return fmt::format("is met up to {:.1f} m/s{}{}", reached, mast, share);
 }
 
-std::vector<std::string> unmet_needs(const TuningSection& section) {
+std::vector<std::string> unmet_needs(const TuningSection& section,
+                                     const std::optional<TimeDomainSection>& time_domain) {
   std::vector<std::string> sentences;
   if (!section.design.usable()) return sentences;
   for (const auto& result : section.budgets) {
     const PointingBudget& budget = result.budget;
-    if (!budget.wind_speed || meets_need(budget, reached_wind_speed(section, result))) continue;
+    if (!budget.wind_speed) continue;
+    const bool linear = meets_need(budget, reached_wind_speed(section, result));
+    const bool simulated = !time_domain || *budget.wind_speed < time_domain->wind_speed ||
+                           time_domain->result.wind.beam_rms <= budget.rms;
+    if (linear && simulated) continue;
     sentences.push_back(fmt::format(
-        "NOT MET: {} is needed up to {:.3g} m/s{}; as built, with the best {} law found, it {}. {}",
+        "NOT MET: {} is needed up to {:.3g} m/s{}; as built, with the best {} law found, it {}{}. "
+        "{}",
         budget_text(budget), *budget.wind_speed,
         dish_and_mast(section.wind_mast, *budget.wind_speed), control::to_string(section.structure),
         met_text(section, result),
+        linear
+            ? fmt::format(" by the linear plant, but on the nonlinear antenna the law has {:.3f} "
+                          "mdeg in {:.3g} m/s",
+                          time_domain->result.wind.beam_rms / millidegree, time_domain->wind_speed)
+            : "",
         meets_need(budget, section.supply_wind_speed)
             ? "`boresight tune` looks for a loop structure that meets it."
             : "No loop structure changes that: the drive lacks torque."));
@@ -230,7 +241,7 @@ void conclude_tuning(const Report& report, const TuningSection& section,
     text += fmt::format("; {} {}", budget_text(budget.budget), met_text(section, budget));
   }
   add(text + ".");
-  for (auto& need : unmet_needs(section)) add(std::move(need));
+  for (auto& need : unmet_needs(section, report.time_domain)) add(std::move(need));
   add(robustness_text(section));
   add(needs_on_plants(section, false));
   add(bound_text(section));
@@ -254,7 +265,7 @@ void conclude_tuning(const Report& report, const TuningSection& section,
 }
 
 std::vector<std::string> decide_tuning(const Report& report, const TuningSection& section) {
-  std::vector<std::string> sentences = unmet_needs(section);
+  std::vector<std::string> sentences = unmet_needs(section, report.time_domain);
   const bool met = sentences.empty();
   for (const auto& law : section.present) {
     if (law.design.tuning.status == design::TuningStatus::unstable) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -16,8 +17,10 @@ double reached_wind_speed(const TuningSection& section, const BudgetResult& budg
 std::string met_text(const TuningSection& section, const BudgetResult& budget);
 
 /// In one or two sentences each budget that states a wind speed it is needed up to and is not met
-/// so far by a law that is good otherwise; none without such a law.
-std::vector<std::string> unmet_needs(const TuningSection& section);
+/// so far by a law that is good otherwise: by the linear plant, or in the wind of the run on the
+/// nonlinear antenna, if that is no more; none without such a law.
+std::vector<std::string> unmet_needs(const TuningSection& section,
+                                     const std::optional<TimeDomainSection>& time_domain);
 
 /// What the report's linear study leaves out for want of a [simulation]; empty if it has one or if
 /// no law was good enough to run.

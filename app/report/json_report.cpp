@@ -2,6 +2,7 @@
 #include <numbers>
 
 #include <boresight/app/figures/figure_json.hpp>
+#include <boresight/app/redesign/matching_verdict.hpp>
 #include <boresight/app/redesign/tuning_verdict.hpp>
 #include <boresight/app/report/evaluate_report.hpp>
 #include <boresight/app/report/json_assumed.hpp>
@@ -239,7 +240,7 @@ Json matching_json(const MatchingSection& section) {
                         {"design", design_json(series.designs[i])}});
     }
     json.push_back({{"structure", control::to_string(series.structure)},
-                    {"friction", series.friction},
+                    {"friction", friction_text(series)},
                     {"viscous_friction_N_m_s_per_rad", series.viscous_friction},
                     {"points", std::move(points)}});
   }

@@ -146,7 +146,7 @@ struct MatchingRow {
 
 /// One tuned design in the matching study.
 struct MatchingSeries {
-  std::string friction;  // "linear plant", "slope at tracking rate", or both alike
+  std::string friction;  // "linear plant", "slope at tracking rate"; empty where one slope is both
   double viscous_friction = 0.0;
   control::LoopStructure structure;
   std::vector<design::Design> designs;  // one a row

@@ -7,6 +7,7 @@
 #include <fmt/ranges.h>
 
 #include <boresight/app/document/document.hpp>
+#include <boresight/app/redesign/matching_verdict.hpp>
 #include <boresight/app/redesign/tuning_verdict.hpp>
 #include <boresight/app/report/climate_wording.hpp>
 #include <boresight/app/report/loss_wording.hpp>
@@ -159,8 +160,9 @@ Document effects_part(const TuningSection& section) {
       "tenth (marked *) where its value is assumed and the case gives none. A share of wind or "
       "beam "
       "that is assumed so (marked *, with its range) is moved to its body's share of the inertia "
-      "and as far the other way, from 0 to 1: a guess may be as wrong. Of shares the others give "
-      "way. What moves the rms most comes first.",
+      "and as far the other way, by half of it at least, from 0 to 1: a guess may be as wrong. Of "
+      "shares the others give way. Inertias are moved with the structure's frequencies held, so "
+      "that a lighter antenna is a softer one. What moves the rms most comes first.",
       "  ");
   std::vector<std::vector<std::string>> rows{
       {"number", "as", "value", "moved by", "rms mdeg, lower", "higher"}};
@@ -290,8 +292,9 @@ Document document_of(const TuningSection& section) {
                 "  ");
   }
   if (climate) {
-    text += wrapped(fmt::format("Of the climate's time, of which the supply's torque counts; its "
-                                "highest speed is {:.4g} m/s.",
+    text += wrapped(fmt::format("Of the time: share of the climate's time with winds up to that "
+                                "speed, or up to where the supply's torque ends, whichever is "
+                                "lower. The climate's highest speed is {:.4g} m/s.",
                                 design::highest_speed(section.climate)),
                     "  ");
   }
@@ -342,9 +345,11 @@ Document document_of(const std::vector<ChoiceResult>& choices) {
 Document document_of(const MatchingSection& section) {
   Document text = heading("Inertia matching: re-tuned at each motor inertia");
   for (const auto& series : section.series) {
-    text += subheading(fmt::format("{}; friction: {}, {:.3g} N.m.s/rad",
-                                   control::to_string(series.structure), series.friction,
-                                   series.viscous_friction));
+    text += subheading(fmt::format("{}; {}", control::to_string(series.structure),
+                                   series.friction.empty()
+                                       ? friction_text(series)
+                                       : fmt::format("friction: {}, {:.3g} N.m.s/rad",
+                                                     series.friction, series.viscous_friction)));
     std::vector<std::vector<std::string>> rows{
         {"motors", "disks", "R", "J kg.m2", "hydr. Hz", "damping", "S rate", "S valve", "S pos.",
          "PM valve", "GM valve", "PM pos.", "GM pos.", "rms mdeg", "check"}};

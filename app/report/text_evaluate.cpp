@@ -88,7 +88,7 @@ Document time_domain_table(const EvaluateSection& section) {
   return heading("The laws on the nonlinear antenna") +
          wrapped(fmt::format(
                      "Every law ran on the nonlinear antenna of its proposal, in one record of "
-                     "{:g} s at {:g} m/s (seed {}): friction curve with bristles, orifices, "
+                     "{:g} s at {:.3g} m/s (seed {}): friction curve with bristles, orifices, "
                      "the limits of stroke and command, the encoder's steps, sampling, and the "
                      "backlash and the lines' waves where the case has them. Laws and proposals "
                      "are compared by the rms of their linear "
@@ -316,7 +316,7 @@ Document laws_part(const EvaluateSection& section) {
 }  // namespace
 
 Document document_of(const EvaluateSection& section) {
-  Document text = heading(fmt::format("Proposals, re-tuned: wind model {}, {:g} m/s",
+  Document text = heading(fmt::format("Proposals, re-tuned: wind model {}, {:.3g} m/s",
                                       plant::to_string(section.wind_model), section.wind_speed));
   text += wrapped(
       fmt::format("Each with loops of its own, tuned so that every hard goal holds on the nominal "

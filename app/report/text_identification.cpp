@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 
 #include <fmt/format.h>
 
@@ -78,8 +79,10 @@ Document methods_table(const IdentificationSection& section) {
   return table(rows);
 }
 
-// `without_antenna`: the inertia of motors and gear train.
-std::string reconciled_text(const identification::ReconciledInertia& one, double without_antenna) {
+// `without_antenna`: the inertia of motors and gear train; `impulses`: results of impulse tests.
+std::string reconciled_text(const identification::ReconciledInertia& one, double without_antenna,
+                            std::ptrdiff_t impulses) {
+  const std::string counted = impulses > 1 ? " (the impulse results count as one)" : "";
   const std::string ratio = fmt::format("R = {:.2f}, interval {} .. {}", one.motor_to_load_ratio,
                                         bound(one.ratio_lower, 2), bound(one.ratio_upper, 2));
   const std::string scatter = fmt::format("Cochran's Q {:.1f} on {} degrees of freedom",
@@ -87,16 +90,16 @@ std::string reconciled_text(const identification::ReconciledInertia& one, double
   if (one.contradictory()) {
     return fmt::format(
         "No reconciled inertia: the methods contradict one another ({}; motors and gear train "
-        "alone are {:.3f} kg.m2). A random-effects mean of {} methods (the impulse results count "
-        "as one) would be {:.3f} kg.m2 ({:.2f} .. {:.2f}; {}), which stands for none of them.",
-        scatter, without_antenna, one.degrees_of_freedom + 1, one.value, one.lower, one.upper,
-        ratio);
+        "alone are {:.3f} kg.m2). A random-effects mean of {} methods{} would be {:.3f} "
+        "kg.m2 ({:.2f} .. {:.2f}; {}), which stands for none of them.",
+        scatter, without_antenna, one.degrees_of_freedom + 1, counted, one.value, one.lower,
+        one.upper, ratio);
   }
   return fmt::format(
       "Reconciled: J = {:.3f} kg.m2, 95 % interval {:.2f} .. {:.2f} (motors and gear train alone "
-      "are {:.3f}); {}. Random-effects mean of {} methods (the impulse results count as one); "
-      "standard deviation between methods {:.3f} kg.m2; {}{}.",
-      one.value, one.lower, one.upper, without_antenna, ratio, one.degrees_of_freedom + 1,
+      "are {:.3f}); {}. Random-effects mean of {} methods{}; standard deviation "
+      "between methods {:.3f} kg.m2; {}{}.",
+      one.value, one.lower, one.upper, without_antenna, ratio, one.degrees_of_freedom + 1, counted,
       one.between_methods, scatter,
       one.heterogeneity > 2.0 * one.degrees_of_freedom ? ": they differ much" : "");
 }
@@ -129,10 +132,13 @@ Document document_of(const IdentificationSection& section) {
   }
   if (section.reconciled) {
     const auto& methods = inertia.methods.front();
-    text +=
-        "\n" + wrapped(reconciled_text(*section.reconciled, methods.reflected_inertia.value -
-                                                                methods.antenna_remainder.value),
-                       "  ");
+    const auto impulses = std::ranges::count(inertia.methods, identification::MethodKind::impulse,
+                                             &identification::InertiaMethod::kind);
+    text += "\n" + wrapped(reconciled_text(
+                               *section.reconciled,
+                               methods.reflected_inertia.value - methods.antenna_remainder.value,
+                               impulses),
+                           "  ");
   }
   text += heading("What the methods rest on");
   std::vector<std::vector<std::string>> rows{

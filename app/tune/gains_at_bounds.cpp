@@ -69,13 +69,15 @@ std::vector<std::string> gain_trades(const std::vector<const TunedLaw*>& laws) {
         row->ensemble ? fmt::format(", with every goal kept on {} of {} plants before tuning again",
                                     trade.within_goals, row->ensemble->members.size())
                       : "";
-    sentences.push_back(fmt::format(
-        "The bound of {} ({}, {:.3g} m/s) only stops a flat direction: its rate loop hardly acts, "
-        "and "
-        "kp x kr counts. With the same product kp = {} and kr = {} have {:.4f} mdeg, {:+.1f} %{}.",
-        row->structure, to_string(row->tuned_for), row->wind_speed, trade.position_gain,
-        trade.rate_gain, trade.beam_rms / millidegree,
-        100.0 * (trade.beam_rms / row->beam_rms - 1.0), plants));
+    sentences.push_back(
+        fmt::format("{} ({}, {:.3g} m/s) has kp at its bound because its rate loop hardly acts, so "
+                    "that kp x kr "
+                    "counts. With the same product kp = {} and kr = {} have {:.4f} mdeg, {:+.1f} "
+                    "%{}; what lies "
+                    "beyond the bound a [[loop]] with bounds of its own tells.",
+                    row->structure, to_string(row->tuned_for), row->wind_speed, trade.position_gain,
+                    trade.rate_gain, trade.beam_rms / millidegree,
+                    100.0 * (trade.beam_rms / row->beam_rms - 1.0), plants));
   }
   return sentences;
 }

@@ -35,12 +35,12 @@ EditedCase with_motors_held() {
 // The 70-m antenna by the frequencies that it has with its motors held.
 EditedCase restated() {
   const auto own =
-      plant::motors_held_frequencies(make_plant(read_case(case_path("dss14-70m"))).structure);
+      plant::motors_held_modes(make_plant(read_case(case_path("dss14-70m"))).structure);
   EditedCase edited = with_motors_held();
   std::size_t mode = 0;
   for (const std::string held : {"2.4 Hz", "3.4 Hz", "4.6 Hz", "6.2 Hz"}) {
     edited.replace("\nfrequency = { value = \"" + held,
-                   fmt::format("\nfrequency = {{ value = \"{:.17g} Hz", own.at(++mode)));
+                   fmt::format("\nfrequency = {{ value = \"{:.17g} Hz", own.at(++mode).frequency));
   }
   return edited;
 }
@@ -81,14 +81,16 @@ TEST(MotorsHeldCase, IsTheAntennaThatHasTheseFrequencies) {
 // So that what the rms hangs on moves what was measured.
 TEST(MotorsHeldCase, MovesWithAStatedFrequency) {
   Case antenna = parsed(restated());
-  auto expected = plant::motors_held_frequencies(make_plant(antenna).structure);
+  auto expected = plant::motors_held_modes(make_plant(antenna).structure);
   antenna.structure.modes[1].frequency.value *= 1.01;
-  expected[2] *= 1.01;
-  const auto moved = plant::motors_held_frequencies(make_plant(antenna).structure);
-  for (std::size_t i = 0; i < moved.size(); ++i) EXPECT_NEAR(moved[i] / expected[i], 1.0, 1e-9);
-  const auto scaled = plant::motors_held_frequencies(
-      make_plant(antenna, {.structure_frequency_scale = 0.9}).structure);
-  for (std::size_t i = 0; i < moved.size(); ++i) EXPECT_NEAR(scaled[i] / moved[i], 0.9, 1e-9);
+  expected[2].frequency *= 1.01;
+  const auto moved = plant::motors_held_modes(make_plant(antenna).structure);
+  const auto scaled =
+      plant::motors_held_modes(make_plant(antenna, {.structure_frequency_scale = 0.9}).structure);
+  for (std::size_t i = 0; i < moved.size(); ++i) {
+    EXPECT_NEAR(moved[i].frequency / expected[i].frequency, 1.0, 1e-9);
+    EXPECT_NEAR(scaled[i].frequency / moved[i].frequency, 0.9, 1e-9);
+  }
 }
 
 TEST(MotorsHeldCase, IsRefusedWhereThereIsNoSuchAntenna) {
@@ -109,11 +111,15 @@ TEST(MotorsHeldCase, IsRefusedWhereThereIsNoSuchAntenna) {
 
 TEST(MotorsHeldCase, NamesTheOtherAntennaOfTheSameFrequencies) {
   const Case antenna = parsed(of_one_mode("4 Hz", "0.2"));
-  // x^2 (1 + r) - (s0 + s1) x + s0 s1 = 0 with r = 1/4: 3.403 and 2.103 Hz.
+  // x^2 (1 + r) - (s0 + s1) x + s0 s1 = 0 with r = 1/4: 3.403 and 2.103 Hz. With the motors held
+  // the lowest mode has (s1 - K_g/J)/(s1 - s0) of the inertia, with K_g/J = 0.8 s0 s1/x.
   const auto found = found_in(antenna, "motors held");
   EXPECT_THAT(found.reasoning,
               AllOf(HasSubstr("2 antennas of these inertia fractions"), HasSubstr("softest"),
-                    HasSubstr("modes at 3.403 Hz"), HasSubstr("with 2.103 Hz")))
+                    HasSubstr("modes at 3.403 Hz with the bull gear held, whose motors-held modes "
+                              "have 0.965, 0.035 of the inertia"),
+                    HasSubstr("with 2.103 Hz, whose motors-held modes have 0.369, 0.631 of the "
+                              "inertia: the effective inertia fractions")))
       << found.reasoning;
   ASSERT_THAT(found.numbers, SizeIs(2));
   EXPECT_NEAR(found.numbers[0].value, make_plant(antenna).structure.gear_stiffness,
@@ -123,7 +129,7 @@ TEST(MotorsHeldCase, NamesTheOtherAntennaOfTheSameFrequencies) {
 
 TEST(MotorsHeldCase, LetsTheOtherAntennaBeAChoiceOfTheRedesign) {
   const Case antenna = parsed(of_one_mode("4 Hz", "0.2"));
-  const auto held = plant::motors_held_frequencies(make_plant(antenna).structure);
+  const auto held = plant::motors_held_modes(make_plant(antenna).structure);
   const auto choices = plant_choices(antenna);
   const auto other = std::ranges::find_if(choices, [](const PlantChoice& choice) {
     return choice.result.name.starts_with("antenna of gear spring ");
@@ -134,8 +140,10 @@ TEST(MotorsHeldCase, LetsTheOtherAntennaBeAChoiceOfTheRedesign) {
   EXPECT_EQ(other->result.name,
             fmt::format("antenna of gear spring {:.3g} N.m/rad", structure.gear_stiffness));
   EXPECT_FALSE(other->result.contradicts);
-  const auto again = plant::motors_held_frequencies(structure);
-  for (std::size_t i = 0; i < held.size(); ++i) EXPECT_NEAR(again[i] / held[i], 1.0, 1e-9);
+  const auto again = plant::motors_held_modes(structure);
+  for (std::size_t i = 0; i < held.size(); ++i) {
+    EXPECT_NEAR(again[i].frequency / held[i].frequency, 1.0, 1e-9);
+  }
 }
 
 TEST(StructuralPredictions, AreComparedWithThePlant) {

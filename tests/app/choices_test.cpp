@@ -3,6 +3,7 @@
 #include <stdexcept>
 #include <string>
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -13,6 +14,7 @@ namespace boresight::app {
 namespace {
 
 using testing::AllOf;
+using testing::EndsWith;
 using testing::HasSubstr;
 using testing::Not;
 
@@ -57,6 +59,36 @@ TEST(PlantChoices, SoftenTheOilWithTheLeakageThatItsFlowGives) {
   const auto measured = choice_of(rate, "masses right, stiffness from resonance");
   EXPECT_EQ(drive_of(rate, measured).leakage_rate, make_plant(rate).drive.leakage_rate);
   EXPECT_THAT(measured.result.says, Not(HasSubstr("leakage")));
+}
+
+TEST(PlantChoices, HaveOilByWhichTheFlexibleAntennaHasTheMeasuredFrequency) {
+  const std::string name = "oil for the resonance of the flexible antenna";
+  const auto frequency = [](const Case& antenna, const PlantVariant& variant) {
+    return plant::hydraulic_mode(plant::plant_modes(make_plant(antenna, variant))).frequency;
+  };
+  for (const auto& edited : {measured_at("0.97 Hz"), leaking_by_flow(measured_at("0.97 Hz"))}) {
+    const Case antenna = parse_case(edited.text(), "case.toml");
+    const auto flexible = choice_of(antenna, name);
+    EXPECT_NEAR(frequency(antenna, flexible.variant.value()), 0.97, 1e-6);
+    EXPECT_TRUE(flexible.result.contradicts);
+    EXPECT_THAT(flexible.result.says, EndsWith("by which the flexible antenna has the measured "
+                                               "0.97 Hz"));
+  }
+  // Neither the case's own oil nor any.
+  const Case reference = read_case(case_path("dss14-70m"));
+  const auto own = measured_at(fmt::format("{:.9f} Hz", frequency(reference, {})));
+  for (const auto& edited : {own, measured_at("20 Hz")}) {
+    EXPECT_THROW(choice_of(parse_case(edited.text(), "case.toml"), name), std::runtime_error);
+  }
+}
+
+TEST(PlantChoices, SayWhichRestOnTheRigidFormula) {
+  const Case antenna = read_case(case_path("dss14-70m"));
+  for (const std::string name :
+       {"masses right, stiffness from resonance", "stiffness right, inertia from resonance",
+        "inertia from resonance, no efficiencies", "stiffness right, all masses scaled"}) {
+    EXPECT_THAT(choice_of(antenna, name).result.says, HasSubstr("rigid masses"));
+  }
 }
 
 TEST(PlantChoices, SayHowTheOilSpringIsMoved) {

@@ -78,6 +78,13 @@ TEST(EvaluateConclusions, SayWhatAProposalDoesToReversalsAndAcceleration) {
               AllOf(Not(HasSubstr("turning round")), Not(HasSubstr("Acceleration"))));
 }
 
+TEST(EvaluateConclusions, CompareNothingWhereNoProposalIsFit) {
+  auto base = moving("as it is", 0.1, 5.0);
+  base.laws.front().time_domain.reset();
+  EXPECT_THAT(concluded({base, candidate_of("no flywheels", 1.2)}),
+              HasSubstr("mdeg): none to compare, as no proposal is fit to be chosen."));
+}
+
 TEST(EvaluateConclusions, SayWhatSpeedsAreOnTheMast) {
   EvaluateSection section;
   section.ensemble_size = 30;

@@ -58,7 +58,7 @@ TEST(EvaluateTables, GiveNoLossWhereTheParabolaEnds) {
               AllOf(HasSubstr("0.7424  2.9900"), Not(HasSubstr("parabola"))));
   section.candidates[0].figures->losses[1] = 10.7632;
   EXPECT_THAT(to_text(document_of(section)),
-              AllOf(HasSubstr("0.7424     > 3"), Not(HasSubstr("10.76")),
+              AllOf(HasSubstr("0.7424  > 3"), Not(HasSubstr("10.76")),
                     HasSubstr("> 3: beyond 3 dB the beam's parabola does not hold.")));
 }
 

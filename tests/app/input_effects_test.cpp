@@ -131,10 +131,10 @@ TEST(InputEffects, MoveGuessedSharesToTheInertia) {
   const auto effects =
       input_effects(antenna, design.tuning.law, make_goals(antenna), design.beam_rms, all, 2);
   const auto range = [&](const std::string& key) { return effect_of(effects, key).range; };
-  // 0.80 of the beam on 0.62 of the inertia, and 0.15 of the wind on 0.14.
-  EXPECT_NEAR(range("structure.mode[0].beam_weight").value().first, 0.62, 1e-12);
-  EXPECT_NEAR(range("structure.mode[0].beam_weight").value().second, 0.98, 1e-12);
-  EXPECT_NEAR(range("structure.mode[1].wind_fraction").value().first, 0.135, 1e-12);
+  // 0.80 of the beam on 0.62 of the inertia, and 0.15 of the wind on 0.14: half of either is more.
+  EXPECT_NEAR(range("structure.mode[0].beam_weight").value().first, 0.4, 1e-12);
+  EXPECT_NEAR(range("structure.mode[0].beam_weight").value().second, 1.0, 1e-12);
+  EXPECT_NEAR(range("structure.mode[1].wind_fraction").value().first, 0.075, 1e-12);
   // The bull gear has 0.13 of the inertia and no wind, and cannot have less.
   EXPECT_EQ(range("structure.bull_gear_wind_fraction").value().first, 0.0);
   EXPECT_NEAR(range("structure.bull_gear_wind_fraction").value().second, 0.13, 1e-12);
@@ -160,7 +160,7 @@ TEST(InputEffects, MoveTheLeakageRateThatAFlowMakes) {
   const auto larger = make_problem(parse_case(text("0.0247955 m3"), "case.toml"));
   EXPECT_NEAR(effect_of(effects, "oil.volume_1").high_rms,
               design::assess(larger, design.tuning.law, make_goals(antenna)).beam_rms,
-              1e-9 * design.beam_rms);
+              1e-5 * design.beam_rms);
 }
 
 TEST(InputEffects, SayWhatToMeasureFirst) {

@@ -119,6 +119,15 @@ TEST(MatchingVerdict, AsksForTheFrictionSlopeOnlyWhereItDecides) {
   EXPECT_THAT(concluded(alike), Each(Not(HasSubstr("measure that slope"))));
 }
 
+TEST(MatchingVerdict, NamesOneFrictionByItsSlope) {
+  const auto report = report_with(
+      matching_of({series_of(LoopStructure::pi_with_lag(), "", 0.9, {0.45, 0.5, 0.58, 0.6})}));
+  EXPECT_THAT(concluded(report),
+              Contains(HasSubstr("-10.0 % (PI with lag, friction slope 0.9 N.m.s/rad).")));
+  EXPECT_THAT(to_text(document_of(*report.matching)),
+              HasSubstr("PI with lag; friction slope 0.9 N.m.s/rad\n"));
+}
+
 Report tuned_report() {
   Report report;
   report.command = "redesign";
@@ -179,7 +188,8 @@ TEST(TuningVerdict, GivesTheShareOfTheClimatesTime) {
   section.supply_wind_speed = 7.0;
   EXPECT_THAT(met_text(section, section.budgets[2]),
               AllOf(HasSubstr("up to the 7.0 m/s"), HasSubstr("(75 % of the time)")));
-  EXPECT_THAT(to_text(document_of(section)), HasSubstr("of the time"));
+  EXPECT_THAT(to_text(document_of(section)),
+              HasSubstr("Of the time: share of the climate's time with winds up to that speed"));
   section.climate.clear();
   EXPECT_THAT(to_text(document_of(section)), Not(HasSubstr("of the time")));
 }
@@ -249,7 +259,7 @@ TEST(TuningVerdict, SaysThatANeedIsNotMet) {
   EXPECT_THAT(decision(report).front(), HasSubstr("No loop structure changes that"));
   report.tuning->supply_wind_speed = 25.7;
   report.tuning->budgets = {budget(1.0, 16.9, 12.0)};
-  EXPECT_THAT(unmet_needs(*report.tuning), IsEmpty());
+  EXPECT_THAT(unmet_needs(*report.tuning, report.time_domain), IsEmpty());
   EXPECT_THAT(decision(report).front(), HasSubstr("Run the drive as built on PI with lag"));
 }
 
@@ -297,6 +307,12 @@ TEST(TuningVerdict, HoldsABudgetAgainstTheSimulation) {
   section.result.wind.beam_rms = 0.51 * millidegree;
   EXPECT_THAT(decision(report).front(),
               HasSubstr("is met up to 12.5 m/s by the linear figure, but simulated not in 12 m/s"));
+  // One that is needed in that wind is not met.
+  report.tuning->budgets = {budget(0.5, 12.5, 12.0)};
+  EXPECT_THAT(unmet_needs(*report.tuning, std::nullopt), IsEmpty());
+  EXPECT_THAT(unmet_needs(*report.tuning, report.time_domain),
+              ElementsAre(HasSubstr("it is met up to 12.5 m/s by the linear plant, but on the "
+                                    "nonlinear antenna the law has 0.510 mdeg in 12 m/s.")));
   // Where the linear figure itself ends below, the simulation says nothing more.
   report.tuning->budgets = {budget(0.5, 11.0)};
   EXPECT_THAT(decision(report).front(), Not(HasSubstr("simulated not")));
@@ -383,8 +399,11 @@ TEST(IdentificationText, ReconcilesNoMethodsThatContradictOneAnother) {
   const std::string text = to_text(document_of(section));
   EXPECT_THAT(text, HasSubstr("No reconciled inertia: the methods contradict one another "
                               "(Cochran's Q 78."));
-  EXPECT_THAT(text, HasSubstr("would be 4.305 kg.m2 (0.76 .. 9.47;"));
+  EXPECT_THAT(text, HasSubstr("of 2 methods would be 4.305 kg.m2\n  (0.76 .. 9.47;"));
   EXPECT_THAT(text, Not(HasSubstr("Reconciled: J")));
+  EXPECT_THAT(text, Not(HasSubstr("impulse")));
+  for (auto& method : section.inertia.methods) method.kind = identification::MethodKind::impulse;
+  EXPECT_THAT(to_text(document_of(section)), HasSubstr("(the impulse results\n  count as one)"));
 }
 
 TEST(IdentificationText, LeavesOutColumnsThatNoRowFills) {

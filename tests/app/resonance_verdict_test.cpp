@@ -1,5 +1,6 @@
 // The measured hydraulic frequency against that of the flexible antenna.
 #include <string>
+#include <vector>
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
@@ -15,6 +16,7 @@ namespace boresight::app {
 namespace {
 
 using testing::AllOf;
+using testing::Contains;
 using testing::Each;
 using testing::EndsWith;
 using testing::HasSubstr;
@@ -58,7 +60,7 @@ TEST(ResonanceVerdict, SaysWhatContradictsAndWhichOilWouldNot) {
   EXPECT_TRUE(verdict->contradicts());
   EXPECT_EQ(resonance_sentence(*verdict),
             fmt::format("The hydraulic frequency measured, 0.97 Hz, contradicts the {:.3g} Hz of "
-                        "the case's flexible antenna ({:.2g} standard uncertainties apart): a bulk "
+                        "the case's flexible antenna ({:.3g} standard uncertainties apart): a bulk "
                         "modulus of {:.3g} GPa in the place of 1.23 would make it, all else as the "
                         "case has it.",
                         verdict->expected, verdict->deviation(), *verdict->bulk_modulus / 1e9));
@@ -86,6 +88,33 @@ TEST(ResonanceVerdict, StandsFirstAmongConclusionsAndInTheDecision) {
   report.resonance = resonance_verdict(with_oil(*report.resonance->bulk_modulus));
   EXPECT_THAT(conclude(report).front(), Not(HasSubstr("must give way")));
   EXPECT_THAT(decision(report), Each(Not(HasSubstr("The hydraulic frequency measured"))));
+}
+
+TEST(ResonanceVerdict, SaysThatTheMethodsFigureIsOfARigidAntenna) {
+  const Case antenna = with_oil(1.229e9);
+  Report report;
+  report.command = "redesign";
+  report.identification = identify(antenna, {});
+  report.resonance = resonance_verdict(antenna);
+  EXPECT_THAT(conclude(report), Each(Not(HasSubstr("figure is of a rigid antenna"))));
+  report.resonance = resonance_verdict(with_oil(*report.resonance->bulk_modulus));
+  EXPECT_THAT(conclude(report),
+              Contains(AllOf(StartsWith("The methods put the reflected inertia between"),
+                             HasSubstr("; the resonance's figure is of a rigid antenna, and the "
+                                       "flexible one does not contradict the masses."))));
+  // Neither end of the range is the resonance's.
+  std::erase_if(report.identification->inertia.methods, [](const auto& method) {
+    return method.kind == identification::MethodKind::resonance;
+  });
+  EXPECT_THAT(conclude(report), Each(Not(HasSubstr("figure is of a rigid antenna"))));
+}
+
+// Of 3 so many that both sides of the limit read "3" say nothing.
+TEST(ResonanceVerdict, TellsDeviationsAtTheLimitApart) {
+  const ResonanceVerdict below{.measured = 2.97, .expected = 0.0, .standard_uncertainty = 1.0};
+  const ResonanceVerdict above{.measured = 3.02, .expected = 0.0, .standard_uncertainty = 1.0};
+  EXPECT_THAT(resonance_sentence(below), HasSubstr("(2.97 standard uncertainties apart)"));
+  EXPECT_THAT(resonance_sentence(above), HasSubstr("(3.02 standard uncertainties apart)"));
 }
 
 }  // namespace

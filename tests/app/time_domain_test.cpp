@@ -184,9 +184,10 @@ TEST(TimeDomain, ConcludesWhatTheLinearFigureIsWorth) {
   EXPECT_THAT(text, Not(HasSubstr("At the tracking rate it hunts")));
   EXPECT_THAT(text, HasSubstr("errs by up to 5.0 mdeg."));
   auto throttled = section();
-  for (auto& influence : throttled.result.wind.influences) {
-    if (influence.influence == design::Influence::orifice) influence.difference = 0.3 * mdeg;
-  }
+  auto orifice = throttled.result.wind.influences.front();
+  orifice.influence = design::Influence::orifice;
+  orifice.difference = 0.3 * mdeg;
+  throttled.result.wind.influences.push_back(orifice);
   EXPECT_THAT(conclude(throttled),
               HasSubstr("; the flow through the valve's orifices alone is worth 0.300."));
   auto calm = section();

@@ -27,7 +27,7 @@ TEST(TuneConclusions, SayThatABoundOnlyStopsAFlatDirection) {
   const auto sentences = gain_trades({&law});
   ASSERT_EQ(sentences.size(), 1U);
   EXPECT_THAT(sentences[0],
-              AllOf(HasSubstr("The bound of PI (robust, 12.7 m/s) only stops a flat direction"),
+              AllOf(HasSubstr("PI (robust, 12.7 m/s) has kp at its bound because"),
                     HasSubstr("kp = 6 1/s and kr = 0.254 have 9.5000 mdeg, +0.5 %, with every "
                               "goal kept on 20 of 30 plants")));
 }
@@ -79,7 +79,7 @@ TEST(Shortfalls, TrustNoBudgetToALawThatHunts) {
   shortfalls = find_shortfalls(section);
   ASSERT_EQ(shortfalls.size(), 1U);
   EXPECT_THAT(shortfalls[0].closest,
-              AllOf(HasSubstr("DPF+C (robust) comes nearest with 1.3000 mdeg"),
+              AllOf(HasSubstr("DPF+C (robust) comes nearest with 1.3500 mdeg on the nonlinear"),
                     HasSubstr("On the nonlinear antenna it hunts by +-7.40 mdeg, and no other")));
 }
 

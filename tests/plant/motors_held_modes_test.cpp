@@ -19,10 +19,10 @@ using testing::HasSubstr;
 
 // An antenna as stated by its frequencies with the motors held.
 StructureSpecification motors_held(StructureSpecification antenna) {
-  const auto frequencies = motors_held_frequencies(make_structure(antenna));
-  antenna.locked_rotor_frequency = frequencies[0];
+  const auto held = motors_held_modes(make_structure(antenna));
+  antenna.locked_rotor_frequency = held[0].frequency;
   for (std::size_t i = 0; i < antenna.modes.size(); ++i) {
-    antenna.modes[i].frequency = frequencies[i + 1];
+    antenna.modes[i].frequency = held[i + 1].frequency;
   }
   return antenna;
 }
@@ -66,15 +66,15 @@ TEST(MotorsHeldModes, AreTheRootsOfTheSecularEquation) {
   for (int trial = 0; trial < 50; ++trial) {
     const auto antenna = random_specification(random);
     const auto structure = make_structure(antenna);
-    const auto frequencies = motors_held_frequencies(structure);
-    ASSERT_EQ(frequencies.size(), antenna.modes.size() + 1);
-    EXPECT_LT(relative_error(frequencies[0], antenna.locked_rotor_frequency), 1e-9);
+    const auto held = motors_held_modes(structure);
+    ASSERT_EQ(held.size(), antenna.modes.size() + 1);
+    EXPECT_LT(relative_error(held[0].frequency, antenna.locked_rotor_frequency), 1e-9);
     for (std::size_t i = 0; i < antenna.modes.size(); ++i) {
-      EXPECT_LT(frequencies[i], antenna.modes[i].frequency);
-      EXPECT_GT(frequencies[i + 1], antenna.modes[i].frequency);
+      EXPECT_LT(held[i].frequency, antenna.modes[i].frequency);
+      EXPECT_GT(held[i + 1].frequency, antenna.modes[i].frequency);
     }
-    for (const double frequency : frequencies) {
-      const double s = std::pow(reference::two_pi * frequency, 2);
+    for (const auto& vibration : held) {
+      const double s = std::pow(reference::two_pi * vibration.frequency, 2);
       double sum = structure.gear_stiffness - s * structure.bull_gear_inertia;
       double largest = structure.gear_stiffness;
       for (const auto& mode : structure.modes) {
@@ -84,6 +84,33 @@ TEST(MotorsHeldModes, AreTheRootsOfTheSecularEquation) {
       }
       EXPECT_LT(std::abs(sum), 1e-8 * largest);
     }
+  }
+}
+
+// A turn of the whole antenna has all of its inertia and bends nothing but the gear spring; turned
+// with constant acceleration it bends that by J/K_g, and every mode by 1/x_i besides.
+TEST(MotorsHeldModes, ShareInertiaAndStiffnessOfTheWholeAntenna) {
+  reference::RandomNumbers random(7);
+  for (int trial = 0; trial < 50; ++trial) {
+    const auto structure = make_structure(random_specification(random));
+    const double inertia = antenna_inertia(structure);
+    double bending = inertia / structure.gear_stiffness;
+    for (const auto& mode : structure.modes) {
+      bending += mode.inertia / inertia * mode.inertia / mode.stiffness;
+    }
+    double fractions = 0.0;
+    double stiffness = 0.0;
+    double compliance = 0.0;
+    for (const auto& vibration : motors_held_modes(structure)) {
+      const double s = std::pow(reference::two_pi * vibration.frequency, 2);
+      EXPECT_GT(vibration.inertia_fraction, 0.0);
+      fractions += vibration.inertia_fraction;
+      stiffness += vibration.inertia_fraction * inertia * s;
+      compliance += vibration.inertia_fraction / s;
+    }
+    EXPECT_NEAR(fractions, 1.0, 1e-12);
+    EXPECT_LT(relative_error(stiffness, structure.gear_stiffness), 1e-9);
+    EXPECT_LT(relative_error(compliance, bending), 1e-9);
   }
 }
 
@@ -112,7 +139,8 @@ TEST(MotorsHeldModes, GoForwardsAndBack) {
   EXPECT_GT(several, 50);
 }
 
-// Two roots of (1 + r) x^2 - (s0 + s1) x + s0 s1 = 0.
+// Two roots of (1 + r) x^2 - (s0 + s1) x + s0 s1 = 0. The gear spring is J_b s0 s1/x, of which
+// follows the fraction of the lowest mode, (s1 - K_g/J)/(s1 - s0).
 TEST(MotorsHeldModes, OfOneModeAreTwoAntennas) {
   StructureSpecification stated;
   stated.antenna_inertia = 1.0;
@@ -125,6 +153,12 @@ TEST(MotorsHeldModes, OfOneModeAreTwoAntennas) {
   EXPECT_NEAR(found[0].modes[0].frequency, std::sqrt((5.0 + root) / 2.5), 1e-12);
   EXPECT_NEAR(found[1].modes[0].frequency, std::sqrt((5.0 - root) / 2.5), 1e-12);
   EXPECT_EQ(found[0].modes[0].damping_ratio, 0.01);
+  for (const auto& antenna : found) {
+    const double x = std::pow(antenna.modes[0].frequency, 2);
+    const auto held = motors_held_modes(make_structure(antenna));
+    EXPECT_NEAR(held[0].inertia_fraction, (4.0 - 0.8 * 4.0 / x) / 3.0, 1e-9);
+    EXPECT_NEAR(held[1].inertia_fraction, (0.8 * 4.0 / x - 1.0) / 3.0, 1e-9);
+  }
 }
 
 // A light bull gear on a stiff spring, whose own frequency lies above all modes.

@@ -55,13 +55,12 @@ Case with_inertial_shares(Case antenna) {
 // stiffness goes with its inertia.
 void check_structural_shares(const CaseNumbers& numbers, Implausibilities& found) {
   constexpr double large = 0.5, clear_factor = 3.0;
-  const auto& modes = numbers.antenna.structure.modes;
   std::vector<std::string> shares;
   std::string first;
-  for (std::size_t i = 0; i < modes.size(); ++i) {
-    const double inertia = modes[i].inertia_fraction.value;
-    for (const auto& [name, share] : {std::pair{"wind_fraction", &modes[i].wind_fraction},
-                                      std::pair{"beam_weight", &modes[i].beam_weight}}) {
+  for (const auto& mode : numbers.antenna.structure.modes) {
+    const double inertia = mode.inertia_fraction.value;
+    for (const auto& [name, share] : {std::pair{"wind_fraction", &mode.wind_fraction},
+                                      std::pair{"beam_weight", &mode.beam_weight}}) {
       // Those of a modes file were computed, and are nobody's guess.
       if (share->text.empty() || share->value <= std::max(large, clear_factor * inertia)) continue;
       if (shares.empty()) first = share->key;

@@ -25,9 +25,9 @@ std::optional<std::size_t> law_of(const Candidate& candidate, const std::string&
 // Columns of rms by candidate and law; those that the choice has not judged yet are held here.
 class Columns {
  public:
-  Columns(const DecisionSection& decision, const Eigen::MatrixXd& rms,
+  Columns(const DecisionSection& decision, Eigen::MatrixXd rms,
           const std::vector<Candidate>& candidates, const std::vector<Case>& cases)
-      : candidates_(candidates), cases_(cases), rms_(rms) {
+      : candidates_(candidates), cases_(cases), rms_(std::move(rms)) {
     for (const auto& one : decision.candidates) {
       keys_.emplace_back(one.candidate, candidates[one.candidate].chosen.value_or(0));
     }

@@ -81,9 +81,10 @@ std::vector<std::string> unmet_needs(const EvaluateSection& section) {
       met = met || (candidate.feasible() && *reached >= needed);
       const bool fitter = nearest == nullptr || (candidate.feasible() && !nearest->feasible());
       const bool alike = nearest != nullptr && candidate.feasible() == nearest->feasible();
-      if (!fitter && !(alike && *reached > farthest)) continue;
-      nearest = &candidate;
-      farthest = *reached;
+      if (fitter || (alike && *reached > farthest)) {
+        nearest = &candidate;
+        farthest = *reached;
+      }
     }
     if (met || nearest == nullptr) continue;
     sentences.push_back(fmt::format(

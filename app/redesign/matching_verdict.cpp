@@ -1,7 +1,9 @@
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <boresight/app/redesign/matching_verdict.hpp>
 #include <boresight/app/report/influences.hpp>
@@ -47,6 +49,24 @@ std::string judge_unit_ratio(const MatchingSection& section, std::size_t unit) {
   return text + (at_end ? " That is an end of the range looked at: whether the one-to-one rule "
                           "marks an optimum is not known."
                         : " The one-to-one rule happens to fit here.");
+}
+
+// Where laws of the study are no optima; empty where all are.
+std::string at_bounds(const MatchingSection& section) {
+  std::set<std::string> gains;
+  std::size_t points = 0;
+  for (const auto& series : section.series) {
+    for (const auto& design : series.designs) {
+      const auto& names = design.tuning.gains_at_bound;
+      gains.insert(names.begin(), names.end());
+      if (!names.empty()) ++points;
+    }
+  }
+  if (points == 0) return "";
+  return fmt::format(
+      "At {} of the {} points of the matching study a gain ends at its bound of the search ({}): "
+      "what lies beyond was not looked at, and may tell the points apart.",
+      points, section.series.size() * section.rows.size(), fmt::join(gains, ", "));
 }
 
 }  // namespace
@@ -175,6 +195,9 @@ void conclude_matching(const Report& report, const MatchingSection& section,
                           friction_text(series));
     }
     sentences.push_back(text + ".");
+  }
+  if (std::string bounds = at_bounds(section); !bounds.empty()) {
+    sentences.push_back(std::move(bounds));
   }
   if (verdict.flat()) {
     sentences.push_back(fmt::format(

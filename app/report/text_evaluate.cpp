@@ -227,8 +227,9 @@ Document service_table(const EvaluateSection& section) {
   });
   return text + (far_out ? wrapped(beyond_the_parabola(), "  ") : Document()) +
          wrapped(
-             "dB: mean loss over two equal axes on the nominal plant, and the speeds up to which "
-             "budgets are met, with the factor above where there is one. torque margin: what "
+             "dB: mean loss over two equal axes on the nominal plant, and the speeds at the dish's "
+             "centre up to which budgets are met, with the factor above where there is one. torque "
+             "margin: what "
              "friction at the tracking rate and offset leave of the supply's torque, over mean "
              "wind "
              "torque and the gusts' crest; stroke, gusts: "

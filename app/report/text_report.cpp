@@ -48,6 +48,11 @@ Document document_of(const Report& report) {
     text += wrapped(fmt::format("{} `boresight audit {}` lists each.", audit_summary(*report.audit),
                                 report.case_path),
                     "  ");
+    constexpr std::size_t few = 4;
+    const auto& failing = report.audit->implausible;
+    if (failing.size() <= few) {
+      for (const auto& check : failing) text += wrapped(check.reasoning, "  ");
+    }
   }
   if (report.plant) text += document_of(*report.plant);
   if (report.tuning) text += document_of(*report.tuning);

@@ -5,6 +5,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <boresight/app/document/document_text.hpp>
 #include <boresight/app/page/decision.hpp>
 #include <boresight/app/report/text_report.hpp>
 
@@ -44,6 +45,16 @@ std::vector<std::string> decided(const AuditReport& audited) {
   report.command = "audit";
   report.audit = audited;
   return decision(report);
+}
+
+TEST(AuditSummary, StandsWithAFewFailingChecksInOtherReports) {
+  Report report;
+  report.command = "redesign";
+  report.audit = report_of(0, {"resonance damping", "motors held"});
+  report.audit->implausible[0].reasoning = "It dies sooner than leakage and friction make it.";
+  EXPECT_THAT(to_text(document_of(report)), HasSubstr("  It dies sooner than leakage"));
+  report.audit->implausible.resize(5);
+  EXPECT_THAT(to_text(document_of(report)), testing::Not(HasSubstr("It dies sooner")));
 }
 
 TEST(AuditSummary, DoesNotBelittleAFailedPhysicalCheck) {

@@ -107,11 +107,11 @@ TEST(InputEffects, KeepTheSumOfShares) {
   const InputEffect& weight = effect_of(effects, "structure.mode[0].beam_weight");
   Case heavier = antenna;
   const double others = 1.0 - heavier.structure.modes[0].beam_weight.value;
-  const double left = (others - weight.moved_by) / others;
+  const double most = weight.range.value().second;
+  const double left = (1.0 - most) / others;
   heavier.structure.bull_gear_beam_weight.value *= left;
   for (auto& mode : heavier.structure.modes) mode.beam_weight.value *= left;
-  heavier.structure.modes[0].beam_weight.value =
-      antenna.structure.modes[0].beam_weight.value + weight.moved_by;
+  heavier.structure.modes[0].beam_weight.value = most;
   EXPECT_NEAR(
       weight.high_rms,
       design::assess(make_problem(heavier), design.tuning.law, make_goals(heavier)).beam_rms,

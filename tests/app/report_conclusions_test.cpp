@@ -79,6 +79,17 @@ TEST(MatchingVerdict, OfAFlatStudyAdvisesNoInertiaAndNoRule) {
   EXPECT_THAT(decided, Not(HasSubstr("measure")));
 }
 
+TEST(MatchingVerdict, SaysWhereOnlyTheBoundsOfTheSearchHold) {
+  auto report = report_with(matching_of(
+      {series_of(LoopStructure::pi_with_lag(), "linear plant", 0.16, {0.45, 0.5, 0.58, 0.6})}));
+  EXPECT_THAT(concluded(report), Each(Not(HasSubstr("bound of the search"))));
+  auto& designs = report.matching->series.front().designs;
+  designs[0].tuning.gains_at_bound = designs[2].tuning.gains_at_bound = {"position gain"};
+  EXPECT_THAT(concluded(report),
+              Contains(HasSubstr("At 2 of the 4 points of the matching study a gain ends at its "
+                                 "bound of the search (position gain)")));
+}
+
 TEST(MatchingVerdict, GoesFromTheMotorsAsBuiltToBothEnds) {
   const auto report = report_with(matching_of(
       {series_of(LoopStructure::pi_with_lag(), "linear plant", 0.16, {0.45, 0.5, 0.58, 0.6})}));

@@ -133,8 +133,7 @@ Sentences redesign_decision(const Report& report) {
       sentences.push_back(std::move(text));
     }
   }
-  sentences.push_back(assumptions(report.assumed));
-  return sentences;
+  return sentences.empty() ? identify_decision(report) : sentences;
 }
 
 }  // namespace
@@ -165,6 +164,14 @@ std::vector<std::string> decision(const Report& report) {
   if (sentences.size() < 3 && report.command != "redesign" && report.command != "audit") {
     sentences.push_back(assumptions(report.assumed));
   }
+  return sentences;
+}
+
+std::vector<std::string> reservations(const Report& report) {
+  Sentences sentences;
+  if (report.command != "redesign") return sentences;
+  if (report.tuning) sentences = tuning_reservations(report, *report.tuning);
+  sentences.push_back(assumptions(report.assumed));
   return sentences;
 }
 

@@ -161,6 +161,13 @@ std::string header_html(const Page& page) {
   for (const auto& sentence : page.decision) {
     html += fmt::format("<p>{}</p>\n", escaped_html(sentence));
   }
+  if (!page.reservations.empty()) {
+    html += "<h3>What it rests on</h3>\n<ul>\n";
+    for (const auto& sentence : page.reservations) {
+      html += fmt::format("<li>{}</li>\n", escaped_html(sentence));
+    }
+    html += "</ul>\n";
+  }
   return html + "</div>\n";
 }
 

@@ -20,6 +20,8 @@ struct Page {
   bool interrupted = false;
   /// The decision, in a few sentences.
   std::vector<std::string> decision;
+  /// What it rests on or leaves open, smaller below it.
+  std::vector<std::string> reservations;
   Document document;  // the report's text
   std::vector<Figure> figures;
   /// JSON of the table behind the matching sliders (what_if_json); empty: none.

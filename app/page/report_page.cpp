@@ -28,6 +28,7 @@ Page common(const AnyReport& report, std::string command) {
 Page page_of(const Report& report) {
   Page page = common(report, report.command);
   page.interrupted = report.interrupted;
+  page.reservations = reservations(report);
   if (report.matched && report.matched->what_if) {
     page.what_if = what_if_json(*report.matched->what_if).dump();
   }

@@ -46,7 +46,7 @@ std::string what_if_panel(std::string_view what_if_json) {
       "aria-label=\"beam rms against flywheel disks\"></svg></div>\n";
   html += fmt::format(
       "<p class=\"note\">Each law is held at the gains that this study tuned for its number of "
-      "disks, robustly, in {:g} m/s; the sliders change the plant and the wind under it. {} "
+      "disks, robustly, in {:.3g} m/s; the sliders change the plant and the wind under it. {} "
       "entries were computed on the linear plant; between them the logarithm of the rms is taken "
       "as linear in disks, leakage, friction slope and the logarithm of the wind speed, and a "
       "verdict is the worst of the entries around. The friction slope at the tracking rate is {:g} "

@@ -22,6 +22,11 @@ std::string budget_text(const PointingBudget& budget) {
   return fmt::format("{} ({}: {:.3f} mdeg)", budget.name, budget.band, budget.rms / millidegree);
 }
 
+// Whether the run on the nonlinear antenna says anything of the rms.
+bool holds_in_wind(const TimeDomainSection& section) {
+  return std::isfinite(section.result.wind.beam_rms);
+}
+
 // What the gains of the case do on its plant.
 std::string present_text(const TuningSection& section, const TuningSection::PresentLaw& law) {
   if (law.design.tuning.status == design::TuningStatus::unstable) {
@@ -41,12 +46,17 @@ std::string present_text(const TuningSection& section, const TuningSection::Pres
   return text + ".";
 }
 
+bool keeps_goals_on_all(const TuningSection& section) {
+  return !section.ensemble ||
+         section.ensemble->within_goals == static_cast<int>(section.ensemble->members.size());
+}
+
 // What becomes of the law, tuned on one plant, on others.
 std::string robustness_text(const TuningSection& section) {
   if (!section.ensemble) return "";
   const auto plants = static_cast<int>(section.ensemble->members.size());
   const int within = section.ensemble->within_goals;
-  if (within == plants) {
+  if (keeps_goals_on_all(section)) {
     return fmt::format("Held on {} plants that may be the true one, it keeps its goals on all.",
                        plants);
   }
@@ -81,8 +91,8 @@ std::string needs_on_plants(const TuningSection& section, bool short_of_all) {
 std::string unseen_text(const TuningSection& section) {
   if (!(section.encoder_held_rms >= 0.9 * section.design.beam_rms)) return "";
   return "Nearly all of the error is bending of the structure that the encoder does not see: a "
-         "loop "
-         "that holds the encoder still, other motors or flywheels hardly lower it. What does is a "
+         "loop that holds the encoder still, other motors or flywheels hardly lower it. What does "
+         "is a "
          "stiffer structure, less wind on it, or a loop that moves the encoder against the bending "
          "(structures with +C, LQG), if friction lets it.";
 }
@@ -188,9 +198,13 @@ std::vector<std::string> unmet_needs(const TuningSection& section,
         dish_and_mast(section.wind_mast, *budget.wind_speed), control::to_string(section.structure),
         met_text(section, result),
         linear
-            ? fmt::format(" by the linear plant, but on the nonlinear antenna the law has {:.3f} "
-                          "mdeg in {:.3g} m/s",
-                          time_domain->result.wind.beam_rms / millidegree, time_domain->wind_speed)
+            ? fmt::format(" by the linear plant, but on the nonlinear antenna the law {} in {:.3g} "
+                          "m/s",
+                          holds_in_wind(*time_domain)
+                              ? fmt::format("has {:.3f} mdeg",
+                                            time_domain->result.wind.beam_rms / millidegree)
+                              : "was not seen to hold",
+                          time_domain->wind_speed)
             : "",
         meets_need(budget, section.supply_wind_speed)
             ? "`boresight tune` looks for a loop structure that meets it."
@@ -284,19 +298,19 @@ std::vector<std::string> decide_tuning(const Report& report, const TuningSection
         "The best {} law found fails its verification: decide nothing on it.", structure));
     return sentences;
   }
-  std::vector<std::string> more;
-  std::string unsteady = report.time_domain ? not_still(*report.time_domain) : "";
-  const bool robust = !section.ensemble || section.ensemble->within_goals ==
-                                               static_cast<int>(section.ensemble->members.size());
+  const bool still = !report.time_domain || not_still(*report.time_domain).empty();
+  const bool holds = !report.time_domain || holds_in_wind(*report.time_domain);
+  const bool robust = keeps_goals_on_all(section);
   std::string text =
       fmt::format("{} {}: it points within {:.3f} mdeg rms an axis in {:.3g} m/s of wind",
-                  met && robust && unsteady.empty() && sentences.empty()
+                  met && robust && holds && still && sentences.empty()
                       ? "Run the drive as built on"
                       : "The best law found for the drive as built is",
                   structure, section.design.beam_rms / millidegree, section.design_speed);
   if (report.time_domain) {
-    text += fmt::format(" ({:.3f} on the nonlinear antenna)",
-                        report.time_domain->result.wind.beam_rms / millidegree);
+    text += holds ? fmt::format(" ({:.3f} on the nonlinear antenna)",
+                                report.time_domain->result.wind.beam_rms / millidegree)
+                  : " (not seen to hold on the nonlinear antenna)";
   }
   if (!section.budgets.empty() && met) {
     const auto& budget = section.budgets.front();
@@ -309,17 +323,26 @@ std::vector<std::string> decide_tuning(const Report& report, const TuningSection
                           report.time_domain->wind_speed);
     }
   }
-  if (!robust) more.push_back(robustness_text(section));
-  if (auto few = needs_on_plants(section, true); !few.empty()) more.push_back(std::move(few));
-  if (!unsteady.empty()) more.push_back(std::move(unsteady));
-  const std::string slow = report.time_domain ? slew_out_of_reach(*report.time_domain) : "";
-  const std::string stroke = report.time_domain ? assumed_stroke(*report.time_domain) : "";
-  const std::string first = measure_first(section.input_effects, section.design.beam_rms);
-  for (auto sentence : {wind_model_text(section), bending_text(section), unseen_text(section), slow,
-                        stroke, not_examined(report), first}) {
-    if (!sentence.empty()) more.push_back(std::move(sentence));
+  sentences.push_back(text + ".");
+  return sentences;
+}
+
+std::vector<std::string> tuning_reservations(const Report& report, const TuningSection& section) {
+  if (!section.design.usable()) return {};
+  std::vector<std::string> sentences;
+  if (!keeps_goals_on_all(section)) sentences.push_back(robustness_text(section));
+  sentences.push_back(needs_on_plants(section, true));
+  if (report.time_domain) sentences.push_back(not_still(*report.time_domain));
+  sentences.push_back(wind_model_text(section));
+  sentences.push_back(bending_text(section));
+  sentences.push_back(unseen_text(section));
+  if (report.time_domain) {
+    sentences.push_back(slew_out_of_reach(*report.time_domain));
+    sentences.push_back(assumed_stroke(*report.time_domain));
   }
-  sentences.push_back(fmt::format("{}.{}{}", text, more.empty() ? "" : " ", fmt::join(more, " ")));
+  sentences.push_back(not_examined(report));
+  sentences.push_back(measure_first(section.input_effects, section.design.beam_rms));
+  std::erase(sentences, std::string());
   return sentences;
 }
 

@@ -31,7 +31,11 @@ void conclude_tuning(const Report& report, const TuningSection& section,
                      std::vector<std::string>& sentences);
 
 /// For the decision box: what is needed and not met, a warning of each unstable present law, then
-/// one paragraph.
+/// one sentence of the law.
 std::vector<std::string> decide_tuning(const Report& report, const TuningSection& section);
+
+/// What that decision rests on or leaves open, each in a sentence or two; none if no law was good
+/// enough to decide on.
+std::vector<std::string> tuning_reservations(const Report& report, const TuningSection& section);
 
 }  // namespace boresight::app

@@ -39,6 +39,7 @@ Page page_of_two_sections() {
   page.axis = "elevation";
   page.seed = 7;
   page.decision = {"Choose <this>."};
+  page.reservations = {"If <that> holds."};
   page.document = heading("Tuned loops: PI") + wrapped("First.", "  ") + heading("Assumed inputs") +
                   wrapped("Second.", "  ");
   page.figures = {figure_of("first", "Assumed inputs"), figure_of("second", "Nowhere")};
@@ -86,6 +87,7 @@ TEST(Page, TextOfOthersIsEscaped) {
   const std::string html = to_html(page_of_two_sections(), provenance);
   EXPECT_THAT(html, HasSubstr("A &amp; B &lt;antenna&gt;"));
   EXPECT_THAT(html, HasSubstr("Choose &lt;this&gt;."));
+  EXPECT_THAT(html, HasSubstr("<li>If &lt;that&gt; holds.</li>"));
   EXPECT_THAT(html, Not(HasSubstr("<antenna>")));
   EXPECT_THAT(html, Not(HasSubstr("</script><b>")));
 }

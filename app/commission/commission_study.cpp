@@ -280,17 +280,23 @@ std::optional<double> hunting_beyond_budget(const Case& antenna,
   options.wind_duration = 1.0;
   const auto run = run_in_time_domain(antenna, problem, law, options);
   if (!run || design::holds_still(run->hunting, options.settled_error)) return std::nullopt;
-  return design::hunting_amplitude(run->hunting);
+  const bool whole = std::ranges::all_of(run->hunting, [](const design::HuntingResult& one) {
+    return one.status == design::RunStatus::complete;
+  });
+  return whole ? design::hunting_amplitude(run->hunting) : std::numeric_limits<double>::infinity();
 }
 
 void conclude_plan(const CommissionReport& report, const Case& antenna,
                    std::vector<std::string>& sentences) {
   if (report.hunting) {
     sentences.push_back(fmt::format(
-        "On the nonlinear antenna {} hunts by +-{:.2f} mdeg, beyond the tightest budget: the "
-        "stages below are those of linear loops. Measure the friction before this law is set, or "
-        "plan for another.",
-        report.structure, *report.hunting / millidegree));
+        "On the nonlinear antenna {} {}: the stages are those of linear loops. Measure the "
+        "friction before this law is set, or plan for another.",
+        report.structure,
+        std::isfinite(*report.hunting)
+            ? fmt::format("hunts by +-{:.2f} mdeg, beyond the tightest budget",
+                          *report.hunting / millidegree)
+            : std::string("does not complete a run in still air")));
   }
   const auto& first = report.plan.stages.front();
   const auto& last = report.plan.stages.back();

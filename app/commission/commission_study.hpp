@@ -83,7 +83,8 @@ struct CommissionReport {
   std::exception_ptr failure;
   std::string no_plan;
   /// Beam amplitude (rad) by which the law hunts on the nonlinear antenna, where that is beyond the
-  /// tightest budget; none where it is not, or the case has no [simulation].
+  /// tightest budget, infinite if it did not complete a run without wind; none where it is not, or
+  /// the case has no [simulation].
   std::optional<double> hunting;
   std::vector<StageSheet> sheets;
   std::string before, after;

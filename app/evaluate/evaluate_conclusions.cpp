@@ -47,8 +47,7 @@ std::string against_as_it_is(const EvaluateSection& section) {
   }
   std::string text = fmt::format(
       "Conditions: {} loops on the antenna as it is, {} wind at {:.3g} m/s, gains re-tuned for "
-      "each "
-      "proposal{}. Root-mean-square beam error over the plants against the antenna as it is, "
+      "each proposal{}. Root-mean-square beam error over the plants against the antenna as it is, "
       "re-tuned ({:.4f} mdeg{}): ",
       law->structure, plant::to_string(section.wind_model), section.wind_speed,
       section.time_domain
@@ -202,12 +201,12 @@ std::string out_of_reach(const EvaluateSection& section) {
   std::vector<std::string> infeasible, hunting;
   for (const auto& candidate : section.candidates) {
     const CandidateLaw* law = candidate.chosen_law();
-    if (law == nullptr || !law->goals_met || !law->design.verification.passed) {
-      infeasible.push_back(candidate.name);
-    } else if (!law->still && law->time_domain) {
+    if (candidate.hunts() && law->time_domain) {
       hunting.push_back(
           fmt::format("{} with {} (+-{:.2f} mdeg)", candidate.name, law->structure,
                       design::hunting_amplitude(law->time_domain->hunting) / millidegree));
+    } else if (!candidate.feasible()) {
+      infeasible.push_back(candidate.name);
     }
   }
   std::vector<std::string> sentences = short_of_slewing(section);

@@ -91,8 +91,8 @@ struct Candidate {
   double reflected_inertia = 0.0;
   double motor_to_load_ratio = 0.0;
   std::vector<CandidateLaw> laws;  // one a structure
-  /// The law that stands for it: of those that meet all goals and pass their verification the one
-  /// of least compared_rms, else the one nearest to that; none if no structure is stable.
+  /// The law that stands for it: of the usable ones that of least compared_rms, else the same of
+  /// those that meet their goals, else that nearest to its goals; none if no structure is stable.
   std::optional<std::size_t> chosen;
   std::optional<CandidateFigures> figures;  // of the chosen law
 

@@ -50,14 +50,12 @@ std::optional<SlewFigures> slew_of(const Case& antenna, double inertia) {
   const double open =
       antenna.simulation->valve_stroke.value * (1.0 - antenna.simulation->valve_overlap.value);
   const double wanted = std::min(slew.rate_asked * ratio, 0.999 * open);
-  const auto limits = design::within_reach(make_nonlinear_antenna(antenna), inertia,
-                                           {wanted, acceleration * ratio});
   constexpr double any_acceleration = std::numeric_limits<double>::infinity();
   const auto reach =
       design::within_reach(make_nonlinear_antenna(antenna), inertia, {wanted, any_acceleration});
   slew.reachable_acceleration = std::max(0.0, reach.acceleration / ratio);
-  slew.rate = std::max(0.0, limits.rate / ratio);
-  slew.acceleration = std::max(0.0, limits.acceleration / ratio);
+  slew.rate = std::max(0.0, reach.rate / ratio);
+  slew.acceleration = std::max(0.0, std::min(acceleration * ratio, reach.acceleration) / ratio);
   if (slew.rate > 0.0 && slew.acceleration > 0.0) {
     const double ramps = slew.rate * slew.rate / slew.acceleration;
     slew.time = ramps >= distance ? 2.0 * std::sqrt(distance / slew.acceleration)

@@ -89,7 +89,7 @@ std::vector<std::string> unmet_needs(const EvaluateSection& section) {
     if (met || nearest == nullptr) continue;
     sentences.push_back(fmt::format(
         "NOT MET: {} ({}: {:.3f} mdeg) is needed up to {:.3g} m/s{}; neither the antenna as it is "
-        "nor a proposal that is fit to be chosen meets it there. {} comes nearest, with {}{}.",
+        "nor a proposal is fit to be chosen and meets it there. {} comes nearest, with {}{}.",
         budget.name, budget.band, budget.rms / millidegree, *budget.wind_speed,
         dish_and_mast(section.wind_mast, *budget.wind_speed), nearest->name,
         std::isfinite(farthest)

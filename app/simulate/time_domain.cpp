@@ -97,15 +97,13 @@ std::optional<TimeDomainSection> choose_in_time_domain(const Case& antenna,
   if (laws.empty()) throw InvalidInput("choose_in_time_domain: expected laws, found none");
   if (!antenna.simulation) return std::nullopt;
   std::vector<TimeDomainSection::Candidate> candidates;
-  double error = 0.0;
   for (const auto& [description, law] : laws) {
     TimeDomainSection section = plan(antenna, problem, description, seed, threads);
     section.options.explain = false;
     simulate(antenna, problem, law, section);
     candidates.push_back({description, std::move(section.result)});
-    error = section.options.settled_error;
   }
-  const std::size_t best = best_in_time(candidates, error);
+  const std::size_t best = best_in_time(candidates, tightest_budget(antenna));
   auto chosen = verify_in_time_domain(antenna, problem, laws[best].law, laws[best].description,
                                       seed, threads);
   if (chosen && candidates.size() > 1) chosen->candidates = std::move(candidates);

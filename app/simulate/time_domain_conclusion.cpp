@@ -61,6 +61,16 @@ std::string conclude_wind(const TimeDomainSection& section) {
                     excess);
 }
 
+// What a law does that does not hold still within an rms error.
+std::string unrest(const std::vector<design::HuntingResult>& hunting, double error) {
+  const double amplitude = design::hunting_amplitude(hunting);
+  if (!(amplitude > std::numbers::sqrt2 * error)) {
+    return "was not seen to hold still (a run at rest or at the tracking rate did not end)";
+  }
+  return fmt::format("hunts by +-{:.2f} mdeg, beyond the tightest budget of {:.3f}",
+                     amplitude / millidegree, error / millidegree);
+}
+
 // Why this law and not the one that the linear plant puts first.
 std::string conclude_choice(const TimeDomainSection& section) {
   const auto linear = [](const TimeDomainSection::Candidate& candidate) {
@@ -117,44 +127,38 @@ std::string not_still(const TimeDomainSection& section) {
   const double error = section.options.settled_error;
   const auto& hunting = section.result.hunting;
   if (design::holds_still(hunting, error)) return "";
-  const double amplitude = design::hunting_amplitude(hunting);
-  if (!(amplitude > std::numbers::sqrt2 * error)) {
-    return "On the nonlinear antenna it was not seen to hold still: a run at rest or at the "
-           "tracking "
-           "rate did not end.";
-  }
   return fmt::format(
-      "On the nonlinear antenna it hunts by +-{:.2f} mdeg, beyond the tightest budget of {:.3f}: "
-      "`boresight tune` looks for a law that holds still.",
-      amplitude / millidegree, error / millidegree);
+      "On the nonlinear antenna it {}: `boresight tune` looks for a law that holds still.",
+      unrest(hunting, error));
 }
 
 std::string decide(const TimeDomainSection& section) {
   const double error = section.options.settled_error;
-  const auto amplitude = [](const design::NonlinearVerification& result) {
-    return design::hunting_amplitude(result.hunting) / millidegree;
-  };
+  const double rms = section.result.wind.beam_rms / millidegree;
+  // No other did either: such a law is never put before one that did.
+  if (!std::isfinite(rms)) {
+    return fmt::format(
+        "On the nonlinear antenna no law was seen to hold in {:.3g} m/s of wind: commission none "
+        "of them before that has been looked at.",
+        section.wind_speed);
+  }
   if (!design::holds_still(section.result.hunting, error)) {
     return fmt::format(
         "On the nonlinear antenna no law holds still: {} comes nearest with {:.3f} mdeg in wind, "
-        "but hunts by +-{:.2f} mdeg, beyond the tightest budget of {:.3f}. Commission none of them "
-        "before the friction has been looked at.",
-        section.law, section.result.wind.beam_rms / millidegree, amplitude(section.result),
-        error / millidegree);
+        "but {}. Commission none of them before the friction has been looked at.",
+        section.law, rms, unrest(section.result.hunting, error));
   }
   std::string text =
       fmt::format("On the nonlinear antenna {} comes first, with {:.3f} mdeg: commission that one.",
-                  section.law, section.result.wind.beam_rms / millidegree);
+                  section.law, rms);
   for (const auto& candidate : section.candidates) {
     if (design::holds_still(candidate.result.hunting, error) ||
         !(candidate.result.wind.beam_rms < section.result.wind.beam_rms)) {
       continue;
     }
-    text += fmt::format(
-        " Not {}: it has {:.3f} in wind, but hunts by +-{:.2f} mdeg, beyond the tightest budget of "
-        "{:.3f}.",
-        candidate.law, candidate.result.wind.beam_rms / millidegree, amplitude(candidate.result),
-        error / millidegree);
+    text += fmt::format(" Not {}: it has {:.3f} in wind, but {}.", candidate.law,
+                        candidate.result.wind.beam_rms / millidegree,
+                        unrest(candidate.result.hunting, error));
   }
   if (const std::string stroke = assumed_stroke(section); !stroke.empty()) text += " " + stroke;
   return text;

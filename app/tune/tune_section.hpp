@@ -28,8 +28,8 @@ struct LawInTime {
 };
 
 /// Where a slow rate loop hardly acts, position and rate gain count by their product: how far the
-/// position gain of a law can be lowered, the product and all other gains held, before the rms on
-/// the case's plant is 1 % larger or the loop unstable.
+/// position gain of a law can be lowered (a hundredfold at most), the product and all other gains
+/// held, before the rms on the case's plant is 1 % larger or the loop unstable.
 struct PositionGainTrade {
   std::string position_gain, rate_gain;  // in the engineer's units
   double beam_rms = 0.0;                 // rad

@@ -211,7 +211,8 @@ class Study {
     PositionGainTrade trade{texts.at(kp), texts.at(kr), rms(held), 0};
     if (!ensemble_.members.empty()) {
       trade.within_goals =
-          design::judge(problem, ensemble_.members, law, section_.goals, 1).within_goals;
+          design::judge(problem_at(row.wind_speed), ensemble_.members, law, section_.goals, 1)
+              .within_goals;
     }
     return trade;
   }

@@ -14,7 +14,6 @@
 #include <boresight/app/tune/tune_study.hpp>
 
 namespace boresight::app {
-
 namespace {
 
 using design::GoalKind;
@@ -98,8 +97,8 @@ std::string rms_text(const TunedLaw& row) {
 std::string left_out_text(const TuneSection& section, const TunedLaw& named) {
   if (named.left_out()) {
     return fmt::format(
-        " On the nonlinear antenna it {}, and no other law holds still and points in wind.",
-        held_against(named));
+        " On the nonlinear antenna it {}, and no other {} law holds still and points in wind.",
+        held_against(named), to_string(named.tuned_for));
   }
   std::vector<std::string> texts;
   for (const auto* row : rows_at(section, named.wind_speed)) {

@@ -91,6 +91,26 @@ TEST(Commission, TunesWhereNoGainsAreGiven) {
   EXPECT_THAT(result.output, Not(HasSubstr("pressure feedback, 1")));
 }
 
+// Friction that breaks away at more than twice what slides by hunts; that of the case does not.
+TEST(Commission, SaysThatALawHuntsOnTheNonlinearAntenna) {
+  const ScratchFolder folder;
+  const std::vector<std::string> gains{"kr=0.043", "wi=0.3 rad/s", "wp=2.5 rad/s", "kp=30 1/s",
+                                       "wip=0.2 rad/s"};
+  const std::vector<std::string> structure{"--structure", "PI"};
+  const ProgramResult still = commission(small_case(folder), gains, structure);
+  EXPECT_EQ(still.exit_code, 0) << still.errors;
+  EXPECT_THAT(still.output, Not(HasSubstr("On the nonlinear antenna")));
+  const std::string sticky = folder.write(
+      "sticky.toml",
+      EditedCase()
+              .replace("breakaway = { value = \"16.83 N.m\"", "breakaway = { value = \"55 N.m\"")
+              .text() +
+          "\n[ensemble]\ndraws = 1\n");
+  const ProgramResult hunting = commission(sticky, gains, structure);
+  EXPECT_EQ(hunting.exit_code, 0) << hunting.errors;
+  EXPECT_THAT(hunting.output, ContainsRegex("On the nonlinear antenna PI hunts by \\+-[1-9]"));
+}
+
 TEST(Commission, RefusesWhatItCannotUse) {
   const ScratchFolder folder;
   const std::string path = small_case(folder);

@@ -81,7 +81,7 @@ TEST(Evaluate, HoldsTheDriveToItsLimits) {
   EXPECT_LT(*larger.slew_rate_margin, 1.0);
   EXPECT_GT(larger.supply_margin, base.supply_margin);
   ASSERT_TRUE(base.slew && base.slew->time);
-  EXPECT_NEAR(base.slew->rate / base.slew->rate_asked, 0.8 * *base.slew_rate_margin, 0.03);
+  EXPECT_NEAR(base.slew->rate / base.slew->rate_asked, 0.8 * *base.slew_rate_margin, 1e-4);
   // Rest to rest takes at least the distance over the rate.
   EXPECT_GT(*base.slew->time, base.slew->distance / base.slew->rate);
   EXPECT_THAT(to_text(two_proposals()),

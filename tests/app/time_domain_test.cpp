@@ -108,6 +108,13 @@ TEST(TimeDomain, DecidesForALawThatHoldsStill) {
   chosen.result = hunting;
   EXPECT_THAT(decide(chosen), HasSubstr("no law holds still"));
   EXPECT_THAT(decide(chosen), Not(HasSubstr("commission that one")));
+  // A run that did not end has no amplitude.
+  chosen.result.hunting[0] = {};
+  chosen.result.hunting[0].status = design::RunStatus::lost;
+  EXPECT_THAT(decide(chosen), HasSubstr("but was not seen to hold still (a run"));
+  auto lost = section();
+  lost.result.wind.beam_rms = nan;
+  EXPECT_THAT(decide(lost), HasSubstr("no law was seen to hold in 10 m/s of wind"));
 }
 
 TEST(TimeDomain, PrefersTheLawThatHuntsLeastWhereTheRmsDecidesNothing) {

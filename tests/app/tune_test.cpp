@@ -11,10 +11,7 @@
 #include <gtest/gtest.h>
 
 #include "edited_case.hpp"
-#include <boresight/app/document/document_text.hpp>
 #include <boresight/app/redesign/antenna_model.hpp>
-#include <boresight/app/report/sky_units.hpp>
-#include <boresight/app/report/text_report.hpp>
 #include <boresight/app/tune/engineer_units.hpp>
 #include <boresight/app/tune/plant_members.hpp>
 #include <boresight/app/tune/tune_limit.hpp>
@@ -23,8 +20,6 @@
 namespace boresight::app {
 namespace {
 
-using testing::AllOf;
-using testing::Contains;
 using testing::ContainsRegex;
 using testing::HasSubstr;
 using testing::Not;
@@ -266,93 +261,9 @@ TEST(Tune, SaysThatABudgetIsOutOfReach) {
   EXPECT_THAT(content_of(json), HasSubstr("\"infeasible\": \"The budget"));
 }
 
-TEST(TuneVerdict, HoldsABudgetAgainstALawThatIsGoodForAllPlants) {
-  TuneSection section;
-  section.wind_speeds = {12.0};
-  PointingBudget budget;
-  budget.name = "need";
-  budget.band = "Ka";
-  budget.rms = 1.2 * millidegree;
-  budget.wind_speed = 12.0;
-  section.budgets = {budget};
-  const auto row = [](const std::string& structure, TunedFor purpose, double rms) {
-    TunedLaw law;
-    law.structure = structure;
-    law.tuned_for = purpose;
-    law.wind_speed = 12.0;
-    law.goals_met = true;
-    law.design.tuning.status = design::TuningStatus::optimal;
-    law.design.verification.passed = true;
-    law.beam_rms = rms * millidegree;
-    law.speed_limits = {12.0 * 1.2 / rms};
-    return law;
-  };
-  section.laws = {row("PI", TunedFor::nominal, 1.1), row("PI", TunedFor::robust, 1.3)};
-  // The nominal law may be unstable on another plant: it meets nothing.
-  ASSERT_EQ(best_law(section, 12.0), &section.laws[1]);
-  EXPECT_EQ(best_law(section, 10.0), nullptr);
-  const auto shortfalls = find_shortfalls(section);
-  ASSERT_EQ(shortfalls.size(), 1U);
-  EXPECT_THAT(shortfalls[0].closest, HasSubstr("PI (robust) comes nearest with 1.3000 mdeg"));
-  EXPECT_THAT(shortfalls[0].closest, HasSubstr("met up to 11.1 m/s."));
-  section.climate = {{5.0, 9.0}, {15.0, 1.0}};
-  EXPECT_THAT(find_shortfalls(section)[0].closest, HasSubstr("11.1 m/s (90 % of the time)."));
-  section.laws[1].beam_rms = 1.15 * millidegree;
-  design::EnsembleResult ensemble;
-  for (const double rms : {1.15, 1.19, 1.23}) {
-    design::MemberResult member;
-    member.stable = true;
-    member.beam_rms = rms * millidegree;
-    ensemble.members.push_back(member);
-  }
-  section.laws[1].ensemble = ensemble;
-  EXPECT_TRUE(find_shortfalls(section).empty());
-  EXPECT_THAT(conclude(section),
-              Contains(AllOf(HasSubstr("The budget 'need' in band Ka (1.2000 mdeg) is met"),
-                             HasSubstr("meets it on 2 of 3 plants"))));
-}
-
 // Of the reference antenna with its whole ensemble: a structure is never worse than one that it
 // contains, and the robust law with compensation is the one that `match` finds from its neighbours
 // in inertia (0.3340 mdeg), not the optimum 2 % above it that random starts end in.
-TEST(TuneConclusions, NameABoundOnceWithTheLawsThatEndThere) {
-  TuneSection section;
-  section.wind_speeds = {12.0};
-  for (const char* structure : {"PI+C", "DPF+C"}) {
-    for (const auto purpose : {TunedFor::nominal, TunedFor::robust}) {
-      TunedLaw law;
-      law.structure = structure;
-      law.tuned_for = purpose;
-      law.wind_speed = 12.0;
-      law.goals_met = true;
-      law.design.verification.passed = true;
-      law.beam_rms = 1.0 * millidegree;
-      auto& tuning = law.design.tuning;
-      tuning.status = design::TuningStatus::optimal;
-      tuning.law.structure = control::LoopStructure::named(structure);
-      for (const auto& gain : tuning.law.structure.gains()) tuning.law.gains.push_back(gain.upper);
-      tuning.gains_at_bound = {"compliance"};
-      section.laws.push_back(std::move(law));
-    }
-  }
-  const auto count = [](const std::string& text, const std::string& part) {
-    int found = 0;
-    for (auto at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) ++found;
-    return found;
-  };
-  const auto sentences = conclude(section);
-  EXPECT_THAT(sentences,
-              Contains("The search ended at the upper bound of the compliance, cs = 0.1 "
-                       "rad/(N.m), with PI+C (nominal, 12 m/s), PI+C (robust, 12 m/s): no "
-                       "optimum, as what lies beyond was not looked at."));
-  const std::string text = to_text(document_of(section));
-  EXPECT_EQ(count(text, "The search ended at"), 1);
-  // Without present gains there is no before.
-  EXPECT_EQ(count(text, "before and after"), 0);
-  section.laws[0].tuned_for = TunedFor::present;
-  EXPECT_EQ(count(to_text(document_of(section)), "Gains, before and after"), 1);
-}
-
 TEST(Tune, FindsInAStructureAtLeastWhatItsPartsDo) {
   const Case antenna = read_case(case_path("dss14-70m"));
   TuneOptions options;

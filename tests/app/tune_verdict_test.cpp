@@ -1,10 +1,12 @@
-// What is said of tuned laws that hunt on the nonlinear antenna, and of gains at their bounds.
+// What is said of tuned laws against budgets, on the nonlinear antenna and at bounds of the search.
 #include <string>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <boresight/app/document/document_text.hpp>
 #include <boresight/app/report/sky_units.hpp>
+#include <boresight/app/report/text_report.hpp>
 #include <boresight/app/tune/gains_at_bounds.hpp>
 #include <boresight/app/tune/tune_study.hpp>
 
@@ -14,6 +16,91 @@ namespace {
 using testing::AllOf;
 using testing::Contains;
 using testing::HasSubstr;
+
+// A study in 12 m/s with a budget of 1.2 mdeg that is needed up to there.
+TuneSection section_with_need() {
+  TuneSection section;
+  section.wind_speeds = {12.0};
+  PointingBudget budget;
+  budget.name = "need";
+  budget.band = "Ka";
+  budget.rms = 1.2 * millidegree;
+  budget.wind_speed = 12.0;
+  section.budgets = {budget};
+  return section;
+}
+
+// One of its laws, good in all by the linear plant.
+TunedLaw law_of(const std::string& structure, TunedFor purpose, double rms_mdeg) {
+  TunedLaw law;
+  law.structure = structure;
+  law.tuned_for = purpose;
+  law.wind_speed = 12.0;
+  law.goals_met = true;
+  law.design.tuning.status = design::TuningStatus::optimal;
+  law.design.verification.passed = true;
+  law.beam_rms = rms_mdeg * millidegree;
+  law.speed_limits = {12.0 * 1.2 / rms_mdeg};
+  return law;
+}
+
+TEST(TuneVerdict, HoldsABudgetAgainstALawThatIsGoodForAllPlants) {
+  TuneSection section = section_with_need();
+  section.laws = {law_of("PI", TunedFor::nominal, 1.1), law_of("PI", TunedFor::robust, 1.3)};
+  // The nominal law may be unstable on another plant: it meets nothing.
+  ASSERT_EQ(best_law(section, 12.0), &section.laws[1]);
+  EXPECT_EQ(best_law(section, 10.0), nullptr);
+  const auto shortfalls = find_shortfalls(section);
+  ASSERT_EQ(shortfalls.size(), 1U);
+  EXPECT_THAT(shortfalls[0].closest, HasSubstr("PI (robust) comes nearest with 1.3000 mdeg"));
+  EXPECT_THAT(shortfalls[0].closest, HasSubstr("met up to 11.1 m/s."));
+  section.climate = {{5.0, 9.0}, {15.0, 1.0}};
+  EXPECT_THAT(find_shortfalls(section)[0].closest, HasSubstr("11.1 m/s (90 % of the time)."));
+  section.laws[1].beam_rms = 1.15 * millidegree;
+  design::EnsembleResult ensemble;
+  for (const double rms : {1.15, 1.19, 1.23}) {
+    design::MemberResult member;
+    member.stable = true;
+    member.beam_rms = rms * millidegree;
+    ensemble.members.push_back(member);
+  }
+  section.laws[1].ensemble = ensemble;
+  EXPECT_TRUE(find_shortfalls(section).empty());
+  EXPECT_THAT(conclude(section),
+              Contains(AllOf(HasSubstr("The budget 'need' in band Ka (1.2000 mdeg) is met"),
+                             HasSubstr("meets it on 2 of 3 plants"))));
+}
+
+TEST(TuneConclusions, NameABoundOnceWithTheLawsThatEndThere) {
+  TuneSection section;
+  section.wind_speeds = {12.0};
+  for (const char* structure : {"PI+C", "DPF+C"}) {
+    for (const auto purpose : {TunedFor::nominal, TunedFor::robust}) {
+      TunedLaw law = law_of(structure, purpose, 1.0);
+      auto& tuning = law.design.tuning;
+      tuning.law.structure = control::LoopStructure::named(structure);
+      for (const auto& gain : tuning.law.structure.gains()) tuning.law.gains.push_back(gain.upper);
+      tuning.gains_at_bound = {"compliance"};
+      section.laws.push_back(std::move(law));
+    }
+  }
+  const auto count = [](const std::string& text, const std::string& part) {
+    int found = 0;
+    for (auto at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) ++found;
+    return found;
+  };
+  const auto sentences = conclude(section);
+  EXPECT_THAT(sentences,
+              Contains("The search ended at the upper bound of the compliance, cs = 0.1 "
+                       "rad/(N.m), with PI+C (nominal, 12 m/s), PI+C (robust, 12 m/s): no "
+                       "optimum, as what lies beyond was not looked at."));
+  const std::string text = to_text(document_of(section));
+  EXPECT_EQ(count(text, "The search ended at"), 1);
+  // Without present gains there is no before.
+  EXPECT_EQ(count(text, "before and after"), 0);
+  section.laws[0].tuned_for = TunedFor::present;
+  EXPECT_EQ(count(to_text(document_of(section)), "Gains, before and after"), 1);
+}
 
 TEST(TuneConclusions, SayThatABoundOnlyStopsAFlatDirection) {
   TunedLaw law;
@@ -33,25 +120,10 @@ TEST(TuneConclusions, SayThatABoundOnlyStopsAFlatDirection) {
 }
 
 TEST(Shortfalls, TrustNoBudgetToALawThatHunts) {
-  TuneSection section;
-  section.wind_speeds = {12.0};
+  TuneSection section = section_with_need();
   section.wind_mast = WindMast{10.0, 28.0, 0.14, 1.2};
-  PointingBudget budget;
-  budget.name = "need";
-  budget.band = "Ka";
-  budget.rms = 1.2 * millidegree;
-  budget.wind_speed = 12.0;
-  section.budgets = {budget};
   const auto row = [](const std::string& structure, double rms, double hunting, double simulated) {
-    TunedLaw law;
-    law.structure = structure;
-    law.tuned_for = TunedFor::robust;
-    law.wind_speed = 12.0;
-    law.goals_met = true;
-    law.design.tuning.status = design::TuningStatus::optimal;
-    law.design.verification.passed = true;
-    law.beam_rms = rms * millidegree;
-    law.speed_limits = {12.0 * 1.2 / rms};
+    TunedLaw law = law_of(structure, TunedFor::robust, rms);
     law.in_time = {hunting < 1.0, hunting * millidegree, simulated * millidegree};
     return law;
   };
@@ -78,9 +150,11 @@ TEST(Shortfalls, TrustNoBudgetToALawThatHunts) {
   section.laws = {row("DPF+C", 1.3, 7.4, 1.35)};
   shortfalls = find_shortfalls(section);
   ASSERT_EQ(shortfalls.size(), 1U);
-  EXPECT_THAT(shortfalls[0].closest,
-              AllOf(HasSubstr("DPF+C (robust) comes nearest with 1.3500 mdeg on the nonlinear"),
-                    HasSubstr("On the nonlinear antenna it hunts by +-7.40 mdeg, and no other")));
+  EXPECT_THAT(
+      shortfalls[0].closest,
+      AllOf(HasSubstr("DPF+C (robust) comes nearest with 1.3500 mdeg on the nonlinear"),
+            HasSubstr("On the nonlinear antenna it hunts by +-7.40 mdeg, and no other robust "
+                      "law holds still")));
 }
 
 }  // namespace

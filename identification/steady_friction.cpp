@@ -40,7 +40,6 @@ LinearPart fit_at(const std::vector<SteadyFriction>& tests, double stribeck_rate
     }
     LinearPart part;
     part.free = static_cast<int>(chosen.size());
-    if (part.free > rows) continue;
     if (!chosen.empty()) {
       const Eigen::VectorXd found = full(Eigen::all, chosen).colPivHouseholderQr().solve(torque);
       if (!(found.minCoeff() >= 0.0)) continue;
@@ -93,12 +92,12 @@ SteadyFrictionFit fit_steady_friction(const std::vector<SteadyFriction>& tests) 
   const bool tells_stribeck_rate = tests.size() > columns;
   const int allowed =
       coulomb | (at_rest || tells_stribeck_rate ? bump : 0) | (moving > 1 ? viscous : 0);
-  const double first = lowest / 3.0;
-  double rate = first;
+  const double least = lowest / 3.0;
+  double rate = least;
   LinearPart best = fit_at(tests, rate, allowed);
   if (tells_stribeck_rate) {
     // A grid in the logarithm, three times about the best of the one before.
-    double low = std::log(first), high = std::log(std::max(highest, first));
+    double low = std::log(least), high = std::log(highest);
     constexpr int steps = 60, rounds = 4;
     for (int round = 0; round < rounds; ++round) {
       const double step = (high - low) / steps;
@@ -110,8 +109,8 @@ SteadyFrictionFit fit_steady_friction(const std::vector<SteadyFriction>& tests) 
           rate = tried;
         }
       }
-      low = std::max(std::log(first), std::log(rate) - step);
-      high = std::log(rate) + step;
+      low = std::max(std::log(least), std::log(rate) - step);
+      high = std::min(std::log(highest), std::log(rate) + step);
     }
   }
   SteadyFrictionFit fit;
@@ -121,7 +120,9 @@ SteadyFrictionFit fit_steady_friction(const std::vector<SteadyFriction>& tests) 
   fit.curve.saturating_torque = 0.0;
   fit.curve.saturating_rate = highest;
   fit.curve.viscous_friction = best.values[2];
-  const int freedom = static_cast<int>(tests.size()) - best.free - (tells_stribeck_rate ? 1 : 0);
+  // Where Ts is Tc the Stribeck rate fits nothing.
+  const bool fits_rate = tells_stribeck_rate && best.values[1] > 0.0;
+  const int freedom = static_cast<int>(tests.size()) - best.free - (fits_rate ? 1 : 0);
   if (freedom > 0) fit.scatter = std::sqrt(best.squares / freedom);
   return fit;
 }

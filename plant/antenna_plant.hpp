@@ -110,8 +110,9 @@ std::vector<PlantMode> plant_modes(const AntennaPlant& plant);
 /// stiffness change; with oil stiffer than the structure the motors' largest swing passes from mode
 /// to mode above it.
 /// Where friction and leakage overdamp it, its two real poles p1, p2 are given as one mode of
-/// frequency sqrt(p1 p2) and damping ratio (p1 + p2)/(2 sqrt(p1 p2)) above 1.
-/// @throws NumericalFailure if no mode moves them.
+/// frequency sqrt(p1 p2) and damping ratio (p1 + p2)/(2 sqrt(p1 p2)) above 1. `modes`: in order of
+/// frequency, as plant_modes gives them.
+/// @throws NumericalFailure if no mode moves motors and oil.
 PlantMode hydraulic_mode(const std::vector<PlantMode>& modes);
 
 }  // namespace boresight::plant

@@ -12,6 +12,7 @@
 #include <boresight/plant/error.hpp>
 #include <boresight/plant/hermitian_eigen.hpp>
 #include <boresight/plant/motors_held_modes.hpp>
+#include <boresight/plant/structure_dynamics.hpp>
 
 namespace boresight::plant {
 namespace {
@@ -200,37 +201,21 @@ void check(const StructureSpecification& stated) {
 }  // namespace
 
 std::vector<MotorsHeldMode> motors_held_modes(const Structure& structure) {
-  const auto modes = static_cast<Index>(structure.modes.size());
-  const double gear = structure.bull_gear_inertia;
-  const auto positive = [](const char* what, double value) {
-    if (!(value > 0.0)) {
-      throw InvalidInput(
-          fmt::format("motors_held_modes: expected a positive {}, found {:g}", what, value));
-    }
-  };
-  positive("bull gear inertia", gear);
-  positive("gear stiffness", structure.gear_stiffness);
-  // Angles times the root of their inertia.
-  Eigen::MatrixXd stiffness = Eigen::MatrixXd::Zero(modes + 1, modes + 1);
-  VectorXd turn(modes + 1);  // of the whole antenna
-  stiffness(0, 0) = structure.gear_stiffness / gear;
-  turn[0] = std::sqrt(gear);
-  for (Index i = 0; i < modes; ++i) {
-    const auto& mode = structure.modes[static_cast<std::size_t>(i)];
-    positive("modal inertia", mode.inertia);
-    positive("modal stiffness", mode.stiffness);
-    stiffness(0, 0) += mode.stiffness / gear;
-    stiffness(i + 1, i + 1) = mode.stiffness / mode.inertia;
-    stiffness(0, i + 1) = stiffness(i + 1, 0) = -mode.stiffness / std::sqrt(mode.inertia * gear);
-    turn[i + 1] = std::sqrt(mode.inertia);
+  if (!(structure.gear_stiffness > 0.0)) {
+    throw InvalidInput(
+        fmt::format("motors_held_modes: expected a positive gear stiffness, found {:g}",
+                    structure.gear_stiffness));
   }
+  // In the coordinates of the free antenna's modes, of which the first is the turn of all of it.
+  const VibrationModes free = to_vibration_modes(structure);
+  const VectorXd gear = free.force_shape.col(0);
+  Eigen::MatrixXd stiffness = structure.gear_stiffness * gear * gear.transpose();
+  stiffness.diagonal() += free.frequency.cwiseAbs2();
   const auto eigen = hermitian_eigen(stiffness.cast<std::complex<double>>());
-  const VectorXd participation =
-      (eigen.vectors.adjoint() * turn.cast<std::complex<double>>()).cwiseAbs2();
+  const VectorXd fractions = eigen.vectors.row(0).cwiseAbs2();
   std::vector<MotorsHeldMode> held;
-  for (Index i = 0; i <= modes; ++i) {
-    held.push_back({std::sqrt(std::max(eigen.values[i], 0.0)) / two_pi,
-                    participation[i] / turn.squaredNorm()});
+  for (Index i = 0; i < fractions.size(); ++i) {
+    held.push_back({std::sqrt(std::max(eigen.values[i], 0.0)) / two_pi, fractions[i]});
   }
   return held;
 }

@@ -1,4 +1,3 @@
-#include <algorithm>
 #include <cmath>
 #include <map>
 #include <numbers>
@@ -37,7 +36,8 @@ std::vector<Part> parts_of(const AntennaPlant& plant) {
   return parts;
 }
 
-// Which modes hydraulic_mode is: one, both poles of an overdamped one, the lower first, or none.
+// Which of the modes, in order of frequency, hydraulic_mode is: one, both poles of an overdamped
+// one, the lower first, or none.
 std::vector<std::size_t> hydraulic_poles(const std::vector<PlantMode>& modes) {
   // Valve and tachometer stand in series with the rest: they move no oil but by rounding.
   constexpr double rounding = 1e-9;
@@ -46,12 +46,9 @@ std::vector<std::size_t> hydraulic_poles(const std::vector<PlantMode>& modes) {
     if (modes[i].frequency == 0.0 || modes[i].oil_participation < rounding) continue;
     (modes[i].pole.imag() == 0.0 ? real : swinging).push_back(i);
   }
-  const auto by_frequency = [&](std::size_t i) { return modes[i].frequency; };
-  std::ranges::stable_sort(real, {}, by_frequency);
-  std::ranges::stable_sort(swinging, {}, by_frequency);
   if (real.size() >= 2 &&
-      (swinging.empty() ||
-       std::sqrt(by_frequency(real[0]) * by_frequency(real[1])) < by_frequency(swinging.front()))) {
+      (swinging.empty() || std::sqrt(modes[real[0]].frequency * modes[real[1]].frequency) <
+                               modes[swinging.front()].frequency)) {
     return {real[0], real[1]};
   }
   if (swinging.empty()) return {};

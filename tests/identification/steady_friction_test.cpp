@@ -67,6 +67,13 @@ TEST(SteadyFriction, KeepsToWhatFrictionCanBe) {
   const auto low = fit_steady_friction({{0.0, 20.0}, {10.0, 40.0}, {30.0, 40.0}, {60.0, 40.0}});
   EXPECT_GE(low.curve.breakaway_torque, low.curve.coulomb_torque);
   EXPECT_GT(low.scatter, 1.0);
+  // No hump at rest of whatever width comes nearer to these than their line, 25 + 0.6 x, does: with
+  // squares of 420 and two degrees of freedom, as no Stribeck rate is fitted.
+  const auto scattered =
+      fit_steady_friction({{10.0, 30.0}, {20.0, 30.0}, {30.0, 60.0}, {40.0, 40.0}});
+  EXPECT_EQ(scattered.curve.breakaway_torque, scattered.curve.coulomb_torque);
+  EXPECT_NEAR(scattered.curve.coulomb_torque, 25.0, 1e-9);
+  EXPECT_NEAR(scattered.scatter, std::sqrt(210.0), 1e-9);
 }
 
 TEST(SteadyFriction, RefusesWhatIsNoTest) {

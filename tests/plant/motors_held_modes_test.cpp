@@ -114,6 +114,29 @@ TEST(MotorsHeldModes, ShareInertiaAndStiffnessOfTheWholeAntenna) {
   }
 }
 
+// The turn leans on the bull gear alone (K 1 = K_g e_b), so that each mode's square of the bull
+// gear's swing goes as fraction times s^2; the bull gear's response to a torque on it is zero where
+// the modes swing with it held. So frequencies and fractions give those of the bull gear held.
+TEST(MotorsHeldModes, DetermineTheModesWithTheBullGearHeld) {
+  reference::RandomNumbers random(11);
+  for (int trial = 0; trial < 50; ++trial) {
+    const auto structure = make_structure(random_specification(random));
+    const auto held = motors_held_modes(structure);
+    for (const auto& mode : structure.modes) {
+      const double x = mode.stiffness / mode.inertia;
+      double response = 0.0;
+      double largest = 0.0;
+      for (const auto& vibration : held) {
+        const double s = std::pow(reference::two_pi * vibration.frequency, 2);
+        const double term = vibration.inertia_fraction * s * s / (s - x);
+        response += term;
+        largest = std::max(largest, std::abs(term));
+      }
+      EXPECT_LT(std::abs(response), 1e-8 * largest);
+    }
+  }
+}
+
 TEST(MotorsHeldModes, GoForwardsAndBack) {
   reference::RandomNumbers random(5);
   int several = 0;

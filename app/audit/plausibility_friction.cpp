@@ -74,8 +74,9 @@ bool beyond(const Quantity& quantity, const Reach& reach) {
   };
   const bool above = quantity.value > clear_factor * reach.most &&
                      clear(quantity.value - reach.most, reach.of_most);
-  const bool below = clear_factor * quantity.value < reach.least &&
-                     clear(reach.least - quantity.value, reach.of_least);
+  // Slopes may be below 0, where a factor leads the other way.
+  const double lowest = std::min(reach.least / clear_factor, reach.least * clear_factor);
+  const bool below = quantity.value < lowest && clear(reach.least - quantity.value, reach.of_least);
   return above || below;
 }
 

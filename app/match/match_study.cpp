@@ -66,17 +66,20 @@ double rate_within_reach(const Case& antenna) {
   if (antenna.simulation) {
     return reach_of(antenna, plant::reflected_inertia(make_plant(antenna))).rate / ratio;
   }
-  const double open = largest_demand(antenna) / ratio;
+  // At the motor, where the two are equal to the last bit if the case states no stroke.
+  const double wanted = antenna.drive.slew_rate.value * ratio;
+  const double open = largest_demand(antenna);
   const auto curve = friction_curve(antenna);
   const double supply = supply_torque(antenna);
-  const double wanted = antenna.drive.slew_rate.value;
+  if (wanted <= open && plant::friction_torque(curve, wanted) < supply) {
+    return antenna.drive.slew_rate.value;
+  }
   double low = 0.0, high = std::min(wanted, open);
-  if (wanted <= open && plant::friction_torque(curve, wanted * ratio) < supply) return wanted;
   for (int i = 0; i < 40; ++i) {
     const double middle = 0.5 * (low + high);
-    (plant::friction_torque(curve, middle * ratio) < supply ? low : high) = middle;
+    (plant::friction_torque(curve, middle) < supply ? low : high) = middle;
   }
-  return std::min(wanted, 0.8 * low);
+  return 0.8 * low / ratio;
 }
 
 void describe(const Case& antenna, const MatchSection& section, MatchPoint& point) {

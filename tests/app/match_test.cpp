@@ -81,8 +81,23 @@ TEST(Match, SlewsByNewton) {
   }
 }
 
-// Over all gear ratios the acceleration for given torque
-// is greatest at R = 1, where half of the torque goes into the load.
+// Slew rates that come back smaller from the motor's side than they went there.
+TEST(Match, WithoutAStrokeNoRoundingTakesTheSlewRate) {
+  Case antenna = big_antenna();
+  antenna.simulation.reset();
+  const double ratio = gear_ratio(antenna);
+  double& rate = antenna.drive.slew_rate.value;
+  rate *= 0.1;
+  while (rate * ratio / ratio >= rate) rate = std::nextafter(rate, 1.0);
+  MatchOptions options = small_options();
+  options.structures = {"PI-0"};
+  const MatchSection section = match_motors(antenna, {}, options);
+  EXPECT_FALSE(section.slew_by_simulation);
+  EXPECT_EQ(section.slew_rate, rate);
+}
+
+// Over all gear ratios the acceleration for given torque is greatest at R = 1, where half of the
+// torque goes into the load.
 TEST(Match, AccelerationOfTheBestRatioIsOneAtRatioOne) {
   for (const auto& point : small_study().points) {
     const double r = point.motor_to_load_ratio;

@@ -168,6 +168,20 @@ TEST(FrictionTests, DoNotContradictTheCurveAtAnySpeeds) {
   }
 }
 
+// Where friction falls with the rate, lines through tests may have a slope below 0.
+TEST(FrictionTests, MayFallByHalfMoreThanTheCurve) {
+  Case antenna = read_case(case_path("dss14-64m"));
+  const FrictionCurveEntry& curve = antenna.friction_curve;
+  const double steepest = curve.viscous.value - std::sqrt(2.0 / std::numbers::e) *
+                                                    (curve.breakaway.value - curve.coulomb.value) /
+                                                    curve.stribeck_rate.value;
+  ASSERT_LT(steepest, 0.0);
+  antenna.friction_tests.constant_speed_slope = exactly(1.4 * steepest);
+  EXPECT_THAT(found_in(antenna, "friction tests"), IsEmpty());
+  antenna.friction_tests.constant_speed_slope = exactly(1.7 * steepest);
+  EXPECT_EQ(found_in(antenna, "friction tests").size(), 1U);
+}
+
 // The 70-m case with a return pressure for records beside that of its simulation, 60 psi.
 Implausibilities return_pressures(const std::string& recorded) {
   EditedCase edited;

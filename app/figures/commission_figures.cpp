@@ -128,7 +128,7 @@ Figure responses(const CommissionReport& report) {
       [](const StageExpectation& e) -> const design::PlantBand& { return e.still_encoder; },
       [](const AbortLimits& abort) { return abort.still_encoder_rms; }));
   figure.panels.push_back(expected_panel(
-      report, make_axis(fmt::format("beam rms, {:g} m/s", report.wind_speed), "mdeg"), sky,
+      report, make_axis(fmt::format("beam rms, {:.3g} m/s", report.wind_speed), "mdeg"), sky,
       [](const StageExpectation& e) -> const design::PlantBand& { return e.beam_rms; }, {}));
   std::erase_if(figure.panels, [](const FigurePanel& panel) { return !has_points(panel); });
   return figure;

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <boresight/app/figures/evaluate_figures.hpp>
+#include <boresight/app/report/evaluate_report.hpp>
 #include <boresight/app/report/sky_units.hpp>
 
 namespace boresight::app {
@@ -12,18 +13,9 @@ namespace {
 
 constexpr double undefined = std::numeric_limits<double>::quiet_NaN();
 
-std::string title_of(const EvaluateSection& section) {
-  return fmt::format("Proposals, re-tuned: wind model {}, {:g} m/s",
-                     plant::to_string(section.wind_model), section.wind_speed);
-}
-
-std::string title_of(const DecisionSection& decision) {
-  return fmt::format("Chances, by {} draws with the gains held", decision.draws);
-}
-
 std::string conditions(const EvaluateSection& section) {
   return fmt::format(
-      "Each proposal with loops of its own, {:g} m/s, wind model {}, {} plants ({}){}.",
+      "Each proposal with loops of its own, {:.3g} m/s, wind model {}, {} plants ({}){}.",
       section.wind_speed, plant::to_string(section.wind_model), section.ensemble_size,
       section.ensemble_source,
       section.time_domain ? "; rms of linear loops times each law's factor of the nonlinear antenna"
@@ -42,7 +34,7 @@ double finite_rms(double rms) {
 Figure front_figure(const EvaluateSection& section) {
   Figure figure;
   figure.id = "pareto";
-  figure.section = title_of(section);
+  figure.section = heading_of(section);
   figure.title = "Cost and beam rms of the proposals";
   figure.caption =
       "Root of the mean square of the beam rms over the plants against cost; whiskers span the "
@@ -82,7 +74,7 @@ Figure front_figure(const EvaluateSection& section) {
 Figure spread_figure(const EvaluateSection& section) {
   Figure figure;
   figure.id = "proposals-spread";
-  figure.section = title_of(section);
+  figure.section = heading_of(section);
   figure.title = "Beam rms of the proposals over the plants that may be the true one";
   figure.caption =
       "Median of the beam rms over the plants with the gains held, and from the least to the "
@@ -137,7 +129,7 @@ FigurePanel share_panel(const std::string& label, const std::vector<NamedShare>&
 Figure chances_figure(const EvaluateSection& section, const DecisionSection& decision) {
   Figure figure;
   figure.id = "chances";
-  figure.section = title_of(decision);
+  figure.section = heading_of(decision);
   const std::string& best = name_of(section, decision, decision.best);
   figure.title = "Chances of the proposals";
   figure.caption = fmt::format(
@@ -177,11 +169,11 @@ Figure tornado_figure(const EvaluateSection& section, const DecisionSection& dec
                       const design::Tornado& tornado) {
   Figure figure;
   figure.id = "tornado";
-  figure.section = title_of(decision);
+  figure.section = heading_of(decision);
   figure.title = "What decides between the two best proposals, one input at a time";
   figure.caption = fmt::format(
       "{}: each input at its 5 % and 95 % share, the others at their median; right of zero '{}' is "
-      "the better one. {:g} m/s, wind model {}.",
+      "the better one. {:.3g} m/s, wind model {}.",
       difference(section, decision), name_of(section, decision, decision.best), section.wind_speed,
       plant::to_string(section.wind_model));
   figure.x = {.label = "difference of beam rms", .unit = "mdeg"};
@@ -211,7 +203,7 @@ Figure sobol_figure(const EvaluateSection& section, const DecisionSection& decis
                     const design::SobolIndices& indices) {
   Figure figure;
   figure.id = "sobol";
-  figure.section = title_of(decision);
+  figure.section = heading_of(decision);
   figure.title = "Shares of the variance between the two best proposals";
   figure.caption = fmt::format(
       "{}: Sobol' indices of its variance with intervals of 95 %. First order: the share that goes "

@@ -15,7 +15,7 @@ constexpr double undefined = std::numeric_limits<double>::quiet_NaN();
 
 std::string conditions(const MatchSection& section) {
   return fmt::format(
-      "{:g} m/s, wind model {}, linear plant with friction {:.3g} N.m.s/rad, every goal held on "
+      "{:.3g} m/s, wind model {}, linear plant with friction {:.3g} N.m.s/rad, every goal held on "
       "{}.",
       section.wind_speed, plant::to_string(section.wind_model), section.friction,
       section.members == 0 ? "the case's plant" : fmt::format("{} plants", section.members));
@@ -217,7 +217,7 @@ Figure variants_figure(const MatchSection& section, std::size_t number) {
   Figure figure = started(
       fmt::format("match-variants-{}", number + 1).c_str(), "",
       fmt::format("Least beam rms of {} along the axis when one thing is not as the case has it, "
-                  "tuned on that plant alone; a circle is the least of each curve. {:g} m/s.",
+                  "tuned on that plant alone; a circle is the least of each curve. {:.3g} m/s.",
                   variants.structure, section.wind_speed));
   figure.title = fmt::format("What moves the optimum: {}", variants.structure);
   FigurePanel panel;

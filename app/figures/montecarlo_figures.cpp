@@ -72,7 +72,7 @@ Figure distribution(const MonteCarloSection& section, const std::vector<double>&
       "montecarlo-rms", "Distribution over the plants that are stable",
       "Beam rms over the plants that may be the true one",
       fmt::format(
-          "{}, gains held, wind of {:g} m/s ({} model), {} plants {}: {} stable, the rest "
+          "{}, gains held, wind of {:.3g} m/s ({} model), {} plants {}: {} stable, the rest "
           "meets no budget. Shown up to the rms that {:g} % of the stable ones keep to; the "
           "largest is {:.4g} mdeg. Lines: budgets, below with the share that meets each.",
           section.structure, section.wind_speed, plant::to_string(section.wind_model),
@@ -102,9 +102,10 @@ Figure worst_plants(const MonteCarloSection& section) {
   }
   Figure figure = make_figure(
       "montecarlo-worst", "Worst stable plants", "Worst stable plants",
-      fmt::format("Of {} stable plants, wind of {:g} m/s. Inputs as factors on the case's numbers, "
-                  "friction slope in N.m.s/rad.",
-                  section.stable, section.wind_speed),
+      fmt::format(
+          "Of {} stable plants, wind of {:.3g} m/s. Inputs as factors on the case's numbers, "
+          "friction slope in N.m.s/rad.",
+          section.stable, section.wind_speed),
       make_axis("beam rms, one axis at the sky", "mdeg"));
   figure.panels.push_back(std::move(panel));
   return figure;

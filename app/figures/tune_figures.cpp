@@ -42,7 +42,7 @@ Figure structures_figure(const TuneSection& section, double wind_speed,
   figure.section = title_of(section);
   figure.title = "Loop structures side by side";
   figure.caption = fmt::format(
-      "Beam rms at the sky in {:g} m/s, wind model {}: gains the antenna runs on now, tuned for "
+      "Beam rms at the sky in {:.3g} m/s, wind model {}: gains the antenna runs on now, tuned for "
       "the case's plant, tuned so that every hard goal holds on {} plants ({}); all on the linear "
       "plant{}.",
       wind_speed, plant::to_string(section.wind_model), section.ensemble_size,

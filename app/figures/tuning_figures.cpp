@@ -24,9 +24,7 @@ double rms_of(const design::Design& design) {
 std::vector<Figure> tuning_figures(const TuningSection& section) {
   const design::Design& design = section.design;
   if (design.tuning.status == design::TuningStatus::unstable) return {};
-  const std::string title = fmt::format("Tuned loops: {}, as built, {:.3g} m/s, wind model {}",
-                                        control::to_string(section.structure), section.design_speed,
-                                        plant::to_string(section.wind_model));
+  const std::string title = tuning_heading(section);
   const std::string name(control::to_string(section.structure));
   const double noise = design.tuning.evaluation.noise_variance;
   auto figures = law_figures({.id = "tuned",

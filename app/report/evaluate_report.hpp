@@ -8,6 +8,10 @@
 
 namespace boresight::app {
 
+/// The headings of the section and of its part about chances, which figures name too.
+std::string heading_of(const EvaluateSection& section);
+std::string heading_of(const DecisionSection& decision);
+
 /// The section of the report.
 Document document_of(const EvaluateSection& section);
 /// Its part about chances, regrets and tests.

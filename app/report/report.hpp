@@ -132,6 +132,9 @@ struct ChoiceResult {
   bool contradicts = false;
 };
 
+/// The heading above tuned loops, which figures name too.
+std::string tuning_heading(const TuningSection& section);
+
 /// The heading above choices: of contradictions where there are some.
 std::string choices_heading(const std::vector<ChoiceResult>& choices);
 

@@ -172,8 +172,12 @@ Document tests_table(const EvaluateSection& section, const DecisionSection& deci
 
 }  // namespace
 
+std::string heading_of(const DecisionSection& decision) {
+  return fmt::format("Chances, by {} draws with the gains held", decision.draws);
+}
+
 Document document_of(const EvaluateSection& section, const DecisionSection& decision) {
-  Document text = heading(fmt::format("Chances, by {} draws with the gains held", decision.draws));
+  Document text = heading(heading_of(decision));
   text += wrapped(
       fmt::format("Beam rms in mdeg of linear loops{}, {}, the same for all proposals. "
                   "Intervals: 95 % for the number of draws; they say nothing of the "

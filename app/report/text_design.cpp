@@ -177,12 +177,16 @@ Document effects_part(const TuningSection& section) {
   return text + table(rows, "lllrrr");
 }
 
+std::string tuning_heading(const TuningSection& section) {
+  return fmt::format("Tuned loops: {}, as built, {:.3g} m/s, wind model {}",
+                     control::to_string(section.structure), section.design_speed,
+                     plant::to_string(section.wind_model));
+}
+
 Document document_of(const TuningSection& section) {
   const Design& design = section.design;
   const auto& check = design.verification;
-  Document text = heading(fmt::format("Tuned loops: {}, as built, {:.3g} m/s, wind model {}",
-                                      control::to_string(section.structure), section.design_speed,
-                                      plant::to_string(section.wind_model)));
+  Document text = heading(tuning_heading(section));
   text += present_part(section);
   if (design.tuning.status == design::TuningStatus::unstable) {
     return text +

@@ -316,9 +316,13 @@ Document laws_part(const EvaluateSection& section) {
 
 }  // namespace
 
+std::string heading_of(const EvaluateSection& section) {
+  return fmt::format("Proposals, re-tuned: wind model {}, {:.3g} m/s",
+                     plant::to_string(section.wind_model), section.wind_speed);
+}
+
 Document document_of(const EvaluateSection& section) {
-  Document text = heading(fmt::format("Proposals, re-tuned: wind model {}, {:.3g} m/s",
-                                      plant::to_string(section.wind_model), section.wind_speed));
+  Document text = heading(heading_of(section));
   text += wrapped(
       fmt::format("Each with loops of its own, tuned so that every hard goal holds on the nominal "
                   "plant and on each of {} plants, {}, the same draws for all. {}",

@@ -240,7 +240,7 @@ Document document_of(const MatchSection& section) {
   Document text = heading("Inertia matching");
   text += wrapped(
       fmt::format("Each structure tuned at each motor inertia for the least beam rms in wind of "
-                  "{:g} m/s ({} model), every goal held on {} plants ({} rms is made least); {} "
+                  "{:.3g} m/s ({} model), every goal held on {} plants ({} rms is made least); {} "
                   "random starts each and {} rounds of warm starts{}, {} evaluations.",
                   section.wind_speed, plant::to_string(section.wind_model),
                   std::max<std::size_t>(section.members, 1), to_string(section.soft_goal.kind),

@@ -128,7 +128,7 @@ Document verdict_part(const MeasuredLaw& law) {
 
 Document document_of(const MeasuredTuneSection& section) {
   Document text = heading(
-      fmt::format("Loops tuned on the measured response, wind {:g} m/s", section.wind_speed));
+      fmt::format("Loops tuned on the measured response, wind {:.3g} m/s", section.wind_speed));
   text += record_part(section) + "\n" + laws_part(section);
   text += heading("Gains, SI at the motor shaft");
   for (const auto& law : section.laws) {
@@ -149,7 +149,7 @@ std::vector<std::string> conclude(const MeasuredTuneSection& section) {
     sentences.push_back(
         has_law(law)
             ? fmt::format(
-                  "{} on the measured response: encoder rms {} mdeg in {:g} m/s for wind at "
+                  "{} on the measured response: encoder rms {} mdeg in {:.3g} m/s for wind at "
                   "the motor shaft, {}.",
                   law.structure, mdeg(section, tuning.rms), section.wind_speed,
                   design::to_string(tuning.status))

@@ -63,7 +63,7 @@ std::string verdict(const TunedLaw& row) {
 
 std::vector<std::string> first_cells(const TunedLaw& row) {
   return {row.structure, std::string(to_string(row.tuned_for)),
-          fmt::format("{:g}", row.wind_speed)};
+          fmt::format("{:.3g}", row.wind_speed)};
 }
 
 // What the mean wind's bending would add to the losses.
@@ -82,7 +82,7 @@ Document bending_part(const TuneSection& section) {
   }
   return wrapped(
       fmt::format(
-          "Left out of the losses is what the mean wind bends the antenna, {} mdeg in {:g} "
+          "Left out of the losses is what the mean wind bends the antenna, {} mdeg in {:.3g} "
           "m/s. It changes as slowly as the mean wind, and is for a boresight scan or a wind "
           "term of the pointing model to take away. Left in, it would add {}.",
           mdeg(std::abs(bending)), problem.wind.mean_speed, fmt::join(losses, ", ")),
@@ -214,7 +214,7 @@ Document gains_part(const TuneSection& section) {
         rows[k + 1].push_back(k < row.gains.size() ? row.gains[k] : "-");
       }
     }
-    text += subheading(fmt::format("{} at {:g} m/s", section.laws[i].structure,
+    text += subheading(fmt::format("{} at {:.3g} m/s", section.laws[i].structure,
                                    section.laws[i].wind_speed)) +
             table(rows, "ll");
   }
@@ -230,7 +230,7 @@ Document limits_part(const TuneSection& section) {
     for (const auto& limit : tuning.limits) limits.push_back(limit.description());
     if (limits.empty()) limits = tuning.active_goals;
     if (limits.empty()) limits.emplace_back("no goal");
-    text += wrapped(fmt::format("{}, {}, {:g} m/s: {}.", row.structure, to_string(row.tuned_for),
+    text += wrapped(fmt::format("{}, {}, {:.3g} m/s: {}.", row.structure, to_string(row.tuned_for),
                                 row.wind_speed, fmt::join(limits, "; ")),
                     "  ", "  ");
   }

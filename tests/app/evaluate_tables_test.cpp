@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <boresight/app/document/document_text.hpp>
+#include <boresight/app/figures/evaluate_figures.hpp>
 #include <boresight/app/report/evaluate_report.hpp>
 
 namespace boresight::app {
@@ -60,6 +61,21 @@ TEST(EvaluateTables, GiveNoLossWhereTheParabolaEnds) {
   EXPECT_THAT(to_text(document_of(section)),
               AllOf(HasSubstr("0.7424  > 3"), Not(HasSubstr("10.76")),
                     HasSubstr("> 3: beyond 3 dB the beam's parabola does not hold.")));
+}
+
+// A mast's speeds, raised to the dish, are no round numbers.
+TEST(EvaluateTables, StandUnderTheHeadingThatFiguresName) {
+  EvaluateSection section;
+  section.wind_speed = 12.1419;
+  section.candidates.resize(1);
+  Candidate& candidate = section.candidates[0];
+  candidate.laws.resize(1);
+  candidate.chosen = 0;
+  candidate.laws[0].ensemble.emplace().members.resize(1);
+  const auto figures = evaluate_figures(section);
+  ASSERT_EQ(figures.size(), 1U);
+  const std::string text = to_text(document_of(section));
+  EXPECT_THAT(text, AllOf(HasSubstr(figures[0].section), HasSubstr("12.1 m/s")));
 }
 
 }  // namespace

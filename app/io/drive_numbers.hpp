@@ -53,7 +53,7 @@ double torque_for_wind(const Case& antenna);
 /// leakage rate.
 std::optional<Quantity> rated_stroke(const Case& antenna,
                                      const std::optional<Quantity>& return_pressure);
-/// The same with the return pressure of [simulation], else of [campaign].
+/// The same with simulation.return_pressure, else drive.return_pressure.
 std::optional<Quantity> rated_stroke(const Case& antenna);
 
 /// The largest rate (rad/s of motor) that may be asked of the valve: simulation.valve_stroke; else

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <boresight/app/redesign/antenna_model.hpp>
 #include <boresight/app/redesign/input_effects.hpp>

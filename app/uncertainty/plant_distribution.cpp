@@ -137,8 +137,7 @@ PlantDistribution PlantDistribution::of_ranges(const Case& antenna) {
   }
   distribution.source_ =
       "independent draws of structure frequencies, oil stiffness, leakage and friction slope from "
-      "the "
-      "[ensemble]'s ranges and of the inertias by their uncertainties";
+      "the [ensemble]'s ranges and of the inertias by their uncertainties";
   distribution.set_wind_torque(antenna);
   distribution.list_inputs();
   return distribution;

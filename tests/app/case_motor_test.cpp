@@ -44,9 +44,9 @@ TEST(CaseMotor, FindsADisksInertiaByItsDimensions) {
   const auto assumed = assumed_inputs(antenna);
   EXPECT_TRUE(std::ranges::any_of(
       assumed, [](const Quantity& one) { return one.key == "motor.disk_density"; }));
-  const Case brass = parse_case(edited(disk, sizes + "\ndisk_density = \"7850 kg/m3\""), "c");
-  EXPECT_EQ(brass.motor.disk_inertia.value, inertia.value);
-  EXPECT_EQ(assumed_inputs(brass).size() + 1, assumed.size());
+  const Case stated = parse_case(edited(disk, sizes + "\ndisk_density = \"7850 kg/m3\""), "c");
+  EXPECT_EQ(stated.motor.disk_inertia.value, inertia.value);
+  EXPECT_EQ(assumed_inputs(stated).size() + 1, assumed.size());
 }
 
 TEST(CaseMotor, FindsOneInertiaByTheOtherAndTheDisks) {

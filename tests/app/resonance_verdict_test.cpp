@@ -40,6 +40,14 @@ double hydraulic_frequency(const Case& antenna) {
   return plant::hydraulic_mode(plant::plant_modes(make_plant(antenna))).frequency;
 }
 
+Report report_of(const Case& antenna) {
+  Report report;
+  report.command = "redesign";
+  report.identification = identify(antenna, {});
+  report.resonance = resonance_verdict(antenna);
+  return report;
+}
+
 TEST(BulkModulusFor, MakesTheFrequencyOfTheFlexibleAntenna) {
   const Case antenna = with_oil(1.229e9);
   for (const double frequency : {0.5, 0.97, 1.1}) {
@@ -75,11 +83,7 @@ TEST(ResonanceVerdict, SaysWhatContradictsAndWhichOilWouldNot) {
 }
 
 TEST(ResonanceVerdict, StandsFirstAmongConclusionsAndInTheDecision) {
-  const Case antenna = with_oil(1.229e9);
-  Report report;
-  report.command = "redesign";
-  report.identification = identify(antenna, {});
-  report.resonance = resonance_verdict(antenna);
+  Report report = report_of(with_oil(1.229e9));
   EXPECT_THAT(conclude(report).front(),
               AllOf(StartsWith("The hydraulic frequency measured, 0.97 Hz, contradicts"),
                     HasSubstr("Of a rigid antenna it leaves -0.0"),
@@ -91,11 +95,7 @@ TEST(ResonanceVerdict, StandsFirstAmongConclusionsAndInTheDecision) {
 }
 
 TEST(ResonanceVerdict, SaysThatTheMethodsFigureIsOfARigidAntenna) {
-  const Case antenna = with_oil(1.229e9);
-  Report report;
-  report.command = "redesign";
-  report.identification = identify(antenna, {});
-  report.resonance = resonance_verdict(antenna);
+  Report report = report_of(with_oil(1.229e9));
   EXPECT_THAT(conclude(report), Each(Not(HasSubstr("figure is of a rigid antenna"))));
   report.resonance = resonance_verdict(with_oil(*report.resonance->bulk_modulus));
   EXPECT_THAT(conclude(report),

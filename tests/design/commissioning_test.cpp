@@ -6,7 +6,6 @@
 #include <gtest/gtest.h>
 
 #include "reference_problem.hpp"
-#include <boresight/control/closed_loop.hpp>
 #include <boresight/control/step_characteristics.hpp>
 #include <boresight/design/commissioning.hpp>
 #include <boresight/design/commissioning_path.hpp>
@@ -75,16 +74,8 @@ TEST(StageObserver, AgreesWithTheEvaluatorAndTheExactStepResponse) {
                         evaluation.highest_peak(control::LoopBreak::position_loop)}),
               1e-3);
 
-  // From minus the encoder's noise to the encoder: the step of the position command.
-  plant::StateSpace loop = control::closed_loop(problem.plant, law, problem.delay);
-  const auto input = plant::input_index(loop, "encoder_noise");
-  const auto output = plant::output_index(loop, "encoder");
-  loop.b = Eigen::MatrixXd(-loop.b.col(input));
-  loop.c = Eigen::MatrixXd(loop.c.row(output));
-  loop.d = Eigen::MatrixXd(-loop.d.block(output, input, 1, 1));
-  loop.inputs = {"command"};
-  loop.outputs = {"encoder"};
-  const auto exact = control::step_characteristics(loop, {.settling_band = 0.05});
+  const auto exact = control::step_characteristics(reference::command_to_encoder(problem, law),
+                                                   {.settling_band = 0.05});
   EXPECT_NEAR(seen.rise_time, exact.rise_time, 1e-3 * exact.rise_time);
   EXPECT_NEAR(seen.overshoot, exact.overshoot, 1e-3);
   EXPECT_NEAR(seen.settling_time, exact.settling_time, 2e-2 * exact.settling_time);

@@ -6,7 +6,6 @@
 #include <gtest/gtest.h>
 
 #include "reference_problem.hpp"
-#include <boresight/control/closed_loop.hpp>
 #include <boresight/control/step_characteristics.hpp>
 #include <boresight/design/design_study.hpp>
 #include <boresight/design/tuner.hpp>
@@ -210,25 +209,13 @@ TEST(Tune, GivesTheSameBytesForTheSameSeed) {
   EXPECT_EQ(once.active_goals, again.active_goals);
 }
 
-double step_overshoot(const TrackingProblem& problem, const control::ControlLaw& law) {
-  plant::StateSpace loop = control::closed_loop(problem.plant, law, problem.delay);
-  // From minus the encoder's noise to the encoder: the step of the position command.
-  const auto input = plant::input_index(loop, "encoder_noise");
-  const auto output = plant::output_index(loop, "encoder");
-  loop.b = Eigen::MatrixXd(-loop.b.col(input));
-  loop.c = Eigen::MatrixXd(loop.c.row(output));
-  loop.d = Eigen::MatrixXd(-loop.d.block(output, input, 1, 1));
-  loop.inputs = {"command"};
-  loop.outputs = {"encoder"};
-  return control::step_characteristics(loop).overshoot;
-}
-
 // As docs/case-file.md has it of [goals].
 TEST(Tune, LimitsTheOvershootByThePhaseMargin) {
   const TrackingProblem problem = coarse_problem();
   const auto overshoot = [&](const char* structure, const HardGoals& goals) {
     const auto tuned = tune(problem, LoopStructure::named(structure), goals, coarse());
-    return step_overshoot(problem, tuned.law);
+    return control::step_characteristics(reference::command_to_encoder(problem, tuned.law))
+        .overshoot;
   };
   const auto at_margin = [&](const char* structure, double degrees) {
     HardGoals goals;

@@ -133,11 +133,7 @@ Conditions conditions_of(const StructureSpecification& stated) {
   return conditions;
 }
 
-void check(const StructureSpecification& stated) {
-  if (stated.modes.size() > most_modes) {
-    refuse(fmt::format("at most {} modes by their frequencies with the motors held, found {}",
-                       most_modes, stated.modes.size()));
-  }
+void check(const StructureSpecification& stated, const char* fractions) {
   double below = 0.0;
   double sum = 0.0;
   const auto rising = [&](double frequency) {
@@ -153,12 +149,12 @@ void check(const StructureSpecification& stated) {
   for (const auto& mode : stated.modes) {
     rising(mode.frequency);
     if (!(mode.inertia_fraction > 0.0)) {
-      refuse(fmt::format("positive inertia fractions, found {:.6g}", mode.inertia_fraction));
+      refuse(fmt::format("positive {}, found {:.6g}", fractions, mode.inertia_fraction));
     }
     sum += mode.inertia_fraction;
   }
   if (!(sum < 1.0)) {
-    refuse(fmt::format("inertia fractions that sum to less than 1, found {:.6g}", sum));
+    refuse(fmt::format("{} that sum to less than 1, found {:.6g}", fractions, sum));
   }
 }
 
@@ -198,6 +194,63 @@ void check(const StructureSpecification& stated) {
       "none");
 }
 
+// G of an antenna of inertia 1, over the square of the frequency instead of the circular one.
+struct GearResponse {
+  Eigen::ArrayXd frequencies;  // f_j, rising
+  Eigen::ArrayXd weights;      // e_j f_j^4/(sum e_l f_l^2)^2
+
+  // From a pole to all of them.
+  Eigen::ArrayXd distances(Index pole) const {
+    return (frequencies - frequencies[pole]) * (frequencies + frequencies[pole]);
+  }
+
+  // With the bull gear held, between this pole and the one below: frequency and inertia.
+  StructureSpecification::Mode zero_below(Index upper) const {
+    const double half = 0.5 * distances(upper - 1)[upper];
+    const auto response = [&](const Eigen::ArrayXd& poles, double x) {
+      return (weights / (poles - x)).sum();
+    };
+    const bool nearer_lower = response(distances(upper - 1), half) > 0.0;
+    const Index pole = nearer_lower ? upper - 1 : upper;
+    const Eigen::ArrayXd poles = distances(pole);
+    double near = 0.0;
+    double far = nearer_lower ? half : -half;
+    double middle = 0.5 * far;
+    while (middle != near && middle != far) {
+      if ((response(poles, middle) > 0.0) == nearer_lower) {
+        far = middle;
+      } else {
+        near = middle;
+      }
+      middle = 0.5 * (near + far);
+    }
+    const double x = frequencies[pole] * frequencies[pole] + far;
+    // Divided twice, as the square of a tiny distance would be 0.
+    const double slope = (weights / (poles - far) / (poles - far)).sum();
+    StructureSpecification::Mode mode;
+    mode.frequency = std::sqrt(x);
+    mode.inertia_fraction = 1.0 / (x * x * slope);
+    return mode;
+  }
+};
+
+GearResponse gear_response_of(const StructureSpecification& stated) {
+  const auto modes = static_cast<Index>(stated.modes.size());
+  GearResponse response{Eigen::ArrayXd(modes + 1), Eigen::ArrayXd(modes + 1)};
+  response.frequencies[0] = stated.locked_rotor_frequency;
+  response.weights[0] = 1.0;
+  for (Index i = 0; i < modes; ++i) {
+    const auto& mode = stated.modes[static_cast<std::size_t>(i)];
+    response.frequencies[i + 1] = mode.frequency;
+    response.weights[i + 1] = mode.inertia_fraction;
+    response.weights[0] -= mode.inertia_fraction;
+  }
+  const Eigen::ArrayXd squares = response.frequencies.square();
+  const double spring = (response.weights * squares).sum();
+  response.weights *= (squares / spring).square();
+  return response;
+}
+
 }  // namespace
 
 std::vector<MotorsHeldMode> motors_held_modes(const Structure& structure) {
@@ -221,7 +274,11 @@ std::vector<MotorsHeldMode> motors_held_modes(const Structure& structure) {
 }
 
 std::vector<StructureSpecification> hold_bull_gear_of(const StructureSpecification& motors_held) {
-  check(motors_held);
+  if (motors_held.modes.size() > most_modes) {
+    refuse(fmt::format("at most {} modes by their frequencies with the motors held, found {}",
+                       most_modes, motors_held.modes.size()));
+  }
+  check(motors_held, "inertia fractions");
   if (motors_held.modes.empty()) return {motors_held};
   const auto found = solutions(conditions_of(motors_held));
   if (found.empty()) refuse_heavy(motors_held);
@@ -233,6 +290,29 @@ std::vector<StructureSpecification> hold_bull_gear_of(const StructureSpecificati
     }
   }
   return antennas;
+}
+
+StructureSpecification antenna_of_effective_fractions(const StructureSpecification& motors_held) {
+  check(motors_held, "effective inertia fractions");
+  const GearResponse response = gear_response_of(motors_held);
+  StructureSpecification antenna = motors_held;
+  double below = antenna.locked_rotor_frequency;
+  double rest = 1.0;
+  for (std::size_t i = 0; i < antenna.modes.size(); ++i) {
+    auto& mode = antenna.modes[i];
+    const auto held = response.zero_below(static_cast<Index>(i) + 1);
+    mode.frequency = held.frequency;
+    mode.inertia_fraction = held.inertia_fraction;
+    rest -= mode.inertia_fraction;
+    if (!(mode.frequency > below && mode.inertia_fraction > 0.0 && rest > 0.0)) {
+      refuse(fmt::format(
+          "effective inertia fractions of which an antenna has these frequencies with the motors "
+          "held, found none but for rounding: {:.3g} at {:.6g} Hz",
+          motors_held.modes[i].inertia_fraction, motors_held.modes[i].frequency));
+    }
+    below = mode.frequency;
+  }
+  return antenna;
 }
 
 }  // namespace boresight::plant

@@ -43,4 +43,24 @@ std::vector<MotorsHeldMode> motors_held_modes(const Structure& structure);
 /// antenna is found: then with the mode whose inertia fraction, lowered least, gives one.
 std::vector<StructureSpecification> hold_bull_gear_of(const StructureSpecification& motors_held);
 
+/// The one antenna that has the stated frequencies with the motors held, locked_rotor_frequency
+/// and, rising from there, those of the modes, and in whose modes with the motors held the stated
+/// inertia fractions are the effective ones of motors_held_modes; the lowest has the rest of 1.
+/// Each mode comes back with frequency and inertia fraction as they are with the bull gear held;
+/// all else is as stated.
+///
+/// The turn of the whole antenna bends the gear spring alone (K 1 = K_g e_b), so that a mode of
+/// s_j = (2 pi f_j)^2 and effective fraction e_j turns the bull gear by (s_j/K_g) sqrt(e_j J) where
+/// its modal inertia is 1, and with K_g = J sum e_j s_j a torque on the bull gear turns it by
+///   G(x) = sum p_j/(s_j - x),    p_j = e_j s_j^2/(J (sum e_l s_l)^2),    x = w^2.
+/// G rises from pole to pole. Its zeros, one between each two, are the squares x_i of the circular
+/// frequencies with the bull gear held, and as 1/G goes to J_i x_i^2/(x - x_i) there, the modes'
+/// inertias are J_i = 1/(x_i^2 G'(x_i)); the bull gear's is 1/sum p_j. The zeros are bisected as
+/// distances from the nearer pole.
+///
+/// @throws InvalidInput for a fraction that is not positive, fractions that do not sum to less
+/// than 1, frequencies that are not positive or do not rise, and where rounding leaves no antenna
+/// of them.
+StructureSpecification antenna_of_effective_fractions(const StructureSpecification& motors_held);
+
 }  // namespace boresight::plant

@@ -138,7 +138,8 @@ void check_motors_held_antennas(const CaseNumbers& numbers, Implausibilities& fo
            "motors held; the studies take the one with the softest gear spring, {:.3g} "
            "N.m/rad at the motor shaft with modes at {} with the bull gear held, {}, and it "
            "may as well be {}: the effective inertia fractions of a structural model with "
-           "the motors braked say which, or the stiffness of gears and bearings.",
+           "the motors braked say which, and as effective_fraction in the place of "
+           "inertia_fraction give that one alone; or the stiffness of gears and bearings does.",
            antennas.size(), springs[0].value, held_frequencies(antennas[0]),
            effective_fractions(antennas[0]), fmt::join(others, "; or ")),
        std::move(springs)});

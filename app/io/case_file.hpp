@@ -165,7 +165,12 @@ struct RecorderEntry {
 };
 
 struct StructureModeEntry {
-  Quantity frequency, damping_ratio, inertia_fraction, wind_fraction, beam_weight;
+  Quantity frequency, damping_ratio;
+  /// With the bull gear held: as stated, or without a key by the effective fractions as read.
+  Quantity inertia_fraction;
+  Quantity wind_fraction, beam_weight;
+  /// Of the mode with the motors held, where the case states that; then of every mode.
+  std::optional<Quantity> effective_fraction = std::nullopt;
 };
 
 struct StructureEntry {

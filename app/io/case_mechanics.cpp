@@ -101,11 +101,57 @@ void take_modes_file(TableReader& table, const std::string& name, Case& antenna)
   }
 }
 
-// Frequencies with the motors held must belong to an antenna of the stated inertia fractions.
-void check_motors_held(const TableReader& table, const StructureEntry& structure) {
+// One of the two, the same of all modes, and the effective one only with the motors held.
+void check_fractions(const TableReader& entry, const StructureEntry& structure,
+                     const StructureModeEntry& mode) {
+  const bool effective = mode.effective_fraction.has_value();
+  if (effective == entry.has("inertia_fraction")) {
+    entry.refuse(effective ? "effective_fraction" : "inertia_fraction",
+                 std::string("expected either inertia_fraction or, of a mode with the motors held, "
+                             "effective_fraction, found ") +
+                     (effective ? "both" : "neither"));
+  }
+  if (effective && !structure.motors_held) {
+    entry.refuse("effective_fraction",
+                 "expected mode_frequencies = \"motors_held\" in [structure] with it, found "
+                 "frequencies with the bull gear held, to which inertia_fraction belongs");
+  }
+  if (structure.modes.empty()) return;
+  const bool before = structure.modes.front().effective_fraction.has_value();
+  if (effective != before) {
+    entry.refuse(effective ? "effective_fraction" : "inertia_fraction",
+                 fmt::format("expected {} as of the modes before it, found {}",
+                             before ? "effective_fraction" : "inertia_fraction",
+                             effective ? "effective_fraction" : "inertia_fraction"));
+  }
+}
+
+void check_sum_of_fractions(const TableReader& table, const StructureEntry& structure, double sum) {
+  if (sum < 1.0) return;
+  const bool effective = structure.modes.front().effective_fraction.has_value();
+  table.refuse("mode", fmt::format("expected {} to sum to less than 1 (the rest {}), found {:.6g}",
+                                   effective ? "effective_fraction" : "inertia_fraction",
+                                   effective ? "belongs to the lowest mode with the motors held"
+                                             : "sits at the bull gear",
+                                   sum));
+}
+
+// Frequencies with the motors held must belong to an antenna of the stated fractions, and effective
+// ones give those with the bull gear held.
+void solve_motors_held(const TableReader& table, StructureEntry& structure) {
   if (!structure.motors_held) return;
   try {
-    structure_specifications(structure);
+    const auto antenna = structure_specification(structure);
+    for (std::size_t i = 0; i < structure.modes.size(); ++i) {
+      const auto& effective = structure.modes[i].effective_fraction;
+      if (!effective) continue;
+      const double value = antenna.modes[i].inertia_fraction;
+      Quantity fraction = derived_quantity(*effective, Kind::number, value, "");
+      fraction.text = fmt::format("{:.4g}", value);
+      fraction.key.clear();  // moves with all that is stated, and has its uncertainty from there
+      fraction.standard_uncertainty = 0.0;
+      structure.modes[i].inertia_fraction = std::move(fraction);
+    }
   } catch (const InvalidInput& error) {
     table.refuse("mode_frequencies", error.what());
   }
@@ -264,6 +310,7 @@ void read_structure(TableReader& file, Case& antenna) {
   StructureEntry& structure = antenna.structure;
   const Range damping = Range::between(0.0, 1.0);
   const Range share = Range::between(0.0, 1.0);
+  const Range fractions = Range::positive(1.0);
   structure.locked_rotor_frequency =
       table.quantity("locked_rotor_frequency", Kind::frequency, Range::positive(1000.0));
   structure.gear_damping_ratio = table.quantity("gear_damping_ratio", Kind::number, damping);
@@ -305,7 +352,10 @@ void read_structure(TableReader& file, Case& antenna) {
     StructureModeEntry mode;
     mode.frequency = entry.quantity("frequency", Kind::frequency, Range::positive(1000.0));
     mode.damping_ratio = entry.quantity("damping_ratio", Kind::number, damping);
-    mode.inertia_fraction = entry.quantity("inertia_fraction", Kind::number, Range::positive(1.0));
+    mode.inertia_fraction =
+        entry.optional_quantity("inertia_fraction", Kind::number, fractions).value_or(Quantity{});
+    mode.effective_fraction =
+        entry.optional_quantity("effective_fraction", Kind::number, fractions);
     mode.wind_fraction = entry.quantity("wind_fraction", Kind::number, Range::between(-1.0, 1.0));
     mode.beam_weight = entry.quantity("beam_weight", Kind::number, Range::between(-10.0, 10.0));
     const Quantity& below = structure.modes.empty() ? structure.locked_rotor_frequency
@@ -324,18 +374,14 @@ void read_structure(TableReader& file, Case& antenna) {
                       structure.locked_rotor_frequency.value, in_quotes(mode.frequency.text)));
     }
     entry.finish();
-    fraction += mode.inertia_fraction.value;
+    check_fractions(entry, structure, mode);
+    fraction += mode.effective_fraction.value_or(mode.inertia_fraction).value;
     wind += mode.wind_fraction.value;
     beam += mode.beam_weight.value;
     structure.modes.push_back(std::move(mode));
   }
   table.finish();
-  if (fraction >= 1.0) {
-    table.refuse(
-        "mode", fmt::format("expected inertia_fraction to sum to less than 1 (the rest sits at the "
-                            "bull gear), found {:.6g}",
-                            fraction));
-  }
+  check_sum_of_fractions(table, structure, fraction);
   if (std::abs(wind - 1.0) > 1e-6) {
     table.refuse("mode",
                  fmt::format("expected bull_gear_wind_fraction and the modes' wind_fraction to sum "
@@ -348,7 +394,7 @@ void read_structure(TableReader& file, Case& antenna) {
                              "1, found {:.6g}",
                              beam));
   }
-  check_motors_held(table, structure);
+  solve_motors_held(table, structure);
 }
 
 }  // namespace boresight::app

@@ -15,12 +15,16 @@ std::vector<plant::StructureSpecification> structure_specifications(
   specification.bull_gear_beam_weight = structure.bull_gear_beam_weight.value;
   specification.locked_rotor_frequency = structure.locked_rotor_frequency.value;
   specification.gear_damping_ratio = structure.gear_damping_ratio.value;
+  bool effective = false;
   for (const auto& mode : structure.modes) {
-    specification.modes.push_back({mode.frequency.value, mode.damping_ratio.value,
-                                   mode.inertia_fraction.value, mode.wind_fraction.value,
-                                   mode.beam_weight.value});
+    effective = effective || mode.effective_fraction.has_value();
+    const double fraction =
+        mode.effective_fraction ? mode.effective_fraction->value : mode.inertia_fraction.value;
+    specification.modes.push_back({mode.frequency.value, mode.damping_ratio.value, fraction,
+                                   mode.wind_fraction.value, mode.beam_weight.value});
   }
   if (!structure.motors_held) return {specification};
+  if (effective) return {plant::antenna_of_effective_fractions(specification)};
   return plant::hold_bull_gear_of(specification);
 }
 

@@ -7,12 +7,13 @@ namespace boresight::app {
 
 /// What a case states of its structure as the plant takes it, every mode by its frequency with the
 /// bull gear held: as stated, or solved for (plant/motors_held_modes.hpp) where the case states
-/// frequencies with the motors held; then of several antennas the one with the softest gear spring.
-/// Inertia 1. @throws InvalidInput as hold_bull_gear_of.
+/// frequencies with the motors held; then by the effective fractions where it states them, else of
+/// several antennas the one with the softest gear spring.
+/// Inertia 1. @throws InvalidInput as hold_bull_gear_of and antenna_of_effective_fractions.
 plant::StructureSpecification structure_specification(const StructureEntry& structure);
 
 /// The same of every antenna that has the stated frequencies, the softest gear spring first; one
-/// where the modes are stated with the bull gear held.
+/// where the modes are stated with the bull gear held or by effective fractions.
 std::vector<plant::StructureSpecification> structure_specifications(
     const StructureEntry& structure);
 

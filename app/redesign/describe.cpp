@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include <boresight/app/redesign/loaded_drive.hpp>
 #include <boresight/app/redesign/sections.hpp>
 #include <boresight/plant/plant_response.hpp>
 
@@ -168,12 +169,14 @@ PlantSection describe_plant(const Case& antenna) {
   section.friction = friction_curve(antenna);
   section.friction_tests = antenna.friction_curve.tests;
   section.modes = plant::plant_modes(section.plant);
+  section.motors_held = antenna.structure.motors_held;
   section.hydraulic = plant::hydraulic_mode(section.modes);
   section.supply_torque = supply_torque(antenna);
   section.torque_for_wind = torque_for_wind(antenna);
   const auto problem = make_problem(antenna);
   section.mean_wind_torque =
       plant::mean_wind_torque(problem.wind.site, problem.wind.mean_speed) / section.gear_ratio;
+  section.slew_rate_margin = slew_rate_margin(antenna);
   return section;
 }
 

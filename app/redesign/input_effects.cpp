@@ -55,6 +55,7 @@ std::vector<Quantity*> quantities_of(Case& c) {
   for (auto& mode : structure.modes) {
     places.insert(places.end(), {&mode.frequency, &mode.damping_ratio, &mode.inertia_fraction,
                                  &mode.wind_fraction, &mode.beam_weight});
+    add(places, mode.effective_fraction);
   }
   places.insert(places.end(), {&c.sensors.encoder_noise, &c.sensors.tachometer_noise,
                                &c.sensors.noise_bandwidth, &c.sensors.tachometer_frequency});

@@ -32,6 +32,26 @@ Document friction_part(const PlantSection& section) {
          table(rows, "rrrr");
 }
 
+// What frequencies with the motors held make of the antenna.
+Document structure_part(const plant::Structure& structure) {
+  const double inertia = plant::antenna_inertia(structure);
+  std::vector<std::vector<std::string>> rows{
+      {"structure, the bull gear held", "frequency Hz", "inertia fraction"},
+      {"bull gear", "-", fmt::format("{:.4f}", structure.bull_gear_inertia / inertia)}};
+  for (std::size_t i = 0; i < structure.modes.size(); ++i) {
+    const auto& mode = structure.modes[i];
+    rows.push_back(
+        {fmt::format("structure.mode[{}]", i),
+         fmt::format("{:.4f}", std::sqrt(mode.stiffness / mode.inertia) / (2.0 * std::numbers::pi)),
+         fmt::format("{:.4f}", mode.inertia / inertia)});
+  }
+  return "\n" + table(rows) +
+         wrapped(
+             "From the frequencies that the case states with the motors held. Shares of wind and "
+             "beam are those of these modes; a first guess of both are their inertia fractions.",
+             "  ");
+}
+
 }  // namespace
 
 Document document_of(const PlantSection& section) {
@@ -50,22 +70,27 @@ Document document_of(const PlantSection& section) {
   const auto row = [](const char* name, double value, const char* unit) {
     return std::vector<std::string>{name, fmt::format("{:.6g}", value), unit};
   };
-  text += table(
-      {row("gear ratio", section.gear_ratio, "1"),
-       row("motor side inertia (motors, flywheels, gear train)", drive.motor_inertia, "kg.m2"),
-       row("antenna inertia", plant::antenna_inertia(structure), "kg.m2"),
-       row("reflected inertia", section.reflected_inertia, "kg.m2"),
-       row("motor-to-load ratio", section.motor_to_load_ratio, "1"),
-       row("oil stiffness", drive.oil_stiffness, "N.m/rad"),
-       row("leakage rate", drive.leakage_rate, "1/s"),
-       row("viscous friction", drive.viscous_friction, "N.m.s/rad"),
-       row("friction slope at tracking rate", section.tracking_slope, "N.m.s/rad"),
-       row("gear stiffness", structure.gear_stiffness, "N.m/rad"),
-       row("valve", drive.valve_corner / two_pi, "Hz"),
-       row("supply torque", section.supply_torque, "N.m"),
-       row("what friction at tracking rate and offset leave", section.torque_for_wind, "N.m"),
-       row("mean wind torque at design speed", section.mean_wind_torque, "N.m")},
-      "l", 0);
+  std::vector<std::vector<std::string>> numbers{
+      row("gear ratio", section.gear_ratio, "1"),
+      row("motor side inertia (motors, flywheels, gear train)", drive.motor_inertia, "kg.m2"),
+      row("antenna inertia", plant::antenna_inertia(structure), "kg.m2"),
+      row("reflected inertia", section.reflected_inertia, "kg.m2"),
+      row("motor-to-load ratio", section.motor_to_load_ratio, "1"),
+      row("oil stiffness", drive.oil_stiffness, "N.m/rad"),
+      row("leakage rate", drive.leakage_rate, "1/s"),
+      row("viscous friction", drive.viscous_friction, "N.m.s/rad"),
+      row("friction slope at tracking rate", section.tracking_slope, "N.m.s/rad"),
+      row("gear stiffness", structure.gear_stiffness, "N.m/rad"),
+      row("valve", drive.valve_corner / two_pi, "Hz"),
+      row("supply torque", section.supply_torque, "N.m"),
+      row("what friction at tracking rate and offset leave", section.torque_for_wind, "N.m"),
+      row("mean wind torque at design speed", section.mean_wind_torque, "N.m")};
+  if (section.slew_rate_margin) {
+    numbers.push_back(
+        row("slew margin: highest rate against friction and offset, over the slew rate",
+            *section.slew_rate_margin, "1"));
+  }
+  text += table(numbers, "l", 0);
   text += "\n";
   std::vector<std::vector<std::string>> rows{
       {"mode", "frequency Hz", "damping", "pole 1/s", "share"}};
@@ -84,6 +109,7 @@ Document document_of(const PlantSection& section) {
                   section.hydraulic.frequency, section.hydraulic.damping_ratio,
                   section.rigid_frequency),
       "  ");
+  if (section.motors_held) text += structure_part(section.plant.structure);
   if (!section.friction_tests.empty()) text += friction_part(section);
   return text;
 }

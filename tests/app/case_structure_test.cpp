@@ -9,14 +9,19 @@
 #include "edited_case.hpp"
 #include <boresight/app/audit/case_graph.hpp>
 #include <boresight/app/audit/plausibility.hpp>
+#include <boresight/app/document/document_text.hpp>
+#include <boresight/app/io/structure_numbers.hpp>
 #include <boresight/app/redesign/antenna_model.hpp>
 #include <boresight/app/redesign/choices.hpp>
+#include <boresight/app/redesign/sections.hpp>
+#include <boresight/app/report/text_report.hpp>
 #include <boresight/plant/motors_held_modes.hpp>
 
 namespace boresight::app {
 namespace {
 
 using testing::AllOf;
+using testing::ContainsRegex;
 using testing::HasSubstr;
 using testing::IsEmpty;
 using testing::SizeIs;
@@ -56,6 +61,14 @@ EditedCase of_one_mode(const std::string& frequency, const std::string& fraction
                      "\"\ndamping_ratio = \"0.01\"\ninertia_fraction = \"" + fraction +
                      "\"\nwind_fraction = \"1\"\nbeam_weight = \"0.95\"\n");
   return edited;
+}
+
+// The same at 1.9 Hz and 3.4 Hz, by the fraction that a model with the motors braked gives.
+EditedCase of_effective_fraction(const std::string& fraction) {
+  return of_one_mode("3.4 Hz", "0.25")
+      .replace("locked_rotor_frequency = { value = \"2.0 Hz\"",
+               "locked_rotor_frequency = { value = \"1.9 Hz\"")
+      .replace("inertia_fraction = \"0.25\"", "effective_fraction = \"" + fraction + "\"");
 }
 
 Implausibility found_in(const Case& antenna, const std::string& check) {
@@ -144,6 +157,88 @@ TEST(MotorsHeldCase, LetsTheOtherAntennaBeAChoiceOfTheRedesign) {
   for (std::size_t i = 0; i < held.size(); ++i) {
     EXPECT_NEAR(again[i].frequency / held[i].frequency, 1.0, 1e-9);
   }
+}
+
+TEST(EffectiveFractionCase, IsTheOneAntenna) {
+  const Case antenna = parsed(of_effective_fraction("0.25"));
+  const auto& mode = antenna.structure.modes.at(0);
+  EXPECT_NEAR(mode.inertia_fraction.value, 0.2744, 5e-5);
+  EXPECT_EQ(mode.inertia_fraction.text, "0.2744");
+  EXPECT_THAT(mode.inertia_fraction.key, IsEmpty());
+  EXPECT_EQ(mode.effective_fraction.value().key, "structure.mode[0].effective_fraction");
+  EXPECT_EQ(mode.frequency.value, 3.4);
+  const auto antennas = structure_specifications(antenna.structure);
+  ASSERT_THAT(antennas, SizeIs(1));
+  EXPECT_NEAR(antennas[0].modes.at(0).frequency, 2.326, 5e-4);
+  EXPECT_NEAR(antennas[0].modes.at(0).inertia_fraction, mode.inertia_fraction.value, 1e-15);
+  EXPECT_EQ(antennas[0].modes.at(0).wind_fraction, 1.0);
+  EXPECT_EQ(antennas[0].modes.at(0).beam_weight, 0.95);
+  const auto held = plant::motors_held_modes(make_plant(antenna).structure);
+  EXPECT_NEAR(held.at(0).frequency, 1.9, 1e-9);
+  EXPECT_NEAR(held.at(1).frequency, 3.4, 1e-9);
+  EXPECT_NEAR(held.at(1).inertia_fraction, 0.25, 1e-9);
+  EXPECT_THAT(found_in(antenna, "motors held").reasoning, IsEmpty());
+  EXPECT_THAT(to_text(document_of(describe_plant(antenna))),
+              AllOf(ContainsRegex("bull gear +- +0\\.7256"),
+                    ContainsRegex("structure\\.mode\\[0\\] +2\\.3258 +0\\.2744")));
+}
+
+TEST(EffectiveFractionCase, IsTheAntennaThatHasThem) {
+  const Case stated = read_case(case_path("dss14-70m"));
+  const auto expected = make_plant(stated).structure;
+  const auto own = plant::motors_held_modes(expected);
+  EditedCase edited = restated();
+  std::size_t mode = 0;
+  for (const std::string held : {"0.62", "0.14", "0.07", "0.04"}) {
+    edited.replace("\ninertia_fraction = { value = \"" + held,
+                   fmt::format("\neffective_fraction = {{ value = \"{:.17g}",
+                               own.at(++mode).inertia_fraction));
+  }
+  const Case antenna = parsed(edited);
+  const auto found = make_plant(antenna).structure;
+  EXPECT_NEAR(found.gear_stiffness / expected.gear_stiffness, 1.0, 1e-9);
+  ASSERT_THAT(found.modes, SizeIs(4));
+  for (std::size_t i = 0; i < found.modes.size(); ++i) {
+    EXPECT_NEAR(found.modes[i].stiffness / expected.modes[i].stiffness, 1.0, 1e-9);
+    EXPECT_NEAR(found.modes[i].inertia / expected.modes[i].inertia, 1.0, 1e-9);
+    EXPECT_NEAR(antenna.structure.modes[i].inertia_fraction.value,
+                stated.structure.modes[i].inertia_fraction.value, 1e-9);
+  }
+}
+
+TEST(EffectiveFractionCase, MovesWithAStatedNumber) {
+  Case antenna = parsed(of_effective_fraction("0.25"));
+  antenna.structure.modes[0].effective_fraction.value().value = 0.3;
+  antenna.structure.locked_rotor_frequency.value = 1.8;
+  const auto held = plant::motors_held_modes(make_plant(antenna).structure);
+  EXPECT_NEAR(held.at(0).frequency, 1.8, 1e-9);
+  EXPECT_NEAR(held.at(0).inertia_fraction, 0.7, 1e-9);
+  EXPECT_NEAR(held.at(1).frequency, 3.4, 1e-9);
+}
+
+TEST(EffectiveFractionCase, IsRefusedWhereFractionsAreNoneOrOthers) {
+  const std::string second = "\ninertia_fraction = { value = \"0.14\"";
+  const std::string effective = "\neffective_fraction = { value = \"0.14\"";
+  const auto refused = [](const EditedCase& edited, const std::string& words) {
+    EXPECT_THAT(refusal_of(edited.text()), HasSubstr(words));
+  };
+  const auto one = [] { return of_effective_fraction("0.25"); };
+  const std::string line = "effective_fraction = \"0.25\"\n";
+  refused(one().replace(line, line + "inertia_fraction = \"0.2744\"\n"),
+          "structure.mode[0].effective_fraction: expected either inertia_fraction or, of a mode "
+          "with the motors held, effective_fraction, found both");
+  refused(one().replace(line, ""), "structure.mode[0].inertia_fraction: expected either");
+  refused(one().replace(line, ""), "found neither");
+  refused(with_motors_held().replace(second, effective),
+          "structure.mode[1].effective_fraction: expected inertia_fraction as of the modes before "
+          "it, found effective_fraction");
+  refused(EditedCase().replace(second, effective),
+          "structure.mode[1].effective_fraction: expected mode_frequencies = \"motors_held\" in "
+          "[structure] with it");
+  refused(of_effective_fraction("1"),
+          "structure.mode: expected effective_fraction to sum to less than 1 (the rest belongs to "
+          "the lowest mode with the motors held), found 1");
+  refused(of_effective_fraction("0"), "structure.mode[0].effective_fraction: expected");
 }
 
 TEST(StructuralPredictions, AreComparedWithThePlant) {

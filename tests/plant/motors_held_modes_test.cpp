@@ -43,6 +43,16 @@ StructureSpecification random_specification(reference::RandomNumbers& random) {
   return antenna;
 }
 
+// The same, with the fractions that its modes have with the motors held.
+StructureSpecification motors_held_effective(StructureSpecification antenna) {
+  const auto held = motors_held_modes(make_structure(antenna));
+  antenna = motors_held(antenna);
+  for (std::size_t i = 0; i < antenna.modes.size(); ++i) {
+    antenna.modes[i].inertia_fraction = held[i + 1].inertia_fraction;
+  }
+  return antenna;
+}
+
 double furthest_apart(const StructureSpecification& one, const StructureSpecification& other) {
   double apart =
       relative_error(make_structure(one).gear_stiffness, make_structure(other).gear_stiffness);
@@ -52,13 +62,18 @@ double furthest_apart(const StructureSpecification& one, const StructureSpecific
   return apart;
 }
 
-std::string refusal(const StructureSpecification& stated) {
+template <class Solve>
+std::string refusal(const StructureSpecification& stated, const Solve& solve) {
   try {
-    hold_bull_gear_of(stated);
+    solve(stated);
   } catch (const InvalidInput& error) {
     return error.what();
   }
   return "taken";
+}
+
+std::string refusal(const StructureSpecification& stated) {
+  return refusal(stated, hold_bull_gear_of);
 }
 
 TEST(MotorsHeldModes, AreTheRootsOfTheSecularEquation) {
@@ -212,6 +227,112 @@ TEST(MotorsHeldModes, RefuseWhatIsNoAntenna) {
   refused([](auto& s) { s.modes[0].inertia_fraction = 0.0; }, "positive inertia fractions");
   refused([](auto& s) { s.modes[0].inertia_fraction = 1.0; }, "sum to less than 1");
   refused([](auto& s) { s.modes.resize(9, s.modes[0]); }, "at most 8 modes");
+}
+
+TEST(EffectiveFractions, GiveTheAntennaBack) {
+  reference::RandomNumbers random(17);
+  for (int trial = 0; trial < 200; ++trial) {
+    const auto antenna = random_specification(random);
+    const auto stated = motors_held_effective(antenna);
+    const auto found = antenna_of_effective_fractions(stated);
+    EXPECT_LT(furthest_apart(found, antenna), 1e-9) << "trial " << trial;
+    for (std::size_t i = 0; i < antenna.modes.size(); ++i) {
+      EXPECT_LT(relative_error(found.modes[i].inertia_fraction, antenna.modes[i].inertia_fraction),
+                1e-9)
+          << "trial " << trial << ", mode " << i;
+      EXPECT_EQ(found.modes[i].damping_ratio, antenna.modes[i].damping_ratio);
+    }
+    EXPECT_EQ(found.locked_rotor_frequency, stated.locked_rotor_frequency);
+  }
+}
+
+// Any fractions have an antenna, of however many modes and however near to one another.
+TEST(EffectiveFractions, AreThoseOfTheAntennaFound) {
+  reference::RandomNumbers random(19);
+  for (int trial = 0; trial < 100; ++trial) {
+    StructureSpecification stated;
+    stated.antenna_inertia = random.log_uniform(0.1, 10.0);
+    stated.locked_rotor_frequency = random.log_uniform(0.5, 5.0);
+    stated.bull_gear_wind_fraction = stated.bull_gear_beam_weight = 1.0;
+    const int modes = random.integer(1, 12);
+    double frequency = stated.locked_rotor_frequency;
+    double left = 1.0;
+    for (int i = 0; i < modes; ++i) {
+      frequency *= random.log_uniform(1.02, 2.0);
+      const double fraction = left * random.log_uniform(0.001, 0.9);
+      left -= fraction;
+      stated.modes.push_back({frequency, 0.01, fraction, 0.0, 0.0});
+    }
+    const auto structure = make_structure(antenna_of_effective_fractions(stated));
+    const auto held = motors_held_modes(structure);
+    EXPECT_LT(relative_error(held[0].frequency, stated.locked_rotor_frequency), 1e-8);
+    double spring = left * std::pow(reference::two_pi * stated.locked_rotor_frequency, 2);
+    for (std::size_t i = 0; i < stated.modes.size(); ++i) {
+      EXPECT_LT(relative_error(held[i + 1].frequency, stated.modes[i].frequency), 1e-8);
+      EXPECT_NEAR(held[i + 1].inertia_fraction, stated.modes[i].inertia_fraction, 1e-8);
+      spring += stated.modes[i].inertia_fraction *
+                std::pow(reference::two_pi * stated.modes[i].frequency, 2);
+    }
+    EXPECT_LT(relative_error(structure.gear_stiffness, stated.antenna_inertia * spring), 1e-8)
+        << "trial " << trial;
+  }
+}
+
+// p_0 (s_1 - x) + p_1 (s_0 - x) = 0 with p_j as e_j s_j^2: a straight line. The bull gear has
+// (sum e s)^2/sum e s^2 of the inertia and the mode the rest.
+TEST(EffectiveFractions, OfOneModeAreAClosedForm) {
+  StructureSpecification stated;
+  stated.antenna_inertia = 3.0;
+  stated.locked_rotor_frequency = 1.9;
+  stated.gear_damping_ratio = 0.02;
+  stated.modes = {{3.4, 0.01, 0.25, 0.7, 0.8}};
+  const double lower = 1.9 * 1.9;
+  const double upper = 3.4 * 3.4;
+  const double compliance = 0.75 * lower * lower + 0.25 * upper * upper;
+  const double x = lower * upper * (0.75 * lower + 0.25 * upper) / compliance;
+  const auto found = antenna_of_effective_fractions(stated);
+  EXPECT_NEAR(found.modes[0].frequency, std::sqrt(x), 1e-13);
+  EXPECT_NEAR(found.modes[0].inertia_fraction,
+              1.0 - std::pow(0.75 * lower + 0.25 * upper, 2) / compliance, 1e-13);
+  EXPECT_NEAR(found.modes[0].frequency, 2.326, 5e-4);
+  EXPECT_NEAR(found.modes[0].inertia_fraction, 0.2744, 5e-5);
+  EXPECT_EQ(found.antenna_inertia, 3.0);
+  EXPECT_EQ(found.gear_damping_ratio, 0.02);
+  EXPECT_EQ(found.modes[0].wind_fraction, 0.7);
+  EXPECT_EQ(found.modes[0].beam_weight, 0.8);
+}
+
+// A light mode is beside its frequency with the motors held and moves nothing. Of the antenna
+// without it, the mode lies at 2.351 Hz, so that in rising order the light one comes behind.
+TEST(EffectiveFractions, OfALightModeLeaveTheOthers) {
+  StructureSpecification stated;
+  stated.locked_rotor_frequency = 2.0;
+  stated.modes = {{2.5, 0.01, 1e-12, 0.0, 0.0}, {4.0, 0.01, 0.3, 0.0, 0.0}};
+  const auto found = antenna_of_effective_fractions(stated);
+  EXPECT_NEAR(found.modes[1].frequency, 2.5, 1e-10);
+  EXPECT_LT(found.modes[1].inertia_fraction, 1e-10);
+  auto alone = stated;
+  alone.modes.erase(alone.modes.begin());
+  const auto without = antenna_of_effective_fractions(alone);
+  EXPECT_NEAR(found.modes[0].frequency, without.modes[0].frequency, 1e-9);
+  EXPECT_NEAR(found.modes[0].inertia_fraction, without.modes[0].inertia_fraction, 1e-9);
+  alone.modes.clear();
+  EXPECT_EQ(antenna_of_effective_fractions(alone).locked_rotor_frequency, 2.0);
+}
+
+TEST(EffectiveFractions, RefuseWhatIsNoAntenna) {
+  const auto refused = [](double frequency, double fraction, const std::string& words) {
+    StructureSpecification stated;
+    stated.locked_rotor_frequency = 1.9;
+    stated.modes = {{2.4, 0.01, 0.25, 0.0, 0.0}, {frequency, 0.01, fraction, 0.0, 0.0}};
+    EXPECT_THAT(refusal(stated, antenna_of_effective_fractions), HasSubstr(words));
+  };
+  refused(3.4, 0.25, "taken");
+  refused(2.4, 0.25, "found 2.4 Hz behind 2.4 Hz");
+  refused(-1.0, 0.25, "found -1 Hz behind 2.4 Hz");
+  refused(3.4, 0.0, "expected positive effective inertia fractions, found 0");
+  refused(3.4, 0.75, "expected effective inertia fractions that sum to less than 1, found 1");
+  refused(3.4, 1e-320, "found none but for rounding");
 }
 
 }  // namespace

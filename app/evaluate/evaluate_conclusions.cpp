@@ -15,6 +15,7 @@
 #include <boresight/app/report/sky_units.hpp>
 #include <boresight/app/report/wind_mast.hpp>
 #include <boresight/app/tune/gains_at_bounds.hpp>
+#include <boresight/app/tune/position_gain_trade.hpp>
 
 namespace boresight::app {
 namespace {
@@ -234,7 +235,12 @@ std::string ended_at_bounds(const EvaluateSection& section) {
     if (law == nullptr) continue;
     laws.push_back({fmt::format("{} ({})", candidate.name, law->structure), &law->design.tuning});
   }
-  return fmt::format("{}", fmt::join(gains_at_bounds(laws), " "));
+  std::vector<std::string> sentences = gains_at_bounds(laws);
+  if (std::ranges::any_of(
+          laws, [](const SearchedLaw& law) { return ends_at_position_gain(*law.tuning); })) {
+    sentences.emplace_back(trade_not_looked_for());
+  }
+  return fmt::format("{}", fmt::join(sentences, " "));
 }
 
 }  // namespace

@@ -1,9 +1,11 @@
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
 #include <fmt/format.h>
 
 #include <boresight/app/document/document_text.hpp>
+#include <boresight/app/report/influences.hpp>
 #include <boresight/app/report/sky_units.hpp>
 #include <boresight/app/report/text_report.hpp>
 
@@ -144,6 +146,39 @@ Document slew_part(const TimeDomainSection& section) {
   return wrapped(text, "  ", "  ");
 }
 
+// By what rule the law above was chosen (best_in_time).
+std::string choice_text(const TimeDomainSection& section) {
+  using Candidate = TimeDomainSection::Candidate;
+  const double error = section.options.settled_error;
+  const double amplitude = std::numbers::sqrt2 * error;
+  const auto simulated = [](const Candidate& one) {
+    return std::isfinite(one.result.wind.beam_rms);
+  };
+  const auto fit = [&](const Candidate& one) {
+    return simulated(one) && design::holds_still(one.result.hunting, error);
+  };
+  const auto hunts = [&](const Candidate& one) {
+    return design::hunting_amplitude(one.result.hunting) > amplitude;
+  };
+  const std::string beyond = fmt::format("beyond the tightest budget (+-{} mdeg)", mdeg(amplitude));
+  const std::string least = fmt::format(
+      "the one above has the least simulated rms, or one within {:.0f} % of it and "
+      "hunts less",
+      100.0 * negligible_change);
+  if (std::ranges::any_of(section.candidates, fit)) {
+    return fmt::format("Of the laws that do not hunt {}, {}.", beyond, least);
+  }
+  if (std::ranges::none_of(section.candidates, simulated)) {
+    return "None was seen to hold in wind: the one above hunts least.";
+  }
+  if (std::ranges::all_of(section.candidates, hunts)) {
+    return fmt::format("All hunt {}; {}.", beyond, least);
+  }
+  return fmt::format(
+      "None was seen both to hold in wind and not to hunt {}; of those that hold in wind {}.",
+      beyond, least);
+}
+
 Document candidates_part(const TimeDomainSection& section) {
   if (section.candidates.empty()) return {};
   Rows rows{{"law", "linear rms mdeg", "simulated", "hunting at rest", "when tracking",
@@ -172,10 +207,7 @@ Document candidates_part(const TimeDomainSection& section) {
                                                  : std::string("at once")});
   }
   return "\n" + table(rows, "l") +
-         wrapped(
-             "Beam in mdeg at the sky, one record of wind; the law of the least simulated rms that "
-             "does not hunt beyond the tightest budget is the one above.",
-             "  ");
+         wrapped("Beam in mdeg at the sky, one record of wind. " + choice_text(section), "  ");
 }
 
 }  // namespace

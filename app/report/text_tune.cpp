@@ -89,6 +89,35 @@ Document bending_part(const TuneSection& section) {
       "  ");
 }
 
+// Where laws ran on the nonlinear antenna: those that are "verified" without having run there.
+Document linear_alone_part(const TuneSection& section) {
+  const auto some_ran = [&](const auto& counts) {
+    return std::ranges::any_of(section.laws,
+                               [&](const TunedLaw& row) { return row.in_time && counts(row); });
+  };
+  std::vector<std::string> names;
+  for (const auto& row : section.laws) {
+    if (row.in_time || !row.usable()) continue;
+    std::string name = row.tuned_for == TunedFor::present
+                           ? std::string("present gains")
+                           : fmt::format("{} laws", to_string(row.tuned_for));
+    if (some_ran([&](const TunedLaw& other) { return other.tuned_for == row.tuned_for; })) {
+      name += fmt::format(" at {:.3g} m/s", row.wind_speed);
+    }
+    if (std::ranges::find(names, name) == names.end()) names.push_back(std::move(name));
+  }
+  if (names.empty() || !some_ran([](const TunedLaw&) { return true; })) return {};
+  return wrapped(
+      fmt::format(
+          "Not run on the nonlinear antenna: {}. They are verified on the linear plant only, "
+          "and may hunt.{}",
+          fmt::join(names, ", "),
+          section.budgets.empty()
+              ? ""
+              : " Speeds up to which a budget is met are of the linear plant for every law."),
+      "  ");
+}
+
 Document pointing_part(const TuneSection& section) {
   const bool climate = std::ranges::any_of(
       section.laws, [](const TunedLaw& row) { return row.climate_rms.has_value(); });
@@ -124,6 +153,7 @@ Document pointing_part(const TuneSection& section) {
   }
   Document text = table(rows, "ll");
   if (section.wind_mast) text += wrapped(mast_in_words(*section.wind_mast), "  ");
+  text += linear_alone_part(section);
   for (std::size_t i = 0; i < section.budgets.size(); ++i) {
     const auto& budget = section.budgets[i];
     text += fmt::format("  ({}) {}, band {}, {}: {} mdeg, met up to that mean wind speed{}\n",
@@ -236,7 +266,10 @@ Document limits_part(const TuneSection& section) {
   }
   std::vector<const TunedLaw*> laws;
   for (const auto& row : section.laws) laws.push_back(&row);
-  for (const auto& sentence : gains_at_bounds(laws)) text += wrapped(sentence, "  ", "  ");
+  const double sample_time = sample_time_of(section.problem.delay);
+  for (const auto& sentence : gains_at_bounds(laws, sample_time)) {
+    text += wrapped(sentence, "  ", "  ");
+  }
   for (const auto& sentence : gain_trades(laws)) text += wrapped(sentence, "  ", "  ");
   return text;
 }

@@ -61,14 +61,50 @@ std::string conclude_wind(const TimeDomainSection& section) {
                     excess);
 }
 
+// Whether by that it is left out of a choice; a law may also be because a run did not end.
+bool hunts_beyond(const std::vector<design::HuntingResult>& hunting, double error) {
+  return design::hunting_amplitude(hunting) > std::numbers::sqrt2 * error;
+}
+
 // What a law does that does not hold still within an rms error.
 std::string unrest(const std::vector<design::HuntingResult>& hunting, double error) {
-  const double amplitude = design::hunting_amplitude(hunting);
-  if (!(amplitude > std::numbers::sqrt2 * error)) {
+  if (!hunts_beyond(hunting, error)) {
     return "was not seen to hold still (a run at rest or at the tracking rate did not end)";
   }
   return fmt::format("hunts by +-{:.2f} mdeg, beyond the tightest budget of {:.3f}",
-                     amplitude / millidegree, error / millidegree);
+                     design::hunting_amplitude(hunting) / millidegree, error / millidegree);
+}
+
+// The same of another such law.
+std::string unrest_too(const std::vector<design::HuntingResult>& hunting, double error) {
+  if (!hunts_beyond(hunting, error)) return "was not seen to hold still either";
+  return fmt::format("hunts beyond the budget too, by +-{:.2f} mdeg",
+                     design::hunting_amplitude(hunting) / millidegree);
+}
+
+// What the law that the linear plant puts first does on the nonlinear antenna.
+std::string first_text(const design::NonlinearVerification& first, double error) {
+  std::string text =
+      first.wind.status == RunStatus::complete
+          ? fmt::format("it points within {:.3f}", first.wind.beam_rms / millidegree)
+          : fmt::format("it does not hold ({})", design::to_string(first.wind.status));
+  const double hunting = design::hunting_amplitude(first.hunting);
+  if (!design::holds_still(first.hunting, error)) {
+    text += " and " + unrest(first.hunting, error);
+  } else if (hunting > 0.0) {
+    text += fmt::format(" and hunts by +-{:.2f}", hunting / millidegree);
+  }
+  return text;
+}
+
+// What the law chosen, whose run in wind completed, does better by the rule of best_in_time.
+std::string merit(const TimeDomainSection& section, const design::WindResult& first) {
+  const double rms = section.result.wind.beam_rms;
+  if (rms < first.beam_rms || !std::isfinite(first.beam_rms)) {
+    return fmt::format("{} points within {:.3f}", section.law, rms / millidegree);
+  }
+  return fmt::format("{} points as well within {:.0f} % and hunts less", section.law,
+                     100.0 * negligible_change);
 }
 
 // Why this law and not the one that the linear plant puts first.
@@ -78,17 +114,41 @@ std::string conclude_choice(const TimeDomainSection& section) {
   };
   const auto first = std::ranges::min_element(section.candidates, {}, linear);
   if (first == section.candidates.end() || first->law == section.law) return "";
+  const double error = section.options.settled_error;
   const design::WindResult& wind = first->result.wind;
-  std::string text =
-      fmt::format("The linear plant puts {} first ({:.3f} mdeg); on the nonlinear antenna ",
-                  first->law, wind.predicted_rms / millidegree);
-  text += wind.status == RunStatus::complete
-              ? fmt::format("it points within {:.3f}", wind.beam_rms / millidegree)
-              : fmt::format("it does not hold ({})", design::to_string(wind.status));
-  if (const double hunting = design::hunting_amplitude(first->result.hunting); hunting > 0.0) {
-    text += fmt::format(" and hunts by +-{:.2f}", hunting / millidegree);
+  const auto& hunting = section.result.hunting;
+  std::string text = fmt::format(
+      "The linear plant puts {} first ({:.3f} mdeg); on the nonlinear antenna {}: ", first->law,
+      wind.predicted_rms / millidegree, first_text(first->result, error));
+  const bool first_still = design::holds_still(first->result.hunting, error);
+  if (!std::isfinite(section.result.wind.beam_rms)) {
+    text += fmt::format("{} does not hold in wind either", section.law);
+  } else if (!design::holds_still(hunting, error)) {
+    text += fmt::format("{}, but {}", merit(section, wind),
+                        first_still ? unrest(hunting, error) : unrest_too(hunting, error));
+  } else if (!first_still) {
+    text += fmt::format("{} does not hunt beyond the budget", section.law);
+  } else if (section.result.wind.beam_rms < wind.beam_rms || !std::isfinite(wind.beam_rms)) {
+    text += fmt::format("{} is better", section.law);
+  } else {
+    text += merit(section, wind);
   }
-  return text + fmt::format(": {} is better. ", section.law);
+  return text + ". ";
+}
+
+// What it does by itself at a steady rate; empty where it holds still.
+std::string hunting_text(const design::HuntingResult& hunting, double error) {
+  const char* where = hunting.rate == 0.0 ? "At rest" : "At the tracking rate";
+  if (hunting.status != RunStatus::complete) {
+    return fmt::format(" {} it was not seen to hold still ({}).", where,
+                       design::to_string(hunting.status));
+  }
+  if (!hunting.limit_cycle) return "";
+  return fmt::format(
+      " {} it hunts by +-{:.2f} mdeg{}.", where, hunting.beam_amplitude / millidegree,
+      hunts_beyond({hunting}, error)
+          ? fmt::format(", beyond the tightest budget of {:.3f}", error / millidegree)
+          : "");
 }
 
 }  // namespace
@@ -143,10 +203,18 @@ std::string decide(const TimeDomainSection& section) {
         section.wind_speed);
   }
   if (!design::holds_still(section.result.hunting, error)) {
+    const std::string held_against = unrest(section.result.hunting, error);
+    if (section.candidates.empty()) {
+      return fmt::format(
+          "On the nonlinear antenna {} has {:.3f} mdeg in wind, but {}. Do not commission it "
+          "before the "
+          "friction has been looked at.",
+          section.law, rms, held_against);
+    }
     return fmt::format(
-        "On the nonlinear antenna no law holds still: {} comes nearest with {:.3f} mdeg in wind, "
-        "but {}. Commission none of them before the friction has been looked at.",
-        section.law, rms, unrest(section.result.hunting, error));
+        "On the nonlinear antenna no law holds still and points in wind: {} comes nearest with "
+        "{:.3f} mdeg, but {}. Commission none of them before the friction has been looked at.",
+        section.law, rms, held_against);
   }
   std::string text =
       fmt::format("On the nonlinear antenna {} comes first, with {:.3f} mdeg: commission that one.",
@@ -167,10 +235,7 @@ std::string decide(const TimeDomainSection& section) {
 std::string conclude(const TimeDomainSection& section) {
   std::string text = conclude_choice(section) + conclude_wind(section);
   for (const auto& hunting : section.result.hunting) {
-    if (hunting.status != RunStatus::complete || !hunting.limit_cycle) continue;
-    text += fmt::format(" {} it hunts by +-{:.2f} mdeg.",
-                        hunting.rate == 0.0 ? "At rest" : "At the tracking rate",
-                        hunting.beam_amplitude / millidegree);
+    text += hunting_text(hunting, section.options.settled_error);
   }
   const auto& reversal = section.result.reversal;
   if (reversal && reversal->status == RunStatus::complete) {

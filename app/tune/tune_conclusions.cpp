@@ -37,6 +37,21 @@ std::string limits_of(const TunedLaw& row) {
   return texts.empty() ? "no goal" : fmt::format("{}", fmt::join(texts, "; "));
 }
 
+// Behind an rms of the linear plant what the nonlinear antenna says to it; nothing where no law
+// ran there.
+std::string of_the_linear_plant(const TuneSection& section, const TunedLaw& row) {
+  const bool some_ran = std::ranges::any_of(
+      section.laws, [](const TunedLaw& other) { return other.in_time.has_value(); });
+  if (!some_ran) return "";
+  if (!row.in_time) return " by the linear plant; it did not run on the nonlinear antenna";
+  if (row.left_out()) {
+    return fmt::format(" by the linear plant, but it {} on the nonlinear antenna",
+                       held_against(row));
+  }
+  return fmt::format(" by the linear plant, and {} on the nonlinear antenna",
+                     mdeg(row.in_time->beam_rms));
+}
+
 // The best usable law of each purpose, and what only the bounds of the search hold of them.
 void conclude_best(const TuneSection& section, std::vector<std::string>& sentences) {
   std::vector<const TunedLaw*> concluded;
@@ -51,15 +66,13 @@ void conclude_best(const TuneSection& section, std::vector<std::string>& sentenc
       sentences.push_back(fmt::format(
           "At {:.3g} m/s the best {} is {} with {} rms{}. Limited by {}.{}", speed,
           purpose == TunedFor::robust ? "law that keeps its goals on every plant" : "nominal law",
-          best->structure, mdeg(best->beam_rms),
-          best->left_out() ? fmt::format(" by the linear plant, but it {} on the nonlinear antenna",
-                                         held_against(*best))
-                           : "",
+          best->structure, mdeg(best->beam_rms), of_the_linear_plant(section, *best),
           limits_of(*best), assumed_demand(best->design.tuning, section.demand_assumption)));
       concluded.push_back(best);
     }
   }
-  std::ranges::move(gains_at_bounds(concluded), std::back_inserter(sentences));
+  std::ranges::move(gains_at_bounds(concluded, sample_time_of(section.problem.delay)),
+                    std::back_inserter(sentences));
   std::ranges::move(gain_trades(concluded), std::back_inserter(sentences));
 }
 
@@ -91,16 +104,17 @@ void conclude_budgets(const TuneSection& section, std::vector<std::string>& sent
   for (const auto& budget : section.budgets) {
     if (!budget.wind_speed || section.supply_wind_speed < *budget.wind_speed) continue;
     const TunedLaw* law = best_pointing_law(section, budget.wind_speed);
-    if (law == nullptr || law->budget_rms() > budget.rms) continue;
+    if (law == nullptr || !law->keeps(budget.rms)) continue;
     std::string text = fmt::format(
         "The budget '{}' in band {} ({}) is met at the {:.3g} m/s{} that it is needed up to: {} "
         "({}) has {} on the case's plant{}",
         budget.name, budget.band, mdeg(budget.rms), *budget.wind_speed,
         dish_and_mast(section.wind_mast, *budget.wind_speed), law->structure,
         to_string(law->tuned_for), mdeg(law->beam_rms),
-        law->in_time && !law->left_out()
+        law->in_time
             ? fmt::format(", simulated on the nonlinear antenna {}", mdeg(law->in_time->beam_rms))
             : "");
+    if (law->left_out()) text += fmt::format(", where it {}", held_against(*law));
     if (law->ensemble) {
       const auto& ensemble = *law->ensemble;
       const auto within = std::ranges::count_if(ensemble.members, [&](const auto& one) {

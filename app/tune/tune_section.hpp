@@ -2,11 +2,13 @@
 
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include <boresight/app/redesign/antenna_model.hpp>
+#include <boresight/app/tune/position_gain_trade.hpp>
 #include <boresight/design/design_study.hpp>
 #include <boresight/design/plant_ensemble.hpp>
 
@@ -25,15 +27,7 @@ struct LawInTime {
   bool still = true;      // design::holds_still within the tightest budget
   double hunting = 0.0;   // largest amplitude of the beam's limit cycles
   double beam_rms = 0.0;  // in one record of wind; NaN if that run did not complete
-};
-
-/// Where a slow rate loop hardly acts, position and rate gain count by their product: how far the
-/// position gain of a law can be lowered (a hundredfold at most), the product and all other gains
-/// held, before the rms on the case's plant is 1 % larger or the loop unstable.
-struct PositionGainTrade {
-  std::string position_gain, rate_gain;  // in the engineer's units
-  double beam_rms = 0.0;                 // rad
-  int within_goals = 0;                  // plants of the ensemble on which it keeps every goal
+  bool ended = true;      // every run without wind did
 };
 
 /// One row of the table: a law, judged.
@@ -62,6 +56,14 @@ struct TunedLaw {
   /// one.
   double budget_rms() const {
     return in_time && in_time->beam_rms > beam_rms ? in_time->beam_rms : beam_rms;
+  }
+  /// Whether it keeps within an rms (rad) in wind and, where it ran on the nonlinear antenna, by
+  /// its hunting too: a law that is left_out may yet keep a budget that is not the tightest.
+  bool keeps(double rms) const {
+    const bool still = !in_time || in_time->still ||
+                       (in_time->ended && in_time->hunting <= std::numbers::sqrt2 * rms);
+    const bool pointed = !in_time || std::isfinite(in_time->beam_rms);
+    return still && pointed && budget_rms() <= rms;
   }
   bool stable() const { return design.tuning.status != design::TuningStatus::unstable; }
   bool usable() const { return goals_met && design.verification.passed; }

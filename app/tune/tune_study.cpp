@@ -7,6 +7,7 @@
 
 #include <boresight/app/tune/asked_structures.hpp>
 #include <boresight/app/tune/engineer_units.hpp>
+#include <boresight/app/tune/position_gain_trade.hpp>
 #include <boresight/app/tune/tune_study.hpp>
 #include <boresight/design/parallel_loop.hpp>
 #include <boresight/design/structure_parts.hpp>
@@ -170,51 +171,8 @@ class Study {
       row.ensemble =
           design::judge(problem_at(row.wind_speed), ensemble_.members, law, section_.goals, 1);
     }
-    row.trade = trade_of(row);
-  }
-
-  std::optional<PositionGainTrade> trade_of(const TunedLaw& row) const {
-    const auto& tuning = row.design.tuning;
-    const auto& descriptions = tuning.law.structure.gains();
-    const auto rate = std::ranges::find(descriptions, "kr", &control::GainDescription::symbol);
-    const auto position = std::ranges::find(descriptions, "kp", &control::GainDescription::symbol);
-    if (rate == descriptions.end() || position == descriptions.end()) return std::nullopt;
-    const auto kr = static_cast<std::size_t>(rate - descriptions.begin());
-    const auto kp = static_cast<std::size_t>(position - descriptions.begin());
-    if (std::ranges::find(tuning.gains_at_bound, position->name) == tuning.gains_at_bound.end() ||
-        tuning.law.gains.at(kp) < std::sqrt(position->lower * position->upper)) {
-      return std::nullopt;
-    }
-    const auto lowered = [&](double factor) {
-      control::ControlLaw law = tuning.law;
-      law.gains.at(kp) /= factor;
-      law.gains.at(kr) *= factor;
-      return law;
-    };
-    design::TrackingProblem problem = problem_;
-    problem.wind.mean_speed = row.wind_speed;
-    const auto rms = [&](double factor) {
-      return design::judge(problem, {{"nominal", problem.plant}}, lowered(factor), section_.goals,
-                           1)
-          .members.front()
-          .beam_rms;
-    };
-    constexpr double alike = 1.01, worth_saying = 2.0;
-    double held = 1.0, beyond = 100.0;
-    while (beyond > 1.02 * held) {
-      const double middle = std::sqrt(held * beyond);
-      (rms(middle) <= alike * row.beam_rms ? held : beyond) = middle;
-    }
-    if (held < worth_saying) return std::nullopt;
-    const control::ControlLaw law = lowered(held);
-    const auto texts = in_engineers_units(antenna_, law);
-    PositionGainTrade trade{texts.at(kp), texts.at(kr), rms(held), 0};
-    if (!ensemble_.members.empty()) {
-      trade.within_goals =
-          design::judge(problem_at(row.wind_speed), ensemble_.members, law, section_.goals, 1)
-              .within_goals;
-    }
-    return trade;
+    row.trade = position_gain_trade(antenna_, problem, row.design.tuning, row.beam_rms,
+                                    section_.goals, ensemble_.members);
   }
 
   const Case& antenna_;
@@ -320,10 +278,15 @@ const TunedLaw* best_pointing_law(const TuneSection& section, std::optional<doub
   const TunedLaw* linear = best_law(section, wind_speed);
   if (linear == nullptr) return nullptr;
   // A nominal law that did not run is no substitute for robust ones that failed.
-  const TunedLaw* held = best_of(
-      section, linear->wind_speed,
-      [&](const TunedLaw& row) { return row.tuned_for == linear->tuned_for && !row.left_out(); },
-      &TunedLaw::budget_rms);
+  const auto least = [&](bool left_out) {
+    const auto counts = [&](const TunedLaw& row) {
+      return row.tuned_for == linear->tuned_for && row.left_out() == left_out &&
+             (!row.in_time || std::isfinite(row.in_time->beam_rms));
+    };
+    return best_of(section, linear->wind_speed, counts, &TunedLaw::budget_rms);
+  };
+  const TunedLaw* held = least(false);
+  if (held == nullptr) held = least(true);
   return held != nullptr ? held : linear;
 }
 

@@ -37,12 +37,14 @@ struct PlantEnsemble {
 TuneSection tune_structures(const Case& antenna, const PlantEnsemble& ensemble,
                             const TuneOptions& options);
 
-/// The best law that meets all it must, robust ones before nominal ones: at one wind speed, or at
-/// the first that such a law was tuned for. Null if there is none.
+/// The law of least rms on the linear plant of those that meet all they must, robust ones before
+/// nominal ones: at one wind speed, or at the first that such a law was tuned for. Null if there is
+/// none.
 const TunedLaw* best_law(const TuneSection& section, std::optional<double> wind_speed = {});
 
-/// Of the laws of its purpose and wind speed that are not left_out, that of the least budget_rms;
-/// best_law where all of them are.
+/// What budgets are held against, which best_law, the best on the linear plant, need not be: of the
+/// laws of its purpose and wind speed that are not left_out, that of the least budget_rms; where
+/// all are, the same of those whose run in wind completed; best_law where none did.
 const TunedLaw* best_pointing_law(const TuneSection& section,
                                   std::optional<double> wind_speed = {});
 

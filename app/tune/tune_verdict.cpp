@@ -87,6 +87,9 @@ std::string label(const TunedLaw& row) {
 
 // The rms that budgets are held against, and the linear plant's where it is another.
 std::string rms_text(const TunedLaw& row) {
+  if (row.in_time && !std::isfinite(row.in_time->beam_rms)) {
+    return fmt::format("{:.4f} mdeg by the linear plant", row.beam_rms / millidegree);
+  }
   return row.budget_rms() > row.beam_rms
              ? fmt::format("{:.4f} mdeg on the nonlinear antenna ({:.4f} by the linear plant)",
                            row.budget_rms() / millidegree, row.beam_rms / millidegree)
@@ -168,14 +171,8 @@ void find_unreached_rms(const TuneSection& section, std::vector<Shortfall>& shor
       continue;
     }
     const TunedLaw* best = best_pointing_law(section, budget.wind_speed);
-    if (best == nullptr || best->budget_rms() <= met * budget.rms) continue;
-    double limit = 0.0;
-    for (const auto* row : rows_at(section, *budget.wind_speed)) {
-      if (row->goals_met && row->tuned_for == best->tuned_for &&
-          row->left_out() == best->left_out()) {
-        limit = std::max(limit, row->speed_limits[i]);
-      }
-    }
+    if (best == nullptr || best->keeps(met * budget.rms)) continue;
+    const double limit = best->speed_limits[i];
     shortfalls.push_back(
         {fmt::format("The budget '{}' in band {} ({:.4f} mdeg) cannot be met up to {:.3g} m/s{}.",
                      budget.name, budget.band, budget.rms / millidegree, *budget.wind_speed,
@@ -187,13 +184,13 @@ void find_unreached_rms(const TuneSection& section, std::vector<Shortfall>& shor
                                                         design::LossConvention::mean_loss_two_axes),
                                3),
                      budget.band, limit, dish_and_mast(section.wind_mast, limit),
-                     best->budget_rms() > best->beam_rms ? " by the linear plant" : "",
+                     best->in_time ? " by the linear plant" : "",
                      climate_text(section.climate, limit), left_out_text(section, *best))});
   }
   if (!section.beam_rms_goal) return;
   const double speed = section.wind_speeds.front();
   const TunedLaw* best = best_pointing_law(section, speed);
-  if (best == nullptr || best->budget_rms() <= met * *section.beam_rms_goal) return;
+  if (best == nullptr || best->keeps(met * *section.beam_rms_goal)) return;
   shortfalls.push_back({fmt::format("A beam rms of {:.4f} mdeg cannot be met at {:.3g} m/s.",
                                     *section.beam_rms_goal / millidegree, speed),
                         fmt::format("{} comes nearest with {}.{}", label(*best), rms_text(*best),

@@ -158,6 +158,11 @@ TEST(EvaluateConclusions, NameGainsThatOnlyTheBoundsOfTheSearchHold) {
   EXPECT_THAT(concluded({candidate}),
               HasSubstr("The search ended at the upper bound of the compliance, cs = 0.1 "
                         "rad/(N.m), with as it is (PI+C): no optimum"));
+  EXPECT_THAT(concluded({candidate}), testing::Not(HasSubstr("kp x kr")));
+  candidate.laws[0].design.tuning.gains_at_bound = {"position gain"};
+  EXPECT_THAT(concluded({candidate}),
+              HasSubstr("only the product kp x kr counts, and the bound of kp is no sharp limit: "
+                        "`boresight tune` of that case says whether this is so."));
 }
 
 }  // namespace

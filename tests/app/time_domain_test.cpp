@@ -1,6 +1,10 @@
+#include <cmath>
 #include <limits>
 #include <numbers>
+#include <string>
+#include <vector>
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -222,6 +226,97 @@ TEST(TimeDomain, SaysWhyAnotherLawThanTheLinearlyBestIsChosen) {
   const auto json = time_domain_json(chosen);
   ASSERT_EQ(json.at("candidates").size(), 2U);
   EXPECT_DOUBLE_EQ(json.at("candidates")[1].at("predicted_rms_mdeg").get<double>(), 0.3);
+}
+
+// Laws of so much rms by the linear plant, simulated, and hunting at rest, all in mdeg; the last is
+// the one chosen, by a budget of 0.527 mdeg rms, which is a limit cycle of +-0.745.
+struct LawInWind {
+  double linear, simulated, hunting;
+};
+
+TimeDomainSection chosen_of(const std::vector<LawInWind>& laws) {
+  auto chosen = section();
+  for (const auto& law : laws) {
+    auto result = section().result;
+    result.wind.predicted_rms = law.linear * mdeg;
+    result.wind.beam_rms = law.simulated * mdeg;
+    if (std::isnan(law.simulated)) result.wind.status = design::RunStatus::lost;
+    result.hunting[0].limit_cycle = law.hunting > 0.0;
+    result.hunting[0].beam_amplitude = law.hunting * mdeg;
+    chosen.candidates.push_back({fmt::format("law {}", chosen.candidates.size() + 1), result});
+  }
+  chosen.law = chosen.candidates.back().law;
+  chosen.result = chosen.candidates.back().result;
+  return chosen;
+}
+
+std::string on_one_line(std::string text) {
+  for (auto at = text.find("\n  "); at != std::string::npos; at = text.find("\n  ", at)) {
+    text.replace(at, 3, " ");
+  }
+  return text;
+}
+
+TEST(TimeDomain, SaysByWhatRuleALawWasChosen) {
+  const auto told = [](const std::vector<LawInWind>& laws) {
+    return on_one_line(to_text(chosen_of(laws)));
+  };
+  const std::string least =
+      "the one above has the least simulated rms, or one within 2 % of it and hunts less.";
+  const std::string limit = "hunt beyond the tightest budget (+-0.7453 mdeg)";
+  const std::string some = "Of the laws that do not " + limit + ", " + least;
+  for (const double hunting : {0.0, 0.3, 5.0}) {
+    EXPECT_THAT(told({{0.3, 0.4, hunting}, {0.5, 0.6, 0.3}}), HasSubstr(some));
+  }
+  EXPECT_THAT(told({{0.3, 2.2, 4.8}, {0.5, 1.8, 5.8}}), HasSubstr("All " + limit + "; " + least));
+  // One that holds still, but not in wind, is none to choose.
+  EXPECT_THAT(told({{0.3, nan, 0.0}, {0.5, 1.8, 5.8}}),
+              HasSubstr("None was seen both to hold in wind and not to " + limit +
+                        "; of those that hold in wind " + least));
+  EXPECT_THAT(told({{0.3, nan, 4.0}, {0.5, nan, 0.1}}),
+              HasSubstr("None was seen to hold in wind: the one above hunts least."));
+}
+
+TEST(TimeDomain, CallsNoLawBetterThatHuntsToo) {
+  const auto told = [](const std::vector<LawInWind>& laws) { return conclude(chosen_of(laws)); };
+  const auto all = told({{0.3, 2.17, 4.8}, {0.5, 1.78, 5.8}});
+  EXPECT_THAT(all,
+              HasSubstr("The linear plant puts law 1 first (0.300 mdeg); on the nonlinear "
+                        "antenna it points within 2.170 and hunts by +-4.80 mdeg, beyond the "
+                        "tightest budget of 0.527: law 2 points within 1.780, but hunts beyond "
+                        "the budget too, by +-5.80 mdeg. "));
+  EXPECT_THAT(all,
+              HasSubstr("At rest it hunts by +-5.80 mdeg, beyond the tightest budget of 0.527."));
+  EXPECT_THAT(all, Not(HasSubstr("is better")));
+  EXPECT_THAT(told({{0.3, 1.78, 5.8}, {0.5, 1.79, 4.8}}),
+              HasSubstr(": law 2 points as well within 2 % and hunts less, but hunts beyond the "
+                        "budget too, by +-4.80 mdeg. "));
+  // One that does not is chosen whatever its rms.
+  const auto some = told({{0.3, 0.4, 4.8}, {0.5, 0.6, 0.7}});
+  EXPECT_THAT(some,
+              HasSubstr("hunts by +-4.80 mdeg, beyond the tightest budget of 0.527: law 2 does "
+                        "not hunt beyond the budget. "));
+  EXPECT_THAT(some, HasSubstr("At rest it hunts by +-0.70 mdeg. "));
+  // Where none does the rms decides, and within 2 % of it what is left of hunting.
+  EXPECT_THAT(told({{0.3, 0.7, 0.0}, {0.5, 0.6, 0.3}}),
+              HasSubstr("it points within 0.700: law 2 is better. "));
+  EXPECT_THAT(told({{0.3, 0.595, 0.6}, {0.5, 0.6, 0.3}}),
+              HasSubstr("hunts by +-0.60: law 2 points as well within 2 % and hunts less. "));
+  EXPECT_THAT(told({{0.3, nan, 0.0}, {0.5, 1.8, 5.8}}),
+              HasSubstr("it does not hold (lost): law 2 points within 1.800, but hunts by +-5.80 "
+                        "mdeg, beyond the tightest budget"));
+  EXPECT_THAT(told({{0.3, nan, 4.0}, {0.5, nan, 0.1}}),
+              HasSubstr(": law 2 does not hold in wind either. "));
+}
+
+TEST(TimeDomain, SaysOfALawAloneOnlyWhatItDoes) {
+  auto alone = chosen_of({{0.5, 1.78, 5.8}});
+  alone.candidates.clear();
+  EXPECT_THAT(decide(alone), HasSubstr("On the nonlinear antenna law 1 has 1.780 mdeg in wind, but "
+                                       "hunts by +-5.80 mdeg"));
+  EXPECT_THAT(decide(alone), Not(HasSubstr("no law")));
+  alone.result.hunting[0].status = design::RunStatus::failed;
+  EXPECT_THAT(conclude(alone), HasSubstr("At rest it was not seen to hold still (failed)."));
 }
 
 TEST(TimeDomain, ChoosesTheLeastSimulatedRms) {

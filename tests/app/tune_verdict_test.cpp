@@ -1,5 +1,7 @@
 // What is said of tuned laws against budgets, on the nonlinear antenna and at bounds of the search.
+#include <limits>
 #include <string>
+#include <vector>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -15,7 +17,11 @@ namespace {
 
 using testing::AllOf;
 using testing::Contains;
+using testing::Each;
+using testing::ElementsAre;
+using testing::EndsWith;
 using testing::HasSubstr;
+using testing::Not;
 
 // A study in 12 m/s with a budget of 1.2 mdeg that is needed up to there.
 TuneSection section_with_need() {
@@ -102,6 +108,42 @@ TEST(TuneConclusions, NameABoundOnceWithTheLawsThatEndThere) {
   EXPECT_EQ(count(to_text(document_of(section)), "Gains, before and after"), 1);
 }
 
+// Corners of the lags and leads at their upper bounds, 300 rad/s.
+TEST(GainsAtBounds, LeaveOutALagThatNoSampledControllerNeeds) {
+  const auto searched = [](const char* structure, const std::vector<std::string>& at_bound) {
+    design::TuningResult tuning;
+    tuning.status = design::TuningStatus::optimal;
+    tuning.law.structure = control::LoopStructure::named(structure);
+    for (const auto& gain : tuning.law.structure.gains()) tuning.law.gains.push_back(gain.upper);
+    tuning.gains_at_bound = at_bound;
+    return tuning;
+  };
+  const auto pi = searched("PI", {"rate lag corner"});
+  const auto feedback = searched("DPF+C", {"rate lag corner"});
+  const auto told = gains_at_bounds(
+      std::vector<SearchedLaw>{{"PI (robust)", &pi, 0.02}, {"DPF+C (robust)", &feedback, 0.02}});
+  ASSERT_EQ(told.size(), 1U);
+  EXPECT_EQ(told[0],
+            "The search ended at the upper bound of the rate lag corner, wp = 300 rad/s, with PI "
+            "(robust), DPF+C (robust): no optimum, as what lies beyond was not looked at. A "
+            "controller that samples every 0.02 s does nothing above 157 rad/s, and so such a lag "
+            "does nothing in it: leave it out (structure PI-0 in the place of PI; a [[loop]] "
+            "without it in the place of DPF+C).");
+  // Two samples of 5 ms a turn are 628 rad/s: there it acts. Nothing is known without sampling.
+  EXPECT_TRUE(corners_beyond_sampling({"PI", &pi, 0.005}).empty());
+  EXPECT_TRUE(corners_beyond_sampling({"PI", &pi}).empty());
+  // A lead may go, its lag not before it.
+  const auto both = searched("FULL", {"rate lag corner", "rate lead corner"});
+  EXPECT_THAT(corners_beyond_sampling({"FULL", &both, 0.02}),
+              ElementsAre(EndsWith("such a lead does nothing in it: leave it out (structure DPF in "
+                                   "the place of FULL)."),
+                          EndsWith("such a lag does nothing in it.")));
+  // At its lower bound a lag does much; an integral at its upper one acts below it.
+  auto slow = searched("PI", {"rate lag corner", "rate integral corner"});
+  slow.law.gains[2] = slow.law.structure.gains()[2].lower;
+  EXPECT_TRUE(corners_beyond_sampling({"PI", &slow, 0.2}).empty());
+}
+
 TEST(TuneConclusions, SayThatABoundOnlyStopsAFlatDirection) {
   TunedLaw law;
   law.structure = "PI";
@@ -146,6 +188,24 @@ TEST(Shortfalls, TrustNoBudgetToALawThatHunts) {
   // A law that loses on the nonlinear antenna but meets the budget there all the same is good.
   section.laws[1] = row("LL", 0.9, 0.2, 1.15);
   EXPECT_TRUE(find_shortfalls(section).empty());
+  // Where none is left, the least simulated rms comes nearest, not the linear plant's best.
+  section.laws = {row("DPF+C", 1.19, 4.8, 2.17), row("FULL", 1.43, 5.8, 1.78),
+                  row("PI", 1.77, 1.6, 2.07), law_of("DPF+C", TunedFor::nominal, 1.07)};
+  EXPECT_EQ(best_law(section, 12.0), &section.laws[0]);
+  EXPECT_EQ(best_pointing_law(section, 12.0), &section.laws[1]);
+  shortfalls = find_shortfalls(section);
+  ASSERT_EQ(shortfalls.size(), 1U);
+  EXPECT_THAT(shortfalls[0].closest,
+              AllOf(HasSubstr("FULL (robust) comes nearest with 1.7800 mdeg on the nonlinear "
+                              "antenna (1.4300 by the linear plant)"),
+                    HasSubstr("met up to 10.1 m/s at the dish"),
+                    HasSubstr("it hunts by +-5.80 mdeg, and no other robust law holds still")));
+  // A run in wind that did not complete has no simulated rms to be ranked by.
+  section.laws[1].in_time->beam_rms = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_EQ(best_pointing_law(section, 12.0), &section.laws[2]);
+  section.laws = {section.laws[1]};
+  EXPECT_THAT(find_shortfalls(section)[0].closest,
+              HasSubstr("FULL (robust) comes nearest with 1.4300 mdeg by the linear plant, "));
   // Where none is left, the linear best is named for what it is.
   section.laws = {row("DPF+C", 1.3, 7.4, 1.35)};
   shortfalls = find_shortfalls(section);
@@ -155,6 +215,46 @@ TEST(Shortfalls, TrustNoBudgetToALawThatHunts) {
       AllOf(HasSubstr("DPF+C (robust) comes nearest with 1.3500 mdeg on the nonlinear"),
             HasSubstr("On the nonlinear antenna it hunts by +-7.40 mdeg, and no other robust "
                       "law holds still")));
+  // Its hunting breaks a budget that its rms in wind meets, of +-1.7 mdeg; not one of +-7.5.
+  section.laws = {row("DPF+C", 1.0, 7.4, 1.05)};
+  ASSERT_EQ(find_shortfalls(section).size(), 1U);
+  EXPECT_THAT(conclude(section), Each(Not(HasSubstr("is met at"))));
+  section.budgets.front().rms = 5.3 * millidegree;
+  EXPECT_TRUE(find_shortfalls(section).empty());
+  EXPECT_THAT(
+      conclude(section),
+      Contains(HasSubstr("simulated on the nonlinear antenna 1.0500 mdeg, where it hunts by "
+                         "+-7.40 mdeg")));
+  section.laws[0].in_time->ended = false;
+  EXPECT_EQ(find_shortfalls(section).size(), 1U);
+}
+
+TEST(TuneTable, SaysWhichLawsAreVerifiedOnTheLinearPlantOnly) {
+  TuneSection section = section_with_need();
+  section.laws = {law_of("PI", TunedFor::nominal, 1.1), law_of("PI", TunedFor::robust, 1.3),
+                  law_of("LL", TunedFor::nominal, 1.1)};
+  const auto told = [&] {
+    std::string text = to_text(document_of(section));
+    for (auto at = text.find("\n  "); at != std::string::npos; at = text.find("\n  ", at)) {
+      text.replace(at, 3, " ");
+    }
+    return text;
+  };
+  // Without a study in the time domain there is nothing to tell apart.
+  EXPECT_THAT(told(), Not(HasSubstr("Not run on the nonlinear antenna")));
+  EXPECT_THAT(conclude(section), Each(Not(HasSubstr("by the linear plant"))));
+  section.laws[1].in_time = {false, 7.4 * millidegree, 1.35 * millidegree};
+  EXPECT_THAT(told(), HasSubstr("Not run on the nonlinear antenna: nominal laws. They are verified "
+                                "on the linear plant only, and may hunt. Speeds up to which"));
+  EXPECT_THAT(conclude(section),
+              Contains(HasSubstr("best nominal law is PI with 1.1000 mdeg rms by "
+                                 "the linear plant; it did not run")));
+  section.laws[0].goals_met = section.laws[2].goals_met = false;
+  EXPECT_THAT(told(), Not(HasSubstr("Not run on the nonlinear antenna")));
+  // At another wind speed the same purpose may not have run.
+  section.laws.push_back(law_of("PI", TunedFor::robust, 2.0));
+  section.laws.back().wind_speed = 15.0;
+  EXPECT_THAT(told(), HasSubstr("Not run on the nonlinear antenna: robust laws at 15 m/s."));
 }
 
 }  // namespace

@@ -1,0 +1,78 @@
+// What a redesign says of gains that end at bounds of the search.
+#include <string>
+#include <vector>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <boresight/app/redesign/matching_verdict.hpp>
+#include <boresight/app/redesign/tuning_verdict.hpp>
+#include <boresight/app/report/sky_units.hpp>
+
+namespace boresight::app {
+namespace {
+
+using testing::AllOf;
+using testing::Contains;
+using testing::Each;
+using testing::HasSubstr;
+using testing::Not;
+
+// A law whose search ended at the upper bounds of rate lag corner and position gain.
+design::Design design_at_upper_bounds() {
+  design::Design design;
+  design.verification.passed = true;
+  design.beam_rms = 0.5 * millidegree;
+  auto& tuning = design.tuning;
+  tuning.status = design::TuningStatus::optimal;
+  for (const auto& gain : tuning.law.structure.gains()) tuning.law.gains.push_back(gain.upper);
+  tuning.gains_at_bound = {"rate lag corner", "position gain"};
+  return design;
+}
+
+TEST(RedesignBounds, SayWhatABoundOnlyStopsAndWhatNoSamplingReaches) {
+  Report report;
+  report.tuning.emplace();
+  TuningSection& section = *report.tuning;
+  section.design = design_at_upper_bounds();
+  section.wind_alternatives = {{plant::WindModel::uniform, 1e-5}};
+  const auto concluded = [&] {
+    std::vector<std::string> sentences;
+    conclude_tuning(report, section, sentences);
+    return sentences;
+  };
+  EXPECT_THAT(concluded(),
+              Each(AllOf(Not(HasSubstr("hardly acts")), Not(HasSubstr("samples every")))));
+  section.trade = {"9.66 1/s", "0.228", 0.5045 * millidegree, 0};
+  section.problem.delay = 0.03;
+  EXPECT_THAT(
+      concluded(),
+      Contains(AllOf(
+          HasSubstr("what lies beyond was not looked at. A controller that samples every 0.02 s"),
+          HasSubstr("structure PI-0 in the place of PI"),
+          HasSubstr("PI with lag has kp at its bound because its rate loop hardly acts"),
+          HasSubstr("0.5045 mdeg, +0.9 %; what lies beyond the bound"))));
+}
+
+TEST(RedesignBounds, SayThatThePositionGainsMayBeNoLimitOfAMatchingStudy) {
+  Report report;
+  MatchingSection section;
+  section.rows = {{.disks = 0.0, .label = "0 disks"},
+                  {.disks = 1.0, .label = "1 disk", .as_built = true}};
+  section.series = {{"linear plant",
+                     0.16,
+                     control::LoopStructure::pi_with_lag(),
+                     {design_at_upper_bounds(), design_at_upper_bounds()}}};
+  const auto concluded = [&] {
+    std::vector<std::string> sentences;
+    conclude_matching(report, section, sentences);
+    return sentences;
+  };
+  EXPECT_THAT(concluded(), Contains(AllOf(HasSubstr("At 2 of the 2 points"),
+                                          HasSubstr("only the product kp x kr counts"))));
+  for (auto& design : section.series[0].designs) design.tuning.gains_at_bound = {"rate lag corner"};
+  EXPECT_THAT(concluded(), Each(Not(HasSubstr("kp x kr"))));
+}
+
+}  // namespace
+}  // namespace boresight::app

@@ -108,7 +108,8 @@ TEST(CaseTuning, BoundsFollowTheAntenna) {
   Case small = with("");
   small.structure.locked_rotor_frequency.value = 9.0;
   small.antenna.inertia.value *= 1e-3;
-  const auto& gains = loop_structure(small, "PI+C").gains();
+  const auto structure = loop_structure(small, "PI+C");
+  const auto& gains = structure.gains();
   EXPECT_DOUBLE_EQ(gains[3].upper, 300.0);  // kp
   EXPECT_DOUBLE_EQ(gains[5].upper, 10.0);   // cs
 }

@@ -91,6 +91,7 @@ Report evaluate_case(const EvaluateArguments& arguments, const std::function<boo
     DesignedAntenna designed =
         designed_antenna(antenna, arguments.seed, arguments.threads, interrupted);
     antenna = std::move(designed.antenna);
+    if (!designed.from_records) report.resonance = resonance_verdict(antenna);
     uncertainty = PlantUncertainty{std::move(designed.distribution), designed.from_records};
   } catch (const Interrupted&) {
     report.interrupted = true;
@@ -104,6 +105,7 @@ Report evaluate_case(const EvaluateArguments& arguments, const std::function<boo
   report.evaluated = evaluate_proposals(antenna, proposals, *uncertainty, options);
   report.interrupted = interrupted && interrupted();
   report.conclusions = conclude(*report.evaluated);
+  lead_with_resonance(report);
   return report;
 }
 

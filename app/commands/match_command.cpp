@@ -45,6 +45,7 @@ int run(const Arguments& arguments) {
     DesignedAntenna designed =
         designed_antenna(antenna, arguments.ensemble_seed, options.threads, interrupt_requested);
     antenna = std::move(designed.antenna);
+    if (!designed.from_records) report.resonance = resonance_verdict(antenna);
     if (!arguments.nominal) members = std::move(designed.ensemble.members);
   } catch (const Interrupted&) {
     fmt::print(stderr, "boresight: interrupted before the records were identified\n");
@@ -63,6 +64,7 @@ int run(const Arguments& arguments) {
   }
   report.interrupted = interrupt_requested();
   report.conclusions = conclude(*report.matched);
+  lead_with_resonance(report);
   // Seconds that only a page's sliders are worth.
   if (!arguments.outputs.report_path.empty() && !report.interrupted) {
     ProgressLine line("what if");

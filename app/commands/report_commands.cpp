@@ -121,6 +121,11 @@ const std::vector<Command>& commands() {
          fill_identification(antenna, options, report);
          if (report.campaign) return;
          report.conclusions = first_tests(antenna);
+         report.resonance = resonance_verdict(antenna);
+         if (report.resonance && report.resonance->contradicts()) {
+           report.conclusions.insert(report.conclusions.begin(),
+                                     resonance_sentence(*report.resonance));
+         }
        },
        false, "identifying"},
       {"model", "the linear plant: parameters, poles, what each mode is",

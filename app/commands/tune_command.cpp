@@ -87,6 +87,7 @@ Report tune_case(const TuneArguments& arguments, const std::function<bool()>& in
         designed_antenna(antenna, arguments.seed, arguments.threads, interrupted);
     antenna = std::move(designed.antenna);
     ensemble = std::move(designed.ensemble);
+    if (!designed.from_records) report.resonance = resonance_verdict(antenna);
   } catch (const Interrupted&) {
     report.interrupted = true;
     report.assumed = assumed_inputs(antenna);
@@ -113,6 +114,7 @@ Report tune_case(const TuneArguments& arguments, const std::function<bool()>& in
       report.conclusions.push_back(conclude(*report.time_domain));
     }
   }
+  lead_with_resonance(report);
   return report;
 }
 

@@ -128,7 +128,7 @@ class Decision {
     return candidates_[section_.candidates[place].candidate];
   }
 
-  // Of those with a cost.
+  // Of those with a cost that are fit to be chosen, as of the front by the plants.
   void find_front_shares() {
     section_.front_shares.assign(section_.candidates.size(),
                                  std::numeric_limits<double>::quiet_NaN());
@@ -136,7 +136,7 @@ class Decision {
     std::vector<Eigen::Index> columns;
     for (std::size_t i = 0; i < section_.candidates.size(); ++i) {
       const auto& cost = candidate(i).cost;
-      if (!cost) continue;
+      if (!cost || !candidate(i).feasible()) continue;
       costs.push_back(*cost);
       columns.push_back(static_cast<Eigen::Index>(i));
     }

@@ -169,7 +169,10 @@ std::vector<std::string> decision(const Report& report) {
 
 std::vector<std::string> reservations(const Report& report) {
   Sentences sentences;
-  if (report.command != "redesign") return sentences;
+  if (report.command != "redesign") {
+    if (auto text = resonance_warning(report.resonance); !text.empty()) sentences = {text};
+    return sentences;
+  }
   if (report.tuning) sentences = tuning_reservations(report, *report.tuning);
   sentences.push_back(assumptions(report.assumed));
   return sentences;

@@ -19,8 +19,8 @@ std::vector<std::string> decision(const MonteCarloSection& section);
 std::vector<std::string> decision(const CommissionReport& report);
 std::vector<std::string> decision(const SimulationReport& report);
 
-// What the decision of a redesign rests on or leaves open, a sentence or two each; none of the
-// other commands, whose conclusions have it.
+// What the decision of a redesign rests on or leaves open, a sentence or two each; of other
+// commands a resonance_warning, the rest is in their conclusions.
 std::vector<std::string> reservations(const Report& report);
 
 }  // namespace boresight::app

@@ -57,7 +57,8 @@ identification::Uncertain assembly_inertia(const Case& antenna, const RotatingAs
 
 plant::Structure make_structure(const Case& antenna, const PlantVariant& variant) {
   auto specification = structure_specifications(antenna.structure).at(variant.structure);
-  specification.antenna_inertia = antenna_inertia(antenna);
+  specification.antenna_inertia =
+      variant.inertia_scale * variant.antenna_inertia.value_or(antenna_inertia(antenna));
   specification.locked_rotor_frequency *= variant.structure_frequency_scale;
   for (auto& mode : specification.modes) mode.frequency *= variant.structure_frequency_scale;
   return plant::make_structure(specification);
@@ -137,15 +138,8 @@ plant::AntennaPlant make_plant(const Case& antenna, const PlantVariant& variant)
   plant.drive.tachometer_corner = two_pi * antenna.sensors.tachometer_frequency.value;
 
   plant.structure = make_structure(antenna, variant);
-  const double lighter = variant.inertia_scale *
-                         variant.antenna_inertia.value_or(antenna_inertia(antenna)) /
-                         antenna_inertia(antenna);
-  plant.structure.bull_gear_inertia *= lighter;
   plant.structure.bull_gear_wind_fraction *= variant.wind_torque_scale;
-  for (auto& mode : plant.structure.modes) {
-    mode.inertia *= lighter;
-    mode.wind_fraction *= variant.wind_torque_scale;
-  }
+  for (auto& mode : plant.structure.modes) mode.wind_fraction *= variant.wind_torque_scale;
   return plant;
 }
 

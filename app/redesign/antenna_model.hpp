@@ -13,8 +13,9 @@
 
 namespace boresight::app {
 
-/// What a study changes about the antenna of a case. SI, at the motor shaft. Structural springs are
-/// kept whatever the inertia: steel does not soften because an estimate of its mass changed.
+/// What a study changes about the antenna of a case. SI, at the motor shaft. The structure keeps
+/// the frequencies that the case states, whatever the inertia: they are what was measured or
+/// reckoned, and another estimate of the inertia is another one of the springs with it.
 struct PlantVariant {
   std::optional<double> flywheel_disks = std::nullopt;  // on each motor
   std::optional<double> viscous_friction = std::nullopt;

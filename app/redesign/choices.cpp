@@ -58,6 +58,9 @@ class Choices {
                         std::nullopt});
   }
 
+  // Of the choice added last: what frequency (Hz) it was to give.
+  void was_to_have(double frequency) { choices_.back().result.wanted_frequency = frequency; }
+
   std::vector<PlantChoice> take() { return std::move(choices_); }
 
  private:
@@ -82,6 +85,7 @@ void add_flexible_resonance(const Case& antenna, double frequency, const std::st
                   *modulus / gigapascal, leakage.empty() ? "," : leakage, frequency),
       {.oil_stiffness = factor * oil_stiffness(antenna),
        .leakage_rate = leakage_rate_at(antenna, factor)});
+  choices.was_to_have(frequency);
 }
 
 // By a resonance at that frequency (Hz); `other`: the oil spring by the other convention.
@@ -100,15 +104,19 @@ void add_resonance(const Case& antenna, double frequency, double other, Choices&
                   factor < 1.0 ? "lowered" : "raised", std::max(factor, 1.0 / factor), leakage,
                   frequency),
       {.oil_stiffness = factor * own, .leakage_rate = leakage_rate_at(antenna, factor)});
+  choices.was_to_have(frequency);
   const std::string rigid = "by the resonance of rigid masses, ";
   choices.add_test("stiffness right, inertia from resonance", rigid, found, own);
+  choices.was_to_have(frequency);
   choices.add_test(antenna.oil.efficiency_in_stiffness
                        ? "inertia from resonance, no efficiencies"
                        : "inertia from resonance, with efficiencies",
                    rigid, plant::inertia_from_resonance(other, frequency), other);
+  choices.was_to_have(frequency);
   choices.add_contradiction("stiffness right, all masses scaled",
                             fmt::format("{}every inertia times {:.3f}", rigid, found / inertia),
                             {.inertia_scale = found / inertia});
+  choices.was_to_have(frequency);
 }
 
 }  // namespace

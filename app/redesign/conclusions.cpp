@@ -56,8 +56,8 @@ void conclude_campaign(const CampaignSection& section, const identification::Gre
 // The measured hydraulic frequency against the antenna's, and where they contradict each other what
 // has to give way.
 std::string resonance_text(const ResonanceVerdict& verdict, const IdentificationSection& section) {
-  std::string text = resonance_sentence(verdict);
-  if (!verdict.contradicts()) return text;
+  if (!verdict.contradicts()) return resonance_sentence(verdict);
+  std::string text = resonance_warning(verdict);
   for (const auto& method : section.inertia.methods) {
     const auto& left = method.antenna_remainder;
     const auto& needs = section.inertia.methods.front().antenna_remainder;

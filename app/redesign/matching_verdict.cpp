@@ -8,6 +8,7 @@
 #include <boresight/app/redesign/matching_verdict.hpp>
 #include <boresight/app/report/influences.hpp>
 #include <boresight/app/report/sky_units.hpp>
+#include <boresight/app/tune/position_gain_trade.hpp>
 
 namespace boresight::app {
 namespace {
@@ -55,18 +56,21 @@ std::string judge_unit_ratio(const MatchingSection& section, std::size_t unit) {
 std::string at_bounds(const MatchingSection& section) {
   std::set<std::string> gains;
   std::size_t points = 0;
+  bool position_gain = false;
   for (const auto& series : section.series) {
     for (const auto& design : series.designs) {
       const auto& names = design.tuning.gains_at_bound;
       gains.insert(names.begin(), names.end());
       if (!names.empty()) ++points;
+      position_gain = position_gain || ends_at_position_gain(design.tuning);
     }
   }
   if (points == 0) return "";
   return fmt::format(
       "At {} of the {} points of the matching study a gain ends at its bound of the search ({}): "
-      "what lies beyond was not looked at, and may tell the points apart.",
-      points, section.series.size() * section.rows.size(), fmt::join(gains, ", "));
+      "what lies beyond was not looked at, and may tell the points apart.{}{}",
+      points, section.series.size() * section.rows.size(), fmt::join(gains, ", "),
+      position_gain ? " " : "", position_gain ? trade_not_looked_for() : "");
 }
 
 }  // namespace
@@ -233,7 +237,9 @@ std::string decide_matching(const Report& report, const MatchingSection& section
   const std::size_t end = verdict.better_end();
   const MatchingSeries& series = section.series.front();
   std::string text = fmt::format(
-      "Going from {} as built to {}, re-tuned, changes the rms by {:+.1f} % with {} ({})",
+      "Going from {} as built to {}, re-tuned for the case's plant alone, changes the rms of "
+      "linear "
+      "loops by {:+.1f} % with {} ({})",
       section.rows[verdict.built()].label, section.rows[end].label,
       100.0 * verdict.change(series, end), control::to_string(series.structure),
       friction_text(series));

@@ -7,6 +7,7 @@
 
 #include <boresight/app/redesign/antenna_model.hpp>
 #include <boresight/app/redesign/resonance_verdict.hpp>
+#include <boresight/app/tune/plant_members.hpp>
 
 namespace boresight::app {
 namespace {
@@ -94,6 +95,9 @@ std::optional<ResonanceVerdict> resonance_verdict(const Case& antenna) {
                                             expected_uncertainty(antenna, verdict.expected));
   verdict.stated_bulk_modulus = bulk_modulus(antenna);
   verdict.bulk_modulus = bulk_modulus_for(antenna, verdict.measured);
+  const auto oil = member_ranges(antenna).oil_stiffness;
+  verdict.least_oil = oil.lower;
+  verdict.most_oil = oil.upper;
   return verdict;
 }
 
@@ -112,6 +116,22 @@ std::string resonance_sentence(const ResonanceVerdict& verdict) {
       "antenna ({:.3g} standard uncertainties apart): {}.",
       verdict.measured, verdict.contradicts() ? "contradicts" : "does not contradict",
       verdict.expected, verdict.deviation(), modulus);
+}
+
+std::string resonance_warning(const std::optional<ResonanceVerdict>& verdict) {
+  if (!verdict || !verdict->contradicts()) return "";
+  std::string text = resonance_sentence(*verdict);
+  if (!verdict->bulk_modulus) return text;
+  const double wanted = *verdict->bulk_modulus / verdict->stated_bulk_modulus;
+  constexpr double same = 0.01;
+  if (wanted >= verdict->least_oil * (1.0 - same) && wanted <= verdict->most_oil * (1.0 + same)) {
+    return text;
+  }
+  return text + fmt::format(
+                    " The plants that laws are held on here have {:.3g} to {:.3g} times the case's "
+                    "oil stiffness, and that would be {:.3g} times: none of them is the antenna "
+                    "that was measured.",
+                    verdict->least_oil, verdict->most_oil, wanted);
 }
 
 std::string rigid_resonance_remark(const std::optional<ResonanceVerdict>& verdict,

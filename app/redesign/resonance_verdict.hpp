@@ -19,6 +19,8 @@ struct ResonanceVerdict {
   double stated_bulk_modulus = 0.0;  // Pa, of the case, or the mean over its lines
   /// Pa: bulk_modulus_for(measured).
   std::optional<double> bulk_modulus = std::nullopt;
+  /// Oil stiffness of the plants that laws are held on (member_ranges), as factors on the case's.
+  double least_oil = 1.0, most_oil = 1.0;
 
   /// How many standard uncertainties the two are apart.
   double deviation() const;
@@ -38,6 +40,10 @@ std::optional<ResonanceVerdict> resonance_verdict(const Case& antenna);
 /// In one sentence: both frequencies, how far they are apart, and the bulk modulus that would make
 /// the measured one.
 std::string resonance_sentence(const ResonanceVerdict& verdict);
+
+/// Where they contradict each other the same, and that no plant which laws are held on has that
+/// oil, if so; else empty.
+std::string resonance_warning(const std::optional<ResonanceVerdict>& verdict);
 
 /// Ends a sentence on the range of inertia by methods, of which these give least and most: that the
 /// resonance's figure is of a rigid antenna, where it is one of them and the measured frequency

@@ -7,6 +7,7 @@
 #include <boresight/app/redesign/choices.hpp>
 #include <boresight/app/redesign/sections.hpp>
 #include <boresight/app/tune/engineer_units.hpp>
+#include <boresight/app/tune/position_gain_trade.hpp>
 #include <boresight/design/parallel_loop.hpp>
 #include <boresight/plant/plant_response.hpp>
 
@@ -111,6 +112,8 @@ TuningSection tuning_section(const Case& antenna, const StudyOptions& options,
   }
   if (section.design.tuning.status != design::TuningStatus::unstable) {
     judge_in_wind(antenna, problem, section);
+    section.trade = position_gain_trade(antenna, problem, section.design.tuning,
+                                        section.design.beam_rms, section.goals, {});
     constexpr std::size_t most_effects = 10;
     section.input_effects = input_effects(antenna, section.design.tuning.law, section.goals,
                                           section.design.beam_rms, most_effects, options.threads);

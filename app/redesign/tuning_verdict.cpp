@@ -10,6 +10,7 @@
 #include <boresight/app/report/present_gains.hpp>
 #include <boresight/app/report/sky_units.hpp>
 #include <boresight/app/report/wind_mast.hpp>
+#include <boresight/app/tune/gains_at_bounds.hpp>
 
 namespace boresight::app {
 namespace {
@@ -101,10 +102,18 @@ std::string unseen_text(const TuningSection& section) {
 std::string bound_text(const TuningSection& section) {
   const auto& names = section.design.tuning.gains_at_bound;
   if (names.empty()) return "";
-  return fmt::format(
+  std::string text = fmt::format(
       "The search ended at its bound for: {}. A gain there is no optimum; what lies beyond was not "
       "looked at.",
       fmt::join(names, ", "));
+  const SearchedLaw law{section.structure.name(), &section.design.tuning,
+                        sample_time_of(section.problem.delay)};
+  for (const auto& sentence : corners_beyond_sampling(law)) text += " " + sentence;
+  if (section.trade) {
+    text += fmt::format(" {} `boresight tune` takes one.",
+                        trade_in_words(*section.trade, law.name, section.design.beam_rms, 0));
+  }
+  return text;
 }
 
 // Of the wind models, those that meet a budget up to where it is needed, or those that do not.
@@ -341,6 +350,13 @@ std::vector<std::string> tuning_reservations(const Report& report, const TuningS
     sentences.push_back(assumed_stroke(*report.time_domain));
   }
   sentences.push_back(not_examined(report));
+  if (report.matching) {
+    sentences.emplace_back(
+        "Motor inertias were compared with linear loops tuned for the case's plant alone: "
+        "`boresight "
+        "evaluate` compares them with laws that keep their goals on every plant, on the nonlinear "
+        "antenna, and may find otherwise.");
+  }
   sentences.push_back(measure_first(section.input_effects, section.design.beam_rms));
   std::erase(sentences, std::string());
   return sentences;

@@ -130,6 +130,8 @@ Json plant_json(const PlantSection& section) {
           {"supply_torque_N_m", section.supply_torque},
           {"torque_for_wind_N_m", section.torque_for_wind},
           {"mean_wind_torque_N_m", section.mean_wind_torque},
+          {"slew_rate_margin_1",
+           section.slew_rate_margin ? Json(*section.slew_rate_margin) : Json(nullptr)},
           {"rigid_hydraulic_frequency_Hz", section.rigid_frequency},
           {"hydraulic_mode", mode_json(section.hydraulic)},
           {"modes", std::move(modes)}};

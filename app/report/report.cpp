@@ -15,4 +15,9 @@ Report begin_report(std::string command, const Case& antenna, std::string case_p
   return report;
 }
 
+void lead_with_resonance(Report& report) {
+  std::string warning = resonance_warning(report.resonance);
+  if (!warning.empty()) report.conclusions.insert(report.conclusions.begin(), std::move(warning));
+}
+
 }  // namespace boresight::app

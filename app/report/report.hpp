@@ -16,6 +16,7 @@
 #include <boresight/app/redesign/resonance_verdict.hpp>
 #include <boresight/app/simulate/time_domain.hpp>
 #include <boresight/app/tune/measured_study.hpp>
+#include <boresight/app/tune/position_gain_trade.hpp>
 #include <boresight/app/tune/tune_section.hpp>
 #include <boresight/design/plant_ensemble.hpp>
 #include <boresight/design/pointing_limit.hpp>
@@ -50,9 +51,12 @@ struct PlantSection {
   std::vector<SteadyFrictionTest> friction_tests;
   std::vector<plant::PlantMode> modes;
   plant::PlantMode hydraulic;
+  /// The case states its structure's frequencies with the motors held.
+  bool motors_held = false;
   double supply_torque = 0.0;     // N m
   double torque_for_wind = 0.0;   // N m, what friction and offset leave of it
   double mean_wind_torque = 0.0;  // N m at the motor, design speed
+  std::optional<double> slew_rate_margin = std::nullopt;  // app::slew_rate_margin
   /// Records whose reconciled estimate the plant is; 0: as the case states it.
   std::size_t records = 0;
 };
@@ -114,6 +118,8 @@ struct TuningSection {
   /// leave open, or the case's ensemble. None without a stable law.
   std::optional<design::EnsembleResult> ensemble;
   std::string ensemble_source;
+  /// Of a position gain at the upper bound of the search that can be halved or lowered further.
+  std::optional<PositionGainTrade> trade;
   /// The numbers of the case that its rms hangs on most; empty without a stable law.
   std::vector<InputEffect> input_effects;
 };
@@ -130,6 +136,8 @@ struct ChoiceResult {
   /// Another source's number or a test's result beside the reference, not a convention of
   /// reckoning.
   bool contradicts = false;
+  /// Hydraulic frequency (Hz) that it was to give; the flexible antenna may miss it.
+  std::optional<double> wanted_frequency = std::nullopt;
 };
 
 /// The heading above tuned loops, which figures name too.
@@ -187,6 +195,9 @@ struct Report {
   /// The user stopped the work: the sections here are whole, others are missing.
   bool interrupted = false;
 };
+
+/// Puts resonance_warning, if there is one, before the conclusions.
+void lead_with_resonance(Report& report);
 
 /// A report of that command on a case, whose sections are still missing.
 Report begin_report(std::string command, const Case& antenna, std::string case_path,

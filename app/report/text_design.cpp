@@ -61,19 +61,28 @@ Document gains_part(const TuningSection& section) {
   return table(rows);
 }
 
+// Where a loop's gain is 1, the last for its bandwidth.
+std::string crossovers_text(const control::Margins& margins) {
+  std::vector<std::string> texts;
+  for (const auto& crossover : margins.gain_crossovers) {
+    texts.push_back(fmt::format("{:.3g}", crossover.frequency / two_pi));
+  }
+  return texts.empty() ? "none" : fmt::format("{}", fmt::join(texts, ", "));
+}
+
 Document breaks_part(const TuningSection& section) {
   std::vector<std::vector<std::string>> rows{{"loop cut at", "peak of S", "goal", "at Hz",
-                                              "phase margin deg", "gain margin dB", "down dB",
-                                              "delay margin s"}};
+                                              "gain 1 at Hz", "phase margin deg", "gain margin dB",
+                                              "down dB", "delay margin s"}};
   for (std::size_t b = 0; b < control::loop_breaks.size(); ++b) {
     const auto& peak = section.design.verification.peaks[b];
     const auto& margins = section.design.margins[b];
     rows.push_back(
         {std::string(control::to_string(control::loop_breaks[b])),
          fmt::format("{:.4f}", peak.upper), fmt::format("{:g}", section.goals.sensitivity_peak[b]),
-         finite(peak.frequency / two_pi, 3), fmt::format("{:.1f}", margins.phase_margin_deg),
-         decibel(margins.increasing_gain_margin), decibel(margins.decreasing_gain_margin),
-         finite(margins.delay_margin, 4)});
+         finite(peak.frequency / two_pi, 3), crossovers_text(margins),
+         fmt::format("{:.1f}", margins.phase_margin_deg), decibel(margins.increasing_gain_margin),
+         decibel(margins.decreasing_gain_margin), finite(margins.delay_margin, 4)});
   }
   return table(rows);
 }
@@ -311,6 +320,29 @@ std::string choices_heading(const std::vector<ChoiceResult>& choices) {
              : "What the case leaves open: what each choice would do";
 }
 
+namespace {
+
+// Choices made for rigid masses, with which the flexible antenna does not resonate as measured.
+Document missed_part(const std::vector<ChoiceResult>& choices) {
+  constexpr double same = 0.05;
+  std::vector<std::string> missed;
+  double wanted = 0.0;
+  for (const auto& choice : choices) {
+    if (!choice.wanted_frequency || !choice.design) continue;
+    const double frequency = choice.design->hydraulic_mode.frequency;
+    if (std::abs(frequency / *choice.wanted_frequency - 1.0) < same) continue;
+    wanted = *choice.wanted_frequency;
+    missed.push_back(fmt::format("'{}' ({:.3f} Hz)", choice.name, frequency));
+  }
+  if (missed.empty()) return {};
+  return wrapped(fmt::format("No way out of the contradiction, as the flexible antenna then does "
+                             "not resonate at the measured {:.3g} Hz either: {}.",
+                             wanted, fmt::join(missed, ", ")),
+                 "  ");
+}
+
+}  // namespace
+
 Document document_of(const std::vector<ChoiceResult>& choices) {
   Document text = heading(choices_heading(choices));
   std::vector<std::vector<std::string>> rows{{"choice", "K N.m/rad", "J kg.m2", "R", "hydraulic Hz",
@@ -340,10 +372,10 @@ Document document_of(const std::vector<ChoiceResult>& choices) {
         "  ");
   }
   text += wrapped(
-      "Structural springs are kept throughout: a lighter antenna rings higher, it does not bend "
-      "more.",
+      "The structure's frequencies are kept throughout, as the case states them: a lighter antenna "
+      "is a softer one.",
       "  ");
-  return text;
+  return text + missed_part(choices);
 }
 
 Document document_of(const MatchingSection& section) {

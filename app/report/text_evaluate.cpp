@@ -347,9 +347,11 @@ Document document_of(const EvaluateSection& section) {
                                 mdeg(law->compared_rms())));
   }
   if (!section.currency.empty()) {
-    text += "\n" + wrapped(fmt::format("Front of cost ({}) and rms over the plants: {}.",
-                                       section.currency, fmt::join(names, "; ")),
-                           "  ");
+    text += "\n" +
+            wrapped(fmt::format("Front of cost ({}) and rms over the plants: {}.", section.currency,
+                                names.empty() ? "none, as none is fit to be chosen"
+                                              : fmt::format("{}", fmt::join(names, "; "))),
+                    "  ");
   }
   text += time_domain_table(section);
   if (section.decision) text += document_of(section, *section.decision);

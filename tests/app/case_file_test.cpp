@@ -9,6 +9,7 @@
 #include "edited_case.hpp"
 #include <boresight/app/io/case_file.hpp>
 #include <boresight/app/redesign/antenna_model.hpp>
+#include <boresight/plant/motors_held_modes.hpp>
 
 namespace boresight::app {
 namespace {
@@ -153,13 +154,24 @@ TEST(AntennaModel, BuildsItsPlantFromTheCase) {
               4 * 0.3007 + gear_train_inertia(antenna) + antenna_inertia(antenna), 1e-12);
   EXPECT_DOUBLE_EQ(plant.drive.leakage_rate, 1.219);
   EXPECT_DOUBLE_EQ(plant.drive.valve_corner, 2 * std::numbers::pi * 12.0);
-  // A choice changes what it names and keeps the structure's springs.
+  // A choice changes what it names and keeps the structure's frequencies.
   const auto lighter = make_plant(antenna, {.antenna_inertia = 0.2, .oil_stiffness = 60.0});
   EXPECT_NEAR(plant::antenna_inertia(lighter.structure), 0.2, 1e-12);
   EXPECT_DOUBLE_EQ(lighter.drive.oil_stiffness, 60.0);
   EXPECT_DOUBLE_EQ(lighter.drive.motor_inertia, plant.drive.motor_inertia);
-  EXPECT_DOUBLE_EQ(lighter.structure.gear_stiffness, plant.structure.gear_stiffness);
-  EXPECT_DOUBLE_EQ(lighter.structure.modes[0].stiffness, plant.structure.modes[0].stiffness);
+  const auto held = plant::motors_held_modes(plant.structure);
+  const auto held_lighter = plant::motors_held_modes(lighter.structure);
+  ASSERT_EQ(held_lighter.size(), held.size());
+  for (std::size_t i = 0; i < held.size(); ++i) {
+    EXPECT_NEAR(held_lighter[i].frequency, held[i].frequency, 1e-9);
+  }
+  EXPECT_NEAR(lighter.structure.gear_stiffness / plant.structure.gear_stiffness,
+              0.2 / antenna_inertia(antenna), 1e-12);
+  // As a case with that inertia has it.
+  Case other = antenna;
+  other.antenna.inertia.value *= 0.2 / antenna_inertia(antenna);
+  EXPECT_NEAR(make_plant(other).structure.modes[0].stiffness, lighter.structure.modes[0].stiffness,
+              1e-9 * lighter.structure.modes[0].stiffness);
 }
 
 /// The 70-m case in other units, by factors that are exact by definition.

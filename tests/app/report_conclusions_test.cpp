@@ -1,8 +1,11 @@
+#include <array>
 #include <limits>
+#include <numbers>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -20,6 +23,7 @@ namespace {
 using control::LoopStructure;
 using testing::AllOf;
 using testing::Contains;
+using testing::ContainsRegex;
 using testing::Each;
 using testing::ElementsAre;
 using testing::EndsWith;
@@ -102,8 +106,8 @@ TEST(MatchingVerdict, GoesFromTheMotorsAsBuiltToBothEnds) {
                                         HasSubstr("+20.0 % (PI with lag, linear plant)"))));
   EXPECT_THAT(sentences, Contains(HasSubstr("The one-to-one rule marks nothing special here.")));
   EXPECT_EQ(decide_matching(report, *report.matching),
-            "Going from 1 disk as built to 0 disks, re-tuned, changes the rms by -10.0 % with PI "
-            "with lag (linear plant).");
+            "Going from 1 disk as built to 0 disks, re-tuned for the case's plant alone, changes "
+            "the rms of linear loops by -10.0 % with PI with lag (linear plant).");
 }
 
 TEST(MatchingVerdict, TakesAnOptimumAtTheEndForNone) {
@@ -408,6 +412,33 @@ TEST(TuningVerdict, SaysWhatItDoesNotKnow) {
   EXPECT_THAT(decision(report).front(), HasSubstr("fails its verification"));
   // Of a law on which nothing is decided there is nothing to reserve but what is assumed.
   EXPECT_THAT(reservations(report), ElementsAre(HasSubstr("is assumed")));
+}
+
+TEST(Choices, SayWhichMissTheFrequencyThatTheyAreMadeFor) {
+  std::vector<ChoiceResult> choices(3);
+  const std::array<double, 3> frequencies{1.73, 1.034, 0.348};
+  for (std::size_t i = 0; i < choices.size(); ++i) {
+    choices[i].name = fmt::format("choice {}", i);
+    choices[i].design = design_of(0.5);
+    choices[i].design->hydraulic_mode.frequency = frequencies.at(i);
+    if (i > 0) choices[i].wanted_frequency = 1.05;
+  }
+  EXPECT_THAT(to_text(document_of(choices)),
+              HasSubstr("resonate at the measured 1.05 Hz\n  either: 'choice 2' (0.348 Hz)."));
+  choices.pop_back();
+  EXPECT_THAT(to_text(document_of(choices)), Not(HasSubstr("No way out")));
+}
+
+TEST(TuningText, SaysWhereTheLoopsHaveAGainOfOne) {
+  Report report = tuned_report();
+  auto& margins = report.tuning->design.margins;
+  margins[0].gain_crossovers = {{.frequency = 2.0 * std::numbers::pi * 0.4}};
+  margins[2].gain_crossovers = {{.frequency = 2.0 * std::numbers::pi * 0.1},
+                                {.frequency = 2.0 * std::numbers::pi * 0.35}};
+  EXPECT_THAT(to_text(document_of(*report.tuning)),
+              AllOf(HasSubstr("gain 1 at Hz"), ContainsRegex("rate loop alone .* 0\\.4 "),
+                    ContainsRegex("valve command .* none "),
+                    ContainsRegex("position loop .* 0\\.1, 0\\.35 ")));
 }
 
 TEST(Choices, AreContradictionsOnlyWhereSourcesOrTestsDiffer) {

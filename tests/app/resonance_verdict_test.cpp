@@ -11,6 +11,7 @@
 #include <boresight/app/redesign/antenna_model.hpp>
 #include <boresight/app/redesign/resonance_verdict.hpp>
 #include <boresight/app/redesign/sections.hpp>
+#include <boresight/app/tune/plant_members.hpp>
 
 namespace boresight::app {
 namespace {
@@ -18,8 +19,10 @@ namespace {
 using testing::AllOf;
 using testing::Contains;
 using testing::Each;
+using testing::ElementsAre;
 using testing::EndsWith;
 using testing::HasSubstr;
+using testing::IsEmpty;
 using testing::Not;
 using testing::StartsWith;
 
@@ -92,6 +95,39 @@ TEST(ResonanceVerdict, StandsFirstAmongConclusionsAndInTheDecision) {
   report.resonance = resonance_verdict(with_oil(*report.resonance->bulk_modulus));
   EXPECT_THAT(conclude(report).front(), Not(HasSubstr("must give way")));
   EXPECT_THAT(decision(report), Each(Not(HasSubstr("The hydraulic frequency measured"))));
+}
+
+TEST(ResonanceVerdict, WarnsWhereNoPlantHasTheOilThatWasMeasured) {
+  ResonanceVerdict verdict{.measured = 1.05,
+                           .expected = 1.73,
+                           .standard_uncertainty = 0.1,
+                           .stated_bulk_modulus = 1.24e9,
+                           .bulk_modulus = 0.361e9,
+                           .least_oil = 0.654,
+                           .most_oil = 1.346};
+  const auto none = EndsWith(
+      " The plants that laws are held on here have 0.654 to 1.35 times the case's oil stiffness, "
+      "and that would be 0.291 times: none of them is the antenna that was measured.");
+  EXPECT_THAT(resonance_warning(verdict), AllOf(StartsWith(resonance_sentence(verdict)), none));
+  // First among what `tune`, `evaluate` and `match` conclude, and below their decision.
+  Report report;
+  report.command = "tune";
+  report.resonance = verdict;
+  report.conclusions = {"Tuned."};
+  lead_with_resonance(report);
+  EXPECT_THAT(report.conclusions, ElementsAre(none, "Tuned."));
+  EXPECT_THAT(reservations(report), ElementsAre(none));
+  verdict.least_oil = 0.293;  // within rounding of what is wanted
+  EXPECT_EQ(resonance_warning(verdict), resonance_sentence(verdict));
+  verdict.expected = 1.1;
+  EXPECT_EQ(resonance_warning(verdict), "");
+  report.resonance = verdict;
+  lead_with_resonance(report);
+  EXPECT_EQ(report.conclusions.size(), 2U);
+  EXPECT_THAT(reservations(report), IsEmpty());
+  const auto read = resonance_verdict(with_oil(1.229e9));
+  ASSERT_TRUE(read);
+  EXPECT_EQ(read->least_oil, member_ranges(with_oil(1.229e9)).oil_stiffness.lower);
 }
 
 TEST(ResonanceVerdict, SaysThatTheMethodsFigureIsOfARigidAntenna) {

@@ -304,7 +304,8 @@ StructureSpecification antenna_of_effective_fractions(const StructureSpecificati
     mode.frequency = held.frequency;
     mode.inertia_fraction = held.inertia_fraction;
     rest -= mode.inertia_fraction;
-    if (!(mode.frequency > below && mode.inertia_fraction > 0.0 && rest > 0.0)) {
+    const bool sound = mode.frequency > below && mode.inertia_fraction > 0.0 && rest > 0.0;
+    if (!sound) {
       refuse(fmt::format(
           "effective inertia fractions of which an antenna has these frequencies with the motors "
           "held, found none but for rounding: {:.3g} at {:.6g} Hz",

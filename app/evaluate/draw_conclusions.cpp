@@ -9,6 +9,7 @@
 
 #include <boresight/app/evaluate/draw_conclusions.hpp>
 #include <boresight/app/evaluate/unfit_candidates.hpp>
+#include <boresight/app/report/influences.hpp>
 
 namespace boresight::app {
 namespace {
@@ -139,8 +140,12 @@ std::string what_to_test(const EvaluateSection& section, const DecisionSection& 
   return fmt::format(
       "Test first: {}. Known before the choice between the proposals, it lowers the expected rms "
       "by {:.4f} to {:.4f} mdeg (held out and fitted) of the {:.4f} mdeg that knowing everything "
-      "would.",
-      decision.inputs[input], best->held_out_gain, best->fitted.gain, tests.perfect.gain);
+      "would{}.",
+      decision.inputs[input], best->held_out_gain, best->fitted.gain, tests.perfect.gain,
+      tests.perfect.gain < negligible_change * mean
+          ? fmt::format(", which is {:.2f} % of it: no test is worth its time for this choice",
+                        100.0 * tests.perfect.gain / mean)
+          : "");
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include <fmt/ranges.h>
 
 #include <boresight/app/evaluate/unfit_candidates.hpp>
+#include <boresight/app/report/influences.hpp>
 #include <boresight/app/report/sky_units.hpp>
 #include <boresight/app/report/wind_mast.hpp>
 
@@ -66,6 +67,24 @@ std::string none_chosen(const EvaluateSection& section) {
   return fmt::format("No proposal is fit to be chosen: {}.", fmt::join(reasons, ", "));
 }
 
+namespace {
+
+// Those whose budget is met as far as the nearest one's, but for what decides nothing.
+std::string as_near_text(const EvaluateSection& section, std::size_t budget,
+                         const Candidate& nearest, double farthest) {
+  std::vector<std::string> names;
+  for (const auto& candidate : section.candidates) {
+    const auto reached = reached_speed(candidate, budget);
+    if (&candidate == &nearest || !reached || candidate.feasible() != nearest.feasible()) continue;
+    if (*reached > (1.0 - negligible_change) * farthest) names.push_back(candidate.name);
+  }
+  if (names.empty()) return "";
+  return fmt::format(" (and within {:.0f} % of it {})", 100.0 * negligible_change,
+                     fmt::join(names, ", "));
+}
+
+}  // namespace
+
 std::vector<std::string> unmet_needs(const EvaluateSection& section) {
   std::vector<std::string> sentences;
   for (std::size_t i = 0; i < section.budgets.size(); ++i) {
@@ -89,12 +108,13 @@ std::vector<std::string> unmet_needs(const EvaluateSection& section) {
     if (met || nearest == nullptr) continue;
     sentences.push_back(fmt::format(
         "NOT MET: {} ({}: {:.3f} mdeg) is needed up to {:.3g} m/s{}; neither the antenna as it is "
-        "nor a proposal is fit to be chosen and meets it there. {} comes nearest, with {}{}.",
+        "nor a proposal is fit to be chosen and meets it there. {} comes nearest, with {}{}{}.",
         budget.name, budget.band, budget.rms / millidegree, *budget.wind_speed,
         dish_and_mast(section.wind_mast, *budget.wind_speed), nearest->name,
         std::isfinite(farthest)
             ? fmt::format("{:.1f} m/s{}", farthest, dish_and_mast(section.wind_mast, farthest))
             : std::string("the 60 m/s looked at"),
+        as_near_text(section, i, *nearest, farthest),
         nearest->feasible() ? "" : fmt::format(", but {}", why_not(*nearest))));
   }
   return sentences;

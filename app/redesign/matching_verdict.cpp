@@ -68,7 +68,8 @@ std::string at_bounds(const MatchingSection& section) {
   if (points == 0) return "";
   return fmt::format(
       "At {} of the {} points of the matching study a gain ends at its bound of the search ({}): "
-      "what lies beyond was not looked at, and may tell the points apart.{}{}",
+      "what lies beyond was not looked at, and may tell the points apart (`boresight match` of a "
+      "[[loop]] with bounds of its own looks there).{}{}",
       points, section.series.size() * section.rows.size(), fmt::join(gains, ", "),
       position_gain ? " " : "", position_gain ? trade_not_looked_for() : "");
 }
@@ -140,6 +141,12 @@ std::string friction_text(const MatchingSeries& series) {
   return fmt::format("friction slope {:.3g} N.m.s/rad", series.viscous_friction);
 }
 
+bool misses_resonance(const ChoiceResult& choice) {
+  if (!choice.wanted_frequency || !choice.design) return false;
+  constexpr double same = 0.05;
+  return std::abs(choice.design->hydraulic_mode.frequency / *choice.wanted_frequency - 1.0) >= same;
+}
+
 std::string what_matters_more(const Report& report) {
   Influences influences;
   if (report.tuning && !report.tuning->wind_alternatives.empty()) {
@@ -151,6 +158,7 @@ std::string what_matters_more(const Report& report) {
   for (const auto& choice : report.choices) {
     const auto& reference = report.choices.front().design;
     if (!choice.design || !reference || !choice.design->usable() || !reference->usable()) continue;
+    if (misses_resonance(choice)) continue;
     influences.add(std::abs(choice.design->beam_rms / reference->beam_rms - 1.0),
                    fmt::format("'{}'", choice.name));
   }

@@ -101,6 +101,9 @@ std::optional<ResonanceVerdict> resonance_verdict(const Case& antenna) {
   return verdict;
 }
 
+// Beyond so many the first order of the uncertainty says no more than that.
+constexpr double most_by_first_order = 5.0;
+
 std::string resonance_sentence(const ResonanceVerdict& verdict) {
   const double own = verdict.stated_bulk_modulus / gigapascal;
   const std::string modulus =
@@ -113,9 +116,12 @@ std::string resonance_sentence(const ResonanceVerdict& verdict) {
                         own);
   return fmt::format(
       "The hydraulic frequency measured, {:.3g} Hz, {} the {:.3g} Hz of the case's flexible "
-      "antenna ({:.3g} standard uncertainties apart): {}.",
+      "antenna ({} standard uncertainties apart): {}.",
       verdict.measured, verdict.contradicts() ? "contradicts" : "does not contradict",
-      verdict.expected, verdict.deviation(), modulus);
+      verdict.expected,
+      verdict.deviation() > most_by_first_order ? fmt::format("more than {:g}", most_by_first_order)
+                                                : fmt::format("{:.3g}", verdict.deviation()),
+      modulus);
 }
 
 std::string resonance_warning(const std::optional<ResonanceVerdict>& verdict) {

@@ -104,7 +104,7 @@ std::string bound_text(const TuningSection& section) {
   if (names.empty()) return "";
   std::string text = fmt::format(
       "The search ended at its bound for: {}. A gain there is no optimum; what lies beyond was not "
-      "looked at.",
+      "looked at (`boresight tune` of a [[loop]] with bounds of its own does).",
       fmt::join(names, ", "));
   const SearchedLaw law{section.structure.name(), &section.design.tuning,
                         sample_time_of(section.problem.delay)};

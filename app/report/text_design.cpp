@@ -324,15 +324,13 @@ namespace {
 
 // Choices made for rigid masses, with which the flexible antenna does not resonate as measured.
 Document missed_part(const std::vector<ChoiceResult>& choices) {
-  constexpr double same = 0.05;
   std::vector<std::string> missed;
   double wanted = 0.0;
   for (const auto& choice : choices) {
-    if (!choice.wanted_frequency || !choice.design) continue;
-    const double frequency = choice.design->hydraulic_mode.frequency;
-    if (std::abs(frequency / *choice.wanted_frequency - 1.0) < same) continue;
+    if (!misses_resonance(choice)) continue;
     wanted = *choice.wanted_frequency;
-    missed.push_back(fmt::format("'{}' ({:.3f} Hz)", choice.name, frequency));
+    missed.push_back(
+        fmt::format("'{}' ({:.3f} Hz)", choice.name, choice.design->hydraulic_mode.frequency));
   }
   if (missed.empty()) return {};
   return wrapped(fmt::format("No way out of the contradiction, as the flexible antenna then does "

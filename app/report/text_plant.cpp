@@ -6,6 +6,7 @@
 #include <boresight/app/document/document.hpp>
 #include <boresight/app/report/sky_units.hpp>
 #include <boresight/app/report/text_report.hpp>
+#include <boresight/plant/motors_held_modes.hpp>
 
 namespace boresight::app {
 namespace {
@@ -45,10 +46,19 @@ Document structure_part(const plant::Structure& structure) {
          fmt::format("{:.4f}", std::sqrt(mode.stiffness / mode.inertia) / (2.0 * std::numbers::pi)),
          fmt::format("{:.4f}", mode.inertia / inertia)});
   }
-  return "\n" + table(rows) +
+  std::vector<std::vector<std::string>> held{
+      {"structure, the motors held", "frequency Hz", "effective fraction"}};
+  for (const auto& mode : plant::motors_held_modes(structure)) {
+    held.push_back(
+        {held.size() == 1 ? "lowest" : fmt::format("structure.mode[{}]", held.size() - 2),
+         fmt::format("{:.4f}", mode.frequency), fmt::format("{:.4f}", mode.inertia_fraction)});
+  }
+  return "\n" + table(held) + "\n" + table(rows) +
          wrapped(
              "From the frequencies that the case states with the motors held. Shares of wind and "
-             "beam are those of these modes; a first guess of both are their inertia fractions.",
+             "beam are those of the modes with the bull gear held; a first guess of both are their "
+             "inertia fractions. Where a structural model gives the lowest mode less than the "
+             "effective fraction above, modes of it are missing here.",
              "  ");
 }
 

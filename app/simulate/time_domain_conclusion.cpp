@@ -161,8 +161,7 @@ std::string slew_out_of_reach(const TimeDomainSection& section) {
   if (!(slew->limits.rate < asked.rate)) return "";
   return fmt::format(
       "The slew rate of {:.3g} deg/s is out of reach: against its friction, by its valve and "
-      "supply "
-      "with some reserve, this drive does {:.3g} deg/s.",
+      "supply with a fifth in reserve, this drive does {:.3g} deg/s.",
       asked.rate / degree, slew->limits.rate / degree);
 }
 

@@ -156,6 +156,23 @@ void find_unmet_goals(const TuneSection& section, double speed, TunedFor purpose
                    assumed_demand(nearest->design.tuning, section.demand_assumption))});
 }
 
+// The structures that were tuned, in the order of the table.
+std::vector<std::string> structures_of(const TuneSection& section) {
+  std::vector<std::string> names;
+  for (const auto& row : section.laws) {
+    if (row.tuned_for == TunedFor::present) continue;
+    if (std::ranges::find(names, row.structure) == names.end()) names.push_back(row.structure);
+  }
+  return names;
+}
+
+// Up to which wind speed a law meets a budget.
+std::string reached_text(const TuneSection& section, const TunedLaw& law, double limit) {
+  return fmt::format(
+      "; the budget is met up to {:.3g} m/s{}{}{}", limit, dish_and_mast(section.wind_mast, limit),
+      law.in_time ? " by the linear plant" : "", climate_text(section.climate, limit));
+}
+
 void find_unreached_rms(const TuneSection& section, std::vector<Shortfall>& shortfalls) {
   for (std::size_t i = 0; i < section.budgets.size(); ++i) {
     const PointingBudget& budget = section.budgets[i];
@@ -172,20 +189,20 @@ void find_unreached_rms(const TuneSection& section, std::vector<Shortfall>& shor
     }
     const TunedLaw* best = best_pointing_law(section, budget.wind_speed);
     if (best == nullptr || best->keeps(met * budget.rms)) continue;
-    const double limit = best->speed_limits[i];
     shortfalls.push_back(
-        {fmt::format("The budget '{}' in band {} ({:.4f} mdeg) cannot be met up to {:.3g} m/s{}.",
+        {fmt::format("The budget '{}' in band {} ({:.4f} mdeg) cannot be met up to {:.3g} m/s{} by "
+                     "what was tuned ({}).",
                      budget.name, budget.band, budget.rms / millidegree, *budget.wind_speed,
-                     dish_and_mast(section.wind_mast, *budget.wind_speed)),
-         fmt::format("{} comes nearest with {}, {} dB on two equal axes in band {}; "
-                     "the budget is met up to {:.3g} m/s{}{}{}.{}",
+                     dish_and_mast(section.wind_mast, *budget.wind_speed),
+                     fmt::join(structures_of(section), ", ")),
+         fmt::format("{} comes nearest with {}, {} dB on two equal axes in band {}{}.{}",
                      label(*best), rms_text(*best),
                      loss_text(design::pointing_loss_db(best->budget_rms(), budget.beamwidth,
                                                         design::LossConvention::mean_loss_two_axes),
                                3),
-                     budget.band, limit, dish_and_mast(section.wind_mast, limit),
-                     best->in_time ? " by the linear plant" : "",
-                     climate_text(section.climate, limit), left_out_text(section, *best))});
+                     budget.band,
+                     best->left_out() ? "" : reached_text(section, *best, best->speed_limits[i]),
+                     left_out_text(section, *best))});
   }
   if (!section.beam_rms_goal) return;
   const double speed = section.wind_speeds.front();

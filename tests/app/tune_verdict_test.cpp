@@ -96,10 +96,12 @@ TEST(TuneConclusions, NameABoundOnceWithTheLawsThatEndThere) {
     return found;
   };
   const auto sentences = conclude(section);
-  EXPECT_THAT(sentences,
-              Contains("The search ended at the upper bound of the compliance, cs = 0.1 "
-                       "rad/(N.m), with PI+C (nominal, 12 m/s), PI+C (robust, 12 m/s): no "
-                       "optimum, as what lies beyond was not looked at."));
+  EXPECT_THAT(
+      sentences,
+      Contains("The search ended at the upper bound of the compliance, cs = 0.1 "
+               "rad/(N.m), with PI+C (nominal, 12 m/s), PI+C (robust, 12 m/s): no "
+               "optimum, as what lies beyond was not looked at (a [[loop]] with bounds of its own "
+               "does)."));
   const std::string text = to_text(document_of(section));
   EXPECT_EQ(count(text, "The search ended at"), 1);
   // Without present gains there is no before.
@@ -125,7 +127,8 @@ TEST(GainsAtBounds, LeaveOutALagThatNoSampledControllerNeeds) {
   ASSERT_EQ(told.size(), 1U);
   EXPECT_EQ(told[0],
             "The search ended at the upper bound of the rate lag corner, wp = 300 rad/s, with PI "
-            "(robust), DPF+C (robust): no optimum, as what lies beyond was not looked at. A "
+            "(robust), DPF+C (robust): no optimum, as what lies beyond was not looked at (a "
+            "[[loop]] with bounds of its own does). A "
             "controller that samples every 0.02 s does nothing above 157 rad/s, and so such a lag "
             "does nothing in it: leave it out (structure PI-0 in the place of PI; a [[loop]] "
             "without it in the place of DPF+C).");
@@ -175,8 +178,9 @@ TEST(Shortfalls, TrustNoBudgetToALawThatHunts) {
   EXPECT_EQ(best_pointing_law(section, 12.0), &section.laws[1]);
   auto shortfalls = find_shortfalls(section);
   ASSERT_EQ(shortfalls.size(), 1U);
-  EXPECT_THAT(shortfalls[0].infeasible,
-              HasSubstr("cannot be met up to 12 m/s at the dish, 10 at the mast."));
+  EXPECT_THAT(
+      shortfalls[0].infeasible,
+      HasSubstr("cannot be met up to 12 m/s at the dish, 10 at the mast by what was tuned ("));
   EXPECT_THAT(shortfalls[0].closest,
               AllOf(HasSubstr("LL (robust) comes nearest with 1.5000 mdeg on the nonlinear antenna "
                               "(1.1000 by the linear plant)"),
@@ -198,7 +202,7 @@ TEST(Shortfalls, TrustNoBudgetToALawThatHunts) {
   EXPECT_THAT(shortfalls[0].closest,
               AllOf(HasSubstr("FULL (robust) comes nearest with 1.7800 mdeg on the nonlinear "
                               "antenna (1.4300 by the linear plant)"),
-                    HasSubstr("met up to 10.1 m/s at the dish"),
+                    Not(HasSubstr("met up to")),
                     HasSubstr("it hunts by +-5.80 mdeg, and no other robust law holds still")));
   // A run in wind that did not complete has no simulated rms to be ranked by.
   section.laws[1].in_time->beam_rms = std::numeric_limits<double>::quiet_NaN();

@@ -327,7 +327,7 @@ Document missed_part(const std::vector<ChoiceResult>& choices) {
   std::vector<std::string> missed;
   double wanted = 0.0;
   for (const auto& choice : choices) {
-    if (!misses_resonance(choice)) continue;
+    if (!choice.design || !choice.wanted_frequency || !misses_resonance(choice)) continue;
     wanted = *choice.wanted_frequency;
     missed.push_back(
         fmt::format("'{}' ({:.3f} Hz)", choice.name, choice.design->hydraulic_mode.frequency));

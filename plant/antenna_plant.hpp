@@ -97,6 +97,10 @@ struct PlantMode {
   std::string description;         // what moves most, or that it is hydraulic_mode; each its own
   double participation = 0.0;      // of the described part, 0..1
   double oil_participation = 0.0;  // of motors and oil spring, whatever moves most
+  /// d ln frequency^2/d ln oil_stiffness, leakage rate kept: without damping the share of the oil
+  /// spring in the mode's elastic energy, 1 for a rigid antenna. Heavy damping may take it out of 0
+  /// to 1.
+  double oil_share = 0.0;
 };
 
 /// Modes in order of frequency; a part's participation is the sum of |left_k right_k| over its
@@ -109,10 +113,16 @@ std::vector<PlantMode> plant_modes(const AntennaPlant& plant);
 /// the lowest of those that move the oil. It is the only one that stays the same as inertia or
 /// stiffness change; with oil stiffer than the structure the motors' largest swing passes from mode
 /// to mode above it.
+/// Its oil_share says whether it is a measure of the oil: on a gear spring far softer than that it
+/// is not, and mode_of_oil is.
 /// Where friction and leakage overdamp it, its two real poles p1, p2 are given as one mode of
 /// frequency sqrt(p1 p2) and damping ratio (p1 + p2)/(2 sqrt(p1 p2)) above 1. `modes`: in order of
 /// frequency, as plant_modes gives them.
 /// @throws NumericalFailure if no mode moves motors and oil.
 PlantMode hydraulic_mode(const std::vector<PlantMode>& modes);
+
+/// The mode of the largest oil_share: hydraulic_mode, if no other has more.
+/// @throws NumericalFailure as hydraulic_mode.
+PlantMode mode_of_oil(const std::vector<PlantMode>& modes);
 
 }  // namespace boresight::plant

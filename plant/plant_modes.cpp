@@ -36,14 +36,18 @@ std::vector<Part> parts_of(const AntennaPlant& plant) {
   return parts;
 }
 
+// Valve and tachometer stand in series with the rest: they move no oil but by rounding.
+bool moves_oil(const PlantMode& mode) {
+  constexpr double rounding = 1e-9;
+  return mode.oil_participation >= rounding;
+}
+
 // Which of the modes, in order of frequency, hydraulic_mode is: one, both poles of an overdamped
 // one, the lower first, or none.
 std::vector<std::size_t> hydraulic_poles(const std::vector<PlantMode>& modes) {
-  // Valve and tachometer stand in series with the rest: they move no oil but by rounding.
-  constexpr double rounding = 1e-9;
   std::vector<std::size_t> real, swinging;
   for (std::size_t i = 0; i < modes.size(); ++i) {
-    if (modes[i].frequency == 0.0 || modes[i].oil_participation < rounding) continue;
+    if (modes[i].frequency == 0.0 || !moves_oil(modes[i])) continue;
     (modes[i].pole.imag() == 0.0 ? real : swinging).push_back(i);
   }
   if (real.size() >= 2 &&
@@ -73,6 +77,8 @@ std::vector<PlantMode> plant_modes(const AntennaPlant& plant) {
   const EigenDecomposition eigen = eigen_decomposition(system.a);
   const std::vector<Part> parts = parts_of(plant);
   const double scale = system.a.cwiseAbs().maxCoeff();
+  // State order of to_state_space.
+  constexpr Eigen::Index torque = 2, motor_rate = 3;
   std::vector<PlantMode> modes;
   std::vector<double> gear_participation;
   for (Eigen::Index i = 0; i < eigen.values.size(); ++i) {
@@ -105,6 +111,14 @@ std::vector<PlantMode> plant_modes(const AntennaPlant& plant) {
         mode.description = part.description;
       }
     }
+    if (moves_oil(mode)) {
+      // l^H (dA/d ln K) r: K stands in the torque's row, at the motors' rate and at the valve's
+      // flow, which the poles do not hang on.
+      const std::complex<double> moved = -plant.drive.oil_stiffness *
+                                         std::conj(eigen.left(torque, i)) *
+                                         eigen.right(motor_rate, i);
+      mode.oil_share = 2.0 * (moved / pole).real();
+    }
     modes.push_back(std::move(mode));
   }
   for (const std::size_t i : hydraulic_poles(modes)) {
@@ -133,8 +147,17 @@ PlantMode hydraulic_mode(const std::vector<PlantMode>& modes) {
   PlantMode both = slow.oil_participation > fast.oil_participation ? slow : fast;
   both.frequency = std::sqrt(first * second) / (2.0 * std::numbers::pi);
   both.damping_ratio = (first + second) / (2.0 * std::sqrt(first * second));
+  both.oil_share = 0.5 * (slow.oil_share + fast.oil_share);
   both.description = fmt::format("{}, overdamped", hydraulic_description);
   return both;
+}
+
+PlantMode mode_of_oil(const std::vector<PlantMode>& modes) {
+  PlantMode most = hydraulic_mode(modes);
+  for (const auto& mode : modes) {
+    if (mode.pole.imag() != 0.0 && mode.oil_share > most.oil_share) most = mode;
+  }
+  return most;
 }
 
 }  // namespace boresight::plant

@@ -50,6 +50,9 @@ void add_plant(py::module_& module) {
       .def_readonly("damping_ratio", &PlantMode::damping_ratio)
       .def_readonly("description", &PlantMode::description, "What moves most")
       .def_readonly("participation", &PlantMode::participation, "Of what moves most, 0 to 1")
+      .def_readonly("oil_share", &PlantMode::oil_share,
+                    "d ln frequency^2/d ln oil_stiffness: the oil spring's share of its elastic "
+                    "energy without damping")
       .def("__repr__", [](const PlantMode& mode) {
         return fmt::format("<boresight.Mode {:.4g} Hz, damping {:.4g}: {}>", mode.frequency,
                            mode.damping_ratio, mode.description);

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <string>
 
 #include <fmt/format.h>
 
@@ -59,16 +60,18 @@ void check_resonance_damping(const CaseNumbers& numbers, Implausibilities& found
   const double expected = flexible_mode(numbers.antenna).damping_ratio;
   if (std::max(measured, expected) <= agrees * std::min(measured, expected)) return;
   const DriveEntry& drive = numbers.antenna.drive;
+  const auto verdict = resonance_verdict(numbers.antenna);
   found.push_back(
       {"resonance damping",
        "resonance.damping_ratio",
        fmt::format("The hydraulic mode of the case has the damping ratio {:.3g}, by the leakage "
                    "rate of {:.3g} 1/s, viscous friction of {:.3g} N.m.s/rad and the structure; "
                    "measured is {:.3g}, more than a factor of {:g} {}: leakage or friction is {} "
-                   "than stated, or other friction than the viscous damped that test.",
+                   "than stated, or other friction than the viscous damped that test.{}",
                    expected, drive.leakage_rate.value, drive.viscous_friction.value, measured,
                    agrees, measured > expected ? "above" : "below",
-                   measured > expected ? "larger" : "smaller"),
+                   measured > expected ? "larger" : "smaller",
+                   verdict ? which_was_measured(*verdict) : ""),
        {{"measured", measured, "1"}, {"expected", expected, "1"}}});
 }
 

@@ -14,8 +14,12 @@ namespace {
 
 constexpr double gigapascal = 1e9;  // Pa
 
+std::vector<plant::PlantMode> modes_of(const Case& antenna, const PlantVariant& variant) {
+  return plant::plant_modes(make_plant(antenna, variant));
+}
+
 double hydraulic_frequency(const Case& antenna, const PlantVariant& variant) {
-  return plant::hydraulic_mode(plant::plant_modes(make_plant(antenna, variant))).frequency;
+  return plant::hydraulic_mode(modes_of(antenna, variant)).frequency;
 }
 
 // With a bulk modulus so many times the case's.
@@ -90,7 +94,11 @@ std::optional<ResonanceVerdict> resonance_verdict(const Case& antenna) {
   if (!antenna.resonance_frequency) return std::nullopt;
   ResonanceVerdict verdict;
   verdict.measured = antenna.resonance_frequency->value;
-  verdict.expected = hydraulic_frequency(antenna, {});
+  const auto modes = modes_of(antenna, {});
+  const plant::PlantMode hydraulic = plant::hydraulic_mode(modes);
+  verdict.expected = hydraulic.frequency;
+  verdict.oil_share = hydraulic.oil_share;
+  verdict.oil_mode = plant::mode_of_oil(modes);
   verdict.standard_uncertainty = std::hypot(antenna.resonance_frequency->standard_uncertainty,
                                             expected_uncertainty(antenna, verdict.expected));
   verdict.stated_bulk_modulus = bulk_modulus(antenna);
@@ -99,6 +107,22 @@ std::optional<ResonanceVerdict> resonance_verdict(const Case& antenna) {
   verdict.least_oil = oil.lower;
   verdict.most_oil = oil.upper;
   return verdict;
+}
+
+std::string oil_remark(double oil_share, const plant::PlantMode& mode_of_oil) {
+  constexpr double half = 0.5;
+  if (oil_share >= half || mode_of_oil.oil_share <= oil_share) return "";
+  return fmt::format(
+      " Only {:.0f} % of that mode's elastic energy is in the oil, the rest in gearbox and "
+      "structure, so that it tells little of the oil and its leakage; of the mode at {:.3g} Hz, "
+      "damping ratio {:.3g}, {:.0f} % is.",
+      100.0 * oil_share, mode_of_oil.frequency, mode_of_oil.damping_ratio,
+      100.0 * mode_of_oil.oil_share);
+}
+
+std::string which_was_measured(const ResonanceVerdict& verdict) {
+  const std::string remark = oil_remark(verdict.oil_share, verdict.oil_mode);
+  return remark.empty() ? "" : remark + " Make sure which of them was measured.";
 }
 
 // Beyond so many the first order of the uncertainty says no more than that.
@@ -116,12 +140,12 @@ std::string resonance_sentence(const ResonanceVerdict& verdict) {
                         own);
   return fmt::format(
       "The hydraulic frequency measured, {:.3g} Hz, {} the {:.3g} Hz of the case's flexible "
-      "antenna ({} standard uncertainties apart): {}.",
+      "antenna ({} standard uncertainties apart): {}.{}",
       verdict.measured, verdict.contradicts() ? "contradicts" : "does not contradict",
       verdict.expected,
       verdict.deviation() > most_by_first_order ? fmt::format("more than {:g}", most_by_first_order)
                                                 : fmt::format("{:.3g}", verdict.deviation()),
-      modulus);
+      modulus, which_was_measured(verdict));
 }
 
 std::string resonance_warning(const std::optional<ResonanceVerdict>& verdict) {

@@ -5,6 +5,7 @@
 
 #include <boresight/app/io/case_file.hpp>
 #include <boresight/identification/inertia_methods.hpp>
+#include <boresight/plant/antenna_plant.hpp>
 
 namespace boresight::app {
 
@@ -21,6 +22,9 @@ struct ResonanceVerdict {
   std::optional<double> bulk_modulus = std::nullopt;
   /// Oil stiffness of the plants that laws are held on (member_ranges), as factors on the case's.
   double least_oil = 1.0, most_oil = 1.0;
+  /// PlantMode::oil_share of the expected mode, and plant::mode_of_oil.
+  double oil_share = 1.0;
+  plant::PlantMode oil_mode = {};
 
   /// How many standard uncertainties the two are apart.
   double deviation() const;
@@ -37,8 +41,15 @@ std::optional<double> bulk_modulus_for(const Case& antenna, double frequency);
 /// Nothing for a case without a measured frequency.
 std::optional<ResonanceVerdict> resonance_verdict(const Case& antenna);
 
-/// In one sentence: both frequencies, how far they are apart, and the bulk modulus that would make
-/// the measured one.
+/// To follow a sentence on the hydraulic mode: where less than half of its elastic energy is in the
+/// oil (PlantMode::oil_share) and the mode_of_oil has more there, so. Else empty.
+std::string oil_remark(double oil_share, const plant::PlantMode& mode_of_oil);
+
+/// The oil_remark of the expected mode, and to make sure which was measured; empty without one.
+std::string which_was_measured(const ResonanceVerdict& verdict);
+
+/// Both frequencies, how far they are apart, and the bulk modulus that would make the measured one;
+/// then which_was_measured.
 std::string resonance_sentence(const ResonanceVerdict& verdict);
 
 /// Where they contradict each other the same, and that no plant which laws are held on has that

@@ -53,7 +53,8 @@ Json mode_json(const plant::PlantMode& mode) {
           {"damping_ratio_1", number(mode.damping_ratio)},
           {"pole_real_rad_per_s", number(mode.pole.real())},
           {"pole_imaginary_rad_per_s", number(mode.pole.imag())},
-          {"participation_1", number(mode.participation)}};
+          {"participation_1", number(mode.participation)},
+          {"oil_share_1", number(mode.oil_share)}};
 }
 
 Json design_json(const design::Design& design) {

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <boresight/app/document/document.hpp>
+#include <boresight/app/redesign/resonance_verdict.hpp>
 #include <boresight/app/report/sky_units.hpp>
 #include <boresight/app/report/text_report.hpp>
 #include <boresight/plant/motors_held_modes.hpp>
@@ -103,21 +104,27 @@ Document document_of(const PlantSection& section) {
   text += table(numbers, "l", 0);
   text += "\n";
   std::vector<std::vector<std::string>> rows{
-      {"mode", "frequency Hz", "damping", "pole 1/s", "share"}};
+      {"mode", "frequency Hz", "damping", "pole 1/s", "share", "oil"}};
   for (const auto& mode : section.modes) {
     rows.push_back({mode.description, fmt::format("{:.4f}", mode.frequency),
                     mode.frequency > 0.0 ? fmt::format("{:.4f}", mode.damping_ratio) : "-",
                     mode.pole.imag() > 0.0
                         ? fmt::format("{:.4f} + {:.4f}i", mode.pole.real(), mode.pole.imag())
                         : fmt::format("{:.4f}", mode.pole.real()),
-                    fmt::format("{:.2f}", mode.participation)});
+                    fmt::format("{:.2f}", mode.participation),
+                    fmt::format("{:.2f}", mode.oil_share)});
   }
   text += table(rows);
   text += wrapped(
+      "share: of the part that moves most, in the motion; oil: of the oil spring, in the elastic "
+      "energy, so that 1 % more oil stiffness raises the frequency by half as many per cent.",
+      "  ");
+  text += wrapped(
       fmt::format("The hydraulic mode of the flexible antenna is {:.3f} Hz with damping {:.3f}; "
-                  "all masses rigid on the oil spring would give {:.3f} Hz.",
+                  "all masses rigid on the oil spring would give {:.3f} Hz.{}",
                   section.hydraulic.frequency, section.hydraulic.damping_ratio,
-                  section.rigid_frequency),
+                  section.rigid_frequency,
+                  oil_remark(section.hydraulic.oil_share, plant::mode_of_oil(section.modes))),
       "  ");
   if (section.motors_held) text += structure_part(section.plant.structure);
   if (!section.friction_tests.empty()) text += friction_part(section);

@@ -11,6 +11,7 @@ namespace {
 
 using testing::AllOf;
 using testing::HasSubstr;
+using testing::Not;
 
 std::optional<Implausibility> found_in(const Case& antenna, const std::string& check) {
   for (const Implausibility& one : implausibilities(antenna, case_graph(antenna))) {
@@ -64,6 +65,17 @@ TEST(ResonanceDamping, IsComparedWithTheHydraulicModeByAFactorOfTwo) {
   const auto large = damped("0.31");
   ASSERT_TRUE(large);
   EXPECT_THAT(large->reasoning, HasSubstr("larger than stated"));
+}
+
+TEST(ResonanceDamping, TellsLittleOfLeakageWhereTheGearSpringIsSoft) {
+  const auto edited =
+      EditedCase().replace("[resonance]\n", "[resonance]\ndamping_ratio = \"0.3\"\n");
+  Case antenna = parse_case(edited.text(), "case.toml");
+  antenna.structure.locked_rotor_frequency.value = 0.2;
+  const auto found = found_in(antenna, "resonance damping");
+  ASSERT_TRUE(found);
+  EXPECT_THAT(found->reasoning, HasSubstr("% of that mode's elastic energy is in the oil"));
+  EXPECT_THAT(damped("0.07")->reasoning, Not(HasSubstr("elastic energy")));
 }
 
 TEST(ResonanceDamping, IsARatioUpToOne) {

@@ -7,11 +7,14 @@
 #include <gtest/gtest.h>
 
 #include "edited_case.hpp"
+#include <boresight/app/document/document_text.hpp>
 #include <boresight/app/page/decision.hpp>
 #include <boresight/app/redesign/antenna_model.hpp>
 #include <boresight/app/redesign/resonance_verdict.hpp>
 #include <boresight/app/redesign/sections.hpp>
+#include <boresight/app/report/text_report.hpp>
 #include <boresight/app/tune/plant_members.hpp>
+#include <boresight/plant/hydraulics.hpp>
 
 namespace boresight::app {
 namespace {
@@ -143,6 +146,32 @@ TEST(ResonanceVerdict, SaysThatTheMethodsFigureIsOfARigidAntenna) {
     return method.kind == identification::MethodKind::resonance;
   });
   EXPECT_THAT(conclude(report), Each(Not(HasSubstr("figure is of a rigid antenna"))));
+}
+
+// A gear spring far softer than the oil.
+TEST(ResonanceVerdict, SaysWhereItsModeTellsLittleOfTheOil) {
+  Case antenna = with_oil(1.229e9);
+  EXPECT_EQ(which_was_measured(resonance_verdict(antenna).value()), "");
+  antenna.structure.locked_rotor_frequency.value = 0.2;
+  const auto verdict = resonance_verdict(antenna);
+  ASSERT_TRUE(verdict);
+  EXPECT_LT(verdict->oil_share, 0.1);
+  EXPECT_GT(verdict->oil_mode.oil_share, 0.9);
+  EXPECT_THAT(
+      resonance_sentence(*verdict),
+      EndsWith(fmt::format("Only {:.0f} % of that mode's elastic energy is in the oil, the rest in "
+                           "gearbox and structure, so that it tells little of the oil and its "
+                           "leakage; of the mode at {:.3g} Hz, damping ratio {:.3g}, {:.0f} % is. "
+                           "Make sure which of them was measured.",
+                           100.0 * verdict->oil_share, verdict->oil_mode.frequency,
+                           verdict->oil_mode.damping_ratio, 100.0 * verdict->oil_mode.oil_share)));
+  EXPECT_THAT(to_text(document_of(describe_plant(antenna))),
+              HasSubstr("of that mode's elastic energy"));
+  // Motors and gear train alone on the oil spring.
+  const auto drive = make_plant(antenna).drive;
+  EXPECT_NEAR(verdict->oil_mode.frequency,
+              plant::hydraulic_frequency(drive.oil_stiffness, drive.motor_inertia),
+              0.05 * verdict->oil_mode.frequency);
 }
 
 // Of 3 so many that both sides of the limit read "3" say nothing.

@@ -148,6 +148,64 @@ TEST(HydraulicMode, StaysOneModeAsFlywheelsAreAdded) {
   }
 }
 
+// An antenna of one body on the gear spring, the oil so many times as stiff as that.
+AntennaPlant on_gear_spring(double oil_over_gear) {
+  AntennaPlant plant = reference::antenna(24.0);
+  StructureSpecification specification = reference::structure();
+  specification.modes.clear();
+  specification.gear_damping_ratio = 0.0;
+  specification.bull_gear_wind_fraction = 1.0;
+  specification.bull_gear_beam_weight = 1.0;
+  plant.structure = make_structure(specification);
+  plant.drive.oil_stiffness = oil_over_gear * plant.structure.gear_stiffness;
+  plant.drive.viscous_friction = 0.0;
+  plant.drive.leakage_rate = 0.0;
+  return plant;
+}
+
+TEST(OilShare, IsTheOilSpringsShareOfTheElasticEnergy) {
+  for (const double stiffer : {0.1, 1.0, 10.0}) {
+    const AntennaPlant plant = on_gear_spring(stiffer);
+    const double k = plant.drive.oil_stiffness, kg = plant.structure.gear_stiffness;
+    int modes = 0;
+    for (const auto& mode : plant_modes(plant)) {
+      if (mode.pole.imag() == 0.0 || mode.oil_participation < 1e-6) continue;
+      ++modes;
+      // Motor and bull gear swing as (kg - J w^2) and kg.
+      const double motor =
+          kg - plant.structure.bull_gear_inertia * std::pow(reference::two_pi * mode.frequency, 2);
+      const double oil = k * motor * motor, gear = kg * std::pow(motor - kg, 2);
+      EXPECT_NEAR(mode.oil_share, oil / (oil + gear), 1e-8) << stiffer;
+    }
+    EXPECT_EQ(modes, 2);
+  }
+}
+
+TEST(OilShare, IsHowTheFrequencyFollowsTheOil) {
+  for (const double friction : {0.0, 3.0, 60.0}) {
+    AntennaPlant plant = reference::antenna(24.0);
+    plant.drive.viscous_friction = friction;
+    constexpr double step = 1e-5;
+    const auto own = hydraulic_mode(plant_modes(plant));
+    const auto at = [&](double factor) {
+      AntennaPlant other = plant;
+      other.drive.oil_stiffness *= factor;
+      return hydraulic_mode(plant_modes(other)).frequency;
+    };
+    const double slope = std::log(at(1.0 + step) / at(1.0 - step)) / step;
+    EXPECT_NEAR(own.oil_share, slope, 1e-6) << friction;
+  }
+}
+
+TEST(ModeOfOil, IsAnotherThanTheHydraulicOneOnASoftGearSpring) {
+  const auto soft = plant_modes(on_gear_spring(100.0));
+  EXPECT_LT(hydraulic_mode(soft).oil_share, 0.1);
+  EXPECT_GT(mode_of_oil(soft).oil_share, 0.9);
+  EXPECT_GT(mode_of_oil(soft).frequency, 2.0 * hydraulic_mode(soft).frequency);
+  const auto stiff = plant_modes(on_gear_spring(0.1));
+  EXPECT_EQ(mode_of_oil(stiff).frequency, hydraulic_mode(stiff).frequency);
+}
+
 TEST(HydraulicMode, NeedsAModeThatMovesTheOil) {
   EXPECT_THAT([] { hydraulic_mode({}); },
               ThrowsMessage<NumericalFailure>(HasSubstr("no mode of the plant")));

@@ -57,6 +57,7 @@ identification::Uncertain assembly_inertia(const Case& antenna, const RotatingAs
 
 plant::Structure make_structure(const Case& antenna, const PlantVariant& variant) {
   auto specification = structure_specifications(antenna.structure).at(variant.structure);
+  place_guessed_shares(antenna.structure, variant.guessed_shares, specification);
   specification.antenna_inertia =
       variant.inertia_scale * variant.antenna_inertia.value_or(antenna_inertia(antenna));
   specification.locked_rotor_frequency *= variant.structure_frequency_scale;

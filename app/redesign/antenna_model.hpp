@@ -6,6 +6,7 @@
 
 #include <boresight/app/io/case_file.hpp>
 #include <boresight/app/io/drive_numbers.hpp>
+#include <boresight/app/redesign/guessed_shares.hpp>
 #include <boresight/design/design_study.hpp>
 #include <boresight/design/pointing.hpp>
 #include <boresight/identification/inertia_methods.hpp>
@@ -30,6 +31,7 @@ struct PlantVariant {
   double structure_frequency_scale = 1.0;
   /// Which of the antennas that have the stated frequencies: structure_specifications.
   std::size_t structure = 0;
+  GuessedShares guessed_shares = GuessedShares::as_stated;
   /// Multiplies the shares of the wind torque that act on bull gear and modes, which is a wind
   /// torque so many times as large.
   double wind_torque_scale = 1.0;

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
+#include <tuple>
 #include <utility>
 
 #include <fmt/format.h>
@@ -43,8 +44,11 @@ class Choices {
   // The inertia a test found, with motors and gear train kept and the antenna taking the rest;
   // `model`: what its formula takes the antenna for.
   void add_test(std::string name, const std::string& model, double found, double stiffness) {
-    std::string says = model + "motors and gear train kept, the antenna takes the rest";
     const double fixed = fixed_inertia(), stated = antenna_inertia(antenna_);
+    std::string says = fmt::format(
+        "{}motors and gear train kept, the antenna takes the rest, {:.3f} kg.m2 for the case's "
+        "{:.3f}",
+        model, found - fixed, stated);
     if (found - fixed > 0.05 * stated) {
       add_contradiction(std::move(name), std::move(says),
                         {.antenna_inertia = found - fixed, .oil_stiffness = stiffness});
@@ -58,8 +62,13 @@ class Choices {
                         std::nullopt});
   }
 
-  // Of the choice added last: what frequency (Hz) it was to give.
-  void was_to_have(double frequency) { choices_.back().result.wanted_frequency = frequency; }
+  std::size_t count() const { return choices_.size(); }
+  // Of the choices from the `first` on: the frequency (Hz) that they are made for.
+  void made_for(double frequency, std::size_t first) {
+    for (std::size_t i = first; i < choices_.size(); ++i) {
+      choices_[i].result.wanted_frequency = frequency;
+    }
+  }
 
   std::vector<PlantChoice> take() { return std::move(choices_); }
 
@@ -85,7 +94,6 @@ void add_flexible_resonance(const Case& antenna, double frequency, const std::st
                   *modulus / gigapascal, leakage.empty() ? "," : leakage, frequency),
       {.oil_stiffness = factor * oil_stiffness(antenna),
        .leakage_rate = leakage_rate_at(antenna, factor)});
-  choices.was_to_have(frequency);
 }
 
 // By a resonance at that frequency (Hz); `other`: the oil spring by the other convention.
@@ -104,19 +112,15 @@ void add_resonance(const Case& antenna, double frequency, double other, Choices&
                   factor < 1.0 ? "lowered" : "raised", std::max(factor, 1.0 / factor), leakage,
                   frequency),
       {.oil_stiffness = factor * own, .leakage_rate = leakage_rate_at(antenna, factor)});
-  choices.was_to_have(frequency);
   const std::string rigid = "by the resonance of rigid masses, ";
   choices.add_test("stiffness right, inertia from resonance", rigid, found, own);
-  choices.was_to_have(frequency);
   choices.add_test(antenna.oil.efficiency_in_stiffness
                        ? "inertia from resonance, no efficiencies"
                        : "inertia from resonance, with efficiencies",
                    rigid, plant::inertia_from_resonance(other, frequency), other);
-  choices.was_to_have(frequency);
   choices.add_contradiction("stiffness right, all masses scaled",
                             fmt::format("{}every inertia times {:.3f}", rigid, found / inertia),
                             {.inertia_scale = found / inertia});
-  choices.was_to_have(frequency);
 }
 
 }  // namespace
@@ -142,8 +146,20 @@ std::vector<PlantChoice> plant_choices(const Case& antenna) {
                 "another antenna of the frequencies that the case states with the motors held",
                 variant);
   }
+  const std::string kept = "guessed shares of wind and beam, of what the stated ones leave, ";
+  for (const auto& [place, name, where] :
+       {std::tuple{GuessedShares::as_inertia, "wind and beam shares as inertia",
+                   "in proportion to the inertia fractions"},
+        {GuessedShares::all_at_heaviest, "wind and beam shares all at one",
+         "all at the heaviest of bull gear and modes, as of a dish on its support"}}) {
+    if (!moves_guessed_shares(antenna.structure, place)) continue;
+    choices.add(name, kept + where, {.guessed_shares = place});
+  }
   if (antenna.resonance_frequency) {
-    add_resonance(antenna, antenna.resonance_frequency->value, other, choices);
+    const std::size_t first = choices.count();
+    const double frequency = antenna.resonance_frequency->value;
+    add_resonance(antenna, frequency, other, choices);
+    choices.made_for(frequency, first);
   }
   for (const auto& impulse : antenna.impulse_results) {
     choices.add_test("inertia from impulse, " + impulse.name + " friction", "",

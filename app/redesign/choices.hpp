@@ -16,8 +16,9 @@ struct PlantChoice {
 
 /// The case's own antenna first, then what else its numbers may mean: other antenna inertias, the
 /// other convention for the oil spring, other antennas of the frequencies stated with the motors
-/// held, and what resonance and impulses say of oil spring or inertia: the resonance of the
-/// flexible antenna (bulk_modulus_for) first, then of rigid masses.
+/// held, other places of the guessed shares of wind and beam (GuessedShares), and what resonance
+/// and impulses say of oil spring or inertia: the resonance of the flexible antenna
+/// (bulk_modulus_for) first, then of rigid masses.
 std::vector<PlantChoice> plant_choices(const Case& antenna);
 
 }  // namespace boresight::app

@@ -82,10 +82,6 @@ std::vector<Input> linear_inputs(Case& c) {
   return inputs;
 }
 
-bool is_unstated(const Quantity& quantity) {
-  return quantity.basis == Basis::assumed && !quantity.uncertainty_given;
-}
-
 // Bull gear's and modes' shares of wind and beam, each of which sum to 1.
 std::array<std::vector<double*>, 2> shares(StructureEntry& structure) {
   std::array<std::vector<double*>, 2> groups{
@@ -125,10 +121,9 @@ std::pair<double, double> guessed_range(double share, double inertia_fraction) {
 InputEffect planned(const Case& antenna, const Quantity& stated) {
   InputEffect effect;
   effect.quantity = stated;
-  effect.unstated = is_unstated(stated);
+  effect.unstated = is_unbounded_guess(stated);
   const auto fraction = inertia_fraction_of(antenna.structure, stated);
-  // A weight below 0 or above 1 is no guess of a share: a part that turns the beam against itself.
-  if (effect.unstated && fraction && stated.value >= 0.0 && stated.value <= 1.0) {
+  if (fraction && is_guessed_share(stated)) {
     effect.range = guessed_range(stated.value, *fraction);
     effect.moved_by =
         std::max(stated.value - effect.range->first, effect.range->second - stated.value);

@@ -141,12 +141,6 @@ std::string friction_text(const MatchingSeries& series) {
   return fmt::format("friction slope {:.3g} N.m.s/rad", series.viscous_friction);
 }
 
-bool misses_resonance(const ChoiceResult& choice) {
-  if (!choice.wanted_frequency || !choice.design) return false;
-  constexpr double same = 0.05;
-  return std::abs(choice.design->hydraulic_mode.frequency / *choice.wanted_frequency - 1.0) >= same;
-}
-
 std::string what_matters_more(const Report& report) {
   Influences influences;
   if (report.tuning && !report.tuning->wind_alternatives.empty()) {
@@ -158,7 +152,7 @@ std::string what_matters_more(const Report& report) {
   for (const auto& choice : report.choices) {
     const auto& reference = report.choices.front().design;
     if (!choice.design || !reference || !choice.design->usable() || !reference->usable()) continue;
-    if (misses_resonance(choice)) continue;
+    if (choice.missed_resonance()) continue;
     influences.add(std::abs(choice.design->beam_rms / reference->beam_rms - 1.0),
                    fmt::format("'{}'", choice.name));
   }
@@ -246,8 +240,7 @@ std::string decide_matching(const Report& report, const MatchingSection& section
   const MatchingSeries& series = section.series.front();
   std::string text = fmt::format(
       "Going from {} as built to {}, re-tuned for the case's plant alone, changes the rms of "
-      "linear "
-      "loops by {:+.1f} % with {} ({})",
+      "linear loops by {:+.1f} % with {} ({})",
       section.rows[verdict.built()].label, section.rows[end].label,
       100.0 * verdict.change(series, end), control::to_string(series.structure),
       friction_text(series));

@@ -48,12 +48,8 @@ class MatchingVerdict {
 /// both.
 std::string friction_text(const MatchingSeries& series);
 
-/// Whether the flexible antenna of a choice has another hydraulic frequency, by 5 % or more, than
-/// the choice was made for: it is no way out of the contradiction.
-bool misses_resonance(const ChoiceResult& choice);
-
 /// What moves the rms by more than negligible_change beside the motors' inertia, as
-/// Influences::sentence; no choice that misses_resonance.
+/// Influences::sentence; no choice with a missed_resonance.
 std::string what_matters_more(const Report& report);
 
 /// Appends what a matching study means.

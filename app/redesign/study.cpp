@@ -197,6 +197,20 @@ MatchingSection finish_matching(MatchingPlan plan, std::vector<design::Design>::
   return std::move(plan.section);
 }
 
+// Wind speeds (m/s) up to which a law keeps the budgets on its own plant.
+std::optional<std::vector<double>> speed_limits(const Case& antenna,
+                                                const design::TrackingProblem& problem,
+                                                const design::Design& design) {
+  if (design.tuning.status == design::TuningStatus::unstable) return std::nullopt;
+  control::LoopEvaluator evaluator = design::make_evaluator(problem);
+  std::vector<double> limits;
+  for (const auto& budget : make_budgets(antenna)) {
+    limits.push_back(design::wind_speed_limit(problem, evaluator, design.tuning.law,
+                                              design.tuning.evaluation.noise_variance, budget.rms));
+  }
+  return limits;
+}
+
 std::vector<design::DesignTask> choice_tasks(const Case& antenna, const StudyOptions& options,
                                              const std::vector<PlantChoice>& choices) {
   std::vector<design::DesignTask> tasks;
@@ -229,6 +243,10 @@ void redesign(const Case& antenna, const StudyOptions& options, Report& report) 
   auto design = chosen.begin();
   for (auto& choice : choices) {
     if (choice.variant) choice.result.design = std::move(*design++);
+    if (choice.variant && choice.variant->guessed_shares != GuessedShares::as_stated) {
+      choice.result.speed_limits =
+          speed_limits(antenna, make_problem(antenna, *choice.variant), *choice.result.design);
+    }
     report.choices.push_back(std::move(choice.result));
   }
   report.matching = finish_matching(std::move(matching), first_match, options.threads);

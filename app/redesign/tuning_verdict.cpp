@@ -93,8 +93,8 @@ std::string unseen_text(const TuningSection& section) {
   if (!(section.encoder_held_rms >= 0.9 * section.design.beam_rms)) return "";
   return "Nearly all of the error is bending of the structure that the encoder does not see: a "
          "loop that holds the encoder still, other motors or flywheels hardly lower it. What does "
-         "is a "
-         "stiffer structure, less wind on it, or a loop that moves the encoder against the bending "
+         "is a stiffer structure, less wind on it, or a loop that moves the encoder against the "
+         "bending "
          "(structures with +C, LQG), if friction lets it.";
 }
 
@@ -110,8 +110,7 @@ std::string bound_text(const TuningSection& section) {
                         sample_time_of(section.problem.delay)};
   for (const auto& sentence : corners_beyond_sampling(law)) text += " " + sentence;
   if (section.trade) {
-    text += fmt::format(" {} `boresight tune` takes one.",
-                        trade_in_words(*section.trade, law.name, section.design.beam_rms, 0));
+    text += " " + trade_in_words(*section.trade, law.name, section.design.beam_rms, 0);
   }
   return text;
 }
@@ -127,6 +126,52 @@ std::vector<std::string_view> models(const TuningSection& section, std::size_t b
     }
   }
   return names;
+}
+
+// Where other guesses of the shares of wind and beam than the case's would give another answer.
+std::string guessed_shares_text(const Report& report, const TuningSection& section) {
+  struct Guess {
+    std::string name;
+    double beam_rms;
+    std::vector<double> reached;  // m/s
+  };
+  std::vector<Guess> guesses{{"the case's own", section.design.beam_rms, {}}};
+  for (const auto& budget : section.budgets) {
+    guesses.front().reached.push_back(reached_wind_speed(section, budget));
+  }
+  for (const auto& choice : report.choices) {
+    if (!choice.speed_limits || !choice.design || !choice.design->usable()) continue;
+    Guess guess{"'" + choice.name + "'", choice.design->beam_rms, *choice.speed_limits};
+    for (double& speed : guess.reached) speed = std::min(speed, section.supply_wind_speed);
+    guesses.push_back(std::move(guess));
+  }
+  std::string verdicts;
+  for (std::size_t i = 0; i < section.budgets.size(); ++i) {
+    const PointingBudget& budget = section.budgets[i].budget;
+    std::vector<std::string> meeting, missing;
+    for (const Guess& guess : guesses) {
+      (meets_need(budget, guess.reached.at(i)) ? meeting : missing).push_back(guess.name);
+    }
+    if (meeting.empty() || missing.empty()) continue;
+    verdicts +=
+        fmt::format("; {} is met up to where it is needed with {}, and not with {}",
+                    budget_text(budget), fmt::join(meeting, ", "), fmt::join(missing, ", "));
+  }
+  constexpr double worth_a_sentence = 0.2;
+  bool apart = false;
+  std::vector<std::string> others;
+  for (const Guess& guess : guesses) {
+    if (&guess == &guesses.front()) continue;
+    apart = apart || std::abs(guess.beam_rms / guesses.front().beam_rms - 1.0) > worth_a_sentence;
+    others.push_back(fmt::format("{:.3f} with {}", guess.beam_rms / millidegree, guess.name));
+  }
+  if (verdicts.empty() && !apart) return "";
+  return fmt::format(
+      "The case's shares of wind and beam are guesses, and much hangs on all of them together: "
+      "tuned again, {} has {:.3f} mdeg with the case's own and {}{}. Modes from a structural model "
+      "(modes_file) have the shares.",
+      control::to_string(section.structure), guesses.front().beam_rms / millidegree,
+      fmt::join(others, ", "), verdicts);
 }
 
 // Where another wind model than the case's would give another answer.
@@ -282,6 +327,7 @@ void conclude_tuning(const Report& report, const TuningSection& section,
       plant::to_string(section.wind_model), least->beam_rms / millidegree,
       plant::to_string(least->model), most->beam_rms / millidegree, plant::to_string(most->model),
       section.encoder_held_rms / millidegree));
+  add(guessed_shares_text(report, section));
   add(unseen_text(section));
   add(bending_text(section));
   add(not_examined(report));
@@ -328,7 +374,7 @@ std::vector<std::string> decide_tuning(const Report& report, const TuningSection
     if (report.time_domain &&
         reached_wind_speed(section, budget) >= report.time_domain->wind_speed &&
         !(report.time_domain->result.wind.beam_rms <= budget.budget.rms)) {
-      text += fmt::format(" by the linear figure, but simulated not in {:.3g} m/s",
+      text += fmt::format(" by the linear figure, but not as simulated in {:.3g} m/s",
                           report.time_domain->wind_speed);
     }
   }
@@ -342,6 +388,7 @@ std::vector<std::string> tuning_reservations(const Report& report, const TuningS
   if (!keeps_goals_on_all(section)) sentences.push_back(robustness_text(section));
   sentences.push_back(needs_on_plants(section, true));
   if (report.time_domain) sentences.push_back(not_still(*report.time_domain));
+  sentences.push_back(guessed_shares_text(report, section));
   sentences.push_back(wind_model_text(section));
   sentences.push_back(bending_text(section));
   sentences.push_back(unseen_text(section));
@@ -352,10 +399,9 @@ std::vector<std::string> tuning_reservations(const Report& report, const TuningS
   sentences.push_back(not_examined(report));
   if (report.matching) {
     sentences.emplace_back(
-        "Motor inertias were compared with linear loops tuned for the case's plant alone: "
-        "`boresight "
-        "evaluate` compares them with laws that keep their goals on every plant, on the nonlinear "
-        "antenna, and may find otherwise.");
+        "The motors' inertias are compared under linear loops tuned for the case's plant alone: "
+        "`boresight evaluate` compares them under laws that keep their goals on every plant, on "
+        "the nonlinear antenna, and may find otherwise.");
   }
   sentences.push_back(measure_first(section.input_effects, section.design.beam_rms));
   std::erase(sentences, std::string());

@@ -217,12 +217,18 @@ Json tuning_json(const TuningSection& section) {
 Json choices_json(const std::vector<ChoiceResult>& choices) {
   Json json = Json::array();
   for (const auto& choice : choices) {
+    Json limits = nullptr;
+    if (choice.speed_limits) {
+      limits = Json::array();
+      for (const double speed : *choice.speed_limits) limits.push_back(number(speed));
+    }
     json.push_back({{"name", choice.name},
                     {"says", choice.says},
                     {"oil_stiffness_N_m_per_rad", number(choice.oil_stiffness)},
                     {"reflected_inertia_kg_m2", number(choice.reflected_inertia)},
                     {"motor_to_load_ratio_1", number(choice.motor_to_load_ratio)},
                     {"impossible_because", text_or_null(choice.impossible)},
+                    {"speed_limits_m_per_s", std::move(limits)},
                     {"design", choice.design ? design_json(*choice.design) : Json(nullptr)}});
   }
   return json;

@@ -1,3 +1,4 @@
+#include <cmath>
 #include <utility>
 
 #include <boresight/app/report/report.hpp>
@@ -13,6 +14,14 @@ Report begin_report(std::string command, const Case& antenna, std::string case_p
   report.case_path = std::move(case_path);
   report.seed = seed;
   return report;
+}
+
+std::optional<double> ChoiceResult::missed_resonance() const {
+  if (!wanted_frequency || !design) return std::nullopt;
+  constexpr double same = 0.05;
+  const double frequency = design->hydraulic_mode.frequency;
+  return std::abs(frequency / *wanted_frequency - 1.0) < same ? std::nullopt
+                                                              : std::optional(frequency);
 }
 
 void lead_with_resonance(Report& report) {

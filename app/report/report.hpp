@@ -136,8 +136,15 @@ struct ChoiceResult {
   /// Another source's number or a test's result beside the reference, not a convention of
   /// reckoning.
   bool contradicts = false;
-  /// Hydraulic frequency (Hz) that it was to give; the flexible antenna may miss it.
+  /// For other places of the shares that the case guesses: wind speed (m/s) up to which each budget
+  /// is met with the gains held. None of any other choice or without a stable law.
+  std::optional<std::vector<double>> speed_limits = std::nullopt;
+  /// The measured hydraulic frequency (Hz) that it was to give.
   std::optional<double> wanted_frequency = std::nullopt;
+
+  /// The hydraulic frequency (Hz) of its flexible antenna where that is 5 % or more off the wanted
+  /// one: the choice is then no way out of the contradiction.
+  std::optional<double> missed_resonance() const;
 };
 
 /// The heading above tuned loops, which figures name too.

@@ -72,7 +72,7 @@ std::string crossovers_text(const control::Margins& margins) {
 
 Document breaks_part(const TuningSection& section) {
   std::vector<std::vector<std::string>> rows{{"loop cut at", "peak of S", "goal", "at Hz",
-                                              "gain 1 at Hz", "phase margin deg", "gain margin dB",
+                                              "crossover Hz", "phase margin deg", "gain margin dB",
                                               "down dB", "delay margin s"}};
   for (std::size_t b = 0; b < control::loop_breaks.size(); ++b) {
     const auto& peak = section.design.verification.peaks[b];
@@ -322,15 +322,35 @@ std::string choices_heading(const std::vector<ChoiceResult>& choices) {
 
 namespace {
 
+// What the figures of a design are of that is held nowhere else.
+Document linear_part() {
+  return wrapped(
+      "rms mdeg: of linear loops, each tuned for its own plant, held on no other and not "
+      "run on the nonlinear antenna.",
+      "  ");
+}
+
+bool overdamped(const Design& design) {
+  return design.hydraulic_mode.damping_ratio > 1.0;
+}
+
+// What a hydraulic mode with a damping ratio above 1 is.
+Document overdamped_part() {
+  return wrapped(
+      "hydraulic mode with a damping above 1: two real poles p1, p2, frequency "
+      "sqrt(p1 p2)/(2 pi). It may be another than that of a row with less friction.",
+      "  ");
+}
+
 // Choices made for rigid masses, with which the flexible antenna does not resonate as measured.
 Document missed_part(const std::vector<ChoiceResult>& choices) {
   std::vector<std::string> missed;
   double wanted = 0.0;
   for (const auto& choice : choices) {
-    if (!choice.design || !choice.wanted_frequency || !misses_resonance(choice)) continue;
-    wanted = *choice.wanted_frequency;
-    missed.push_back(
-        fmt::format("'{}' ({:.3f} Hz)", choice.name, choice.design->hydraulic_mode.frequency));
+    const auto frequency = choice.missed_resonance();
+    if (!frequency) continue;
+    wanted = choice.wanted_frequency.value_or(wanted);
+    missed.push_back(fmt::format("'{}' ({:.3f} Hz)", choice.name, *frequency));
   }
   if (missed.empty()) return {};
   return wrapped(fmt::format("No way out of the contradiction, as the flexible antenna then does "
@@ -373,6 +393,12 @@ Document document_of(const std::vector<ChoiceResult>& choices) {
       "The structure's frequencies are kept throughout, as the case states them: a lighter antenna "
       "is a softer one.",
       "  ");
+  text += linear_part();
+  if (std::ranges::any_of(choices, [](const ChoiceResult& choice) {
+        return choice.design && overdamped(*choice.design);
+      })) {
+    text += overdamped_part();
+  }
   return text + missed_part(choices);
 }
 
@@ -418,6 +444,12 @@ Document document_of(const MatchingSection& section) {
       "S: peak of the sensitivity with the loop cut at rate loop alone, valve command, position "
       "loop; PM, GM: phase margin in degrees, gain margin in dB.",
       "  ");
+  text += linear_part();
+  if (std::ranges::any_of(section.series, [](const MatchingSeries& series) {
+        return std::ranges::any_of(series.designs, overdamped);
+      })) {
+    text += overdamped_part();
+  }
   return text;
 }
 

@@ -1,0 +1,80 @@
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include <boresight/app/io/structure_numbers.hpp>
+#include <boresight/app/redesign/guessed_shares.hpp>
+
+namespace boresight::app {
+namespace {
+
+// Bull gear or mode, of one set of shares.
+struct Body {
+  double inertia_fraction = 0.0;
+  double* share = nullptr;
+  bool guessed = false;
+};
+
+void place(std::vector<Body> bodies, GuessedShares where) {
+  std::erase_if(bodies, [](const Body& body) { return !body.guessed; });
+  if (bodies.empty()) return;
+  double sum = 0.0, inertia = 0.0;
+  for (const Body& body : bodies) {
+    sum += *body.share;
+    inertia += body.inertia_fraction;
+  }
+  const auto heaviest = std::ranges::max_element(bodies, {}, &Body::inertia_fraction);
+  for (const Body& body : bodies) {
+    const double alone = body.share == heaviest->share ? 1.0 : 0.0;
+    *body.share =
+        sum * (where == GuessedShares::as_inertia ? body.inertia_fraction / inertia : alone);
+  }
+}
+
+}  // namespace
+
+bool is_unbounded_guess(const Quantity& quantity) {
+  return quantity.basis == Basis::assumed && !quantity.uncertainty_given;
+}
+
+bool is_guessed_share(const Quantity& share) {
+  return is_unbounded_guess(share) && share.value >= 0.0 && share.value <= 1.0;
+}
+
+void place_guessed_shares(const StructureEntry& structure, GuessedShares where,
+                          plant::StructureSpecification& specification) {
+  if (where == GuessedShares::as_stated) return;
+  double bull_gear = 1.0;
+  for (const auto& mode : specification.modes) bull_gear -= mode.inertia_fraction;
+  std::vector<Body> wind{{bull_gear, &specification.bull_gear_wind_fraction,
+                          is_guessed_share(structure.bull_gear_wind_fraction)}};
+  std::vector<Body> beam{{bull_gear, &specification.bull_gear_beam_weight,
+                          is_guessed_share(structure.bull_gear_beam_weight)}};
+  for (std::size_t i = 0; i < specification.modes.size(); ++i) {
+    auto& mode = specification.modes[i];
+    const auto& stated = structure.modes.at(i);
+    wind.push_back(
+        {mode.inertia_fraction, &mode.wind_fraction, is_guessed_share(stated.wind_fraction)});
+    beam.push_back(
+        {mode.inertia_fraction, &mode.beam_weight, is_guessed_share(stated.beam_weight)});
+  }
+  place(std::move(wind), where);
+  place(std::move(beam), where);
+}
+
+bool moves_guessed_shares(const StructureEntry& structure, GuessedShares where) {
+  constexpr double same = 0.02;
+  const plant::StructureSpecification stated = structure_specification(structure);
+  plant::StructureSpecification placed = stated;
+  place_guessed_shares(structure, where, placed);
+  const auto apart = [](double x, double y) { return std::abs(x - y) > same; };
+  bool moved = apart(placed.bull_gear_wind_fraction, stated.bull_gear_wind_fraction) ||
+               apart(placed.bull_gear_beam_weight, stated.bull_gear_beam_weight);
+  for (std::size_t i = 0; i < stated.modes.size(); ++i) {
+    moved = moved || apart(placed.modes[i].wind_fraction, stated.modes[i].wind_fraction) ||
+            apart(placed.modes[i].beam_weight, stated.modes[i].beam_weight);
+  }
+  return moved;
+}
+
+}  // namespace boresight::app

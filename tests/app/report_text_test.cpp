@@ -1,0 +1,84 @@
+// Tables of the report's text, and what stands below them.
+#include <array>
+#include <string>
+#include <vector>
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <boresight/app/document/document_text.hpp>
+#include <boresight/app/report/text_report.hpp>
+
+namespace boresight::app {
+namespace {
+
+using testing::HasSubstr;
+using testing::Not;
+
+std::vector<ChoiceResult> tuned_choices(std::size_t count) {
+  std::vector<ChoiceResult> choices(count);
+  for (auto& choice : choices) choice.design.emplace().beam_rms = 1e-5;
+  return choices;
+}
+
+TEST(Choices, SayWhichMissTheFrequencyThatTheyAreMadeFor) {
+  auto choices = tuned_choices(3);
+  const std::array<double, 3> frequencies{1.73, 1.034, 0.348};
+  for (std::size_t i = 0; i < choices.size(); ++i) {
+    choices[i].name = fmt::format("choice {}", i);
+    choices[i].design->hydraulic_mode.frequency = frequencies.at(i);
+    if (i > 0) choices[i].wanted_frequency = 1.05;
+  }
+  EXPECT_THAT(to_text(document_of(choices)),
+              HasSubstr("resonate at the measured 1.05 Hz\n  either: 'choice 2' (0.348 Hz)."));
+  choices.pop_back();
+  EXPECT_THAT(to_text(document_of(choices)), Not(HasSubstr("No way out")));
+}
+
+TEST(Choices, SayWhatAHydraulicModeOfTwoRealPolesIs) {
+  auto choices = tuned_choices(1);
+  EXPECT_THAT(to_text(document_of(choices)), Not(HasSubstr("two real poles")));
+  choices[0].design->hydraulic_mode.damping_ratio = 1.05;
+  EXPECT_THAT(to_text(document_of(choices)), HasSubstr("two real poles"));
+}
+
+TEST(Choices, AreContradictionsOnlyWhereSourcesOrTestsDiffer) {
+  std::vector<ChoiceResult> choices(2);
+  EXPECT_THAT(choices_heading(choices), HasSubstr("leaves open"));
+  choices.emplace_back().contradicts = true;
+  EXPECT_THAT(choices_heading(choices), HasSubstr("contradict each other"));
+}
+
+TEST(IdentificationText, ReconcilesNoMethodsThatContradictOneAnother) {
+  IdentificationSection section;
+  section.inertia.methods.resize(2);
+  section.printed.resize(2);
+  section.reconciled = identification::reconcile({{0.8, 0.02}, {7.9, 3.0}}, 0.4);
+  EXPECT_THAT(to_text(document_of(section)), HasSubstr("Reconciled: J = "));
+  section.reconciled = identification::reconcile({{0.8, 0.02}, {7.9, 0.8}}, 0.4);
+  const std::string text = to_text(document_of(section));
+  EXPECT_THAT(text, HasSubstr("No reconciled inertia: the methods contradict one another "
+                              "(Cochran's Q 78."));
+  EXPECT_THAT(text, HasSubstr("of 2 methods would be 4.305 kg.m2\n  (0.76 .. 9.47;"));
+  EXPECT_THAT(text, Not(HasSubstr("Reconciled: J")));
+  EXPECT_THAT(text, Not(HasSubstr("impulse")));
+  for (auto& method : section.inertia.methods) method.kind = identification::MethodKind::impulse;
+  EXPECT_THAT(to_text(document_of(section)), HasSubstr("(the impulse results\n  count as one)"));
+}
+
+TEST(IdentificationText, LeavesOutColumnsThatNoRowFills) {
+  IdentificationSection section;
+  section.inertia.methods.resize(1);
+  section.inertia.methods.front().name = "hydraulic resonance";
+  section.printed.resize(1);
+  EXPECT_THAT(to_text(document_of(section)),
+              AllOf(Not(HasSubstr("printed")), Not(HasSubstr("lbf")), Not(HasSubstr("(eq."))));
+  section.printed.front() = {"1.45 kg.m2", ""};
+  section.pounds_force = true;
+  EXPECT_THAT(to_text(document_of(section)),
+              AllOf(HasSubstr("printed J"), HasSubstr("lbf.ft.s2"), Not(HasSubstr("printed R"))));
+}
+
+}  // namespace
+}  // namespace boresight::app

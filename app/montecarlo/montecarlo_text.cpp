@@ -6,6 +6,7 @@
 
 #include <boresight/app/document/document_text.hpp>
 #include <boresight/app/montecarlo/montecarlo_study.hpp>
+#include <boresight/app/report/loss_wording.hpp>
 #include <boresight/app/report/sky_units.hpp>
 #include <boresight/app/report/text_report.hpp>
 
@@ -31,30 +32,59 @@ std::string per_cent(const EstimatedNumber& estimate) {
                      100.0 * estimate.upper);
 }
 
+// Of the quantiles, those that have a column.
+bool is_shown(double share) {
+  return share >= 0.05 && share != 0.25 && share != 0.75;
+}
+
 void add_distribution(Rows& rows, const std::string& name, const DistributionSummary& summary,
                       double unit, int decimals) {
   std::vector<std::string> row{name, with_interval(summary.mean, unit, decimals),
                                fixed(summary.standard_deviation.value / unit, decimals)};
   for (const auto& [share, value] : summary.quantiles) {
-    if (share < 0.05 || share == 0.25 || share == 0.75) continue;
-    row.push_back(with_interval(value, unit, decimals));
+    if (is_shown(share)) row.push_back(with_interval(value, unit, decimals));
   }
   row.push_back(fixed(summary.largest / unit, decimals));
   rows.push_back(std::move(row));
+}
+
+// "0.7424 [0.7401, 0.7449]", or "> 3".
+std::string loss_with_interval(const EstimatedNumber& estimate) {
+  const std::string value = loss_text(estimate.value);
+  if (estimate.value > largest_parabola_loss) return value;
+  return fmt::format("{} [{}, {}]", value, loss_text(estimate.lower), loss_text(estimate.upper));
+}
+
+// In dB. A spread that losses beyond the beam's parabola make up is none.
+void add_losses(Rows& rows, const std::string& name, const DistributionSummary& summary) {
+  const bool holds = summary.largest <= largest_parabola_loss;
+  std::vector<std::string> row{name, loss_with_interval(summary.mean),
+                               holds ? fixed(summary.standard_deviation.value, 4) : "-"};
+  for (const auto& [share, value] : summary.quantiles) {
+    if (is_shown(share)) row.push_back(loss_with_interval(value));
+  }
+  row.push_back(loss_text(summary.largest));
+  rows.push_back(std::move(row));
+}
+
+bool has_losses_beyond(const MonteCarloSection& section) {
+  return std::ranges::any_of(section.losses, [](const auto& band) {
+    return std::max(band.loss.largest, band.climate_loss ? band.climate_loss->largest : 0.0) >
+           largest_parabola_loss;
+  });
 }
 
 Document distributions_part(const MonteCarloSection& section) {
   Rows rows{{"", "mean", "sd", "5 %", "50 %", "95 %", "99 %", "largest"}};
   add_distribution(rows, "beam rms, mdeg", section.beam_rms, millidegree, 4);
   for (const auto& [band, loss, climate_loss] : section.losses) {
-    add_distribution(rows, fmt::format("loss {}, dB", band.name), loss, 1.0, 4);
+    add_losses(rows, fmt::format("loss {}, dB", band.name), loss);
   }
   if (section.climate_rms) {
     add_distribution(rows, "climate rms, mdeg", *section.climate_rms, millidegree, 4);
     for (const auto& [band, loss, climate_loss] : section.losses) {
       if (climate_loss) {
-        add_distribution(rows, fmt::format("climate loss {}, dB", band.name), *climate_loss, 1.0,
-                         4);
+        add_losses(rows, fmt::format("climate loss {}, dB", band.name), *climate_loss);
       }
     }
   }
@@ -72,6 +102,7 @@ Document distributions_part(const MonteCarloSection& section) {
                   section.stable, plant::to_string(section.wind_model), section.wind_speed,
                   section.climate ? "; climate: the mean square over the site's wind climate" : ""),
       "  ");
+  if (has_losses_beyond(section)) text += wrapped(beyond_the_parabola(), "  ");
   if (section.retuned) {
     text += wrapped(
         fmt::format(

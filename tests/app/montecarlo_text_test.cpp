@@ -1,0 +1,37 @@
+// What the text of a Monte Carlo study shows.
+#include <vector>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <boresight/app/montecarlo/montecarlo_study.hpp>
+
+namespace boresight::app {
+namespace {
+
+using testing::AllOf;
+using testing::ContainsRegex;
+using testing::HasSubstr;
+using testing::Not;
+
+MonteCarloSection section_of(std::vector<double> losses) {
+  MonteCarloSection section;
+  section.beam_rms = design::summarise({1e-5, 2e-5}, {0.05, 0.5, 0.95, 0.99});
+  section.losses.emplace_back().band.name = "Ka";
+  section.losses.back().loss = design::summarise(std::move(losses), {0.05, 0.5, 0.95, 0.99});
+  section.law.structure = control::LoopStructure::pi_with_lag();
+  return section;
+}
+
+TEST(MonteCarloText, GivesNoFigureOfALossBeyondTheBeamsParabola) {
+  const std::string within = to_text(section_of({0.5, 0.7, 0.9}));
+  EXPECT_THAT(within, AllOf(ContainsRegex("loss Ka, dB +0\\.7000 \\[.*\\] +0\\.2000 +0\\.[0-9]+ "),
+                            Not(HasSubstr("parabola"))));
+  const std::string beyond = to_text(section_of({0.5, 0.7, 9.0, 11.0}));
+  EXPECT_THAT(beyond, AllOf(ContainsRegex("loss Ka, dB +> 3 +- +0\\.5300 \\[-, 0\\.7000\\] +> 3 "),
+                            ContainsRegex("loss Ka, .* > 3 *\n"), Not(HasSubstr("11.0")),
+                            HasSubstr("beyond 3 dB the beam's parabola does not hold")));
+}
+
+}  // namespace
+}  // namespace boresight::app

@@ -376,10 +376,17 @@ double hunting_amplitude(const std::vector<HuntingResult>& hunting) {
   return largest;
 }
 
+bool hunting_seen(const std::vector<HuntingResult>& hunting) {
+  return std::ranges::all_of(
+      hunting, [](const HuntingResult& run) { return run.status == RunStatus::complete; });
+}
+
+double hunting_limit(double error) {
+  return std::numbers::sqrt2 * error;
+}
+
 bool holds_still(const std::vector<HuntingResult>& hunting, double error) {
-  return hunting_amplitude(hunting) <= std::numbers::sqrt2 * error &&
-         std::ranges::all_of(
-             hunting, [](const HuntingResult& run) { return run.status == RunStatus::complete; });
+  return hunting_seen(hunting) && hunting_amplitude(hunting) <= hunting_limit(error);
 }
 
 NonlinearVerification verify_in_time(const TrackingProblem& problem, const SimulatedLoop& loop,

@@ -114,9 +114,13 @@ struct NonlinearVerification {
 
 /// Largest beam amplitude of its limit cycles (rad); 0 without any.
 double hunting_amplitude(const std::vector<HuntingResult>& hunting);
+/// Whether every hunting run completed.
+bool hunting_seen(const std::vector<HuntingResult>& hunting);
+/// The amplitude (rad) of a sinusoid of that rms `error` (rad): a limit cycle up to it keeps within
+/// the error.
+double hunting_limit(double error);
 /// Whether the loop keeps its beam within an rms `error` (rad) where nothing but friction and its
-/// own torque moves it: no hunting run failed, and no limit cycle has an amplitude above sqrt(2) of
-/// that.
+/// own torque moves it: hunting_seen, and no amplitude above the hunting_limit.
 bool holds_still(const std::vector<HuntingResult>& hunting, double error);
 
 /// The loop of a tuned law on the nonlinear antenna: in wind, hunting, reversing, slewing. Runs

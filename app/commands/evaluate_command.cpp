@@ -91,7 +91,7 @@ Report evaluate_case(const EvaluateArguments& arguments, const std::function<boo
     DesignedAntenna designed =
         designed_antenna(antenna, arguments.seed, arguments.threads, interrupted);
     antenna = std::move(designed.antenna);
-    if (!designed.from_records) report.resonance = resonance_verdict(antenna);
+    report.resonance = designed.resonance;
     uncertainty = PlantUncertainty{std::move(designed.distribution), designed.from_records};
   } catch (const Interrupted&) {
     report.interrupted = true;

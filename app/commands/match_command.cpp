@@ -45,7 +45,7 @@ int run(const Arguments& arguments) {
     DesignedAntenna designed =
         designed_antenna(antenna, arguments.ensemble_seed, options.threads, interrupt_requested);
     antenna = std::move(designed.antenna);
-    if (!designed.from_records) report.resonance = resonance_verdict(antenna);
+    report.resonance = designed.resonance;
     if (!arguments.nominal) members = std::move(designed.ensemble.members);
   } catch (const Interrupted&) {
     fmt::print(stderr, "boresight: interrupted before the records were identified\n");

@@ -87,7 +87,7 @@ Report tune_case(const TuneArguments& arguments, const std::function<bool()>& in
         designed_antenna(antenna, arguments.seed, arguments.threads, interrupted);
     antenna = std::move(designed.antenna);
     ensemble = std::move(designed.ensemble);
-    if (!designed.from_records) report.resonance = resonance_verdict(antenna);
+    report.resonance = designed.resonance;
   } catch (const Interrupted&) {
     report.interrupted = true;
     report.assumed = assumed_inputs(antenna);

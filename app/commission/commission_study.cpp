@@ -280,10 +280,8 @@ std::optional<double> hunting_beyond_budget(const Case& antenna,
   options.wind_duration = 1.0;
   const auto run = run_in_time_domain(antenna, problem, law, options);
   if (!run || design::holds_still(run->hunting, options.settled_error)) return std::nullopt;
-  const bool whole = std::ranges::all_of(run->hunting, [](const design::HuntingResult& one) {
-    return one.status == design::RunStatus::complete;
-  });
-  return whole ? design::hunting_amplitude(run->hunting) : std::numeric_limits<double>::infinity();
+  return design::hunting_seen(run->hunting) ? design::hunting_amplitude(run->hunting)
+                                            : std::numeric_limits<double>::infinity();
 }
 
 void conclude_plan(const CommissionReport& report, const Case& antenna,

@@ -143,7 +143,7 @@ std::string what_to_test(const EvaluateSection& section, const DecisionSection& 
       "would{}.",
       decision.inputs[input], best->held_out_gain, best->fitted.gain, tests.perfect.gain,
       tests.perfect.gain < negligible_change * mean
-          ? fmt::format(", which is {:.2f} % of it: no test is worth its time for this choice",
+          ? fmt::format(", {:.2f} % of the rms: no test is worth its time for this choice",
                         100.0 * tests.perfect.gain / mean)
           : "");
 }

@@ -12,7 +12,6 @@
 #include <boresight/app/montecarlo/held_law.hpp>
 #include <boresight/app/montecarlo/montecarlo_study.hpp>
 #include <boresight/app/redesign/assumed_inputs.hpp>
-#include <boresight/app/redesign/resonance_verdict.hpp>
 #include <boresight/app/redesign/sections.hpp>
 #include <boresight/app/report/json_report.hpp>
 #include <boresight/app/tune/engineer_units.hpp>
@@ -321,9 +320,9 @@ MonteCarloOutcome run_montecarlo(const MonteCarloArguments& arguments, Ranks& ra
   section = new_section(arguments, population->antenna, study, held);
   summarise(*outcome.run, *outcome.distribution, section);
   section.conclusions = conclude(section);
-  if (!population->from_records) {
-    std::string warning = resonance_warning(resonance_verdict(population->antenna));
-    if (!warning.empty()) section.conclusions.insert(section.conclusions.begin(), warning);
+  std::string warning = resonance_warning(population->resonance);
+  if (!warning.empty()) {
+    section.conclusions.insert(section.conclusions.begin(), std::move(warning));
   }
   section.figures = montecarlo_figures(outcome);
   return outcome;

@@ -56,14 +56,16 @@ Json figures_json(const EvaluateSection& section, const Candidate& candidate,
   Json budgets = Json::array();
   const CandidateLaw* law = candidate.chosen_law();
   for (std::size_t i = 0; i < section.budgets.size(); ++i) {
-    const bool judged = law != nullptr && i < law->budgets_met.size();
-    const auto met = judged ? law->budgets_met[i] : std::nullopt;
+    Json met = nullptr;
+    if (law != nullptr && i < law->budgets_met.size() && law->budgets_met[i]) {
+      met = *law->budgets_met[i];
+    }
     budgets.push_back(
         {{"name", section.budgets[i].name},
          {"band", section.budgets[i].band},
          {"wind_speed_limit_m_per_s", number(figures.speed_limits[i])},
          {"needed_wind_speed_m_per_s", optional_number(section.budgets[i].wind_speed)},
-         {"plants_met", met ? Json(*met) : Json(nullptr)}});
+         {"plants_met", std::move(met)}});
   }
   return {{"climate_beam_rms_mdeg", optional_number(figures.climate_rms, millidegree)},
           {"bands", std::move(bands)},

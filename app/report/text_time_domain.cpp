@@ -150,7 +150,7 @@ Document slew_part(const TimeDomainSection& section) {
 std::string choice_text(const TimeDomainSection& section) {
   using Candidate = TimeDomainSection::Candidate;
   const double error = section.options.settled_error;
-  const double amplitude = std::numbers::sqrt2 * error;
+  const double amplitude = design::hunting_limit(error);
   const auto simulated = [](const Candidate& one) {
     return std::isfinite(one.result.wind.beam_rms);
   };

@@ -63,7 +63,7 @@ std::string conclude_wind(const TimeDomainSection& section) {
 
 // Whether by that it is left out of a choice; a law may also be because a run did not end.
 bool hunts_beyond(const std::vector<design::HuntingResult>& hunting, double error) {
-  return design::hunting_amplitude(hunting) > std::numbers::sqrt2 * error;
+  return design::hunting_amplitude(hunting) > design::hunting_limit(error);
 }
 
 // What a law does that does not hold still within an rms error.
@@ -206,8 +206,7 @@ std::string decide(const TimeDomainSection& section) {
     if (section.candidates.empty()) {
       return fmt::format(
           "On the nonlinear antenna {} has {:.3f} mdeg in wind, but {}. Do not commission it "
-          "before the "
-          "friction has been looked at.",
+          "before the friction has been looked at.",
           section.law, rms, held_against);
     }
     return fmt::format(

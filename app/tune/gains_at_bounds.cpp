@@ -30,13 +30,9 @@ struct ReachedBound {
   std::vector<Replacement> replacements = {};
 };
 
-bool at_upper(const control::GainDescription& gain, double value) {
-  return value > std::sqrt(gain.lower * gain.upper);
-}
-
 // "the upper bound of the compliance, cs = 0.1 rad/(N.m)": the one that the gain is nearer to.
 std::string bound_text(const control::GainDescription& gain, double value) {
-  const bool upper = at_upper(gain, value);
+  const bool upper = ends_at_upper(gain, value);
   return fmt::format("the {} bound of the {}, {} = {:g}{}", upper ? "upper" : "lower", gain.name,
                      gain.symbol, upper ? gain.upper : gain.lower,
                      gain.unit == "1" ? "" : " " + gain.unit);
@@ -118,7 +114,7 @@ void add_law(const SearchedLaw& law, std::size_t gain, std::vector<ReachedBound>
   if (found == reached.end()) found = reached.insert(found, {text, law.sample_time});
   found->laws.push_back(law.name);
   const auto block = block_above(structure, gain);
-  const bool beyond = law.sample_time > 0.0 && at_upper(description, value) &&
+  const bool beyond = law.sample_time > 0.0 && ends_at_upper(description, value) &&
                       value > highest_frequency(law.sample_time);
   if (!block || !beyond) return;
   found->idle = structure.blocks()[*block].kind;
@@ -156,6 +152,10 @@ std::string beyond_sampling(const ReachedBound& bound) {
 }
 
 }  // namespace
+
+bool ends_at_upper(const control::GainDescription& gain, double value) {
+  return value > std::sqrt(gain.lower * gain.upper);
+}
 
 std::vector<std::string> gains_at_bounds(const std::vector<SearchedLaw>& laws) {
   std::vector<std::string> sentences;

@@ -22,6 +22,10 @@ std::vector<std::string> gains_at_bounds(const std::vector<SearchedLaw>& laws);
 std::vector<std::string> gains_at_bounds(const std::vector<const TunedLaw*>& laws,
                                          double sample_time);
 
+/// Whether a gain that ends at a bound of its search does so at the upper one: the nearer of the
+/// two in the logarithm.
+bool ends_at_upper(const control::GainDescription& gain, double value);
+
 /// One sentence for each corner of a lag, lead or notch that ends at the upper bound of its search
 /// above pi over the sample time, which does nothing that a sampled controller can do: that it is
 /// to be left out, and by which structure. None where the sample time is not known.

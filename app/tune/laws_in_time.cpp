@@ -15,9 +15,7 @@ LawInTime judged(const design::NonlinearVerification& result, double error) {
   return {.still = design::holds_still(result.hunting, error),
           .hunting = design::hunting_amplitude(result.hunting),
           .beam_rms = result.wind.beam_rms,
-          .ended = std::ranges::all_of(result.hunting, [](const design::HuntingResult& run) {
-            return run.status == design::RunStatus::complete;
-          })};
+          .hunting_seen = design::hunting_seen(result.hunting)};
 }
 
 const design::NonlinearVerification* found(const TimeDomainSection& section, const TunedLaw& row) {

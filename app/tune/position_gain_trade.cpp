@@ -5,6 +5,7 @@
 
 #include <boresight/app/report/sky_units.hpp>
 #include <boresight/app/tune/engineer_units.hpp>
+#include <boresight/app/tune/gains_at_bounds.hpp>
 #include <boresight/app/tune/position_gain_trade.hpp>
 
 namespace boresight::app {
@@ -31,8 +32,7 @@ std::optional<TradedGains> traded_gains(const design::TuningResult& tuning) {
   const control::GainDescription& gain = tuning.law.structure.gains()[*position];
   const bool at_bound =
       std::ranges::find(tuning.gains_at_bound, gain.name) != tuning.gains_at_bound.end();
-  const bool upper = tuning.law.gains[*position] > std::sqrt(gain.lower * gain.upper);
-  if (!at_bound || !upper) return std::nullopt;
+  if (!at_bound || !ends_at_upper(gain, tuning.law.gains[*position])) return std::nullopt;
   return TradedGains{*rate, *position};
 }
 
@@ -80,8 +80,7 @@ std::string trade_in_words(const PositionGainTrade& trade, std::string_view law,
                            std::size_t plants) {
   return fmt::format(
       "{} has kp at its bound because its rate loop hardly acts, so that kp x kr counts. With the "
-      "same product kp = {} and kr = {} have {:.4f} mdeg, {:+.1f} %{}; what lies beyond the bound "
-      "a [[loop]] with bounds of its own tells.",
+      "same product kp = {} and kr = {} have {:.4f} mdeg, {:+.1f} %{}.",
       law, trade.position_gain, trade.rate_gain, trade.beam_rms / millidegree,
       100.0 * (trade.beam_rms / beam_rms - 1.0),
       plants > 0 ? fmt::format(", with every goal kept on {} of {} plants before tuning again",

@@ -2,7 +2,6 @@
 
 #include <cmath>
 #include <limits>
-#include <numbers>
 #include <optional>
 #include <string>
 #include <vector>
@@ -10,6 +9,7 @@
 #include <boresight/app/redesign/antenna_model.hpp>
 #include <boresight/app/tune/position_gain_trade.hpp>
 #include <boresight/design/design_study.hpp>
+#include <boresight/design/nonlinear_verification.hpp>
 #include <boresight/design/plant_ensemble.hpp>
 
 namespace boresight::app {
@@ -24,10 +24,10 @@ std::string_view to_string(TunedFor purpose);
 
 /// What the nonlinear antenna makes of a law. At the sky, rad.
 struct LawInTime {
-  bool still = true;      // design::holds_still within the tightest budget
-  double hunting = 0.0;   // largest amplitude of the beam's limit cycles
-  double beam_rms = 0.0;  // in one record of wind; NaN if that run did not complete
-  bool ended = true;      // every run without wind did
+  bool still = true;         // design::holds_still within the tightest budget
+  double hunting = 0.0;      // largest amplitude of the beam's limit cycles
+  double beam_rms = 0.0;     // in one record of wind; NaN if that run did not complete
+  bool hunting_seen = true;  // design::hunting_seen
 };
 
 /// One row of the table: a law, judged.
@@ -61,7 +61,7 @@ struct TunedLaw {
   /// its hunting too: a law that is left_out may yet keep a budget that is not the tightest.
   bool keeps(double rms) const {
     const bool still = !in_time || in_time->still ||
-                       (in_time->ended && in_time->hunting <= std::numbers::sqrt2 * rms);
+                       (in_time->hunting_seen && in_time->hunting <= design::hunting_limit(rms));
     const bool pointed = !in_time || std::isfinite(in_time->beam_rms);
     return still && pointed && budget_rms() <= rms;
   }

@@ -34,7 +34,8 @@ DesignedAntenna designed_antenna(const Case& stated, std::uint64_t seed, unsigne
   return {stated,
           {"drawn from the ranges of the case", plant_members(stated, seed)},
           PlantDistribution::of_ranges(stated),
-          false};
+          false,
+          resonance_verdict(stated)};
 }
 
 }  // namespace boresight::app

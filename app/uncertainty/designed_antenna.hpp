@@ -2,7 +2,9 @@
 
 #include <cstdint>
 #include <functional>
+#include <optional>
 
+#include <boresight/app/redesign/resonance_verdict.hpp>
 #include <boresight/app/tune/tune_study.hpp>
 #include <boresight/app/uncertainty/plant_distribution.hpp>
 
@@ -17,6 +19,8 @@ struct DesignedAntenna {
   PlantEnsemble ensemble;
   PlantDistribution distribution;
   bool from_records = false;
+  /// Of the antenna as stated; none where records show the drive.
+  std::optional<ResonanceVerdict> resonance = std::nullopt;
 };
 
 /// Identifies a case's records, if it has any. The same for any number of threads.

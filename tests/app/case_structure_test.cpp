@@ -162,7 +162,11 @@ TEST(MotorsHeldCase, LetsTheOtherAntennaBeAChoiceOfTheRedesign) {
 TEST(EffectiveFractionCase, IsTheOneAntenna) {
   const Case antenna = parsed(of_effective_fraction("0.25"));
   const auto& mode = antenna.structure.modes.at(0);
-  EXPECT_NEAR(mode.inertia_fraction.value, 0.2744, 5e-5);
+  // The bull gear has (sum e f^2)^2/sum e f^4.
+  const double lowest = 0.75 * 1.9 * 1.9, second = 0.25 * 3.4 * 3.4;
+  const double bull_gear =
+      (lowest + second) * (lowest + second) / (lowest * 1.9 * 1.9 + second * 3.4 * 3.4);
+  EXPECT_NEAR(mode.inertia_fraction.value, 1.0 - bull_gear, 1e-12);
   EXPECT_EQ(mode.inertia_fraction.text, "0.2744");
   EXPECT_THAT(mode.inertia_fraction.key, IsEmpty());
   EXPECT_EQ(mode.effective_fraction.value().key, "structure.mode[0].effective_fraction");

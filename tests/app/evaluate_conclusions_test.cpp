@@ -15,6 +15,7 @@ namespace {
 
 using testing::AllOf;
 using testing::Contains;
+using testing::EndsWith;
 using testing::HasSubstr;
 using testing::Not;
 
@@ -120,7 +121,7 @@ TEST(EvaluateConclusions, SayOnHowManyPlantsANeededBudgetIsMet) {
 }
 
 TEST(EvaluateConclusions, SayThatNoCandidateMeetsANeededBudget) {
-  const auto told = [](double proposal_speed, bool still) {
+  const auto told = [](double proposal_speed, bool still, double as_it_is = 8.0) {
     EvaluateSection section;
     PointingBudget& budget = section.budgets.emplace_back();
     budget.name = "tracking";
@@ -131,7 +132,7 @@ TEST(EvaluateConclusions, SayThatNoCandidateMeetsANeededBudget) {
     for (auto& candidate : section.candidates) {
       CandidateLaw& law = candidate.laws[0];
       law.goals_met = law.design.verification.passed = true;
-      candidate.figures->speed_limits = {8.0};
+      candidate.figures->speed_limits = {as_it_is};
     }
     section.candidates[1].laws[0].still = still;
     section.candidates[1].figures->speed_limits = {proposal_speed};
@@ -142,6 +143,11 @@ TEST(EvaluateConclusions, SayThatNoCandidateMeetsANeededBudget) {
               testing::ElementsAre(AllOf(HasSubstr("NOT MET: tracking (Ka: 0.500 mdeg) is needed "
                                                    "up to 12 m/s"),
                                          HasSubstr("no flywheels comes nearest, with 11.0 m/s"))));
+  // A tie is none that one wins.
+  EXPECT_THAT(told(11.0, true, 10.85),
+              testing::ElementsAre(EndsWith("comes nearest, with 11.0 m/s (and within 2 % of it as "
+                                            "it is).")));
+  EXPECT_THAT(told(11.0, true, 10.7), testing::ElementsAre(EndsWith("with 11.0 m/s.")));
   // What hunts meets nothing.
   EXPECT_THAT(told(13.0, false),
               testing::ElementsAre(HasSubstr("as it is comes nearest, with 8.0 m/s")));

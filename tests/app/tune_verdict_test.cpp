@@ -229,7 +229,7 @@ TEST(Shortfalls, TrustNoBudgetToALawThatHunts) {
       conclude(section),
       Contains(HasSubstr("simulated on the nonlinear antenna 1.0500 mdeg, where it hunts by "
                          "+-7.40 mdeg")));
-  section.laws[0].in_time->ended = false;
+  section.laws[0].in_time->hunting_seen = false;
   EXPECT_EQ(find_shortfalls(section).size(), 1U);
 }
 

@@ -1,4 +1,6 @@
 #include <algorithm>
+#include <array>
+#include <bit>
 #include <cmath>
 #include <limits>
 
@@ -72,59 +74,149 @@ void check(const std::vector<SteadyFriction>& tests) {
   }
 }
 
-}  // namespace
+constexpr int coulomb = 1, bump = 2, viscous = 4;
 
-SteadyFrictionFit fit_steady_friction(const std::vector<SteadyFriction>& tests) {
+// Which numbers the tests are asked for, and between what the Stribeck rate is searched.
+struct Question {
+  int allowed = coulomb;
+  bool stribeck_rate = false;
+  double least = 0.0;
+  double highest = 0.0;
+};
+
+Question question_of(const std::vector<SteadyFriction>& tests) {
   check(tests);
-  double lowest = std::numeric_limits<double>::infinity(), highest = 0.0;
+  Question asked;
+  double lowest = std::numeric_limits<double>::infinity();
   int moving = 0;
   for (const auto& test : tests) {
     if (test.rate == 0.0) continue;
     ++moving;
     lowest = std::min(lowest, test.rate);
-    highest = std::max(highest, test.rate);
+    asked.highest = std::max(asked.highest, test.rate);
   }
   if (moving == 0) {
     throw InvalidInput("fit_steady_friction: expected a test at a rate above 0, found none");
   }
-  constexpr int coulomb = 1, bump = 2, viscous = 4;
   const bool at_rest = moving < static_cast<int>(tests.size());
-  const bool tells_stribeck_rate = tests.size() > columns;
-  const int allowed =
-      coulomb | (at_rest || tells_stribeck_rate ? bump : 0) | (moving > 1 ? viscous : 0);
-  const double least = lowest / 3.0;
-  double rate = least;
-  LinearPart best = fit_at(tests, rate, allowed);
-  if (tells_stribeck_rate) {
-    // A grid in the logarithm, three times about the best of the one before.
-    double low = std::log(least), high = std::log(highest);
-    constexpr int steps = 60, rounds = 4;
-    for (int round = 0; round < rounds; ++round) {
-      const double step = (high - low) / steps;
-      for (int k = 0; k <= steps; ++k) {
-        const double tried = std::exp(low + step * k);
-        const LinearPart part = fit_at(tests, tried, allowed);
-        if (part.squares < best.squares * (1.0 - 1e-12)) {
-          best = part;
-          rate = tried;
-        }
-      }
-      low = std::max(std::log(least), std::log(rate) - step);
-      high = std::min(std::log(highest), std::log(rate) + step);
+  asked.stribeck_rate = tests.size() > columns;
+  if (at_rest || asked.stribeck_rate) asked.allowed |= bump;
+  if (moving > 1) asked.allowed |= viscous;
+  asked.least = lowest / 3.0;
+  return asked;
+}
+
+struct Answer {
+  LinearPart part;
+  double rate = 0.0;
+};
+
+Answer answer_of(const std::vector<SteadyFriction>& tests, const Question& asked) {
+  Answer best{fit_at(tests, asked.least, asked.allowed), asked.least};
+  if (!asked.stribeck_rate) return best;
+  // A grid in the logarithm, three times about the best of the one before.
+  double low = std::log(asked.least), high = std::log(asked.highest);
+  constexpr int steps = 60, rounds = 4;
+  for (int round = 0; round < rounds; ++round) {
+    const double step = (high - low) / steps;
+    for (int k = 0; k <= steps; ++k) {
+      const double tried = std::exp(low + step * k);
+      const LinearPart part = fit_at(tests, tried, asked.allowed);
+      if (part.squares < best.part.squares * (1.0 - 1e-12)) best = {part, tried};
     }
+    low = std::max(std::log(asked.least), std::log(best.rate) - step);
+    high = std::min(std::log(asked.highest), std::log(best.rate) + step);
   }
+  return best;
+}
+
+constexpr std::size_t curve_numbers = 4;  // Tc, Ts, Bv, ws
+using Intervals = std::array<FrictionInterval, curve_numbers>;
+
+Intervals points_of(const Answer& answer, const Question& asked) {
+  const auto point = [](double value) {
+    return FrictionInterval{value, value, false, false, std::nullopt};
+  };
+  FrictionInterval rate = point(answer.rate);
+  if (answer.part.values[1] > 0.0) {
+    constexpr double rounding = 1e-9;
+    rate.least_open = answer.rate <= asked.least * (1.0 + rounding);
+    rate.largest_open = answer.rate >= asked.highest * (1.0 - rounding);
+  } else {
+    rate = {asked.least, asked.highest, true, true, std::nullopt};
+  }
+  return {point(answer.part.values[0]), point(answer.part.values[0] + answer.part.values[1]),
+          point(answer.part.values[2]), rate};
+}
+
+void widen(FrictionInterval& interval, const FrictionInterval& other) {
+  interval.least = std::min(interval.least, other.least);
+  interval.largest = std::max(interval.largest, other.largest);
+  interval.least_open |= other.least_open;
+  interval.largest_open |= other.largest_open;
+}
+
+}  // namespace
+
+SteadyFrictionFit fit_steady_friction(const std::vector<SteadyFriction>& tests) {
+  const Question asked = question_of(tests);
+  const auto [best, rate] = answer_of(tests, asked);
   SteadyFrictionFit fit;
   fit.curve.coulomb_torque = best.values[0];
   fit.curve.breakaway_torque = best.values[0] + best.values[1];
   fit.curve.stribeck_rate = rate;
   fit.curve.saturating_torque = 0.0;
-  fit.curve.saturating_rate = highest;
+  fit.curve.saturating_rate = asked.highest;
   fit.curve.viscous_friction = best.values[2];
   // Where Ts is Tc the Stribeck rate fits nothing.
-  const bool fits_rate = tells_stribeck_rate && best.values[1] > 0.0;
+  const bool fits_rate = asked.stribeck_rate && best.values[1] > 0.0;
   const int freedom = static_cast<int>(tests.size()) - best.free - (fits_rate ? 1 : 0);
   if (freedom > 0) fit.scatter = std::sqrt(best.squares / freedom);
   return fit;
+}
+
+int steady_friction_freedom(const std::vector<SteadyFriction>& tests) {
+  const Question asked = question_of(tests);
+  return static_cast<int>(tests.size()) - std::popcount(static_cast<unsigned>(asked.allowed)) -
+         (asked.stribeck_rate ? 1 : 0);
+}
+
+SteadyFrictionIntervals steady_friction_intervals(const std::vector<SteadyFriction>& tests) {
+  const Question asked = question_of(tests);
+  const Answer as_seen = answer_of(tests, asked);
+  const Intervals points = points_of(as_seen, asked);
+  Intervals whole = points;
+  bool falls = as_seen.part.values[1] > 0.0;
+  std::array<double, curve_numbers> widest{};
+  for (std::size_t k = 0; k < curve_numbers; ++k) widest[k] = points[k].largest - points[k].least;
+  for (std::size_t i = 0; i < tests.size(); ++i) {
+    const double leeway = tests[i].leeway;
+    if (!(leeway >= 0.0) || !std::isfinite(leeway)) {
+      throw InvalidInput(fmt::format(
+          "steady_friction_intervals: expected leeways of at least 0, found {:g}", leeway));
+    }
+    if (leeway == 0.0) continue;
+    Intervals by_this = points;
+    for (const double side : {-1.0, 1.0}) {
+      auto moved = tests;
+      moved[i].torque = std::max(0.0, tests[i].torque + side * leeway);
+      const Answer answer = answer_of(moved, asked);
+      falls |= answer.part.values[1] > 0.0;
+      const Intervals refit = points_of(answer, asked);
+      for (std::size_t k = 0; k < curve_numbers; ++k) widen(by_this[k], refit[k]);
+    }
+    for (std::size_t k = 0; k < curve_numbers; ++k) {
+      widen(whole[k], by_this[k]);
+      const double width = by_this[k].largest - by_this[k].least;
+      if (width > widest[k]) {
+        widest[k] = width;
+        whole[k].moved_most_by = i;
+      }
+    }
+  }
+  SteadyFrictionIntervals found{whole[0], whole[1], whole[2], std::nullopt};
+  if (asked.stribeck_rate && falls) found.stribeck_rate = whole[3];
+  return found;
 }
 
 }  // namespace boresight::identification

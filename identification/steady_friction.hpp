@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cstddef>
+#include <optional>
 #include <vector>
 
 #include <boresight/plant/friction.hpp>
@@ -11,6 +13,8 @@ namespace boresight::identification {
 struct SteadyFriction {
   double rate = 0.0;
   double torque = 0.0;
+  /// By how much the torque may be off (N m, at least 0).
+  double leeway = 0.0;
 };
 
 struct SteadyFrictionFit {
@@ -27,5 +31,36 @@ struct SteadyFrictionFit {
 /// @throws InvalidInput without a test that moves, for numbers below 0 or not finite, and for two
 /// tests at the same rate.
 SteadyFrictionFit fit_steady_friction(const std::vector<SteadyFriction>& tests);
+
+/// Tests less the numbers that fit_steady_friction asks of them, whether or not these end at a
+/// bound: with 0 the curve goes through whatever the tests say, and their residuals tell nothing.
+/// @throws InvalidInput as fit_steady_friction.
+int steady_friction_freedom(const std::vector<SteadyFriction>& tests);
+
+/// Between what a number of the curve lies.
+struct FrictionInterval {
+  double least = 0.0;
+  double largest = 0.0;
+  /// A fit ran to that end of the search, so that the tests bear less, or more, as well.
+  bool least_open = false;
+  bool largest_open = false;
+  /// Index of the test whose torque moves the number most, an open end counted as the search's;
+  /// none where no test does.
+  std::optional<std::size_t> moved_most_by;
+};
+
+/// How far the numbers of SteadyFrictionFit::curve hang on single torques.
+struct SteadyFrictionIntervals {
+  FrictionInterval coulomb_torque, breakaway_torque, viscous_friction;
+  /// None where it is not fitted: with fewer than four tests, or where no fit has Ts above Tc. A
+  /// fit with Ts = Tc among others bears any rate and opens both ends.
+  std::optional<FrictionInterval> stribeck_rate;
+};
+
+/// Least and largest over fit_steady_friction of the tests and of all sets in which one torque is
+/// moved up or down by its leeway, though not below 0. One at a time, which is no confidence
+/// interval: it shows whether a curve hangs on the last digit of one number.
+/// @throws InvalidInput as fit_steady_friction, and for a leeway below 0 or not finite.
+SteadyFrictionIntervals steady_friction_intervals(const std::vector<SteadyFriction>& tests);
 
 }  // namespace boresight::identification

@@ -40,6 +40,7 @@ std::vector<Implausibility> implausibilities(const Case& antenna,
   check_friction_slope(numbers, found);
   check_friction_against_supply(numbers, found);
   check_friction_tests(numbers, found);
+  check_friction_curve_tests(numbers, found);
   check_coulomb_levels(numbers, found);
   check_valve_stroke(numbers, found);
   check_inertia_against_dish(numbers, found);

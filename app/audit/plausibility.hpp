@@ -70,7 +70,9 @@ struct Implausibility {
 /// - friction against the supply: breakaway, or the friction curve at slew rate, takes more than
 ///   the supply's torque, or more than 40 % of it, by more than two standard uncertainties;
 /// - friction tests: intercept or slope of the constant-speed tests' line is more than a factor of
-///   1.5 and two standard uncertainties beyond what the friction curve has at any speeds;
+///   1.5 and two standard uncertainties beyond what the friction curve has at any speeds, or the
+///   curve has as many unknowns as friction_curve.test has tests, and a Stribeck rate that
+///   identification::steady_friction_intervals has more than a factor of 1.5 wide or open;
 /// - return pressure: drive.return_pressure and simulation.return_pressure are more than 5 %
 ///   and two standard uncertainties apart;
 /// - coincidence: two methods print the same inertia to the last digit;

@@ -45,6 +45,7 @@ void check_carrier_frequencies(const CaseNumbers& numbers, Implausibilities& fou
 void check_friction_slope(const CaseNumbers& numbers, Implausibilities& found);
 void check_friction_against_supply(const CaseNumbers& numbers, Implausibilities& found);
 void check_friction_tests(const CaseNumbers& numbers, Implausibilities& found);
+void check_friction_curve_tests(const CaseNumbers& numbers, Implausibilities& found);
 void check_coulomb_levels(const CaseNumbers& numbers, Implausibilities& found);
 void check_impulse_order(const CaseNumbers& numbers, Implausibilities& found);
 void check_valve_stroke(const CaseNumbers& numbers, Implausibilities& found);

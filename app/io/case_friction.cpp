@@ -20,8 +20,14 @@ struct SteadyTest {
   Quantity rate;  // of the antenna
   Quantity said;  // as a torque or a pressure
   double torque = 0.0;
+  double leeway = 0.0;  // of the torque
   double relative_uncertainty = 0.0;
 };
+
+// Of this test alone: what all tests share moves none against another.
+double leeway_of(const Quantity& said) {
+  return said.uncertainty_given ? said.standard_uncertainty : said.half_unit;
+}
 
 SteadyTest read_test(TableReader& entry, const Case& antenna) {
   SteadyTest test;
@@ -37,10 +43,13 @@ SteadyTest read_test(TableReader& entry, const Case& antenna) {
   if (torque) {
     test.said = *torque;
     test.torque = torque->value;
+    test.leeway = leeway_of(*torque);
     test.relative_uncertainty = relative_uncertainty(*torque);
   } else if (pressure) {
     test.said = *pressure;
-    test.torque = pressure->value * plant::torque_per_pressure(hydraulic_drive(antenna));
+    const double torque_per_pressure = plant::torque_per_pressure(hydraulic_drive(antenna));
+    test.torque = pressure->value * torque_per_pressure;
+    test.leeway = leeway_of(*pressure) * torque_per_pressure;
     test.relative_uncertainty = std::hypot(relative_uncertainty(*pressure),
                                            relative_uncertainty(antenna.motor.displacement),
                                            relative_uncertainty(antenna.motor.torque_efficiency));
@@ -61,7 +70,7 @@ void fit_tests(const std::vector<SteadyTest>& tests, double ratio, FrictionCurve
   std::vector<identification::SteadyFriction> points;
   double squares = 0.0, sum = 0.0;
   for (const auto& test : tests) {
-    points.push_back({test.rate.value * ratio, test.torque});
+    points.push_back({test.rate.value * ratio, test.torque, test.leeway});
     squares += std::pow(test.relative_uncertainty, 2);
     sum += test.torque;
   }
@@ -95,7 +104,7 @@ void fit_tests(const std::vector<SteadyTest>& tests, double ratio, FrictionCurve
   for (const auto& point : points) {
     const double by_curve =
         point.rate > 0.0 ? plant::friction_torque(curve, point.rate) : curve.breakaway_torque;
-    friction.tests.push_back({point.rate, point.torque, point.torque - by_curve});
+    friction.tests.push_back({point.rate, point.torque, point.torque - by_curve, point.leeway});
   }
 }
 

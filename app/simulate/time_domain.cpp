@@ -2,6 +2,7 @@
 #include <cmath>
 #include <numbers>
 
+#include <boresight/app/io/friction_leeway.hpp>
 #include <boresight/app/redesign/antenna_model.hpp>
 #include <boresight/app/report/influences.hpp>
 #include <boresight/app/simulate/nonlinear_model.hpp>
@@ -21,6 +22,7 @@ TimeDomainSection plan(const Case& antenna, const design::TrackingProblem& probl
   section.law = description;
   section.wind_speed = problem.wind.mean_speed;
   section.stroke_assumption = demand_assumption(antenna);
+  section.friction_doubt = loose_stribeck_text(antenna.friction_curve);
   // Rounding to steps q errs by q/sqrt(12) rms.
   section.encoder_resolution = std::sqrt(12.0) * antenna.sensors.encoder_noise.value;
   auto& options = section.options;

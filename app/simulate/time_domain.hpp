@@ -22,6 +22,8 @@ struct TimeDomainSection {
   design::NonlinearVerification result;
   /// What the valve's stroke rests on where the case does not know it (demand_assumption).
   std::string stroke_assumption;
+  /// loose_stribeck_text of the case.
+  std::string friction_doubt;
   /// The slew rate asked for is out of reach only for want of stroke: with twice of it it is not.
   bool slew_hangs_on_stroke = false;
   /// The laws that this one was chosen from, itself included, influences not told apart; empty

@@ -40,8 +40,7 @@ std::string conclude_wind(const TimeDomainSection& section) {
   }
   std::string text = fmt::format(
       "On the nonlinear antenna the {} law points within {:.3f} mdeg in {:.3g} m/s, where the "
-      "linear "
-      "plant says {:.3f}",
+      "linear plant says {:.3f}",
       section.law, wind.beam_rms / millidegree, section.wind_speed,
       wind.predicted_rms / millidegree);
   if (wind.beam_rms <= wind.predicted_rms) return text + ".";
@@ -240,7 +239,8 @@ std::string conclude(const TimeDomainSection& section) {
     text += fmt::format(" Turning round at the tracking rate it errs by up to {:.1f} mdeg.",
                         reversal->beam_error / millidegree);
   }
-  for (const auto& sentence : {slew_out_of_reach(section), assumed_stroke(section)}) {
+  for (const auto& sentence :
+       {slew_out_of_reach(section), assumed_stroke(section), section.friction_doubt}) {
     if (!sentence.empty()) text += " " + sentence;
   }
   return text;

@@ -1,13 +1,18 @@
+#include <sstream>
 #include <string>
+#include <vector>
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "edited_case.hpp"
+#include <boresight/app/audit/case_graph.hpp>
+#include <boresight/app/audit/plausibility.hpp>
 #include <boresight/app/document/document_text.hpp>
 #include <boresight/app/identify/first_tests.hpp>
 #include <boresight/app/io/drive_numbers.hpp>
+#include <boresight/app/io/friction_leeway.hpp>
 #include <boresight/app/redesign/sections.hpp>
 #include <boresight/app/report/text_report.hpp>
 
@@ -17,6 +22,8 @@ namespace {
 using testing::AllOf;
 using testing::Contains;
 using testing::HasSubstr;
+using testing::IsEmpty;
+using testing::Not;
 
 // The 70-m case without its curve, and with tests behind it.
 std::string tested(const std::string& tests) {
@@ -86,12 +93,113 @@ TEST(CaseFriction, CountsTestsAsMeasuredAndKeepsWhatTheCurveLeavesOfThem) {
   EXPECT_EQ(one.friction_curve.stribeck_rate.basis, Basis::inferred) << "one test shows none";
 }
 
+// Tests at 0, 5.236, 62.83 and 209.4 rad/s of the motors, and further ones.
+std::string case_of_torques(const std::vector<std::string>& torques,
+                            const std::vector<double>& further = {}) {
+  std::vector<double> rates{0.0, 5.236, 62.83, 209.4};
+  rates.insert(rates.end(), further.begin(), further.end());
+  const double ratio = gear_ratio(read_case(case_path("dss14-70m")));
+  std::string tests;
+  for (std::size_t i = 0; i < rates.size(); ++i) {
+    tests += test(fmt::format("{:.12g} rad/s", rates[i] / ratio), "torque = " + torques[i]);
+  }
+  return tested(tests);
+}
+
+// As one line.
+std::string model_of(const Case& antenna) {
+  std::istringstream words(to_text(document_of(describe_plant(antenna))));
+  std::string line, word;
+  while (words >> word) line += word + " ";
+  return line;
+}
+
+std::vector<Implausibility> of_the_curve(const Case& antenna) {
+  std::vector<Implausibility> found;
+  for (const auto& one : implausibilities(antenna, case_graph(antenna))) {
+    if (one.id == "friction_curve.test") found.push_back(one);
+  }
+  return found;
+}
+
+TEST(CaseFriction, SaysThatACurveHangsOnTheLastDigitOfATorque) {
+  const Case antenna = parse_case(
+      case_of_torques({"\"19 N.m\"", "\"12 N.m\"", "\"15 N.m\"", "\"23 N.m\""}), "case.toml");
+  ASSERT_EQ(antenna.friction_curve.tests.size(), 4U);
+  EXPECT_NEAR(antenna.friction_curve.tests[1].leeway, 0.5, 1e-12);
+  // With 14.5 N.m the line begins at 10.856 N.m, and 12 N.m stand 0.839 N.m above it.
+  EXPECT_THAT(model_of(antenna),
+              AllOf(HasSubstr("the Stribeck rate is 1.75 (its bound) to 3.47 rad/s, breakaway is "
+                              "18.5 to 19.5 N.m, Coulomb is 10.9 to 11.9 N.m."),
+                    HasSubstr("no degree of freedom is left, so that the residuals say nothing"),
+                    HasSubstr("more tests at low rates settle it")));
+  const auto found = of_the_curve(antenna);
+  ASSERT_EQ(found.size(), 1U);
+  EXPECT_EQ(found[0].check, "friction tests");
+  EXPECT_THAT(
+      found[0].reasoning,
+      AllOf(
+          HasSubstr("as many unknowns as the 4 tests"),
+          HasSubstr("rad/s by the torques as they stand, is 1.75 (its bound) to 3.47 rad/s, moved"),
+          HasSubstr("moved most by friction_curve.test[2] of 15 N.m at 62.83 rad/s")));
+  EXPECT_THAT(loose_stribeck_text(antenna.friction_curve),
+              HasSubstr("rate of 2.64 rad/s, which the 4 tests, as many as the curve has unknowns, "
+                        "leave at 1.75 (its bound) to 3.47 rad/s by the last digit"));
+  ASSERT_EQ(found[0].numbers.size(), 3U);
+  EXPECT_NEAR(found[0].numbers[1].value, 5.236 / 3.0, 1e-9);
+  EXPECT_NEAR(found[0].numbers[2].value, 3.474, 1e-3);
+
+  // Where the curve does not go through the tests, a number of it is at its bound.
+  const Case below = parse_case(
+      case_of_torques({"\"19 N.m\"", "\"11 N.m\"", "\"15 N.m\"", "\"23 N.m\""}), "case.toml");
+  EXPECT_THAT(model_of(below),
+              AllOf(HasSubstr("the Stribeck rate is 1.75 rad/s (its bound) or less, "),
+                    HasSubstr("a number of it ended at its bound")));
+  EXPECT_EQ(of_the_curve(below).size(), 1U);
+}
+
+TEST(CaseFriction, DoubtsNoCurveThatItsTestsCheckOrTell) {
+  const Case told = parse_case(
+      case_of_torques({"\"19.00 N.m\"", "{ value = \"12 N.m\", uncertainty = \"0.01 N.m\" }",
+                       "\"15.00 N.m\"", "\"23.00 N.m\""}),
+      "case.toml");
+  EXPECT_NEAR(told.friction_curve.tests[0].leeway, 0.005, 1e-12);
+  EXPECT_NEAR(told.friction_curve.tests[1].leeway, 0.01, 1e-12);
+  EXPECT_THAT(of_the_curve(told), IsEmpty());
+  EXPECT_EQ(loose_stribeck_text(told.friction_curve), "");
+  EXPECT_THAT(model_of(told),
+              AllOf(HasSubstr("no degree of freedom is left"), HasSubstr("the Stribeck rate is 2."),
+                    Not(HasSubstr("bound)")), Not(HasSubstr("breakaway is"))));
+  // Of 11.571 + 7.429 exp(-(w/2.634)^2) + 0.05457 w, to 1 N.m.
+  const Case checked =
+      parse_case(case_of_torques(
+                     {"\"19 N.m\"", "\"12 N.m\"", "\"15 N.m\"", "\"23 N.m\"", "\"18 N.m\""}, {1.0}),
+                 "case.toml");
+  EXPECT_THAT(of_the_curve(checked), IsEmpty());
+  EXPECT_THAT(model_of(checked),
+              AllOf(HasSubstr("the Stribeck rate is "), Not(HasSubstr("degree of freedom"))));
+  // Three tests tell no Stribeck rate.
+  const Case three = parse_case(
+      tested(test("0 deg/s", "torque = \"90 N.m\"") + test("0.1 deg/s", "torque = \"60 N.m\"") +
+             test("0.2 deg/s", "torque = \"65 N.m\"")),
+      "case.toml");
+  EXPECT_THAT(of_the_curve(three), IsEmpty());
+  EXPECT_THAT(model_of(three), AllOf(HasSubstr("no degree of freedom is left"),
+                                     HasSubstr("Stribeck rate, which these tests do not tell"),
+                                     Not(HasSubstr("the Stribeck rate is "))));
+  EXPECT_THAT(of_the_curve(read_case(case_path("dss14-70m"))), IsEmpty());
+}
+
 TEST(CaseFriction, TakesPressuresOverTheMotors) {
   const Case by_torque = parse_case(tested(test("0.1 deg/s", "torque = \"60 N.m\"")), "case.toml");
   const double pressure = 60.0 / plant::torque_per_pressure(hydraulic_drive(by_torque));
   const Case by_pressure = parse_case(
       tested(test("0.1 deg/s", fmt::format("pressure = \"{:.12g} Pa\"", pressure))), "case.toml");
   EXPECT_NEAR(by_pressure.friction_curve.coulomb.value, 60.0, 1e-9);
+  // What all tests share, displacement and efficiency, moves none against another.
+  const Case coarse = parse_case(tested(test("0.1 deg/s", "pressure = \"1.0 MPa\"")), "case.toml");
+  const SteadyFrictionTest& one = coarse.friction_curve.tests.front();
+  EXPECT_NEAR(one.leeway / one.torque, 0.05, 1e-9);
 }
 
 TEST(CaseFriction, RefusesTestsThatSayTooLittleOrTwice) {

@@ -1,0 +1,52 @@
+#include <fmt/format.h>
+
+#include <boresight/app/io/friction_leeway.hpp>
+
+namespace boresight::app {
+
+std::vector<identification::SteadyFriction> steady_friction(
+    const std::vector<SteadyFrictionTest>& tests) {
+  std::vector<identification::SteadyFriction> points;
+  points.reserve(tests.size());
+  for (const auto& test : tests) points.push_back({test.rate, test.torque, test.leeway});
+  return points;
+}
+
+std::optional<identification::FrictionInterval> loose_stribeck_rate(
+    const FrictionCurveEntry& curve) {
+  if (curve.tests.empty()) return std::nullopt;
+  const auto points = steady_friction(curve.tests);
+  if (identification::steady_friction_freedom(points) > 0) return std::nullopt;
+  const auto rate = identification::steady_friction_intervals(points).stribeck_rate;
+  constexpr double widest_factor = 1.5;
+  const bool loose = rate && (rate->least_open || rate->largest_open ||
+                              rate->largest > widest_factor * rate->least);
+  return loose ? rate : std::nullopt;
+}
+
+std::string loose_stribeck_text(const FrictionCurveEntry& curve) {
+  const auto rate = loose_stribeck_rate(curve);
+  if (!rate) return "";
+  return fmt::format(
+      "Hunting, reversals and what flywheels do to them hang on the friction curve's Stribeck rate "
+      "of {:.3g} rad/s, which the {} tests, as many as the curve has unknowns, leave at {} by the "
+      "last digit of a torque: more tests at low rates settle it.",
+      curve.stribeck_rate.value, curve.tests.size(), in_words(*rate, "rad/s"));
+}
+
+std::string in_words(const identification::FrictionInterval& interval, std::string_view unit) {
+  if (interval.least == interval.largest && interval.least_open != interval.largest_open) {
+    return fmt::format("{:.3g} {} (its bound) or {}", interval.least, unit,
+                       interval.least_open ? "less" : "more");
+  }
+  return fmt::format("{:.3g}{} to {:.3g} {}{}", interval.least,
+                     interval.least_open ? " (its bound)" : "", interval.largest, unit,
+                     interval.largest_open ? " (its bound)" : "");
+}
+
+std::string_view moved_torques() {
+  return "With one torque after another moved up and down by its standard uncertainty, or by "
+         "half a unit of its last digit where none is stated,";
+}
+
+}  // namespace boresight::app

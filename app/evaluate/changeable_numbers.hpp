@@ -20,7 +20,7 @@ struct ChangeableNumber {
 };
 
 /// All of them but those that need more than a place in the case: counts, teeth, assemblies, lines,
-/// shares of modes, the sampling rate.
+/// the gear spring, all modes at once, the sampling rate.
 const std::vector<ChangeableNumber>& changeable_numbers();
 
 }  // namespace boresight::app

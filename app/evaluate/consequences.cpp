@@ -1,7 +1,10 @@
+#include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include <boresight/app/evaluate/proposed_case.hpp>
+#include <boresight/app/io/structure_numbers.hpp>
 #include <boresight/app/redesign/antenna_model.hpp>
 #include <boresight/app/report/sky_units.hpp>
 #include <boresight/plant/wind.hpp>
@@ -34,12 +37,22 @@ double sky_friction(const Case& antenna) {
   return (curve.coulomb.value + curve.saturating.value) * gear_ratio(antenna);
 }
 
+// With the bull gear held; infinite without modes.
+double lowest_mode(const Case& antenna) {
+  double lowest = std::numeric_limits<double>::infinity();
+  for (const auto& mode : structure_specification(antenna.structure).modes) {
+    lowest = std::min(lowest, mode.frequency);
+  }
+  return lowest;
+}
+
 struct Derived {
   const char* quantity = "";
   const char* unit = "";
   double (*value)(const Case&) = nullptr;
   const char* follows_from = "";
-  const char* key = "";  // of the case's own number, where it is one
+  const char* key = "";      // of the case's own number, where it is one
+  bool motors_held = false;  // only of a case that states its modes with the motors held
 };
 
 constexpr Derived derived[] = {
@@ -49,6 +62,14 @@ constexpr Derived derived[] = {
      "each body over the square of the ratio before it"},
     {"antenna at the motors", "kg.m2", [](const Case& c) { return antenna_inertia(c); },
      "over the square of the gear ratio"},
+    {"gear spring Kg at the motors", "N.m/rad",
+     [](const Case& c) { return make_plant(c).structure.gear_stiffness; },
+     "w^2 (Jb + sum Ji/(1 - (w/wi)^2)), w with the rotor locked, wi with the bull gear held"},
+    {"locked-rotor frequency", "Hz",
+     [](const Case& c) { return c.structure.locked_rotor_frequency.value; },
+     "the gear spring under a structure that stays", "structure.locked_rotor_frequency"},
+    {"lowest mode with the bull gear held", "Hz", lowest_mode,
+     "all frequencies with the motors held and the inertia fractions, solved anew", "", true},
     {"motor-to-load ratio", "1", [](const Case& c) { return all_motors(c) / load(c); },
      "motors over gear train and antenna"},
     {"volume 1", "m3", [](const Case& c) { return c.oil.volume_1.value; }, "line lengths",
@@ -104,6 +125,7 @@ std::vector<DerivedChange> consequences_of(const Case& before, const Case& after
   constexpr double rounding = 1e-9;
   std::vector<DerivedChange> found;
   for (const auto& one : derived) {
+    if (one.motors_held && !before.structure.motors_held) continue;
     const double was = one.value(before), is = one.value(after);
     if (!std::isfinite(was) || !std::isfinite(is)) continue;
     if (std::abs(is - was) <= rounding * std::max(std::abs(was), std::abs(is))) continue;

@@ -1,10 +1,12 @@
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include <fmt/format.h>
 
 #include <boresight/app/evaluate/following_changes.hpp>
 #include <boresight/app/io/field.hpp>
+#include <boresight/app/io/structure_numbers.hpp>
 #include <boresight/app/redesign/antenna_model.hpp>
 
 namespace boresight::app {
@@ -21,6 +23,29 @@ double compliance_of_sides(const Case& antenna) {
 double no_load_pressure(const Case& antenna) {
   const double returned = antenna.simulation ? antenna.simulation->return_pressure.value : 0.0;
   return antenna.drive.supply_pressure.value - returned;
+}
+
+// A number of the same antenna in other terms, as uncertain for its size.
+Quantity in_other_terms(const Quantity& stated, double value, const char* unit) {
+  Quantity quantity = derived_quantity(stated, stated.kind, value, unit);
+  quantity.standard_uncertainty = relative_uncertainty(stated) * value;
+  return quantity;
+}
+
+// Frequencies with the motors held would move with the gear spring.
+void hold_bull_gear(StructureEntry& structure) {
+  if (!structure.motors_held) return;
+  const plant::StructureSpecification held = structure_specification(structure);
+  for (std::size_t i = 0; i < structure.modes.size(); ++i) {
+    StructureModeEntry& mode = structure.modes[i];
+    mode.frequency = in_other_terms(mode.frequency, held.modes[i].frequency, "Hz");
+    if (!mode.effective_fraction) continue;
+    const double fraction = held.modes[i].inertia_fraction;
+    mode.inertia_fraction = in_other_terms(*mode.effective_fraction, fraction, "");
+    mode.inertia_fraction.text = fmt::format("{:.4g}", fraction);
+    mode.effective_fraction.reset();
+  }
+  structure.motors_held = false;
 }
 
 void follow_gear(const Case& before, Case& after) {
@@ -81,6 +106,33 @@ void check_changed_range(const ProposedChange& change, Kind kind, const Range& r
       range.maximum < 1e299 ? fmt::format(" to {:g}{}", range.maximum, unit) : "";
   refuse_change(change,
                 fmt::format("expected a result {}{}, found {:g}{}", least, most, value, unit));
+}
+
+void stiffen_gear(const ProposedChange& change, StructureEntry& structure) {
+  const double factor = change.number.value;
+  if (!(factor > 0.0)) {
+    refuse_change(change, fmt::format("expected a factor above 0, found {:g}", factor));
+  }
+  hold_bull_gear(structure);
+  plant::StructureSpecification antenna = structure_specification(structure);
+  const auto stiffness = [&](double locked_rotor_frequency) {
+    antenna.locked_rotor_frequency = locked_rotor_frequency;
+    return plant::make_structure(antenna).gear_stiffness;
+  };
+  const double stated = structure.locked_rotor_frequency.value;
+  const double wanted = factor * stiffness(stated);
+  // The stiffness rises faster than the frequency's square, and without bound towards the lowest
+  // mode.
+  const double rigid = stated * std::sqrt(factor);
+  double lower = std::min(stated, rigid), upper = std::max(stated, rigid);
+  for (const auto& mode : antenna.modes) upper = std::min(upper, mode.frequency);
+  double middle = std::midpoint(lower, upper);
+  while (lower < middle && middle < upper) {
+    (stiffness(middle) < wanted ? lower : upper) = middle;
+    middle = std::midpoint(lower, upper);
+  }
+  check_changed_range(change, Kind::frequency, Range::positive(1000.0), lower);
+  structure.locked_rotor_frequency = in_other_terms(structure.locked_rotor_frequency, lower, "Hz");
 }
 
 void follow_sampling(const Case& before, const Proposal& proposal, Case& after) {

@@ -16,6 +16,11 @@ Quantity changed(const ProposedChange& change, const Quantity& before);
 /// Refuses a number that a change has taken out of its range.
 void check_changed_range(const ProposedChange& change, Kind kind, const Range& range, double value);
 
+/// The same structure on a gear spring so many times as stiff: by the locked-rotor frequency that
+/// gives it, every mode by what it is with the bull gear held. @throws InvalidInput for a factor
+/// that is not positive
+void stiffen_gear(const ProposedChange& change, StructureEntry& structure);
+
 /// Dead time and noise bandwidth after the sampling rate; refuses a delay that contradicts it, and
 /// a sampling slower than before that is too slow for the structure's modes.
 void follow_sampling(const Case& before, const Proposal& proposal, Case& after);

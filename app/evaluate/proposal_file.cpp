@@ -65,6 +65,14 @@ class ChangeTable {
     changes.push_back({path, std::move(factor), true});
   }
 
+  // Whether a value stands at `key`, and no factor.
+  bool has_value(const char* key) const {
+    const TomlNode* found = node_.find(key);
+    if (found == nullptr) return false;
+    if (found->type != TomlType::table) return true;
+    return found->find("value") != nullptr && found->find("factor") == nullptr;
+  }
+
   void whole_number(const ProposedChange& change, const char* key) const {
     if (!change.multiplies && change.number.value != std::round(change.number.value)) {
       reader_.refuse(
@@ -232,13 +240,12 @@ class ProposalReader {
   // A change that only a factor can say.
   void read_only_factor(ChangeTable& table, const char* key, const std::string& path,
                         const char* of_what) {
-    const std::size_t before = proposal_.changes.size();
-    table.read(key, path, Kind::number, Range::positive(largest_factor), proposal_.changes);
-    if (proposal_.changes.size() > before && !proposal_.changes.back().multiplies) {
+    if (table.has_value(key)) {
       table.reader().refuse(
           key, fmt::format("expected {{ factor = \"...\" }}, which multiplies {}, found a value",
                            of_what));
     }
+    table.read(key, path, Kind::number, Range::positive(largest_factor), proposal_.changes);
   }
 
   void read_oil() {
@@ -268,6 +275,14 @@ class ProposalReader {
     auto table = open("structure");
     if (!table) return;
     read_fields(*table, "structure");
+    read_only_factor(*table, "gear_stiffness", "structure.gear_stiffness",
+                     "the stiffness of the gear spring");
+    if (proposal_.find("structure.gear_stiffness") != nullptr &&
+        proposal_.find("structure.locked_rotor_frequency") != nullptr) {
+      table->reader().refuse("gear_stiffness",
+                             "expected either gear_stiffness, from which the locked-rotor "
+                             "frequency follows, or locked_rotor_frequency, found both");
+    }
     read_only_factor(*table, "mode_frequencies", "structure.mode_frequencies",
                      "the frequencies of all modes");
     read_only_factor(*table, "mode_damping_ratios", "structure.mode_damping_ratios",

@@ -30,6 +30,7 @@ class Application {
     apply_gear();
     apply_numbers();
     apply_modes();
+    apply_gear_spring();
     apply_motor();
     if (const auto* rate = proposal_.find("controller.sample_rate")) {
       note_before(rate->key, fmt::format("{:.4g} Hz by the delay",
@@ -43,7 +44,9 @@ class Application {
     result_.consequences = consequences_of(before_, after_);
     std::erase_if(result_.consequences, [&](const DerivedChange& one) {
       const auto* named = proposal_.find(one.key);
-      return named != nullptr && !named->multiplies;
+      // Nothing else moves a locked-rotor frequency that the proposal names.
+      return named != nullptr &&
+             (!named->multiplies || one.key == "structure.locked_rotor_frequency");
     });
     return std::move(result_);
   }
@@ -226,6 +229,15 @@ class Application {
         refuse_change(locked != nullptr ? *locked : *modes, error.what());
       }
     }
+  }
+
+  // Last of the structure's changes: a factor on what those make of it.
+  void apply_gear_spring() {
+    const auto* change = proposal_.find("structure.gear_stiffness");
+    if (change == nullptr) return;
+    note_before(change->key, fmt::format("{:.5g} N.m/rad by the locked-rotor frequency",
+                                         make_plant(before_).structure.gear_stiffness));
+    stiffen_gear(*change, after_.structure);
   }
 
   // Disks, count and inertia as built.

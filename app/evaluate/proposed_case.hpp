@@ -47,6 +47,7 @@ struct ProposedCase {
 ///                      at the motor shaft, and grows at the sky with the ratio
 ///   flywheel disks     the motor's inertia, from rotor, disks and as built
 ///   line lengths       volumes, by the share that is lines; the lines' own pressure waves
+///   gear stiffness     the locked-rotor frequency: the structure on the gear spring stays
 ///   sampling rate      dead time of one and a half samples, noise bandwidth of half the rate
 /// Ranges of the ensemble that the case states in absolute numbers follow their number. Numbers
 /// that a proposal names itself are as it says, factors on top of what follows.

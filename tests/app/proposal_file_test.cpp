@@ -96,6 +96,16 @@ TEST(ProposalFile, RefusesWhatItCannotMean) {
           "[oil]\nline_lengths = 2\n",
           "oil.line_lengths: expected { factor = \"...\" }, which multiplies the lengths of all "
           "lines, found a value"},
+      Refusal{"[structure]\ngear_stiffness = '1e6 N.m/rad'\n",
+              "p.toml:7:18: structure.gear_stiffness: expected { factor = \"...\" }, which "
+              "multiplies the stiffness of the gear spring, found a value"},
+      Refusal{"[structure]\ngear_stiffness = { value = '1e6 N.m/rad' }\n", "found a value"},
+      Refusal{"[structure]\ngear_stiffness = { factor = '2', value = '1e6 N.m/rad' }\n",
+              "gear_stiffness.factor: expected either a value or a factor, found both"},
+      Refusal{"[structure]\nlocked_rotor_frequency = { factor = 2 }\n"
+              "gear_stiffness = { factor = 2 }\n",
+              "structure.gear_stiffness: expected either gear_stiffness, from which the "
+              "locked-rotor frequency follows, or locked_rotor_frequency, found both"},
       Refusal{"[oil]\nline_share = '0.5'\n", "found no line_lengths"},
       Refusal{"[oil]\nline_lengths = { factor = 2 }\nline_share = { factor = '0.5' }\n",
               "expected a share within 0 to 1, found a factor"},
@@ -145,7 +155,7 @@ TEST(ProposalFile, ReadsEveryProposalOfTheCases) {
 
 // Files made of pieces that come near the grammar: read, or refused in words with their place.
 TEST(ProposalFile, SurvivesRandomFiles) {
-  constexpr std::array<std::string_view, 36> pieces{"[motor]\n",
+  constexpr std::array<std::string_view, 37> pieces{"[motor]\n",
                                                     "[oil]\n",
                                                     "[drive]\n",
                                                     "[cost]\n",
@@ -171,6 +181,7 @@ TEST(ProposalFile, SurvivesRandomFiles) {
                                                     "inertia = '1 kg.m2'\n",
                                                     "line_lengths = { factor = '0.5' }\n",
                                                     "line_share = 1\n",
+                                                    "gear_stiffness = { factor = '1.1' }\n",
                                                     "volume_1 = { factor = {} }\n",
                                                     "sample_rate = '100 Hz'\n",
                                                     "delay = { factor = 1e300 }\n",

@@ -1,4 +1,5 @@
 // What follows from a proposal's changes, and changes that contradict one another.
+#include <array>
 #include <numbers>
 #include <string>
 
@@ -8,8 +9,10 @@
 #include "edited_case.hpp"
 #include <boresight/app/evaluate/evaluate_study.hpp>
 #include <boresight/app/evaluate/proposed_case.hpp>
+#include <boresight/app/io/structure_numbers.hpp>
 #include <boresight/app/tune/plant_members.hpp>
 #include <boresight/plant/error.hpp>
+#include <boresight/plant/motors_held_modes.hpp>
 
 namespace boresight::app {
 namespace {
@@ -23,8 +26,29 @@ const Case& as_is() {
   return antenna;
 }
 
+ProposedCase of(const Case& antenna, const std::string& text) {
+  return apply_proposal(antenna, parse_proposal(head + text, "p.toml"));
+}
+
 ProposedCase with(const std::string& text) {
-  return apply_proposal(as_is(), parse_proposal(head + text, "p.toml"));
+  return of(as_is(), text);
+}
+
+enum class Fractions { of_inertia, effective };
+
+// The same antenna by its modes with the motors held.
+Case by_motors_held(Fractions fractions) {
+  Case antenna = as_is();
+  const auto held = plant::motors_held_modes(make_plant(antenna).structure);
+  antenna.structure.motors_held = true;
+  for (std::size_t i = 0; i < antenna.structure.modes.size(); ++i) {
+    StructureModeEntry& mode = antenna.structure.modes[i];
+    mode.frequency.value = held.at(i + 1).frequency;
+    if (fractions == Fractions::of_inertia) continue;
+    mode.effective_fraction = mode.inertia_fraction;
+    mode.effective_fraction->value = held.at(i + 1).inertia_fraction;
+  }
+  return antenna;
 }
 
 std::string refusal(const std::string& text) {
@@ -202,8 +226,105 @@ TEST(ProposedCase, DrawsAreFactorsOnWhatTheProposalMakes) {
       tracking_friction(geared) / tracking_friction(as_is()), 1e-12);
 }
 
+TEST(ProposedCase, StifferGearLeavesTheStructureOnIt) {
+  for (const Case& antenna :
+       {as_is(), by_motors_held(Fractions::of_inertia), by_motors_held(Fractions::effective)}) {
+    const auto before = make_plant(antenna).structure;
+    for (const std::string factor : {"0.5", "1.1", "5"}) {
+      const auto proposed =
+          of(antenna, "[structure]\ngear_stiffness = { factor = '" + factor + "' }\n");
+      const auto after = make_plant(proposed.antenna).structure;
+      const double times = std::stod(factor);
+      EXPECT_NEAR(after.gear_stiffness / before.gear_stiffness, times, 1e-9 * times);
+      EXPECT_NEAR(after.bull_gear_inertia / before.bull_gear_inertia, 1.0, 1e-9);
+      ASSERT_EQ(after.modes.size(), before.modes.size());
+      for (std::size_t i = 0; i < after.modes.size(); ++i) {
+        EXPECT_NEAR(after.modes[i].stiffness / before.modes[i].stiffness, 1.0, 1e-9);
+        EXPECT_NEAR(after.modes[i].inertia / before.modes[i].inertia, 1.0, 1e-9);
+        EXPECT_NEAR(after.modes[i].damping / before.modes[i].damping, 1.0, 1e-9);
+        EXPECT_DOUBLE_EQ(after.modes[i].wind_fraction, before.modes[i].wind_fraction);
+        EXPECT_DOUBLE_EQ(after.modes[i].beam_weight, before.modes[i].beam_weight);
+      }
+      EXPECT_DOUBLE_EQ(proposed.antenna.structure.gear_damping_ratio.value,
+                       antenna.structure.gear_damping_ratio.value);
+      const auto* spring = find(proposed, "gear spring Kg at the motors");
+      ASSERT_NE(spring, nullptr);
+      EXPECT_NEAR(spring->before, before.gear_stiffness, 1e-9 * before.gear_stiffness);
+      EXPECT_NEAR(spring->after, after.gear_stiffness, 1e-9 * after.gear_stiffness);
+      const auto* locked = find(proposed, "locked-rotor frequency");
+      ASSERT_NE(locked, nullptr);
+      EXPECT_NEAR(locked->after, plant::motors_held_modes(after).front().frequency, 1e-6);
+      EXPECT_EQ(find(proposed, "lowest mode with the bull gear held"), nullptr);
+      ASSERT_EQ(proposed.changes.size(), 1U);
+      EXPECT_THAT(proposed.changes[0].before, HasSubstr(" N.m/rad by the locked-rotor frequency"));
+    }
+  }
+}
+
+TEST(ProposedCase, StifferGearComesOnTopOfWhatFollows) {
+  const Case heavy =
+      with(
+          "[antenna]\ninertia = { factor = '1.2' }\n[structure]\ngear_stiffness = { factor = '1.1' "
+          "}\n")
+          .antenna;
+  EXPECT_NEAR(
+      make_plant(heavy).structure.gear_stiffness / make_plant(as_is()).structure.gear_stiffness,
+      1.1 * 1.2, 1e-9);
+}
+
+// In other terms a number is as uncertain for its size, and says as much of where it is from.
+TEST(ProposedCase, StifferGearKeepsWhatNumbersSayOfThemselves) {
+  Case antenna = by_motors_held(Fractions::effective);
+  Quantity& second = antenna.structure.modes.at(1).frequency;
+  second.standard_uncertainty = 0.03 * second.value;
+  second.uncertainty_given = true;
+  const auto& structure =
+      of(antenna, "[structure]\ngear_stiffness = { factor = '1.1' }\n").antenna.structure;
+  EXPECT_FALSE(structure.motors_held);
+  const auto& mode = structure.modes.at(1);
+  EXPECT_FALSE(mode.effective_fraction);
+  EXPECT_LT(mode.frequency.value, second.value);
+  EXPECT_NEAR(relative_uncertainty(mode.frequency), 0.03, 1e-12);
+  EXPECT_TRUE(mode.frequency.uncertainty_given);
+  EXPECT_EQ(mode.frequency.source, second.source);
+  EXPECT_EQ(mode.inertia_fraction.basis, second.basis);
+}
+
+TEST(ProposedCase, SaysWhatFrequenciesDoToTheGearSpring) {
+  const char* spring = "gear spring Kg at the motors";
+  const char* lowest = "lowest mode with the bull gear held";
+  const Case held = by_motors_held(Fractions::effective);
+  for (const char* key : {"locked_rotor_frequency", "mode_frequencies"}) {
+    const std::string text = std::string("[structure]\n") + key + " = { factor = '1.05' }\n";
+    for (const Case& antenna : {as_is(), held}) {
+      const auto proposed = of(antenna, text);
+      const auto* found = find(proposed, spring);
+      ASSERT_NE(found, nullptr) << key;
+      EXPECT_EQ(found->unit, "N.m/rad");
+      EXPECT_NEAR(found->before, make_plant(antenna).structure.gear_stiffness,
+                  1e-9 * found->before);
+      EXPECT_NEAR(found->after, make_plant(proposed.antenna).structure.gear_stiffness,
+                  1e-9 * found->after);
+      EXPECT_EQ(find(proposed, "locked-rotor frequency"), nullptr) << key;
+      const auto* mode = find(proposed, lowest);
+      ASSERT_EQ(mode != nullptr, antenna.structure.motors_held) << key;
+      if (mode == nullptr) continue;
+      EXPECT_NEAR(mode->before, 2.4, 1e-6);
+      EXPECT_NEAR(mode->after,
+                  structure_specification(proposed.antenna.structure).modes.at(0).frequency, 1e-9);
+    }
+  }
+  for (const Case& antenna : {as_is(), held}) {
+    const auto proposed = of(antenna, "[antenna]\ninertia = { factor = '1.2' }\n");
+    const auto* found = find(proposed, spring);
+    ASSERT_NE(found, nullptr);
+    EXPECT_NEAR(found->after / found->before, 1.2, 1e-9);
+    EXPECT_EQ(find(proposed, lowest), nullptr);
+  }
+}
+
 TEST(ProposedCase, RefusesContradictions) {
-  const std::array<std::pair<const char*, const char*>, 19> refusals{{
+  const std::array<std::pair<const char*, const char*>, 21> refusals{{
       {"[motor]\nflywheel_disks = 12\ninertia = '0.3007 kg.m2'\n",
        "p.toml:8:11: motor.inertia: expected the 0.1524 kg.m2 that 12 disks make of the case's "
        "motor, within 1 %, found 0.3007 kg.m2: motor.flywheel_disks and its parts contradict it"},
@@ -232,6 +353,11 @@ TEST(ProposedCase, RefusesContradictions) {
        "structure.locked_rotor_frequency: expected a locked-rotor frequency below every mode"},
       {"[structure]\nmode_damping_ratios = { factor = 200 }\n",
        "structure.mode_damping_ratios: expected a result from 0 to 1, found 2"},
+      {"[structure]\ngear_stiffness = { factor = 0 }\n",
+       "structure.gear_stiffness: expected a factor above 0, found 0"},
+      {"[structure]\ngear_stiffness = { factor = 2 }\nlocked_rotor_frequency = '2.1 Hz'\n",
+       "structure.gear_stiffness: expected either gear_stiffness, from which the "
+       "locked-rotor frequency follows, or locked_rotor_frequency, found both"},
       {"[controller]\nsample_rate = '10 Hz'\n",
        "controller.sample_rate: expected a sampling of at least 12.4 Hz, twice the fastest mode of "
        "the structure (6.2 Hz), found 10 Hz"},
@@ -256,6 +382,7 @@ TEST(ProposedCase, RefusesToChangeNothingInManyWords) {
   for (const char* text :
        {"[motor]\nflywheel_disks = 24\n", "[motor]\ndisplacement = { factor = 1 }\n",
         "[motor]\ncount = 4\n", "[drive]\nvalve_damping = 0.7\n",
+        "[structure]\ngear_stiffness = { factor = 1 }\n",
         "[[gear_train.stage]]\nnumber = 1\ndriven_teeth = 134\n",
         "[controller]\nsample_rate = '50 Hz'\n"}) {
     EXPECT_THAT(refusal(text),

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <set>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -56,16 +57,69 @@ std::string best_of(const MatchSection& section, const MatchSeries& series) {
   return text;
 }
 
+// Which structures are none to choose, however small their rms.
+void conclude_hunting(const MatchSection& section, std::vector<std::string>& sentences) {
+  const std::size_t built = as_built(section);
+  std::vector<std::string> as_they_are, with_best, unseen;
+  for (const auto& series : section.series) {
+    if (!series.best) continue;
+    bool seen = true;
+    const auto look = [&](std::size_t point, std::vector<std::string>& list, std::string_view at) {
+      const auto& run = series.values[point].time_domain;
+      if (!run || !hunts_at(section, series, point)) return;
+      const double amplitude = design::hunting_amplitude(run->hunting);
+      if (amplitude > design::hunting_limit(section.tightest_budget)) {
+        list.push_back(
+            fmt::format("{} (+-{:.2f} mdeg{})", series.name, amplitude / millidegree, at));
+      }
+      seen = seen && design::hunting_seen(run->hunting);
+    };
+    look(built, as_they_are, "");
+    if (const std::size_t best = hunting_point(section, series); best != built) {
+      look(best, with_best, fmt::format(" at {:.3g} disks", section.points[best].disks));
+    }
+    if (!seen) unseen.push_back(series.name);
+  }
+  std::vector<std::string> places;
+  if (!as_they_are.empty()) {
+    places.push_back(fmt::format("as built {}", fmt::join(as_they_are, ", ")));
+  }
+  if (!with_best.empty()) {
+    places.push_back(fmt::format("with its best motors {}", fmt::join(with_best, ", ")));
+  }
+  std::vector<std::string> reasons;
+  if (!places.empty()) {
+    reasons.push_back(fmt::format(
+        "By friction alone these hunt beyond the tightest budget of {:.3f} mdeg rms on the "
+        "nonlinear antenna (amplitude of the beam): {}.",
+        section.tightest_budget / millidegree, fmt::join(places, "; ")));
+  }
+  if (!unseen.empty()) {
+    reasons.push_back(fmt::format(
+        "How far {} would hunt is not known: a run on the nonlinear antenna did not complete.",
+        fmt::join(unseen, ", ")));
+  }
+  if (reasons.empty()) return;
+  sentences.push_back(
+      fmt::format("{} Their rms is that of linear loops only, and they do not count where inertia, "
+                  "structures and rules are weighed.",
+                  fmt::join(reasons, " ")));
+}
+
 // What the axis does to a structure, and what the structure does at one inertia.
 void conclude_weight(const MatchSection& section, std::vector<std::string>& sentences) {
-  double widest = 0.0;
-  const MatchSeries* worst = nullptr;
-  for (const auto& series : section.series) {
-    if (const double one = span_of(series); one > widest) {
-      widest = one;
-      worst = &series;
+  const MatchSeries* most = most_moved(section);
+  if (most == nullptr) {
+    if (std::ranges::any_of(section.series,
+                            [](const auto& series) { return series.best.has_value(); })) {
+      sentences.emplace_back(
+          "As no structure that holds its goals is known to keep still within the tightest budget, "
+          "whether the inertia or the structure matters more is not known: look at the friction "
+          "before the motors.");
     }
+    return;
   }
+  const double widest = span_of(*most);
   if (hardly_matters(section)) {
     sentences.push_back(fmt::format(
         "Over all inertias looked at no structure's rms changes by more than {:.1f} %: the motors' "
@@ -73,36 +127,20 @@ void conclude_weight(const MatchSection& section, std::vector<std::string>& sent
         100.0 * widest, what_matters_more(section)));
     return;
   }
-  const auto built = labelled(section, "as built");
-  if (worst == nullptr || !built) return;
-  double least = HUGE_VAL, largest = 0.0;
-  std::string first, last;
-  for (const auto& series : section.series) {
-    const auto& value = series.values[*built];
-    if (!value.found || hunts(section, series)) continue;
-    if (value.beam_rms < least) {
-      least = value.beam_rms;
-      first = series.name;
-    }
-    if (value.beam_rms > largest) {
-      largest = value.beam_rms;
-      last = series.name;
-    }
-  }
-  if (!(largest > 0.0)) return;
-  if (first == last) {
+  const StructuresAsBuilt built = structures_as_built(section);
+  if (built.count == 0 || !labelled(section, "as built")) return;
+  if (built.least == built.largest) {
     sentences.push_back(fmt::format(
         "Over all inertias looked at the rms changes most with {}, by {:.0f} %; what another "
         "structure would change at the inertia as built is not known from this study.",
-        worst->name, 100.0 * widest));
+        most->name, 100.0 * widest));
     return;
   }
-  const double structures = largest / least - 1.0;
   sentences.push_back(fmt::format(
       "Over all inertias looked at the rms changes most with {}, by {:.0f} %; at the inertia as "
       "built the choice of structure changes it by {:.0f} % ({} against {}): {} matters more.",
-      worst->name, 100.0 * widest, 100.0 * structures, first, last,
-      structures > widest ? "the structure" : "the inertia"));
+      most->name, 100.0 * widest, 100.0 * built.change, built.least->name, built.largest->name,
+      built.change > widest ? "the structure" : "the inertia"));
 }
 
 void conclude_variants(const MatchSection& section, std::vector<std::string>& sentences) {
@@ -162,7 +200,7 @@ void conclude_variants(const MatchSection& section, std::vector<std::string>& se
 // disks than none there are not.
 bool has_optimum(const MatchSection& section) {
   return std::ranges::any_of(section.series, [&](const MatchSeries& series) {
-    return series.best && *series.best + 1 < section.points.size() &&
+    return series.best && weighed(section, series) && *series.best + 1 < section.points.size() &&
            span_of(series) >= negligible_change;
   });
 }
@@ -187,7 +225,7 @@ void conclude_rules(const MatchSection& section, std::vector<std::string>& sente
     double least = HUGE_VAL, largest = -HUGE_VAL;
     std::string cheapest, dearest;
     for (std::size_t s = 0; s < rule.cost.size(); ++s) {
-      if (!std::isfinite(rule.cost[s])) continue;
+      if (!std::isfinite(rule.cost[s]) || !weighed(section, section.series[s])) continue;
       if (rule.cost[s] < least) {
         least = rule.cost[s];
         cheapest = section.series[s].name;
@@ -246,15 +284,18 @@ std::string hunting_at(const MatchSection& section, const MatchSeries& series) {
 
 void conclude_friction(const MatchSection& section, std::vector<std::string>& sentences) {
   std::vector<std::string> errors;
+  std::set<double> disks;                                 // where a reversal was simulated
   std::map<std::string, std::vector<std::string>> alike;  // structures by where they hunt
   for (const auto& series : section.series) {
     double least = HUGE_VAL, largest = 0.0;
-    for (const auto& value : series.values) {
-      if (!value.time_domain) continue;
-      const auto& reversal = value.time_domain->reversal;
+    for (std::size_t i = 0; i < section.points.size(); ++i) {
+      const auto& run = series.values[i].time_domain;
+      if (!run) continue;
+      const auto& reversal = run->reversal;
       if (!reversal || reversal->status != design::RunStatus::complete) continue;
-      least = std::min(least, reversal->encoder_error);
-      largest = std::max(largest, reversal->encoder_error);
+      disks.insert(section.points[i].disks);
+      least = std::min(least, reversal->beam_error);
+      largest = std::max(largest, reversal->beam_error);
     }
     if (!(largest > 0.0)) continue;
     errors.push_back(fmt::format("{:.2f} to {:.2f} mdeg with {}", least / millidegree,
@@ -268,10 +309,14 @@ void conclude_friction(const MatchSection& section, std::vector<std::string>& se
         fmt::format("{} with {}", places.empty() ? "none seen" : places, fmt::join(names, ", ")));
   }
   sentences.push_back(fmt::format(
-      "On the nonlinear antenna the encoder errs by up to so much when the case's "
-      "tracking rate of {:.4g} mdeg/s reverses, over the inertias simulated: {}. Limit "
+      "On the nonlinear antenna the beam errs by up to so much when the case's "
+      "tracking rate of {:.4g} mdeg/s reverses, over the inertias simulated ({}): {}. Limit "
       "cycles: {}.",
-      section.tracking_rate / millidegree, fmt::join(errors, ", "), fmt::join(cycles, "; ")));
+      section.tracking_rate / millidegree,
+      disks.size() == 1 ? fmt::format("{:.3g} disks", *disks.begin())
+                        : fmt::format("{} from {:.3g} to {:.3g} disks", disks.size(),
+                                      *disks.begin(), *disks.rbegin()),
+      fmt::join(errors, ", "), fmt::join(cycles, "; ")));
 }
 
 }  // namespace
@@ -292,6 +337,7 @@ std::vector<std::string> conclude(const MatchSection& section) {
           fmt::format("No law of {} found holds its goals at any inertia.", series.name));
     }
   }
+  conclude_hunting(section, sentences);
   conclude_weight(section, sentences);
   conclude_rules(section, sentences);
   conclude_variants(section, sentences);

@@ -21,30 +21,23 @@ double span_of(const MatchSeries& series) {
 bool hardly_matters(const MatchSection& section) {
   bool any = false;
   for (const auto& series : section.series) {
-    const auto found = std::ranges::count_if(series.values, &MatchValue::found);
-    if (found == 0) continue;
+    if (!weighed(section, series)) continue;
     any = true;
-    if (found != std::ssize(series.values) || span_of(series) >= negligible_change) return false;
+    const bool everywhere = std::ranges::all_of(series.values, &MatchValue::found);
+    if (!everywhere || span_of(series) >= negligible_change) return false;
   }
   return any;
 }
 
 std::string what_matters_more(const MatchSection& section) {
   Influences influences;
-  const MatchValue* least = nullptr;
-  const MatchValue* largest = nullptr;
-  for (const auto& series : section.series) {
-    const MatchValue& value = series.values[as_built(section)];
-    if (!value.found || hunts(section, series)) continue;
-    if (least == nullptr || value.beam_rms < least->beam_rms) least = &value;
-    if (largest == nullptr || value.beam_rms > largest->beam_rms) largest = &value;
-  }
-  if (least != nullptr && largest != nullptr) {
-    influences.add(largest->beam_rms / least->beam_rms - 1.0, "the loop structure");
-  }
+  influences.add(structures_as_built(section).change, "the loop structure");
   for (const auto& variants : section.variants) {
     const MatchVariant& own = variants.variants.front();
-    if (!own.best) continue;
+    const bool counts = std::ranges::any_of(section.series, [&](const MatchSeries& series) {
+      return series.name == variants.structure && weighed(section, series);
+    });
+    if (!own.best || !counts) continue;
     for (const auto& variant : variants.variants) {
       if (!variant.best) continue;
       influences.add(std::abs(variant.rms[*variant.best] / own.rms[*own.best] - 1.0),
@@ -54,16 +47,54 @@ std::string what_matters_more(const MatchSection& section) {
   return influences.sentence();
 }
 
-std::vector<design::HuntingResult> hunting_of(const MatchSection& section,
-                                              const MatchSeries& series) {
+std::size_t hunting_point(const MatchSection& section, const MatchSeries& series) {
   const std::size_t built = as_built(section);
   const std::size_t best = series.best.value_or(built);
-  const auto& run = series.values[series.values[best].time_domain ? best : built].time_domain;
+  return series.values[best].time_domain ? best : built;
+}
+
+std::vector<design::HuntingResult> hunting_of(const MatchSection& section,
+                                              const MatchSeries& series) {
+  const auto& run = series.values[hunting_point(section, series)].time_domain;
   return run ? run->hunting : std::vector<design::HuntingResult>();
 }
 
+bool hunts_at(const MatchSection& section, const MatchSeries& series, std::size_t point) {
+  const auto& run = series.values[point].time_domain;
+  return run && !design::holds_still(run->hunting, section.tightest_budget);
+}
+
 bool hunts(const MatchSection& section, const MatchSeries& series) {
-  return !design::holds_still(hunting_of(section, series), section.tightest_budget);
+  return hunts_at(section, series, hunting_point(section, series));
+}
+
+// The span of a structure has its best motors at one end, the comparison of structures those as
+// built: what hunts at either has no such rms there.
+bool weighed(const MatchSection& section, const MatchSeries& series) {
+  return series.best && !hunts(section, series) && !hunts_at(section, series, as_built(section));
+}
+
+const MatchSeries* most_moved(const MatchSection& section) {
+  const MatchSeries* most = nullptr;
+  for (const auto& series : section.series) {
+    if (!weighed(section, series)) continue;
+    if (most == nullptr || span_of(series) > span_of(*most)) most = &series;
+  }
+  return most;
+}
+
+StructuresAsBuilt structures_as_built(const MatchSection& section) {
+  const std::size_t built = as_built(section);
+  const auto rms = [&](const MatchSeries& series) { return series.values[built].beam_rms; };
+  StructuresAsBuilt result;
+  for (const auto& series : section.series) {
+    if (!series.values[built].found || !weighed(section, series)) continue;
+    ++result.count;
+    if (result.least == nullptr || rms(series) < rms(*result.least)) result.least = &series;
+    if (result.largest == nullptr || rms(series) > rms(*result.largest)) result.largest = &series;
+  }
+  if (result.count > 0) result.change = rms(*result.largest) / rms(*result.least) - 1.0;
+  return result;
 }
 
 bool one_friction(const MatchSection& section) {

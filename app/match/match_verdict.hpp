@@ -12,22 +12,44 @@ namespace boresight::app {
 /// where none was.
 double span_of(const MatchSeries& series);
 
-/// Whether the inertia is of no account: every structure has a law at every inertia, or at none,
-/// and no span reaches negligible_change.
-bool hardly_matters(const MatchSection& section);
+/// The point where a structure's hunting is judged: its best motors where those were run on the
+/// nonlinear antenna, else as built.
+std::size_t hunting_point(const MatchSection& section, const MatchSeries& series);
 
-/// What moves the rms by more than negligible_change instead, as Influences::sentence: other
-/// structures at the inertia as built that do not hunt, and the variants.
-std::string what_matters_more(const MatchSection& section);
-
-/// What a structure does by itself on the nonlinear antenna, with its best motors where that was
-/// run, else as built; empty without a run.
+/// What a structure does there by itself; empty without a run.
 std::vector<design::HuntingResult> hunting_of(const MatchSection& section,
                                               const MatchSeries& series);
 
-/// Whether by that it hunts beyond the tightest budget (design::holds_still): no structure to
-/// choose, whatever its rms in wind.
+/// Whether a structure was run at a point and hunts there beyond the tightest budget
+/// (design::holds_still).
+bool hunts_at(const MatchSection& section, const MatchSeries& series, std::size_t point);
+
+/// Whether it does so at its hunting_point: no structure to choose, whatever its rms in wind.
 bool hunts(const MatchSection& section, const MatchSeries& series);
+
+/// Whether a structure counts where inertia, structures and rules are weighed: it has a law that
+/// holds its goals, and hunts beyond the tightest budget neither at its hunting_point nor as built.
+bool weighed(const MatchSection& section, const MatchSeries& series);
+
+/// The structure weighed whose rms changes most over the inertias; null where none is weighed.
+const MatchSeries* most_moved(const MatchSection& section);
+
+/// The structures weighed that have a law at the inertia as built.
+struct StructuresAsBuilt {
+  std::size_t count = 0;
+  const MatchSeries* least = nullptr;  // by rms; null without any
+  const MatchSeries* largest = nullptr;
+  double change = 0.0;  // the largest rms over the least, less 1
+};
+StructuresAsBuilt structures_as_built(const MatchSection& section);
+
+/// Whether the inertia is of no account: every structure weighed has a law at every inertia, and no
+/// span reaches negligible_change. False where none is weighed.
+bool hardly_matters(const MatchSection& section);
+
+/// What moves the rms by more than negligible_change instead, as Influences::sentence: the choice
+/// of structure as built, and the variants, of structures weighed.
+std::string what_matters_more(const MatchSection& section);
 
 /// Whether the linear plant has the friction slope of the curve at the tracking rate already.
 bool one_friction(const MatchSection& section);

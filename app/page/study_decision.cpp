@@ -15,6 +15,7 @@
 #include <boresight/app/report/sky_units.hpp>
 #include <boresight/app/report/wind_mast.hpp>
 #include <boresight/app/tune/tune_study.hpp>
+#include <boresight/app/tune/tune_verdict.hpp>
 
 namespace boresight::app {
 namespace {
@@ -25,28 +26,26 @@ double mdeg(double angle) {
   return angle / millidegree;
 }
 
-// Whether flywheels or loops come first, where both can be told.
-std::string first_change(const MatchSection& section, const MatchSeries& best) {
+// Whether flywheels or loops come first, where both can be told; `others`: other structures were
+// studied.
+std::string first_change(const MatchSection& section, const MatchSeries& best, bool others) {
   const std::size_t built = as_built(section);
-  double least_built = HUGE_VAL, most_built = 0.0;
-  std::size_t structures = 0;
-  for (const auto& series : section.series) {
-    const MatchValue& value = series.values[built];
-    if (!value.found) continue;
-    ++structures;
-    least_built = std::min(least_built, value.beam_rms);
-    most_built = std::max(most_built, value.beam_rms);
+  if (hunts_at(section, best, built)) {
+    return "With the motors as built those loops hunt beyond the tightest budget on the nonlinear "
+           "antenna.";
   }
+  const StructuresAsBuilt structures = structures_as_built(section);
   const double by_disks =
       best.values[built].beam_rms / best.values[best.best.value_or(built)].beam_rms - 1.0;
   std::string text =
       fmt::format("Leaving the motors as built costs {:+.1f} % with those loops", 100.0 * by_disks);
-  if (structures < 2) {
-    return text + (by_disks < negligible_change
-                       ? ": leave them."
-                       : "; whether other loops would do more was not looked at.");
+  if (structures.count < 2) {
+    return text + (by_disks < negligible_change ? ": leave them."
+                   : others ? "; all other loops looked at hunt beyond the tightest budget or miss "
+                              "their goals."
+                            : "; whether other loops would do more was not looked at.");
   }
-  const double by_loops = most_built / least_built - 1.0;
+  const double by_loops = structures.change;
   text += fmt::format(", and the choice of loops as built up to {:.1f} %", 100.0 * by_loops);
   if (std::max(by_disks, by_loops) < negligible_change)
     return text + ": neither is worth a change.";
@@ -107,15 +106,14 @@ Sentences decide_inertia(const MatchSection& section, bool others_hunt) {
   const std::size_t built = as_built(section);
   const MatchPoint& point = section.points[best_point];
   const MatchValue& present = best->values[built];
-  if (hardly_matters(section)) {
-    double span = 0.0;
-    for (const auto& series : section.series) span = std::max(span, span_of(series));
+  const MatchSeries* moved = most_moved(section);
+  if (moved != nullptr && weighed(section, *best) && hardly_matters(section)) {
     return {fmt::format(
         "Leave the flywheels as they are: with {} loops the rms as built is {:.3f} mdeg in {:g} "
         "m/s, and from {:g} to {:g} disks on each motor no structure's rms changes by more than "
         "{:.1f} %.{}",
         best->name, mdeg(present.beam_rms), section.wind_speed, section.points.front().disks,
-        section.points.back().disks, 100.0 * span, what_matters_more(section))};
+        section.points.back().disks, 100.0 * span_of(*moved), what_matters_more(section))};
   }
   Sentences sentences{fmt::format(
       "The least rms, {:.3f} mdeg in {:.3g} m/s, comes with {} loops and {:g} disks on each motor "
@@ -124,7 +122,9 @@ Sentences decide_inertia(const MatchSection& section, bool others_hunt) {
       best->within_5_percent.lowest, best->within_5_percent.highest)};
   const bool inertia_matters =
       !present.found || present.beam_rms / least - 1.0 >= negligible_change;
-  if (present.found) sentences.push_back(first_change(section, *best));
+  if (present.found) {
+    sentences.push_back(first_change(section, *best, others_hunt || section.series.size() > 1));
+  }
   if (auto text = deciding_friction(section); inertia_matters && !text.empty()) {
     sentences.push_back(std::move(text));
   }
@@ -254,15 +254,20 @@ std::vector<std::string> decision(const TuneSection& section,
                   best->tuned_for == TunedFor::robust
                       ? fmt::format("its goals held on each of {} plants", section.ensemble_size)
                       : std::string("its goals held on the nominal plant only"));
-  if (!section.budgets.empty() && !best->speed_limits.empty() && !best->left_out()) {
-    const double limit_speed = std::min(best->speed_limits.front(), section.supply_wind_speed);
-    text += fmt::format("; it meets {} ({}) up to {}{}{}", section.budgets.front().name,
-                        section.budgets.front().band,
-                        std::isfinite(limit_speed) ? fmt::format("{:.1f} m/s", limit_speed)
-                                                   : std::string("the 60 m/s looked at"),
-                        dish_and_mast(section.wind_mast, limit_speed),
-                        climate_text(section.climate, limit_speed));
-    if (limit_speed < best->speed_limits.front()) {
+  const TunedLaw* recommended = recommended_law(section);
+  if (!section.budgets.empty() && recommended != nullptr && !recommended->speed_limits.empty()) {
+    const double by_wind = recommended->speed_limits.front();
+    const double limit_speed = std::min(by_wind, section.supply_wind_speed);
+    text += fmt::format(
+        "; {} meets {} ({}) up to {}{}{}",
+        recommended == best
+            ? std::string("it")
+            : fmt::format("there {}, the law recommended,", name_and_purpose(*recommended)),
+        section.budgets.front().name, section.budgets.front().band,
+        std::isfinite(limit_speed) ? fmt::format("{:.1f} m/s", limit_speed)
+                                   : std::string("the 60 m/s looked at"),
+        dish_and_mast(section.wind_mast, limit_speed), climate_text(section.climate, limit_speed));
+    if (limit_speed < by_wind) {
       text +=
           ", where the mean wind takes all that friction and offset leave of the supply's torque";
     }

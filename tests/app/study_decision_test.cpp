@@ -78,7 +78,7 @@ TEST(MatchConclusions, GatherWhatTurningRoundDoesAndNameTheTrackingRate) {
     tracking.limit_cycle = series.name != "LL";
     run.hunting = {at_rest, tracking};
     run.reversal = design::ReversalResult{};
-    run.reversal->encoder_error = 2.0 * millidegree;
+    run.reversal->beam_error = 2.0 * millidegree;
     series.values[0].time_domain = run;
   }
   const auto sentences = conclude(section);
@@ -93,6 +93,22 @@ TEST(MatchConclusions, GatherWhatTurningRoundDoesAndNameTheTrackingRate) {
                              HasSubstr("none seen with LL"))));
   EXPECT_THAT(sentences, Not(Contains(HasSubstr("of the friction curve at the tracking rate"))))
       << "it is the linear plant's";
+}
+
+TEST(MatchConclusions, GiveTheErrorOfTheBeamWhereTheRateReverses) {
+  MatchSection section = section_of({series_of("PI", {0.4, 0.5, 0.6})});
+  const auto reverse = [&](std::size_t point, double encoder_mdeg, double beam_mdeg) {
+    design::ReversalResult reversal;
+    reversal.encoder_error = encoder_mdeg * millidegree;
+    reversal.beam_error = beam_mdeg * millidegree;
+    section.series[0].values[point].time_domain = MatchTimeDomain{{}, reversal};
+  };
+  reverse(0, 2.84, 5.2);
+  reverse(2, 2.98, 3.2);
+  EXPECT_THAT(conclude(section),
+              Contains(AllOf(HasSubstr("the beam errs by up to so much"),
+                             HasSubstr("over the inertias simulated (2 from 0 to 3 disks): "
+                                       "3.20 to 5.20 mdeg with PI"))));
 }
 
 TEST(MatchDecision, OfOneFlatStructureIsToLeaveTheFlywheels) {
@@ -179,6 +195,81 @@ TEST(MatchDecision, PutsNoStructureFirstThatHuntsBeyondTheBudget) {
   alone.tightest_budget = 0.5 * millidegree;
   EXPECT_THAT(decision(alone),
               ElementsAre(HasSubstr("hunts beyond the tightest budget on the nonlinear antenna")));
+}
+
+// Still at every other point.
+MatchSeries hunting_as_built(MatchSeries series, double amplitude_mdeg) {
+  MatchSeries result = hunting(std::move(series), 0.0);
+  result.values[1] = hunting(result, amplitude_mdeg).values[1];
+  return result;
+}
+
+MatchSection within_half_a_millidegree(std::vector<MatchSeries> series) {
+  MatchSection section = section_of(std::move(series));
+  section.tightest_budget = 0.5 * millidegree;
+  return section;
+}
+
+TEST(MatchConclusions, WeighInertiaAndStructureByThoseThatDoNotHunt) {
+  for (const auto& third : {hunting(series_of("DPF+C", {0.1, 0.3, 0.4}), 3.0),
+                            hunting_as_built(series_of("DPF+C", {0.1, 0.3, 0.4}), 3.0)}) {
+    const auto sentences =
+        conclude(within_half_a_millidegree({hunting(series_of("PI", {0.4, 0.42, 0.44}), 0.1),
+                                            series_of("LL", {0.4, 0.5, 0.5}), third}));
+    EXPECT_THAT(sentences,
+                Contains(AllOf(HasSubstr("the rms changes most with LL, by 25 %"),
+                               HasSubstr("changes it by 19 % (PI against LL): the inertia"))));
+    EXPECT_THAT(sentences, Contains(HasSubstr("costs +5.0 % of rms with PI and +25.0 % with LL")));
+  }
+  EXPECT_THAT(
+      conclude(within_half_a_millidegree({series_of("PI", {0.5, 0.501, 0.502}),
+                                          hunting(series_of("DPF+C", {0.1, 0.3, 0.4}), 3.0)})),
+      Contains(HasSubstr("by more than 0.4 %: the motors' inertia hardly matters here")));
+}
+
+TEST(MatchConclusions, WeighNothingWhereAllHunt) {
+  const auto sentences =
+      conclude(within_half_a_millidegree({hunting(series_of("PI", {0.4, 0.5, 0.6}), 1.0),
+                                          hunting(series_of("DPF+C", {0.1, 0.3, 0.4}), 3.0)}));
+  EXPECT_THAT(sentences, Contains(HasSubstr("whether the inertia or the structure matters more is "
+                                            "not known")));
+  EXPECT_THAT(sentences, Each(AllOf(Not(HasSubstr("changes most with")),
+                                    Not(HasSubstr("good rule")), Not(HasSubstr("hardly")))));
+}
+
+TEST(MatchConclusions, NameTheStructuresThatHuntAndByHowMuch) {
+  const auto with = [](const MatchSeries& second) {
+    return conclude(
+        within_half_a_millidegree({hunting(series_of("PI", {0.4, 0.5, 0.6}), 0.1), second}));
+  };
+  const MatchSeries series = series_of("DPF+C", {0.1, 0.3, 0.4});
+  EXPECT_THAT(with(hunting(series, 3.0)),
+              Contains(AllOf(HasSubstr("hunt beyond the tightest budget of 0.500 mdeg rms"),
+                             HasSubstr(": as built DPF+C (+-3.00 mdeg); with its best motors DPF+C "
+                                       "(+-3.00 mdeg at 0 disks). Their rms is that of linear "
+                                       "loops only"))));
+  EXPECT_THAT(with(hunting_as_built(series, 3.0)),
+              Contains(HasSubstr(": as built DPF+C (+-3.00 mdeg). Their rms")));
+  EXPECT_THAT(with(hunting(series, 0.7)), Each(Not(HasSubstr("tightest budget"))));
+  MatchSeries lost = series;
+  design::HuntingResult run;
+  run.status = design::RunStatus::lost;
+  lost.values[1].time_domain = MatchTimeDomain{{run}, {}};
+  EXPECT_THAT(with(lost), Contains(AllOf(HasSubstr("How far DPF+C would hunt is not known"),
+                                         Not(HasSubstr("+-")))));
+}
+
+TEST(MatchDecision, WeighsNoLoopsThatHuntWithTheMotorsAsBuilt) {
+  const MatchSeries calm = hunting(series_of("PI", {0.4, 0.5, 0.6}), 0.1);
+  const auto text = [&](const std::vector<double>& rms) {
+    return decision(
+        within_half_a_millidegree({calm, hunting_as_built(series_of("DPF", rms), 3.0)}))[1];
+  };
+  EXPECT_THAT(text({0.7, 0.8, 0.9}), AllOf(HasSubstr("costs +25.0 % with those loops; all other "
+                                                     "loops looked at hunt"),
+                                           Not(HasSubstr("change the loops first"))));
+  EXPECT_THAT(text({0.3, 0.31, 0.32}),
+              HasSubstr("With the motors as built those loops hunt beyond the tightest budget"));
 }
 
 TEST(MatchConclusions, ConfirmNoRuleByALeastAtTheUpperEnd) {

@@ -12,6 +12,7 @@
 #include <boresight/app/tune/gains_at_bounds.hpp>
 #include <boresight/app/tune/laws_in_time.hpp>
 #include <boresight/app/tune/tune_study.hpp>
+#include <boresight/app/tune/tune_verdict.hpp>
 
 namespace boresight::app {
 namespace {
@@ -52,9 +53,17 @@ std::string of_the_linear_plant(const TuneSection& section, const TunedLaw& row)
                      mdeg(row.in_time->beam_rms));
 }
 
-// The best usable law of each purpose, and what only the bounds of the search hold of them.
+// The best usable law of each purpose and, if it is another, the one recommended; and what only the
+// bounds of the search hold of them.
 void conclude_best(const TuneSection& section, std::vector<std::string>& sentences) {
   std::vector<const TunedLaw*> concluded;
+  const auto say = [&](const TunedLaw& row, const std::string& subject) {
+    sentences.push_back(fmt::format("At {:.3g} m/s {} with {} rms{}. Limited by {}.{}",
+                                    row.wind_speed, subject, mdeg(row.beam_rms),
+                                    of_the_linear_plant(section, row), limits_of(row),
+                                    assumed_demand(row.design.tuning, section.demand_assumption)));
+    concluded.push_back(&row);
+  };
   for (const double speed : section.wind_speeds) {
     for (const auto purpose : {TunedFor::nominal, TunedFor::robust}) {
       const TunedLaw* best = nullptr;
@@ -63,13 +72,15 @@ void conclude_best(const TuneSection& section, std::vector<std::string>& sentenc
         if (best == nullptr || row.beam_rms < best->beam_rms) best = &row;
       }
       if (best == nullptr) continue;
-      sentences.push_back(fmt::format(
-          "At {:.3g} m/s the best {} is {} with {} rms{}. Limited by {}.{}", speed,
-          purpose == TunedFor::robust ? "law that keeps its goals on every plant" : "nominal law",
-          best->structure, mdeg(best->beam_rms), of_the_linear_plant(section, *best),
-          limits_of(*best), assumed_demand(best->design.tuning, section.demand_assumption)));
-      concluded.push_back(best);
+      say(*best, fmt::format("the best {} is {}",
+                             purpose == TunedFor::robust ? "law that keeps its goals on every plant"
+                                                         : "nominal law",
+                             best->structure));
     }
+    const TunedLaw* recommended = recommended_law(section, speed);
+    if (recommended == nullptr) continue;
+    if (std::ranges::find(concluded, recommended) != concluded.end()) continue;
+    say(*recommended, fmt::format("the law recommended is {}", name_and_purpose(*recommended)));
   }
   std::ranges::move(gains_at_bounds(concluded, sample_time_of(section.problem.delay)),
                     std::back_inserter(sentences));
@@ -99,28 +110,73 @@ void conclude_before_and_after(const TuneSection& section, std::vector<std::stri
   }
 }
 
-// The budgets that are needed up to a wind speed, and are met there.
+// On how many plants that may be the true one a law keeps within an rms; 0 where none was tried.
+std::ptrdiff_t plants_kept(const TunedLaw& law, double rms) {
+  if (!law.ensemble) return 0;
+  return std::ranges::count_if(law.ensemble->members,
+                               [&](const auto& one) { return one.stable && one.beam_rms <= rms; });
+}
+
+// What a law has of a budget's rms.
+std::string figures_of(const TunedLaw& law) {
+  std::string text =
+      fmt::format("{} has {} on the case's plant", name_and_purpose(law), mdeg(law.beam_rms));
+  if (law.in_time) {
+    text += fmt::format(", simulated on the nonlinear antenna {}", mdeg(law.in_time->beam_rms));
+  }
+  if (law.left_out()) text += fmt::format(", where it {}", held_against(law));
+  return text;
+}
+
+std::string plants_text(const TunedLaw& law, double rms) {
+  if (!law.ensemble) return "";
+  return fmt::format(", and meets it on {} of {} plants", plants_kept(law, rms),
+                     law.ensemble->members.size());
+}
+
+// The law like the one recommended that meets a budget on the most plants, if on more than that
+// one does.
+std::string alternative_text(const TuneSection& section, const PointingBudget& budget,
+                             const TunedLaw& recommended) {
+  if (!recommended.ensemble) return "";
+  const TunedLaw* most = nullptr;
+  std::ptrdiff_t plants = plants_kept(recommended, budget.rms);
+  for (const auto& row : section.laws) {
+    if (row.tuned_for != recommended.tuned_for || row.wind_speed != recommended.wind_speed) {
+      continue;
+    }
+    if (!row.usable() || row.left_out() || !row.keeps(budget.rms)) continue;
+    if (plants_kept(row, budget.rms) <= plants) continue;
+    plants = plants_kept(row, budget.rms);
+    most = &row;
+  }
+  if (most == nullptr) return "";
+  return fmt::format("; {} meets it on {}, but {}", name_and_purpose(*most), plants,
+                     why_not_recommended(section, *most, recommended));
+}
+
+// The budgets that are needed up to a wind speed, and are met there: by the law recommended or,
+// where that does not, by another.
 void conclude_budgets(const TuneSection& section, std::vector<std::string>& sentences) {
   for (const auto& budget : section.budgets) {
     if (!budget.wind_speed || section.supply_wind_speed < *budget.wind_speed) continue;
-    const TunedLaw* law = best_pointing_law(section, budget.wind_speed);
-    if (law == nullptr || !law->keeps(budget.rms)) continue;
+    const TunedLaw* nearest = best_pointing_law(section, budget.wind_speed);
+    if (nearest == nullptr || !nearest->keeps(budget.rms)) continue;
     std::string text = fmt::format(
-        "The budget '{}' in band {} ({}) is met at the {:.3g} m/s{} that it is needed up to: {} "
-        "({}) has {} on the case's plant{}",
+        "The budget '{}' in band {} ({}) is met at the {:.3g} m/s{} that it is needed up to",
         budget.name, budget.band, mdeg(budget.rms), *budget.wind_speed,
-        dish_and_mast(section.wind_mast, *budget.wind_speed), law->structure,
-        to_string(law->tuned_for), mdeg(law->beam_rms),
-        law->in_time
-            ? fmt::format(", simulated on the nonlinear antenna {}", mdeg(law->in_time->beam_rms))
-            : "");
-    if (law->left_out()) text += fmt::format(", where it {}", held_against(*law));
-    if (law->ensemble) {
-      const auto& ensemble = *law->ensemble;
-      const auto within = std::ranges::count_if(ensemble.members, [&](const auto& one) {
-        return one.stable && one.beam_rms <= budget.rms;
-      });
-      text += fmt::format(", and meets it on {} of {} plants", within, ensemble.members.size());
+        dish_and_mast(section.wind_mast, *budget.wind_speed));
+    const TunedLaw* recommended = recommended_law(section, budget.wind_speed);
+    if (recommended == nullptr) {
+      text += ": " + figures_of(*nearest) + plants_text(*nearest, budget.rms);
+    } else if (recommended->keeps(budget.rms)) {
+      text += ": " + figures_of(*recommended) + plants_text(*recommended, budget.rms) +
+              alternative_text(section, budget, *recommended);
+    } else {
+      text += fmt::format(", but not by the law recommended: {}; {}{}, but {}",
+                          figures_of(*recommended), figures_of(*nearest),
+                          plants_text(*nearest, budget.rms),
+                          why_not_recommended(section, *nearest, *recommended));
     }
     sentences.push_back(text + ".");
   }

@@ -7,11 +7,14 @@
 
 #include <boresight/app/report/assumed_demand.hpp>
 #include <boresight/app/report/climate_wording.hpp>
+#include <boresight/app/report/influences.hpp>
 #include <boresight/app/report/loss_wording.hpp>
 #include <boresight/app/report/sky_units.hpp>
 #include <boresight/app/report/wind_mast.hpp>
+#include <boresight/app/tune/gains_at_bounds.hpp>
 #include <boresight/app/tune/laws_in_time.hpp>
 #include <boresight/app/tune/tune_study.hpp>
+#include <boresight/app/tune/tune_verdict.hpp>
 
 namespace boresight::app {
 namespace {
@@ -68,6 +71,24 @@ std::string found_and_limit(const GoalRatio& goal, const design::HardGoals& goal
   return "";
 }
 
+// Whether one of its corners does nothing that a sampled controller can do.
+bool has_idle_corner(const TuneSection& section, const TunedLaw& row) {
+  const SearchedLaw searched{"", &row.design.tuning, sample_time_of(section.problem.delay)};
+  return !corners_beyond_sampling(searched).empty();
+}
+
+// What best_in_time goes by of a law's run.
+TimeDomainSection::Candidate candidate_of(const TunedLaw& row, const LawInTime& run) {
+  design::HuntingResult hunting;
+  hunting.limit_cycle = run.hunting > 0.0;
+  hunting.beam_amplitude = run.hunting;
+  TimeDomainSection::Candidate candidate;
+  candidate.law = description_of(row);
+  candidate.result.wind.beam_rms = run.beam_rms;
+  candidate.result.hunting.push_back(std::move(hunting));
+  return candidate;
+}
+
 // Every goal that stands in the way, once.
 std::string standing_goals(const TunedLaw& row, const design::HardGoals& goals) {
   std::vector<std::string> texts;
@@ -79,10 +100,6 @@ std::string standing_goals(const TunedLaw& row, const design::HardGoals& goals) 
   }
   if (texts.empty()) texts = row.design.tuning.active_goals;
   return fmt::format("{}", fmt::join(texts, "; "));
-}
-
-std::string label(const TunedLaw& row) {
-  return fmt::format("{} ({})", row.structure, to_string(row.tuned_for));
 }
 
 // The rms that budgets are held against, and the linear plant's where it is another.
@@ -109,12 +126,29 @@ std::string left_out_text(const TuneSection& section, const TunedLaw& named) {
         row->beam_rms >= named.budget_rms()) {
       continue;
     }
-    texts.push_back(fmt::format("{}, {:.4f} mdeg by the linear plant, {}", label(*row),
+    texts.push_back(fmt::format("{}, {:.4f} mdeg by the linear plant, {}", name_and_purpose(*row),
                                 row->beam_rms / millidegree, held_against(*row)));
   }
   if (texts.empty()) return "";
   return fmt::format(" Left out for what they do on the nonlinear antenna: {}.",
                      fmt::join(texts, "; "));
+}
+
+// The law that comes nearest to an rms that none reaches, behind the one recommended if that is
+// another. `more_of`: what is said of a law behind its rms.
+template <typename MoreOf>
+std::string nearest_text(const TuneSection& section, const TunedLaw& nearest,
+                         const MoreOf& more_of) {
+  const TunedLaw* recommended = recommended_law(section, nearest.wind_speed);
+  if (recommended == nullptr || recommended == &nearest) {
+    return fmt::format("{} comes nearest with {}{}.{}", name_and_purpose(nearest),
+                       rms_text(nearest), more_of(nearest), left_out_text(section, nearest));
+  }
+  return fmt::format("{}, the law recommended, has {}{}. {} comes nearest with {}, but {}.{}",
+                     name_and_purpose(*recommended), rms_text(*recommended), more_of(*recommended),
+                     name_and_purpose(nearest), rms_text(nearest),
+                     why_not_recommended(section, nearest, *recommended),
+                     left_out_text(section, *recommended));
 }
 
 // Goals that no law of one wind speed and purpose meets.
@@ -150,7 +184,8 @@ void find_unmet_goals(const TuneSection& section, double speed, TunedFor purpose
       {fmt::format("No law of {} meets every hard goal at {:.3g} m/s{}{}.", fmt::join(names, ", "),
                    speed, robust ? " on " + plants : "",
                    standing > 1 ? ": the goals contradict one another" : ""),
-       fmt::format("{} comes nearest, {:.1f} % off its worst goals: {}.{}", label(*nearest),
+       fmt::format("{} comes nearest, {:.1f} % off its worst goals: {}.{}",
+                   name_and_purpose(*nearest),
                    100.0 * (nearest->design.tuning.worst_goal_ratio - 1.0),
                    standing_goals(*nearest, section.goals),
                    assumed_demand(nearest->design.tuning, section.demand_assumption))});
@@ -189,20 +224,21 @@ void find_unreached_rms(const TuneSection& section, std::vector<Shortfall>& shor
     }
     const TunedLaw* best = best_pointing_law(section, budget.wind_speed);
     if (best == nullptr || best->keeps(met * budget.rms)) continue;
+    const auto more_of = [&](const TunedLaw& law) {
+      return fmt::format(
+          ", {} dB on two equal axes in band {}{}",
+          loss_text(design::pointing_loss_db(law.budget_rms(), budget.beamwidth,
+                                             design::LossConvention::mean_loss_two_axes),
+                    3),
+          budget.band, law.left_out() ? "" : reached_text(section, law, law.speed_limits[i]));
+    };
     shortfalls.push_back(
         {fmt::format("The budget '{}' in band {} ({:.4f} mdeg) cannot be met up to {:.3g} m/s{} by "
                      "what was tuned ({}).",
                      budget.name, budget.band, budget.rms / millidegree, *budget.wind_speed,
                      dish_and_mast(section.wind_mast, *budget.wind_speed),
                      fmt::join(structures_of(section), ", ")),
-         fmt::format("{} comes nearest with {}, {} dB on two equal axes in band {}{}.{}",
-                     label(*best), rms_text(*best),
-                     loss_text(design::pointing_loss_db(best->budget_rms(), budget.beamwidth,
-                                                        design::LossConvention::mean_loss_two_axes),
-                               3),
-                     budget.band,
-                     best->left_out() ? "" : reached_text(section, *best, best->speed_limits[i]),
-                     left_out_text(section, *best))});
+         nearest_text(section, *best, more_of)});
   }
   if (!section.beam_rms_goal) return;
   const double speed = section.wind_speeds.front();
@@ -210,11 +246,62 @@ void find_unreached_rms(const TuneSection& section, std::vector<Shortfall>& shor
   if (best == nullptr || best->keeps(met * *section.beam_rms_goal)) return;
   shortfalls.push_back({fmt::format("A beam rms of {:.4f} mdeg cannot be met at {:.3g} m/s.",
                                     *section.beam_rms_goal / millidegree, speed),
-                        fmt::format("{} comes nearest with {}.{}", label(*best), rms_text(*best),
-                                    left_out_text(section, *best))});
+                        nearest_text(section, *best, [](const TunedLaw&) { return ""; })});
 }
 
 }  // namespace
+
+std::string name_and_purpose(const TunedLaw& row) {
+  return fmt::format("{} ({})", row.structure, to_string(row.tuned_for));
+}
+
+const TunedLaw* recommended_law(const TuneSection& section, std::optional<double> wind_speed) {
+  const TunedLaw* pointing = best_pointing_law(section, wind_speed);
+  if (pointing == nullptr || pointing->left_out()) return nullptr;
+  std::vector<const TunedLaw*> rows;
+  std::vector<TimeDomainSection::Candidate> candidates;
+  for (const auto* row : rows_at(section, pointing->wind_speed)) {
+    if (row->tuned_for != pointing->tuned_for || !row->usable()) continue;
+    if (!row->in_time || row->left_out()) continue;
+    rows.push_back(row);
+    candidates.push_back(candidate_of(*row, *row->in_time));
+  }
+  // All of these hold still, whatever the error.
+  return rows.empty() ? pointing : rows[best_in_time(candidates, HUGE_VAL)];
+}
+
+std::string why_not_recommended(const TuneSection& section, const TunedLaw& other,
+                                const TunedLaw& recommended) {
+  std::vector<std::string> reasons;
+  const auto points_worse = [&](double rms, double by_recommended) {
+    reasons.push_back(fmt::format("points within {:.4f} mdeg rather than {:.4f}", rms / millidegree,
+                                  by_recommended / millidegree));
+  };
+  if (other.in_time && recommended.in_time) {
+    const LawInTime &run = *other.in_time, &chosen = *recommended.in_time;
+    const bool hunts_more = run.hunting > chosen.hunting;
+    // A negligible loss in wind is not why, where hunting is.
+    const double share = hunts_more ? negligible_change : 0.0;
+    if (run.beam_rms > (1.0 + share) * chosen.beam_rms) {
+      points_worse(run.beam_rms, chosen.beam_rms);
+    }
+    if (hunts_more) {
+      reasons.push_back(fmt::format("hunts by +-{:.4f} mdeg rather than +-{:.4f}",
+                                    run.hunting / millidegree, chosen.hunting / millidegree));
+    }
+  } else if (recommended.in_time) {
+    reasons.emplace_back("did not run on the nonlinear antenna");
+  } else if (other.beam_rms > recommended.beam_rms) {
+    points_worse(other.beam_rms, recommended.beam_rms);
+  }
+  if (has_idle_corner(section, other) && !has_idle_corner(section, recommended)) {
+    reasons.emplace_back("has a corner beyond half the sampling rate, where it does nothing");
+  }
+  if (reasons.empty()) {
+    reasons.push_back(fmt::format("is better by no more than {:.0f} %", 100.0 * negligible_change));
+  }
+  return fmt::format("{}", fmt::join(reasons, ", and "));
+}
 
 std::vector<Shortfall> find_shortfalls(const TuneSection& section) {
   std::vector<Shortfall> shortfalls;

@@ -1,16 +1,19 @@
 // What is said of tuned laws against budgets, on the nonlinear antenna and at bounds of the search.
 #include <limits>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <boresight/app/document/document_text.hpp>
+#include <boresight/app/page/study_decision.hpp>
 #include <boresight/app/report/sky_units.hpp>
 #include <boresight/app/report/text_report.hpp>
 #include <boresight/app/tune/gains_at_bounds.hpp>
 #include <boresight/app/tune/tune_study.hpp>
+#include <boresight/app/tune/tune_verdict.hpp>
 
 namespace boresight::app {
 namespace {
@@ -22,6 +25,7 @@ using testing::ElementsAre;
 using testing::EndsWith;
 using testing::HasSubstr;
 using testing::Not;
+using testing::StartsWith;
 
 // A study in 12 m/s with a budget of 1.2 mdeg that is needed up to there.
 TuneSection section_with_need() {
@@ -48,6 +52,44 @@ TunedLaw law_of(const std::string& structure, TunedFor purpose, double rms_mdeg)
   law.beam_rms = rms_mdeg * millidegree;
   law.speed_limits = {12.0 * 1.2 / rms_mdeg};
   return law;
+}
+
+// A robust one that ran on the nonlinear antenna, where it hunts; in mdeg.
+TunedLaw law_in_time(const std::string& structure, double rms, double hunting, double simulated) {
+  TunedLaw law = law_of(structure, TunedFor::robust, rms);
+  law.in_time = {hunting < 1.0, hunting * millidegree, simulated * millidegree};
+  return law;
+}
+
+// Of 30 plants that may be the true one, some within an rms of 2.1 mdeg and the others of 2.5.
+design::EnsembleResult ensemble_with(int within) {
+  design::EnsembleResult ensemble;
+  for (int i = 0; i < 30; ++i) {
+    design::MemberResult member;
+    member.stable = true;
+    member.beam_rms = (i < within ? 2.1 : 2.5) * millidegree;
+    ensemble.members.push_back(member);
+  }
+  return ensemble;
+}
+
+// On the nonlinear antenna the best law of the linear plant hunts; LL points a little better than
+// PI, and hunts a little more. The lead of LL does nothing in a controller of 0.02 s.
+TuneSection section_of_two_alike() {
+  TuneSection section = section_with_need();
+  section.budgets.front().rms = 2.444 * millidegree;
+  section.problem.delay = 0.03;
+  section.laws = {law_in_time("PI", 2.1276, 0.4246, 2.1552),
+                  law_in_time("LL", 2.1303, 0.4375, 2.1461),
+                  law_in_time("DPF+C", 0.8822, 12.03, 3.1527)};
+  section.laws[0].ensemble = ensemble_with(27);
+  section.laws[1].ensemble = ensemble_with(28);
+  section.laws[2].ensemble = ensemble_with(30);
+  auto& tuning = section.laws[1].design.tuning;
+  tuning.law.structure = control::LoopStructure::named("LL");
+  for (const auto& gain : tuning.law.structure.gains()) tuning.law.gains.push_back(gain.upper);
+  tuning.gains_at_bound = {"rate lead corner"};
+  return section;
 }
 
 TEST(TuneVerdict, HoldsABudgetAgainstALawThatIsGoodForAllPlants) {
@@ -167,12 +209,8 @@ TEST(TuneConclusions, SayThatABoundOnlyStopsAFlatDirection) {
 TEST(Shortfalls, TrustNoBudgetToALawThatHunts) {
   TuneSection section = section_with_need();
   section.wind_mast = WindMast{10.0, 28.0, 0.14, 1.2};
-  const auto row = [](const std::string& structure, double rms, double hunting, double simulated) {
-    TunedLaw law = law_of(structure, TunedFor::robust, rms);
-    law.in_time = {hunting < 1.0, hunting * millidegree, simulated * millidegree};
-    return law;
-  };
-  section.laws = {row("DPF+C", 1.0, 7.4, 1.05), row("LL", 1.1, 0.2, 1.5), row("PI", 1.5, 0.2, 1.6)};
+  section.laws = {law_in_time("DPF+C", 1.0, 7.4, 1.05), law_in_time("LL", 1.1, 0.2, 1.5),
+                  law_in_time("PI", 1.5, 0.2, 1.6)};
   // The linear plant's best meets the budget, and hunts; the second misses it on the nonlinear one.
   EXPECT_EQ(best_law(section, 12.0), &section.laws[0]);
   EXPECT_EQ(best_pointing_law(section, 12.0), &section.laws[1]);
@@ -190,11 +228,11 @@ TEST(Shortfalls, TrustNoBudgetToALawThatHunts) {
   EXPECT_THAT(conclude(section),
               Contains(HasSubstr("but it hunts by +-7.40 mdeg on the nonlinear antenna")));
   // A law that loses on the nonlinear antenna but meets the budget there all the same is good.
-  section.laws[1] = row("LL", 0.9, 0.2, 1.15);
+  section.laws[1] = law_in_time("LL", 0.9, 0.2, 1.15);
   EXPECT_TRUE(find_shortfalls(section).empty());
   // Where none is left, the least simulated rms comes nearest, not the linear plant's best.
-  section.laws = {row("DPF+C", 1.19, 4.8, 2.17), row("FULL", 1.43, 5.8, 1.78),
-                  row("PI", 1.77, 1.6, 2.07), law_of("DPF+C", TunedFor::nominal, 1.07)};
+  section.laws = {law_in_time("DPF+C", 1.19, 4.8, 2.17), law_in_time("FULL", 1.43, 5.8, 1.78),
+                  law_in_time("PI", 1.77, 1.6, 2.07), law_of("DPF+C", TunedFor::nominal, 1.07)};
   EXPECT_EQ(best_law(section, 12.0), &section.laws[0]);
   EXPECT_EQ(best_pointing_law(section, 12.0), &section.laws[1]);
   shortfalls = find_shortfalls(section);
@@ -211,7 +249,7 @@ TEST(Shortfalls, TrustNoBudgetToALawThatHunts) {
   EXPECT_THAT(find_shortfalls(section)[0].closest,
               HasSubstr("FULL (robust) comes nearest with 1.4300 mdeg by the linear plant, "));
   // Where none is left, the linear best is named for what it is.
-  section.laws = {row("DPF+C", 1.3, 7.4, 1.35)};
+  section.laws = {law_in_time("DPF+C", 1.3, 7.4, 1.35)};
   shortfalls = find_shortfalls(section);
   ASSERT_EQ(shortfalls.size(), 1U);
   EXPECT_THAT(
@@ -220,7 +258,7 @@ TEST(Shortfalls, TrustNoBudgetToALawThatHunts) {
             HasSubstr("On the nonlinear antenna it hunts by +-7.40 mdeg, and no other robust "
                       "law holds still")));
   // Its hunting breaks a budget that its rms in wind meets, of +-1.7 mdeg; not one of +-7.5.
-  section.laws = {row("DPF+C", 1.0, 7.4, 1.05)};
+  section.laws = {law_in_time("DPF+C", 1.0, 7.4, 1.05)};
   ASSERT_EQ(find_shortfalls(section).size(), 1U);
   EXPECT_THAT(conclude(section), Each(Not(HasSubstr("is met at"))));
   section.budgets.front().rms = 5.3 * millidegree;
@@ -231,6 +269,105 @@ TEST(Shortfalls, TrustNoBudgetToALawThatHunts) {
                          "+-7.40 mdeg")));
   section.laws[0].in_time->hunting_seen = false;
   EXPECT_EQ(find_shortfalls(section).size(), 1U);
+}
+
+TEST(RecommendedLaw, IsTheOneThatTheTimeDomainChooses) {
+  TuneSection section = section_of_two_alike();
+  // Held against a budget LL would be first, by less than decides anything.
+  ASSERT_EQ(best_pointing_law(section, 12.0), &section.laws[1]);
+  EXPECT_EQ(recommended_law(section, 12.0), &section.laws[0]);
+  EXPECT_EQ(recommended_law(section), &section.laws[0]);
+  EXPECT_EQ(recommended_law(section, 10.0), nullptr);
+  std::swap(section.laws[0], section.laws[1]);
+  EXPECT_EQ(recommended_law(section, 12.0), &section.laws[1]);
+  // An rms that is better by more than a little outweighs the hunting.
+  section.laws[0].in_time->beam_rms = 2.0 * millidegree;
+  EXPECT_EQ(recommended_law(section, 12.0), &section.laws[0]);
+  EXPECT_EQ(why_not_recommended(section, section.laws[1], section.laws[0]),
+            "points within 2.1552 mdeg rather than 2.0000");
+  // A run in wind that did not complete is no merit.
+  section.laws[0].in_time->beam_rms = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_EQ(recommended_law(section, 12.0), &section.laws[1]);
+  // Where all hunt, none is.
+  section.laws[1].in_time->still = false;
+  EXPECT_EQ(recommended_law(section, 12.0), nullptr);
+  EXPECT_THAT(conclude(section), Each(Not(HasSubstr("recommended"))));
+  EXPECT_THAT(decision(section, {}, {}).front(), Not(HasSubstr("meets need")));
+  // Where none ran, the linear plant's best is.
+  for (auto& law : section.laws) law.in_time.reset();
+  EXPECT_EQ(recommended_law(section, 12.0), &section.laws[2]);
+  EXPECT_THAT(conclude(section), Each(Not(HasSubstr("the law recommended"))));
+}
+
+TEST(RecommendedLaw, IsTheOneOfEveryConclusion) {
+  TuneSection section = section_of_two_alike();
+  EXPECT_THAT(conclude(section),
+              Contains("At 12 m/s the law recommended is PI (robust) with 2.1276 mdeg rms by the "
+                       "linear plant, and 2.1552 mdeg on the nonlinear antenna. Limited by no "
+                       "goal."));
+  EXPECT_THAT(
+      conclude(section),
+      Contains("The budget 'need' in band Ka (2.4440 mdeg) is met at the 12 m/s that it is needed "
+               "up to: PI (robust) has 2.1276 mdeg on the case's plant, simulated on the nonlinear "
+               "antenna 2.1552 mdeg, and meets it on 27 of 30 plants; LL (robust) meets it on 28, "
+               "but hunts by +-0.4375 mdeg rather than +-0.4246, and has a corner beyond half the "
+               "sampling rate, where it does nothing."));
+  EXPECT_THAT(decision(section, {}, {}).front(),
+              AllOf(StartsWith("On the linear plant DPF+C is best"),
+                    HasSubstr("; there PI (robust), the law recommended, meets need (Ka) up to")));
+  // Another law is worth a word only where it meets the budget on more plants.
+  section.laws[1].ensemble = ensemble_with(27);
+  EXPECT_THAT(conclude(section), Contains(EndsWith("and meets it on 27 of 30 plants.")));
+  // The linear plant's best is not the one recommended though it does not hunt.
+  section.laws[1].beam_rms = 2.12 * millidegree;
+  section.laws.pop_back();
+  EXPECT_THAT(decision(section, {}, {}).front(),
+              AllOf(StartsWith("On the linear plant LL is best"),
+                    HasSubstr("; there PI (robust), the law recommended, meets need")));
+  section.laws[1].beam_rms = 2.13 * millidegree;
+  EXPECT_THAT(decision(section, {}, {}).front(),
+              AllOf(StartsWith("On the linear plant PI is best"), HasSubstr("; it meets need")));
+}
+
+TEST(RecommendedLaw, IsNamedWhereAnotherComesNearerToABudget) {
+  TuneSection section = section_of_two_alike();
+  auto& budget = section.budgets.front();
+  budget.rms = 2.15 * millidegree;
+  // One law meets it: nothing is out of reach.
+  EXPECT_TRUE(find_shortfalls(section).empty());
+  EXPECT_THAT(
+      conclude(section),
+      Contains(AllOf(HasSubstr("needed up to, but not by the law recommended: PI (robust) has "
+                               "2.1276 mdeg on the case's plant, simulated on the nonlinear "
+                               "antenna 2.1552 mdeg; LL (robust) has 2.1303 mdeg"),
+                     HasSubstr("antenna 2.1461 mdeg, and meets it on 28 of 30 plants, but hunts by "
+                               "+-0.4375 mdeg rather than +-0.4246"))));
+  budget.rms = 2.14 * millidegree;
+  const auto shortfalls = find_shortfalls(section);
+  ASSERT_EQ(shortfalls.size(), 1U);
+  EXPECT_THAT(
+      shortfalls[0].closest,
+      AllOf(StartsWith("PI (robust), the law recommended, has 2.1552 mdeg on the nonlinear antenna "
+                       "(2.1276 by the linear plant), "),
+            HasSubstr(". LL (robust) comes nearest with 2.1461 mdeg on the nonlinear antenna "
+                      "(2.1303 by the linear plant), but hunts by +-0.4375 mdeg rather than"),
+            HasSubstr("Left out for what they do on the nonlinear antenna: DPF+C (robust)")));
+}
+
+// Without a study in the time domain the rms of the linear plant decides.
+TEST(RecommendedLaw, PointsBetterThanOneThatIsGoodOnMorePlants) {
+  TuneSection section = section_with_need();
+  section.budgets.front().rms = 2.444 * millidegree;
+  section.laws = {law_of("PI", TunedFor::robust, 2.0), law_of("DPF", TunedFor::robust, 2.2),
+                  law_of("LL", TunedFor::nominal, 1.9)};
+  section.laws[0].ensemble = ensemble_with(20);
+  section.laws[1].ensemble = ensemble_with(25);
+  // What holds its goals on the nominal plant only is no alternative.
+  section.laws[2].ensemble = ensemble_with(30);
+  EXPECT_THAT(conclude(section),
+              Contains(HasSubstr("PI (robust) has 2.0000 mdeg on the case's plant, and meets it on "
+                                 "20 of 30 plants; DPF (robust) meets it on 25, but points within "
+                                 "2.2000 mdeg rather than 2.0000.")));
 }
 
 TEST(TuneTable, SaysWhichLawsAreVerifiedOnTheLinearPlantOnly) {

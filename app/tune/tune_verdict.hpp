@@ -1,0 +1,24 @@
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include <boresight/app/tune/tune_section.hpp>
+
+namespace boresight::app {
+
+/// What a law is called in sentences: "PI (robust)".
+std::string name_and_purpose(const TunedLaw& row);
+
+/// The one law that every conclusion of a study names, at one wind speed or at that of best_law: of
+/// the laws of best_law's purpose that ran on the nonlinear antenna and are not left_out the
+/// best_in_time, by which the time domain chooses; best_pointing_law where none ran. Null without a
+/// law, and where all are left_out: then none is to be commissioned.
+const TunedLaw* recommended_law(const TuneSection& section, std::optional<double> wind_speed = {});
+
+/// Why a law of the same purpose and wind speed that is not left_out is not the one recommended,
+/// as what it does: "hunts by +-0.4375 mdeg rather than +-0.4246".
+std::string why_not_recommended(const TuneSection& section, const TunedLaw& other,
+                                const TunedLaw& recommended);
+
+}  // namespace boresight::app

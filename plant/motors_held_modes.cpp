@@ -268,7 +268,10 @@ std::vector<MotorsHeldMode> motors_held_modes(const Structure& structure) {
   const VectorXd fractions = eigen.vectors.row(0).cwiseAbs2();
   std::vector<MotorsHeldMode> held;
   for (Index i = 0; i < fractions.size(); ++i) {
-    held.push_back({std::sqrt(std::max(eigen.values[i], 0.0)) / two_pi, fractions[i]});
+    const double turned =
+        std::abs((gear.cast<std::complex<double>>().transpose() * eigen.vectors.col(i)).value());
+    held.push_back({std::sqrt(std::max(eigen.values[i], 0.0)) / two_pi, fractions[i],
+                    structure.gear_stiffness * turned * turned / eigen.values[i]});
   }
   return held;
 }

@@ -10,6 +10,9 @@ namespace boresight::plant {
 struct MotorsHeldMode {
   double frequency = 0.0;         // Hz
   double inertia_fraction = 0.0;  // effective, of the antenna inertia
+  /// Of the gear spring in the mode's elastic energy; effective inertia times (2 pi f)^2 over the
+  /// gear stiffness, so that these sum to 1 as well.
+  double gear_share = 0.0;
 };
 
 /// These modes, the lowest first: what a hammer test or a finite-element program finds. Undamped;

@@ -78,7 +78,7 @@ std::vector<PlantMode> plant_modes(const AntennaPlant& plant) {
   const std::vector<Part> parts = parts_of(plant);
   const double scale = system.a.cwiseAbs().maxCoeff();
   // State order of to_state_space.
-  constexpr Eigen::Index torque = 2, motor_rate = 3;
+  constexpr Eigen::Index torque = 2, motor_rate = 3, motor = 4, bull = 5, bull_rate = 6;
   std::vector<PlantMode> modes;
   std::vector<double> gear_participation;
   for (Eigen::Index i = 0; i < eigen.values.size(); ++i) {
@@ -118,6 +118,12 @@ std::vector<PlantMode> plant_modes(const AntennaPlant& plant) {
                                          std::conj(eigen.left(torque, i)) *
                                          eigen.right(motor_rate, i);
       mode.oil_share = 2.0 * (moved / pole).real();
+      const std::complex<double> by_gear =
+          plant.structure.gear_stiffness *
+          (std::conj(eigen.left(motor_rate, i)) / plant.drive.motor_inertia -
+           std::conj(eigen.left(bull_rate, i)) / plant.structure.bull_gear_inertia) *
+          (eigen.right(bull, i) - eigen.right(motor, i));
+      mode.gear_share = 2.0 * (by_gear / pole).real();
     }
     modes.push_back(std::move(mode));
   }
@@ -148,6 +154,7 @@ PlantMode hydraulic_mode(const std::vector<PlantMode>& modes) {
   both.frequency = std::sqrt(first * second) / (2.0 * std::numbers::pi);
   both.damping_ratio = (first + second) / (2.0 * std::sqrt(first * second));
   both.oil_share = 0.5 * (slow.oil_share + fast.oil_share);
+  both.gear_share = 0.5 * (slow.gear_share + fast.gear_share);
   both.description = fmt::format("{}, overdamped", hydraulic_description);
   return both;
 }

@@ -53,6 +53,7 @@ void add_plant(py::module_& module) {
       .def_readonly("oil_share", &PlantMode::oil_share,
                     "d ln frequency^2/d ln oil_stiffness: the oil spring's share of its elastic "
                     "energy without damping")
+      .def_readonly("gear_share", &PlantMode::gear_share, "The same of the gear spring")
       .def("__repr__", [](const PlantMode& mode) {
         return fmt::format("<boresight.Mode {:.4g} Hz, damping {:.4g}: {}>", mode.frequency,
                            mode.damping_ratio, mode.description);

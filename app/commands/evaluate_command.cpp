@@ -10,8 +10,10 @@
 #include <boresight/app/evaluate/evaluate_study.hpp>
 #include <boresight/app/evaluate/unfit_candidates.hpp>
 #include <boresight/app/figures/report_figures.hpp>
+#include <boresight/app/io/friction_leeway.hpp>
 #include <boresight/app/page/report_page.hpp>
 #include <boresight/app/redesign/assumed_inputs.hpp>
+#include <boresight/app/redesign/guessed_shares_held.hpp>
 #include <boresight/app/redesign/sections.hpp>
 #include <boresight/app/report/json_report.hpp>
 #include <boresight/app/report/text_report.hpp>
@@ -105,6 +107,16 @@ Report evaluate_case(const EvaluateArguments& arguments, const std::function<boo
   report.evaluated = evaluate_proposals(antenna, proposals, *uncertainty, options);
   report.interrupted = interrupted && interrupted();
   report.conclusions = conclude(*report.evaluated);
+  if (!report.evaluated->candidates.empty()) {
+    if (const CandidateLaw* law = report.evaluated->candidates.front().chosen_law()) {
+      conclude_guessed_shares(antenna, law->design.tuning.law, report.evaluated->wind_speed,
+                              report.conclusions);
+    }
+  }
+  if (std::string doubt = loose_stribeck_text(antenna.friction_curve);
+      antenna.simulation && !doubt.empty()) {
+    report.conclusions.push_back(std::move(doubt));
+  }
   lead_with_resonance(report);
   return report;
 }

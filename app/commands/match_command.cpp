@@ -8,6 +8,7 @@
 #include <boresight/app/commands/match_command.hpp>
 #include <boresight/app/commands/progress_line.hpp>
 #include <boresight/app/figures/report_figures.hpp>
+#include <boresight/app/io/friction_leeway.hpp>
 #include <boresight/app/match/match_study.hpp>
 #include <boresight/app/match/what_if.hpp>
 #include <boresight/app/page/report_page.hpp>
@@ -64,6 +65,10 @@ int run(const Arguments& arguments) {
   }
   report.interrupted = interrupt_requested();
   report.conclusions = conclude(*report.matched);
+  if (std::string doubt = loose_stribeck_text(antenna.friction_curve);
+      antenna.simulation && !doubt.empty()) {
+    report.conclusions.push_back(std::move(doubt));
+  }
   lead_with_resonance(report);
   // Seconds that only a page's sliders are worth.
   if (!arguments.outputs.report_path.empty() && !report.interrupted) {

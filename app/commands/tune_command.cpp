@@ -10,6 +10,7 @@
 #include <boresight/app/models/linear_models.hpp>
 #include <boresight/app/page/report_page.hpp>
 #include <boresight/app/redesign/assumed_inputs.hpp>
+#include <boresight/app/redesign/guessed_shares_held.hpp>
 #include <boresight/app/redesign/sections.hpp>
 #include <boresight/app/report/json_report.hpp>
 #include <boresight/app/report/measured_report.hpp>
@@ -18,6 +19,7 @@
 #include <boresight/app/tune/laws_in_time.hpp>
 #include <boresight/app/tune/tune_limit.hpp>
 #include <boresight/app/tune/tune_study.hpp>
+#include <boresight/app/tune/tune_verdict.hpp>
 #include <boresight/app/uncertainty/designed_antenna.hpp>
 #include <boresight/plant/error.hpp>
 
@@ -112,6 +114,9 @@ Report tune_case(const TuneArguments& arguments, const std::function<bool()>& in
                     interrupted, *report.tuned);
       report.conclusions = conclude(*report.tuned);
       report.conclusions.push_back(conclude(*report.time_domain));
+    }
+    if (const TunedLaw* law = recommended_law(*report.tuned)) {
+      conclude_guessed_shares(antenna, law->design.tuning.law, law->wind_speed, report.conclusions);
     }
   }
   lead_with_resonance(report);

@@ -134,6 +134,9 @@ void read_tests(TableReader& file, Case& antenna) {
         table->quantity("frequency", Kind::frequency, Range::positive(1000.0));
     antenna.resonance_damping =
         table->optional_quantity("damping_ratio", Kind::number, Range::positive(1.0));
+    if (table->optional_text("mode")) {
+      antenna.resonance_of_oil = table->choice("mode", {"lowest", "oil"}) == "oil";
+    }
     table->finish();
   }
   if (auto table = file.optional_table("tachometer")) read_tachometer(*table, antenna);

@@ -49,6 +49,9 @@ struct AntennaAlternative {
   std::string name;
   std::optional<Quantity> inertia;            // about the antenna axis
   std::optional<Quantity> reflected_inertia;  // at the motor shaft
+  /// The springs are the case's and the frequencies others, as of another attitude; else the other
+  /// way round, as of another estimate.
+  bool keeps_springs = false;
 };
 
 struct AntennaEntry {
@@ -128,6 +131,9 @@ struct SteadyFrictionTest {
   double rate = 0.0;      // rad/s of the motors; 0 for what just moved the antenna
   double torque = 0.0;    // N m
   double residual = 0.0;  // N m, of the torque over the curve through all tests
+  /// N m, at least 0: the torque's own standard uncertainty where it is stated, else half a unit of
+  /// its last printed digit.
+  double leeway = 0.0;
 };
 
 struct FrictionCurveEntry {
@@ -266,6 +272,8 @@ struct Case {
   MotorEntry motor;
   OilEntry oil;
   std::optional<Quantity> resonance_frequency, resonance_damping;
+  /// They are of the mode with most oil, not of the lowest one.
+  bool resonance_of_oil = false;
   /// If it has a voltage and a recorder limit; see campaign for one of another kind.
   std::optional<TachometerEntry> tachometer;
   FrictionTestsEntry friction_tests;

@@ -255,6 +255,9 @@ void read_antenna(TableReader& file, Case& antenna) {
     alternative.inertia = entry.optional_quantity("inertia", Kind::inertia, Range::positive());
     alternative.reflected_inertia =
         entry.optional_quantity("reflected_inertia", Kind::inertia, Range::positive());
+    if (entry.optional_text("keeps")) {
+      alternative.keeps_springs = entry.choice("keeps", {"frequencies", "springs"}) == "springs";
+    }
     entry.finish();
     if (alternative.inertia.has_value() == alternative.reflected_inertia.has_value()) {
       entry.refuse("inertia", std::string("expected either inertia (about the antenna axis) or "

@@ -2,6 +2,7 @@
 #include <cmath>
 #include <functional>
 #include <limits>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -42,9 +43,14 @@ std::vector<Change> changes_of(const Case& antenna, const MatchSection& section)
                                                      : plant::EfficiencyInStiffness::both)},
         {}}});
   for (const auto& alternative : antenna.antenna.alternatives) {
-    changes.push_back({"antenna inertia of " + alternative.name,
-                       {.antenna_inertia = antenna_inertia(antenna, alternative)},
-                       {}});
+    changes.push_back(
+        {"antenna inertia of " + alternative.name, variant_of(antenna, alternative), {}});
+  }
+  for (const auto& [place, name] :
+       {std::pair{GuessedShares::as_inertia, "wind and beam shares as inertia"},
+        {GuessedShares::all_at_heaviest, "wind and beam shares all at one"}}) {
+    if (!moves_guessed_shares(antenna.structure, place)) continue;
+    changes.push_back({name, {.guessed_shares = place}, {}});
   }
   for (const auto model :
        {plant::WindModel::uniform, plant::WindModel::vickery, plant::WindModel::coherence}) {

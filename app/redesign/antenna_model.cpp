@@ -6,6 +6,7 @@
 
 #include <boresight/app/io/structure_numbers.hpp>
 #include <boresight/app/redesign/antenna_model.hpp>
+#include <boresight/app/redesign/resonating_mode.hpp>
 
 namespace boresight::app {
 namespace {
@@ -103,6 +104,13 @@ double antenna_inertia(const Case& antenna) {
 
 double antenna_inertia(const Case& antenna, const AntennaAlternative& alternative) {
   return reflected(antenna, alternative).value;
+}
+
+PlantVariant variant_of(const Case& antenna, const AntennaAlternative& alternative) {
+  const double inertia = antenna_inertia(antenna, alternative);
+  return {.antenna_inertia = inertia,
+          .structure_frequency_scale =
+              alternative.keeps_springs ? std::sqrt(antenna_inertia(antenna) / inertia) : 1.0};
 }
 
 double bulk_modulus(const Case& antenna) {
@@ -275,7 +283,7 @@ identification::DriveEvidence make_evidence(const Case& antenna) {
   evidence.efficiency_in_stiffness = oil.efficiency_in_stiffness
                                          ? plant::EfficiencyInStiffness::both
                                          : plant::EfficiencyInStiffness::none;
-  if (antenna.resonance_frequency) {
+  if (antenna.resonance_frequency && rings_as_rigid(antenna)) {
     evidence.resonance_frequency = uncertain(*antenna.resonance_frequency);
   }
   for (const auto& impulse : antenna.impulse_results) {

@@ -15,8 +15,9 @@
 namespace boresight::app {
 
 /// What a study changes about the antenna of a case. SI, at the motor shaft. The structure keeps
-/// the frequencies that the case states, whatever the inertia: they are what was measured or
-/// reckoned, and another estimate of the inertia is another one of the springs with it.
+/// the frequencies that the case states, but for structure_frequency_scale, whatever the inertia:
+/// they are what was measured or reckoned, and another estimate of the inertia is another one of
+/// the springs with it.
 struct PlantVariant {
   std::optional<double> flywheel_disks = std::nullopt;  // on each motor
   std::optional<double> viscous_friction = std::nullopt;
@@ -44,6 +45,9 @@ double motor_inertia(const Case& antenna, double disks);
 /// The antenna inertia of the case, and of an alternative, at the motor shaft (kg m2).
 double antenna_inertia(const Case& antenna);
 double antenna_inertia(const Case& antenna, const AntennaAlternative& alternative);
+/// The antenna of an alternative: with the case's frequencies, or with the case's springs and
+/// inertia fractions, which scales all frequencies alike.
+PlantVariant variant_of(const Case& antenna, const AntennaAlternative& alternative);
 /// That of the case, or the mean over its lines (Pa).
 double bulk_modulus(const Case& antenna);
 /// Oil spring by the case's bulk modulus, or the mean of its lines (N m/rad).

@@ -9,6 +9,7 @@
 #include <boresight/app/io/structure_numbers.hpp>
 #include <boresight/app/redesign/choices.hpp>
 #include <boresight/app/redesign/resonance_verdict.hpp>
+#include <boresight/app/redesign/resonating_mode.hpp>
 
 namespace boresight::app {
 namespace {
@@ -33,6 +34,9 @@ class Choices {
                          std::nullopt,
                          {}},
                         variant});
+    ChoiceResult& added = choices_.back().result;
+    added.other_shares = variant.guessed_shares != GuessedShares::as_stated;
+    if (antenna_.resonance_frequency) added.resonance = resonating_mode(antenna_, plant).frequency;
   }
 
   // Of another source or a test.
@@ -101,6 +105,7 @@ void add_resonance(const Case& antenna, double frequency, double other, Choices&
   const std::string leakage =
       antenna.drive.leakage_by_flow ? ", and the leakage rate with it," : "";
   add_flexible_resonance(antenna, frequency, leakage, choices);
+  if (!rings_as_rigid(antenna)) return;
   const double own = oil_stiffness(antenna);
   const double inertia = choices.fixed_inertia() + antenna_inertia(antenna);
   const double found = plant::inertia_from_resonance(own, frequency);
@@ -129,8 +134,11 @@ std::vector<PlantChoice> plant_choices(const Case& antenna) {
   Choices choices(antenna);
   choices.add("reference", "masses and oil stiffness of the plant above", {});
   for (const auto& alternative : antenna.antenna.alternatives) {
-    choices.add_contradiction("antenna of " + alternative.name, "another antenna inertia",
-                              {.antenna_inertia = antenna_inertia(antenna, alternative)});
+    choices.add_contradiction("antenna of " + alternative.name,
+                              alternative.keeps_springs
+                                  ? "another antenna inertia on the same springs"
+                                  : "another antenna inertia",
+                              variant_of(antenna, alternative));
   }
   const bool efficient = antenna.oil.efficiency_in_stiffness;
   const double other = oil_stiffness(

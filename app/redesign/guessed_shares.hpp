@@ -12,9 +12,9 @@ bool is_unbounded_guess(const Quantity& quantity);
 /// turns the beam against itself.
 bool is_guessed_share(const Quantity& share);
 
-/// Where the guessed shares of wind and of beam are, of what the stated ones leave of 1: as the case
-/// says; in proportion to the inertia fractions, as if both belonged to all masses alike; all at
-/// the heaviest of those bodies, as if that were the dish.
+/// Where the guessed shares of wind and of beam are, of what the stated ones leave of 1: as the
+/// case says; in proportion to the inertia fractions, as if both belonged to all masses alike; all
+/// at the heaviest of those bodies, as if that were the dish.
 enum class GuessedShares { as_stated, as_inertia, all_at_heaviest };
 
 /// Moves the guessed shares of a specification that is the structure's own

@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <boresight/app/io/structure_numbers.hpp>
 #include <boresight/app/redesign/antenna_model.hpp>
 #include <boresight/app/redesign/input_effects.hpp>
 #include <boresight/app/report/influences.hpp>
@@ -107,6 +108,18 @@ std::optional<double> inertia_fraction_of(const StructureEntry& structure, const
   return of_bull_gear ? std::optional(bull_gear) : std::nullopt;
 }
 
+// Of a mode's share: an entry of frequencies with the motors held has shares of another mode.
+std::string mode_of(const StructureEntry& structure, const Quantity& share) {
+  for (std::size_t i = 0; i < structure.modes.size(); ++i) {
+    const auto& mode = structure.modes[i];
+    if (&share != &mode.wind_fraction && &share != &mode.beam_weight) continue;
+    return fmt::format("the mode of {:.3g} Hz{}",
+                       structure_specification(structure).modes.at(i).frequency,
+                       structure.motors_held ? " with the bull gear held" : "");
+  }
+  return "";
+}
+
 // A guess of a share may as well be the inertia fraction, and as wrong the other way; by half of it
 // where it is that fraction.
 std::pair<double, double> guessed_range(double share, double inertia_fraction) {
@@ -121,6 +134,7 @@ std::pair<double, double> guessed_range(double share, double inertia_fraction) {
 InputEffect planned(const Case& antenna, const Quantity& stated) {
   InputEffect effect;
   effect.quantity = stated;
+  effect.mode = mode_of(antenna.structure, stated);
   effect.unstated = is_unbounded_guess(stated);
   const auto fraction = inertia_fraction_of(antenna.structure, stated);
   if (fraction && is_guessed_share(stated)) {
@@ -178,7 +192,8 @@ std::string range_text(const InputEffect& effect) {
   const std::string over =
       effect.range ? fmt::format("{:.3g} to {:.3g}", effect.range->first, effect.range->second)
                    : fmt::format("+-{:.3g} %", share);
-  return fmt::format("{} ({} to {} mdeg over {})", effect.quantity.key, mdeg(effect.low_rms),
+  return fmt::format("{}{}{} ({} to {} mdeg over {})", effect.quantity.key,
+                     effect.mode.empty() ? "" : " of ", effect.mode, mdeg(effect.low_rms),
                      mdeg(effect.high_rms), over);
 }
 

@@ -14,6 +14,8 @@ namespace boresight::app {
 /// What a tuned law's rms owes to one number of the case.
 struct InputEffect {
   Quantity quantity;
+  /// Which mode's share of wind or beam it is, by its frequency; empty for any other number.
+  std::string mode = {};
   /// How far it is moved to either side, in its SI unit (Hz for frequencies): by the standard
   /// uncertainty that the case gives, else, where its value is assumed, by a tenth of it, else by
   /// the printed digits' rounding.

@@ -7,6 +7,7 @@
 
 #include <boresight/app/redesign/antenna_model.hpp>
 #include <boresight/app/redesign/resonance_verdict.hpp>
+#include <boresight/app/redesign/resonating_mode.hpp>
 #include <boresight/app/tune/plant_members.hpp>
 
 namespace boresight::app {
@@ -14,12 +15,8 @@ namespace {
 
 constexpr double gigapascal = 1e9;  // Pa
 
-std::vector<plant::PlantMode> modes_of(const Case& antenna, const PlantVariant& variant) {
-  return plant::plant_modes(make_plant(antenna, variant));
-}
-
-double hydraulic_frequency(const Case& antenna, const PlantVariant& variant) {
-  return plant::hydraulic_mode(modes_of(antenna, variant)).frequency;
+double resonance(const Case& antenna, const PlantVariant& variant) {
+  return resonating_mode(antenna, make_plant(antenna, variant)).frequency;
 }
 
 // With a bulk modulus so many times the case's.
@@ -32,7 +29,7 @@ PlantVariant with_modulus(const Case& antenna, double factor) {
 // over it, as the mode's place passes to another.
 std::optional<double> crossing(const Case& antenna, double frequency, double lower, double upper) {
   const auto above = [&](double factor) {
-    return hydraulic_frequency(antenna, with_modulus(antenna, factor)) > frequency;
+    return resonance(antenna, with_modulus(antenna, factor)) > frequency;
   };
   const bool above_lower = above(lower);
   if (above(upper) == above_lower) return std::nullopt;
@@ -41,7 +38,7 @@ std::optional<double> crossing(const Case& antenna, double frequency, double low
     const double middle = std::sqrt(lower * upper);
     (above(middle) == above_lower ? lower : upper) = middle;
   }
-  const double found = hydraulic_frequency(antenna, with_modulus(antenna, lower));
+  const double found = resonance(antenna, with_modulus(antenna, lower));
   constexpr double same = 1e-6;
   return std::abs(found / frequency - 1.0) < same ? std::optional(lower) : std::nullopt;
 }
@@ -59,7 +56,7 @@ double expected_uncertainty(const Case& antenna, double expected) {
         PlantVariant{.motor_inertia_scale = upward(antenna.motor.inertia)},
         PlantVariant{.structure_frequency_scale =
                          upward(antenna.structure.locked_rotor_frequency)}}) {
-    variance += std::pow(hydraulic_frequency(antenna, moved) - expected, 2);
+    variance += std::pow(resonance(antenna, moved) - expected, 2);
   }
   return std::sqrt(variance);
 }
@@ -94,11 +91,11 @@ std::optional<ResonanceVerdict> resonance_verdict(const Case& antenna) {
   if (!antenna.resonance_frequency) return std::nullopt;
   ResonanceVerdict verdict;
   verdict.measured = antenna.resonance_frequency->value;
-  const auto modes = modes_of(antenna, {});
-  const plant::PlantMode hydraulic = plant::hydraulic_mode(modes);
-  verdict.expected = hydraulic.frequency;
-  verdict.oil_share = hydraulic.oil_share;
-  verdict.oil_mode = plant::mode_of_oil(modes);
+  const plant::AntennaPlant plant = make_plant(antenna);
+  verdict.of_oil = antenna.resonance_of_oil;
+  verdict.mode = resonating_mode(antenna, plant);
+  verdict.oil_mode = plant::mode_of_oil(plant::plant_modes(plant));
+  verdict.expected = verdict.mode.frequency;
   verdict.standard_uncertainty = std::hypot(antenna.resonance_frequency->standard_uncertainty,
                                             expected_uncertainty(antenna, verdict.expected));
   verdict.stated_bulk_modulus = bulk_modulus(antenna);
@@ -109,20 +106,10 @@ std::optional<ResonanceVerdict> resonance_verdict(const Case& antenna) {
   return verdict;
 }
 
-std::string oil_remark(double oil_share, const plant::PlantMode& mode_of_oil) {
-  constexpr double half = 0.5;
-  if (oil_share >= half || mode_of_oil.oil_share <= oil_share) return "";
-  return fmt::format(
-      " Only {:.0f} % of that mode's elastic energy is in the oil, the rest in gearbox and "
-      "structure, so that it tells little of the oil and its leakage; of the mode at {:.3g} Hz, "
-      "damping ratio {:.3g}, {:.0f} % is.",
-      100.0 * oil_share, mode_of_oil.frequency, mode_of_oil.damping_ratio,
-      100.0 * mode_of_oil.oil_share);
-}
-
 std::string which_was_measured(const ResonanceVerdict& verdict) {
-  const std::string remark = oil_remark(verdict.oil_share, verdict.oil_mode);
-  return remark.empty() ? "" : remark + " Make sure which of them was measured.";
+  const std::string remark = verdict.of_oil ? "" : oil_remark(verdict.mode, verdict.oil_mode);
+  return remark.empty() ? ""
+                        : remark + " Make sure which of them was measured; resonance.mode says it.";
 }
 
 // Beyond so many the first order of the uncertainty says no more than that.
@@ -140,9 +127,9 @@ std::string resonance_sentence(const ResonanceVerdict& verdict) {
                         own);
   return fmt::format(
       "The hydraulic frequency measured, {:.3g} Hz, {} the {:.3g} Hz of the case's flexible "
-      "antenna ({} standard uncertainties apart): {}.{}",
+      "antenna{} ({} standard uncertainties apart): {}.{}",
       verdict.measured, verdict.contradicts() ? "contradicts" : "does not contradict",
-      verdict.expected,
+      verdict.expected, verdict.of_oil ? ", in its mode of most oil" : "",
       verdict.deviation() > most_by_first_order ? fmt::format("more than {:g}", most_by_first_order)
                                                 : fmt::format("{:.3g}", verdict.deviation()),
       modulus, which_was_measured(verdict));

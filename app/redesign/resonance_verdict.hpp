@@ -9,8 +9,7 @@
 
 namespace boresight::app {
 
-/// The measured hydraulic frequency of a case against plant::hydraulic_mode of its flexible
-/// antenna.
+/// The measured hydraulic frequency of a case against the resonating_mode of its flexible antenna.
 struct ResonanceVerdict {
   double measured = 0.0;  // Hz
   double expected = 0.0;  // Hz, of the flexible antenna
@@ -22,9 +21,9 @@ struct ResonanceVerdict {
   std::optional<double> bulk_modulus = std::nullopt;
   /// Oil stiffness of the plants that laws are held on (member_ranges), as factors on the case's.
   double least_oil = 1.0, most_oil = 1.0;
-  /// PlantMode::oil_share of the expected mode, and plant::mode_of_oil.
-  double oil_share = 1.0;
-  plant::PlantMode oil_mode = {};
+  bool of_oil = false;  // of the mode with most oil, as the case says
+  /// The expected one, and plant::mode_of_oil.
+  plant::PlantMode mode = {}, oil_mode = {};
 
   /// How many standard uncertainties the two are apart.
   double deviation() const;
@@ -32,7 +31,7 @@ struct ResonanceVerdict {
   bool contradicts() const;
 };
 
-/// Effective bulk modulus of the oil (Pa) at which plant::hydraulic_mode of the case's flexible
+/// Effective bulk modulus of the oil (Pa) at which the resonating_mode of the case's flexible
 /// antenna has that frequency (Hz), all else as in the case and the leakage rate as
 /// leakage_rate_at has it; nothing if none within a factor of 30 of the case's does, the nearest of
 /// several.
@@ -41,11 +40,8 @@ std::optional<double> bulk_modulus_for(const Case& antenna, double frequency);
 /// Nothing for a case without a measured frequency.
 std::optional<ResonanceVerdict> resonance_verdict(const Case& antenna);
 
-/// To follow a sentence on the hydraulic mode: where less than half of its elastic energy is in the
-/// oil (PlantMode::oil_share) and the mode_of_oil has more there, so. Else empty.
-std::string oil_remark(double oil_share, const plant::PlantMode& mode_of_oil);
-
-/// The oil_remark of the expected mode, and to make sure which was measured; empty without one.
+/// The oil_remark of the expected mode, and to make sure which was measured; empty without one and
+/// where the case says which.
 std::string which_was_measured(const ResonanceVerdict& verdict);
 
 /// Both frequencies, how far they are apart, and the bulk modulus that would make the measured one;

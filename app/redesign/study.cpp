@@ -242,8 +242,8 @@ void redesign(const Case& antenna, const StudyOptions& options, Report& report) 
   design::improve_along(chosen_tasks, chosen);
   auto design = chosen.begin();
   for (auto& choice : choices) {
-    if (choice.variant) choice.result.design = std::move(*design++);
-    if (choice.variant && choice.variant->guessed_shares != GuessedShares::as_stated) {
+    if (choice.variant) {
+      choice.result.design = std::move(*design++);
       choice.result.speed_limits =
           speed_limits(antenna, make_problem(antenna, *choice.variant), *choice.result.design);
     }

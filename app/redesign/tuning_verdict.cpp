@@ -128,6 +128,35 @@ std::vector<std::string_view> models(const TuningSection& section, std::size_t b
   return names;
 }
 
+bool is_judged(const ChoiceResult& choice) {
+  return choice.design && choice.design->usable() && choice.speed_limits;
+}
+
+// Of the other choices, guesses aside, those with which a needed budget has another verdict.
+std::string other_choices_text(const Report& report, const TuningSection& section) {
+  std::vector<std::string> verdicts;
+  for (std::size_t i = 0; i < section.budgets.size(); ++i) {
+    const PointingBudget& budget = section.budgets[i].budget;
+    const bool met = meets_need(budget, reached_wind_speed(section, section.budgets[i]));
+    std::vector<std::string> names;
+    for (const auto& choice : report.choices) {
+      if (choice.other_shares || !is_judged(choice) || choice.missed_resonance()) continue;
+      const double reached = std::min(choice.speed_limits->at(i), section.supply_wind_speed);
+      if (meets_need(budget, reached) == met) continue;
+      names.push_back(fmt::format("'{}' ({:.3f} mdeg in {:.3g} m/s)", choice.name,
+                                  choice.design->beam_rms / millidegree, section.design_speed));
+    }
+    if (names.empty()) continue;
+    verdicts.push_back(fmt::format("{} is {} up to where it is needed with {}", budget_text(budget),
+                                   met ? "not met" : "met", fmt::join(names, ", ")));
+  }
+  if (verdicts.empty()) return "";
+  return fmt::format(
+      "Tuned again for what else the case's numbers may mean, {}; with the case's own "
+      "choice it is the other way round.",
+      fmt::join(verdicts, "; "));
+}
+
 // Where other guesses of the shares of wind and beam than the case's would give another answer.
 std::string guessed_shares_text(const Report& report, const TuningSection& section) {
   struct Guess {
@@ -140,7 +169,7 @@ std::string guessed_shares_text(const Report& report, const TuningSection& secti
     guesses.front().reached.push_back(reached_wind_speed(section, budget));
   }
   for (const auto& choice : report.choices) {
-    if (!choice.speed_limits || !choice.design || !choice.design->usable()) continue;
+    if (!choice.other_shares || !is_judged(choice)) continue;
     Guess guess{"'" + choice.name + "'", choice.design->beam_rms, *choice.speed_limits};
     for (double& speed : guess.reached) speed = std::min(speed, section.supply_wind_speed);
     guesses.push_back(std::move(guess));
@@ -327,6 +356,7 @@ void conclude_tuning(const Report& report, const TuningSection& section,
       plant::to_string(section.wind_model), least->beam_rms / millidegree,
       plant::to_string(least->model), most->beam_rms / millidegree, plant::to_string(most->model),
       section.encoder_held_rms / millidegree));
+  add(other_choices_text(report, section));
   add(guessed_shares_text(report, section));
   add(unseen_text(section));
   add(bending_text(section));
@@ -388,6 +418,7 @@ std::vector<std::string> tuning_reservations(const Report& report, const TuningS
   if (!keeps_goals_on_all(section)) sentences.push_back(robustness_text(section));
   sentences.push_back(needs_on_plants(section, true));
   if (report.time_domain) sentences.push_back(not_still(*report.time_domain));
+  sentences.push_back(other_choices_text(report, section));
   sentences.push_back(guessed_shares_text(report, section));
   sentences.push_back(wind_model_text(section));
   sentences.push_back(bending_text(section));
@@ -395,6 +426,7 @@ std::vector<std::string> tuning_reservations(const Report& report, const TuningS
   if (report.time_domain) {
     sentences.push_back(slew_out_of_reach(*report.time_domain));
     sentences.push_back(assumed_stroke(*report.time_domain));
+    sentences.push_back(report.time_domain->friction_doubt);
   }
   sentences.push_back(not_examined(report));
   if (report.matching) {

@@ -54,7 +54,8 @@ Json mode_json(const plant::PlantMode& mode) {
           {"pole_real_rad_per_s", number(mode.pole.real())},
           {"pole_imaginary_rad_per_s", number(mode.pole.imag())},
           {"participation_1", number(mode.participation)},
-          {"oil_share_1", number(mode.oil_share)}};
+          {"oil_share_1", number(mode.oil_share)},
+          {"gear_share_1", number(mode.gear_share)}};
 }
 
 Json design_json(const design::Design& design) {

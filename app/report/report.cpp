@@ -19,9 +19,8 @@ Report begin_report(std::string command, const Case& antenna, std::string case_p
 std::optional<double> ChoiceResult::missed_resonance() const {
   if (!wanted_frequency || !design) return std::nullopt;
   constexpr double same = 0.05;
-  const double frequency = design->hydraulic_mode.frequency;
-  return std::abs(frequency / *wanted_frequency - 1.0) < same ? std::nullopt
-                                                              : std::optional(frequency);
+  return std::abs(resonance / *wanted_frequency - 1.0) < same ? std::nullopt
+                                                              : std::optional(resonance);
 }
 
 void lead_with_resonance(Report& report) {

@@ -133,17 +133,21 @@ struct ChoiceResult {
   double motor_to_load_ratio = 0.0;
   std::optional<design::Design> design;  // none where the choice leaves no plant
   std::string impossible;                // why
+  /// It is another guess of the shares of wind and beam.
+  bool other_shares = false;
   /// Another source's number or a test's result beside the reference, not a convention of
   /// reckoning.
   bool contradicts = false;
-  /// For other places of the shares that the case guesses: wind speed (m/s) up to which each budget
-  /// is met with the gains held. None of any other choice or without a stable law.
+  /// Wind speed (m/s) up to which each budget is met with the gains held; none without a stable
+  /// law.
   std::optional<std::vector<double>> speed_limits = std::nullopt;
   /// The measured hydraulic frequency (Hz) that it was to give.
   std::optional<double> wanted_frequency = std::nullopt;
+  /// What its flexible antenna has in the place of that (resonating_mode, Hz).
+  double resonance = 0.0;
 
-  /// The hydraulic frequency (Hz) of its flexible antenna where that is 5 % or more off the wanted
-  /// one: the choice is then no way out of the contradiction.
+  /// That frequency (Hz) where it is 5 % or more off the wanted one: the choice is then no way out
+  /// of the contradiction.
   std::optional<double> missed_resonance() const;
 };
 

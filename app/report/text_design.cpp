@@ -390,8 +390,8 @@ Document document_of(const std::vector<ChoiceResult>& choices) {
         "  ");
   }
   text += wrapped(
-      "The structure's frequencies are kept throughout, as the case states them: a lighter antenna "
-      "is a softer one.",
+      "The structure's frequencies are kept as the case states them, a lighter antenna being a "
+      "softer one, but for an alternative that keeps the springs.",
       "  ");
   text += linear_part();
   if (std::ranges::any_of(choices, [](const ChoiceResult& choice) {

@@ -1,10 +1,13 @@
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <boresight/app/document/document.hpp>
-#include <boresight/app/redesign/resonance_verdict.hpp>
+#include <boresight/app/io/friction_leeway.hpp>
+#include <boresight/app/redesign/resonating_mode.hpp>
 #include <boresight/app/report/sky_units.hpp>
 #include <boresight/app/report/text_report.hpp>
 #include <boresight/plant/motors_held_modes.hpp>
@@ -12,17 +15,48 @@
 namespace boresight::app {
 namespace {
 
+// What single torques make of the curve, and whether anything is left to check it by.
+std::string friction_doubts(const PlantSection& section, bool exact) {
+  constexpr double worth_telling = 0.02;  // of the number
+  const auto points = steady_friction(section.friction_tests);
+  const auto intervals = identification::steady_friction_intervals(points);
+  std::vector<std::string> moved;
+  if (intervals.stribeck_rate) {
+    moved.push_back(
+        fmt::format("the Stribeck rate is {}", in_words(*intervals.stribeck_rate, "rad/s")));
+  }
+  const auto add = [&](const char* name, const identification::FrictionInterval& interval,
+                       double value) {
+    if (std::max(interval.largest - value, value - interval.least) > worth_telling * value) {
+      moved.push_back(fmt::format("{} is {}", name, in_words(interval, "N.m")));
+    }
+  };
+  add("breakaway", intervals.breakaway_torque, section.friction.breakaway_torque);
+  add("Coulomb", intervals.coulomb_torque, section.friction.coulomb_torque);
+  std::string text;
+  if (!moved.empty()) text = fmt::format("{} {}.", moved_torques(), fmt::join(moved, ", "));
+  if (identification::steady_friction_freedom(points) > 0) return text;
+  return fmt::format(
+      "{}{}The curve has as many unknowns as there are tests: no degree of freedom is left, {}. "
+      "Hunting and reversals hang on the Stribeck rate{}: more tests at low rates settle it.",
+      text, text.empty() ? "" : " ",
+      exact ? "so that the residuals say nothing of the curve"
+            : "and what the residuals show is only that a number of it ended at its bound",
+      intervals.stribeck_rate ? "" : ", which these tests do not tell");
+}
+
 Document friction_part(const PlantSection& section) {
   constexpr double rounding = 1e-5;  // of the fit
   const plant::FrictionCurve& curve = section.friction;
   std::vector<std::vector<std::string>> rows{
       {"axis mdeg/s", "motors rad/s", "friction N.m", "test less curve N.m"}};
+  bool exact = true;
   for (const auto& test : section.friction_tests) {
+    const bool hit = std::abs(test.residual) < rounding * test.torque;
+    exact &= hit;
     rows.push_back({fmt::format("{:.4g}", test.rate / section.gear_ratio / millidegree),
                     fmt::format("{:.4g}", test.rate), fmt::format("{:.4g}", test.torque),
-                    std::abs(test.residual) < rounding * test.torque
-                        ? "0"
-                        : fmt::format("{:+.2g}", test.residual)});
+                    hit ? "0" : fmt::format("{:+.2g}", test.residual)});
   }
   return "\n" +
          wrapped(fmt::format("Friction curve through {} tests at steady rates: Coulomb {:.4g} N.m, "
@@ -31,7 +65,7 @@ Document friction_part(const PlantSection& section) {
                              section.friction_tests.size(), curve.coulomb_torque,
                              curve.breakaway_torque, curve.stribeck_rate, curve.viscous_friction),
                  "  ") +
-         table(rows, "rrrr");
+         table(rows, "rrrr") + wrapped(friction_doubts(section, exact), "  ");
 }
 
 // What frequencies with the motors held make of the antenna.
@@ -48,18 +82,22 @@ Document structure_part(const plant::Structure& structure) {
          fmt::format("{:.4f}", mode.inertia / inertia)});
   }
   std::vector<std::vector<std::string>> held{
-      {"structure, the motors held", "frequency Hz", "effective fraction"}};
+      {"structure, the motors held", "frequency Hz", "effective fraction", "gear"}};
   for (const auto& mode : plant::motors_held_modes(structure)) {
     held.push_back(
         {held.size() == 1 ? "lowest" : fmt::format("structure.mode[{}]", held.size() - 2),
-         fmt::format("{:.4f}", mode.frequency), fmt::format("{:.4f}", mode.inertia_fraction)});
+         fmt::format("{:.4f}", mode.frequency), fmt::format("{:.4f}", mode.inertia_fraction),
+         fmt::format("{:.2f}", mode.gear_share)});
   }
   return "\n" + table(held) + "\n" + table(rows) +
          wrapped(
              "From the frequencies that the case states with the motors held. Shares of wind and "
              "beam are those of the modes with the bull gear held; a first guess of both are their "
              "inertia fractions. Where a structural model gives the lowest mode less than the "
-             "effective fraction above, modes of it are missing here.",
+             "effective fraction above, modes of it are missing here; the gearbox spring is "
+             "stiffer "
+             "with them. gear: its share of the mode's elastic energy, the rest is bending of the "
+             "structure.",
              "  ");
 }
 
@@ -104,7 +142,7 @@ Document document_of(const PlantSection& section) {
   text += table(numbers, "l", 0);
   text += "\n";
   std::vector<std::vector<std::string>> rows{
-      {"mode", "frequency Hz", "damping", "pole 1/s", "share", "oil"}};
+      {"mode", "frequency Hz", "damping", "pole 1/s", "share", "oil", "gear"}};
   for (const auto& mode : section.modes) {
     rows.push_back({mode.description, fmt::format("{:.4f}", mode.frequency),
                     mode.frequency > 0.0 ? fmt::format("{:.4f}", mode.damping_ratio) : "-",
@@ -112,19 +150,21 @@ Document document_of(const PlantSection& section) {
                         ? fmt::format("{:.4f} + {:.4f}i", mode.pole.real(), mode.pole.imag())
                         : fmt::format("{:.4f}", mode.pole.real()),
                     fmt::format("{:.2f}", mode.participation),
-                    fmt::format("{:.2f}", mode.oil_share)});
+                    fmt::format("{:.2f}", mode.oil_share), fmt::format("{:.2f}", mode.gear_share)});
   }
   text += table(rows);
   text += wrapped(
-      "share: of the part that moves most, in the motion; oil: of the oil spring, in the elastic "
-      "energy, so that 1 % more oil stiffness raises the frequency by half as many per cent.",
+      "share: of the part that moves most, in the motion; oil, gear: of oil spring and gearbox "
+      "spring, in the elastic energy, the rest of which is the structure's; 1 % more stiffness of "
+      "a "
+      "spring raises the frequency by half its share of 1 %.",
       "  ");
   text += wrapped(
       fmt::format("The hydraulic mode of the flexible antenna is {:.3f} Hz with damping {:.3f}; "
                   "all masses rigid on the oil spring would give {:.3f} Hz.{}",
                   section.hydraulic.frequency, section.hydraulic.damping_ratio,
                   section.rigid_frequency,
-                  oil_remark(section.hydraulic.oil_share, plant::mode_of_oil(section.modes))),
+                  oil_remark(section.hydraulic, plant::mode_of_oil(section.modes))),
       "  ");
   if (section.motors_held) text += structure_part(section.plant.structure);
   if (!section.friction_tests.empty()) text += friction_part(section);

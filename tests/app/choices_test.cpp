@@ -97,6 +97,28 @@ TEST(PlantChoices, SayHowTheOilSpringIsMoved) {
               HasSubstr("oil spring raised by a factor of 1.28 so that"));
 }
 
+TEST(PlantChoices, KeepSpringsWhereTheAlternativeDoes) {
+  const auto with_alternative = [](const std::string& keeps) {
+    return parse_case(EditedCase()
+                          .replace("[[antenna.alternative]]\n",
+                                   "[[antenna.alternative]]\nkeeps = \"" + keeps + "\"\n")
+                          .text(),
+                      "case.toml");
+  };
+  const auto structure_of = [](const Case& antenna) {
+    const auto& name = antenna.antenna.alternatives.front().name;
+    return make_plant(antenna, choice_of(antenna, "antenna of " + name).variant.value()).structure;
+  };
+  const Case springs = with_alternative("springs"), frequencies = with_alternative("frequencies");
+  const auto own = make_plant(springs).structure, kept = structure_of(springs);
+  const double lighter = plant::antenna_inertia(kept) / plant::antenna_inertia(own);
+  EXPECT_LT(lighter, 0.95);
+  EXPECT_NEAR(kept.gear_stiffness, own.gear_stiffness, 1e-12 * own.gear_stiffness);
+  EXPECT_NEAR(kept.modes[0].stiffness, own.modes[0].stiffness, 1e-12 * own.modes[0].stiffness);
+  EXPECT_NEAR(structure_of(frequencies).gear_stiffness, lighter * own.gear_stiffness,
+              1e-12 * own.gear_stiffness);
+}
+
 TEST(PlantChoices, KeepTheLeakageOfTheOtherConvention) {
   const Case antenna = parse_case(leaking_by_flow(EditedCase()).text(), "case.toml");
   const auto other = choice_of(antenna, "stiffness without efficiencies");

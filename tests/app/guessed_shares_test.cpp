@@ -62,9 +62,9 @@ TEST(GuessedShares, LeaveAloneWhatIsNoGuessAndSumToOne) {
 }
 
 TEST(GuessedShares, AreChoicesOfTheRedesign) {
-  EXPECT_THAT(share_choices(guessing_antenna()),
-              testing::ElementsAre("wind and beam shares as inertia",
-                                   "wind and beam shares all at one"));
+  EXPECT_THAT(
+      share_choices(guessing_antenna()),
+      testing::ElementsAre("wind and beam shares as inertia", "wind and beam shares all at one"));
   // None where no share is a guess, and not the case's own again.
   Case known = guessing_antenna(), own = guessing_antenna();
   const auto shares = [](Case& antenna) {

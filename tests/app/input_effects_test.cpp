@@ -174,6 +174,12 @@ TEST(InputEffects, SayWhatToMeasureFirst) {
   EXPECT_NEAR(effect.change(rms), 0.1, 1e-12);
   EXPECT_THAT(measure_first({effect}, rms),
               HasSubstr("wind.torque_coefficient (0.450 to 0.550 mdeg over +-10 %): measure that"));
+  InputEffect share = effect;
+  share.quantity.key = "structure.mode[1].beam_weight";
+  share.mode = "the mode of 1.75 Hz with the bull gear held";
+  EXPECT_THAT(measure_first({share}, rms),
+              HasSubstr("structure.mode[1].beam_weight of the mode of 1.75 Hz with the bull gear "
+                        "held (0.450 to"));
   InputEffect unstable = effect;
   unstable.quantity.key = "structure.mode[0].frequency";
   unstable.high_rms = std::numeric_limits<double>::quiet_NaN();

@@ -423,7 +423,8 @@ TEST(TuningVerdict, SaysWhatHangsOnGuessesOfWindAndBeam) {
   for (std::size_t i = 0; i < rms.size(); ++i) {
     report.choices[i].name = fmt::format("choice {}", i);
     report.choices[i].design = design_of(rms.at(i));
-    if (i > 0) report.choices[i].speed_limits = {speeds.at(i)};
+    report.choices[i].speed_limits = {speeds.at(i)};
+    report.choices[i].other_shares = i > 0;
   }
   EXPECT_THAT(
       reservations(report),
@@ -442,6 +443,29 @@ TEST(TuningVerdict, SaysWhatHangsOnGuessesOfWindAndBeam) {
   report.tuning->budgets = {budget(0.55, 99.0, 26.0)};
   report.choices[2].design = design_of(0.45);
   EXPECT_THAT(reservations(report), Each(Not(HasSubstr("shares of wind and beam"))));
+}
+
+TEST(TuningVerdict, SaysWhichOtherChoiceTurnsAVerdictRound) {
+  Report report = tuned_report();
+  report.tuning->budgets = {budget(0.55, 12.0, 12.0)};
+  report.choices.resize(2);
+  report.choices[0].design = design_of(0.5);
+  report.choices[0].speed_limits = {12.0};
+  report.choices[1].name = "antenna of another attitude";
+  report.choices[1].design = design_of(0.6);
+  report.choices[1].speed_limits = {11.0};
+  const auto turned = Contains(HasSubstr(
+      "need (Ka: 0.550 mdeg) is not met up to where it is needed with 'antenna of another "
+      "attitude' (0.600 mdeg in 12 m/s)"));
+  EXPECT_THAT(reservations(report), turned);
+  EXPECT_THAT(tuning_conclusions(report), turned);
+  report.choices[1].speed_limits = {12.1};
+  EXPECT_THAT(reservations(report), Each(Not(HasSubstr("other way round"))));
+  // No way out of a contradiction says nothing of budgets.
+  report.choices[1].speed_limits = {11.0};
+  report.choices[1].wanted_frequency = 1.0;
+  report.choices[1].resonance = 0.5;
+  EXPECT_THAT(reservations(report), Each(Not(HasSubstr("other way round"))));
 }
 
 TEST(TuningText, SaysWhereTheLoopsHaveAGainOfOne) {

@@ -27,7 +27,7 @@ TEST(Choices, SayWhichMissTheFrequencyThatTheyAreMadeFor) {
   const std::array<double, 3> frequencies{1.73, 1.034, 0.348};
   for (std::size_t i = 0; i < choices.size(); ++i) {
     choices[i].name = fmt::format("choice {}", i);
-    choices[i].design->hydraulic_mode.frequency = frequencies.at(i);
+    choices[i].resonance = frequencies.at(i);
     if (i > 0) choices[i].wanted_frequency = 1.05;
   }
   EXPECT_THAT(to_text(document_of(choices)),

@@ -1,4 +1,5 @@
 // The measured hydraulic frequency against that of the flexible antenna.
+#include <algorithm>
 #include <string>
 #include <vector>
 
@@ -10,7 +11,9 @@
 #include <boresight/app/document/document_text.hpp>
 #include <boresight/app/page/decision.hpp>
 #include <boresight/app/redesign/antenna_model.hpp>
+#include <boresight/app/redesign/choices.hpp>
 #include <boresight/app/redesign/resonance_verdict.hpp>
+#include <boresight/app/redesign/resonating_mode.hpp>
 #include <boresight/app/redesign/sections.hpp>
 #include <boresight/app/report/text_report.hpp>
 #include <boresight/app/tune/plant_members.hpp>
@@ -155,16 +158,32 @@ TEST(ResonanceVerdict, SaysWhereItsModeTellsLittleOfTheOil) {
   antenna.structure.locked_rotor_frequency.value = 0.2;
   const auto verdict = resonance_verdict(antenna);
   ASSERT_TRUE(verdict);
-  EXPECT_LT(verdict->oil_share, 0.1);
+  EXPECT_LT(verdict->mode.oil_share, 0.1);
   EXPECT_GT(verdict->oil_mode.oil_share, 0.9);
   EXPECT_THAT(
       resonance_sentence(*verdict),
-      EndsWith(fmt::format("Only {:.0f} % of that mode's elastic energy is in the oil, the rest in "
-                           "gearbox and structure, so that it tells little of the oil and its "
-                           "leakage; of the mode at {:.3g} Hz, damping ratio {:.3g}, {:.0f} % is. "
-                           "Make sure which of them was measured.",
-                           100.0 * verdict->oil_share, verdict->oil_mode.frequency,
-                           verdict->oil_mode.damping_ratio, 100.0 * verdict->oil_mode.oil_share)));
+      EndsWith(fmt::format("Only {:.0f} % of that mode's elastic energy is in the oil, {:.0f} % in "
+                           "the gearbox spring and the rest in the structure, so that it tells "
+                           "little of the oil and its leakage; of the mode at {:.3g} Hz, damping "
+                           "ratio {:.3g}, {:.0f} % is in the oil. Make sure which of them was "
+                           "measured; resonance.mode says it.",
+                           100.0 * verdict->mode.oil_share, 100.0 * verdict->mode.gear_share,
+                           verdict->oil_mode.frequency, verdict->oil_mode.damping_ratio,
+                           100.0 * verdict->oil_mode.oil_share)));
+  // Where the case says so it is compared with that mode, and with the oil that makes it.
+  antenna.resonance_of_oil = true;
+  const auto of_oil = resonance_verdict(antenna);
+  ASSERT_TRUE(of_oil);
+  EXPECT_EQ(of_oil->expected, verdict->oil_mode.frequency);
+  EXPECT_THAT(resonance_sentence(*of_oil),
+              AllOf(HasSubstr("Hz of the case's flexible antenna, in its mode of most oil ("),
+                    Not(HasSubstr("Make sure"))));
+  ASSERT_TRUE(of_oil->bulk_modulus);
+  Case other = with_oil(*of_oil->bulk_modulus);
+  other.structure.locked_rotor_frequency.value = 0.2;
+  other.resonance_of_oil = true;
+  EXPECT_NEAR(resonance_verdict(other)->expected, 0.97, 1e-5);
+  antenna.resonance_of_oil = false;
   EXPECT_THAT(to_text(document_of(describe_plant(antenna))),
               HasSubstr("of that mode's elastic energy"));
   // Motors and gear train alone on the oil spring.
@@ -172,6 +191,37 @@ TEST(ResonanceVerdict, SaysWhereItsModeTellsLittleOfTheOil) {
   EXPECT_NEAR(verdict->oil_mode.frequency,
               plant::hydraulic_frequency(drive.oil_stiffness, drive.motor_inertia),
               0.05 * verdict->oil_mode.frequency);
+}
+
+TEST(RingsAsRigid, NeedsTheOilInTheMode) {
+  Case antenna = with_oil(1.229e9);
+  EXPECT_TRUE(rings_as_rigid(antenna));
+  antenna.resonance_of_oil = true;  // the same mode
+  EXPECT_TRUE(rings_as_rigid(antenna));
+  const auto of_resonance = [](const Case& one) {
+    return std::ranges::count(identify(one, {}).inertia.methods,
+                              identification::MethodKind::resonance,
+                              &identification::InertiaMethod::kind);
+  };
+  EXPECT_EQ(of_resonance(antenna), 1);
+  antenna.structure.locked_rotor_frequency.value = 0.2;
+  for (const bool of_oil : {true, false}) {
+    antenna.resonance_of_oil = of_oil;
+    EXPECT_FALSE(rings_as_rigid(antenna));
+    EXPECT_EQ(of_resonance(antenna), 0);
+    for (const auto& choice : plant_choices(antenna)) {
+      EXPECT_THAT(choice.result.says, Not(HasSubstr("rigid masses")));
+    }
+  }
+}
+
+TEST(ResonatingMode, IsSaidByTheCase) {
+  const auto with_mode = [](const std::string& mode) {
+    return EditedCase().replace("[resonance]\n", "[resonance]\nmode = \"" + mode + "\"\n").text();
+  };
+  EXPECT_TRUE(parse_case(with_mode("oil"), "case.toml").resonance_of_oil);
+  EXPECT_FALSE(parse_case(with_mode("lowest"), "case.toml").resonance_of_oil);
+  EXPECT_THAT(refusal_of(with_mode("second")), HasSubstr("resonance.mode: expected one of"));
 }
 
 // Of 3 so many that both sides of the limit read "3" say nothing.

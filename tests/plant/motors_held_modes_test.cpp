@@ -88,8 +88,14 @@ TEST(MotorsHeldModes, AreTheRootsOfTheSecularEquation) {
       EXPECT_LT(held[i].frequency, antenna.modes[i].frequency);
       EXPECT_GT(held[i + 1].frequency, antenna.modes[i].frequency);
     }
+    double gear_shares = 0.0;
     for (const auto& vibration : held) {
       const double s = std::pow(reference::two_pi * vibration.frequency, 2);
+      gear_shares += vibration.gear_share;
+      EXPECT_NEAR(
+          vibration.gear_share,
+          vibration.inertia_fraction * antenna_inertia(structure) * s / structure.gear_stiffness,
+          1e-9);
       double sum = structure.gear_stiffness - s * structure.bull_gear_inertia;
       double largest = structure.gear_stiffness;
       for (const auto& mode : structure.modes) {
@@ -99,6 +105,7 @@ TEST(MotorsHeldModes, AreTheRootsOfTheSecularEquation) {
       }
       EXPECT_LT(std::abs(sum), 1e-8 * largest);
     }
+    EXPECT_NEAR(gear_shares, 1.0, 1e-9);
   }
 }
 

@@ -176,6 +176,7 @@ TEST(OilShare, IsTheOilSpringsShareOfTheElasticEnergy) {
           kg - plant.structure.bull_gear_inertia * std::pow(reference::two_pi * mode.frequency, 2);
       const double oil = k * motor * motor, gear = kg * std::pow(motor - kg, 2);
       EXPECT_NEAR(mode.oil_share, oil / (oil + gear), 1e-8) << stiffer;
+      EXPECT_NEAR(mode.gear_share, gear / (oil + gear), 1e-8) << stiffer;
     }
     EXPECT_EQ(modes, 2);
   }
@@ -194,6 +195,13 @@ TEST(OilShare, IsHowTheFrequencyFollowsTheOil) {
     };
     const double slope = std::log(at(1.0 + step) / at(1.0 - step)) / step;
     EXPECT_NEAR(own.oil_share, slope, 1e-6) << friction;
+    const auto on_gear = [&](double factor) {
+      AntennaPlant other = plant;
+      other.structure.gear_stiffness *= factor;
+      return hydraulic_mode(plant_modes(other)).frequency;
+    };
+    EXPECT_NEAR(own.gear_share, std::log(on_gear(1.0 + step) / on_gear(1.0 - step)) / step, 1e-6)
+        << friction;
   }
 }
 

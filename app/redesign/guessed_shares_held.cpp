@@ -1,0 +1,51 @@
+#include <cmath>
+#include <vector>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <boresight/app/redesign/antenna_model.hpp>
+#include <boresight/app/redesign/guessed_shares_held.hpp>
+#include <boresight/app/report/sky_units.hpp>
+#include <boresight/design/plant_ensemble.hpp>
+
+namespace boresight::app {
+namespace {
+
+// Beam rms (rad); NaN where the loop is unstable.
+double held_rms(const Case& antenna, const control::ControlLaw& law, double wind_speed,
+                GuessedShares place) {
+  design::TrackingProblem problem = make_problem(antenna, {.guessed_shares = place});
+  problem.wind.mean_speed = wind_speed;
+  return design::judge(problem, {{"the case's", problem.plant}}, law, {}, 1)
+      .members.front()
+      .beam_rms;
+}
+
+}  // namespace
+
+void conclude_guessed_shares(const Case& antenna, const control::ControlLaw& law,
+                             double wind_speed, std::vector<std::string>& sentences) {
+  constexpr double worth_a_sentence = 0.2;
+  const double own = held_rms(antenna, law, wind_speed, GuessedShares::as_stated);
+  std::vector<std::string> others;
+  bool apart = false;
+  for (const auto place : {GuessedShares::as_inertia, GuessedShares::all_at_heaviest}) {
+    if (!moves_guessed_shares(antenna.structure, place)) continue;
+    const double rms = held_rms(antenna, law, wind_speed, place);
+    // Also where there is none.
+    apart = apart || !(std::abs(rms / own - 1.0) <= worth_a_sentence);
+    others.push_back(fmt::format(
+        "{} {}", std::isfinite(rms) ? fmt::format("{:.3f} mdeg", rms / millidegree) : "no stable loop",
+        place == GuessedShares::as_inertia ? "with all in proportion to the inertia fractions"
+                                           : "with all at the heaviest of bull gear and modes"));
+  }
+  if (!apart) return;
+  sentences.push_back(fmt::format(
+      "The case's shares of wind and beam are guesses, which no ensemble or draw moves: with gains "
+      "held, the linear {:.3f} mdeg of {} on the case's plant would be {}. What compares laws or "
+      "proposals under one guess may compare them otherwise under another.",
+      own / millidegree, law.structure.name(), fmt::join(others, ", ")));
+}
+
+}  // namespace boresight::app

@@ -1,0 +1,23 @@
+#pragma once
+
+#include <string>
+
+#include <boresight/app/io/case_file.hpp>
+#include <boresight/plant/antenna_plant.hpp>
+
+namespace boresight::app {
+
+/// The mode of a plant that the measured resonance of a case is compared with:
+/// plant::hydraulic_mode, or plant::mode_of_oil where resonance.mode is "oil".
+plant::PlantMode resonating_mode(const Case& antenna, const plant::AntennaPlant& plant);
+
+/// Whether the measured resonance may be read as the whole antenna, rigid, on the oil spring: it is
+/// of the hydraulic mode of the case's plant, and at least half of that mode's elastic energy is in
+/// the oil.
+bool rings_as_rigid(const Case& antenna);
+
+/// To follow a sentence on a mode: where less than half of its elastic energy is in the oil and the
+/// mode_of_oil has more there, so. Else empty.
+std::string oil_remark(const plant::PlantMode& mode, const plant::PlantMode& mode_of_oil);
+
+}  // namespace boresight::app

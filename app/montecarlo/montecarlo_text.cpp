@@ -50,7 +50,7 @@ void add_distribution(Rows& rows, const std::string& name, const DistributionSum
 
 // "0.7424 [0.7401, 0.7449]", or "> 3".
 std::string loss_with_interval(const EstimatedNumber& estimate) {
-  const std::string value = loss_text(estimate.value);
+  std::string value = loss_text(estimate.value);
   if (estimate.value > largest_parabola_loss) return value;
   return fmt::format("{} [{}, {}]", value, loss_text(estimate.lower), loss_text(estimate.upper));
 }

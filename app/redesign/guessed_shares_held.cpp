@@ -24,8 +24,8 @@ double held_rms(const Case& antenna, const control::ControlLaw& law, double wind
 
 }  // namespace
 
-void conclude_guessed_shares(const Case& antenna, const control::ControlLaw& law,
-                             double wind_speed, std::vector<std::string>& sentences) {
+void conclude_guessed_shares(const Case& antenna, const control::ControlLaw& law, double wind_speed,
+                             std::vector<std::string>& sentences) {
   constexpr double worth_a_sentence = 0.2;
   const double own = held_rms(antenna, law, wind_speed, GuessedShares::as_stated);
   std::vector<std::string> others;
@@ -36,7 +36,8 @@ void conclude_guessed_shares(const Case& antenna, const control::ControlLaw& law
     // Also where there is none.
     apart = apart || !(std::abs(rms / own - 1.0) <= worth_a_sentence);
     others.push_back(fmt::format(
-        "{} {}", std::isfinite(rms) ? fmt::format("{:.3f} mdeg", rms / millidegree) : "no stable loop",
+        "{} {}",
+        std::isfinite(rms) ? fmt::format("{:.3f} mdeg", rms / millidegree) : "no stable loop",
         place == GuessedShares::as_inertia ? "with all in proportion to the inertia fractions"
                                            : "with all at the heaviest of bull gear and modes"));
   }

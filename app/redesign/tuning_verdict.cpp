@@ -128,8 +128,15 @@ std::vector<std::string_view> models(const TuningSection& section, std::size_t b
   return names;
 }
 
-bool is_judged(const ChoiceResult& choice) {
-  return choice.design && choice.design->usable() && choice.speed_limits;
+// What a choice's own law does.
+struct JudgedChoice {
+  double beam_rms = 0.0;             // rad
+  std::vector<double> speed_limits;  // m/s, one a budget
+};
+
+std::optional<JudgedChoice> judged(const ChoiceResult& choice) {
+  if (!choice.design || !choice.speed_limits || !choice.design->usable()) return std::nullopt;
+  return JudgedChoice{choice.design->beam_rms, *choice.speed_limits};
 }
 
 // Of the other choices, guesses aside, those with which a needed budget has another verdict.
@@ -140,11 +147,12 @@ std::string other_choices_text(const Report& report, const TuningSection& sectio
     const bool met = meets_need(budget, reached_wind_speed(section, section.budgets[i]));
     std::vector<std::string> names;
     for (const auto& choice : report.choices) {
-      if (choice.other_shares || !is_judged(choice) || choice.missed_resonance()) continue;
-      const double reached = std::min(choice.speed_limits->at(i), section.supply_wind_speed);
+      const auto found = judged(choice);
+      if (!found || choice.other_shares || choice.missed_resonance()) continue;
+      const double reached = std::min(found->speed_limits.at(i), section.supply_wind_speed);
       if (meets_need(budget, reached) == met) continue;
       names.push_back(fmt::format("'{}' ({:.3f} mdeg in {:.3g} m/s)", choice.name,
-                                  choice.design->beam_rms / millidegree, section.design_speed));
+                                  found->beam_rms / millidegree, section.design_speed));
     }
     if (names.empty()) continue;
     verdicts.push_back(fmt::format("{} is {} up to where it is needed with {}", budget_text(budget),
@@ -169,8 +177,9 @@ std::string guessed_shares_text(const Report& report, const TuningSection& secti
     guesses.front().reached.push_back(reached_wind_speed(section, budget));
   }
   for (const auto& choice : report.choices) {
-    if (!choice.other_shares || !is_judged(choice)) continue;
-    Guess guess{"'" + choice.name + "'", choice.design->beam_rms, *choice.speed_limits};
+    const auto found = judged(choice);
+    if (!found || !choice.other_shares) continue;
+    Guess guess{"'" + choice.name + "'", found->beam_rms, found->speed_limits};
     for (double& speed : guess.reached) speed = std::min(speed, section.supply_wind_speed);
     guesses.push_back(std::move(guess));
   }

@@ -57,8 +57,8 @@ Json figures_json(const EvaluateSection& section, const Candidate& candidate,
   const CandidateLaw* law = candidate.chosen_law();
   for (std::size_t i = 0; i < section.budgets.size(); ++i) {
     Json met = nullptr;
-    if (law != nullptr && i < law->budgets_met.size() && law->budgets_met[i]) {
-      met = *law->budgets_met[i];
+    if (law != nullptr && i < law->budgets_met.size()) {
+      if (const auto& plants = law->budgets_met[i]) met = *plants;
     }
     budgets.push_back(
         {{"name", section.budgets[i].name},

@@ -8,17 +8,14 @@
 #include <boresight/app/figures/law_figures.hpp>
 #include <boresight/app/figures/tune_figures.hpp>
 #include <boresight/app/report/sky_units.hpp>
-#include <boresight/app/tune/tune_study.hpp>
+#include <boresight/app/tune/laws_in_time.hpp>
+#include <boresight/app/tune/tune_verdict.hpp>
 
 namespace boresight::app {
 namespace {
 
 constexpr std::size_t most_compared = 6;  // laws in one panel
 constexpr std::size_t valve = 1;          // of control::loop_breaks
-
-std::string name_of(const TunedLaw& law) {
-  return fmt::format("{}, {}", law.structure, to_string(law.tuned_for));
-}
 
 std::string title_of(const TuneSection& section) {
   return fmt::format("Tuned loops: {}, wind model {}", fmt::join(section.structures, ", "),
@@ -76,7 +73,7 @@ Figure structures_figure(const TuneSection& section, double wind_speed,
     FigureSeries bars{.name = "nonlinear antenna", .style = SeriesStyle::bars};
     const auto add = [&](const std::string& name, const design::NonlinearVerification& result) {
       for (const auto& law : section.laws) {
-        if (name_of(law) != name || law.wind_speed != wind_speed) continue;
+        if (description_of(law) != name || law.wind_speed != wind_speed) continue;
         bars.x.push_back(place_of(law.structure));
         bars.y.push_back(result.wind.beam_rms / millidegree);
       }
@@ -103,22 +100,9 @@ Figure structures_figure(const TuneSection& section, double wind_speed,
   return figure;
 }
 
-// The law that the report is about: that chosen on the nonlinear antenna where there was a choice.
-const TunedLaw* shown_law(const TuneSection& section,
-                          const std::optional<TimeDomainSection>& in_time) {
-  const TunedLaw* best = best_law(section);
-  if (best == nullptr || !in_time) return best;
-  for (const auto& law : section.laws) {
-    if (name_of(law) == in_time->law && law.wind_speed == best->wind_speed && law.usable()) {
-      return &law;
-    }
-  }
-  return best;
-}
-
 std::vector<ComparedLaw> compared_laws(const TuneSection& section, const TunedLaw& first) {
   const auto compared = [](const TunedLaw& law) {
-    return ComparedLaw{name_of(law), law.design.tuning.law,
+    return ComparedLaw{description_of(law), law.design.tuning.law,
                        law.design.tuning.evaluation.noise_variance};
   };
   std::vector<ComparedLaw> laws{compared(first)};
@@ -155,7 +139,7 @@ std::vector<Figure> tune_figures(const TuneSection& section,
   }
   auto of_law = law_figures({.id = "law",
                              .section = title_of(section),
-                             .name = name_of(*shown),
+                             .name = description_of(*shown),
                              .problem = problem,
                              .law = shown->design.tuning.law,
                              .margins = shown->design.margins,

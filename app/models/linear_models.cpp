@@ -1,11 +1,10 @@
 #include <utility>
 
-#include <fmt/format.h>
-
 #include <boresight/app/benchmark/benchmark_report.hpp>
 #include <boresight/app/models/linear_models.hpp>
 #include <boresight/app/redesign/antenna_model.hpp>
-#include <boresight/app/tune/tune_study.hpp>
+#include <boresight/app/tune/laws_in_time.hpp>
+#include <boresight/app/tune/tune_verdict.hpp>
 #include <boresight/control/closed_loop.hpp>
 
 namespace boresight::app {
@@ -29,11 +28,10 @@ LinearModels linear_models(const design::TrackingProblem& problem, const control
 
 std::optional<LinearModels> linear_models(const Report& report) {
   if (report.tuned) {
-    const TunedLaw* best = best_law(*report.tuned);
+    const TunedLaw* shown = shown_law(*report.tuned, report.time_domain);
     const auto& problem = report.tuned->problem;
-    if (best == nullptr) return linear_models(problem.plant, problem.gear_ratio);
-    return linear_models(problem, best->design.tuning.law,
-                         fmt::format("{}, {}", best->structure, to_string(best->tuned_for)));
+    if (shown == nullptr) return linear_models(problem.plant, problem.gear_ratio);
+    return linear_models(problem, shown->design.tuning.law, description_of(*shown));
   }
   if (report.tuning && report.tuning->design.tuning.status == design::TuningStatus::optimal) {
     const auto& law = report.tuning->design.tuning.law;

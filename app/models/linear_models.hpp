@@ -36,8 +36,9 @@ LinearModels linear_models(const plant::AntennaPlant& antenna, double gear_ratio
 /// And a law on it. @throws InvalidInput as control::validate(law).
 LinearModels linear_models(const design::TrackingProblem& problem, const control::ControlLaw& law,
                            const std::string& description);
-/// Of a report of model, redesign or tune: with the best law of a tune report, or the tuned one of
-/// a redesign if it meets its goals; else the plant alone. None of a report without a plant.
+/// Of a report of model, redesign or tune: with the law that a tune report recommends (shown_law),
+/// or the tuned one of a redesign if it meets its goals; else the plant alone. None of a report
+/// without a plant.
 std::optional<LinearModels> linear_models(const Report& report);
 
 /// A MAT file of version 5 (docs/formats.md): plant with parameters and frequency responses; with a

@@ -270,6 +270,19 @@ const TunedLaw* recommended_law(const TuneSection& section, std::optional<double
   return rows.empty() ? pointing : rows[best_in_time(candidates, HUGE_VAL)];
 }
 
+const TunedLaw* shown_law(const TuneSection& section,
+                          const std::optional<TimeDomainSection>& in_time) {
+  if (const TunedLaw* recommended = recommended_law(section)) return recommended;
+  const TunedLaw* best = best_law(section);
+  if (best == nullptr || !in_time) return best;
+  for (const auto& law : section.laws) {
+    if (description_of(law) == in_time->law && law.wind_speed == best->wind_speed && law.usable()) {
+      return &law;
+    }
+  }
+  return best;
+}
+
 std::string why_not_recommended(const TuneSection& section, const TunedLaw& other,
                                 const TunedLaw& recommended) {
   std::vector<std::string> reasons;
@@ -279,7 +292,7 @@ std::string why_not_recommended(const TuneSection& section, const TunedLaw& othe
   };
   if (other.in_time && recommended.in_time) {
     const LawInTime &run = *other.in_time, &chosen = *recommended.in_time;
-    const bool hunts_more = run.hunting > chosen.hunting;
+    const bool hunts_more = run.hunting * (1.0 - negligible_change) > chosen.hunting;
     // A negligible loss in wind is not why, where hunting is.
     const double share = hunts_more ? negligible_change : 0.0;
     if (run.beam_rms > (1.0 + share) * chosen.beam_rms) {

@@ -3,6 +3,7 @@
 #include <optional>
 #include <string>
 
+#include <boresight/app/simulate/time_domain.hpp>
 #include <boresight/app/tune/tune_section.hpp>
 
 namespace boresight::app {
@@ -15,6 +16,11 @@ std::string name_and_purpose(const TunedLaw& row);
 /// best_in_time, by which the time domain chooses; best_pointing_law where none ran. Null without a
 /// law, and where all are left_out: then none is to be commissioned.
 const TunedLaw* recommended_law(const TuneSection& section, std::optional<double> wind_speed = {});
+
+/// The law that figures and exported models are of: the one recommended; where none is, that of the
+/// time domain, and without one best_law. Null without a law.
+const TunedLaw* shown_law(const TuneSection& section,
+                          const std::optional<TimeDomainSection>& in_time);
 
 /// Why a law of the same purpose and wind speed that is not left_out is not the one recommended,
 /// as what it does: "hunts by +-0.4375 mdeg rather than +-0.4246".

@@ -285,6 +285,12 @@ TEST(RecommendedLaw, IsTheOneThatTheTimeDomainChooses) {
   EXPECT_EQ(recommended_law(section, 12.0), &section.laws[0]);
   EXPECT_EQ(why_not_recommended(section, section.laws[1], section.laws[0]),
             "points within 2.1552 mdeg rather than 2.0000");
+  // Of amplitudes that are one as printed neither is a reason.
+  section.laws[1].in_time->hunting = (1.0 + 1e-4) * section.laws[0].in_time->hunting;
+  section.laws[1].in_time->beam_rms = 1.015 * section.laws[0].in_time->beam_rms;
+  EXPECT_EQ(why_not_recommended(section, section.laws[1], section.laws[0]),
+            "points within 2.0300 mdeg rather than 2.0000");
+  section.laws[1].in_time = law_in_time("PI", 2.1276, 0.4246, 2.1552).in_time;
   // A run in wind that did not complete is no merit.
   section.laws[0].in_time->beam_rms = std::numeric_limits<double>::quiet_NaN();
   EXPECT_EQ(recommended_law(section, 12.0), &section.laws[1]);
@@ -297,6 +303,21 @@ TEST(RecommendedLaw, IsTheOneThatTheTimeDomainChooses) {
   for (auto& law : section.laws) law.in_time.reset();
   EXPECT_EQ(recommended_law(section, 12.0), &section.laws[2]);
   EXPECT_THAT(conclude(section), Each(Not(HasSubstr("the law recommended"))));
+}
+
+TEST(RecommendedLaw, IsWhatFiguresAndExportedModelsAreOf) {
+  TuneSection section = section_of_two_alike();
+  TimeDomainSection in_time;
+  in_time.law = "LL, robust";
+  ASSERT_EQ(best_law(section), &section.laws[2]);
+  EXPECT_EQ(shown_law(section, in_time), &section.laws[0]);
+  // Where all hunt, that of the time domain's figures, and the linear plant's best without one.
+  for (auto& law : section.laws) law.in_time->still = false;
+  ASSERT_EQ(recommended_law(section), nullptr);
+  EXPECT_EQ(shown_law(section, in_time), &section.laws[1]);
+  EXPECT_EQ(shown_law(section, {}), &section.laws[2]);
+  section.laws.clear();
+  EXPECT_EQ(shown_law(section, in_time), nullptr);
 }
 
 TEST(RecommendedLaw, IsTheOneOfEveryConclusion) {

@@ -183,10 +183,11 @@ Figure margins_figure(const MatchSection& section) {
 Figure friction_figure(const MatchSection& section) {
   Figure figure = started(
       "match-friction", "Reversals and limit cycles of the tuned laws",
-      fmt::format("On the nonlinear antenna in still air, with its friction curve: the largest "
-                  "encoder error after reversals of {:.4g} mdeg/s, and the amplitude of the limit "
-                  "cycle at rest (0: none).",
-                  section.tracking_rate / millidegree));
+      fmt::format(
+          "On the nonlinear antenna in still air, with its friction curve: the largest "
+          "beam error after reversals of {:.4g} mdeg/s, and the amplitude of the beam's limit "
+          "cycle at rest (0: none).",
+          section.tracking_rate / millidegree));
   figure.panels.resize(2);
   figure.panels[0].y = {.label = "error after reversals", .unit = "mdeg"};
   figure.panels[1].y = {.label = "limit cycle at rest", .unit = "mdeg"};
@@ -198,12 +199,12 @@ Figure friction_figure(const MatchSection& section) {
       if (!run) continue;
       if (run->reversal && run->reversal->status == design::RunStatus::complete) {
         reversal.x.push_back(section.points[i].disks);
-        reversal.y.push_back(run->reversal->encoder_error / millidegree);
+        reversal.y.push_back(run->reversal->beam_error / millidegree);
       }
       if (!run->hunting.empty() && run->hunting.front().status == design::RunStatus::complete) {
         const auto& rest = run->hunting.front();
         cycle.x.push_back(section.points[i].disks);
-        cycle.y.push_back(rest.limit_cycle ? rest.encoder_amplitude / millidegree : 0.0);
+        cycle.y.push_back(rest.limit_cycle ? rest.beam_amplitude / millidegree : 0.0);
       }
     }
     if (!reversal.x.empty()) figure.panels[0].series.push_back(std::move(reversal));

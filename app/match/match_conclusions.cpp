@@ -67,12 +67,12 @@ void conclude_hunting(const MatchSection& section, std::vector<std::string>& sen
     const auto look = [&](std::size_t point, std::vector<std::string>& list, std::string_view at) {
       const auto& run = series.values[point].time_domain;
       if (!run || !hunts_at(section, series, point)) return;
-      const double amplitude = design::hunting_amplitude(run->hunting);
-      if (amplitude > design::hunting_limit(section.tightest_budget)) {
-        list.push_back(
-            fmt::format("{} (+-{:.2f} mdeg{})", series.name, amplitude / millidegree, at));
+      if (hunting_beyond(section, run->hunting)) {
+        list.push_back(fmt::format("{} (+-{:.2f} mdeg{})", series.name,
+                                   design::hunting_amplitude(run->hunting) / millidegree, at));
+      } else {
+        seen = false;
       }
-      seen = seen && design::hunting_seen(run->hunting);
     };
     look(built, as_they_are, "");
     if (const std::size_t best = hunting_point(section, series); best != built) {
@@ -168,6 +168,7 @@ void conclude_variants(const MatchSection& section, std::vector<std::string>& se
                       : ""));
   }
   for (const auto& one : section.thresholds) {
+    if (!weighed(section, one.structure)) continue;
     const std::string at_tracking =
         one_friction(section)
             ? ""

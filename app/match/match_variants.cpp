@@ -46,11 +46,9 @@ std::vector<Change> changes_of(const Case& antenna, const MatchSection& section)
     changes.push_back(
         {"antenna inertia of " + alternative.name, variant_of(antenna, alternative), {}});
   }
-  for (const auto& [place, name] :
-       {std::pair{GuessedShares::as_inertia, "wind and beam shares as inertia"},
-        {GuessedShares::all_at_heaviest, "wind and beam shares all at one"}}) {
+  for (const auto place : other_guesses) {
     if (!moves_guessed_shares(antenna.structure, place)) continue;
-    changes.push_back({name, {.guessed_shares = place}, {}});
+    changes.push_back({std::string(to_string(place)), {.guessed_shares = place}, {}});
   }
   for (const auto model :
        {plant::WindModel::uniform, plant::WindModel::vickery, plant::WindModel::coherence}) {

@@ -34,10 +34,7 @@ std::string what_matters_more(const MatchSection& section) {
   influences.add(structures_as_built(section).change, "the loop structure");
   for (const auto& variants : section.variants) {
     const MatchVariant& own = variants.variants.front();
-    const bool counts = std::ranges::any_of(section.series, [&](const MatchSeries& series) {
-      return series.name == variants.structure && weighed(section, series);
-    });
-    if (!own.best || !counts) continue;
+    if (!own.best || !weighed(section, variants.structure)) continue;
     for (const auto& variant : variants.variants) {
       if (!variant.best) continue;
       influences.add(std::abs(variant.rms[*variant.best] / own.rms[*own.best] - 1.0),
@@ -59,6 +56,11 @@ std::vector<design::HuntingResult> hunting_of(const MatchSection& section,
   return run ? run->hunting : std::vector<design::HuntingResult>();
 }
 
+bool hunting_beyond(const MatchSection& section,
+                    const std::vector<design::HuntingResult>& hunting) {
+  return design::hunting_amplitude(hunting) > design::hunting_limit(section.tightest_budget);
+}
+
 bool hunts_at(const MatchSection& section, const MatchSeries& series, std::size_t point) {
   const auto& run = series.values[point].time_domain;
   return run && !design::holds_still(run->hunting, section.tightest_budget);
@@ -72,6 +74,12 @@ bool hunts(const MatchSection& section, const MatchSeries& series) {
 // built: what hunts at either has no such rms there.
 bool weighed(const MatchSection& section, const MatchSeries& series) {
   return series.best && !hunts(section, series) && !hunts_at(section, series, as_built(section));
+}
+
+bool weighed(const MatchSection& section, std::string_view structure) {
+  return std::ranges::any_of(section.series, [&](const MatchSeries& series) {
+    return series.name == structure && weighed(section, series);
+  });
 }
 
 const MatchSeries* most_moved(const MatchSection& section) {

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <boresight/app/match/match_section.hpp>
@@ -20,8 +21,12 @@ std::size_t hunting_point(const MatchSection& section, const MatchSeries& series
 std::vector<design::HuntingResult> hunting_of(const MatchSection& section,
                                               const MatchSeries& series);
 
-/// Whether a structure was run at a point and hunts there beyond the tightest budget
-/// (design::holds_still).
+/// Whether such runs show hunting beyond the tightest budget: not where that much was not seen
+/// because one of them did not complete.
+bool hunting_beyond(const MatchSection& section, const std::vector<design::HuntingResult>& hunting);
+
+/// Whether a structure was run at a point and not seen to hold still there within the tightest
+/// budget (design::holds_still): by hunting_beyond, or because a run did not complete.
 bool hunts_at(const MatchSection& section, const MatchSeries& series, std::size_t point);
 
 /// Whether it does so at its hunting_point: no structure to choose, whatever its rms in wind.
@@ -30,6 +35,9 @@ bool hunts(const MatchSection& section, const MatchSeries& series);
 /// Whether a structure counts where inertia, structures and rules are weighed: it has a law that
 /// holds its goals, and hunts beyond the tightest budget neither at its hunting_point nor as built.
 bool weighed(const MatchSection& section, const MatchSeries& series);
+
+/// The same of a structure by its name; false for one that was not studied.
+bool weighed(const MatchSection& section, std::string_view structure);
 
 /// The structure weighed whose rms changes most over the inertias; null where none is weighed.
 const MatchSeries* most_moved(const MatchSection& section);

@@ -31,8 +31,11 @@ double mdeg(double angle) {
 std::string first_change(const MatchSection& section, const MatchSeries& best, bool others) {
   const std::size_t built = as_built(section);
   if (hunts_at(section, best, built)) {
-    return "With the motors as built those loops hunt beyond the tightest budget on the nonlinear "
-           "antenna.";
+    const bool seen = hunting_beyond(section, best.values[built].time_domain->hunting);
+    return seen ? "With the motors as built those loops hunt beyond the tightest budget on the "
+                  "nonlinear antenna."
+                : "With the motors as built those loops were not seen to hold still on the "
+                  "nonlinear antenna: a run did not complete.";
   }
   const StructuresAsBuilt structures = structures_as_built(section);
   const double by_disks =
@@ -62,6 +65,7 @@ std::string deciding_friction(const MatchSection& section) {
   const double most = 1.5 * std::max(section.friction, section.tracking_friction);
   for (const auto& one : section.thresholds) {
     if (!one.slope || *one.slope > most || one.spread_at_nominal < one.spread) continue;
+    if (!weighed(section, one.structure)) continue;
     if (threshold != nullptr && *one.slope >= slope) continue;
     threshold = &one;
     slope = *one.slope;
@@ -139,12 +143,14 @@ std::vector<std::string> decision(const MatchSection& section) {
   Sentences sentences = decide_inertia(kept, kept.series.size() < section.series.size());
   for (const auto& series : section.series) {
     if (!series.best || !hunts(section, series) || kept.series.empty()) continue;
+    const auto runs = hunting_of(section, series);
     sentences.push_back(fmt::format(
-        "Not {}, with {:.3f} on the linear plant: on the nonlinear antenna it hunts by +-{:.2f} "
-        "mdeg, beyond the tightest budget of {:.3f}.",
-        series.name, mdeg(series.values[*series.best].beam_rms),
-        mdeg(design::hunting_amplitude(hunting_of(section, series))),
-        mdeg(section.tightest_budget)));
+        "Not {}, with {:.3f} on the linear plant: on the nonlinear antenna it {}.", series.name,
+        mdeg(series.values[*series.best].beam_rms),
+        hunting_beyond(section, runs)
+            ? fmt::format("hunts by +-{:.2f} mdeg, beyond the tightest budget of {:.3f}",
+                          mdeg(design::hunting_amplitude(runs)), mdeg(section.tightest_budget))
+            : std::string("was not seen to hold still, as a run did not complete")));
   }
   return sentences;
 }

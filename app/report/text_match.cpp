@@ -167,7 +167,7 @@ std::string hunting_text(const std::vector<design::HuntingResult>& hunting, std:
   if (which >= hunting.size()) return "-";
   const auto& one = hunting[which];
   if (one.status != design::RunStatus::complete) return std::string(to_string(one.status));
-  return one.limit_cycle ? fmt::format("{:.3f}", one.encoder_amplitude / millidegree) : "none";
+  return one.limit_cycle ? fmt::format("{:.3f}", one.beam_amplitude / millidegree) : "none";
 }
 
 Document time_part(const MatchSection& section) {
@@ -189,8 +189,8 @@ Document time_part(const MatchSection& section) {
   if (rows.size() == 1) return {};
   return "\n" + table(rows, "lrrrrrr") +
          wrapped(
-             fmt::format("On the nonlinear antenna in still air, mdeg: limit cycles (amplitude, "
-                         "encoder) and the largest error after reversals of {:.4g} mdeg/s.",
+             fmt::format("On the nonlinear antenna in still air, mdeg: amplitudes of the beam's "
+                         "limit cycles and the largest error after reversals of {:.4g} mdeg/s.",
                          section.tracking_rate / millidegree),
              "  ");
 }

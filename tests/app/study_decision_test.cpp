@@ -237,6 +237,42 @@ TEST(MatchConclusions, WeighNothingWhereAllHunt) {
                                     Not(HasSubstr("good rule")), Not(HasSubstr("hardly")))));
 }
 
+MatchSeries lost_at(MatchSeries series, std::size_t point) {
+  design::HuntingResult run;
+  run.status = design::RunStatus::lost;
+  series.values[point].time_domain = MatchTimeDomain{{run}, {}};
+  return series;
+}
+
+TEST(MatchDecision, TellsNoHuntingThatWasNotSeen) {
+  const MatchSeries calm = hunting(series_of("PI", {0.4, 0.5, 0.6}), 0.1);
+  const MatchSeries still = hunting(series_of("DPF", {0.3, 0.31, 0.32}), 0.1);
+  EXPECT_THAT(decision(within_half_a_millidegree({calm, lost_at(still, 1)})),
+              Contains(HasSubstr("With the motors as built those loops were not seen to hold "
+                                 "still")));
+  EXPECT_THAT(decision(within_half_a_millidegree({calm, lost_at(still, 0)})),
+              Contains(HasSubstr("Not DPF, with 0.300 on the linear plant: on the nonlinear "
+                                 "antenna it was not seen to hold still, as a run did not "
+                                 "complete.")));
+}
+
+TEST(MatchDecision, MeasuresNoFrictionForStructuresThatHunt) {
+  const auto with = [](double amplitude_mdeg) {
+    MatchSection section =
+        within_half_a_millidegree({hunting(series_of("PI", {0.4, 0.5, 0.6}), amplitude_mdeg),
+                                   hunting(series_of("DPF", {0.3, 0.4, 0.5}), 0.1)});
+    section.tracking_friction = 4.0;
+    section.thresholds = {threshold_of(0.5)};
+    auto sentences = decision(section);
+    for (auto& sentence : conclude(section)) sentences.push_back(std::move(sentence));
+    return sentences;
+  };
+  EXPECT_THAT(with(0.1), AllOf(Contains(HasSubstr("Measure the friction slope")),
+                               Contains(HasSubstr("With PI, if the friction slope"))));
+  EXPECT_THAT(with(3.0), Each(AllOf(Not(HasSubstr("Measure the friction slope")),
+                                    Not(HasSubstr("With PI, if the friction slope")))));
+}
+
 TEST(MatchConclusions, NameTheStructuresThatHuntAndByHowMuch) {
   const auto with = [](const MatchSeries& second) {
     return conclude(
@@ -251,12 +287,16 @@ TEST(MatchConclusions, NameTheStructuresThatHuntAndByHowMuch) {
   EXPECT_THAT(with(hunting_as_built(series, 3.0)),
               Contains(HasSubstr(": as built DPF+C (+-3.00 mdeg). Their rms")));
   EXPECT_THAT(with(hunting(series, 0.7)), Each(Not(HasSubstr("tightest budget"))));
-  MatchSeries lost = series;
-  design::HuntingResult run;
-  run.status = design::RunStatus::lost;
-  lost.values[1].time_domain = MatchTimeDomain{{run}, {}};
-  EXPECT_THAT(with(lost), Contains(AllOf(HasSubstr("How far DPF+C would hunt is not known"),
-                                         Not(HasSubstr("+-")))));
+  EXPECT_THAT(
+      with(lost_at(series, 1)),
+      Contains(AllOf(HasSubstr("How far DPF+C would hunt is not known"), Not(HasSubstr("+-")))));
+  // Seen to hunt in one run, it is known enough.
+  MatchSeries seen = hunting(series, 3.0);
+  for (auto& value : seen.values) {
+    value.time_domain->hunting.push_back({.status = design::RunStatus::lost});
+  }
+  EXPECT_THAT(with(seen), AllOf(Contains(HasSubstr("as built DPF+C (+-3.00 mdeg)")),
+                                Each(Not(HasSubstr("would hunt is not known")))));
 }
 
 TEST(MatchDecision, WeighsNoLoopsThatHuntWithTheMotorsAsBuilt) {

@@ -37,7 +37,7 @@ SteadyFrictionFit fit_steady_friction(const std::vector<SteadyFriction>& tests);
 /// @throws InvalidInput as fit_steady_friction.
 int steady_friction_freedom(const std::vector<SteadyFriction>& tests);
 
-/// Between what a number of the curve lies.
+/// Between what a number of the curve lies, in its own unit.
 struct FrictionInterval {
   double least = 0.0;
   double largest = 0.0;
@@ -51,9 +51,10 @@ struct FrictionInterval {
 
 /// How far the numbers of SteadyFrictionFit::curve hang on single torques.
 struct SteadyFrictionIntervals {
-  FrictionInterval coulomb_torque, breakaway_torque, viscous_friction;
-  /// None where it is not fitted: with fewer than four tests, or where no fit has Ts above Tc. A
-  /// fit with Ts = Tc among others bears any rate and opens both ends.
+  FrictionInterval coulomb_torque, breakaway_torque;  // N m
+  FrictionInterval viscous_friction;                  // N m s/rad
+  /// rad/s. None where it is not fitted: with fewer than four tests, or where no fit has Ts above
+  /// Tc. A fit with Ts = Tc among others bears any rate and opens both ends.
   std::optional<FrictionInterval> stribeck_rate;
 };
 

@@ -101,7 +101,7 @@ struct PlantMode {
   /// spring in the mode's elastic energy, 1 for a rigid antenna. Heavy damping may take it out of 0
   /// to 1.
   double oil_share = 0.0;
-  double gear_share = 0.0;  // the same by the gear stiffness
+  double gear_share = 0.0;  // the same by the gear stiffness, its damping kept
 };
 
 /// Modes in order of frequency; a part's participation is the sum of |left_k right_k| over its

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <complex>
 #include <functional>
+#include <limits>
 #include <numbers>
 #include <optional>
 
@@ -270,8 +271,10 @@ std::vector<MotorsHeldMode> motors_held_modes(const Structure& structure) {
   for (Index i = 0; i < fractions.size(); ++i) {
     const double turned =
         std::abs((gear.cast<std::complex<double>>().transpose() * eigen.vectors.col(i)).value());
-    held.push_back({std::sqrt(std::max(eigen.values[i], 0.0)) / two_pi, fractions[i],
-                    structure.gear_stiffness * turned * turned / eigen.values[i]});
+    // Positive but for rounding.
+    const double squared = std::max(eigen.values[i], std::numeric_limits<double>::min());
+    held.push_back({std::sqrt(squared) / two_pi, fractions[i],
+                    structure.gear_stiffness * turned * turned / squared});
   }
   return held;
 }

@@ -5,6 +5,7 @@
 
 #include <boresight/app/audit/plausibility_checks.hpp>
 #include <boresight/app/redesign/antenna_model.hpp>
+#include <boresight/app/redesign/resonating_mode.hpp>
 #include <boresight/plant/hydraulics.hpp>
 
 namespace boresight::app {
@@ -21,12 +22,14 @@ std::vector<MeasuredInertia> measured_inertias(const CaseNumbers& numbers) {
   std::vector<MeasuredInertia> inertias;
   if (numbers.antenna.resonance_frequency) {
     const std::string id = "resonance.reflected_inertia";
-    inertias.push_back({id, "recomputed",
-                        plant::inertia_from_resonance(numbers.oil_stiffness,
-                                                      numbers.antenna.resonance_frequency->value)});
+    if (rings_as_rigid(numbers.antenna)) {
+      inertias.push_back({id, "recomputed",
+                          plant::inertia_from_resonance(
+                              numbers.oil_stiffness, numbers.antenna.resonance_frequency->value)});
+    }
     for (const StatedEntry& stated : numbers.antenna.stated) {
       // The summary prints it again.
-      const bool again = inertias.back().value == stated.value.value;
+      const bool again = !inertias.empty() && inertias.back().value == stated.value.value;
       if (stated.quantity == id && !again) {
         inertias.push_back({id, "as printed", stated.value.value});
       }

@@ -64,13 +64,16 @@ void check_resonance_damping(const CaseNumbers& numbers, Implausibilities& found
       {"resonance damping",
        "resonance.damping_ratio",
        fmt::format(
-           "The hydraulic mode of the case has the damping ratio {:.3g}, by the leakage "
-           "rate of {:.3g} 1/s, viscous friction of {:.3g} N.m.s/rad and the structure; "
-           "measured is {:.3g}, more than a factor of {:g} {}: leakage or friction is {} "
-           "than stated, or what no linear plant has damped that test: dry friction, or the "
-           "edges of a valve that stood open, which leak with the pressure.{}",
-           expected, drive.leakage_rate.value, drive.viscous_friction.value, measured, agrees,
+           "The {} of the case has the damping ratio {:.3g}, by the leakage rate of {:.3g} 1/s, "
+           "viscous friction of {:.3g} N.m.s/rad and the structure; measured is {:.3g}, more than "
+           "a factor of {:g} {}: leakage or friction is {} than stated{}.{}",
+           numbers.antenna.resonance_of_oil ? "mode of most oil" : "hydraulic mode", expected,
+           drive.leakage_rate.value, drive.viscous_friction.value, measured, agrees,
            measured > expected ? "above" : "below", measured > expected ? "larger" : "smaller",
+           measured > expected
+               ? ", or what no linear plant has damped that test: dry friction, or "
+                 "the edges of a valve that stood open, which leak with the pressure"
+               : "",
            verdict ? which_was_measured(*verdict) : ""),
        {{"measured", measured, "1"}, {"expected", expected, "1"}}});
 }

@@ -107,16 +107,15 @@ Report evaluate_case(const EvaluateArguments& arguments, const std::function<boo
   report.evaluated = evaluate_proposals(antenna, proposals, *uncertainty, options);
   report.interrupted = interrupted && interrupted();
   report.conclusions = conclude(*report.evaluated);
-  if (!report.evaluated->candidates.empty()) {
-    if (const CandidateLaw* law = report.evaluated->candidates.front().chosen_law()) {
+  const auto& candidates = report.evaluated->candidates;
+  // An interrupted study may not have got to the antenna as it is.
+  if (!candidates.empty() && candidates.front().path.empty()) {
+    if (const CandidateLaw* law = candidates.front().chosen_law()) {
       conclude_guessed_shares(antenna, law->design.tuning.law, report.evaluated->wind_speed,
                               report.conclusions);
     }
   }
-  if (std::string doubt = loose_stribeck_text(antenna.friction_curve);
-      antenna.simulation && !doubt.empty()) {
-    report.conclusions.push_back(std::move(doubt));
-  }
+  conclude_friction_doubt(antenna, report.conclusions);
   lead_with_resonance(report);
   return report;
 }

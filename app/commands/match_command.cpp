@@ -65,10 +65,7 @@ int run(const Arguments& arguments) {
   }
   report.interrupted = interrupt_requested();
   report.conclusions = conclude(*report.matched);
-  if (std::string doubt = loose_stribeck_text(antenna.friction_curve);
-      antenna.simulation && !doubt.empty()) {
-    report.conclusions.push_back(std::move(doubt));
-  }
+  conclude_friction_doubt(antenna, report.conclusions);
   lead_with_resonance(report);
   // Seconds that only a page's sliders are worth.
   if (!arguments.outputs.report_path.empty() && !report.interrupted) {

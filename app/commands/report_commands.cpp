@@ -126,6 +126,9 @@ const std::vector<Command>& commands() {
            report.conclusions.insert(report.conclusions.begin(),
                                      resonance_sentence(*report.resonance));
          }
+         if (std::string unread = unread_resonance(report.resonance); !unread.empty()) {
+           report.conclusions.push_back(std::move(unread));
+         }
        },
        false, "identifying"},
       {"model", "the linear plant: parameters, poles, what each mode is",

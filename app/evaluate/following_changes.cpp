@@ -135,6 +135,17 @@ void stiffen_gear(const ProposedChange& change, StructureEntry& structure) {
   structure.locked_rotor_frequency = in_other_terms(structure.locked_rotor_frequency, lower, "Hz");
 }
 
+namespace {
+
+// Of those stated, whichever part they hold.
+double fastest_mode(const StructureEntry& structure) {
+  double fastest = structure.locked_rotor_frequency.value;
+  for (const auto& mode : structure.modes) fastest = std::max(fastest, mode.frequency.value);
+  return fastest;
+}
+
+}  // namespace
+
 void follow_sampling(const Case& before, const Proposal& proposal, Case& after) {
   const auto* rate = proposal.find("controller.sample_rate");
   const auto* delay = proposal.find("controller.delay");
@@ -156,10 +167,7 @@ void follow_sampling(const Case& before, const Proposal& proposal, Case& after) 
   }
   // The fastest thing a loop must see: below half the rate, or it comes back as another
   // frequency.
-  double fastest = after.structure.locked_rotor_frequency.value;
-  for (const auto& mode : after.structure.modes) {
-    fastest = std::max(fastest, mode.frequency.value);
-  }
+  const double fastest = std::max(fastest_mode(before.structure), fastest_mode(after.structure));
   const double sampled =
       rate != nullptr ? rate->number.value : 1.0 / sample_time_of(after.controller_delay.value);
   const auto* slow = rate != nullptr ? rate : delay;

@@ -12,16 +12,19 @@ std::vector<identification::SteadyFriction> steady_friction(
   return points;
 }
 
+bool is_loose(const identification::FrictionInterval& interval) {
+  constexpr double widest_factor = 1.5;
+  return interval.least_open || interval.largest_open ||
+         interval.largest > widest_factor * interval.least;
+}
+
 std::optional<identification::FrictionInterval> loose_stribeck_rate(
     const FrictionCurveEntry& curve) {
   if (curve.tests.empty()) return std::nullopt;
   const auto points = steady_friction(curve.tests);
   if (identification::steady_friction_freedom(points) > 0) return std::nullopt;
   const auto rate = identification::steady_friction_intervals(points).stribeck_rate;
-  constexpr double widest_factor = 1.5;
-  const bool loose = rate && (rate->least_open || rate->largest_open ||
-                              rate->largest > widest_factor * rate->least);
-  return loose ? rate : std::nullopt;
+  return rate && is_loose(*rate) ? rate : std::nullopt;
 }
 
 std::string loose_stribeck_text(const FrictionCurveEntry& curve) {
@@ -29,9 +32,16 @@ std::string loose_stribeck_text(const FrictionCurveEntry& curve) {
   if (!rate) return "";
   return fmt::format(
       "Hunting, reversals and what flywheels do to them hang on the friction curve's Stribeck rate "
-      "of {:.3g} rad/s, which the {} tests, as many as the curve has unknowns, leave at {} by the "
-      "last digit of a torque: more tests at low rates settle it.",
+      "of {:.3g} rad/s, which the {} tests, as many as the curve has unknowns, leave at {} as one "
+      "torque is moved by its uncertainty, or by half its last digit: more tests at low rates "
+      "settle it.",
       curve.stribeck_rate.value, curve.tests.size(), in_words(*rate, "rad/s"));
+}
+
+void conclude_friction_doubt(const Case& antenna, std::vector<std::string>& sentences) {
+  if (!antenna.simulation) return;
+  std::string doubt = loose_stribeck_text(antenna.friction_curve);
+  if (!doubt.empty()) sentences.push_back(std::move(doubt));
 }
 
 std::string in_words(const identification::FrictionInterval& interval, std::string_view unit) {

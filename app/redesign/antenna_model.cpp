@@ -260,6 +260,7 @@ identification::DriveEvidence make_evidence(const Case& antenna) {
   evidence.antenna.push_back(
       {own.source.empty() ? "the case" : own.source, reflected(antenna, own)});
   for (const auto& alternative : antenna.antenna.alternatives) {
+    if (alternative.keeps_springs) continue;  // of another attitude
     evidence.antenna.push_back({alternative.name, reflected(antenna, alternative)});
   }
   for (const auto& stated : antenna.stated) {

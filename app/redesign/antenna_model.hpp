@@ -76,6 +76,10 @@ design::HardGoals make_goals(const Case& antenna);
 design::SoftGoal make_soft_goal(const Case& antenna);
 /// The winds of the site by their share of the time; empty if the case does not state them.
 std::vector<design::WeightedWind> make_climate(const Case& antenna);
+/// What a case states for identification::identify_inertia: the resonance only where
+/// rings_as_rigid, the antenna's alternatives only where they are of the same attitude.
+/// @throws InvalidInput and NumericalFailure as make_plant and plant::plant_modes, with a
+/// resonance.
 identification::DriveEvidence make_evidence(const Case& antenna);
 
 /// A pointing budget as rms error an axis (rad).

@@ -1,7 +1,6 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
-#include <tuple>
 #include <utility>
 
 #include <fmt/format.h>
@@ -45,6 +44,11 @@ class Choices {
     choices_.back().result.contradicts = true;
   }
 
+  void add_attitude(std::string name, std::string says, const PlantVariant& variant) {
+    add(std::move(name), std::move(says), variant);
+    choices_.back().result.other_attitude = true;
+  }
+
   // The inertia a test found, with motors and gear train kept and the antenna taking the rest;
   // `model`: what its formula takes the antenna for.
   void add_test(std::string name, const std::string& model, double found, double stiffness) {
@@ -58,12 +62,17 @@ class Choices {
                         {.antenna_inertia = found - fixed, .oil_stiffness = stiffness});
       return;
     }
-    choices_.push_back({{std::move(name), std::move(says), stiffness, found,
-                         plant::motor_to_load_ratio(motors_, found), std::nullopt,
-                         fmt::format("{:.3f} - {:.3f} leaves {:.3f} kg.m2 for an antenna of {:.3f}",
-                                     found, fixed, found - fixed, stated),
-                         true},
-                        std::nullopt});
+    ChoiceResult impossible;
+    impossible.name = std::move(name);
+    impossible.says = std::move(says);
+    impossible.oil_stiffness = stiffness;
+    impossible.reflected_inertia = found;
+    impossible.motor_to_load_ratio = plant::motor_to_load_ratio(motors_, found);
+    impossible.impossible =
+        fmt::format("{:.3f} - {:.3f} leaves {:.3f} kg.m2 for an antenna of {:.3f}", found, fixed,
+                    found - fixed, stated);
+    impossible.contradicts = true;
+    choices_.push_back({std::move(impossible), std::nullopt});
   }
 
   std::size_t count() const { return choices_.size(); }
@@ -134,11 +143,13 @@ std::vector<PlantChoice> plant_choices(const Case& antenna) {
   Choices choices(antenna);
   choices.add("reference", "masses and oil stiffness of the plant above", {});
   for (const auto& alternative : antenna.antenna.alternatives) {
-    choices.add_contradiction("antenna of " + alternative.name,
-                              alternative.keeps_springs
-                                  ? "another antenna inertia on the same springs"
-                                  : "another antenna inertia",
-                              variant_of(antenna, alternative));
+    const std::string name = "antenna of " + alternative.name;
+    const PlantVariant variant = variant_of(antenna, alternative);
+    if (alternative.keeps_springs) {
+      choices.add_attitude(name, "another antenna inertia on the same springs", variant);
+    } else {
+      choices.add_contradiction(name, "another antenna inertia", variant);
+    }
   }
   const bool efficient = antenna.oil.efficiency_in_stiffness;
   const double other = oil_stiffness(
@@ -154,14 +165,15 @@ std::vector<PlantChoice> plant_choices(const Case& antenna) {
                 "another antenna of the frequencies that the case states with the motors held",
                 variant);
   }
-  const std::string kept = "guessed shares of wind and beam, of what the stated ones leave, ";
-  for (const auto& [place, name, where] :
-       {std::tuple{GuessedShares::as_inertia, "wind and beam shares as inertia",
-                   "in proportion to the inertia fractions"},
-        {GuessedShares::all_at_heaviest, "wind and beam shares all at one",
-         "all at the heaviest of bull gear and modes, as of a dish on its support"}}) {
+  for (const auto place : other_guesses) {
     if (!moves_guessed_shares(antenna.structure, place)) continue;
-    choices.add(name, kept + where, {.guessed_shares = place});
+    choices.add(std::string(to_string(place)),
+                fmt::format("guessed shares of wind and beam, of what the stated ones leave, {}",
+                            place == GuessedShares::as_inertia
+                                ? "in proportion to the inertia fractions"
+                                : "all at the heaviest of bull gear and modes, as of a dish on its "
+                                  "support"),
+                {.guessed_shares = place});
   }
   if (antenna.resonance_frequency) {
     const std::size_t first = choices.count();

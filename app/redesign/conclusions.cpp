@@ -83,6 +83,9 @@ void conclude_identification(const IdentificationSection& section,
         return method.kind != identification::MethodKind::mass_properties;
       });
   conclude_masses(section, sentences);
+  if (std::string unread = unread_resonance(resonance); !unread.empty()) {
+    sentences.push_back(std::move(unread));
+  }
   if (!tested) {
     sentences.emplace_back("Only mass properties speak for the inertia; no test confirms it.");
     return;

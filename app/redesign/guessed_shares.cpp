@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <vector>
 
@@ -32,6 +33,13 @@ void place(std::vector<Body> bodies, GuessedShares where) {
 }
 
 }  // namespace
+
+std::string_view to_string(GuessedShares place) {
+  static constexpr std::array names{"wind and beam shares as stated",
+                                    "wind and beam shares as inertia",
+                                    "wind and beam shares all at one"};
+  return names.at(static_cast<std::size_t>(place));
+}
 
 bool is_unbounded_guess(const Quantity& quantity) {
   return quantity.basis == Basis::assumed && !quantity.uncertainty_given;

@@ -1,5 +1,8 @@
 #pragma once
 
+#include <array>
+#include <string_view>
+
 #include <boresight/app/io/case_file.hpp>
 #include <boresight/plant/antenna_plant.hpp>
 
@@ -16,6 +19,11 @@ bool is_guessed_share(const Quantity& share);
 /// case says; in proportion to the inertia fractions, as if both belonged to all masses alike; all
 /// at the heaviest of those bodies, as if that were the dish.
 enum class GuessedShares { as_stated, as_inertia, all_at_heaviest };
+inline constexpr std::array other_guesses{GuessedShares::as_inertia,
+                                          GuessedShares::all_at_heaviest};
+
+/// "wind and beam shares as inertia".
+std::string_view to_string(GuessedShares place);
 
 /// Moves the guessed shares of a specification that is the structure's own
 /// (structure_specifications); each set of shares sums to what it did.

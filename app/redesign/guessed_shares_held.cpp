@@ -6,6 +6,7 @@
 
 #include <boresight/app/redesign/antenna_model.hpp>
 #include <boresight/app/redesign/guessed_shares_held.hpp>
+#include <boresight/app/report/influences.hpp>
 #include <boresight/app/report/sky_units.hpp>
 #include <boresight/design/plant_ensemble.hpp>
 
@@ -26,26 +27,22 @@ double held_rms(const Case& antenna, const control::ControlLaw& law, double wind
 
 void conclude_guessed_shares(const Case& antenna, const control::ControlLaw& law, double wind_speed,
                              std::vector<std::string>& sentences) {
-  constexpr double worth_a_sentence = 0.2;
   const double own = held_rms(antenna, law, wind_speed, GuessedShares::as_stated);
+  // The shares stand in no loop: what is stable with one guess is so with all.
+  if (!std::isfinite(own)) return;
   std::vector<std::string> others;
   bool apart = false;
-  for (const auto place : {GuessedShares::as_inertia, GuessedShares::all_at_heaviest}) {
+  for (const auto place : other_guesses) {
     if (!moves_guessed_shares(antenna.structure, place)) continue;
     const double rms = held_rms(antenna, law, wind_speed, place);
-    // Also where there is none.
-    apart = apart || !(std::abs(rms / own - 1.0) <= worth_a_sentence);
-    others.push_back(fmt::format(
-        "{} {}",
-        std::isfinite(rms) ? fmt::format("{:.3f} mdeg", rms / millidegree) : "no stable loop",
-        place == GuessedShares::as_inertia ? "with all in proportion to the inertia fractions"
-                                           : "with all at the heaviest of bull gear and modes"));
+    apart = apart || std::abs(rms / own - 1.0) > telling_change;
+    others.push_back(fmt::format("{:.3f} mdeg with {}", rms / millidegree, to_string(place)));
   }
   if (!apart) return;
   sentences.push_back(fmt::format(
-      "The case's shares of wind and beam are guesses, which no ensemble or draw moves: with gains "
-      "held, the linear {:.3f} mdeg of {} on the case's plant would be {}. What compares laws or "
-      "proposals under one guess may compare them otherwise under another.",
+      "Shares of wind and beam are guesses, which no ensemble or draw moves: with gains held, the "
+      "linear {:.3f} mdeg of {} on the case's plant would be {}. What compares laws or proposals "
+      "under one guess may compare them otherwise under another.",
       own / millidegree, law.structure.name(), fmt::join(others, ", ")));
 }
 

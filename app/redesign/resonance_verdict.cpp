@@ -93,6 +93,7 @@ std::optional<ResonanceVerdict> resonance_verdict(const Case& antenna) {
   verdict.measured = antenna.resonance_frequency->value;
   const plant::AntennaPlant plant = make_plant(antenna);
   verdict.of_oil = antenna.resonance_of_oil;
+  verdict.rigid = rings_as_rigid(antenna);
   verdict.mode = resonating_mode(antenna, plant);
   verdict.oil_mode = plant::mode_of_oil(plant::plant_modes(plant));
   verdict.expected = verdict.mode.frequency;
@@ -149,6 +150,14 @@ std::string resonance_warning(const std::optional<ResonanceVerdict>& verdict) {
                     "oil stiffness, and that would be {:.3g} times: none of them is the antenna "
                     "that was measured.",
                     verdict->least_oil, verdict->most_oil, wanted);
+}
+
+std::string unread_resonance(const std::optional<ResonanceVerdict>& verdict) {
+  if (!verdict || verdict->rigid) return "";
+  return fmt::format(
+      "No inertia is read off the {:.3g} Hz measured: they are not those of the whole antenna, "
+      "rigid, on the oil spring.",
+      verdict->measured);
 }
 
 std::string rigid_resonance_remark(const std::optional<ResonanceVerdict>& verdict,

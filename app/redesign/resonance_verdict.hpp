@@ -22,6 +22,7 @@ struct ResonanceVerdict {
   /// Oil stiffness of the plants that laws are held on (member_ranges), as factors on the case's.
   double least_oil = 1.0, most_oil = 1.0;
   bool of_oil = false;  // of the mode with most oil, as the case says
+  bool rigid = true;    // rings_as_rigid: an inertia may be read off it
   /// The expected one, and plant::mode_of_oil.
   plant::PlantMode mode = {}, oil_mode = {};
 
@@ -51,6 +52,9 @@ std::string resonance_sentence(const ResonanceVerdict& verdict);
 /// Where they contradict each other the same, and that no plant which laws are held on has that
 /// oil, if so; else empty.
 std::string resonance_warning(const std::optional<ResonanceVerdict>& verdict);
+
+/// Why the methods have no inertia by the resonance, where it is not rigid; else empty.
+std::string unread_resonance(const std::optional<ResonanceVerdict>& verdict);
 
 /// Ends a sentence on the range of inertia by methods, of which these give least and most: that the
 /// resonance's figure is of a rigid antenna, where it is one of them and the measured frequency

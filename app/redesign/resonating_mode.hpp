@@ -9,11 +9,12 @@ namespace boresight::app {
 
 /// The mode of a plant that the measured resonance of a case is compared with:
 /// plant::hydraulic_mode, or plant::mode_of_oil where resonance.mode is "oil".
+/// @throws NumericalFailure as these and plant::plant_modes.
 plant::PlantMode resonating_mode(const Case& antenna, const plant::AntennaPlant& plant);
 
 /// Whether the measured resonance may be read as the whole antenna, rigid, on the oil spring: it is
 /// of the hydraulic mode of the case's plant, and at least half of that mode's elastic energy is in
-/// the oil.
+/// the oil. @throws InvalidInput as make_plant, NumericalFailure as resonating_mode.
 bool rings_as_rigid(const Case& antenna);
 
 /// To follow a sentence on a mode: where less than half of its elastic energy is in the oil and the

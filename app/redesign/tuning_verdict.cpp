@@ -4,9 +4,12 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <boresight/app/redesign/choice_verdicts.hpp>
+#include <boresight/app/redesign/needed_budgets.hpp>
 #include <boresight/app/redesign/tuning_verdict.hpp>
 #include <boresight/app/report/assumed_demand.hpp>
 #include <boresight/app/report/climate_wording.hpp>
+#include <boresight/app/report/influences.hpp>
 #include <boresight/app/report/present_gains.hpp>
 #include <boresight/app/report/sky_units.hpp>
 #include <boresight/app/report/wind_mast.hpp>
@@ -14,14 +17,6 @@
 
 namespace boresight::app {
 namespace {
-
-bool meets_need(const PointingBudget& budget, double reached) {
-  return !budget.wind_speed || reached >= *budget.wind_speed * (1.0 - 1e-6);
-}
-
-std::string budget_text(const PointingBudget& budget) {
-  return fmt::format("{} ({}: {:.3f} mdeg)", budget.name, budget.band, budget.rms / millidegree);
-}
 
 // Whether the run on the nonlinear antenna says anything of the rms.
 bool holds_in_wind(const TimeDomainSection& section) {
@@ -128,90 +123,6 @@ std::vector<std::string_view> models(const TuningSection& section, std::size_t b
   return names;
 }
 
-// What a choice's own law does.
-struct JudgedChoice {
-  double beam_rms = 0.0;             // rad
-  std::vector<double> speed_limits;  // m/s, one a budget
-};
-
-std::optional<JudgedChoice> judged(const ChoiceResult& choice) {
-  if (!choice.design || !choice.speed_limits || !choice.design->usable()) return std::nullopt;
-  return JudgedChoice{choice.design->beam_rms, *choice.speed_limits};
-}
-
-// Of the other choices, guesses aside, those with which a needed budget has another verdict.
-std::string other_choices_text(const Report& report, const TuningSection& section) {
-  std::vector<std::string> verdicts;
-  for (std::size_t i = 0; i < section.budgets.size(); ++i) {
-    const PointingBudget& budget = section.budgets[i].budget;
-    const bool met = meets_need(budget, reached_wind_speed(section, section.budgets[i]));
-    std::vector<std::string> names;
-    for (const auto& choice : report.choices) {
-      const auto found = judged(choice);
-      if (!found || choice.other_shares || choice.missed_resonance()) continue;
-      const double reached = std::min(found->speed_limits.at(i), section.supply_wind_speed);
-      if (meets_need(budget, reached) == met) continue;
-      names.push_back(fmt::format("'{}' ({:.3f} mdeg in {:.3g} m/s)", choice.name,
-                                  found->beam_rms / millidegree, section.design_speed));
-    }
-    if (names.empty()) continue;
-    verdicts.push_back(fmt::format("{} is {} up to where it is needed with {}", budget_text(budget),
-                                   met ? "not met" : "met", fmt::join(names, ", ")));
-  }
-  if (verdicts.empty()) return "";
-  return fmt::format(
-      "Tuned again for what else the case's numbers may mean, {}; with the case's own "
-      "choice it is the other way round.",
-      fmt::join(verdicts, "; "));
-}
-
-// Where other guesses of the shares of wind and beam than the case's would give another answer.
-std::string guessed_shares_text(const Report& report, const TuningSection& section) {
-  struct Guess {
-    std::string name;
-    double beam_rms;
-    std::vector<double> reached;  // m/s
-  };
-  std::vector<Guess> guesses{{"the case's own", section.design.beam_rms, {}}};
-  for (const auto& budget : section.budgets) {
-    guesses.front().reached.push_back(reached_wind_speed(section, budget));
-  }
-  for (const auto& choice : report.choices) {
-    const auto found = judged(choice);
-    if (!found || !choice.other_shares) continue;
-    Guess guess{"'" + choice.name + "'", found->beam_rms, found->speed_limits};
-    for (double& speed : guess.reached) speed = std::min(speed, section.supply_wind_speed);
-    guesses.push_back(std::move(guess));
-  }
-  std::string verdicts;
-  for (std::size_t i = 0; i < section.budgets.size(); ++i) {
-    const PointingBudget& budget = section.budgets[i].budget;
-    std::vector<std::string> meeting, missing;
-    for (const Guess& guess : guesses) {
-      (meets_need(budget, guess.reached.at(i)) ? meeting : missing).push_back(guess.name);
-    }
-    if (meeting.empty() || missing.empty()) continue;
-    verdicts +=
-        fmt::format("; {} is met up to where it is needed with {}, and not with {}",
-                    budget_text(budget), fmt::join(meeting, ", "), fmt::join(missing, ", "));
-  }
-  constexpr double worth_a_sentence = 0.2;
-  bool apart = false;
-  std::vector<std::string> others;
-  for (const Guess& guess : guesses) {
-    if (&guess == &guesses.front()) continue;
-    apart = apart || std::abs(guess.beam_rms / guesses.front().beam_rms - 1.0) > worth_a_sentence;
-    others.push_back(fmt::format("{:.3f} with {}", guess.beam_rms / millidegree, guess.name));
-  }
-  if (verdicts.empty() && !apart) return "";
-  return fmt::format(
-      "The case's shares of wind and beam are guesses, and much hangs on all of them together: "
-      "tuned again, {} has {:.3f} mdeg with the case's own and {}{}. Modes from a structural model "
-      "(modes_file) have the shares.",
-      control::to_string(section.structure), guesses.front().beam_rms / millidegree,
-      fmt::join(others, ", "), verdicts);
-}
-
 // Where another wind model than the case's would give another answer.
 std::string wind_model_text(const TuningSection& section) {
   std::string verdicts;
@@ -222,13 +133,12 @@ std::string wind_model_text(const TuningSection& section) {
                             budget_text(section.budgets[i].budget), fmt::join(meeting, ", "),
                             fmt::join(missing, ", "));
   }
-  constexpr double worth_a_sentence = 0.2;
   const double own = section.design.beam_rms;
   std::string others;
   bool apart = false;
   for (const auto& one : section.wind_alternatives) {
     if (one.model == section.wind_model) continue;
-    apart = apart || std::abs(one.beam_rms / own - 1.0) > worth_a_sentence;
+    apart = apart || std::abs(one.beam_rms / own - 1.0) > telling_change;
     others += fmt::format("{}{:.3f} mdeg by {}", others.empty() ? "" : " and ",
                           one.beam_rms / millidegree, plant::to_string(one.model));
   }
@@ -252,10 +162,6 @@ std::string bending_text(const TuningSection& section) {
 }
 
 }  // namespace
-
-double reached_wind_speed(const TuningSection& section, const BudgetResult& budget) {
-  return std::min(budget.wind_speed_limit, section.supply_wind_speed);
-}
 
 std::string met_text(const TuningSection& section, const BudgetResult& budget) {
   const double reached = reached_wind_speed(section, budget);
@@ -366,6 +272,7 @@ void conclude_tuning(const Report& report, const TuningSection& section,
       plant::to_string(least->model), most->beam_rms / millidegree, plant::to_string(most->model),
       section.encoder_held_rms / millidegree));
   add(other_choices_text(report, section));
+  add(other_attitudes_text(report, section));
   add(guessed_shares_text(report, section));
   add(unseen_text(section));
   add(bending_text(section));
@@ -428,6 +335,7 @@ std::vector<std::string> tuning_reservations(const Report& report, const TuningS
   sentences.push_back(needs_on_plants(section, true));
   if (report.time_domain) sentences.push_back(not_still(*report.time_domain));
   sentences.push_back(other_choices_text(report, section));
+  sentences.push_back(other_attitudes_text(report, section));
   sentences.push_back(guessed_shares_text(report, section));
   sentences.push_back(wind_model_text(section));
   sentences.push_back(bending_text(section));

@@ -8,10 +8,6 @@
 
 namespace boresight::app {
 
-/// Mean wind speed (m/s) up to which a budget is met with the gains held, and the supply's torque
-/// still carries the mean wind, friction and offset; infinite if neither ends within the search.
-double reached_wind_speed(const TuningSection& section, const BudgetResult& budget);
-
 /// "is met up to 10.1 m/s", with what ends it where that is the supply, and with the share of the
 /// climate's time.
 std::string met_text(const TuningSection& section, const BudgetResult& budget);

@@ -10,6 +10,9 @@ namespace boresight::app {
 /// the linear plant leaves out move it by more.
 inline constexpr double negligible_change = 0.02;
 
+/// A change of the rms above this share is worth a sentence wherever it comes from.
+inline constexpr double telling_change = 0.2;
+
 /// What moves the rms, beside what a study is about.
 class Influences {
  public:

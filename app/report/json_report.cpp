@@ -3,6 +3,7 @@
 
 #include <boresight/app/figures/figure_json.hpp>
 #include <boresight/app/redesign/matching_verdict.hpp>
+#include <boresight/app/redesign/needed_budgets.hpp>
 #include <boresight/app/redesign/tuning_verdict.hpp>
 #include <boresight/app/report/evaluate_report.hpp>
 #include <boresight/app/report/json_assumed.hpp>

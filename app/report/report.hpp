@@ -135,6 +135,8 @@ struct ChoiceResult {
   std::string impossible;                // why
   /// It is another guess of the shares of wind and beam.
   bool other_shares = false;
+  /// It is another attitude of the same antenna, on its own springs.
+  bool other_attitude = false;
   /// Another source's number or a test's result beside the reference, not a convention of
   /// reckoning.
   bool contradicts = false;

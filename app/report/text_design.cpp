@@ -8,6 +8,7 @@
 
 #include <boresight/app/document/document.hpp>
 #include <boresight/app/redesign/matching_verdict.hpp>
+#include <boresight/app/redesign/needed_budgets.hpp>
 #include <boresight/app/redesign/tuning_verdict.hpp>
 #include <boresight/app/report/climate_wording.hpp>
 #include <boresight/app/report/loss_wording.hpp>
@@ -389,9 +390,11 @@ Document document_of(const std::vector<ChoiceResult>& choices) {
             choice.impossible.empty() ? "" : fmt::format(" Not possible: {}.", choice.impossible)),
         "  ");
   }
+  const bool attitudes = std::ranges::any_of(choices, &ChoiceResult::other_attitude);
   text += wrapped(
-      "The structure's frequencies are kept as the case states them, a lighter antenna being a "
-      "softer one, but for an alternative that keeps the springs.",
+      fmt::format("The structure's frequencies are kept as the case states them, a lighter antenna "
+                  "being a softer one{}.",
+                  attitudes ? ", but for an alternative that keeps the springs" : ""),
       "  ");
   text += linear_part();
   if (std::ranges::any_of(choices, [](const ChoiceResult& choice) {

@@ -36,13 +36,17 @@ std::string friction_doubts(const PlantSection& section, bool exact) {
   std::string text;
   if (!moved.empty()) text = fmt::format("{} {}.", moved_torques(), fmt::join(moved, ", "));
   if (identification::steady_friction_freedom(points) > 0) return text;
+  const bool told = intervals.stribeck_rate.has_value();
   return fmt::format(
-      "{}{}The curve has as many unknowns as there are tests: no degree of freedom is left, {}. "
-      "Hunting and reversals hang on the Stribeck rate{}: more tests at low rates settle it.",
+      "{}{}The curve has as many unknowns as there are tests: no degree of freedom is left, {}.{}",
       text, text.empty() ? "" : " ",
       exact ? "so that the residuals say nothing of the curve"
             : "and what the residuals show is only that a number of it ended at its bound",
-      intervals.stribeck_rate ? "" : ", which these tests do not tell");
+      told && !is_loose(*intervals.stribeck_rate)
+          ? ""
+          : fmt::format(" Hunting and reversals hang on the Stribeck rate{}: more tests at low "
+                        "rates settle it.",
+                        told ? "" : ", which these tests do not tell"));
 }
 
 Document friction_part(const PlantSection& section) {
@@ -144,20 +148,21 @@ Document document_of(const PlantSection& section) {
   std::vector<std::vector<std::string>> rows{
       {"mode", "frequency Hz", "damping", "pole 1/s", "share", "oil", "gear"}};
   for (const auto& mode : section.modes) {
+    const bool springs = mode.pole.imag() > 0.0 && mode.oil_share != 0.0;
+    const auto share = [&](double of) { return springs ? fmt::format("{:.2f}", of) : "-"; };
     rows.push_back({mode.description, fmt::format("{:.4f}", mode.frequency),
                     mode.frequency > 0.0 ? fmt::format("{:.4f}", mode.damping_ratio) : "-",
                     mode.pole.imag() > 0.0
                         ? fmt::format("{:.4f} + {:.4f}i", mode.pole.real(), mode.pole.imag())
                         : fmt::format("{:.4f}", mode.pole.real()),
-                    fmt::format("{:.2f}", mode.participation),
-                    fmt::format("{:.2f}", mode.oil_share), fmt::format("{:.2f}", mode.gear_share)});
+                    fmt::format("{:.2f}", mode.participation), share(mode.oil_share),
+                    share(mode.gear_share)});
   }
   text += table(rows);
   text += wrapped(
       "share: of the part that moves most, in the motion; oil, gear: of oil spring and gearbox "
-      "spring, in the elastic energy, the rest of which is the structure's; 1 % more stiffness of "
-      "a "
-      "spring raises the frequency by half its share of 1 %.",
+      "spring, without damping in the elastic energy, the rest of which is the structure's; 1 % "
+      "more stiffness of a spring raises the frequency by half its share of 1 %.",
       "  ");
   text += wrapped(
       fmt::format("The hydraulic mode of the flexible antenna is {:.3f} Hz with damping {:.3f}; "

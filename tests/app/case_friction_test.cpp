@@ -142,9 +142,11 @@ TEST(CaseFriction, SaysThatACurveHangsOnTheLastDigitOfATorque) {
           HasSubstr("as many unknowns as the 4 tests"),
           HasSubstr("rad/s by the torques as they stand, is 1.75 (its bound) to 3.47 rad/s, moved"),
           HasSubstr("moved most by friction_curve.test[2] of 15 N.m at 62.83 rad/s")));
-  EXPECT_THAT(loose_stribeck_text(antenna.friction_curve),
-              HasSubstr("rate of 2.64 rad/s, which the 4 tests, as many as the curve has unknowns, "
-                        "leave at 1.75 (its bound) to 3.47 rad/s by the last digit"));
+  EXPECT_THAT(
+      loose_stribeck_text(antenna.friction_curve),
+      HasSubstr(
+          "rate of 2.64 rad/s, which the 4 tests, as many as the curve has unknowns, "
+          "leave at 1.75 (its bound) to 3.47 rad/s as one torque is moved by its uncertainty"));
   ASSERT_EQ(found[0].numbers.size(), 3U);
   EXPECT_NEAR(found[0].numbers[1].value, 5.236 / 3.0, 1e-9);
   EXPECT_NEAR(found[0].numbers[2].value, 3.474, 1e-3);

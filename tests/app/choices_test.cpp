@@ -111,12 +111,32 @@ TEST(PlantChoices, KeepSpringsWhereTheAlternativeDoes) {
   };
   const Case springs = with_alternative("springs"), frequencies = with_alternative("frequencies");
   const auto own = make_plant(springs).structure, kept = structure_of(springs);
+  const auto choice = [](const Case& antenna) {
+    return choice_of(antenna, "antenna of " + antenna.antenna.alternatives.front().name).result;
+  };
+  EXPECT_TRUE(choice(springs).other_attitude && !choice(springs).contradicts);
+  EXPECT_TRUE(choice(frequencies).contradicts && !choice(frequencies).other_attitude);
+  // Nor is it another reading of the inertia.
+  EXPECT_EQ(make_evidence(springs).antenna.size(), 1U);
+  EXPECT_EQ(make_evidence(frequencies).antenna.size(), 2U);
   const double lighter = plant::antenna_inertia(kept) / plant::antenna_inertia(own);
   EXPECT_LT(lighter, 0.95);
   EXPECT_NEAR(kept.gear_stiffness, own.gear_stiffness, 1e-12 * own.gear_stiffness);
   EXPECT_NEAR(kept.modes[0].stiffness, own.modes[0].stiffness, 1e-12 * own.modes[0].stiffness);
   EXPECT_NEAR(structure_of(frequencies).gear_stiffness, lighter * own.gear_stiffness,
               1e-12 * own.gear_stiffness);
+}
+
+TEST(PlantChoices, SayWhatContradictsBecauseItLeavesNoAntenna) {
+  Case antenna = read_case(case_path("dss14-70m"));
+  ASSERT_FALSE(antenna.impulse_results.empty());
+  antenna.impulse_results.front().reflected_inertia.value = 0.01;
+  const auto none = choice_of(
+      antenna, "inertia from impulse, " + antenna.impulse_results.front().name + " friction");
+  EXPECT_FALSE(none.variant);
+  EXPECT_THAT(none.result.impossible, HasSubstr("for an antenna of"));
+  EXPECT_TRUE(none.result.contradicts);
+  EXPECT_FALSE(none.result.other_shares || none.result.other_attitude);
 }
 
 TEST(PlantChoices, KeepTheLeakageOfTheOtherConvention) {

@@ -42,8 +42,8 @@ TEST(GuessedSharesHeld, AreWorthASentenceWhereTheyMoveTheRms) {
       sentences_of(antenna),
       ElementsAre(HasSubstr(fmt::format(
           "with gains held, the linear {:.3f} mdeg of PI with lag on the case's plant would be "
-          "{:.3f} mdeg with all in proportion to the inertia fractions, {:.3f} mdeg with all at "
-          "the heaviest of bull gear and modes.",
+          "{:.3f} mdeg with wind and beam shares as inertia, {:.3f} mdeg with wind and beam shares "
+          "all at one.",
           rms_of(GuessedShares::as_stated), rms_of(GuessedShares::as_inertia),
           rms_of(GuessedShares::all_at_heaviest)))));
   Case known = antenna;

@@ -12,6 +12,7 @@
 #include <boresight/app/document/document_text.hpp>
 #include <boresight/app/page/decision.hpp>
 #include <boresight/app/redesign/matching_verdict.hpp>
+#include <boresight/app/redesign/needed_budgets.hpp>
 #include <boresight/app/redesign/tuning_verdict.hpp>
 #include <boresight/app/report/sky_units.hpp>
 #include <boresight/app/report/text_report.hpp>
@@ -434,15 +435,15 @@ TEST(TuningVerdict, SaysWhatHangsOnGuessesOfWindAndBeam) {
                                "1'."))));
   // Neither another verdict nor far apart.
   report.tuning->budgets = {budget(0.55, 12.0, 10.0)};
-  EXPECT_THAT(reservations(report), Each(Not(HasSubstr("shares of wind and beam"))));
+  EXPECT_THAT(reservations(report), Each(Not(HasSubstr("hares of wind and beam"))));
   report.choices[2].design = design_of(0.39);
   EXPECT_THAT(reservations(report),
-              Contains(AllOf(HasSubstr("shares of wind and beam are guesses"),
+              Contains(AllOf(HasSubstr("Shares of wind and beam are guesses"),
                              HasSubstr("0.390 with 'choice 2'. Modes from"))));
   // Beyond the supply's torque none is met.
   report.tuning->budgets = {budget(0.55, 99.0, 26.0)};
   report.choices[2].design = design_of(0.45);
-  EXPECT_THAT(reservations(report), Each(Not(HasSubstr("shares of wind and beam"))));
+  EXPECT_THAT(reservations(report), Each(Not(HasSubstr("hares of wind and beam"))));
 }
 
 TEST(TuningVerdict, SaysWhichOtherChoiceTurnsAVerdictRound) {
@@ -450,15 +451,25 @@ TEST(TuningVerdict, SaysWhichOtherChoiceTurnsAVerdictRound) {
   report.tuning->budgets = {budget(0.55, 12.0, 12.0)};
   report.choices.resize(2);
   report.choices[0].design = design_of(0.5);
-  report.choices[0].speed_limits = {12.0};
-  report.choices[1].name = "antenna of another attitude";
+  // The case's own plant, tuned once more by itself: no other choice, whatever its last digits.
+  report.choices[0].name = "reference";
+  report.choices[0].speed_limits = {11.999};
+  report.choices[1].name = "antenna of the drawings";
   report.choices[1].design = design_of(0.6);
   report.choices[1].speed_limits = {11.0};
   const auto turned = Contains(HasSubstr(
-      "need (Ka: 0.550 mdeg) is not met up to where it is needed with 'antenna of another "
-      "attitude' (0.600 mdeg in 12 m/s)"));
+      "Tuned again for what else the case's numbers may mean, need (Ka: 0.550 mdeg) is not met up "
+      "to where it is needed with 'antenna of the drawings' (0.600 mdeg in 12 m/s); with the "
+      "case's own choice"));
   EXPECT_THAT(reservations(report), turned);
   EXPECT_THAT(tuning_conclusions(report), turned);
+  // What is there too is no other reading.
+  report.choices[1].other_attitude = true;
+  const auto attitude = Contains(
+      HasSubstr("Tuned again for the antenna's other attitudes, need (Ka: 0.550 mdeg) is not met"));
+  EXPECT_THAT(reservations(report), AllOf(attitude, Not(turned)));
+  EXPECT_THAT(tuning_conclusions(report), AllOf(attitude, Not(turned)));
+  report.choices[1].other_attitude = false;
   report.choices[1].speed_limits = {12.1};
   EXPECT_THAT(reservations(report), Each(Not(HasSubstr("other way round"))));
   // No way out of a contradiction says nothing of budgets.

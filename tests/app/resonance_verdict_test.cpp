@@ -215,6 +215,17 @@ TEST(RingsAsRigid, NeedsTheOilInTheMode) {
   }
 }
 
+TEST(RingsAsRigid, IsToldWhereNoInertiaIsReadOffTheResonance) {
+  Report report = report_of(with_oil(1.229e9));
+  const auto unread = HasSubstr("No inertia is read off the 0.97 Hz measured");
+  EXPECT_THAT(conclude(report), Each(Not(unread)));
+  Case soft = with_oil(1.229e9);
+  soft.structure.locked_rotor_frequency.value = 0.2;
+  report = report_of(soft);
+  EXPECT_THAT(conclude(report), Contains(unread));
+  EXPECT_EQ(unread_resonance({}), "");
+}
+
 TEST(ResonatingMode, IsSaidByTheCase) {
   const auto with_mode = [](const std::string& mode) {
     return EditedCase().replace("[resonance]\n", "[resonance]\nmode = \"" + mode + "\"\n").text();

@@ -1,0 +1,124 @@
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <ranges>
+#include <utility>
+#include <vector>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <boresight/app/redesign/choice_verdicts.hpp>
+#include <boresight/app/redesign/needed_budgets.hpp>
+#include <boresight/app/report/influences.hpp>
+#include <boresight/app/report/sky_units.hpp>
+
+namespace boresight::app {
+namespace {
+
+// What a choice's own law does.
+struct JudgedChoice {
+  double beam_rms = 0.0;             // rad
+  std::vector<double> speed_limits;  // m/s, one a budget
+};
+
+std::optional<JudgedChoice> judged(const ChoiceResult& choice) {
+  if (!choice.design || !choice.speed_limits || !choice.design->usable()) return std::nullopt;
+  return JudgedChoice{choice.design->beam_rms, *choice.speed_limits};
+}
+
+// Needed budgets with another verdict under one of those choices than under the case's own; empty
+// without one.
+template <typename Counts>
+std::string turned_verdicts(const Report& report, const TuningSection& section,
+                            const Counts& counts) {
+  std::vector<std::string> verdicts;
+  for (std::size_t i = 0; i < section.budgets.size(); ++i) {
+    const PointingBudget& budget = section.budgets[i].budget;
+    const bool met = meets_need(budget, reached_wind_speed(section, section.budgets[i]));
+    std::vector<std::string> names;
+    // The first is the case's own.
+    for (const auto& choice : report.choices | std::views::drop(1)) {
+      const auto found = judged(choice);
+      if (!found || !counts(choice) || choice.missed_resonance()) continue;
+      const double reached = std::min(found->speed_limits.at(i), section.supply_wind_speed);
+      if (meets_need(budget, reached) == met) continue;
+      names.push_back(fmt::format("'{}' ({:.3f} mdeg in {:.3g} m/s)", choice.name,
+                                  found->beam_rms / millidegree, section.design_speed));
+    }
+    if (names.empty()) continue;
+    verdicts.push_back(fmt::format("{} is {} up to where it is needed with {}", budget_text(budget),
+                                   met ? "not met" : "met", fmt::join(names, ", ")));
+  }
+  return fmt::format("{}", fmt::join(verdicts, "; "));
+}
+
+}  // namespace
+
+std::string other_choices_text(const Report& report, const TuningSection& section) {
+  const std::string verdicts = turned_verdicts(report, section, [](const ChoiceResult& choice) {
+    return !choice.other_shares && !choice.other_attitude;
+  });
+  if (verdicts.empty()) return "";
+  return fmt::format(
+      "Tuned again for what else the case's numbers may mean, {}; with the case's own "
+      "choice it is the other way round.",
+      verdicts);
+}
+
+std::string other_attitudes_text(const Report& report, const TuningSection& section) {
+  const std::string verdicts = turned_verdicts(
+      report, section, [](const ChoiceResult& choice) { return choice.other_attitude; });
+  if (verdicts.empty()) return "";
+  return fmt::format(
+      "Tuned again for the antenna's other attitudes, {}; at the case's own it is the other way "
+      "round.",
+      verdicts);
+}
+
+std::string guessed_shares_text(const Report& report, const TuningSection& section) {
+  struct Guess {
+    std::string name;
+    double beam_rms;
+    std::vector<double> reached;  // m/s
+  };
+  std::vector<Guess> guesses{{"the case's own", section.design.beam_rms, {}}};
+  for (const auto& budget : section.budgets) {
+    guesses.front().reached.push_back(reached_wind_speed(section, budget));
+  }
+  for (const auto& choice : report.choices) {
+    const auto found = judged(choice);
+    if (!found || !choice.other_shares) continue;
+    Guess guess{"'" + choice.name + "'", found->beam_rms, found->speed_limits};
+    for (double& speed : guess.reached) speed = std::min(speed, section.supply_wind_speed);
+    guesses.push_back(std::move(guess));
+  }
+  std::string verdicts;
+  for (std::size_t i = 0; i < section.budgets.size(); ++i) {
+    const PointingBudget& budget = section.budgets[i].budget;
+    std::vector<std::string> meeting, missing;
+    for (const Guess& guess : guesses) {
+      (meets_need(budget, guess.reached.at(i)) ? meeting : missing).push_back(guess.name);
+    }
+    if (meeting.empty() || missing.empty()) continue;
+    verdicts +=
+        fmt::format("; {} is met up to where it is needed with {}, and not with {}",
+                    budget_text(budget), fmt::join(meeting, ", "), fmt::join(missing, ", "));
+  }
+  bool apart = false;
+  std::vector<std::string> others;
+  for (const Guess& guess : guesses) {
+    if (&guess == &guesses.front()) continue;
+    apart = apart || std::abs(guess.beam_rms / guesses.front().beam_rms - 1.0) > telling_change;
+    others.push_back(fmt::format("{:.3f} with {}", guess.beam_rms / millidegree, guess.name));
+  }
+  if (verdicts.empty() && !apart) return "";
+  return fmt::format(
+      "Shares of wind and beam are guesses, and much hangs on all that are together: tuned again, "
+      "{} has {:.3f} mdeg with the case's own and {}{}. Modes from a structural model "
+      "(modes_file) have the shares.",
+      control::to_string(section.structure), guesses.front().beam_rms / millidegree,
+      fmt::join(others, ", "), verdicts);
+}
+
+}  // namespace boresight::app

@@ -1,0 +1,20 @@
+#pragma once
+
+#include <string>
+
+#include <boresight/app/report/report.hpp>
+
+namespace boresight::app {
+
+/// Whether a budget that is met up to that mean wind speed (m/s) is so in all winds that it is needed
+/// in; always where it states none.
+bool meets_need(const PointingBudget& budget, double reached);
+
+/// "need (Ka: 1.200 mdeg)".
+std::string budget_text(const PointingBudget& budget);
+
+/// Mean wind speed (m/s) up to which a budget is met with the gains held, and the supply's torque
+/// still carries the mean wind, friction and offset; infinite if neither ends within the search.
+double reached_wind_speed(const TuningSection& section, const BudgetResult& budget);
+
+}  // namespace boresight::app

@@ -28,6 +28,8 @@ const std::vector<ChangeableNumber>& changeable_numbers() {
        [](Case& c) { return &c.drive.valve_frequency; }},
       {"drive", "valve_damping", Kind::number, Range::positive(10.0),
        [](Case& c) { return &c.drive.valve_damping; }},
+      {"drive", "valve_rated_flow", Kind::flow, Range::positive(10.0),
+       [](Case& c) { return c.drive.valve_rated_flow ? &*c.drive.valve_rated_flow : nullptr; }},
       {"drive", "supply_pressure", Kind::pressure, Range::between(1e4, 1e9),
        [](Case& c) { return &c.drive.supply_pressure; }},
       {"drive", "slew_rate", Kind::angular_rate, Range::positive(10.0),

@@ -37,6 +37,13 @@ double sky_friction(const Case& antenna) {
   return (curve.coulomb.value + curve.saturating.value) * gear_ratio(antenna);
 }
 
+// The valve fully open; NaN where the case states nothing of it.
+double no_load_motor_rate(const Case& antenna) {
+  if (antenna.simulation) return antenna.simulation->valve_stroke.value;
+  const auto rated = rated_stroke(antenna);
+  return rated ? rated->value : std::nan("");
+}
+
 // With the bull gear held; infinite without modes.
 double lowest_mode(const Case& antenna) {
   double lowest = std::numeric_limits<double>::infinity();
@@ -84,8 +91,7 @@ constexpr Derived derived[] = {
      [](const Case& c) { return oil_stiffness(c) / c.drive.leakage_rate.value; }, "D^2/C"},
     {"rigid oil resonance", "Hz", rigid_frequency, "sqrt(K/J)/2 pi, all inertia rigid"},
     {"supply torque", "N.m", supply_torque, "supply pressure x D x torque efficiency"},
-    {"valve stroke, no-load motor rate", "rad/s",
-     [](const Case& c) { return c.simulation ? c.simulation->valve_stroke.value : std::nan(""); },
+    {"valve stroke, no-load motor rate", "rad/s", no_load_motor_rate,
      "flow over D; flow with the root of the pressure", "simulation.valve_stroke"},
     {"valve effort allowed", "rad/s", [](const Case& c) { return c.goals.valve_effort.value; },
      "the same share of the valve's stroke"},
@@ -112,10 +118,7 @@ constexpr Derived derived[] = {
     {"noise bandwidth", "Hz", [](const Case& c) { return c.sensors.noise_bandwidth.value; },
      "half the sampling rate", "sensors.noise_bandwidth"},
     {"slew rate at the sky within the stroke", "deg/s",
-     [](const Case& c) {
-       return c.simulation ? c.simulation->valve_stroke.value / gear_ratio(c) / degree
-                           : std::nan("");
-     },
+     [](const Case& c) { return no_load_motor_rate(c) / gear_ratio(c) / degree; },
      "valve stroke over the gear ratio, without load"},
 };
 

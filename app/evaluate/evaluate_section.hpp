@@ -90,6 +90,7 @@ struct Candidate {
   double motor_inertia = 0.0;  // kg m2, all motors
   double reflected_inertia = 0.0;
   double motor_to_load_ratio = 0.0;
+  plant::PlantMode oil_mode;       // plant::mode_of_oil, no loop closed
   std::vector<CandidateLaw> laws;  // one a structure
   /// The law that stands for it: of the usable ones that of least compared_rms, else the same of
   /// those that meet their goals, else that nearest to its goals; none if no structure is stable.

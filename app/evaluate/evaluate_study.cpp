@@ -121,6 +121,7 @@ Candidate describe_candidate(const Case& antenna) {
   const double load = gear_train_inertia(antenna) + antenna_inertia(antenna);
   candidate.reflected_inertia = candidate.motor_inertia + load;
   candidate.motor_to_load_ratio = candidate.motor_inertia / load;
+  candidate.oil_mode = plant::mode_of_oil(plant::plant_modes(make_plant(antenna)));
   return candidate;
 }
 

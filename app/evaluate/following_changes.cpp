@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 #include <fmt/format.h>
 
@@ -20,9 +19,11 @@ double compliance_of_sides(const Case& antenna) {
   return 1.0 / antenna.oil.volume_1.value + 1.0 / antenna.oil.volume_2.value;
 }
 
+// As rated_stroke has it.
 double no_load_pressure(const Case& antenna) {
-  const double returned = antenna.simulation ? antenna.simulation->return_pressure.value : 0.0;
-  return antenna.drive.supply_pressure.value - returned;
+  const std::optional<Quantity> returned =
+      antenna.simulation ? antenna.simulation->return_pressure : antenna.campaign.return_pressure;
+  return antenna.drive.supply_pressure.value - (returned ? returned->value : 0.0);
 }
 
 // A number of the same antenna in other terms, as uncertain for its size.
@@ -114,25 +115,12 @@ void stiffen_gear(const ProposedChange& change, StructureEntry& structure) {
     refuse_change(change, fmt::format("expected a factor above 0, found {:g}", factor));
   }
   hold_bull_gear(structure);
-  plant::StructureSpecification antenna = structure_specification(structure);
-  const auto stiffness = [&](double locked_rotor_frequency) {
-    antenna.locked_rotor_frequency = locked_rotor_frequency;
-    return plant::make_structure(antenna).gear_stiffness;
-  };
-  const double stated = structure.locked_rotor_frequency.value;
-  const double wanted = factor * stiffness(stated);
-  // The stiffness rises faster than the frequency's square, and without bound towards the lowest
-  // mode.
-  const double rigid = stated * std::sqrt(factor);
-  double lower = std::min(stated, rigid), upper = std::max(stated, rigid);
-  for (const auto& mode : antenna.modes) upper = std::min(upper, mode.frequency);
-  double middle = std::midpoint(lower, upper);
-  while (lower < middle && middle < upper) {
-    (stiffness(middle) < wanted ? lower : upper) = middle;
-    middle = std::midpoint(lower, upper);
-  }
-  check_changed_range(change, Kind::frequency, Range::positive(1000.0), lower);
-  structure.locked_rotor_frequency = in_other_terms(structure.locked_rotor_frequency, lower, "Hz");
+  const plant::StructureSpecification antenna = structure_specification(structure);
+  const double frequency =
+      locked_rotor_frequency_for(antenna, factor * plant::make_structure(antenna).gear_stiffness);
+  check_changed_range(change, Kind::frequency, Range::positive(1000.0), frequency);
+  structure.locked_rotor_frequency =
+      in_other_terms(structure.locked_rotor_frequency, frequency, "Hz");
 }
 
 namespace {
@@ -191,11 +179,14 @@ void follow_drive(const Case& before, const Proposal& proposal, Case& after) {
   double opened = 1.0;
   if (const auto* pressure = proposal.find("drive.supply_pressure")) {
     if (no_load_pressure(after) <= 0.0) {
-      refuse_change(*pressure,
-                    fmt::format("expected more than simulation.return_pressure, found {:.4g} Pa",
-                                after.drive.supply_pressure.value));
+      refuse_change(*pressure, fmt::format("expected more than {}.return_pressure, found {:.4g} Pa",
+                                           after.simulation ? "simulation" : "drive",
+                                           after.drive.supply_pressure.value));
     }
     opened = std::sqrt(no_load_pressure(after) / no_load_pressure(before));
+  }
+  if (after.drive.valve_rated_flow && before.drive.valve_rated_flow) {
+    opened *= after.drive.valve_rated_flow->value / before.drive.valve_rated_flow->value;
   }
   const auto stated = [&](std::string_view key) {
     const auto* change = proposal.find(key);

@@ -25,8 +25,8 @@ void stiffen_gear(const ProposedChange& change, StructureEntry& structure);
 /// a sampling slower than before that is too slow for the structure's modes, as the case states
 /// them or as the proposal leaves them (stiffen_gear states them anew, and lower).
 void follow_sampling(const Case& before, const Proposal& proposal, Case& after);
-/// What gear ratio, displacement, count, volumes, bulk modulus and supply pressure bring with them,
-/// as proposed_case.hpp says; ranges of the ensemble.
+/// What gear ratio, displacement, count, volumes, bulk modulus, supply pressure and the valve's
+/// rated flow bring with them, as proposed_case.hpp says; ranges of the ensemble.
 void follow_drive(const Case& before, const Proposal& proposal, Case& after);
 
 }  // namespace boresight::app

@@ -100,6 +100,7 @@ class ProposalReader {
     read_gear();
     read_oil();
     for (const char* table : {"drive", "simulation", "friction_curve"}) read_numbers(table);
+    check_valve();
     read_structure();
     read_numbers("sensors");
     read_controller();
@@ -269,6 +270,14 @@ class ProposalReader {
       }
     }
     table->reader().finish();
+  }
+
+  void check_valve() const {
+    const auto* flow = proposal_.find("drive.valve_rated_flow");
+    if (flow == nullptr || proposal_.find("simulation.valve_stroke") == nullptr) return;
+    refuse_at(flow->number.location, flow->key,
+              "expected either valve_rated_flow, from which the valve's stroke follows, or "
+              "simulation.valve_stroke, found both");
   }
 
   void read_structure() {

@@ -187,14 +187,21 @@ class Application {
       const Quantity* own = number.in(original_);
       if (quantity == nullptr || own == nullptr) {
         refuse_change(*change,
-                      fmt::format("expected a number that the case has, found none of it in {}",
-                                  before_.path));
+                      fmt::format("expected a number that the case has, found none of it in {}{}",
+                                  before_.path, remedy(*change)));
       }
       note_before(change->key, own->text);
       *quantity = changed(*change, *quantity);
       check_changed_range(*change, number.kind, number.range, quantity->value);
       if (number.kind == Kind::volume) check_volume(*change, own->value, quantity->value);
     }
+  }
+
+  // For a number that the case has not.
+  std::string_view remedy(const ProposedChange& change) const {
+    if (change.key != "drive.valve_rated_flow") return "";
+    return before_.simulation ? ": change simulation.valve_stroke instead"
+                              : ": state it there, with valve_rated_pressure_drop";
   }
 
   void apply_modes() {

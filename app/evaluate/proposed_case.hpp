@@ -41,6 +41,7 @@ struct ProposedCase {
 ///   and count          pressure transducers) with D, the valve's stroke (no-load motor speed) with
 ///                      1/D; bodies of the gear train of which there is one a motor by the count
 ///   supply pressure    supply torque in proportion, the valve's stroke with the square root
+///   valve's rated flow the valve's stroke in proportion, at the case's rated pressure drop
 ///   valve stroke       the valve effort's limit: the same share of the stroke
 ///   gear teeth         every reflection, motor rates at given rates of the sky, encoder noise at
 ///                      the motor, backlash and offset torque at the motor; friction stays the same

@@ -1,3 +1,8 @@
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <numeric>
+
 #include <boresight/app/io/structure_numbers.hpp>
 #include <boresight/plant/motors_held_modes.hpp>
 
@@ -26,6 +31,24 @@ std::vector<plant::StructureSpecification> structure_specifications(
   if (!structure.motors_held) return {specification};
   if (effective) return {plant::antenna_of_effective_fractions(specification)};
   return plant::hold_bull_gear_of(specification);
+}
+
+double locked_rotor_frequency_for(plant::StructureSpecification antenna, double gear_stiffness) {
+  const auto stiffness = [&](double frequency) {
+    antenna.locked_rotor_frequency = frequency;
+    return plant::make_structure(antenna).gear_stiffness;
+  };
+  // The stiffness rises with the frequency, without bound towards the lowest mode; that of a rigid
+  // antenna is the least.
+  double lower = 0.0;
+  double upper = std::sqrt(gear_stiffness / antenna.antenna_inertia) / (2.0 * std::numbers::pi);
+  for (const auto& mode : antenna.modes) upper = std::min(upper, mode.frequency);
+  double middle = std::midpoint(lower, upper);
+  while (lower < middle && middle < upper) {
+    (stiffness(middle) < gear_stiffness ? lower : upper) = middle;
+    middle = std::midpoint(lower, upper);
+  }
+  return lower;
 }
 
 }  // namespace boresight::app

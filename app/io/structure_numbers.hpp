@@ -17,4 +17,10 @@ plant::StructureSpecification structure_specification(const StructureEntry& stru
 std::vector<plant::StructureSpecification> structure_specifications(
     const StructureEntry& structure);
 
+/// The locked-rotor frequency (Hz) by which the antenna has this gear stiffness (N m/rad at the
+/// shaft of antenna_inertia, per antenna inertia where that is 1), its modes with the bull gear
+/// held as they are and all above it. The antenna's own locked_rotor_frequency counts for nothing.
+/// @throws InvalidInput as plant::make_structure.
+double locked_rotor_frequency_for(plant::StructureSpecification antenna, double gear_stiffness);
+
 }  // namespace boresight::app

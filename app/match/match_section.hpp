@@ -24,6 +24,7 @@ struct MatchPoint {
   double motor_to_load_ratio = 0.0;  // R: motors over gear train and antenna
   double reflected_inertia = 0.0;    // kg m2, of all
   plant::PlantMode hydraulic = {};
+  plant::PlantMode oil_mode = {};  // plant::mode_of_oil
   /// rad/s2 at the sky, at the slew rate: what the drive has reserve for there
   /// (design::within_reach); of cases without [simulation] what the supply's torque leaves beyond
   /// friction, the valve's drop not counted. 0 or less where nothing is left.

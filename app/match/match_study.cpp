@@ -88,7 +88,9 @@ void describe(const Case& antenna, const MatchSection& section, MatchPoint& poin
   point.reflected_inertia = plant::reflected_inertia(plant);
   point.motor_to_load_ratio =
       plant::motor_to_load_ratio(point.motor_inertia, point.reflected_inertia);
-  point.hydraulic = plant::hydraulic_mode(plant::plant_modes(plant));
+  const auto modes = plant::plant_modes(plant);
+  point.hydraulic = plant::hydraulic_mode(modes);
+  point.oil_mode = plant::mode_of_oil(modes);
   const double ratio = gear_ratio(antenna);
   if (section.slew_by_simulation) {
     point.acceleration = reach_of(antenna, point.reflected_inertia).acceleration / ratio;

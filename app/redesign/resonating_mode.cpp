@@ -23,10 +23,13 @@ bool rings_as_rigid(const Case& antenna) {
   return of_it && hydraulic.oil_share >= half;
 }
 
+bool little_of_oil(const plant::PlantMode& mode, const plant::PlantMode& mode_of_oil) {
+  if (mode.damping_ratio >= 1.0 || mode.oil_share < 0.0 || mode.gear_share < 0.0) return false;
+  return mode.oil_share < half && mode_of_oil.oil_share > mode.oil_share;
+}
+
 std::string oil_remark(const plant::PlantMode& mode, const plant::PlantMode& mode_of_oil) {
-  if (mode.oil_share >= half || mode_of_oil.oil_share <= mode.oil_share) return "";
-  // Of an overdamped mode the shares are none of an energy.
-  if (mode.damping_ratio >= 1.0 || mode.oil_share < 0.0 || mode.gear_share < 0.0) return "";
+  if (!little_of_oil(mode, mode_of_oil)) return "";
   return fmt::format(
       " Only {:.0f} % of that mode's elastic energy is in the oil, {:.0f} % in the gearbox spring "
       "and the rest in the structure, so that it tells little of the oil and its leakage; of the "

@@ -17,8 +17,12 @@ plant::PlantMode resonating_mode(const Case& antenna, const plant::AntennaPlant&
 /// the oil. @throws InvalidInput as make_plant, NumericalFailure as resonating_mode.
 bool rings_as_rigid(const Case& antenna);
 
-/// To follow a sentence on a mode: where less than half of its elastic energy is in the oil and the
-/// mode_of_oil has more there, so. Else empty.
+/// Whether less than half of a mode's elastic energy is in the oil, and the mode_of_oil has more
+/// there: it then tells little of the oil. Never of an overdamped mode, whose shares are none of an
+/// energy.
+bool little_of_oil(const plant::PlantMode& mode, const plant::PlantMode& mode_of_oil);
+
+/// To follow a sentence on a mode: that it is little_of_oil, where it is. Else empty.
 std::string oil_remark(const plant::PlantMode& mode, const plant::PlantMode& mode_of_oil);
 
 }  // namespace boresight::app

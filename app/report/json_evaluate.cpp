@@ -108,6 +108,7 @@ Json candidate_json(const EvaluateSection& section, const Candidate& candidate) 
           {"reflected_inertia_kg_m2", number(candidate.reflected_inertia)},
           {"motor_inertia_kg_m2", number(candidate.motor_inertia)},
           {"motor_to_load_ratio_1", number(candidate.motor_to_load_ratio)},
+          {"oil_mode", mode_json(candidate.oil_mode)},
           {"feasible", candidate.feasible()},
           {"chosen_structure",
            candidate.chosen ? Json(candidate.laws[*candidate.chosen].structure) : Json(nullptr)},

@@ -28,6 +28,7 @@ Json point_json(const MatchPoint& point) {
           {"reflected_inertia_kg_m2", point.reflected_inertia},
           {"hydraulic_frequency_Hz", point.hydraulic.frequency},
           {"hydraulic_damping_ratio_1", point.hydraulic.damping_ratio},
+          {"oil_mode", mode_json(point.oil_mode)},
           {"acceleration_mdeg_per_s2", mdeg(point.acceleration)},
           {"slew_time_s", number(point.slew_time)},
           {"rule_damping_ratio_1", point.two_mass_damping},

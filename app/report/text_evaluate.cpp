@@ -5,6 +5,8 @@
 #include <fmt/ranges.h>
 
 #include <boresight/app/document/document.hpp>
+#include <boresight/app/io/wording.hpp>
+#include <boresight/app/redesign/resonating_mode.hpp>
 #include <boresight/app/report/evaluate_report.hpp>
 #include <boresight/app/report/loss_wording.hpp>
 #include <boresight/app/report/sky_units.hpp>
@@ -101,9 +103,29 @@ Document time_domain_table(const EvaluateSection& section) {
                  "  ") +
          "\n" + table(rows, "ll") +
          wrapped(
-             "hunting: amplitude of the beam (mdeg) without wind or noise; reversal error: the "
-             "beam's largest (mdeg) after turning round at the tracking rate.",
+             "hunting: amplitude of the beam (mdeg) without wind or noise, of which one below the "
+             "encoder's step hangs on how the run begins; reversal error: the beam's largest "
+             "(mdeg) "
+             "after turning round at the tracking rate.",
              "  ");
+}
+
+// Whose hydraulic modes tell little of the oil, and which tell more.
+Document oil_modes_part(const EvaluateSection& section) {
+  std::vector<std::string> modes;
+  for (const auto& candidate : section.candidates) {
+    const CandidateLaw* law = candidate.chosen_law();
+    const plant::PlantMode& most = candidate.oil_mode;
+    if (law == nullptr || !little_of_oil(law->design.hydraulic_mode, most)) continue;
+    modes.push_back(
+        fmt::format("{:.3g} Hz (zeta {:.3f}) {}", most.frequency, most.damping_ratio,
+                    candidate.path.empty() ? candidate.name : "with " + in_quotes(candidate.name)));
+  }
+  if (modes.empty()) return {};
+  return wrapped(fmt::format("Less than half of the hydraulic mode's elastic energy is in the oil, "
+                             "and the mode of most oil is another: {}.",
+                             fmt::join(modes, ", ")),
+                 "  ");
 }
 
 Document loop_table(const EvaluateSection& section) {
@@ -143,14 +165,15 @@ Document loop_table(const EvaluateSection& section) {
                  "cost{}; linear: rms of the beam on the nominal plant by the spectrum; {}"
                  "over plants: root of the mean square over the {} plants of the ensemble{}, "
                  "worst: the largest of them; worst plant: the one farthest from its hard "
-                 "goals. hydr. and zeta: frequency and damping of the oil's mode with the "
-                 "structure bending, no loop closed.",
+                 "goals. hydr. and zeta: frequency and damping of the hydraulic mode, the lowest "
+                 "that moves the oil, with the structure bending, no loop closed.",
                  section.currency.empty() ? ": stated by no proposal" : " in " + section.currency,
                  simulated ? "simulated: in one record of wind on the nonlinear antenna; "
                              "factor: that over the linear plant's rms in the same record; "
                            : "",
                  section.ensemble_size, simulated ? ", of linear loops, times the factor" : ""),
-             "  ");
+             "  ") +
+         oil_modes_part(section);
 }
 
 // "24/30": plants on which the candidate's law meets a budget where it is needed.

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <boresight/app/document/document.hpp>
+#include <boresight/app/redesign/resonating_mode.hpp>
 #include <boresight/app/report/match_report.hpp>
 #include <boresight/app/report/sky_units.hpp>
 
@@ -19,6 +20,28 @@ std::string mdeg(double angle) {
 
 std::string decibel(double gain) {
   return std::isfinite(gain) && gain > 0.0 ? fmt::format("{:.1f}", 20.0 * std::log10(gain)) : "-";
+}
+
+// Where the hydraulic mode tells little of the oil, and which tells more.
+Document oil_modes_part(const MatchSection& section) {
+  std::vector<const MatchPoint*> points;
+  for (const auto& point : section.points) {
+    if (little_of_oil(point.hydraulic, point.oil_mode)) points.push_back(&point);
+  }
+  if (points.empty()) return {};
+  const auto described = [](const MatchPoint& point) {
+    return fmt::format("{:.3g} Hz (zeta {:.3f}) with {:.2f} disks", point.oil_mode.frequency,
+                       point.oil_mode.damping_ratio, point.disks);
+  };
+  return wrapped(
+      fmt::format("Less than half of the hydraulic mode's elastic energy is in the oil{}, and the "
+                  "mode of most oil is another: {}{}.",
+                  points.size() == section.points.size()
+                      ? ""
+                      : fmt::format(" at {} of these inertias", points.size()),
+                  described(*points.front()),
+                  points.size() == 1 ? "" : " to " + described(*points.back())),
+      "  ");
 }
 
 Document motors_part(const MatchSection& section) {
@@ -38,9 +61,9 @@ Document motors_part(const MatchSection& section) {
   return table(rows, "rrrrrrrrrl") +
          wrapped(
              fmt::format(
-                 "R: motors over gear train and antenna. hydr., zeta: the lowest mode, the antenna "
-                 "on "
-                 "the oil spring with the structure bending. deg/s2: at the sky, {} at {:.3g} "
+                 "R: motors over gear train and antenna. hydr., zeta: the hydraulic mode, the "
+                 "lowest that moves the oil, with the structure bending. deg/s2: at the sky, {} at "
+                 "{:.3g} "
                  "deg/s, the case's slew rate or four fifths of what supply and valve hold. slew: "
                  "{:.3g} deg at that rate and acceleration. rule zeta: 1/2 sqrt(J_L/J_m). of best "
                  "a: acceleration for given torque over the most at any gear ratio.",
@@ -50,7 +73,8 @@ Document motors_part(const MatchSection& section) {
                      : "by what the supply's torque leaves beyond friction, without the valve's "
                        "drop and without a reserve,",
                  section.slew_rate / degree, section.slew_distance / degree),
-             "  ");
+             "  ") +
+         oil_modes_part(section);
 }
 
 Document rms_part(const MatchSection& section) {
@@ -190,7 +214,8 @@ Document time_part(const MatchSection& section) {
   return "\n" + table(rows, "lrrrrrr") +
          wrapped(
              fmt::format("On the nonlinear antenna in still air, mdeg: amplitudes of the beam's "
-                         "limit cycles and the largest error after reversals of {:.4g} mdeg/s.",
+                         "limit cycles, of which one below the encoder's step hangs on how the run "
+                         "begins, and the largest error after reversals of {:.4g} mdeg/s.",
                          section.tracking_rate / millidegree),
              "  ");
 }

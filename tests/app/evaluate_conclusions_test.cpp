@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include <boresight/app/evaluate/evaluate_section.hpp>
+#include <boresight/app/evaluate/proposal_effects.hpp>
 #include <boresight/app/evaluate/unfit_candidates.hpp>
 #include <boresight/app/report/sky_units.hpp>
 
@@ -77,6 +78,50 @@ TEST(EvaluateConclusions, SayWhatAProposalDoesToReversalsAndAcceleration) {
                     HasSubstr("0.100 deg/s2 as it is; no flywheels 0.150 deg/s2 (+50 %).")));
   EXPECT_THAT(concluded({base, moving("half the flywheels", 0.109, 4.6)}),
               AllOf(Not(HasSubstr("turning round")), Not(HasSubstr("Acceleration"))));
+}
+
+// kr, wi, wp, kp, wip.
+Candidate with_gains(Candidate candidate, const std::vector<double>& gains) {
+  CandidateLaw& law = candidate.laws.front();
+  law.structure = "PI";
+  law.design.tuning.law = {control::LoopStructure::named("PI"), gains};
+  return candidate;
+}
+
+TEST(EvaluateConclusions, TellLawsOfOneStructureThatAreOfAnotherFamily) {
+  const auto law = [](const std::vector<double>& gains) {
+    return with_gains(moving("a", 0.1, 5.0), gains).laws.front();
+  };
+  const CandidateLaw own = law({0.133, 0.255, 3.28, 30.0, 0.262});
+  const CandidateLaw bare = law({0.126, 30.0, 12.4, 3.11, 0.324});
+  EXPECT_THAT(other_family(bare, own), testing::ElementsAre(1U, 3U));
+  EXPECT_THAT(other_family(own, bare), testing::ElementsAre(1U, 3U));
+  EXPECT_THAT(other_family(own, law({0.133, 0.255, 3.28, 6.1, 1.3})), testing::IsEmpty());
+  CandidateLaw other = bare;
+  other.structure = "DPF";
+  EXPECT_THAT(other_family(other, own), testing::IsEmpty());
+}
+
+TEST(EvaluateConclusions, SayWhatOfAReversalMayBeTheLaws) {
+  const std::vector<double> slow{0.133, 0.255, 3.28, 30.0, 0.262};
+  const std::vector<double> fast{0.126, 30.0, 12.4, 3.11, 0.324};
+  const auto base = with_gains(moving("as it is", 0.1, 2.68), slow);
+  EXPECT_THAT(
+      concluded({base, with_gains(moving("no flywheels", 0.3, 1.89), fast),
+                 with_gains(moving("larger valve", 0.1, 2.0), slow)}),
+      AllOf(HasSubstr("no flywheels comes with another kind of PI law than the antenna as it is "
+                      "has: wi 30 against 0.255 rad/s, kp 3.11 against 30 1/s; differences in "
+                      "reversal error and hunting may be the law's rather than the hardware's. "
+                      "Narrower bounds ([[tuning.bound]], or those of a [[loop]]) make both alike. "
+                      "Acceleration that"),
+            Not(HasSubstr("larger valve comes"))));
+  // Only the rms is told of it.
+  auto level = with_gains(moving("no flywheels", 0.1, 2.6), fast);
+  EXPECT_THAT(concluded({base, level}), Not(HasSubstr("another kind")));
+  auto& cycle = level.laws.front().time_domain->hunting.emplace_back();
+  cycle.limit_cycle = true;
+  cycle.beam_amplitude = 0.2 * millidegree;
+  EXPECT_THAT(concluded({base, level}), HasSubstr("no flywheels comes with another kind"));
 }
 
 TEST(EvaluateConclusions, CompareNothingWhereNoProposalIsFit) {

@@ -1,4 +1,8 @@
-// What the tables of an evaluation leave out: rows that hold nothing to the digits printed.
+// What the tables of an evaluation leave out: rows that hold nothing to the digits printed. What
+// stands below them.
+#include <regex>
+#include <string>
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -61,6 +65,40 @@ TEST(EvaluateTables, GiveNoLossWhereTheParabolaEnds) {
   EXPECT_THAT(to_text(document_of(section)),
               AllOf(HasSubstr("0.7424  > 3"), Not(HasSubstr("10.76")),
                     HasSubstr("> 3: beyond 3 dB the beam's parabola does not hold.")));
+}
+
+TEST(EvaluateTables, NameTheModeOfMostOilWhereTheHydraulicModeHasLittle) {
+  EvaluateSection section;
+  section.candidates.resize(2);
+  const auto set = [&](std::size_t place, const char* name, double frequency) -> plant::PlantMode& {
+    Candidate& candidate = section.candidates[place];
+    candidate.name = name;
+    candidate.oil_mode.frequency = frequency;
+    candidate.oil_mode.damping_ratio = 0.03;
+    candidate.oil_mode.oil_share = 0.8;
+    candidate.laws.resize(1);
+    candidate.chosen = 0;
+    plant::PlantMode& mode = candidate.laws[0].design.hydraulic_mode;
+    mode.oil_share = 0.06;
+    return mode;
+  };
+  const auto told = [&] {
+    return std::regex_replace(to_text(document_of(section)), std::regex("\\s+"), " ");
+  };
+  set(0, "as it is", 6.02);
+  plant::PlantMode& bare = set(1, "no flywheels", 22.3);
+  section.candidates[1].path = "no-flywheels.toml";
+  EXPECT_THAT(
+      told(),
+      AllOf(HasSubstr("hydr. and zeta: frequency and damping of the hydraulic mode, the "
+                      "lowest that moves the oil"),
+            HasSubstr("Less than half of the hydraulic mode's elastic energy is in the oil, "
+                      "and the mode of most oil is another: 6.02 Hz (zeta 0.030) as it is, "
+                      "22.3 Hz (zeta 0.030) with 'no flywheels'.")));
+  bare.oil_share = 0.7;
+  EXPECT_THAT(told(), HasSubstr("is another: 6.02 Hz (zeta 0.030) as it is."));
+  section.candidates[0].oil_mode.oil_share = 0.06;
+  EXPECT_THAT(told(), Not(HasSubstr("most oil")));
 }
 
 // A mast's speeds, raised to the dish, are no round numbers.

@@ -1,5 +1,6 @@
 #include <cmath>
 #include <limits>
+#include <regex>
 #include <string>
 
 #include <gtest/gtest.h>
@@ -166,6 +167,36 @@ TEST(Match, ReportsAndConcludes) {
   EXPECT_NE(sentences.front().find("coherence model at 10 m/s"), std::string::npos);
   EXPECT_NE(sentences[1].find("With PI-0 (loops that feed back no torque) the rms is least"),
             std::string::npos);
+}
+
+TEST(Match, NamesTheModeOfMostOilWhereTheHydraulicModeHasLittle) {
+  MatchSection section = small_study();
+  for (auto& point : section.points) {
+    EXPECT_GE(point.oil_mode.oil_share, point.hydraulic.oil_share);
+    point.hydraulic.oil_share = point.oil_mode.oil_share = 0.6;
+  }
+  const auto told = [&](const std::string& sentence) {
+    const std::string text = to_text(document_of(section));
+    return std::regex_replace(text, std::regex("\\s+"), " ").find(sentence) != std::string::npos;
+  };
+  EXPECT_TRUE(told("hydr., zeta: the hydraulic mode, the lowest that moves the oil"));
+  EXPECT_FALSE(told("most oil"));
+  const auto hides_it = [](MatchPoint& point, double frequency) {
+    point.hydraulic.oil_share = 0.06;
+    point.hydraulic.gear_share = 0.7;
+    point.oil_mode.frequency = frequency;
+    point.oil_mode.damping_ratio = 0.03;
+    point.oil_mode.oil_share = 0.8;
+  };
+  hides_it(section.points.front(), 22.3);
+  EXPECT_TRUE(
+      told("in the oil at 1 of these inertias, and the mode of most oil is another: 22.3 Hz "
+           "(zeta 0.030) with 0.00 disks."));
+  for (auto& point : section.points) hides_it(point, 22.3 - 0.5 * point.disks);
+  EXPECT_TRUE(
+      told("Less than half of the hydraulic mode's elastic energy is in the oil, and the "
+           "mode of most oil is another: 22.3 Hz (zeta 0.030) with 0.00 disks to 10.3 Hz "
+           "(zeta 0.030) with 24.00 disks."));
 }
 
 TEST(Match, AnInterruptLeavesWhatWasWhole) {

@@ -55,6 +55,17 @@ TEST(ProposalFile, ReadsValuesAndFactors) {
   EXPECT_EQ(proposal.find("motor.inertia"), nullptr);
 }
 
+TEST(ProposalFile, ReadsALargerValve) {
+  for (const std::string flow : {"'80 US_gal/min'", "{ factor = '2' }"}) {
+    const Proposal proposal =
+        parse_proposal(head + "[drive]\nvalve_rated_flow = " + flow, "p.toml");
+    const auto* change = proposal.find("drive.valve_rated_flow");
+    ASSERT_NE(change, nullptr);
+    EXPECT_NEAR(change->number.value, change->multiplies ? 2.0 : 80.0 * 3.785411784e-3 / 60.0,
+                1e-12);
+  }
+}
+
 TEST(ProposalFile, MayLeaveOutItsCost) {
   const Proposal proposal =
       parse_proposal("name = 'a'\ndescription = 'b'\n[motor]\ncount = 6\n", "p.toml");
@@ -106,6 +117,10 @@ TEST(ProposalFile, RefusesWhatItCannotMean) {
               "gear_stiffness = { factor = 2 }\n",
               "structure.gear_stiffness: expected either gear_stiffness, from which the "
               "locked-rotor frequency follows, or locked_rotor_frequency, found both"},
+      Refusal{"[drive]\nvalve_rated_flow = '80 US_gal/min'\n"
+              "[simulation]\nvalve_stroke = { factor = 2 }\n",
+              "p.toml:7:20: drive.valve_rated_flow: expected either valve_rated_flow, from which "
+              "the valve's stroke follows, or simulation.valve_stroke, found both"},
       Refusal{"[oil]\nline_share = '0.5'\n", "found no line_lengths"},
       Refusal{"[oil]\nline_lengths = { factor = 2 }\nline_share = { factor = '0.5' }\n",
               "expected a share within 0 to 1, found a factor"},

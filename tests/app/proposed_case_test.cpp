@@ -60,6 +60,16 @@ std::string refusal(const std::string& text) {
   return "accepted";
 }
 
+// The case with its valve stated by the rated flow.
+Case by_rated_flow() {
+  EditedCase edited;
+  edited.replace("\nvalve_stroke = {", "\n# valve_stroke = {")
+      .replace("valve_damping = {",
+               "valve_rated_flow = \"160 L/min\"\nvalve_rated_pressure_drop = \"7 MPa\"\n"
+               "valve_damping = {");
+  return parse_case(edited.text(), case_path("dss14-70m"));
+}
+
 double leakage(const Case& antenna) {
   return antenna.drive.leakage_rate.value;
 }
@@ -191,6 +201,63 @@ TEST(ProposedCase, PressureFeedsTheValve) {
   const double supply = as_is().drive.supply_pressure.value;
   EXPECT_NEAR(strong.simulation->valve_stroke.value / as_is().simulation->valve_stroke.value,
               std::sqrt((1.5 * supply - returned) / (supply - returned)), 1e-12);
+}
+
+TEST(ProposedCase, RatedFlowDoesWhatTheStrokeDoes) {
+  const Case antenna = by_rated_flow();
+  const auto by_stroke = of(antenna, "[simulation]\nvalve_stroke = { factor = '2' }\n");
+  for (const std::string flow : {"'320 L/min'", "{ factor = '2' }"}) {
+    const auto by_flow = of(antenna, "[drive]\nvalve_rated_flow = " + flow + "\n");
+    EXPECT_NEAR(by_flow.antenna.simulation->valve_stroke.value,
+                by_stroke.antenna.simulation->valve_stroke.value, 1e-9);
+    for (const char* quantity : {"valve stroke, no-load motor rate", "valve effort allowed",
+                                 "slew rate at the sky within the stroke"}) {
+      const auto* found = find(by_flow, quantity);
+      ASSERT_NE(found, nullptr) << quantity;
+      EXPECT_NEAR(found->after / found->before, 2.0, 1e-12) << quantity;
+    }
+    EXPECT_EQ(by_flow.consequences.size(), 3U);
+    ASSERT_EQ(by_flow.changes.size(), 1U);
+    EXPECT_EQ(by_flow.changes[0].before, "160 L/min");
+  }
+  // A stroke that the case states beside the flow goes with it.
+  Case both = antenna;
+  both.simulation->valve_stroke.value = 150.0;
+  EXPECT_NEAR(
+      of(both, "[drive]\nvalve_rated_flow = '80 L/min'\n").antenna.simulation->valve_stroke.value,
+      75.0, 1e-9);
+}
+
+// As a case of those numbers has it.
+TEST(ProposedCase, RatedFlowGoesWithDisplacementAndPressure) {
+  const std::string text =
+      "[motor]\ndisplacement = { factor = '1.41' }\n"
+      "[drive]\nvalve_rated_flow = '320 L/min'\nsupply_pressure = { factor = '1.5' }\n";
+  Case antenna = by_rated_flow();
+  for (const bool simulated : {true, false}) {
+    if (!simulated) {
+      antenna.campaign.return_pressure = antenna.simulation->return_pressure;
+      antenna.simulation.reset();
+    }
+    const Case after = of(antenna, text).antenna;
+    EXPECT_NEAR(largest_demand(after) / rated_stroke(after).value().value, 1.0, 1e-12);
+    EXPECT_NEAR(after.goals.valve_effort.value / antenna.goals.valve_effort.value,
+                largest_demand(after) / largest_demand(antenna), 1e-12);
+  }
+}
+
+TEST(ProposedCase, RefusesARatedFlowThatTheCaseHasNot) {
+  const std::string flow = "[drive]\nvalve_rated_flow = '80 US_gal/min'\n";
+  const std::string told = refusal(flow);
+  EXPECT_THAT(told, HasSubstr("p.toml:7:20: drive.valve_rated_flow: expected a number that the "
+                              "case has, found none of it in "));
+  EXPECT_THAT(told, testing::EndsWith(": change simulation.valve_stroke instead"));
+  Case linear = as_is();
+  linear.simulation.reset();
+  EXPECT_THAT([&] { of(linear, flow); }, testing::ThrowsMessage<InvalidInput>(testing::EndsWith(
+                                             ": state it there, with valve_rated_pressure_drop")));
+  EXPECT_THAT([&] { of(by_rated_flow(), "[drive]\nvalve_rated_flow = '160 L/min'\n"); },
+              testing::ThrowsMessage<InvalidInput>(HasSubstr("found that every change leaves")));
 }
 
 TEST(ProposedCase, SamplingSetsDeadTimeAndNoiseBandwidth) {

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include <fmt/format.h>
 
@@ -17,6 +18,42 @@ constexpr double negligible = 1e-12;
 
 bool within(double value, double least, double most) {
   return value >= least && value <= most;
+}
+
+// ln((v/scale)^shape) at v = ratio x mean. Convex in the shape: its slope, with x = 1/shape
+// ln(ratio) + ln(Gamma(1 + x)) - x psi(1 + x), falls with x.
+double log_exponent(double ratio, double shape) {
+  return shape * std::log(ratio * std::tgamma(1.0 + 1.0 / shape));
+}
+
+double share_above(double ratio, double shape) {
+  return std::exp(-std::exp(log_exponent(ratio, shape)));
+}
+
+// The shape with the largest share, which is that of the least exponent.
+double shape_of_most(double ratio) {
+  double low = lowest_shape_sought, high = highest_shape_sought;
+  for (int step = 0; step < 100; ++step) {
+    const double third = (high - low) / 3.0;
+    if (log_exponent(ratio, low + third) > log_exponent(ratio, high - third)) {
+      low += third;
+    } else {
+      high -= third;
+    }
+  }
+  return 0.5 * (low + high);
+}
+
+// By bisection, between a shape of a lower exponent and one of a higher.
+std::optional<double> shape_between(double ratio, double exponent, double lower, double higher) {
+  if (log_exponent(ratio, lower) > exponent || log_exponent(ratio, higher) < exponent) {
+    return std::nullopt;
+  }
+  for (int step = 0; step < 60; ++step) {
+    const double middle = 0.5 * (lower + higher);
+    (log_exponent(ratio, middle) < exponent ? lower : higher) = middle;
+  }
+  return 0.5 * (lower + higher);
 }
 
 double highest_of(const ClimatePart& part) {
@@ -80,6 +117,34 @@ std::vector<WeightedSpeed> climate_speeds(const std::vector<WeightedSpeed>& tabl
     if (weight > negligible * sum) speeds.push_back({speed, weight / sum});
   }
   return speeds;
+}
+
+WeibullClimate weibull_climate(double mean, double shape, double highest) {
+  return {mean / std::tgamma(1.0 + 1.0 / shape), shape, highest};
+}
+
+WeibullShapes weibull_shapes(double ratio, double share) {
+  if (!within(ratio, 1e-3, 1e3) || !(share > 0.0) || !(share <= 1.0)) {
+    throw InvalidInput(
+        fmt::format("weibull_shapes: expected a speed of 0.001 to 1000 times the mean and a share "
+                    "above 0 and at most 1, found {} times and {}",
+                    ratio, share));
+  }
+  const double most = shape_of_most(ratio);
+  const double exponent = std::log(-std::log(share));
+  WeibullShapes found;
+  found.least_share =
+      std::min(share_above(ratio, lowest_shape_sought), share_above(ratio, highest_shape_sought));
+  found.most_share = share_above(ratio, most);
+  constexpr double same = 1e-3;
+  for (const double end : {lowest_shape_sought, highest_shape_sought}) {
+    const auto shape = shape_between(ratio, exponent, most, end);
+    if (!shape) continue;
+    if (found.shapes.empty() || *shape > found.shapes.front() + same) {
+      found.shapes.push_back(*shape);
+    }
+  }
+  return found;
 }
 
 double share_of_time(const std::vector<ClimatePart>& climate, double speed) {

@@ -30,6 +30,29 @@ std::vector<WeightedSpeed> climate_speeds(const WeibullClimate& climate);
 /// @throws InvalidInput for none, a speed that is not above 0, a negative or no positive weight.
 std::vector<WeightedSpeed> climate_speeds(const std::vector<WeightedSpeed>& table);
 
+/// The law of a mean speed (m/s): scale = mean/Gamma(1 + 1/shape). `highest` as above.
+WeibullClimate weibull_climate(double mean, double shape, double highest);
+
+/// The shapes looked for: of the winds of a site they are 1 to 3 as a rule.
+constexpr double lowest_shape_sought = 0.8;
+constexpr double highest_shape_sought = 10.0;
+
+/// Shapes of the Weibull laws that have a mean and one exceedance.
+struct WeibullShapes {
+  std::vector<double> shapes;  // ascending
+  /// Between what the share of all winds above that speed lies over all shapes looked for.
+  double least_share = 0.0;
+  double most_share = 0.0;
+};
+
+/// Shapes with which the share `share` (above 0, at most 1) of all winds lies above `ratio` times
+/// their mean (0.001 to 1000):
+///   exp(-(ratio Gamma(1 + 1/shape))^shape) = share.
+/// The share falls with the shape above 1.81 times the mean and rises with it up to the mean;
+/// between the two it has a maximum, so that there may be two shapes. Shapes within 0.001 of one
+/// another count as one. @throws InvalidInput outside those ranges.
+WeibullShapes weibull_shapes(double ratio, double share);
+
 /// A part of a site's climate: one mean speed (m/s, above 0) or a Weibull law, and its share of the
 /// time. Shares need not sum to 1.
 struct ClimatePart {

@@ -42,6 +42,7 @@ class GraphBuilder {
   identification::AuditGraph build() {
     add_parts_and_assemblies();
     add_gear_train();
+    add_flywheel_disk();
     add_reflected_inertia();
     add_oil();
     add_tests();
@@ -90,6 +91,9 @@ class GraphBuilder {
   }
 
   static double sum(Arguments values) { return std::accumulate(values.begin(), values.end(), 0.0); }
+  static double solid_disk(Arguments disk) {
+    return plant::disk_inertia(disk[0], disk[1], disk[2]);
+  }
 
   void add_parts_and_assemblies() {
     if (case_.gear_train.density) {
@@ -123,8 +127,7 @@ class GraphBuilder {
     input(name + ".length", "length of " + what, *part.length);
     AuditNode& node =
         derived(name + ".inertia", "inertia of " + what + ", a solid disk", Kind::inertia,
-                {name + ".radius", name + ".length", "gear_train.density"},
-                [](Arguments disk) { return plant::disk_inertia(disk[0], disk[1], disk[2]); });
+                {name + ".radius", name + ".length", "gear_train.density"}, solid_disk);
     if (part.inertia) node.statements.push_back(statement_of(*part.inertia));
     return name + ".inertia";
   }
@@ -152,6 +155,18 @@ class GraphBuilder {
                 return plant::gear_ratio(train);
               });
     }
+  }
+
+  void add_flywheel_disk() {
+    const MotorEntry& motor = case_.motor;
+    if (!motor.disk_radius || !motor.disk_length || !motor.disk_density) return;
+    input("motor.disk_radius", "radius of a flywheel disk", *motor.disk_radius);
+    input("motor.disk_length", "length of a flywheel disk", *motor.disk_length);
+    input("motor.disk_density", "density of the flywheel disks", *motor.disk_density);
+    AuditNode& node =
+        derived("motor.disk_inertia", "inertia of a flywheel disk, a solid disk", Kind::inertia,
+                {"motor.disk_radius", "motor.disk_length", "motor.disk_density"}, solid_disk);
+    if (motor.disk_inertia_stated) node.statements.push_back(statement_of(motor.disk_inertia));
   }
 
   void add_reflected_inertia() {

@@ -52,6 +52,7 @@ std::vector<Implausibility> implausibilities(const Case& antenna,
   check_structural_predictions(numbers, found);
   check_structural_shares(numbers, found);
   check_motors_held_antennas(numbers, found);
+  check_gear_stiffness(numbers, found);
   check_ensemble_ranges(numbers, found);
   check_carrier_frequencies(numbers, found);
   return found;

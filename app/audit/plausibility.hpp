@@ -22,7 +22,7 @@ struct Implausibility {
   /// limit", "Coulomb levels", "coincidence", "carrier frequency", "valve stroke", "friction
   /// against the supply", "friction tests", "return pressure", "inertia against the dish",
   /// "flywheel", "structural predictions", "structural shares", "motors held",
-  /// "ensemble range".
+  /// "gear stiffness", "ensemble range".
   std::string check;
   /// The quantity, by id.
   std::string id;
@@ -43,6 +43,10 @@ struct Implausibility {
 ///   as those of structure.prediction, are more than 5 % away from them;
 /// - motors held: several antennas have the frequencies that the case states with the motors held
 ///   (plant/motors_held_modes.hpp);
+/// - gear stiffness: that of the gear train as stated and the plant's, which follows from the
+///   locked-rotor frequency, are more than a factor of 1.3 apart; where an uncertainty of it is
+///   stated, instead more than three standard uncertainties u, a factor of 1 + 3 u, and 1.05. u
+///   also has what is stated for inertia and locked-rotor frequency;
 /// - ensemble range: [ensemble] states a narrower range than the case's uncertainty of the number
 ///   (tune/plant_members.hpp, spread_of_stated);
 /// - impulse order: of two inertias from an accelerating window, the one with more friction

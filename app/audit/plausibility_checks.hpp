@@ -40,6 +40,7 @@ void check_wave_speeds(const CaseNumbers& numbers, Implausibilities& found);
 void check_structural_predictions(const CaseNumbers& numbers, Implausibilities& found);
 void check_structural_shares(const CaseNumbers& numbers, Implausibilities& found);
 void check_motors_held_antennas(const CaseNumbers& numbers, Implausibilities& found);
+void check_gear_stiffness(const CaseNumbers& numbers, Implausibilities& found);
 void check_ensemble_ranges(const CaseNumbers& numbers, Implausibilities& found);
 void check_carrier_frequencies(const CaseNumbers& numbers, Implausibilities& found);
 void check_friction_slope(const CaseNumbers& numbers, Implausibilities& found);

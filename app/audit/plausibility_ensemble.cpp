@@ -28,8 +28,9 @@ void check_ensemble_ranges(const CaseNumbers& numbers, Implausibilities& found) 
     ends.push_back({fmt::format("{} lower", key), range.lower / scale, "1"});
     ends.push_back({fmt::format("{} upper", key), range.upper / scale, "1"});
   };
-  check(ensemble.structure_frequency, "structure_frequency", "structure.locked_rotor_frequency",
-        ranges.structure_frequency, spread.structure_frequency, 1.0);
+  check(ensemble.structure_frequency, "structure_frequency",
+        antenna.structure.locked_rotor_frequency.key.c_str(), ranges.structure_frequency,
+        spread.structure_frequency, 1.0);
   check(ensemble.oil_stiffness, "oil_stiffness", "oil.bulk_modulus", ranges.oil_stiffness,
         spread.oil_stiffness, 1.0);
   check(ensemble.leakage_rate, "leakage_rate", "drive.leakage_rate", ranges.leakage_rate,

@@ -1,5 +1,7 @@
 #include <algorithm>
 #include <cmath>
+#include <numeric>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -47,6 +49,92 @@ Case with_inertial_shares(Case antenna) {
   }
   structure.bull_gear_wind_fraction.value = structure.bull_gear_beam_weight.value = bull_gear;
   return antenna;
+}
+
+double gear_stiffness_at_axis(const Case& antenna, const plant::StructureSpecification& structure) {
+  return antenna.antenna.inertia.value * plant::make_structure(structure).gear_stiffness;
+}
+
+double factor_between(double one, double other) {
+  return std::max(one, other) / std::min(one, other);
+}
+
+// Up to which the stated stiffness of the gear train and the plant's are one.
+double agreeing_factor(const Case& antenna, const Quantity& stiffness) {
+  constexpr double usual = 1.3, least = 1.05, deviations = 3.0;
+  if (!stiffness.uncertainty_given) return usual;
+  const auto stated = [](const Quantity& quantity) {
+    return quantity.uncertainty_given ? relative_uncertainty(quantity) : 0.0;
+  };
+  // The plant's goes with the inertia and with the square of the frequencies.
+  const double uncertainty = std::hypot(stated(stiffness), stated(antenna.antenna.inertia),
+                                        2.0 * stated(antenna.structure.locked_rotor_frequency));
+  return std::max(least, 1.0 + deviations * uncertainty);
+}
+
+// Frequency (Hz) of the heaviest mode by which, all else kept, the gear spring of the antenna has
+// this stiffness, which falls as the mode rises; none that a case may state, or too close to the
+// locked-rotor frequency to be meant.
+std::optional<double> heaviest_mode_for(plant::StructureSpecification antenna, std::size_t heaviest,
+                                        double stiffness) {
+  constexpr double clear = 1.001, highest = 1000.0;
+  double& frequency = antenna.modes.at(heaviest).frequency;
+  double lower = clear * antenna.locked_rotor_frequency;
+  double upper = std::max(highest, frequency);
+  const auto is_stiffer = [&](double at) {
+    frequency = at;
+    return plant::make_structure(antenna).gear_stiffness > stiffness;
+  };
+  if (!is_stiffer(lower) || is_stiffer(upper)) return std::nullopt;
+  double middle = std::midpoint(lower, upper);
+  while (lower < middle && middle < upper) {
+    (is_stiffer(middle) ? lower : upper) = middle;
+    middle = std::midpoint(lower, upper);
+  }
+  return upper;
+}
+
+// Of frequencies with the motors held: another antenna of these, if one has the stated stiffness.
+std::string other_antenna_for(const Case& antenna, double stiffness, double agreeing) {
+  for (const auto& other : structure_specifications(antenna.structure)) {
+    const double own = gear_stiffness_at_axis(antenna, other);
+    if (factor_between(own, stiffness) > agreeing) continue;
+    return fmt::format(
+        "Another antenna of these frequencies with the motors held has {:.4g} N.m/rad with {}, {}: "
+        "stated as effective_fraction in the place of inertia_fraction, these take it.",
+        own, held_frequencies(other), effective_fractions(other));
+  }
+  return "Frequencies with the motors held, their fractions, antenna.inertia or the stated "
+         "stiffness is wrong.";
+}
+
+// What would make the plant's gear spring as stiff as stated; a frequency is noted.
+std::string gear_remedy(const Case& antenna, double stiffness, double agreeing,
+                        std::vector<NamedNumber>& compared) {
+  const StructureEntry& structure = antenna.structure;
+  if (structure.motors_held) return other_antenna_for(antenna, stiffness, agreeing);
+  const auto& modes = structure.modes;
+  if (modes.empty()) {
+    return "Without modes it is antenna.inertia times the square of 2 pi locked_rotor_frequency: "
+           "one of these or the stated stiffness is wrong, or modes are missing.";
+  }
+  const auto heaviest = std::ranges::max_element(
+      modes, {}, [](const StructureModeEntry& mode) { return mode.inertia_fraction.value; });
+  const auto found = heaviest_mode_for(structure_specification(structure),
+                                       static_cast<std::size_t>(heaviest - modes.begin()),
+                                       stiffness / antenna.antenna.inertia.value);
+  if (!found) {
+    return fmt::format(
+        "No frequency of its heaviest mode ({}, {:.4g} Hz) clearly above locked_rotor_frequency "
+        "makes it so, all else kept: antenna.inertia, locked_rotor_frequency or the stated "
+        "stiffness is wrong.",
+        heaviest->frequency.key, heaviest->frequency.value);
+  }
+  compared.push_back({"heaviest mode for it", *found, "Hz"});
+  return fmt::format(
+      "With its heaviest mode ({}) at {:.4g} Hz in the place of {:.4g}, all else kept, it is as "
+      "stated.",
+      heaviest->frequency.key, *found, heaviest->frequency.value);
 }
 
 }  // namespace
@@ -143,6 +231,26 @@ void check_motors_held_antennas(const CaseNumbers& numbers, Implausibilities& fo
            antennas.size(), springs[0].value, held_frequencies(antennas[0]),
            effective_fractions(antennas[0]), fmt::join(others, "; or ")),
        std::move(springs)});
+}
+
+void check_gear_stiffness(const CaseNumbers& numbers, Implausibilities& found) {
+  const Case& antenna = numbers.antenna;
+  const auto& stated = antenna.structure.gear_stiffness;
+  if (!stated) return;
+  const double own = gear_stiffness_at_axis(antenna, structure_specification(antenna.structure));
+  const double agreeing = agreeing_factor(antenna, *stated);
+  const double factor = factor_between(own, stated->value);
+  if (factor <= agreeing) return;
+  std::vector<NamedNumber> compared{{"stated", stated->value, "N.m/rad"},
+                                    {"plant", own, "N.m/rad"}};
+  const std::string remedy = gear_remedy(antenna, stated->value, agreeing, compared);
+  found.push_back(
+      {"gear stiffness", stated->key,
+       fmt::format("The gear train of structure.gear_stiffness has {:.4g} N.m/rad at the antenna's "
+                   "axis, the plant's gear spring there {:.4g} N.m/rad and is {:.3g} times as {}: "
+                   "it follows from locked_rotor_frequency, antenna.inertia and the modes. {}",
+                   stated->value, own, factor, own > stated->value ? "stiff" : "soft", remedy),
+       std::move(compared)});
 }
 
 }  // namespace boresight::app

@@ -66,9 +66,10 @@ struct MotorEntry {
   long count = 1;
   Quantity inertia;  // one motor as built, flywheel included
   double flywheel_disks = 0.0;
-  Quantity rotor_inertia;               // one bare motor
-  Quantity disk_inertia;                // one flywheel disk
-  std::optional<Quantity> disk_radius;  // where a solid disk is stated
+  Quantity rotor_inertia;                                          // one bare motor
+  Quantity disk_inertia;                                           // one flywheel disk
+  bool disk_inertia_stated = true;                                 // else of a solid disk
+  std::optional<Quantity> disk_radius, disk_length, disk_density;  // where a solid disk is stated
   Quantity displacement;
   Quantity torque_efficiency;
   Quantity volumetric_efficiency;
@@ -180,7 +181,10 @@ struct StructureModeEntry {
 };
 
 struct StructureEntry {
+  /// As stated, or by gear_stiffness; then with what the case says of that, its key included.
   Quantity locked_rotor_frequency;
+  /// Of the gear train between motors, held, and bull gear, at the antenna's axis.
+  std::optional<Quantity> gear_stiffness;
   /// Whether the modes' frequencies are with the motors held, as locked_rotor_frequency is; else
   /// with the bull gear held.
   bool motors_held = false;

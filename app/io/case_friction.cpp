@@ -8,6 +8,7 @@
 
 #include <boresight/app/io/case_sections.hpp>
 #include <boresight/app/io/drive_numbers.hpp>
+#include <boresight/app/io/wording.hpp>
 #include <boresight/identification/steady_friction.hpp>
 
 namespace boresight::app {
@@ -17,8 +18,9 @@ constexpr std::array curve_keys{"coulomb",    "breakaway",       "stribeck_rate"
                                 "saturating", "saturating_rate", "viscous"};
 
 struct SteadyTest {
-  Quantity rate;  // of the antenna
-  Quantity said;  // as a torque or a pressure
+  Quantity rate;            // as said, of the antenna's axis or of the motors
+  double motor_rate = 0.0;  // rad/s
+  Quantity said;            // as a torque or a pressure
   double torque = 0.0;
   double leeway = 0.0;  // of the torque
   double relative_uncertainty = 0.0;
@@ -29,13 +31,36 @@ double leeway_of(const Quantity& said) {
   return said.uncertainty_given ? said.standard_uncertainty : said.half_unit;
 }
 
+// No axis turns faster: whoever says more means the motors.
+void check_axis_rate(const TableReader& entry, const Quantity& rate) {
+  constexpr double fastest = 10.0;  // rad/s
+  if (rate.value <= fastest) return;
+  entry.refuse("rate", fmt::format("expected a rate of the antenna's axis, at most {:g} rad/s, "
+                                   "found {} (a rate of the motors is motor_rate)",
+                                   fastest, in_quotes(rate.text)));
+}
+
 SteadyTest read_test(TableReader& entry, const Case& antenna) {
   SteadyTest test;
-  test.rate = entry.quantity("rate", Kind::angular_rate, Range::not_negative(10.0));
+  const auto rate = entry.optional_quantity("rate", Kind::angular_rate, Range::not_negative());
+  const auto motor_rate =
+      entry.optional_quantity("motor_rate", Kind::angular_rate, Range::not_negative(1e5));
   const auto torque = entry.optional_quantity("torque", Kind::torque, Range::not_negative());
   const auto pressure =
       entry.optional_quantity("pressure", Kind::pressure, Range::not_negative(1e9));
   entry.finish();
+  if (rate.has_value() == motor_rate.has_value()) {
+    entry.refuse("rate", std::string("expected either rate (of the axis) or motor_rate, found ") +
+                             (rate ? "both" : "neither"));
+  }
+  if (rate) {
+    check_axis_rate(entry, *rate);
+    test.rate = *rate;
+    test.motor_rate = rate->value * gear_ratio(antenna);
+  } else if (motor_rate) {
+    test.rate = *motor_rate;
+    test.motor_rate = motor_rate->value;
+  }
   if (torque.has_value() == pressure.has_value()) {
     entry.refuse("torque", std::string("expected either torque or pressure, found ") +
                                (torque ? "both" : "neither"));
@@ -66,11 +91,11 @@ Basis basis_of(const std::vector<SteadyTest>& tests) {
   return weakest;
 }
 
-void fit_tests(const std::vector<SteadyTest>& tests, double ratio, FrictionCurveEntry& friction) {
+void fit_tests(const std::vector<SteadyTest>& tests, FrictionCurveEntry& friction) {
   std::vector<identification::SteadyFriction> points;
   double squares = 0.0, sum = 0.0;
   for (const auto& test : tests) {
-    points.push_back({test.rate.value * ratio, test.torque, test.leeway});
+    points.push_back({test.motor_rate, test.torque, test.leeway});
     squares += std::pow(test.relative_uncertainty, 2);
     sum += test.torque;
   }
@@ -118,14 +143,15 @@ void read_tests_of_curve(TableReader& curve, std::vector<TableReader>& entries, 
   std::set<double> rates;
   for (auto& entry : entries) {
     tests.push_back(read_test(entry, antenna));
-    if (!rates.insert(tests.back().rate.value).second) {
-      entry.refuse("rate", "expected one test a rate, found another at this one");
+    if (!rates.insert(tests.back().motor_rate).second) {
+      entry.refuse(entry.has("rate") ? "rate" : "motor_rate",
+                   "expected one test a rate, found another at this one");
     }
   }
   if (*rates.rbegin() == 0.0) {
     curve.refuse("test", "expected a test at a rate above 0, found only one at rest");
   }
-  fit_tests(tests, gear_ratio(antenna), antenna.friction_curve);
+  fit_tests(tests, antenna.friction_curve);
 }
 
 }  // namespace

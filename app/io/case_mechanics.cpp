@@ -157,10 +157,62 @@ void solve_motors_held(const TableReader& table, StructureEntry& structure) {
   }
 }
 
+// By the stiffness of the gear train, where the case states that alone.
+void derive_locked_rotor_frequency(const TableReader& table, Case& antenna) {
+  const char* const key = "locked_rotor_frequency";
+  if (table.has(key)) return;
+  StructureEntry& structure = antenna.structure;
+  const auto& stated = structure.gear_stiffness;
+  if (!stated) {
+    table.refuse(key, "expected locked_rotor_frequency or gear_stiffness, found neither");
+  }
+  if (structure.motors_held || table.has("modes_file")) {
+    table.refuse(key, fmt::format("expected it beside {}, found gear_stiffness alone",
+                                  structure.motors_held ? "frequencies with the motors held"
+                                                        : "a modes_file"));
+  }
+  plant::StructureSpecification per_inertia = structure_specification(structure);
+  const double stiffness = stated->value / antenna.antenna.inertia.value;
+  const double frequency = locked_rotor_frequency_for(per_inertia, stiffness);
+  constexpr double highest = 1000.0;  // Hz, of a stated one
+  if (!(frequency > 0.0 && frequency <= highest)) {
+    table.refuse("gear_stiffness",
+                 fmt::format("expected a locked-rotor frequency by it and antenna.inertia above 0 "
+                             "and at most 1000 Hz, found {} and {:.6g} Hz",
+                             in_quotes(stated->text), frequency));
+  }
+  per_inertia.locked_rotor_frequency = frequency;
+  const double made = plant::make_structure(per_inertia).gear_stiffness;
+  constexpr double rounding = 1e-6;
+  if (!(std::abs(made - stiffness) <= rounding * stiffness)) {
+    table.refuse("gear_stiffness",
+                 fmt::format("expected a stiffness that leaves the locked-rotor frequency below "
+                             "every mode, found {}, which takes it to {:.6g} Hz",
+                             in_quotes(stated->text), frequency));
+  }
+  const double stiffer = stiffness * (1.0 + relative_uncertainty(*stated));
+  structure.locked_rotor_frequency = derived_quantity(*stated, Kind::frequency, frequency, "Hz");
+  structure.locked_rotor_frequency.standard_uncertainty =
+      locked_rotor_frequency_for(per_inertia, stiffer) - frequency;
+}
+
 // What a case may say of its motors' inertia.
 struct MotorInertias {
   std::optional<Quantity> built, rotor, disk, disk_radius, disk_length, disk_density;
 };
+
+constexpr double steel_density = 7850.0;  // kg/m3
+
+Quantity density_of_steel(const std::string& key) {
+  Quantity density;
+  density.value = steel_density;
+  density.text = fmt::format("{:g} kg/m3", steel_density);
+  density.kind = Kind::density;
+  density.basis = Basis::assumed;
+  density.source = "steel";
+  density.key = key;
+  return density;
+}
 
 MotorInertias read_motor_inertias(TableReader& table) {
   MotorInertias stated;
@@ -171,8 +223,11 @@ MotorInertias read_motor_inertias(TableReader& table) {
   stated.disk_length = table.optional_quantity("disk_length", Kind::length, Range::positive(100.0));
   stated.disk_density =
       table.optional_quantity("disk_density", Kind::density, Range::between(100.0, 25000.0));
-  if (!stated.disk && stated.disk_radius && !stated.disk_density) {
-    stated.disk_density = table.assume("disk_density", Kind::density, 7850.0, "steel");
+  if (stated.disk_radius && !stated.disk_density) {
+    // Listed as assumed only where an inertia rests on it, and not for the audit alone.
+    stated.disk_density = stated.disk
+                              ? density_of_steel(table.path("disk_density"))
+                              : table.assume("disk_density", Kind::density, steel_density, "steel");
   }
   return stated;
 }
@@ -180,22 +235,20 @@ MotorInertias read_motor_inertias(TableReader& table) {
 // Of one flywheel disk, as stated or of a solid one.
 Quantity disk_inertia_of(const TableReader& table, const MotorInertias& stated) {
   const auto& [built, rotor, disk, radius, length, density] = stated;
-  if (disk) {
-    for (const char* key : {"disk_radius", "disk_length", "disk_density"}) {
-      if (table.has(key)) {
-        table.refuse(key, "expected either disk_inertia or a disk's dimensions, found both");
-      }
-    }
-    return *disk;
-  }
-  if (!radius && !length) {
-    table.refuse("disk_inertia",
-                 "expected disk_inertia, or disk_radius and disk_length, found neither");
-  }
-  if (!radius || !length || !density) {
+  if (radius.has_value() != length.has_value()) {
     table.refuse(radius ? "disk_length" : "disk_radius",
                  std::string("expected disk_radius and disk_length together, found the ") +
                      (radius ? "radius" : "length") + " alone");
+  }
+  if (disk) {
+    if (density && !radius) {
+      table.refuse("disk_density", "expected disk_radius and disk_length beside it, found neither");
+    }
+    return *disk;
+  }
+  if (!radius || !length || !density) {
+    table.refuse("disk_inertia",
+                 "expected disk_inertia, or disk_radius and disk_length, found neither");
   }
   return solid_disk(*radius, *length, *density);
 }
@@ -203,7 +256,10 @@ Quantity disk_inertia_of(const TableReader& table, const MotorInertias& stated) 
 // As built and bare: both as stated, or one by the other and the disks.
 void take_motor_inertias(const TableReader& table, const MotorInertias& stated, MotorEntry& motor) {
   motor.disk_inertia = disk_inertia_of(table, stated);
+  motor.disk_inertia_stated = stated.disk.has_value();
   motor.disk_radius = stated.disk_radius;
+  motor.disk_length = stated.disk_length;
+  motor.disk_density = stated.disk_density;
   const char* disk = stated.disk ? "disk_inertia" : "disk_radius";
   const double disks = motor.flywheel_disks * motor.disk_inertia.value;
   const double of_disks = motor.flywheel_disks * motor.disk_inertia.standard_uncertainty;
@@ -315,7 +371,10 @@ void read_structure(TableReader& file, Case& antenna) {
   const Range share = Range::between(0.0, 1.0);
   const Range fractions = Range::positive(1.0);
   structure.locked_rotor_frequency =
-      table.quantity("locked_rotor_frequency", Kind::frequency, Range::positive(1000.0));
+      table.optional_quantity("locked_rotor_frequency", Kind::frequency, Range::positive(1000.0))
+          .value_or(Quantity{});
+  structure.gear_stiffness =
+      table.optional_quantity("gear_stiffness", Kind::stiffness, Range::positive());
   structure.gear_damping_ratio = table.quantity("gear_damping_ratio", Kind::number, damping);
   const auto modes_file = table.optional_text("modes_file");
   if (modes_file) {
@@ -346,6 +405,7 @@ void read_structure(TableReader& file, Case& antenna) {
   }
   if (modes_file) {
     table.finish();
+    derive_locked_rotor_frequency(table, antenna);
     return;
   }
   double fraction = 0.0;
@@ -397,6 +457,7 @@ void read_structure(TableReader& file, Case& antenna) {
                              "1, found {:.6g}",
                              beam));
   }
+  derive_locked_rotor_frequency(table, antenna);
   solve_motors_held(table, structure);
 }
 

@@ -20,6 +20,16 @@ struct Gusts {
   std::optional<Quantity> height;
 };
 
+// Davenport's spectrum has its intensity by the drag: 6 surface_drag V^2 is the gusts' variance.
+void refuse_intensity(TableReader& table) {
+  const char* const key = "turbulence_intensity";
+  const double intensity = table.quantity(key, Kind::number, Range::positive(1.0)).value;
+  table.refuse(key, fmt::format("expected it with the spectrum kaimal or von_karman only, found it "
+                                "with davenport (write surface_drag = \"{:.4g}\", its square over "
+                                "6, in its place)",
+                                intensity * intensity / 6.0));
+}
+
 // Each of the keys belongs to some of the spectra, the height beside a mast's to all.
 Gusts read_gusts(TableReader& table) {
   const std::string spectrum =
@@ -46,6 +56,7 @@ Gusts read_gusts(TableReader& table) {
   const auto value = [](const std::optional<Quantity>& quantity) {
     return quantity ? quantity->value : 0.0;
   };
+  if (spectrum == "davenport" && table.has("turbulence_intensity")) refuse_intensity(table);
   const double drag =
       value(takes("surface_drag", Kind::number, Range::positive(1.0), {"davenport"}));
   const double intensity = value(

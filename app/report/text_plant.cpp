@@ -134,6 +134,8 @@ Document document_of(const PlantSection& section) {
       row("viscous friction", drive.viscous_friction, "N.m.s/rad"),
       row("friction slope at tracking rate", section.tracking_slope, "N.m.s/rad"),
       row("gear stiffness", structure.gear_stiffness, "N.m/rad"),
+      row("gear stiffness at the axis", structure.gear_stiffness * std::pow(section.gear_ratio, 2),
+          "N.m/rad"),
       row("valve", drive.valve_corner / two_pi, "Hz"),
       row("supply torque", section.supply_torque, "N.m"),
       row("what friction at tracking rate and offset leave", section.torque_for_wind, "N.m"),

@@ -1,3 +1,4 @@
+#include <numbers>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -190,6 +191,48 @@ TEST(CaseFriction, DoubtsNoCurveThatItsTestsCheckOrTell) {
                                      HasSubstr("Stribeck rate, which these tests do not tell"),
                                      Not(HasSubstr("the Stribeck rate is "))));
   EXPECT_THAT(of_the_curve(read_case(case_path("dss14-70m"))), IsEmpty());
+}
+
+std::string motor_test(const std::string& rate, const std::string& what) {
+  return fmt::format("\n[[friction_curve.test]]\nmotor_rate = \"{}\"\n{}\n", rate, what);
+}
+
+TEST(CaseFriction, TakesRatesOfTheMotors) {
+  const double ratio = gear_ratio(read_case(case_path("dss14-70m")));
+  const std::string torque = "torque = \"60 N.m\"";
+  const Case by_motor =
+      parse_case(tested(motor_test("0 rpm", "torque = \"90 N.m\"") + motor_test("100 rpm", torque)),
+                 "case.toml");
+  const auto& tests = by_motor.friction_curve.tests;
+  ASSERT_EQ(tests.size(), 2U);
+  EXPECT_EQ(tests[0].rate, 0.0);
+  EXPECT_NEAR(tests[1].rate, 10.0 * std::numbers::pi / 3.0, 1e-12);
+  // The same as by the axis, and beside tests by the axis.
+  const std::string at_axis = fmt::format("{:.15g} rpm", 100.0 / ratio);
+  const Case by_axis = parse_case(
+      tested(motor_test("0 rpm", "torque = \"90 N.m\"") + test(at_axis, torque)), "case.toml");
+  const auto curve = friction_curve(by_motor), other = friction_curve(by_axis);
+  for (const double rate : {0.1, 3.0, 100.0}) {
+    EXPECT_NEAR(plant::friction_torque(curve, rate), plant::friction_torque(other, rate), 1e-9);
+  }
+  EXPECT_EQ(by_motor.friction_curve.coulomb.basis, Basis::measured);
+}
+
+TEST(CaseFriction, RefusesARateOfNeitherShaftOrOfBoth) {
+  const std::string torque = "torque = \"60 N.m\"";
+  const std::string wanted =
+      "friction_curve.test[0].rate: expected either rate (of the axis) or motor_rate, found ";
+  EXPECT_THAT(refusal_of(tested(test("0.1 deg/s", torque + "\nmotor_rate = \"100 rpm\""))),
+              HasSubstr(wanted + "both"));
+  EXPECT_THAT(refusal_of(tested("\n[[friction_curve.test]]\n" + torque + "\n")),
+              HasSubstr(wanted + "neither"));
+  EXPECT_THAT(refusal_of(tested(test("100 rpm", torque))),
+              HasSubstr("friction_curve.test[0].rate: expected a rate of the antenna's axis, at "
+                        "most 10 rad/s, found '100 rpm' (a rate of the motors is motor_rate)"));
+  EXPECT_THAT(refusal_of(tested(motor_test("1e6 rad/s", torque))),
+              HasSubstr("friction_curve.test[0].motor_rate: expected an angular rate from 0"));
+  EXPECT_THAT(refusal_of(tested(motor_test("100 rpm", torque) + motor_test("100 rpm", torque))),
+              HasSubstr("friction_curve.test[1].motor_rate: expected one test a rate"));
 }
 
 TEST(CaseFriction, TakesPressuresOverTheMotors) {

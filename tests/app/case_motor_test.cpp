@@ -2,12 +2,14 @@
 #include <cmath>
 #include <numbers>
 #include <string>
+#include <vector>
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "edited_case.hpp"
+#include <boresight/app/audit/audit_report.hpp>
 #include <boresight/app/io/case_file.hpp>
 #include <boresight/app/redesign/assumed_inputs.hpp>
 #include <boresight/plant/error.hpp>
@@ -49,6 +51,44 @@ TEST(CaseMotor, FindsADisksInertiaByItsDimensions) {
   EXPECT_EQ(assumed_inputs(stated).size() + 1, assumed.size());
 }
 
+// What the audit says of a disk's inertia where its dimensions stand beside it.
+std::vector<identification::Finding> of_the_disk(const Case& antenna) {
+  std::vector<identification::Finding> found;
+  for (const auto& one : audit(antenna).findings) {
+    if (one.id == "motor.disk_inertia") found.push_back(one);
+  }
+  return found;
+}
+
+TEST(CaseMotor, KeepsAStatedInertiaBesideADisksDimensions) {
+  const double radius = std::pow(2.0 * 0.012358 / (std::numbers::pi * 7850.0 * 0.0127), 0.25);
+  const auto with_length = [&](const std::string& length, const std::string& more = "") {
+    return parse_case(
+        EditedCase()
+            .replace(disk, fmt::format("disk_radius = \"{:.15g} m\"\ndisk_length = \"{}\"\n{}{}",
+                                       radius, length, more, disk))
+            .text(),
+        "case.toml");
+  };
+  const Case plain = parse_case(EditedCase().text(), "case.toml");
+  const Case same = with_length("12.7 mm");
+  EXPECT_EQ(same.motor.disk_inertia.value, 0.012358);
+  EXPECT_EQ(same.motor.disk_inertia.key, "motor.disk_inertia");
+  EXPECT_THAT(of_the_disk(same), testing::IsEmpty());
+  EXPECT_THAT(audit(same).compared, testing::Contains("motor.disk_inertia"));
+  // No result rests on its being of steel.
+  EXPECT_EQ(assumed_inputs(same).size(), assumed_inputs(plain).size());
+  const auto found = of_the_disk(with_length("25.4 mm"));
+  ASSERT_EQ(found.size(), 1U);
+  EXPECT_EQ(found[0].kind, identification::FindingKind::derivation);
+  ASSERT_EQ(found[0].forms.size(), 1U);
+  EXPECT_EQ(found[0].forms[0].text, "0.012358 kg.m2");
+  EXPECT_NEAR(found[0].forms[0].would_be, 2.0 * 0.012358, 1e-12);
+  EXPECT_THAT(of_the_disk(with_length("25.4 mm", "disk_density = \"3925 kg/m3\"\n")),
+              testing::IsEmpty());
+  EXPECT_THAT(audit(plain).compared, testing::Not(testing::Contains("motor.disk_inertia")));
+}
+
 TEST(CaseMotor, FindsOneInertiaByTheOtherAndTheDisks) {
   const Case both = parse_case(EditedCase().text(), "case.toml");
   const MotorEntry& motor = both.motor;
@@ -75,7 +115,12 @@ TEST(CaseMotor, RefusesWhatSaysTooLittleOrTwice) {
   EXPECT_THAT(refusal_of(edited(disk,
                                 "disk_inertia = \"0.012358 kg.m2\"\n"
                                 "disk_density = \"7850 kg/m3\"")),
-              HasSubstr("motor.disk_density: expected either disk_inertia or"));
+              HasSubstr("motor.disk_density: expected disk_radius and disk_length beside it, found "
+                        "neither"));
+  EXPECT_THAT(refusal_of(edited(disk,
+                                "disk_inertia = \"0.012358 kg.m2\"\n"
+                                "disk_radius = \"0.2 m\"")),
+              HasSubstr("motor.disk_length: expected disk_radius and disk_length together"));
   EXPECT_THAT(refusal_of(edited(disk, "disk_radius = \"0.5 m\"\ndisk_length = \"2 cm\"")),
               HasSubstr("motor.disk_radius: expected rotor_inertia + flywheel_disks x"));
   EXPECT_THAT(

@@ -1,5 +1,8 @@
-// Structures that are stated by their frequencies with the motors held, and what an audit says.
+// Structures that are stated by their frequencies with the motors held or by the stiffness of the
+// gear train, and what an audit says.
 #include <algorithm>
+#include <cmath>
+#include <numbers>
 #include <string>
 
 #include <fmt/format.h>
@@ -12,6 +15,7 @@
 #include <boresight/app/document/document_text.hpp>
 #include <boresight/app/io/structure_numbers.hpp>
 #include <boresight/app/redesign/antenna_model.hpp>
+#include <boresight/app/redesign/assumed_inputs.hpp>
 #include <boresight/app/redesign/choices.hpp>
 #include <boresight/app/redesign/sections.hpp>
 #include <boresight/app/report/text_report.hpp>
@@ -21,9 +25,12 @@ namespace boresight::app {
 namespace {
 
 using testing::AllOf;
+using testing::Contains;
 using testing::ContainsRegex;
+using testing::Field;
 using testing::HasSubstr;
 using testing::IsEmpty;
+using testing::Not;
 using testing::SizeIs;
 
 Case parsed(const EditedCase& edited) {
@@ -260,6 +267,80 @@ TEST(StructuralPredictions, AreComparedWithThePlant) {
                                      HasSubstr("structure.mode_frequencies")))
       << found.reasoning;
   EXPECT_THAT(found.numbers, SizeIs(2));
+}
+
+double spring_at_axis(const Case& antenna) {
+  return make_plant(antenna).structure.gear_stiffness * std::pow(gear_ratio(antenna), 2);
+}
+
+// The 70-m antenna by its gear train's stiffness in the place of the locked-rotor frequency.
+EditedCase by_gear_stiffness(const std::string& stiffness) {
+  return EditedCase().replace_line(
+      "locked_rotor_frequency",
+      "gear_stiffness = { value = \"" + stiffness +
+          "\", uncertainty = \"10 %\", basis = \"assumed\", source = \"drawing\" }");
+}
+
+TEST(GearStiffnessCase, HasTheLockedRotorFrequencyThatMakesIt) {
+  const double own = spring_at_axis(read_case(case_path("dss14-70m")));
+  for (const double factor : {0.1, 1.0, 5.0}) {
+    const Case antenna = parsed(by_gear_stiffness(fmt::format("{:.17g} N.m/rad", factor * own)));
+    EXPECT_NEAR(spring_at_axis(antenna) / (factor * own), 1.0, 1e-9);
+    const Quantity& frequency = antenna.structure.locked_rotor_frequency;
+    EXPECT_LT(frequency.value, antenna.structure.modes.at(0).frequency.value);
+    EXPECT_EQ(std::abs(frequency.value - 2.0) < 1e-9, factor == 1.0);
+    EXPECT_EQ(frequency.kind, Kind::frequency);
+    EXPECT_EQ(frequency.key, "structure.gear_stiffness");
+    EXPECT_EQ(frequency.source, "drawing");
+    // A rigid antenna has half the stiffness' 10 %; modes close above leave less.
+    EXPECT_GT(relative_uncertainty(frequency), 0.0);
+    EXPECT_LT(relative_uncertainty(frequency), 0.05);
+    const auto assumed = assumed_inputs(antenna);
+    EXPECT_THAT(assumed, Contains(Field(&Quantity::key, "structure.gear_stiffness")));
+    EXPECT_THAT(assumed, Not(Contains(Field(&Quantity::key, "structure.locked_rotor_frequency"))));
+    EXPECT_THAT(found_in(antenna, "gear stiffness").reasoning, IsEmpty());
+  }
+}
+
+TEST(GearStiffnessCase, IsStatedInAnyUnitOfItsKind) {
+  const Case antenna = parsed(by_gear_stiffness("1.2e11 lbf.ft/rad"));
+  ASSERT_TRUE(antenna.structure.gear_stiffness.has_value());
+  EXPECT_NEAR(spring_at_axis(antenna) / (1.2e11 * 0.3048 * 4.4482216152605), 1.0, 1e-9);
+  EXPECT_THAT(refusal_of(by_gear_stiffness("1.2e11 lbf.ft").text()),
+              HasSubstr("structure.gear_stiffness.value: expected a stiffness"));
+}
+
+TEST(GearStiffnessCase, OfARigidAntennaIsThatOfOneBody) {
+  EditedCase edited = by_gear_stiffness("1e11 N.m/rad");
+  const std::string text = edited.text();
+  const std::size_t first = text.find("[[structure.mode]]");
+  edited.replace(text.substr(first, text.find("\n# What a simulated test needs") - first), "");
+  edited.replace_line("bull_gear_wind_fraction", "bull_gear_wind_fraction = \"1\"");
+  edited.replace_line("bull_gear_beam_weight", "bull_gear_beam_weight = \"1\"");
+  const Case antenna = parsed(edited);
+  ASSERT_THAT(antenna.structure.modes, IsEmpty());
+  EXPECT_NEAR(antenna.structure.locked_rotor_frequency.value,
+              std::sqrt(1e11 / antenna.antenna.inertia.value) / (2.0 * std::numbers::pi), 1e-9);
+}
+
+TEST(GearStiffnessCase, IsRefusedWhereItMakesNoFrequency) {
+  const auto refused = [](const EditedCase& edited, const std::string& words) {
+    EXPECT_THAT(refusal_of(edited.text()), HasSubstr(words));
+  };
+  refused(EditedCase().replace_line("locked_rotor_frequency", ""),
+          "structure.locked_rotor_frequency: expected locked_rotor_frequency or gear_stiffness, "
+          "found neither");
+  refused(EditedCase().replace("\nlocked_rotor_frequency =", "\nlocked_rotor_frequancy ="),
+          "did you mean 'locked_rotor_frequency'?");
+  refused(by_gear_stiffness("0 N.m/rad"), "structure.gear_stiffness.value: expected");
+  refused(by_gear_stiffness("1e40 N.m/rad"),
+          "structure.gear_stiffness: expected a stiffness that leaves the locked-rotor frequency "
+          "below every mode, found '1e40 N.m/rad', which takes it to 2.4 Hz");
+  refused(by_gear_stiffness("1e11 N.m/rad")
+              .replace("\ngear_damping_ratio =",
+                       "\nmode_frequencies = \"motors_held\"\ngear_damping_ratio ="),
+          "structure.locked_rotor_frequency: expected it beside frequencies with the motors held, "
+          "found gear_stiffness alone");
 }
 
 }  // namespace

@@ -220,6 +220,9 @@ TEST(CaseWind, RefusesKeysOfOtherSpectraAndMissingOnes) {
        "\"2 m\"",
        "wind.roughness_length: expected a length below height and minimum_height"},
       {"spectrum = \"kaimel\"", "expected one of"},
+      {"turbulence_intensity = \"20 %\"",
+       "wind.turbulence_intensity: expected it with the spectrum kaimal or von_karman only, found "
+       "it with davenport (write surface_drag = \"0.006667\", its square over 6, in its place)"},
       {drag + "\nheight = \"40 m\"",
        "expected it with the spectrum eurocode or kaimal or von_karman only, found it with "
        "davenport"},

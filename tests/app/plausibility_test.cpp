@@ -1,10 +1,11 @@
-// What of friction, supply, valve, pressures and sizes an audit holds against one another.
+// What of friction, supply, valve, gears, pressures and sizes an audit holds against one another.
 #include <cmath>
 #include <numbers>
 #include <random>
 #include <string>
 #include <vector>
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -259,6 +260,97 @@ TEST(StructuralShares, SayWhatASoftPartUnderTheWindMeans) {
               std::abs(static_bending(make_problem(antenna))) * 180e3 / std::numbers::pi, 1e-9);
   // A part under little wind bends little.
   EXPECT_LT(found[0].numbers[1].value, 0.5 * found[0].numbers[0].value);
+}
+
+// N m/rad at the antenna's axis.
+double gear_train_of(const Case& antenna, const PlantVariant& variant = {}) {
+  return make_plant(antenna, variant).structure.gear_stiffness * std::pow(gear_ratio(antenna), 2);
+}
+
+// A case with the stiffness of its gear train beside its frequencies, so many times its own.
+Case with_gear_train(EditedCase edited, double times, const std::string& uncertainty = "",
+                     const PlantVariant& variant = {}) {
+  const double own = gear_train_of(parse_case(edited.text(), "case.toml"), variant);
+  edited.replace("\ngear_damping_ratio =",
+                 fmt::format("\ngear_stiffness = {{ value = \"{:.17g} N.m/rad\"{} }}"
+                             "\ngear_damping_ratio =",
+                             times * own, uncertainty));
+  return parse_case(edited.text(), "case.toml");
+}
+
+TEST(GearStiffness, AgreesWithinAThirdOrItsUncertainty) {
+  const std::string check = "gear stiffness";
+  EXPECT_THAT(found_in(EditedCase(), check), IsEmpty());
+  for (const double times : {1.0, 1.28, 1.0 / 1.28}) {
+    EXPECT_THAT(found_in(with_gear_train(EditedCase(), times), check), IsEmpty());
+  }
+  EXPECT_EQ(found_in(with_gear_train(EditedCase(), 1.32), check).size(), 1U);
+  const auto found = [&](double times, const std::string& uncertainty, bool inertia_exact) {
+    Case antenna = with_gear_train(EditedCase(), times, ", uncertainty = \"" + uncertainty + "\"");
+    if (inertia_exact) antenna.antenna.inertia.uncertainty_given = false;
+    return found_in(antenna, check).size();
+  };
+  EXPECT_EQ(found(1.04, "1 %", true), 0U);
+  EXPECT_EQ(found(1.06, "1 %", true), 1U);
+  EXPECT_EQ(found(1.14, "5 %", true), 0U);
+  EXPECT_EQ(found(1.16, "5 %", true), 1U);
+  EXPECT_EQ(found(1.0 / 1.16, "5 %", true), 1U);
+  // That of the inertia, 10 %, is in the plant's.
+  EXPECT_EQ(found(1.29, "1 %", false), 0U);
+  EXPECT_EQ(found(1.31, "1 %", false), 1U);
+}
+
+TEST(GearStiffness, IsMadeByAnotherFrequencyOfTheHeaviestMode) {
+  for (const double times : {2.0, 0.5}) {
+    Case antenna = with_gear_train(EditedCase(), times);
+    const auto found = found_in(antenna, "gear stiffness");
+    ASSERT_EQ(found.size(), 1U);
+    EXPECT_EQ(found[0].id, "structure.gear_stiffness");
+    ASSERT_EQ(found[0].numbers.size(), 3U);
+    const double stated = found[0].numbers[0].value, frequency = found[0].numbers[2].value;
+    EXPECT_NEAR(found[0].numbers[1].value / gear_train_of(antenna), 1.0, 1e-9);
+    EXPECT_THAT(
+        found[0].reasoning,
+        AllOf(HasSubstr(fmt::format("has {:.4g} N.m/rad at the antenna's axis", stated)),
+              HasSubstr(fmt::format("there {:.4g} N.m/rad and is 2 times as {}",
+                                    gear_train_of(antenna), times < 1.0 ? "stiff" : "soft")),
+              HasSubstr(fmt::format("(structure.mode[0].frequency) at {:.4g} Hz in the "
+                                    "place of 2.4,",
+                                    frequency))));
+    EXPECT_EQ(frequency > 2.4, times < 1.0);
+    antenna.structure.modes.at(0).frequency.value = frequency;
+    EXPECT_NEAR(gear_train_of(antenna) / stated, 1.0, 1e-9);
+    EXPECT_THAT(found_in(antenna, "gear stiffness"), IsEmpty());
+  }
+}
+
+TEST(GearStiffness, MayBeMadeByNoFrequencyOfThatMode) {
+  // Softer than with that mode rigid, and another unit.
+  for (const double times : {0.4, 1e6}) {
+    const auto found = found_in(with_gear_train(EditedCase(), times), "gear stiffness");
+    ASSERT_EQ(found.size(), 1U);
+    EXPECT_EQ(found[0].numbers.size(), 2U);
+    EXPECT_THAT(found[0].reasoning, HasSubstr("No frequency of its heaviest mode"));
+  }
+}
+
+TEST(GearStiffness, TellsWhichAntennaHasTheFrequenciesWithTheMotorsHeld) {
+  EditedCase edited;
+  const std::string text = edited.text();
+  const std::size_t first = text.find("[[structure.mode]]");
+  edited.replace(text.substr(first, text.find("\n# What a simulated test needs") - first),
+                 "[[structure.mode]]\nfrequency = \"4 Hz\"\ndamping_ratio = \"0.01\"\n"
+                 "inertia_fraction = \"0.2\"\nwind_fraction = \"1\"\nbeam_weight = \"0.95\"\n");
+  edited.replace("lowest_predicted_axis = \"azimuth\"",
+                 "lowest_predicted_axis = \"azimuth\"\nmode_frequencies = \"motors_held\"");
+  EXPECT_THAT(found_in(with_gear_train(edited, 1.0), "gear stiffness"), IsEmpty());
+  const auto found = found_in(with_gear_train(edited, 1.0, "", {.structure = 1}), "gear stiffness");
+  ASSERT_EQ(found.size(), 1U);
+  EXPECT_THAT(found[0].reasoning,
+              AllOf(HasSubstr("Another antenna of these frequencies with the motors held"),
+                    HasSubstr("with 2.103 Hz, whose motors-held modes have 0.369, 0.631")));
+  EXPECT_THAT(found_in(with_gear_train(edited, 10.0), "gear stiffness").at(0).reasoning,
+              HasSubstr("their fractions, antenna.inertia or the stated stiffness is wrong."));
 }
 
 TEST(InertiaAgainstTheDish, FindsAnotherUnitAndARadius) {

@@ -1,4 +1,7 @@
 #include <cmath>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -44,6 +47,62 @@ TEST(WindClimate, ScalesWithTheSpeed) {
   for (std::size_t i = 0; i < slow.size(); ++i) {
     EXPECT_NEAR(fast[i].speed, 2.0 * slow[i].speed, 1e-12);
     EXPECT_NEAR(fast[i].weight, slow[i].weight, 1e-12);
+  }
+}
+
+// Of all winds, by the law itself.
+double share_above(const WeibullClimate& law, double speed) {
+  return std::exp(-std::pow(speed / law.scale, law.shape));
+}
+
+double mean_of(const WeibullClimate& law) {
+  return law.scale * std::exp(std::lgamma(1.0 + 1.0 / law.shape));
+}
+
+TEST(WindClimate, FindsTheLawOfAMeanAndOneExceedance) {
+  // 9 mile/h on the average, 2 % of the time more than 30 mile/h.
+  const double mile_per_hour = 0.44704;
+  const auto found = weibull_shapes(30.0 / 9.0, 0.02);
+  ASSERT_EQ(found.shapes.size(), 1U);
+  EXPECT_NEAR(found.shapes[0], 1.19173678, 1e-8);
+  const auto law = weibull_climate(9.0 * mile_per_hour, found.shapes[0], 60.0);
+  EXPECT_NEAR(law.scale, 9.55059536 * mile_per_hour, 1e-8);
+  EXPECT_NEAR(mean_of(law), 9.0 * mile_per_hour, 1e-9);
+  EXPECT_NEAR(share_above(law, 30.0 * mile_per_hour), 0.02, 1e-12);
+  EXPECT_NEAR(expectation(climate_speeds(law), 1.0), 9.0 * mile_per_hour, 1e-4);
+  for (const double shape : {0.9, 1.3, 2.0, 3.5, 8.0}) {
+    for (const double ratio : {0.2, 0.7, 1.0, 2.0, 2.5}) {
+      const double share = share_above(weibull_climate(1.0, shape, 10.0), ratio);
+      if (share < 1e-200) continue;
+      const auto again = weibull_shapes(ratio, share);
+      ASSERT_EQ(again.shapes.size(), 1U) << shape << ' ' << ratio;
+      EXPECT_NEAR(again.shapes[0], shape, 1e-6) << ratio;
+      EXPECT_LE(again.least_share, share);
+      EXPECT_GE(again.most_share, share);
+    }
+  }
+}
+
+TEST(WindClimate, FindsBothLawsOrNone) {
+  // A little above the mean: 1.2 times it most winds exceed at a shape of 1.70.
+  const auto both = weibull_shapes(1.2, 0.31);
+  ASSERT_EQ(both.shapes.size(), 2U);
+  EXPECT_LT(both.shapes[0], 1.7);
+  EXPECT_GT(both.shapes[1], 1.7);
+  for (const double shape : both.shapes) {
+    EXPECT_NEAR(share_above(weibull_climate(1.0, shape, 10.0), 1.2), 0.31, 1e-12);
+  }
+  EXPECT_NEAR(both.most_share, 0.32525957, 1e-8);
+  EXPECT_EQ(weibull_shapes(1.2, both.most_share * (1.0 - 1e-12)).shapes.size(), 1U);
+  EXPECT_THAT(weibull_shapes(1.2, 0.33).shapes, testing::IsEmpty());
+  const auto none = weibull_shapes(30.0 / 9.0, 0.08);
+  EXPECT_THAT(none.shapes, testing::IsEmpty());
+  EXPECT_NEAR(none.most_share, 0.05528453, 1e-8);
+  EXPECT_EQ(none.least_share, 0.0);
+  EXPECT_THAT(weibull_shapes(2.0, 1.0).shapes, testing::IsEmpty());
+  for (const auto& [ratio, share] : {std::pair{0.0, 0.1}, std::pair{2.0, 0.0}, std::pair{2.0, 1.1},
+                                     std::pair{std::nan(""), 0.1}}) {
+    EXPECT_THROW(weibull_shapes(ratio, share), InvalidInput);
   }
 }
 

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 #include <numbers>
 
 #include <fmt/format.h>
@@ -14,6 +15,7 @@
 #include <boresight/app/report/sky_units.hpp>
 #include <boresight/app/simulate/time_domain.hpp>
 #include <boresight/app/tune/engineer_units.hpp>
+#include <boresight/app/tune/gains_at_bounds.hpp>
 #include <boresight/plant/error.hpp>
 
 namespace boresight::app {
@@ -63,8 +65,9 @@ control::ControlLaw given_law(const Case& antenna, const CommissionOptions& opti
   return law;
 }
 
+// Its bounds are told in `bounds`.
 control::ControlLaw tuned_law(const Case& antenna, const PlantEnsemble& ensemble,
-                              const CommissionOptions& options) {
+                              const CommissionOptions& options, std::vector<std::string>& bounds) {
   TuneOptions tuning;
   tuning.structures = {options.structure};
   tuning.wind_speeds = {antenna.wind.design_speed.value};
@@ -82,6 +85,8 @@ control::ControlLaw tuned_law(const Case& antenna, const PlantEnsemble& ensemble
   for (const auto& row : section.laws) {
     if (row.tuned_for == TunedFor::robust && row.usable() &&
         row.wind_speed == antenna.wind.design_speed.value) {
+      bounds = gains_at_bounds({&row}, sample_time_of(section.problem.delay));
+      std::ranges::move(gain_trades({&row}), std::back_inserter(bounds));
       return row.design.tuning.law;
     }
   }
@@ -296,6 +301,7 @@ void conclude_plan(const CommissionReport& report, const Case& antenna,
                           *report.hunting / millidegree)
             : std::string("does not complete a run in still air")));
   }
+  sentences.insert(sentences.end(), report.bounds.begin(), report.bounds.end());
   const auto& first = report.plan.stages.front();
   const auto& last = report.plan.stages.back();
   const double sky = gear_ratio(antenna) * millidegree;
@@ -408,8 +414,9 @@ CommissionReport plan_commission(const Case& antenna, const PlantEnsemble& ensem
     report.no_plan = error.what();
   };
   try {
-    const control::ControlLaw target =
-        report.tuned ? tuned_law(antenna, ensemble, options) : given_law(antenna, options);
+    const control::ControlLaw target = report.tuned
+                                           ? tuned_law(antenna, ensemble, options, report.bounds)
+                                           : given_law(antenna, options);
     report.plan = design::plan_commissioning(problem, ensemble.members, found, target, report.move,
                                              report.options);
     for (auto& channel : report.comparisons) predict(report.plan, channel);

@@ -86,6 +86,8 @@ struct CommissionReport {
   /// tightest budget, infinite if it did not complete a run without wind; none where it is not, or
   /// the case has no [simulation].
   std::optional<double> hunting;
+  /// What is to be known of gains of a tuned law that ended at a bound of their search.
+  std::vector<std::string> bounds;
   std::vector<StageSheet> sheets;
   std::string before, after;
   std::vector<ChannelComparison> comparisons;

@@ -198,6 +198,67 @@ std::optional<RangeEntry> read_range(TableReader& table, const char* key, Kind k
   return entry;
 }
 
+// With every block of the usual ones.
+const control::LoopStructure& all_blocks() {
+  static const control::LoopStructure structure = control::LoopStructure::named("FULL+N+C");
+  return structure;
+}
+
+control::LoopStructure bounded(const control::LoopStructure& structure,
+                               const std::vector<GainBoundEntry>& bounds) {
+  if (bounds.empty()) return structure;
+  std::vector<control::LoopBlock> blocks = structure.blocks();
+  for (auto& block : blocks) {
+    for (auto& gain : block.gains) {
+      const auto bound = std::ranges::find(bounds, gain.symbol, &GainBoundEntry::symbol);
+      if (bound == bounds.end()) continue;
+      if (bound->lower) gain.lower = bound->lower->value;
+      if (bound->upper) gain.upper = bound->upper->value;
+    }
+  }
+  return {structure.name(), std::move(blocks)};
+}
+
+GainBoundEntry read_bound(TableReader& table, std::set<std::string>& symbols, const Case& antenna) {
+  std::vector<std::string> known;
+  for (const auto& gain : all_blocks().gains()) known.push_back(gain.symbol);
+  GainBoundEntry bound;
+  bound.symbol = table.choice("gain", known);
+  Kind kind = Kind::number;
+  control::GainDescription searched;
+  const control::LoopStructure following = all_blocks().with_bounds_for(driven_load(antenna));
+  for (const auto& block : following.blocks()) {
+    for (std::size_t i = 0; i < block.gains.size(); ++i) {
+      if (block.gains[i].symbol != bound.symbol) continue;
+      kind = gain_kind(block.path, block.kind, i);
+      searched = block.gains[i];
+    }
+  }
+  bound.lower = table.optional_quantity("lower", kind, Range::positive());
+  bound.upper = table.optional_quantity("upper", kind, Range::positive());
+  table.finish();
+  if (!symbols.insert(bound.symbol).second) {
+    table.refuse("gain", fmt::format("expected one [[tuning.bound]] of each gain, found another of "
+                                     "{}",
+                                     in_quotes(bound.symbol)));
+  }
+  if (!bound.lower && !bound.upper) {
+    table.refuse("upper", "expected lower, upper or both, found neither");
+  }
+  const double lower = bound.lower ? bound.lower->value : searched.lower;
+  const double upper = bound.upper ? bound.upper->value : searched.upper;
+  if (!(lower < upper)) {
+    table.refuse(
+        bound.upper ? "upper" : "lower",
+        fmt::format(
+            "expected an upper bound above the lower one, found {:g} and {:g} in SI "
+            "units, {}",
+            upper, lower,
+            bound.lower && bound.upper ? "both stated" : "the other as it follows the antenna"));
+  }
+  return bound;
+}
+
 }  // namespace
 
 Kind gain_kind(control::LoopPath path, control::BlockKind kind, std::size_t index) {
@@ -223,7 +284,8 @@ control::LoopStructure loop_structure(const Case& antenna, const std::string& na
     names.push_back(in_quotes(entry.structure.name()));
   }
   if (is_usual(name)) {
-    return control::LoopStructure::named(name).with_bounds_for(driven_load(antenna));
+    return bounded(control::LoopStructure::named(name).with_bounds_for(driven_load(antenna)),
+                   antenna.tuning.bounds);
   }
   std::vector<std::string_view> known(usual_structures().begin(), usual_structures().end());
   for (const auto& entry : antenna.loops) known.push_back(entry.structure.name());
@@ -237,21 +299,30 @@ control::LoopStructure loop_structure(const Case& antenna, const std::string& na
 void read_loops(TableReader& file, Case& antenna) {
   std::set<std::string> names;
   for (auto& table : file.tables("loop")) antenna.loops.push_back(read_loop(table, names));
-  if (auto table = file.optional_table("gains"))
-    antenna.present_gains = read_gains(*table, antenna);
-  if (auto table = file.optional_table("tuning")) {
-    if (table->has("structures")) {
-      antenna.tuning.structures = table->texts("structures");
-    } else {
-      table->optional_text("structures");  // a known key all the same
+  auto tuning = file.optional_table("tuning");
+  if (tuning) {
+    std::set<std::string> symbols;
+    for (auto& bound : tuning->tables("bound")) {
+      antenna.tuning.bounds.push_back(read_bound(bound, symbols, antenna));
     }
-    antenna.tuning.starts = table->optional_integer("starts", 1, 100000).value_or(0);
-    table->finish();
+  }
+  // Its structure has those bounds.
+  if (auto table = file.optional_table("gains")) {
+    antenna.present_gains = read_gains(*table, antenna);
+  }
+  if (tuning) {
+    if (tuning->has("structures")) {
+      antenna.tuning.structures = tuning->texts("structures");
+    } else {
+      tuning->optional_text("structures");  // a known key all the same
+    }
+    antenna.tuning.starts = tuning->optional_integer("starts", 1, 100000).value_or(0);
+    tuning->finish();
     for (const auto& name : antenna.tuning.structures) {
       try {
         loop_structure(antenna, name);
       } catch (const InvalidInput& error) {
-        table->refuse("structures", error.what());
+        tuning->refuse("structures", error.what());
       }
     }
   }

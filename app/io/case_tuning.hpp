@@ -65,10 +65,18 @@ struct EnsembleEntry {
   std::optional<RangeEntry> viscous_friction;
 };
 
+/// Bounds of the search for one gain of the usual structures, SI, in the place of those that follow
+/// the antenna.
+struct GainBoundEntry {
+  std::string symbol;
+  std::optional<Quantity> lower, upper;
+};
+
 /// What `boresight tune` works on, unless told otherwise.
 struct TuningEntry {
   std::vector<std::string> structures;  // empty: the usual ones
   long starts = 0;                      // 0: as the tuner has it
+  std::vector<GainBoundEntry> bounds;   // of every study that searches gains
 };
 
 }  // namespace boresight::app

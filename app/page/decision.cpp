@@ -4,11 +4,14 @@
 
 #include <fmt/format.h>
 
+#include <boresight/app/io/drive_numbers.hpp>
 #include <boresight/app/page/decision.hpp>
 #include <boresight/app/page/study_decision.hpp>
 #include <boresight/app/redesign/assumed_inputs.hpp>
 #include <boresight/app/redesign/matching_verdict.hpp>
 #include <boresight/app/redesign/tuning_verdict.hpp>
+#include <boresight/app/tune/gains_at_bounds.hpp>
+#include <boresight/app/tune/tune_verdict.hpp>
 
 namespace boresight::app {
 namespace {
@@ -171,6 +174,11 @@ std::vector<std::string> reservations(const Report& report) {
   Sentences sentences;
   if (report.command != "redesign") {
     if (auto text = resonance_warning(report.resonance); !text.empty()) sentences = {text};
+    const TunedLaw* law = report.tuned ? recommended_law(*report.tuned) : nullptr;
+    if (law == nullptr) return sentences;
+    std::ranges::move(gains_at_bounds({law}, sample_time_of(report.tuned->problem.delay)),
+                      std::back_inserter(sentences));
+    std::ranges::move(gain_trades({law}), std::back_inserter(sentences));
     return sentences;
   }
   if (report.tuning) sentences = tuning_reservations(report, *report.tuning);

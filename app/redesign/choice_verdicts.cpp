@@ -114,7 +114,7 @@ std::string guessed_shares_text(const Report& report, const TuningSection& secti
   }
   if (verdicts.empty() && !apart) return "";
   return fmt::format(
-      "Shares of wind and beam are guesses, and much hangs on all that are together: tuned again, "
+      "Shares of wind and beam are guesses, and much hangs on them together: tuned again, "
       "{} has {:.3f} mdeg with the case's own and {}{}. Modes from a structural model "
       "(modes_file) have the shares.",
       control::to_string(section.structure), guesses.front().beam_rms / millidegree,

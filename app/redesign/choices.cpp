@@ -167,13 +167,14 @@ std::vector<PlantChoice> plant_choices(const Case& antenna) {
   }
   for (const auto place : other_guesses) {
     if (!moves_guessed_shares(antenna.structure, place)) continue;
-    choices.add(std::string(to_string(place)),
-                fmt::format("guessed shares of wind and beam, of what the stated ones leave, {}",
-                            place == GuessedShares::as_inertia
-                                ? "in proportion to the inertia fractions"
-                                : "all at the heaviest of bull gear and modes, as of a dish on its "
-                                  "support"),
-                {.guessed_shares = place});
+    choices.add(
+        std::string(to_string(place)),
+        fmt::format("guessed shares of wind and beam, of what stated and negative ones leave, {}",
+                    place == GuessedShares::as_inertia
+                        ? "in proportion to the inertia fractions"
+                        : "all at the heaviest of bull gear and modes, as of a dish on its "
+                          "support"),
+        {.guessed_shares = place});
   }
   if (antenna.resonance_frequency) {
     const std::size_t first = choices.count();

@@ -46,7 +46,7 @@ bool is_unbounded_guess(const Quantity& quantity) {
 }
 
 bool is_guessed_share(const Quantity& share) {
-  return is_unbounded_guess(share) && share.value >= 0.0 && share.value <= 1.0;
+  return is_unbounded_guess(share) && share.value >= 0.0;
 }
 
 void place_guessed_shares(const StructureEntry& structure, GuessedShares where,

@@ -11,8 +11,8 @@ namespace boresight::app {
 /// Whether a number is assumed without saying how far it may be off.
 bool is_unbounded_guess(const Quantity& quantity);
 
-/// Whether a share of wind or beam is such a guess. One below 0 or above 1 is none: a part that
-/// turns the beam against itself.
+/// Whether a share of wind or beam is such a guess. One below 0 is none: a part that turns the beam
+/// against itself is known to. One above 1 is: it has what balances such parts.
 bool is_guessed_share(const Quantity& share);
 
 /// Where the guessed shares of wind and of beam are, of what the stated ones leave of 1: as the

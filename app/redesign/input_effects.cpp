@@ -83,15 +83,42 @@ std::vector<Input> linear_inputs(Case& c) {
   return inputs;
 }
 
+// A share of wind or beam, and of the inertia that the same body has.
+struct Share {
+  double* value;
+  double inertia_fraction;
+};
+
 // Bull gear's and modes' shares of wind and beam, each of which sum to 1.
-std::array<std::vector<double*>, 2> shares(StructureEntry& structure) {
-  std::array<std::vector<double*>, 2> groups{
-      {{&structure.bull_gear_wind_fraction.value}, {&structure.bull_gear_beam_weight.value}}};
+std::array<std::vector<Share>, 2> shares(StructureEntry& structure) {
+  double bull_gear = 1.0;
+  for (const auto& mode : structure.modes) bull_gear -= mode.inertia_fraction.value;
+  std::array<std::vector<Share>, 2> groups{{{{&structure.bull_gear_wind_fraction.value, bull_gear}},
+                                            {{&structure.bull_gear_beam_weight.value, bull_gear}}}};
   for (auto& mode : structure.modes) {
-    groups[0].push_back(&mode.wind_fraction.value);
-    groups[1].push_back(&mode.beam_weight.value);
+    groups[0].push_back({&mode.wind_fraction.value, mode.inertia_fraction.value});
+    groups[1].push_back({&mode.beam_weight.value, mode.inertia_fraction.value});
   }
   return groups;
+}
+
+// What a share gains the others lose in proportion to what they have; what it loses goes to their
+// inertias, as little of the wind acts on a light body that had little of it.
+void make_room(std::vector<Share>& group, const double* moved, double by) {
+  double others = 0.0, inertia = 0.0;
+  for (const Share& one : group) {
+    if (one.value == moved) continue;
+    others += *one.value;
+    inertia += one.inertia_fraction;
+  }
+  for (const Share& one : group) {
+    if (one.value == moved) continue;
+    if (by < 0.0 && inertia > 0.0) {
+      *one.value -= by * one.inertia_fraction / inertia;
+    } else if (others != 0.0) {  // else nothing can give way: a sum other than 1 is no antenna
+      *one.value *= (others - by) / others;
+    }
+  }
 }
 
 // Of the body whose share of wind or beam this is; none of any other number.
@@ -121,13 +148,14 @@ std::string mode_of(const StructureEntry& structure, const Quantity& share) {
 }
 
 // A guess of a share may as well be the inertia fraction, and as wrong the other way; by half of it
-// where it is that fraction.
+// where it is that fraction. One above 1, which balances a negative one, is as much as that makes
+// it.
 std::pair<double, double> guessed_range(double share, double inertia_fraction) {
   constexpr double half = 0.5;
   const double by = std::max(std::abs(share - inertia_fraction), half * share);
   constexpr double rounding = 1e-9;
   const double lower = share - by;
-  return {lower > rounding ? lower : 0.0, std::min(share + by, 1.0)};
+  return {lower > rounding ? lower : 0.0, std::max(std::min(share + by, 1.0), share)};
 }
 
 // How far a number is moved; by nothing where nothing says how far.
@@ -153,14 +181,8 @@ void move(Case& antenna, std::size_t which, double by) {
   double* moved = input.value;
   // A number that works converted, as of a wind mast, moves by the same share.
   if (input.stated->value != 0.0) by *= *moved / input.stated->value;
-  for (const auto& group : shares(antenna.structure)) {
-    if (std::ranges::find(group, moved) == group.end()) continue;
-    double others = 0.0;
-    for (const double* one : group) others += one == moved ? 0.0 : *one;
-    if (others == 0.0) continue;  // nothing can give way: a sum other than 1 is no antenna
-    for (double* one : group) {
-      if (one != moved) *one *= (others - by) / others;
-    }
+  for (auto& group : shares(antenna.structure)) {
+    if (std::ranges::find(group, moved, &Share::value) != group.end()) make_room(group, moved, by);
   }
   *moved += by;
 }

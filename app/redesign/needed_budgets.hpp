@@ -6,8 +6,8 @@
 
 namespace boresight::app {
 
-/// Whether a budget that is met up to that mean wind speed (m/s) is so in all winds that it is needed
-/// in; always where it states none.
+/// Whether a budget that is met up to that mean wind speed (m/s) is so in all winds that it is
+/// needed in; always where it states none.
 bool meets_need(const PointingBudget& budget, double reached);
 
 /// "need (Ka: 1.200 mdeg)".

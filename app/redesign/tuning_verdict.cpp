@@ -334,6 +334,7 @@ std::vector<std::string> tuning_reservations(const Report& report, const TuningS
   if (!keeps_goals_on_all(section)) sentences.push_back(robustness_text(section));
   sentences.push_back(needs_on_plants(section, true));
   if (report.time_domain) sentences.push_back(not_still(*report.time_domain));
+  sentences.push_back(bound_text(section));
   sentences.push_back(other_choices_text(report, section));
   sentences.push_back(other_attitudes_text(report, section));
   sentences.push_back(guessed_shares_text(report, section));

@@ -114,6 +114,28 @@ TEST(CaseTuning, BoundsFollowTheAntenna) {
   EXPECT_DOUBLE_EQ(gains[5].upper, 10.0);   // cs
 }
 
+TEST(CaseTuning, BoundsOfOnesOwnTakeTheirPlace) {
+  const std::string bound = "[[tuning.bound]]\ngain = 'kp'\n";
+  const Case antenna = with(bound + "upper = '120 1/min'\n");
+  for (const char* name : {"PI", "FULL+N+C"}) {
+    const auto structure = loop_structure(antenna, name);
+    const auto usual = loop_structure(with(""), name);
+    for (std::size_t i = 0; i < usual.gains().size(); ++i) {
+      const auto &own = structure.gains()[i], &other = usual.gains()[i];
+      EXPECT_EQ(own.lower, other.lower);
+      EXPECT_DOUBLE_EQ(own.upper, other.symbol == "kp" ? 2.0 : other.upper) << other.symbol;
+    }
+  }
+  EXPECT_THAT(refusal(bound), HasSubstr("expected lower, upper or both, found neither"));
+  EXPECT_THAT(refusal(bound + "upper = '0.001 1/s'\n"),
+              HasSubstr("tuning.bound[0].upper: expected an upper bound above the lower one, found "
+                        "0.001 and 0.03 in SI units, the other as it follows the antenna"));
+  EXPECT_THAT(refusal(bound + "upper = '2 1/s'\n" + bound + "lower = '1 1/s'\n"),
+              HasSubstr("expected one [[tuning.bound]] of each gain"));
+  EXPECT_THAT(refusal("[[tuning.bound]]\ngain = 'kq'\nupper = '2'\n"),
+              HasSubstr("tuning.bound[0].gain: expected one of"));
+}
+
 TEST(CaseTuning, ReadsThePresentGainsInTheEngineersUnits) {
   const Case antenna = with(tables());
   ASSERT_TRUE(antenna.present_gains.has_value());
@@ -186,8 +208,9 @@ TEST(CaseTuning, RefusesEmptyRangesAndClimates) {
               HasSubstr("ensemble.structure_frequency.upper: expected at least the lower end "
                         "'95 %', found '90 %'"));
   EXPECT_THAT(refusal("speed = \"12 m/s\"", "speed = \"12 m/s\"\nscale = \"3 m/s\""),
-              HasSubstr("wind.climate[1].speed: expected either a speed, or scale, shape and "
-                        "highest of a Weibull law, found both"));
+              HasSubstr("wind.climate[1].speed: expected either a speed, or of a Weibull law scale "
+                        "and shape, or its mean, exceeded and exceeded_share, found speed and "
+                        "scale"));
   EXPECT_THAT(refusal("shape = \"2\"\n", ""),
               HasSubstr("wind.climate[0].shape: expected scale, shape and highest together"));
   EXPECT_THAT(refusal("torque_coefficient = \"0.20\"", "azimuth = \"10 deg\""),

@@ -61,6 +61,20 @@ TEST(GuessedShares, LeaveAloneWhatIsNoGuessAndSumToOne) {
   EXPECT_EQ(alone.modes[1].wind_fraction, 0.0);
 }
 
+// A subreflector's support turns the beam against itself, and the dish has what balances it.
+TEST(GuessedShares, MoveWhatBalancesANegativeOne) {
+  Case antenna = guessing_antenna();
+  auto& modes = antenna.structure.modes;
+  modes[2].beam_weight.value = -0.8;
+  modes[0].beam_weight.value = 1.45;  // with 0.05, 0.25 and 0.05 on the others
+  const auto alone = placed(antenna, GuessedShares::all_at_heaviest);
+  EXPECT_NEAR(alone.modes[0].beam_weight, 1.8, 1e-12);
+  EXPECT_EQ(alone.modes[1].beam_weight, 0.0);
+  EXPECT_EQ(alone.modes[2].beam_weight, -0.8);
+  const auto spread = placed(antenna, GuessedShares::as_inertia);
+  EXPECT_NEAR(spread.modes[0].beam_weight, 1.8 * 0.62 / 0.93, 1e-12);
+}
+
 TEST(GuessedShares, AreChoicesOfTheRedesign) {
   EXPECT_THAT(
       share_choices(guessing_antenna()),

@@ -118,6 +118,32 @@ TEST(InputEffects, KeepTheSumOfShares) {
       1e-5 * design.beam_rms);
 }
 
+// What the dish loses of the wind the light parts do not gain.
+TEST(InputEffects, GiveWhatAShareLosesToTheOthersInertias) {
+  const Case antenna = read_case(case_path("dss14-70m"));
+  const design::Design design = tuned(antenna);
+  ASSERT_TRUE(design.usable());
+  const auto effects =
+      input_effects(antenna, design.tuning.law, make_goals(antenna), design.beam_rms, all, 2);
+  const InputEffect& wind = effect_of(effects, "structure.mode[0].wind_fraction");
+  Case lighter = antenna;
+  auto& structure = lighter.structure;
+  const double lost = structure.modes[0].wind_fraction.value - wind.range.value().first;
+  ASSERT_GT(lost, 0.1);
+  const double others = 1.0 - structure.modes[0].inertia_fraction.value;
+  double bull_gear = 1.0;
+  for (auto& mode : structure.modes) {
+    bull_gear -= mode.inertia_fraction.value;
+    mode.wind_fraction.value += lost * mode.inertia_fraction.value / others;
+  }
+  structure.bull_gear_wind_fraction.value += lost * bull_gear / others;
+  structure.modes[0].wind_fraction.value = wind.range.value().first;
+  EXPECT_NEAR(
+      wind.low_rms,
+      design::assess(make_problem(lighter), design.tuning.law, make_goals(lighter)).beam_rms,
+      1e-5 * design.beam_rms);
+}
+
 TEST(InputEffects, MoveGuessedSharesToTheInertia) {
   const Case antenna =
       parse_case(EditedCase()

@@ -48,10 +48,12 @@ TEST(RedesignBounds, SayWhatABoundOnlyStopsAndWhatNoSamplingReaches) {
   section.problem.delay = 0.03;
   EXPECT_THAT(
       concluded(),
-      Contains(AllOf(HasSubstr("own does). A controller that samples every 0.02 s"),
-                     HasSubstr("structure PI-0 in the place of PI"),
-                     HasSubstr("PI with lag has kp at its bound because its rate loop hardly acts"),
-                     EndsWith("0.5045 mdeg, +0.9 %."))));
+      Contains(AllOf(
+          HasSubstr("own does). A controller that samples every 0.02 s"),
+          HasSubstr("structure PI-0 in the place of PI"),
+          HasSubstr("PI with lag has kp at its bound because its rate loop hardly acts"),
+          EndsWith("0.5045 mdeg, +0.9 %. A [[tuning.bound]] of kp has the search look for laws "
+                   "whose rate loop acts."))));
 }
 
 TEST(RedesignBounds, SayThatThePositionGainsMayBeNoLimitOfAMatchingStudy) {

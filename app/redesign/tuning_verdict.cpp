@@ -99,7 +99,7 @@ std::string bound_text(const TuningSection& section) {
   if (names.empty()) return "";
   std::string text = fmt::format(
       "The search ended at its bound for: {}. A gain there is no optimum; what lies beyond was not "
-      "looked at (`boresight tune` of a [[loop]] with bounds of its own does).",
+      "looked at (bounds of a [[tuning.bound]], or of a [[loop]], do).",
       fmt::join(names, ", "));
   const SearchedLaw law{section.structure.name(), &section.design.tuning,
                         sample_time_of(section.problem.delay)};

@@ -105,8 +105,7 @@ Document time_domain_table(const EvaluateSection& section) {
          wrapped(
              "hunting: amplitude of the beam (mdeg) without wind or noise, of which one below the "
              "encoder's step hangs on how the run begins; reversal error: the beam's largest "
-             "(mdeg) "
-             "after turning round at the tracking rate.",
+             "(mdeg) after turning round at the tracking rate.",
              "  ");
 }
 

@@ -63,8 +63,8 @@ Document motors_part(const MatchSection& section) {
              fmt::format(
                  "R: motors over gear train and antenna. hydr., zeta: the hydraulic mode, the "
                  "lowest that moves the oil, with the structure bending. deg/s2: at the sky, {} at "
-                 "{:.3g} "
-                 "deg/s, the case's slew rate or four fifths of what supply and valve hold. slew: "
+                 "{:.3g} deg/s, the case's slew rate or four fifths of what supply and valve hold. "
+                 "slew: "
                  "{:.3g} deg at that rate and acceleration. rule zeta: 1/2 sqrt(J_L/J_m). of best "
                  "a: acceleration for given torque over the most at any gear ratio.",
                  section.slew_by_simulation

@@ -161,8 +161,8 @@ std::vector<std::string> gains_at_bounds(const std::vector<SearchedLaw>& laws) {
   std::vector<std::string> sentences;
   for (const auto& bound : reached_bounds(laws)) {
     std::string text = fmt::format(
-        "The search ended at {}, with {}: no optimum, as what lies beyond was not looked at (a "
-        "[[loop]] with bounds of its own does).",
+        "The search ended at {}, with {}: no optimum, as what lies beyond was not looked at "
+        "(bounds of a [[tuning.bound]], or of a [[loop]], do).",
         bound.text, fmt::join(bound.laws, ", "));
     if (const std::string more = beyond_sampling(bound); !more.empty()) text += " " + more;
     sentences.push_back(std::move(text));

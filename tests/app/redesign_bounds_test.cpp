@@ -49,7 +49,7 @@ TEST(RedesignBounds, SayWhatABoundOnlyStopsAndWhatNoSamplingReaches) {
   EXPECT_THAT(
       concluded(),
       Contains(AllOf(
-          HasSubstr("own does). A controller that samples every 0.02 s"),
+          HasSubstr("[[loop]], do). A controller that samples every 0.02 s"),
           HasSubstr("structure PI-0 in the place of PI"),
           HasSubstr("PI with lag has kp at its bound because its rate loop hardly acts"),
           EndsWith("0.5045 mdeg, +0.9 %. A [[tuning.bound]] of kp has the search look for laws "

@@ -140,10 +140,11 @@ TEST(TuneConclusions, NameABoundOnceWithTheLawsThatEndThere) {
   const auto sentences = conclude(section);
   EXPECT_THAT(
       sentences,
-      Contains("The search ended at the upper bound of the compliance, cs = 0.1 "
-               "rad/(N.m), with PI+C (nominal, 12 m/s), PI+C (robust, 12 m/s): no "
-               "optimum, as what lies beyond was not looked at (a [[loop]] with bounds of its own "
-               "does)."));
+      Contains(
+          "The search ended at the upper bound of the compliance, cs = 0.1 "
+          "rad/(N.m), with PI+C (nominal, 12 m/s), PI+C (robust, 12 m/s): no "
+          "optimum, as what lies beyond was not looked at (bounds of a [[tuning.bound]], or of "
+          "a [[loop]], do)."));
   const std::string text = to_text(document_of(section));
   EXPECT_EQ(count(text, "The search ended at"), 1);
   // Without present gains there is no before.
@@ -169,8 +170,8 @@ TEST(GainsAtBounds, LeaveOutALagThatNoSampledControllerNeeds) {
   ASSERT_EQ(told.size(), 1U);
   EXPECT_EQ(told[0],
             "The search ended at the upper bound of the rate lag corner, wp = 300 rad/s, with PI "
-            "(robust), DPF+C (robust): no optimum, as what lies beyond was not looked at (a "
-            "[[loop]] with bounds of its own does). A "
+            "(robust), DPF+C (robust): no optimum, as what lies beyond was not looked at "
+            "(bounds of a [[tuning.bound]], or of a [[loop]], do). A "
             "controller that samples every 0.02 s does nothing above 157 rad/s, and so such a lag "
             "does nothing in it: leave it out (structure PI-0 in the place of PI; a [[loop]] "
             "without it in the place of DPF+C).");

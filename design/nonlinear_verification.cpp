@@ -1,7 +1,10 @@
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <span>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -217,15 +220,16 @@ std::optional<double> frequency_of(const Swing& swing, double interval) {
   return static_cast<double>(passages - 1) / (interval * static_cast<double>(last - first));
 }
 
-HuntingResult hunt(const SimulatedLoop& loop, const NonlinearVerificationOptions& options,
-                   double rate) {
-  constexpr double nudge = 2.0 * millidegree;
+// Steps at the start (rad at the sky): a loop may hunt only once it was disturbed.
+constexpr std::array<double, hunting_starts> nudges{2.0 * millidegree, -1.0 * millidegree,
+                                                    8.0 * millidegree};
+
+HuntingResult watch(const SimulatedLoop& loop, const NonlinearVerificationOptions& options,
+                    double rate, double nudge, double duration) {
   const double gear = loop.gear_ratio;
   HuntingResult result;
   result.rate = rate;
-  const Index samples =
-      whole_samples(options.settling + options.hunting_duration, loop.sample_time);
-  // Moved a little at the start: a loop may hunt only once it was disturbed.
+  const Index samples = whole_samples(options.settling + duration, loop.sample_time);
   const auto target = [&](double t) {
     return control::CommandSample{gear * (rate * t + (t > 0.0 ? nudge : 0.0)), gear * rate, 0.0};
   };
@@ -235,7 +239,7 @@ HuntingResult hunt(const SimulatedLoop& loop, const NonlinearVerificationOptions
   result.message = run.message;
   result.encoder_amplitude = result.beam_amplitude = result.persistence = nan;
   if (run.status != RunStatus::complete) return result;
-  const Index half = whole_samples(0.5 * options.hunting_duration, loop.sample_time);
+  const Index half = whole_samples(0.5 * duration, loop.sample_time);
   const Index quarter = half / 2;
   const Swing encoder = swing_of(run.encoder_error.tail(half));
   result.encoder_amplitude = encoder.amplitude;
@@ -247,7 +251,27 @@ HuntingResult hunt(const SimulatedLoop& loop, const NonlinearVerificationOptions
   result.frequency = frequency_of(encoder, loop.sample_time);
   const double least = std::max(0.5 * loop.encoder_resolution / gear, 1e-3 * millidegree);
   result.limit_cycle = encoder.amplitude > least && result.persistence > 0.8;
+  result.hunting = result.limit_cycle ? 1 : 0;
   return result;
+}
+
+HuntingResult hunt(const SimulatedLoop& loop, const NonlinearVerificationOptions& options,
+                   double rate, double nudge) {
+  const HuntingResult seen = watch(loop, options, rate, nudge, options.hunting_duration);
+  if (!seen.limit_cycle) return seen;
+  return watch(loop, options, rate, nudge, hunting_confirmation * options.hunting_duration);
+}
+
+// Of the runs at one rate; the first of those alike.
+HuntingResult worst_of(std::span<const HuntingResult> runs) {
+  const auto rank = [](const HuntingResult& run) {
+    if (run.status != RunStatus::complete) return std::pair(2, 0.0);
+    return run.limit_cycle ? std::pair(1, run.beam_amplitude) : std::pair(0, run.encoder_amplitude);
+  };
+  HuntingResult worst = *std::ranges::max_element(runs, {}, rank);
+  worst.starts = static_cast<int>(runs.size());
+  worst.hunting = static_cast<int>(std::ranges::count_if(runs, &HuntingResult::limit_cycle));
+  return worst;
 }
 
 ReversalResult reverse(const SimulatedLoop& loop, const NonlinearVerificationOptions& options) {
@@ -399,13 +423,13 @@ NonlinearVerification verify_in_time(const TrackingProblem& problem, const Simul
     rates.push_back(options.tracking_rate);
     result.reversal.emplace();
   }
-  result.hunting.resize(rates.size());
+  std::vector<HuntingResult> hunting(rates.size() * nudges.size());
   if (options.slew_distance != 0.0) result.slew.emplace();
   // Others first: the runs in wind are many and even.
-  const std::size_t reversal = rates.size(), slewing = reversal + 1, first_wind = slewing + 1;
+  const std::size_t reversal = hunting.size(), slewing = reversal + 1, first_wind = slewing + 1;
   for_each_index(first_wind + wind.jobs(), options.threads, [&](std::size_t job) {
-    if (job < rates.size()) {
-      result.hunting[job] = hunt(loop, options, rates[job]);
+    if (job < hunting.size()) {
+      hunting[job] = hunt(loop, options, rates[job / nudges.size()], nudges[job % nudges.size()]);
     } else if (job == reversal) {
       if (result.reversal) *result.reversal = reverse(loop, options);
     } else if (job == slewing) {
@@ -414,6 +438,10 @@ NonlinearVerification verify_in_time(const TrackingProblem& problem, const Simul
       wind.run(job - first_wind);
     }
   });
+  for (std::size_t i = 0; i < rates.size(); ++i) {
+    result.hunting.push_back(
+        worst_of(std::span(hunting).subspan(i * nudges.size(), nudges.size())));
+  }
   result.wind = wind.result();
   return result;
 }

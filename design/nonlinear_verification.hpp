@@ -18,7 +18,7 @@ struct NonlinearVerificationOptions {
   double settling = 20.0;               // s left out at the start of every run
   double tracking_rate = 0.0;           // rad/s, in wind and for limit cycles: sidereal
   bool explain = true;                  // repeat the runs in wind with each influence off
-  double hunting_duration = 200.0;      // s, after settling
+  double hunting_duration = 200.0;      // s, after settling; hunting_confirmation
   double reversal_leg = 20.0;           // s of each way of the slow triangle
   double slew_distance = 0.0;           // rad; 0: no slew
   /// Of the command preprocessor.
@@ -58,11 +58,24 @@ struct WindResult {
   double at_command_limit = 0.0;  // share of samples
 };
 
-/// What the loop does by itself at a steady rate, without wind or noise.
+/// How many runs look for a limit cycle at each rate, each moved by another step at its start:
+/// whether a loop with stiction comes to rest or swings hangs on where it stops.
+inline constexpr int hunting_starts = 3;
+/// A cycle that is seen is looked at again for so many times as long: against stiction an
+/// integrator swings for minutes, ever less.
+inline constexpr double hunting_confirmation = 3.0;
+
+/// What the loop does by itself at a steady rate, without wind or noise: of its runs
+/// (hunting_starts) one that did not complete, else the limit cycle of the largest beam amplitude,
+/// else the run of the largest encoder amplitude.
 struct HuntingResult {
   double rate = 0.0;  // rad/s at the sky
   RunStatus status = RunStatus::complete;
   std::string message;
+  int starts = 0;   // runs that were looked at; 0: not told
+  int hunting = 0;  // of these, with a limit cycle
+  /// Whether some of its runs came to rest while others did not.
+  bool some_only() const { return limit_cycle && hunting < starts; }
   /// Half of peak to peak of the true angles in the second half of the run, a straight line taken
   /// off (rad).
   double encoder_amplitude = 0.0;
@@ -71,8 +84,8 @@ struct HuntingResult {
   std::optional<double> frequency;
   /// Over the same in the quarter before: 1 for a limit cycle, less for one that dies out.
   double persistence = 0.0;
-  /// The encoder's amplitude is above half its resolution (or 1e-3 mdeg without one) and lasts
-  /// (persistence above 0.8).
+  /// In one run at least the encoder's amplitude is above half its resolution (or 1e-3 mdeg without
+  /// one) and lasts (persistence above 0.8).
   bool limit_cycle = false;
 };
 

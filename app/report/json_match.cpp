@@ -56,6 +56,8 @@ Json time_json(const std::optional<MatchTimeDomain>& run) {
     hunting.push_back({{"rate_mdeg_per_s", mdeg(one.rate)},
                        {"status", design::to_string(one.status)},
                        {"limit_cycle", one.limit_cycle},
+                       {"starts", one.starts},
+                       {"starts_hunting", one.hunting},
                        {"encoder_amplitude_mdeg", mdeg(one.encoder_amplitude)},
                        {"beam_amplitude_mdeg", mdeg(one.beam_amplitude)},
                        {"frequency_Hz", one.frequency ? number(*one.frequency) : Json(nullptr)}});

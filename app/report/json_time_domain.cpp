@@ -56,6 +56,8 @@ Json hunting_json(const design::HuntingResult& hunting) {
           {"status", design::to_string(hunting.status)},
           {"message", message(hunting.message)},
           {"limit_cycle", hunting.limit_cycle},
+          {"starts", hunting.starts},
+          {"starts_hunting", hunting.hunting},
           {"encoder_amplitude_mdeg", mdeg(hunting.encoder_amplitude)},
           {"beam_amplitude_mdeg", mdeg(hunting.beam_amplitude)},
           {"frequency_Hz", optional_number(hunting.frequency)},

@@ -5,6 +5,7 @@
 #include <boresight/app/report/json_tune.hpp>
 #include <boresight/app/report/sky_units.hpp>
 #include <boresight/app/report/wind_mast.hpp>
+#include <boresight/app/tune/tune_verdict.hpp>
 
 namespace boresight::app {
 namespace {
@@ -101,6 +102,7 @@ Json law_json(const TuneSection& section, const TunedLaw& row) {
           {"status", status_of(row)},
           {"goals_met", row.goals_met},
           {"interrupted", tuning.interrupted},
+          {"recommended", recommended_law(section, row.wind_speed) == &row},
           {"beam_rms_mdeg", number(row.beam_rms / millidegree)},
           {"climate_beam_rms_mdeg", optional_number(row.climate_rms, millidegree)},
           {"bands", std::move(bands)},

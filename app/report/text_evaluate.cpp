@@ -8,6 +8,7 @@
 #include <boresight/app/io/wording.hpp>
 #include <boresight/app/redesign/resonating_mode.hpp>
 #include <boresight/app/report/evaluate_report.hpp>
+#include <boresight/app/report/hunting_wording.hpp>
 #include <boresight/app/report/loss_wording.hpp>
 #include <boresight/app/report/sky_units.hpp>
 #include <boresight/app/report/wind_mast.hpp>
@@ -58,14 +59,6 @@ std::string simulated_text(const design::NonlinearVerification& run) {
              : std::string(design::to_string(run.wind.status));
 }
 
-// "+-0.3500" or "none".
-std::string hunting_text(const design::HuntingResult& hunting) {
-  if (hunting.status != design::RunStatus::complete) {
-    return std::string(design::to_string(hunting.status));
-  }
-  return hunting.limit_cycle ? "+-" + mdeg(hunting.beam_amplitude) : "none";
-}
-
 Document time_domain_table(const EvaluateSection& section) {
   if (!section.time_domain) return {};
   Rows rows{{"proposal", "loops", "linear mdeg", "simulated", "factor", "hunting at rest",
@@ -76,7 +69,7 @@ Document time_domain_table(const EvaluateSection& section) {
       const auto& run = *law.time_domain;
       std::vector<std::string> cells{candidate.name, law.structure, mdeg(law.design.beam_rms),
                                      simulated_text(run), fixed(law.nonlinear_factor(), 3)};
-      for (const auto& hunting : run.hunting) cells.push_back(hunting_text(hunting));
+      for (const auto& hunting : run.hunting) cells.push_back(hunting_cell(hunting));
       if (run.reversal) {
         cells.resize(7, "-");
         cells.push_back(run.reversal->status == design::RunStatus::complete
@@ -102,11 +95,10 @@ Document time_domain_table(const EvaluateSection& section) {
                      section.time_domain->seeds.front()),
                  "  ") +
          "\n" + table(rows, "ll") +
-         wrapped(
-             "hunting: amplitude of the beam (mdeg) without wind or noise, of which one below the "
-             "encoder's step hangs on how the run begins; reversal error: the beam's largest "
-             "(mdeg) after turning round at the tracking rate.",
-             "  ");
+         wrapped(hunting_legend() +
+                     "; reversal error: the beam's largest (mdeg) after turning round at "
+                     "the tracking rate.",
+                 "  ");
 }
 
 // Whose hydraulic modes tell little of the oil, and which tell more.

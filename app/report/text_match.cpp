@@ -5,6 +5,7 @@
 
 #include <boresight/app/document/document.hpp>
 #include <boresight/app/redesign/resonating_mode.hpp>
+#include <boresight/app/report/hunting_wording.hpp>
 #include <boresight/app/report/match_report.hpp>
 #include <boresight/app/report/sky_units.hpp>
 
@@ -189,9 +190,7 @@ Document margins_part(const MatchSection& section) {
 
 std::string hunting_text(const std::vector<design::HuntingResult>& hunting, std::size_t which) {
   if (which >= hunting.size()) return "-";
-  const auto& one = hunting[which];
-  if (one.status != design::RunStatus::complete) return std::string(to_string(one.status));
-  return one.limit_cycle ? fmt::format("{:.3f}", one.beam_amplitude / millidegree) : "none";
+  return hunting_cell(hunting[which]);
 }
 
 Document time_part(const MatchSection& section) {
@@ -212,12 +211,10 @@ Document time_part(const MatchSection& section) {
   }
   if (rows.size() == 1) return {};
   return "\n" + table(rows, "lrrrrrr") +
-         wrapped(
-             fmt::format("On the nonlinear antenna in still air, mdeg: amplitudes of the beam's "
-                         "limit cycles, of which one below the encoder's step hangs on how the run "
-                         "begins, and the largest error after reversals of {:.4g} mdeg/s.",
-                         section.tracking_rate / millidegree),
-             "  ");
+         wrapped(fmt::format("On the nonlinear antenna. Cycles by {}; then the largest error after "
+                             "reversals of {:.4g} mdeg/s, mdeg.",
+                             hunting_legend(), section.tracking_rate / millidegree),
+                 "  ");
 }
 
 Document variants_part(const MatchSection& section) {

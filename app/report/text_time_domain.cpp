@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <boresight/app/document/document_text.hpp>
+#include <boresight/app/report/hunting_wording.hpp>
 #include <boresight/app/report/influences.hpp>
 #include <boresight/app/report/sky_units.hpp>
 #include <boresight/app/report/text_report.hpp>
@@ -92,12 +93,18 @@ Document hunting_part(const TimeDomainSection& section) {
     }
     const std::string cycle =
         hunting.limit_cycle
-            ? fmt::format("a limit cycle of +-{} mdeg at the encoder, +-{} mdeg at the beam, {}",
-                          mdeg(hunting.encoder_amplitude), mdeg(hunting.beam_amplitude),
-                          hunting.frequency ? fmt::format("{:.3g} Hz", *hunting.frequency)
-                                            : std::string("of no steady period"))
-            : fmt::format("no limit cycle above the encoder's resolution (+-{} mdeg left)",
-                          mdeg(hunting.encoder_amplitude));
+            ? fmt::format(
+                  "a limit cycle of +-{} mdeg at the encoder, +-{} mdeg at the beam, {}, in "
+                  "{} of {} runs{}",
+                  mdeg(hunting.encoder_amplitude), mdeg(hunting.beam_amplitude),
+                  hunting.frequency ? fmt::format("{:.3g} Hz", *hunting.frequency)
+                                    : std::string("of no steady period"),
+                  hunting.hunting, hunting.starts,
+                  hunting.some_only() ? ", each moved by another step at its start" : "")
+            : fmt::format(
+                  "no limit cycle above the encoder's resolution that lasts, in {} runs (+-{} mdeg "
+                  "left)",
+                  hunting.starts, mdeg(hunting.encoder_amplitude));
     text += wrapped(fmt::format("{}, no wind: {}.", where, cycle), "  ", "  ");
   }
   return text;
@@ -187,10 +194,7 @@ Document candidates_part(const TimeDomainSection& section) {
     const auto amplitude = [&](bool at_rest) -> std::string {
       for (const auto& hunting : result.hunting) {
         if ((hunting.rate == 0.0) != at_rest) continue;
-        if (hunting.status != RunStatus::complete) {
-          return std::string(design::to_string(hunting.status));
-        }
-        return hunting.limit_cycle ? "+-" + mdeg(hunting.beam_amplitude) : "none";
+        return hunting_cell(hunting);
       }
       return "-";
     };

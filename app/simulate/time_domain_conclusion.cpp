@@ -52,8 +52,15 @@ std::string conclude_wind(const TimeDomainSection& section) {
     text += fmt::format("; {} alone is worth {:.3f}", cause_of(most->influence),
                         most->difference / millidegree);
   }
-  const double excess = 100.0 * (wind.beam_rms / wind.predicted_rms - 1.0);
+  const double factor = wind.beam_rms / wind.predicted_rms;
+  const double excess = 100.0 * (factor - 1.0);
   if (excess < 0.5) return text + ".";
+  if (factor > 1.5) {
+    return text + fmt::format(
+                      ". The simulated rms is {:.2f} times the linear one: a budget that the "
+                      "linear figure meets by less than that factor is not met.",
+                      factor);
+  }
   return text + fmt::format(
                     ". A budget that the linear figure meets with less than {:.0f} % to spare is "
                     "not met.",
@@ -144,7 +151,8 @@ std::string hunting_text(const design::HuntingResult& hunting, double error) {
   }
   if (!hunting.limit_cycle) return "";
   return fmt::format(
-      " {} it hunts by +-{:.2f} mdeg{}.", where, hunting.beam_amplitude / millidegree,
+      " {} it hunts by +-{:.2f} mdeg{}{}.", where, hunting.beam_amplitude / millidegree,
+      hunting.some_only() ? fmt::format(" in {} of {} runs", hunting.hunting, hunting.starts) : "",
       hunts_beyond({hunting}, error)
           ? fmt::format(", beyond the tightest budget of {:.3f}", error / millidegree)
           : "");

@@ -37,7 +37,7 @@ TUNED = "tuned"
 # A number's key ends in one of these; only whole counts have none.
 UNITS = ("1", "kg_m2", "Pa", "N_m", "N_m_per_rad", "N_m_s_per_rad", "Hz", "s", "per_s", "rad_per_s",
          "rad_per_s_V", "rad_per_s_N_m", "rad_per_N_m", "m_per_s", "deg", "mdeg", "dB", "si")
-COUNTS = {"seed", "draws", "degrees_of_freedom", "starts", "starts_at_optimum", "evaluations",
+COUNTS = {"seed", "draws", "degrees_of_freedom", "starts", "starts_at_optimum", "starts_hunting", "evaluations",
           "seeds_within_1_percent", "checked_numbers", "bytes", "rows", "first_sample", "samples",
           "events", "counted", "outliers", "iterations", "rank", "varied", "motor", "harmonic",
           "ensemble_members", "rounds", "warm_starts", "even_stretches", "after_grid_point", "stable", "stable_members", "within_goals"}

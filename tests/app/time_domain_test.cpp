@@ -1,6 +1,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <regex>
 #include <string>
 #include <vector>
 
@@ -17,6 +18,7 @@
 namespace boresight::app {
 namespace {
 
+using testing::AllOf;
 using testing::HasSubstr;
 using testing::Not;
 constexpr double degree = std::numbers::pi / 180.0;
@@ -48,9 +50,12 @@ TimeDomainSection section() {
   rest.beam_amplitude = 0.295 * mdeg;
   rest.frequency = 0.0612;
   rest.persistence = 0.97;
+  rest.starts = 3;
+  rest.hunting = 2;
   design::HuntingResult moving;
   moving.rate = 4.17 * mdeg;
   moving.encoder_amplitude = 0.007 * mdeg;
+  moving.starts = 3;
   section.result.hunting = {rest, moving};
   design::ReversalResult reversal;
   reversal.encoder_error = 4.98 * mdeg;
@@ -77,9 +82,11 @@ TEST(TimeDomain, TextSaysWhatTheNumbersAre) {
   EXPECT_THAT(text, HasSubstr("-0.0100"));
   EXPECT_THAT(text, HasSubstr("+0.0800      0.5200"));
   EXPECT_THAT(text, HasSubstr("At rest, no wind: a limit cycle of +-0.2900 mdeg at the encoder"));
-  EXPECT_THAT(text, HasSubstr("0.0612 Hz"));
-  EXPECT_THAT(text,
-              HasSubstr("no limit cycle above the encoder's resolution (+-0.0070 mdeg left)"));
+  const std::string flat = std::regex_replace(text, std::regex("\\s+"), " ");
+  EXPECT_THAT(flat,
+              HasSubstr("0.0612 Hz, in 2 of 3 runs, each moved by another step at its start."));
+  EXPECT_THAT(flat, HasSubstr("no limit cycle above the encoder's resolution that lasts, in 3 runs "
+                              "(+-0.0070 mdeg left)"));
   EXPECT_THAT(text, HasSubstr("error up to 4.9800 mdeg"));
   EXPECT_THAT(text, HasSubstr("what the drive can do of 0.25 deg/s and 0.2 deg/s2"));
   EXPECT_THAT(text, HasSubstr("24.16 s after the end of the command"));
@@ -201,6 +208,12 @@ TEST(TimeDomain, ConcludesWhatTheLinearFigureIsWorth) {
   throttled.result.wind.influences.push_back(orifice);
   EXPECT_THAT(conclude(throttled),
               HasSubstr("; the flow through the valve's orifices alone is worth 0.300."));
+  auto twice = section();
+  twice.result.wind.beam_rms = 1.06 * mdeg;
+  EXPECT_THAT(conclude(twice),
+              AllOf(HasSubstr("The simulated rms is 2.12 times the linear one: a budget that the "
+                              "linear figure meets by less than that factor is not met."),
+                    Not(HasSubstr("to spare"))));
   auto calm = section();
   calm.result.wind.beam_rms = 0.49 * mdeg;
   EXPECT_THAT(conclude(calm), Not(HasSubstr("to spare")));

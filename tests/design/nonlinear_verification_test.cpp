@@ -72,6 +72,9 @@ TEST(NonlinearVerification, CoulombFrictionAndIntegralActionHuntAsTheDescribingF
       ASSERT_EQ(result.hunting.size(), 1U);
       const auto& hunting = result.hunting.front();
       EXPECT_TRUE(hunting.limit_cycle) << corner;
+      EXPECT_EQ(hunting.starts, hunting_starts);
+      EXPECT_EQ(hunting.hunting, hunting_starts) << "the cycle draws in all";
+      EXPECT_FALSE(hunting.some_only());
       EXPECT_NEAR(hunting.persistence, 1.0, 0.1);
       EXPECT_NEAR(hunting.encoder_amplitude * problem.gear_ratio / predicted.encoder_amplitude, 1.0,
                   0.10)
@@ -92,6 +95,7 @@ TEST(NonlinearVerification, WithoutFrictionNothingHunts) {
   for (const auto& hunting : result.hunting) {
     EXPECT_EQ(hunting.status, RunStatus::complete);
     EXPECT_FALSE(hunting.limit_cycle) << hunting.encoder_amplitude / mdeg;
+    EXPECT_EQ(hunting.hunting, 0);
     EXPECT_LT(hunting.encoder_amplitude, 1e-3 * mdeg);
   }
   ASSERT_TRUE(result.reversal);

@@ -1,0 +1,28 @@
+#include <fmt/format.h>
+
+#include <boresight/app/report/hunting_wording.hpp>
+#include <boresight/app/report/sky_units.hpp>
+
+namespace boresight::app {
+
+std::string hunting_cell(const design::HuntingResult& hunting) {
+  if (hunting.status != design::RunStatus::complete) {
+    return std::string(design::to_string(hunting.status));
+  }
+  if (!hunting.limit_cycle) return "none";
+  std::string cell = fmt::format("+-{:.4f}", hunting.beam_amplitude / millidegree);
+  if (hunting.some_only()) {
+    cell += fmt::format(" ({}/{})", hunting.hunting, hunting.starts);
+  }
+  return cell;
+}
+
+std::string hunting_legend() {
+  return fmt::format(
+      "hunting: the largest amplitude of the beam (mdeg) of {0} runs without wind or noise, each "
+      "moved by another step at its start; (n/{0}): in so many of them only, as a drive with "
+      "stiction may come to rest or not",
+      design::hunting_starts);
+}
+
+}  // namespace boresight::app

@@ -12,7 +12,6 @@ namespace {
 
 using control::BlockKind;
 using control::ControlLaw;
-using control::DrivenLoad;
 using control::GainDescription;
 using control::LoopBlock;
 using control::LoopPath;
@@ -49,16 +48,6 @@ double neutral_gain(const LoopBlock& block, std::size_t k) {
       return std::clamp(middle(lower, upper), gain.lower, gain.upper);
   }
   return middle(gain.lower, gain.upper);
-}
-
-std::vector<LoopStructure> usual_structures_with_lag(const DrivenLoad& load) {
-  std::vector<LoopStructure> usual;
-  for (const char* base : {"PI", "DPF", "LL", "FULL"}) {
-    for (const char* added : {"", "+N", "+C", "+N+C"}) {
-      usual.push_back(LoopStructure::named(std::string(base) + added).with_bounds_for(load));
-    }
-  }
-  return usual;
 }
 
 // Of the places with parts those whose parts are all in earlier waves or have none themselves.
@@ -108,10 +97,10 @@ std::vector<std::vector<std::size_t>> parts_of(const std::vector<LoopStructure>&
 }
 
 std::vector<LoopStructure> missing_parts(const std::vector<LoopStructure>& structures,
-                                         const DrivenLoad& load) {
+                                         const std::vector<LoopStructure>& usual) {
   std::vector<LoopStructure> all = structures;
-  for (auto& usual : usual_structures_with_lag(load)) {
-    if (std::ranges::find(structures, usual) == structures.end()) all.push_back(std::move(usual));
+  for (const auto& one : usual) {
+    if (std::ranges::find(structures, one) == structures.end()) all.push_back(one);
   }
   std::vector<bool> wanted(all.size(), false);
   const auto parts = parts_of(all);

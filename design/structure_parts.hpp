@@ -17,11 +17,12 @@ bool extends(const control::LoopStructure& whole, const control::LoopStructure& 
 std::vector<std::vector<std::size_t>> parts_of(
     const std::vector<control::LoopStructure>& structures);
 
-/// The usual structures with lag (LoopStructure::named) that are not in a list and that one of the
-/// list extends directly: what is worth tuning first. `load` is what their bounds are for, as those
-/// of the usual ones in the list.
+/// The usual structures that are not in a list and that one of the list extends directly: what is
+/// worth tuning first. `usual`: with lag (LoopStructure::named), searched within the same bounds as
+/// those in the list.
 std::vector<control::LoopStructure> missing_parts(
-    const std::vector<control::LoopStructure>& structures, const control::DrivenLoad& load = {});
+    const std::vector<control::LoopStructure>& structures,
+    const std::vector<control::LoopStructure>& usual);
 
 /// Tunes a list of structures of which some start from the laws of others: `search` of each place,
 /// then `improve` of each that has parts (parts_of), after that of all its parts. On up to

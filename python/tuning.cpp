@@ -152,9 +152,9 @@ void add_tuning(py::module_& module) {
             return *best;
           },
           "The TunedLaw of least beam rms on the linear plant that meets every goal and is "
-          "verified, "
-          "robust ones before nominal ones, at the first wind speed that has one; None if no law "
-          "does. Whether it hunts on the nonlinear antenna, the program's tune says")
+          "verified, robust ones before nominal ones, at the first wind speed that has one; None "
+          "if no law does. Whether it hunts on the nonlinear antenna, the program's tune says, "
+          "which may recommend another")
       .def_property_readonly(
           "shortfalls",
           [](const Tuning& tuning) {

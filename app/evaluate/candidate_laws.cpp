@@ -147,7 +147,8 @@ std::vector<Task> tasks_of(const std::vector<Case>& cases,
     for (const auto& name : names[candidate]) {
       structures.push_back(loop_structure(cases[candidate], name));
     }
-    const auto missing = design::missing_parts(structures, driven_load(cases[candidate]));
+    const auto missing =
+        design::missing_parts(structures, usual_structures_with_lag(cases[candidate]));
     structures.insert(structures.end(), missing.begin(), missing.end());
     const auto parts = design::parts_of(structures);
     const std::size_t first = tasks.size();

@@ -187,6 +187,7 @@ class Decision {
     }
   }
 
+  // Of the choice between those that are fit to be chosen; places and means are of all.
   void value_tests() {
     if (section_.inputs.empty()) return;
     if (!candidate(section_.second).feasible()) {
@@ -195,7 +196,12 @@ class Decision {
           "choice for a test to change.");
       return;
     }
-    if (!rms_.allFinite()) {
+    std::vector<Eigen::Index> fit;
+    for (std::size_t i = 0; i < section_.candidates.size(); ++i) {
+      if (candidate(i).feasible()) fit.push_back(static_cast<Eigen::Index>(i));
+    }
+    const Eigen::MatrixXd rms = rms_(Eigen::all, fit);
+    if (!rms.allFinite()) {
       section_.notes.emplace_back(
           "Tests are not valued: a candidate is unstable on some draws, and no finite loss can "
           "stand for that.");
@@ -208,7 +214,10 @@ class Decision {
         inputs(d, k) = draw[distribution_.inputs()[static_cast<std::size_t>(k)]];
       }
     }
-    section_.tests = design::test_value(inputs, rms_);
+    auto& tests = section_.tests.emplace(design::test_value(inputs, rms));
+    tests.choice = static_cast<std::size_t>(fit[tests.choice]);
+    tests.mean_loss.clear();
+    for (const auto& option : section_.statistics.options) tests.mean_loss.push_back(option.mean);
   }
 
   const std::vector<Candidate>& candidates_;

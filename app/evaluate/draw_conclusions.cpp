@@ -2,6 +2,7 @@
 #include <cmath>
 #include <functional>
 #include <numeric>
+#include <optional>
 #include <utility>
 
 #include <fmt/format.h>
@@ -40,6 +41,59 @@ std::string not_worth_paying(const EvaluateSection& section, const DecisionSecti
           : fmt::format("of these {} is worth its cost", name_of(section, decision, choice)));
 }
 
+// The place of the least mean of all where it is of one that is not fit to be chosen.
+std::optional<std::size_t> unfit_least(const EvaluateSection& section,
+                                       const DecisionSection& decision) {
+  const auto& options = decision.statistics.options;
+  const auto least = std::ranges::min_element(options, {}, &design::OptionStatistics::mean);
+  const auto place = static_cast<std::size_t>(least - options.begin());
+  if (section.candidates[decision.candidates[place].candidate].feasible()) return std::nullopt;
+  return place;
+}
+
+// What choosing it loses, and whether any other may be taken in its place.
+std::string regret(const EvaluateSection& section, const DecisionSection& decision) {
+  const auto& options = decision.statistics.options;
+  if (const auto least = unfit_least(section, decision)) {
+    return fmt::format(
+        " Over the draws {} has the least mean of all, {:.4f} mdeg, but {} and is left out: the "
+        "chances to be the best and the regrets above count it, and say nothing of those fit to be "
+        "chosen.",
+        name_of(section, decision, *least), options[*least].mean,
+        why_not(section.candidates[decision.candidates[*least].candidate]));
+  }
+  const auto counted = unfit_but_counted(section, decision);
+  return fmt::format(" Choosing it loses {:.4f} mdeg on average against whoever knew the plant{}.",
+                     options[decision.best].expected_regret,
+                     counted.empty()
+                         ? ""
+                         : fmt::format(" and took even what is not fit to be chosen where that is "
+                                       "best ({})",
+                                       fmt::join(counted, ", ")));
+}
+
+// How likely it is the best of all, and better than the second where that is fit to be chosen.
+std::string probabilities(const EvaluateSection& section, const DecisionSection& decision,
+                          const design::PairComparison& pair) {
+  const bool turned = pair.first != decision.best;
+  const design::Probability better =
+      turned ? design::Probability{1.0 - pair.better.value, 1.0 - pair.better.upper,
+                                   1.0 - pair.better.lower}
+             : pair.better;
+  const double gain = (turned ? -1.0 : 1.0) * pair.mean_gain;
+  std::vector<std::string> parts;
+  if (!unfit_least(section, decision)) {
+    parts.push_back(fmt::format("the best of all with probability {}",
+                                share(decision.statistics.options[decision.best].best)));
+  }
+  if (section.candidates[decision.candidates[decision.second].candidate].feasible()) {
+    parts.push_back(fmt::format(
+        "better than {} with probability {}, by {:.4f} +- {:.4f} mdeg on average",
+        name_of(section, decision, decision.second), share(better), gain, pair.gain_error));
+  }
+  return parts.empty() ? "" : fmt::format("; it is {}", fmt::join(parts, " and "));
+}
+
 std::string chances(const EvaluateSection& section, const DecisionSection& decision) {
   const auto& options = decision.statistics.options;
   const Candidate& best = section.candidates[decision.candidates[decision.best].candidate];
@@ -54,23 +108,13 @@ std::string chances(const EvaluateSection& section, const DecisionSection& decis
            (one.first == decision.second && one.second == decision.best);
   });
   if (pair == decision.statistics.pairs.end()) return "";
-  const bool turned = pair->first != decision.best;
-  const design::Probability better =
-      turned ? design::Probability{1.0 - pair->better.value, 1.0 - pair->better.upper,
-                                   1.0 - pair->better.lower}
-             : pair->better;
-  const double gain = (turned ? -1.0 : 1.0) * pair->mean_gain;
   const bool some_unfit = std::ranges::any_of(decision.candidates, [&](const auto& one) {
     return !section.candidates[one.candidate].feasible();
   });
   std::string text = fmt::format(
-      "Least mean rms with the gains held{}: {}, {:.4f} mdeg; it is the best of all with "
-      "probability {} and better than {} with probability {}, by {:.4f} +- {:.4f} mdeg on average. "
-      "Choosing it loses {:.4f} mdeg on average against whoever knew the plant.",
-      some_unfit ? ", of those fit to be chosen" : "", name_of(section, decision, decision.best),
-      options[decision.best].mean, share(options[decision.best].best),
-      name_of(section, decision, decision.second), share(better), gain, pair->gain_error,
-      options[decision.best].expected_regret);
+      "Least mean rms with the gains held{}: {}, {:.4f} mdeg{}.{}",
+      some_unfit ? ", of those fit to be chosen" : "", best.name, options[decision.best].mean,
+      probabilities(section, decision, *pair), regret(section, decision));
   text += fmt::format(
       " The intervals are those of {} draws ({}); another view of what is uncertain may move the "
       "probabilities farther than that.",

@@ -150,8 +150,9 @@ struct DecisionSection {
   /// Of rms of second less best, mdeg.
   std::optional<design::Tornado> tornado;
   std::optional<design::SobolResult> sobol;
-  std::optional<design::TestValue> tests;  // mdeg
-  std::vector<std::string> notes;          // what is missing, and why
+  /// mdeg; of the choice between those fit to be chosen, `choice` and `mean_loss` by `candidates`.
+  std::optional<design::TestValue> tests;
+  std::vector<std::string> notes;  // what is missing, and why
 };
 
 /// What `boresight evaluate` found.

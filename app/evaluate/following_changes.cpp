@@ -116,8 +116,13 @@ void stiffen_gear(const ProposedChange& change, StructureEntry& structure) {
   }
   hold_bull_gear(structure);
   const plant::StructureSpecification antenna = structure_specification(structure);
-  const double frequency =
-      locked_rotor_frequency_for(antenna, factor * plant::make_structure(antenna).gear_stiffness);
+  const double stiffness = factor * plant::make_structure(antenna).gear_stiffness;
+  double frequency = 0.0;
+  try {
+    frequency = locked_rotor_frequency_for(antenna, stiffness);
+  } catch (const InvalidInput& error) {
+    refuse_change(change, error.what());
+  }
   check_changed_range(change, Kind::frequency, Range::positive(1000.0), frequency);
   structure.locked_rotor_frequency =
       in_other_terms(structure.locked_rotor_frequency, frequency, "Hz");

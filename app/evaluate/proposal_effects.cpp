@@ -80,7 +80,7 @@ std::string laws_of_other_families(const EvaluateSection& section) {
   if (laws.empty()) return "";
   return fmt::format(
       "{}; differences in reversal error and hunting may be the law's rather than the hardware's. "
-      "Narrower bounds ([[tuning.bound]], or those of a [[loop]]) make both alike.",
+      "Narrower bounds ([[tuning.bound]], or those of a [[loop]]) can bring both to one kind.",
       fmt::join(laws, "; "));
 }
 

@@ -38,6 +38,18 @@ std::vector<std::string> hunting_candidates(const EvaluateSection& section) {
   return names;
 }
 
+std::vector<std::string> unfit_but_counted(const EvaluateSection& section,
+                                           const DecisionSection& decision) {
+  std::vector<std::string> names;
+  for (std::size_t i = 0; i < decision.candidates.size(); ++i) {
+    const Candidate& candidate = section.candidates[decision.candidates[i].candidate];
+    if (!candidate.feasible() && decision.statistics.options[i].best.value > 0.0) {
+      names.push_back(candidate.name);
+    }
+  }
+  return names;
+}
+
 std::string none_chosen(const EvaluateSection& section) {
   std::vector<const Candidate*> proposals;
   const Candidate* base = nullptr;

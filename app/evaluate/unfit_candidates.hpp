@@ -17,6 +17,11 @@ std::string none_chosen(const EvaluateSection& section);
 /// The names of the candidates that only their hunting keeps from being chosen.
 std::vector<std::string> hunting_candidates(const EvaluateSection& section);
 
+/// The names of the candidates that are not fit to be chosen and yet are the best of all on some
+/// draw: chances to be best and regrets count them.
+std::vector<std::string> unfit_but_counted(const EvaluateSection& section,
+                                           const DecisionSection& decision);
+
 /// In a sentence each budget that states a wind speed it is needed up to and that no candidate fit
 /// to be chosen meets so far on its nominal plant, with the one that comes nearest.
 std::vector<std::string> unmet_needs(const EvaluateSection& section);

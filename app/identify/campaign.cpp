@@ -163,9 +163,9 @@ identification::DriveKnowledge drive_knowledge(const Case& antenna, CampaignNote
   if (knowledge.locked_rotor_frequencies.empty()) {
     knowledge.locked_rotor_frequencies.push_back(
         uncertain(antenna.structure.locked_rotor_frequency));
-    notes.assumptions.emplace_back(
-        "no structure.prediction: structure.locked_rotor_frequency is the only structural mode "
-        "known");
+    notes.assumptions.push_back(
+        fmt::format("no structure.prediction: {} gives the only structural mode known",
+                    antenna.structure.locked_rotor_frequency.key));
   }
   knowledge.supply_pressure = antenna.drive.supply_pressure.value;
   if (antenna.campaign.return_pressure) {

@@ -58,7 +58,7 @@ double shape_by_exceedance(const TableReader& entry, const Quantity& mean, const
     const bool more = exceeded_share.value > found.most_share;
     entry.refuse(
         "exceeded_share",
-        fmt::format("expected a share of at {} {:.3g} %, which of Weibull laws with shapes "
+        fmt::format("expected a share of at {} {:.6g} %, which of Weibull laws with shapes "
                     "from {:g} to {:g} lies above {:.4g} times the mean, found {}",
                     more ? "most" : "least", 100.0 * (more ? found.most_share : found.least_share),
                     design::lowest_shape_sought, design::highest_shape_sought, ratio,

@@ -230,7 +230,7 @@ void read_sensors(TableReader& file, Case& antenna) {
   sensors.tachometer_frequency =
       table.quantity_or("tachometer_frequency", Kind::frequency, Range::positive(1e6),
                         10.0 * antenna.structure.locked_rotor_frequency.value,
-                        "usual: ten times structure.locked_rotor_frequency");
+                        "usual: ten times the locked-rotor frequency");
   table.finish();
   if (sensors.encoder_noise.key.empty()) {
     table.refuse("encoder_noise", "expected either encoder_noise or encoder_bits, found neither");

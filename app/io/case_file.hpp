@@ -313,9 +313,11 @@ Case read_case(const std::string& path);
 Case parse_case(std::string_view text, const std::string& path);
 
 /// A loop structure by the name of one of the case's own, or else as control::LoopStructure::named,
-/// with bounds for the case's antenna (LoopStructure::with_bounds_for, driven_load).
-/// @throws InvalidInput listing them
+/// with bounds for the case's antenna (LoopStructure::with_bounds_for, driven_load) but for those
+/// of its [[tuning.bound]]s. @throws InvalidInput listing them
 control::LoopStructure loop_structure(const Case& antenna, const std::string& name);
+/// The usual structures with lag, so bounded.
+std::vector<control::LoopStructure> usual_structures_with_lag(const Case& antenna);
 
 /// Puts other goals in the place of the case's: each change reads KEY=VALUE, with a key and value
 /// of [goals], "valve_effort=0.4 rad/s".

@@ -212,30 +212,30 @@ control::LoopStructure bounded(const control::LoopStructure& structure,
     for (auto& gain : block.gains) {
       const auto bound = std::ranges::find(bounds, gain.symbol, &GainBoundEntry::symbol);
       if (bound == bounds.end()) continue;
+      const double width = gain.upper / gain.lower;
       if (bound->lower) gain.lower = bound->lower->value;
       if (bound->upper) gain.upper = bound->upper->value;
+      // An end that is not stated gives way; both of one entry rise.
+      if (!bound->upper && gain.upper <= gain.lower) gain.upper = width * gain.lower;
+      if (!bound->lower && gain.lower >= gain.upper) gain.lower = gain.upper / width;
     }
   }
   return {structure.name(), std::move(blocks)};
 }
 
-GainBoundEntry read_bound(TableReader& table, std::set<std::string>& symbols, const Case& antenna) {
+GainBoundEntry read_bound(TableReader& table, std::set<std::string>& symbols) {
   std::vector<std::string> known;
   for (const auto& gain : all_blocks().gains()) known.push_back(gain.symbol);
   GainBoundEntry bound;
   bound.symbol = table.choice("gain", known);
   Kind kind = Kind::number;
-  control::GainDescription searched;
-  const control::LoopStructure following = all_blocks().with_bounds_for(driven_load(antenna));
-  for (const auto& block : following.blocks()) {
+  for (const auto& block : all_blocks().blocks()) {
     for (std::size_t i = 0; i < block.gains.size(); ++i) {
-      if (block.gains[i].symbol != bound.symbol) continue;
-      kind = gain_kind(block.path, block.kind, i);
-      searched = block.gains[i];
+      if (block.gains[i].symbol == bound.symbol) kind = gain_kind(block.path, block.kind, i);
     }
   }
-  bound.lower = table.optional_quantity("lower", kind, Range::positive());
-  bound.upper = table.optional_quantity("upper", kind, Range::positive());
+  bound.lower = table.optional_quantity("lower", kind, Range::positive(1e11));
+  bound.upper = table.optional_quantity("upper", kind, Range::positive(1e11));
   table.finish();
   if (!symbols.insert(bound.symbol).second) {
     table.refuse("gain", fmt::format("expected one [[tuning.bound]] of each gain, found another of "
@@ -245,16 +245,9 @@ GainBoundEntry read_bound(TableReader& table, std::set<std::string>& symbols, co
   if (!bound.lower && !bound.upper) {
     table.refuse("upper", "expected lower, upper or both, found neither");
   }
-  const double lower = bound.lower ? bound.lower->value : searched.lower;
-  const double upper = bound.upper ? bound.upper->value : searched.upper;
-  if (!(lower < upper)) {
-    table.refuse(
-        bound.upper ? "upper" : "lower",
-        fmt::format(
-            "expected an upper bound above the lower one, found {:g} and {:g} in SI "
-            "units, {}",
-            upper, lower,
-            bound.lower && bound.upper ? "both stated" : "the other as it follows the antenna"));
+  if (bound.lower && bound.upper && bound.upper->value <= bound.lower->value) {
+    table.refuse("upper", fmt::format("expected more than the lower bound {}, found {}",
+                                      in_quotes(bound.lower->text), in_quotes(bound.upper->text)));
   }
   return bound;
 }
@@ -296,6 +289,14 @@ control::LoopStructure loop_structure(const Case& antenna, const std::string& na
                   did_you_mean(name, known)));
 }
 
+std::vector<control::LoopStructure> usual_structures_with_lag(const Case& antenna) {
+  std::vector<control::LoopStructure> usual;
+  for (const auto& name : usual_structures()) {
+    if (!name.starts_with("PI-0")) usual.push_back(loop_structure(antenna, name));
+  }
+  return usual;
+}
+
 void read_loops(TableReader& file, Case& antenna) {
   std::set<std::string> names;
   for (auto& table : file.tables("loop")) antenna.loops.push_back(read_loop(table, names));
@@ -303,7 +304,7 @@ void read_loops(TableReader& file, Case& antenna) {
   if (tuning) {
     std::set<std::string> symbols;
     for (auto& bound : tuning->tables("bound")) {
-      antenna.tuning.bounds.push_back(read_bound(bound, symbols, antenna));
+      antenna.tuning.bounds.push_back(read_bound(bound, symbols));
     }
   }
   // Its structure has those bounds.

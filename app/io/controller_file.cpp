@@ -248,10 +248,13 @@ control::ControlLaw law_from(TableReader& table, const Case& antenna) {
   return law;
 }
 
-// The best row of a tune report; none if nothing fits.
+// The best row of a tune report, one that it recommends before others; none if nothing fits.
 const nlohmann::json* best_row(const nlohmann::json& laws, const std::string& structure) {
   const nlohmann::json* best = nullptr;
   const auto better = [](const nlohmann::json& one, const nlohmann::json& other) {
+    const bool told = one.value("recommended", false),
+               told_before = other.value("recommended", false);
+    if (told != told_before) return told;
     const bool robust = one.at("tuned_for") == "robust", before = other.at("tuned_for") == "robust";
     if (robust != before) return robust;
     return one.at("design_wind_speed_m_per_s") == other.at("design_wind_speed_m_per_s") &&

@@ -3,7 +3,10 @@
 #include <numbers>
 #include <numeric>
 
+#include <fmt/format.h>
+
 #include <boresight/app/io/structure_numbers.hpp>
+#include <boresight/plant/error.hpp>
 #include <boresight/plant/motors_held_modes.hpp>
 
 namespace boresight::app {
@@ -38,8 +41,8 @@ double locked_rotor_frequency_for(plant::StructureSpecification antenna, double 
     antenna.locked_rotor_frequency = frequency;
     return plant::make_structure(antenna).gear_stiffness;
   };
-  // The stiffness rises with the frequency, without bound towards the lowest mode; that of a rigid
-  // antenna is the least.
+  // The stiffness rises with the frequency, without bound towards the lowest mode, and is no less
+  // than that of a rigid antenna.
   double lower = 0.0;
   double upper = std::sqrt(gear_stiffness / antenna.antenna_inertia) / (2.0 * std::numbers::pi);
   for (const auto& mode : antenna.modes) upper = std::min(upper, mode.frequency);
@@ -47,6 +50,13 @@ double locked_rotor_frequency_for(plant::StructureSpecification antenna, double 
   while (lower < middle && middle < upper) {
     (stiffness(middle) < gear_stiffness ? lower : upper) = middle;
     middle = std::midpoint(lower, upper);
+  }
+  constexpr double rounding = 1e-6;
+  if (!(lower > 0.0 && std::abs(stiffness(lower) / gear_stiffness - 1.0) <= rounding)) {
+    throw InvalidInput(fmt::format(
+        "expected a stiffness that leaves the locked-rotor frequency above 0 and below every mode, "
+        "found one that takes it to {:.6g} Hz",
+        lower));
   }
   return lower;
 }

@@ -20,7 +20,8 @@ std::vector<plant::StructureSpecification> structure_specifications(
 /// The locked-rotor frequency (Hz) by which the antenna has this gear stiffness (N m/rad at the
 /// shaft of antenna_inertia, per antenna inertia where that is 1), its modes with the bull gear
 /// held as they are and all above it. The antenna's own locked_rotor_frequency counts for nothing.
-/// @throws InvalidInput as plant::make_structure.
+/// @throws InvalidInput where no frequency that rounding tells from the lowest mode has it, and as
+/// plant::make_structure.
 double locked_rotor_frequency_for(plant::StructureSpecification antenna, double gear_stiffness);
 
 }  // namespace boresight::app

@@ -35,17 +35,41 @@ std::string feedback_of(const MatchSeries& series) {
   return "loops that feed back no torque";
 }
 
+// The inertias beyond the range that is within 1 % of the least rms whose rms is within it too, the
+// nearest first; empty without one.
+std::string as_good_elsewhere(const MatchSection& section, const MatchSeries& series,
+                              std::size_t best) {
+  constexpr std::size_t most = 3;
+  const auto& range = series.within_1_percent;
+  std::vector<double> disks;
+  for (std::size_t i = 0; i < series.values.size(); ++i) {
+    const MatchValue& value = series.values[i];
+    const double at = section.points[i].disks;
+    if (!value.found || (range.lowest <= at && at <= range.highest)) continue;
+    if (value.beam_rms <= 1.01 * series.values[best].beam_rms) disks.push_back(at);
+  }
+  if (disks.empty()) return "";
+  std::ranges::stable_sort(disks, {},
+                           [&](double at) { return std::abs(at - section.points[best].disks); });
+  const std::size_t more = disks.size() > most ? disks.size() - most : 0;
+  disks.resize(disks.size() - more);
+  std::vector<std::string> named;
+  for (const double at : disks) named.push_back(fmt::format("{:.3g}", at));
+  return fmt::format("; {} disks{} within 1 % too", fmt::join(named, ", "),
+                     more > 0 ? fmt::format(" and {} more", more) : "");
+}
+
 std::string best_of(const MatchSection& section, const MatchSeries& series) {
   const std::size_t best = series.best.value_or(0);
   const double least = series.values[best].beam_rms;
   std::string text = fmt::format(
       "With {} ({}) the rms is least, {:.4f} mdeg, at {:.3g} disks (R = {:.2f}){}; within 1 % of "
-      "it from {:.1f} to {:.1f} disks, within 5 % from {:.1f} to {:.1f}.",
+      "it from {:.1f} to {:.1f} disks, within 5 % from {:.1f} to {:.1f}{}.",
       series.name, feedback_of(series), least / millidegree, section.points[best].disks,
       section.points[best].motor_to_load_ratio,
       series.best_at_end ? ", an end of the range looked at" : "", series.within_1_percent.lowest,
       series.within_1_percent.highest, series.within_5_percent.lowest,
-      series.within_5_percent.highest);
+      series.within_5_percent.highest, as_good_elsewhere(section, series, best));
   const auto at = [&](const char* label, const char* words) {
     const auto point = labelled(section, label);
     if (!point || !series.values[*point].found) return;
@@ -147,7 +171,7 @@ void conclude_variants(const MatchSection& section, std::vector<std::string>& se
   for (const auto& variants : section.variants) {
     std::string moved;
     const auto& own = variants.variants.front();
-    if (!own.best) continue;
+    if (!own.best || !weighed(section, variants.structure)) continue;
     for (const auto& variant : variants.variants) {
       if (!variant.best) {
         moved += fmt::format("; with {} no law holds its goals", variant.name);

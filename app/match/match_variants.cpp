@@ -128,12 +128,14 @@ bool leads(const control::LoopStructure& structure) {
       structure.blocks(), [](const auto& block) { return block.kind == control::BlockKind::lead; });
 }
 
-// The best of all, and the best of the plain PI loops, without lead and torque feedback.
+// The best of all, and the best of the plain PI loops, without lead and torque feedback: of those
+// weighed, or of all where none is.
 std::vector<const MatchSeries*> worth_varying(const MatchSection& section) {
   const MatchSeries* best = nullptr;
   const MatchSeries* best_pi = nullptr;
+  const bool some = most_moved(section) != nullptr;
   for (const auto& series : section.series) {
-    if (!series.best) continue;
+    if (!series.best || (some && !weighed(section, series))) continue;
     const auto better = [&](const MatchSeries* other) {
       return other == nullptr ||
              series.values[*series.best].beam_rms < other->values[*other->best].beam_rms;

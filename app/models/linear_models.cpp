@@ -31,7 +31,9 @@ std::optional<LinearModels> linear_models(const Report& report) {
     const TunedLaw* shown = shown_law(*report.tuned, report.time_domain);
     const auto& problem = report.tuned->problem;
     if (shown == nullptr) return linear_models(problem.plant, problem.gear_ratio);
-    return linear_models(problem, shown->design.tuning.law, description_of(*shown));
+    const bool recommended = recommended_law(*report.tuned) != nullptr;
+    return linear_models(problem, shown->design.tuning.law,
+                         description_of(*shown) + (recommended ? "" : ", not recommended"));
   }
   if (report.tuning && report.tuning->design.tuning.status == design::TuningStatus::optimal) {
     const auto& law = report.tuning->design.tuning.law;

@@ -80,9 +80,9 @@ HeldLaw law_of_report(const Case& antenna, const std::string& path, const std::s
       const Json* best = nullptr;
       const auto rank = [](const Json& row) {
         const Json& rms = row.at("beam_rms_mdeg");
-        return std::tuple(row.at("tuned_for") == "robust" ? 0 : 1,
-                          row.at("goals_met").get<bool>() ? 0 : 1,
-                          rms.is_number() ? rms.get<double>() : 1e300);
+        return std::tuple(
+            row.value("recommended", false) ? 0 : 1, row.at("tuned_for") == "robust" ? 0 : 1,
+            row.at("goals_met").get<bool>() ? 0 : 1, rms.is_number() ? rms.get<double>() : 1e300);
       };
       for (const auto& row : report.at("tuned").at("laws")) {
         if (row.at("design").is_null() || row.at("tuned_for") == "present") continue;

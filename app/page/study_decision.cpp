@@ -44,9 +44,10 @@ std::string first_change(const MatchSection& section, const MatchSeries& best, b
       fmt::format("Leaving the motors as built costs {:+.1f} % with those loops", 100.0 * by_disks);
   if (structures.count < 2) {
     return text + (by_disks < negligible_change ? ": leave them."
-                   : others ? "; all other loops looked at hunt beyond the tightest budget or miss "
-                              "their goals."
-                            : "; whether other loops would do more was not looked at.");
+                   : others
+                       ? "; no other loops looked at were seen to hold still within the tightest "
+                         "budget and to meet their goals."
+                       : "; whether other loops would do more was not looked at.");
   }
   const double by_loops = structures.change;
   text += fmt::format(", and the choice of loops as built up to {:.1f} %", 100.0 * by_loops);
@@ -103,8 +104,8 @@ Sentences decide_inertia(const MatchSection& section, bool others_hunt) {
   }
   if (best == nullptr) {
     return {others_hunt
-                ? "Every structure that meets the goals hunts beyond the tightest budget on the "
-                  "nonlinear antenna: look at the friction before the motors."
+                ? "No structure that meets the goals was seen to hold still within the tightest "
+                  "budget on the nonlinear antenna: look at the friction before the motors."
                 : "No structure meets the goals at any motor inertia."};
   }
   const std::size_t built = as_built(section);
@@ -217,9 +218,11 @@ std::vector<std::string> decision(const EvaluateSection& section) {
                       100.0 * negligible_change, name, place.outside_goals.value));
     } else if (fit) {
       sentences.push_back(fmt::format(
-          "{} is the best of all with probability {:.2f}, and breaks a hard goal on a share of "
+          "{} is the best of all with probability {:.2f}{}, and breaks a hard goal on a share of "
           "{:.3f} of the draws.",
-          name, options[choice].best.value, place.outside_goals.value));
+          name, options[choice].best.value,
+          unfit_but_counted(section, draws).empty() ? "" : ", those not fit to be chosen counted",
+          place.outside_goals.value));
     }
     if (auto cause = law_or_hardware(section, draws, choice); fit && !cause.empty()) {
       sentences.push_back(std::move(cause));

@@ -138,7 +138,7 @@ std::vector<std::string> conclude(const Report& report) {
   if (report.matching) conclude_matching(report, *report.matching, sentences);
   if (report.tuning) {
     const auto& effects = report.tuning->input_effects;
-    std::string first = measure_first(effects, report.tuning->design.beam_rms);
+    std::string first = measure_first(effects, report.tuning->design.beam_rms, report.time_domain);
     if (!first.empty()) sentences.push_back(std::move(first));
     const std::size_t antenna = count_of_antenna(report.assumed);
     if (antenna > 0) {

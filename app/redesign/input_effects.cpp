@@ -33,6 +33,12 @@ void add(std::vector<Quantity*>& places, std::optional<Quantity>& quantity) {
   if (quantity) places.push_back(&*quantity);
 }
 
+// Whether the case states the gear train's stiffness in the place of the locked-rotor frequency.
+bool frequency_by_stiffness(const StructureEntry& structure) {
+  return structure.gear_stiffness &&
+         structure.locked_rotor_frequency.key == structure.gear_stiffness->key;
+}
+
 // Those that a case keeps as quantities, in its order.
 std::vector<Quantity*> quantities_of(Case& c) {
   std::vector<Quantity*> places{&c.antenna.dish_diameter,   &c.antenna.inertia,
@@ -50,9 +56,13 @@ std::vector<Quantity*> quantities_of(Case& c) {
                 {&c.oil.volume_1, &c.oil.volume_2, &c.drive.leakage_rate, &c.drive.viscous_friction,
                  &c.drive.valve_frequency, &c.drive.valve_damping});
   StructureEntry& structure = c.structure;
-  places.insert(places.end(),
-                {&structure.locked_rotor_frequency, &structure.gear_damping_ratio,
-                 &structure.bull_gear_wind_fraction, &structure.bull_gear_beam_weight});
+  if (structure.gear_stiffness && frequency_by_stiffness(structure)) {
+    places.push_back(&*structure.gear_stiffness);
+  } else {
+    places.push_back(&structure.locked_rotor_frequency);
+  }
+  places.insert(places.end(), {&structure.gear_damping_ratio, &structure.bull_gear_wind_fraction,
+                               &structure.bull_gear_beam_weight});
   for (auto& mode : structure.modes) {
     places.insert(places.end(), {&mode.frequency, &mode.damping_ratio, &mode.inertia_fraction,
                                  &mode.wind_fraction, &mode.beam_weight});
@@ -185,6 +195,11 @@ void move(Case& antenna, std::size_t which, double by) {
     if (std::ranges::find(group, moved, &Share::value) != group.end()) make_room(group, moved, by);
   }
   *moved += by;
+  StructureEntry& structure = antenna.structure;
+  if (structure.gear_stiffness && moved == &structure.gear_stiffness->value) {
+    structure.locked_rotor_frequency.value = locked_rotor_frequency_for(
+        structure_specification(structure), *moved / antenna.antenna.inertia.value);
+  }
 }
 
 // Of the oil on both sides (Pa/m3): a leakage flow makes a leakage rate in proportion to it.
@@ -219,6 +234,17 @@ std::string range_text(const InputEffect& effect) {
                      mdeg(effect.high_rms), over);
 }
 
+// What friction alone adds to the simulated rms (rad), where that is a telling change of the linear
+// one; 0 elsewhere.
+double telling_friction(const std::optional<TimeDomainSection>& time_domain, double rms) {
+  if (!time_domain) return 0.0;
+  for (const auto& one : time_domain->result.wind.influences) {
+    if (one.influence != design::Influence::friction || !std::isfinite(one.difference)) continue;
+    if (one.difference > telling_change * rms) return one.difference;
+  }
+  return 0.0;
+}
+
 }  // namespace
 
 double InputEffect::change(double rms) const {
@@ -250,7 +276,11 @@ std::vector<InputEffect> input_effects(const Case& antenna, const control::Contr
       by = (lower ? effect.range->first : effect.range->second) - effect.quantity.value;
     }
     Case moved = antenna;
-    move(moved, which[job / 2], by);
+    try {
+      move(moved, which[job / 2], by);
+    } catch (const InvalidInput&) {
+      return;
+    }
     if (antenna.drive.leakage_by_flow) {
       moved.drive.leakage_rate.value *= pressure_per_volume(moved) / pressure_per_volume(antenna);
     }
@@ -273,16 +303,27 @@ std::vector<InputEffect> input_effects(const Case& antenna, const control::Contr
   return effects;
 }
 
-std::string measure_first(const std::vector<InputEffect>& effects, double rms) {
+std::string measure_first(const std::vector<InputEffect>& effects, double rms,
+                          const std::optional<TimeDomainSection>& time_domain) {
   constexpr std::size_t most = 3;
   std::vector<std::string> named;
   for (const auto& effect : effects) {
     if (named.size() == most || effect.change(rms) < negligible_change) break;
     named.push_back(range_text(effect));
   }
-  if (named.empty()) return "";
-  return fmt::format("Of the numbers of the case, the rms hangs most on {}: measure {} first.",
-                     fmt::join(named, ", "), named.size() == 1 ? "that" : "those");
+  std::vector<std::string> sentences;
+  if (!named.empty()) {
+    sentences.push_back(
+        fmt::format("Of the numbers of the case, the rms hangs most on {}: measure {} first.",
+                    fmt::join(named, ", "), named.size() == 1 ? "that" : "those"));
+  }
+  if (const double friction = telling_friction(time_domain, rms); friction > 0.0) {
+    sentences.push_back(fmt::format(
+        "Friction, which no linear rms knows, is worth {:.3f} mdeg of the simulated: measure the "
+        "friction curve about the tracking rate, and what the bristles' stiffness rests on{}.",
+        friction / millidegree, named.empty() ? "" : ", as well"));
+  }
+  return fmt::format("{}", fmt::join(sentences, " "));
 }
 
 }  // namespace boresight::app

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include <boresight/app/io/case_file.hpp>
+#include <boresight/app/simulate/time_domain.hpp>
 #include <boresight/control/control_law.hpp>
 #include <boresight/design/goals.hpp>
 
@@ -45,7 +46,9 @@ std::vector<InputEffect> input_effects(const Case& antenna, const control::Contr
                                        unsigned threads);
 
 /// Which of them to measure first, in a sentence; empty where none changes the rms by what decides
-/// anything.
-std::string measure_first(const std::vector<InputEffect>& effects, double rms);
+/// anything. And that friction is to be measured, where it alone adds a telling_change of `rms`,
+/// the linear one, on the nonlinear antenna.
+std::string measure_first(const std::vector<InputEffect>& effects, double rms,
+                          const std::optional<TimeDomainSection>& time_domain = std::nullopt);
 
 }  // namespace boresight::app

@@ -68,8 +68,8 @@ std::string at_bounds(const MatchingSection& section) {
   if (points == 0) return "";
   return fmt::format(
       "At {} of the {} points of the matching study a gain ends at its bound of the search ({}): "
-      "what lies beyond was not looked at, and may tell the points apart (bounds of a "
-      "[[tuning.bound]], or of a [[loop]], do).{}{}",
+      "what lies beyond was not looked at, and may tell the points apart. Bounds of a "
+      "[[tuning.bound]] look there.{}{}",
       points, section.series.size() * section.rows.size(), fmt::join(gains, ", "),
       position_gain ? " " : "", position_gain ? trade_not_looked_for() : "");
 }

@@ -99,7 +99,8 @@ std::string bound_text(const TuningSection& section) {
   if (names.empty()) return "";
   std::string text = fmt::format(
       "The search ended at its bound for: {}. A gain there is no optimum; what lies beyond was not "
-      "looked at (bounds of a [[tuning.bound]], or of a [[loop]], do).",
+      "looked at (bounds of a [[tuning.bound]] look there; `boresight tune` of a [[loop]] does "
+      "too).",
       fmt::join(names, ", "));
   const SearchedLaw law{section.structure.name(), &section.design.tuning,
                         sample_time_of(section.problem.delay)};
@@ -353,7 +354,8 @@ std::vector<std::string> tuning_reservations(const Report& report, const TuningS
         "`boresight evaluate` compares them under laws that keep their goals on every plant, on "
         "the nonlinear antenna, and may find otherwise.");
   }
-  sentences.push_back(measure_first(section.input_effects, section.design.beam_rms));
+  sentences.push_back(
+      measure_first(section.input_effects, section.design.beam_rms, report.time_domain));
   std::erase(sentences, std::string());
   return sentences;
 }

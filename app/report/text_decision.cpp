@@ -6,6 +6,7 @@
 #include <fmt/ranges.h>
 
 #include <boresight/app/document/document.hpp>
+#include <boresight/app/evaluate/unfit_candidates.hpp>
 #include <boresight/app/report/evaluate_report.hpp>
 
 namespace boresight::app {
@@ -58,7 +59,13 @@ Document chances_table(const EvaluateSection& section, const DecisionSection& de
     cells.push_back(share(one.unstable));
     rows.push_back(std::move(cells));
   }
-  return table(rows, "l");
+  const auto counted = unfit_but_counted(section, decision);
+  if (counted.empty()) return table(rows, "l");
+  return table(rows, "l") +
+         wrapped(fmt::format("'is the best' and 'regret' are against all of these, also against "
+                             "what is not fit to be chosen: {}.",
+                             fmt::join(counted, ", ")),
+                 "  ");
 }
 
 // Each pair with the one that is more often better first.

@@ -124,9 +124,11 @@ Document document_of(const IdentificationSection& section) {
                     deciding(method.reflected_inertia)),
         "  ");
     if (method.motor_to_load_ratio.beyond_pole > 0.0) {
-      text += wrapped(fmt::format("In {:.2g} % of the draws its J is below the motors' own "
-                                  "inertia: no load at all, R without meaning.",
-                                  100.0 * method.motor_to_load_ratio.beyond_pole),
+      const double beyond = 100.0 * method.motor_to_load_ratio.beyond_pole;
+      text += wrapped(fmt::format("In {} % of the draws its J is below the motors' own inertia: no "
+                                  "load at all, R without meaning.",
+                                  beyond < 10.0 ? fmt::format("{:.2g}", beyond)
+                                                : fmt::format("{:.0f}", beyond)),
                       "    ");
     }
   }

@@ -43,9 +43,11 @@ Row cells(const std::string& name, const design::SampledDesign& design) {
 Document document_of(const design::PointingLimit& limit) {
   Document text = heading("How far from the best any controller could do");
   text += wrapped(
-      fmt::format("Every law in its sampled form: {:g} s, zero-order hold, {:g} s of computation "
-                  "delay; covariance of the closed loop, wind by its shaping filter.",
-                  limit.sample_time, limit.computation_delay),
+      fmt::format(
+          "Every law in its sampled form: {:g} s, zero-order hold, {:g} s of computation "
+          "delay; covariance of the closed loop, wind by its shaping filter. The tuning holds "
+          "its goal of valve effort for continuous loops: sampled ones may have more.",
+          limit.sample_time, limit.computation_delay),
       "  ");
   std::vector<Row> rows{{"controller", "rms mdeg", "wind", "noise", "effort rad/s", "S valve",
                          "worst plant", "stable plants"}};

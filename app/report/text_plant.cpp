@@ -151,7 +151,10 @@ Document document_of(const PlantSection& section) {
       {"mode", "frequency Hz", "damping", "pole 1/s", "share", "oil", "gear"}};
   for (const auto& mode : section.modes) {
     const bool springs = mode.pole.imag() > 0.0 && mode.oil_share != 0.0;
-    const auto share = [&](double of) { return springs ? fmt::format("{:.2f}", of) : "-"; };
+    // One that rounds to nothing has no sign.
+    const auto share = [&](double of) {
+      return springs ? fmt::format("{:.2f}", std::abs(of) < 0.005 ? 0.0 : of) : "-";
+    };
     rows.push_back({mode.description, fmt::format("{:.4f}", mode.frequency),
                     mode.frequency > 0.0 ? fmt::format("{:.4f}", mode.damping_ratio) : "-",
                     mode.pole.imag() > 0.0

@@ -80,9 +80,9 @@ std::string trade_in_words(const PositionGainTrade& trade, std::string_view law,
                            std::size_t plants) {
   return fmt::format(
       "{} has kp at its bound because its rate loop hardly acts, so that kp x kr counts. With the "
-      "same product kp = {} and kr = {} have {:.4f} mdeg, {:+.1f} %{}. A [[tuning.bound]] of kp "
-      "has "
-      "the search look for laws whose rate loop acts.",
+      "same product kp = {} and kr = {} have {:.4f} mdeg, {:+.1f} %{}. A lower upper bound of kp "
+      "([[tuning.bound]], or that of a [[loop]]) has the search look for laws whose rate loop "
+      "acts.",
       law, trade.position_gain, trade.rate_gain, trade.beam_rms / millidegree,
       100.0 * (trade.beam_rms / beam_rms - 1.0),
       plants > 0 ? fmt::format(", with every goal kept on {} of {} plants before tuning again",

@@ -217,7 +217,7 @@ std::vector<TuningUnit> units_of(const Case& antenna, const TuneSection& section
   for (const auto& name : section.structures) {
     structures.push_back(loop_structure(antenna, name));
   }
-  const auto missing = design::missing_parts(structures, driven_load(antenna));
+  const auto missing = design::missing_parts(structures, usual_structures_with_lag(antenna));
   structures.insert(structures.end(), missing.begin(), missing.end());
   const auto parts = design::parts_of(structures);
   std::vector<TuningUnit> units;

@@ -208,6 +208,22 @@ std::string reached_text(const TuneSection& section, const TunedLaw& law, double
       law.in_time ? " by the linear plant" : "", climate_text(section.climate, limit));
 }
 
+// Behind what no law keeps: why those do not whose rms, at the wind speed of `best` and tuned for
+// the same, is within it; empty where there is none, and the rms is the reason.
+std::string barred_by_hunting(const TuneSection& section, const TunedLaw& best, double rms) {
+  bool any = false, seen = true;
+  for (const auto* row : rows_at(section, best.wind_speed)) {
+    if (row->tuned_for != best.tuned_for || !row->usable() || !row->in_time) continue;
+    if (!std::isfinite(row->in_time->beam_rms) || row->budget_rms() > rms) continue;
+    if (row->keeps(rms)) continue;
+    any = true;
+    seen = seen && row->in_time->hunting > design::hunting_limit(rms);
+  }
+  if (!any) return "";
+  return seen ? ": those whose rms meets it hunt beyond it"
+              : ": those whose rms meets it hunt beyond it or were not seen to hold still";
+}
+
 void find_unreached_rms(const TuneSection& section, std::vector<Shortfall>& shortfalls) {
   for (std::size_t i = 0; i < section.budgets.size(); ++i) {
     const PointingBudget& budget = section.budgets[i];
@@ -232,20 +248,25 @@ void find_unreached_rms(const TuneSection& section, std::vector<Shortfall>& shor
                     3),
           budget.band, law.left_out() ? "" : reached_text(section, law, law.speed_limits[i]));
     };
+    const std::string barred = barred_by_hunting(section, *best, met * budget.rms);
     shortfalls.push_back(
-        {fmt::format("The budget '{}' in band {} ({:.4f} mdeg) cannot be met up to {:.3g} m/s{} by "
-                     "what was tuned ({}).",
-                     budget.name, budget.band, budget.rms / millidegree, *budget.wind_speed,
+        {fmt::format("The budget '{}' in band {} ({:.4f} mdeg) {} up to {:.3g} m/s{} by {} ({}){}.",
+                     budget.name, budget.band, budget.rms / millidegree,
+                     barred.empty() ? "cannot be met" : "is kept", *budget.wind_speed,
                      dish_and_mast(section.wind_mast, *budget.wind_speed),
-                     fmt::join(structures_of(section), ", ")),
+                     barred.empty() ? "what was tuned" : "no law that was tuned",
+                     fmt::join(structures_of(section), ", "), barred),
          nearest_text(section, *best, more_of)});
   }
   if (!section.beam_rms_goal) return;
   const double speed = section.wind_speeds.front();
   const TunedLaw* best = best_pointing_law(section, speed);
   if (best == nullptr || best->keeps(met * *section.beam_rms_goal)) return;
-  shortfalls.push_back({fmt::format("A beam rms of {:.4f} mdeg cannot be met at {:.3g} m/s.",
-                                    *section.beam_rms_goal / millidegree, speed),
+  const std::string barred = barred_by_hunting(section, *best, met * *section.beam_rms_goal);
+  shortfalls.push_back({fmt::format("A beam rms of {:.4f} mdeg {} at {:.3g} m/s{}{}.",
+                                    *section.beam_rms_goal / millidegree,
+                                    barred.empty() ? "cannot be met" : "is kept", speed,
+                                    barred.empty() ? "" : " by no law that was tuned", barred),
                         nearest_text(section, *best, [](const TunedLaw&) { return ""; })});
 }
 

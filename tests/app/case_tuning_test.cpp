@@ -7,6 +7,7 @@
 #include "edited_case.hpp"
 #include <boresight/app/io/case_file.hpp>
 #include <boresight/app/redesign/antenna_model.hpp>
+#include <boresight/design/structure_parts.hpp>
 
 namespace boresight::app {
 namespace {
@@ -127,13 +128,32 @@ TEST(CaseTuning, BoundsOfOnesOwnTakeTheirPlace) {
     }
   }
   EXPECT_THAT(refusal(bound), HasSubstr("expected lower, upper or both, found neither"));
-  EXPECT_THAT(refusal(bound + "upper = '0.001 1/s'\n"),
-              HasSubstr("tuning.bound[0].upper: expected an upper bound above the lower one, found "
-                        "0.001 and 0.03 in SI units, the other as it follows the antenna"));
+  // Below the usual range, which is from 0.03 to 30 1/s, the other end gives way.
+  const auto low = loop_structure(with(bound + "upper = '0.001 1/s'\n"), "PI").gains()[3];
+  EXPECT_EQ(low.symbol, "kp");
+  EXPECT_DOUBLE_EQ(low.upper, 1e-3);
+  EXPECT_DOUBLE_EQ(low.lower, 1e-6);
+  EXPECT_THAT(
+      refusal(bound + "upper = '1 1/s'\nlower = '60 1/min'\n"),
+      HasSubstr("tuning.bound[0].upper: expected more than the lower bound '60 1/min', found "
+                "'1 1/s'"));
   EXPECT_THAT(refusal(bound + "upper = '2 1/s'\n" + bound + "lower = '1 1/s'\n"),
               HasSubstr("expected one [[tuning.bound]] of each gain"));
   EXPECT_THAT(refusal("[[tuning.bound]]\ngain = 'kq'\nupper = '2'\n"),
               HasSubstr("tuning.bound[0].gain: expected one of"));
+}
+
+// A structure that others start from is searched within the same bounds.
+TEST(CaseTuning, BoundsOfOnesOwnArePartsToo) {
+  const Case antenna = with("[[tuning.bound]]\ngain = 'kp'\nupper = '3 1/s'\n");
+  const auto missing =
+      design::missing_parts({loop_structure(antenna, "DPF+C")}, usual_structures_with_lag(antenna));
+  ASSERT_EQ(missing.size(), 2U);
+  EXPECT_EQ(missing[0], loop_structure(antenna, "PI+C"));
+  EXPECT_EQ(missing[1], loop_structure(antenna, "DPF"));
+  EXPECT_THAT(design::missing_parts({loop_structure(antenna, "DPF"), loop_structure(antenna, "PI")},
+                                    usual_structures_with_lag(antenna)),
+              testing::IsEmpty());
 }
 
 TEST(CaseTuning, ReadsThePresentGainsInTheEngineersUnits) {

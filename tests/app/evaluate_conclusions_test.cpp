@@ -1,14 +1,17 @@
 // What the conclusions of an evaluation say of drives, of motions and of needed budgets.
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <fmt/ranges.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <boresight/app/document/document_text.hpp>
 #include <boresight/app/evaluate/evaluate_section.hpp>
 #include <boresight/app/evaluate/proposal_effects.hpp>
 #include <boresight/app/evaluate/unfit_candidates.hpp>
+#include <boresight/app/report/evaluate_report.hpp>
 #include <boresight/app/report/sky_units.hpp>
 
 namespace boresight::app {
@@ -112,7 +115,8 @@ TEST(EvaluateConclusions, SayWhatOfAReversalMayBeTheLaws) {
       AllOf(HasSubstr("no flywheels comes with another kind of PI law than the antenna as it is "
                       "has: wi 30 against 0.255 rad/s, kp 3.11 against 30 1/s; differences in "
                       "reversal error and hunting may be the law's rather than the hardware's. "
-                      "Narrower bounds ([[tuning.bound]], or those of a [[loop]]) make both alike. "
+                      "Narrower bounds ([[tuning.bound]], or those of a [[loop]]) can bring both "
+                      "to one kind. "
                       "Acceleration that"),
             Not(HasSubstr("larger valve comes"))));
   // Only the rms is told of it.
@@ -196,6 +200,66 @@ TEST(EvaluateConclusions, SayThatNoCandidateMeetsANeededBudget) {
   // What hunts meets nothing.
   EXPECT_THAT(told(13.0, false),
               testing::ElementsAre(HasSubstr("as it is comes nearest, with 8.0 m/s")));
+}
+
+// Candidates fit to be chosen or hunting, by mean rms over the draws and the chance to be best.
+struct Drawn {
+  double mean;
+  double best;
+  bool still;
+};
+
+EvaluateSection drawn(const std::vector<Drawn>& all, std::size_t best, std::size_t second) {
+  EvaluateSection section;
+  DecisionSection draws;
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    section.candidates.push_back(
+        moving(i == 0 ? "as it is" : fmt::format("proposal {}", i), 0.1, 5.0));
+    CandidateLaw& law = section.candidates.back().laws[0];
+    law.goals_met = law.design.verification.passed = true;
+    law.still = all[i].still;
+    draws.candidates.push_back({.candidate = i, .unstable = {}, .outside_goals = {}});
+    auto& option = draws.statistics.options.emplace_back();
+    option.mean = all[i].mean;
+    option.best.value = all[i].best;
+    option.expected_regret = 0.25;
+  }
+  draws.front_shares.resize(all.size());
+  draws.best = best;
+  draws.second = second;
+  auto& pair = draws.statistics.pairs.emplace_back();
+  pair.first = best;
+  pair.second = second;
+  section.decision = std::move(draws);
+  return section;
+}
+
+TEST(EvaluateConclusions, HoldNoChoiceAgainstWhatIsLeftOut) {
+  const auto told = [](const EvaluateSection& section) {
+    return fmt::format("{}", fmt::join(conclude(section), " "));
+  };
+  EXPECT_THAT(told(drawn({{1.03, 0.1, true}, {1.02, 0.9, true}}, 1, 0)),
+              AllOf(HasSubstr("Least mean rms with the gains held: proposal 1, 1.0200 mdeg; it is "
+                              "the best of all with probability 0.900"),
+                    HasSubstr("and better than as it is with probability"),
+                    HasSubstr("against whoever knew the plant. The intervals")));
+  const auto hunting = drawn({{1.03, 0.0, true}, {1.02, 0.0, true}, {0.77, 1.0, false}}, 1, 0);
+  EXPECT_THAT(
+      told(hunting),
+      AllOf(HasSubstr("of those fit to be chosen: proposal 1, 1.0200 mdeg; it is better than as it "
+                      "is with probability"),
+            HasSubstr("Over the draws proposal 2 has the least mean of all, 0.7700 mdeg, but hunts "
+                      "beyond the tightest budget and is left out: the chances to be the best and "
+                      "the regrets above count it"),
+            Not(HasSubstr("Choosing it loses")), Not(HasSubstr("the best of all"))));
+  EXPECT_THAT(told(drawn({{1.03, 0.0, true}, {0.7, 0.8, true}, {0.77, 0.2, false}}, 1, 0)),
+              HasSubstr("against whoever knew the plant and took even what is not fit to be chosen "
+                        "where that is best (proposal 2)."));
+  EXPECT_THAT(told(drawn({{1.03, 0.0, true}, {0.77, 1.0, false}}, 0, 1)),
+              AllOf(HasSubstr("as it is, 1.0300 mdeg. Over the draws proposal 1 has the least"),
+                    Not(HasSubstr("better than"))));
+  EXPECT_THAT(to_text(document_of(hunting, *hunting.decision)),
+              HasSubstr("also against what is not fit to be chosen: proposal"));
 }
 
 TEST(EvaluateConclusions, NameGainsThatOnlyTheBoundsOfTheSearchHold) {

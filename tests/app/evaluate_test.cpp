@@ -113,6 +113,11 @@ TEST(Evaluate, ComparesOnTheSameDraws) {
   }
   EXPECT_LT(first_order, 1.1);
   EXPECT_GE(decision.tests->perfect.gain, 0.0);
+  // Of those fit to be chosen, by the places of all.
+  ASSERT_EQ(decision.tests->mean_loss.size(), 3U);
+  EXPECT_EQ(decision.tests->choice, decision.best);
+  EXPECT_EQ(decision.tests->mean_loss[decision.best],
+            decision.statistics.options[decision.best].mean);
 }
 
 TEST(Evaluate, DrawsAgreeWithTheEnsemble) {

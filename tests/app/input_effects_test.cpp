@@ -1,9 +1,12 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -16,8 +19,11 @@
 namespace boresight::app {
 namespace {
 
+using testing::AllOf;
+using testing::EndsWith;
 using testing::HasSubstr;
 using testing::Not;
+using testing::StartsWith;
 
 constexpr std::size_t all = 1000;
 
@@ -95,6 +101,35 @@ TEST(InputEffects, LeaveOutWhatRecordsGave) {
   EXPECT_TRUE(has_inertia());
   antenna.antenna.inertia.text.clear();
   EXPECT_FALSE(has_inertia());
+}
+
+// Where the case states the gear train's stiffness, that is what is moved, by a tenth of it.
+TEST(InputEffects, MoveTheStiffnessThatTheCaseStates) {
+  const Case own = read_case(case_path("dss14-70m"));
+  const double stiffness = make_plant(own).structure.gear_stiffness * std::pow(gear_ratio(own), 2);
+  const auto with = [](double of) {
+    return parse_case(
+        EditedCase()
+            .replace_line("locked_rotor_frequency",
+                          fmt::format("gear_stiffness = {{ value = \"{:.15g} N.m/rad\", basis = "
+                                      "\"assumed\", source = \"drawing\" }}",
+                                      of))
+            .text(),
+        "case.toml");
+  };
+  const Case antenna = with(stiffness);
+  const design::Design design = tuned(antenna);
+  ASSERT_TRUE(design.usable());
+  const auto effects =
+      input_effects(antenna, design.tuning.law, make_goals(antenna), design.beam_rms, all, 2);
+  const InputEffect& effect = effect_of(effects, "structure.gear_stiffness");
+  EXPECT_EQ(effect.quantity.kind, Kind::stiffness);
+  EXPECT_NEAR(effect.moved_by, 0.1 * stiffness, 1e-9 * stiffness);
+  const Case stiffer = with(1.1 * stiffness);
+  EXPECT_NEAR(
+      effect.high_rms,
+      design::assess(make_problem(stiffer), design.tuning.law, make_goals(stiffer)).beam_rms,
+      1e-5 * design.beam_rms);
 }
 
 TEST(InputEffects, KeepTheSumOfShares) {
@@ -216,6 +251,31 @@ TEST(InputEffects, SayWhatToMeasureFirst) {
   effect.high_rms = 0.505 * millidegree;
   EXPECT_EQ(measure_first({effect}, rms), "");
   EXPECT_THAT(measure_first({unstable, effect}, rms), Not(HasSubstr("wind")));
+}
+
+TEST(InputEffects, SayWhereFrictionIsToBeMeasuredToo) {
+  InputEffect effect;
+  effect.quantity.key = "wind.air_density";
+  effect.quantity.value = 1.2;
+  effect.moved_by = 0.12;
+  effect.low_rms = 0.45 * millidegree;
+  effect.high_rms = 0.55 * millidegree;
+  const double rms = 0.5 * millidegree;
+  const auto with = [&](double difference, const std::vector<InputEffect>& effects) {
+    std::optional<TimeDomainSection> in_time(std::in_place);
+    in_time->result.wind.influences = {
+        {design::Influence::orifice, design::RunStatus::complete, 0.0, 9.0 * millidegree},
+        {design::Influence::friction, design::RunStatus::complete, 0.0, difference}};
+    return measure_first(effects, rms, in_time);
+  };
+  EXPECT_THAT(with(0.6 * millidegree, {effect}),
+              EndsWith("measure that first. Friction, which no linear rms knows, is worth 0.600 "
+                       "mdeg of the simulated: measure the friction curve about the tracking rate, "
+                       "and what the bristles' stiffness rests on, as well."));
+  EXPECT_THAT(with(0.6 * millidegree, {}),
+              AllOf(StartsWith("Friction, which"), EndsWith("stiffness rests on.")));
+  EXPECT_EQ(with(0.09 * millidegree, {effect}), measure_first({effect}, rms));
+  EXPECT_EQ(with(std::numeric_limits<double>::quiet_NaN(), {effect}), measure_first({effect}, rms));
 }
 
 }  // namespace

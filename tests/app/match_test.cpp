@@ -169,6 +169,22 @@ TEST(Match, ReportsAndConcludes) {
             std::string::npos);
 }
 
+TEST(Match, NamesInertiasThatAreAsGoodBeyondTheFlatRange) {
+  MatchSection section = small_study();
+  auto& series = section.series[0];
+  const auto told = [&] { return conclude(section)[1]; };
+  const double least = series.values.back().beam_rms;
+  for (auto& value : series.values) value.beam_rms = 1.05 * least;
+  series.best = series.values.size() - 1;
+  series.values.back().beam_rms = least;
+  series.within_1_percent = {0.9 * section.points.back().disks, section.points.back().disks};
+  EXPECT_EQ(told().find("too"), std::string::npos);
+  series.values.front().beam_rms = 1.0006 * least;
+  EXPECT_NE(told().find("; 0 disks within 1 % too."), std::string::npos) << told();
+  series.values.front().found = false;
+  EXPECT_EQ(told().find("too"), std::string::npos);
+}
+
 TEST(Match, NamesTheModeOfMostOilWhereTheHydraulicModeHasLittle) {
   MatchSection section = small_study();
   for (auto& point : section.points) {

@@ -72,9 +72,9 @@ TEST(PositionGainTrade, SpeaksOfPlantsOnlyWhereItWasJudgedOnSome) {
   EXPECT_THAT(trade_in_words(trade, "PI with lag", 9.4551 * millidegree, 30),
               AllOf(HasSubstr("PI with lag has kp at its bound because"),
                     HasSubstr("9.5000 mdeg, +0.5 %, with every goal kept on 20 of 30 plants")));
-  EXPECT_THAT(
-      trade_in_words(trade, "PI with lag", 9.4551 * millidegree, 0),
-      AllOf(HasSubstr("9.5000 mdeg, +0.5 %. A [[tuning.bound]]"), Not(HasSubstr("plants"))));
+  EXPECT_THAT(trade_in_words(trade, "PI with lag", 9.4551 * millidegree, 0),
+              AllOf(HasSubstr("9.5000 mdeg, +0.5 %. A lower upper bound of kp ([[tuning.bound]]"),
+                    Not(HasSubstr("plants"))));
 }
 
 }  // namespace

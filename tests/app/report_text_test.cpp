@@ -67,6 +67,32 @@ TEST(IdentificationText, ReconcilesNoMethodsThatContradictOneAnother) {
   EXPECT_THAT(to_text(document_of(section)), HasSubstr("(the impulse results\n  count as one)"));
 }
 
+TEST(IdentificationText, GivesSharesOfTheDrawsInFigures) {
+  IdentificationSection section;
+  section.inertia.methods.resize(1);
+  section.printed.resize(1);
+  const auto with = [&](double share) {
+    section.inertia.methods.front().motor_to_load_ratio.beyond_pole = share;
+    return to_text(document_of(section));
+  };
+  EXPECT_THAT(with(0.998), HasSubstr("In 100 % of the draws its J is below"));
+  EXPECT_THAT(with(0.12), HasSubstr("In 12 % of the draws"));
+  EXPECT_THAT(with(0.0034), HasSubstr("In 0.34 % of the draws"));
+}
+
+TEST(PlantText, GivesNoSignToAShareThatIsNothing) {
+  PlantSection section;
+  plant::PlantMode mode;
+  mode.frequency = 2.0;
+  mode.pole = {-0.1, 12.0};
+  mode.oil_share = mode.oil_participation = 0.6;
+  mode.gear_share = -0.001;
+  section.modes = {mode};
+  EXPECT_THAT(to_text(document_of(section)), Not(HasSubstr("-0.00")));
+  section.modes[0].gear_share = -0.02;
+  EXPECT_THAT(to_text(document_of(section)), HasSubstr("-0.02"));
+}
+
 TEST(IdentificationText, LeavesOutColumnsThatNoRowFills) {
   IdentificationSection section;
   section.inertia.methods.resize(1);

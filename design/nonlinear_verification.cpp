@@ -257,7 +257,7 @@ HuntingResult watch(const SimulatedLoop& loop, const NonlinearVerificationOption
 
 HuntingResult hunt(const SimulatedLoop& loop, const NonlinearVerificationOptions& options,
                    double rate, double nudge) {
-  const HuntingResult seen = watch(loop, options, rate, nudge, options.hunting_duration);
+  HuntingResult seen = watch(loop, options, rate, nudge, options.hunting_duration);
   if (!seen.limit_cycle) return seen;
   return watch(loop, options, rate, nudge, hunting_confirmation * options.hunting_duration);
 }

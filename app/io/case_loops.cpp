@@ -210,14 +210,15 @@ control::LoopStructure bounded(const control::LoopStructure& structure,
   std::vector<control::LoopBlock> blocks = structure.blocks();
   for (auto& block : blocks) {
     for (auto& gain : block.gains) {
-      const auto bound = std::ranges::find(bounds, gain.symbol, &GainBoundEntry::symbol);
-      if (bound == bounds.end()) continue;
+      const auto found = std::ranges::find(bounds, gain.symbol, &GainBoundEntry::symbol);
+      if (found == bounds.end()) continue;
+      const auto &lower = found->lower, &upper = found->upper;
       const double width = gain.upper / gain.lower;
-      if (bound->lower) gain.lower = bound->lower->value;
-      if (bound->upper) gain.upper = bound->upper->value;
+      if (lower) gain.lower = lower->value;
+      if (upper) gain.upper = upper->value;
       // An end that is not stated gives way; both of one entry rise.
-      if (!bound->upper && gain.upper <= gain.lower) gain.upper = width * gain.lower;
-      if (!bound->lower && gain.lower >= gain.upper) gain.lower = gain.upper / width;
+      if (!upper && gain.upper <= gain.lower) gain.upper = width * gain.lower;
+      if (!lower && gain.lower >= gain.upper) gain.lower = gain.upper / width;
     }
   }
   return {structure.name(), std::move(blocks)};

@@ -52,7 +52,8 @@ double locked_rotor_frequency_for(plant::StructureSpecification antenna, double 
     middle = std::midpoint(lower, upper);
   }
   constexpr double rounding = 1e-6;
-  if (!(lower > 0.0 && std::abs(stiffness(lower) / gear_stiffness - 1.0) <= rounding)) {
+  const bool found = lower > 0.0 && std::abs(stiffness(lower) / gear_stiffness - 1.0) <= rounding;
+  if (!found) {
     throw InvalidInput(fmt::format(
         "expected a stiffness that leaves the locked-rotor frequency above 0 and below every mode, "
         "found one that takes it to {:.6g} Hz",

@@ -174,7 +174,8 @@ std::vector<std::string> reservations(const Report& report) {
   Sentences sentences;
   if (report.command != "redesign") {
     if (auto text = resonance_warning(report.resonance); !text.empty()) sentences = {text};
-    const TunedLaw* law = report.tuned ? recommended_law(*report.tuned) : nullptr;
+    if (!report.tuned) return sentences;
+    const TunedLaw* law = recommended_law(*report.tuned);
     if (law == nullptr) return sentences;
     std::ranges::move(gains_at_bounds({law}, sample_time_of(report.tuned->problem.delay)),
                       std::back_inserter(sentences));

@@ -30,8 +30,9 @@ double mdeg(double angle) {
 // studied.
 std::string first_change(const MatchSection& section, const MatchSeries& best, bool others) {
   const std::size_t built = as_built(section);
-  if (hunts_at(section, best, built)) {
-    const bool seen = hunting_beyond(section, best.values[built].time_domain->hunting);
+  const auto& run = best.values[built].time_domain;
+  if (run && hunts_at(section, best, built)) {
+    const bool seen = hunting_beyond(section, run->hunting);
     return seen ? "With the motors as built those loops hunt beyond the tightest budget on the "
                   "nonlinear antenna."
                 : "With the motors as built those loops were not seen to hold still on the "

@@ -1,8 +1,8 @@
 #include <benchmark/benchmark.h>
 
 #include "plant_family.hpp"
-#include <boresight/control/closed_loop.hpp>
-#include <boresight/control/sensitivity_bounds.hpp>
+#include <boresight/control/loops/closed_loop.hpp>
+#include <boresight/control/loops/sensitivity_bounds.hpp>
 
 namespace {
 

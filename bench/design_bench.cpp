@@ -1,7 +1,7 @@
 #include <benchmark/benchmark.h>
 
 #include "plant_family.hpp"
-#include <boresight/design/design_study.hpp>
+#include <boresight/design/tuning/design_study.hpp>
 
 namespace {
 

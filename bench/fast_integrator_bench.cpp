@@ -6,9 +6,9 @@
 #include <benchmark/benchmark.h>
 
 #include "../tests/peer_drive.hpp"
-#include <boresight/plant/fast_integrator.hpp>
-#include <boresight/plant/feedback_ode.hpp>
-#include <boresight/plant/ode_integrator.hpp>
+#include <boresight/plant/integration/fast_integrator.hpp>
+#include <boresight/plant/integration/feedback_ode.hpp>
+#include <boresight/plant/integration/ode_integrator.hpp>
 
 namespace {
 

@@ -7,7 +7,7 @@
 #include <benchmark/benchmark.h>
 
 #include "../tests/control/reference_loop.hpp"
-#include <boresight/control/loop_evaluator.hpp>
+#include <boresight/control/loops/loop_evaluator.hpp>
 
 namespace {
 

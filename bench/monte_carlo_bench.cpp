@@ -9,8 +9,8 @@
 #include <benchmark/benchmark.h>
 
 #include "../tests/design/reference_problem.hpp"
-#include <boresight/design/monte_carlo.hpp>
-#include <boresight/plant/normal_numbers.hpp>
+#include <boresight/design/ensembles/monte_carlo.hpp>
+#include <boresight/numerics/normal_numbers.hpp>
 
 namespace {
 
@@ -21,7 +21,7 @@ constexpr std::uint64_t plants = 100000;
 
 plant::AntennaPlant uncertain_antenna(std::uint64_t index) {
   const auto within = [&](std::uint64_t input, double lower, double upper) {
-    const auto bits = plant::splitmix64(7, 6 * index + input) >> 11U;
+    const auto bits = numerics::splitmix64(7, 6 * index + input) >> 11U;
     return lower + (upper - lower) * static_cast<double>(bits) * 0x1p-53;
   };
   auto structure = reference::structure();

@@ -2,13 +2,13 @@
 #include <benchmark/benchmark.h>
 
 #include "../tests/peer_family.hpp"
-#include <boresight/control/balanced_truncation.hpp>
-#include <boresight/control/controllability.hpp>
-#include <boresight/control/gramians.hpp>
-#include <boresight/control/lyapunov.hpp>
-#include <boresight/control/modal_truncation.hpp>
-#include <boresight/control/riccati.hpp>
-#include <boresight/plant/sampling.hpp>
+#include <boresight/control/equations/lyapunov.hpp>
+#include <boresight/control/equations/riccati.hpp>
+#include <boresight/control/reduction/balanced_truncation.hpp>
+#include <boresight/control/reduction/controllability.hpp>
+#include <boresight/control/reduction/gramians.hpp>
+#include <boresight/control/reduction/modal_truncation.hpp>
+#include <boresight/plant/linear/sampling.hpp>
 
 namespace {
 

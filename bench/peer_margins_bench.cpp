@@ -2,8 +2,8 @@
 #include <benchmark/benchmark.h>
 
 #include "../tests/peer_modal_family.hpp"
-#include <boresight/control/crossovers.hpp>
-#include <boresight/control/modal_margins.hpp>
+#include <boresight/control/analysis/crossovers.hpp>
+#include <boresight/control/analysis/modal_margins.hpp>
 
 namespace {
 

@@ -2,9 +2,9 @@
 #include <benchmark/benchmark.h>
 
 #include "../tests/peer_family.hpp"
-#include <boresight/control/h2_norm.hpp>
-#include <boresight/control/peak_gain.hpp>
-#include <boresight/control/spectral_rms.hpp>
+#include <boresight/control/analysis/h2_norm.hpp>
+#include <boresight/control/analysis/peak_gain.hpp>
+#include <boresight/control/analysis/spectral_rms.hpp>
 
 namespace {
 

@@ -3,9 +3,9 @@
 #include <benchmark/benchmark.h>
 
 #include "../tests/peer_family.hpp"
-#include <boresight/plant/dense_response.hpp>
-#include <boresight/plant/modal_form.hpp>
-#include <boresight/plant/modal_response.hpp>
+#include <boresight/plant/linear/dense_response.hpp>
+#include <boresight/plant/linear/modal_form.hpp>
+#include <boresight/plant/modal/modal_response.hpp>
 
 namespace {
 

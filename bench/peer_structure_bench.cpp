@@ -2,9 +2,9 @@
 #include <benchmark/benchmark.h>
 
 #include "../tests/peer_family.hpp"
-#include <boresight/control/sampled_loop.hpp>
-#include <boresight/control/transmission_zeros.hpp>
-#include <boresight/plant/minimal_realisation.hpp>
+#include <boresight/control/analysis/transmission_zeros.hpp>
+#include <boresight/control/controllers/sampled_loop.hpp>
+#include <boresight/plant/linear/minimal_realisation.hpp>
 
 namespace {
 

@@ -2,9 +2,9 @@
 #include <benchmark/benchmark.h>
 
 #include "../tests/peer_family.hpp"
-#include <boresight/control/step_characteristics.hpp>
-#include <boresight/plant/sampling.hpp>
-#include <boresight/plant/time_response.hpp>
+#include <boresight/control/analysis/step_characteristics.hpp>
+#include <boresight/plant/linear/sampling.hpp>
+#include <boresight/plant/linear/time_response.hpp>
 
 namespace {
 

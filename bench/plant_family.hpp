@@ -3,7 +3,7 @@
 #include <cmath>
 #include <numbers>
 
-#include <boresight/design/tracking_problem.hpp>
+#include <boresight/design/problem/tracking_problem.hpp>
 
 namespace boresight {
 

@@ -54,10 +54,10 @@ of the drive would buy. With two worked cases, the 70-m and 64-m antennas of the
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_NAME libboresight-dev)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SECTION libdevel)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS
-  "libeigen3-dev (>= 3.4), libfmt-dev (>= 9), libnlopt-dev (>= 2.7), libsundials-dev (>= 6.4)")
+  "libeigen3-dev (>= 3.4), libfmt-dev (>= 9), libnlopt-dev (>= 2.7), libsundials-dev (>= 6.4), zlib1g-dev, nettle-dev")
 set(CPACK_COMPONENT_DEVELOPMENT_DESCRIPTION "Servo design of large antennas: libraries and headers
-Static libraries for C++20: plant, identification, control and design, with a CMake package, a
-pkg-config file and examples.")
+Static libraries for C++20: numerics, plant, identification, control, design and io, with a CMake
+package, a pkg-config file and examples.")
 
 if(TARGET boresight_python)
   list(APPEND CPACK_COMPONENTS_ALL python)

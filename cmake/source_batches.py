@@ -1,14 +1,17 @@
 #!/usr/bin/env python3
-"""Puts source files into batches that can be compiled as one file each.
+"""Puts source files into batches that are compiled as one file each.
 
 Most of the time that a source file takes goes into the headers it reads and the templates it makes of
-them, Eigen above all; a batch pays for that once. Files may share a batch where none uses a word that
-another declares for itself alone, in an unnamed namespace.
+them, Eigen above all; a batch pays for that once. A batch includes what its files include, then the
+files. What a file declares for itself alone, in an unnamed namespace, gets a name of its own by a macro
+while that file is read, so that names do not clash. Where a macro cannot do that (a name that is also a
+member's, or a header's) files share a batch only if none uses that word of another.
 
-  source_batches.py KEPT LARGEST FILE...
+  source_batches.py FOLDER LARGEST FILE...
 
-prints a line "batch file" for each FILE, no batch being larger than LARGEST. The file KEPT remembers the
-batches: a file stays where it was as long as it can, so that an edit does not compile others again.
+writes the batches, of at most LARGEST files, as FOLDER/batch_N.cpp and prints their names, a line each.
+FOLDER/kept.txt remembers them: a file stays where it was as long as it can, so that an edit does not
+compile others again.
 """
 
 import pathlib
@@ -23,6 +26,9 @@ TYPE = re.compile(r"^(?:struct|class|enum class|enum|union) (\w+)")
 MATCHER = re.compile(r"^MATCHER\w*\((\w+)")
 # Of members, after a dot or an arrow, there is no doubt whose they are.
 WORD = re.compile(r"(?<!\.)(?<!->)\b[A-Za-z_]\w*")
+# Words of the language that a declaration may show in the place of a name, and what GoogleTest looks for
+# by this name beside a type, so that each is an overload.
+NOT_NAMES = {"PrintTo", "bool", "char", "double", "float", "int", "long", "short", "unsigned", "void"}
 
 
 def local_names(text):
@@ -39,7 +45,42 @@ def local_names(text):
                 if match := pattern.match(line):
                     names.add(match.group(1))
                     break
+    return names - NOT_NAMES
+
+
+# Macros that make text or other names of what they are given.
+PASTING = re.compile(r"^(?:TEST|TYPED_TEST|INSTANTIATE_|MATCHER|BENCHMARK)\w*\(.*$", re.M)
+QUALIFIED = re.compile(r"(?:\.|->|::)\s*([A-Za-z_]\w*)")
+# Includes of the head of a file; what stands between #if and #endif is left to the file.
+INCLUDE = re.compile(r'^#include (<[^>]+>|"[^"]+")', re.M)
+CONDITION = re.compile(r"^#\s*if.*?^#\s*endif", re.M | re.S)
+# fmt/ranges.h does not do behind nlohmann/json.hpp what it does before it.
+FIRST = "<fmt/ranges.h>"
+
+
+def without_comments(text):
+    return re.sub(r"//.*", "", text)
+
+
+def header_names(folder):
+    """Names that the project's headers declare at the level of a namespace."""
+    names = set()
+    for header in sorted(folder.rglob("*.hpp")):
+        for line in without_comments(header.read_text(encoding="utf-8")).splitlines():
+            for pattern in (TYPE, DECLARED):
+                if match := pattern.match(line):
+                    names.add(match.group(1))
+                    break
     return names
+
+
+def renamed(text, of_headers):
+    """Local names of a file that a macro can rename while it is read."""
+    bare = without_comments(text)
+    taken = set(QUALIFIED.findall(bare)) | of_headers
+    for line in PASTING.findall(bare):
+        taken |= set(re.findall(r"\w+", line))
+    return {name for name in local_names(text) - taken if not name.startswith("__")}
 
 
 class Batch:
@@ -57,13 +98,17 @@ class Batch:
         self.used |= words
 
 
-def batches(sources, largest, kept=None):
-    """Of each batch its sources, in order. kept: of a source the number of the batch it was in."""
+def batches(sources, largest, kept=None, of_headers=None):
+    """Of each batch its sources, in order. kept: of a source the number of the batch it was in.
+    of_headers: what headers declare; without it no name is taken to be renamed."""
     kept = kept or {}
     made = [Batch() for _ in range(max(kept.values(), default=-1) + 1)]
     for source in sorted(sources, key=lambda source: source not in kept):
         text = pathlib.Path(source).read_text(encoding="utf-8")
-        names, words = local_names(text), set(WORD.findall(text))
+        names, words = local_names(text), set(WORD.findall(without_comments(text)))
+        if of_headers is not None:
+            free = renamed(text, of_headers)
+            names, words = names - free, words - free
         first = made[kept[source]:kept[source] + 1] if source in kept else []
         for batch in [*first, *made]:
             if len(batch.members) < largest and batch.admits(names, words):
@@ -74,19 +119,44 @@ def batches(sources, largest, kept=None):
     return [batch.members for batch in made]
 
 
+def batch_text(members, of_headers):
+    """The source of a batch: what all its files include, then the files."""
+    texts = [pathlib.Path(member).read_text(encoding="utf-8") for member in members]
+    included = {name for text in texts for name in INCLUDE.findall(CONDITION.sub("", text))}
+    lines = [f"#include {FIRST}"] if FIRST in included else []
+    lines += [f"#include {name}" for name in sorted(included - {FIRST}, key=lambda name: (name[0] == '"', name))]
+    for member, text in zip(members, texts):
+        place = re.sub(r"\W", "_", "_".join(pathlib.Path(member).with_suffix("").parts[-2:]))
+        names = sorted(renamed(text, of_headers))
+        lines += [f"#define {name} {name}_of_{place}" for name in names]
+        lines.append(f'#include "{member}"')
+        lines += [f"#undef {name}" for name in names]
+    return "\n".join(lines) + "\n"
+
+
+def write_if_changed(path, text):
+    if not path.exists() or path.read_text(encoding="utf-8") != text:
+        path.write_text(text, encoding="utf-8")
+
+
 def main():
-    memory, largest, sources = pathlib.Path(sys.argv[1]), int(sys.argv[2]), sys.argv[3:]
-    kept = {}
+    folder, largest, sources = pathlib.Path(sys.argv[1]), int(sys.argv[2]), sys.argv[3:]
+    memory, kept = folder / "kept.txt", {}
     if memory.exists():
         for line in memory.read_text(encoding="utf-8").splitlines():
             number, source = line.split(" ", 1)
             if source in sources:
                 kept[source] = int(number)
-    lines = "".join(f"{number} {source}\n" for number, members in enumerate(batches(sources, largest, kept))
-                    for source in members)
-    memory.parent.mkdir(parents=True, exist_ok=True)
-    memory.write_text(lines, encoding="utf-8")
-    print(lines, end="")
+    folder.mkdir(parents=True, exist_ok=True)
+    of_headers = header_names(pathlib.Path(__file__).resolve().parent.parent)
+    memories = []
+    for number, members in enumerate(batches(sources, largest, kept, of_headers)):
+        memories += [f"{number} {source}\n" for source in members]
+        if members:
+            path = folder / f"batch_{number}.cpp"
+            write_if_changed(path, batch_text(members, of_headers))
+            print(path)
+    memory.write_text("".join(memories), encoding="utf-8")
 
 
 if __name__ == "__main__":

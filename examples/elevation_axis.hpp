@@ -3,10 +3,10 @@
 #include <numbers>
 #include <vector>
 
-#include <boresight/design/tracking_problem.hpp>
-#include <boresight/plant/antenna_plant.hpp>
-#include <boresight/plant/gear_train.hpp>
-#include <boresight/plant/hydraulics.hpp>
+#include <boresight/design/problem/tracking_problem.hpp>
+#include <boresight/plant/antenna/antenna_plant.hpp>
+#include <boresight/plant/antenna/gear_train.hpp>
+#include <boresight/plant/antenna/hydraulics.hpp>
 
 /// The antenna of the examples: the elevation axis of a 70-m dish on four hydraulic motors with 24
 /// flywheel disks each. Put your own numbers here. SI, at the motor shaft.

@@ -5,7 +5,7 @@
 #include <cstdlib>
 
 #include "elevation_axis.hpp"
-#include <boresight/plant/error.hpp>
+#include <boresight/numerics/error.hpp>
 
 int main(int argc, char** argv) try {
   namespace plant = boresight::plant;

@@ -4,8 +4,8 @@
 #include <cstdio>
 
 #include "elevation_axis.hpp"
-#include <boresight/design/rejection_benchmark.hpp>
-#include <boresight/plant/state_space.hpp>
+#include <boresight/design/benchmark/rejection_benchmark.hpp>
+#include <boresight/plant/linear/state_space.hpp>
 
 namespace {
 

@@ -6,7 +6,7 @@
 #include <fstream>
 
 #include "elevation_axis.hpp"
-#include <boresight/plant/plant_response.hpp>
+#include <boresight/plant/antenna/plant_response.hpp>
 
 namespace {
 

@@ -5,15 +5,15 @@
 #include <vector>
 
 #include "elevation_axis.hpp"
-#include <boresight/identification/propagation.hpp>
+#include <boresight/numerics/statistics/propagation.hpp>
 
 int main() {
-  namespace identification = boresight::identification;
+  namespace numerics = boresight::numerics;
   namespace plant = boresight::plant;
 
   const double ratio = elevation_axis::gear_ratio();
   // Value and standard uncertainty, kg m2.
-  const std::vector<identification::UncertainInput> masses{
+  const std::vector<numerics::UncertainInput> masses{
       {"motors and flywheels", elevation_axis::motor_inertia, 0.01 * elevation_axis::motor_inertia},
       {"gear train", elevation_axis::gear_train_inertia, 0.05 * elevation_axis::gear_train_inertia},
       {"dish", elevation_axis::dish_inertia, 0.10 * elevation_axis::dish_inertia}};
@@ -25,7 +25,7 @@ int main() {
   const auto load_to_motor = [total](std::span<const double> mass) {
     return plant::load_to_motor_ratio(mass[0], total(mass));
   };
-  const auto results = identification::propagate(
+  const auto results = numerics::propagate(
       masses, {{.name = "reflected inertia kg.m2", .evaluate = total},
                {.name = "motor-to-load ratio", .evaluate = load_to_motor, .reciprocal = true}});
 

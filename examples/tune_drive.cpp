@@ -4,7 +4,7 @@
 #include <cstdio>
 
 #include "elevation_axis.hpp"
-#include <boresight/design/design_study.hpp>
+#include <boresight/design/tuning/design_study.hpp>
 
 int main() {
   namespace control = boresight::control;

@@ -4,17 +4,17 @@
 #include <pybind11/stl.h>
 
 #include <boresight/app/audit/audit_report.hpp>
-#include <boresight/app/io/case_file.hpp>
 #include <boresight/app/redesign/antenna_model.hpp>
-#include <boresight/plant/error.hpp>
+#include <boresight/io/case/case_file.hpp>
+#include <boresight/numerics/error.hpp>
 #include <boresight/python/bindings.hpp>
 #include <boresight/python/results.hpp>
 
 namespace boresight::python {
 namespace {
 
-using app::Case;
-using app::Quantity;
+using io::Case;
+using io::Quantity;
 
 const Quantity& quantity(const Case& antenna, const std::string& key) {
   const auto found = std::ranges::find(antenna.quantities, key, &Quantity::key);
@@ -41,12 +41,12 @@ void add_case(py::module_& module) {
       .def_readonly("text", &Quantity::text, "As written, with its unit")
       .def_readonly("source", &Quantity::source)
       .def_property_readonly(
-          "basis", [](const Quantity& one) { return std::string(app::to_string(one.basis)); },
+          "basis", [](const Quantity& one) { return std::string(io::to_string(one.basis)); },
           "'measured', 'published', 'inferred', 'assumed' or 'unstated'")
       .def("__float__", [](const Quantity& one) { return one.value; })
       .def("__repr__", [](const Quantity& one) {
         return fmt::format("<boresight.Quantity {} = {}, {}>", one.key, one.text,
-                           app::to_string(one.basis));
+                           io::to_string(one.basis));
       });
 
   py::class_<Case>(
@@ -59,7 +59,7 @@ void add_case(py::module_& module) {
       .def_readonly("quantities", &Case::quantities, "Every Quantity, in the file's order")
       .def("__getitem__", &quantity, py::arg("key"), py::return_value_policy::reference_internal)
       .def_property_readonly(
-          "gear_ratio", [](const Case& antenna) { return app::gear_ratio(antenna); },
+          "gear_ratio", [](const Case& antenna) { return io::gear_ratio(antenna); },
           "Motor turns per antenna turn")
       .def_property_readonly(
           "motor_inertia",
@@ -81,7 +81,7 @@ void add_case(py::module_& module) {
       });
 
   module.def(
-      "read_case", &app::read_case, py::arg("path"),
+      "read_case", &io::read_case, py::arg("path"),
       "Reads and checks a case file (docs/case-file.md). Raises InvalidInput with file, line, "
       "column, key, what was expected and what was found.");
   module.def(

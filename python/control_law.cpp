@@ -1,10 +1,10 @@
 #include <fmt/format.h>
 #include <pybind11/stl.h>
 
-#include <boresight/control/closed_loop.hpp>
-#include <boresight/control/control_law.hpp>
-#include <boresight/control/sampled_law.hpp>
-#include <boresight/plant/error.hpp>
+#include <boresight/control/controllers/control_law.hpp>
+#include <boresight/control/controllers/sampled_law.hpp>
+#include <boresight/control/loops/closed_loop.hpp>
+#include <boresight/numerics/error.hpp>
 #include <boresight/python/bindings.hpp>
 #include <boresight/python/results.hpp>
 

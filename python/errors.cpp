@@ -1,6 +1,6 @@
 #include <utility>
 
-#include <boresight/plant/error.hpp>
+#include <boresight/numerics/error.hpp>
 #include <boresight/python/bindings.hpp>
 
 namespace boresight::python {

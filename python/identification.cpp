@@ -7,7 +7,7 @@
 
 #include <boresight/app/commands/subcommand.hpp>
 #include <boresight/app/identify/campaign_identification.hpp>
-#include <boresight/plant/error.hpp>
+#include <boresight/numerics/error.hpp>
 #include <boresight/python/bindings.hpp>
 #include <boresight/python/interruptible.hpp>
 #include <boresight/python/results.hpp>
@@ -15,7 +15,7 @@
 namespace boresight::python {
 namespace {
 
-using identification::Interval;
+using numerics::Interval;
 using python::interval_of;
 
 // One method's answer, whether from the case's numbers or from its records.
@@ -37,7 +37,7 @@ struct Identification : Found {
   std::map<std::string, Interval> drive;
 };
 
-Identification identify(const app::Case& antenna, std::uint64_t seed, unsigned threads) {
+Identification identify(const io::Case& antenna, std::uint64_t seed, unsigned threads) {
   Identification result{{report_of(antenna, "identify", seed)}, {}, {}, {}, {}, {}};
   interruptible([&](const StopRequest& stop) {
     app::StudyOptions options;

@@ -12,7 +12,7 @@
 #include <boresight/app/match/match_study.hpp>
 #include <boresight/app/redesign/assumed_inputs.hpp>
 #include <boresight/app/uncertainty/designed_antenna.hpp>
-#include <boresight/plant/error.hpp>
+#include <boresight/numerics/error.hpp>
 #include <boresight/python/bindings.hpp>
 #include <boresight/python/interruptible.hpp>
 #include <boresight/python/results.hpp>
@@ -39,9 +39,9 @@ app::MatchTimeRuns time_runs_of(const std::string& name) {
       fmt::format("match: expected time_domain 'none', 'few' or 'all', found '{}'", name));
 }
 
-Matching match(app::Case antenna, std::vector<std::string> structures, int points,
-               double most_disks, int starts, bool robust, bool variants,
-               const std::string& time_domain, std::uint64_t seed, unsigned threads) {
+Matching match(io::Case antenna, std::vector<std::string> structures, int points, double most_disks,
+               int starts, bool robust, bool variants, const std::string& time_domain,
+               std::uint64_t seed, unsigned threads) {
   app::MatchOptions options;
   options.structures = std::move(structures);
   options.points = points;

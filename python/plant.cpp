@@ -6,15 +6,15 @@
 #include <pybind11/stl.h>
 
 #include <boresight/app/redesign/sections.hpp>
-#include <boresight/plant/gear_train.hpp>
-#include <boresight/plant/hydraulics.hpp>
+#include <boresight/plant/antenna/gear_train.hpp>
+#include <boresight/plant/antenna/hydraulics.hpp>
 #include <boresight/python/bindings.hpp>
 #include <boresight/python/results.hpp>
 
 namespace boresight::python {
 namespace {
 
-Plant make_plant(const app::Case& antenna, std::optional<double> flywheel_disks,
+Plant make_plant(const io::Case& antenna, std::optional<double> flywheel_disks,
                  std::optional<double> antenna_inertia, std::optional<double> oil_stiffness,
                  std::optional<double> leakage_rate, std::optional<double> viscous_friction) {
   app::PlantVariant variant;

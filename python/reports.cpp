@@ -9,7 +9,7 @@
 
 namespace boresight::python {
 
-app::Report report_of(const app::Case& antenna, const std::string& command, std::uint64_t seed) {
+app::Report report_of(const io::Case& antenna, const std::string& command, std::uint64_t seed) {
   app::Report report;
   report.command = command;
   report.title = antenna.title;
@@ -20,12 +20,12 @@ app::Report report_of(const app::Case& antenna, const std::string& command, std:
   return report;
 }
 
-identification::Interval interval_of(const identification::PropagatedResult& result) {
+numerics::Interval interval_of(const numerics::PropagatedResult& result) {
   return {result.value, result.standard_uncertainty, result.lower, result.upper};
 }
 
 void add_reports(py::module_& module) {
-  using identification::Interval;
+  using numerics::Interval;
   py::class_<Interval>(module, "Interval",
                        "A result with its 95 % interval, SI. float() is the value.")
       .def_readonly("value", &Interval::value)

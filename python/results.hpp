@@ -3,9 +3,9 @@
 #include <string>
 
 #include <boresight/app/report/report.hpp>
-#include <boresight/identification/interval.hpp>
-#include <boresight/identification/propagation.hpp>
-#include <boresight/plant/state_space.hpp>
+#include <boresight/numerics/statistics/interval.hpp>
+#include <boresight/numerics/statistics/propagation.hpp>
+#include <boresight/plant/linear/state_space.hpp>
 
 namespace boresight::python {
 
@@ -15,9 +15,9 @@ struct Found {
 };
 
 /// A report that says what was asked, still without an answer.
-app::Report report_of(const app::Case& antenna, const std::string& command, std::uint64_t seed);
+app::Report report_of(const io::Case& antenna, const std::string& command, std::uint64_t seed);
 
-identification::Interval interval_of(const identification::PropagatedResult& result);
+numerics::Interval interval_of(const numerics::PropagatedResult& result);
 
 /// A plant of a case, and what is known of it.
 struct Plant : Found {

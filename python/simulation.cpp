@@ -7,7 +7,7 @@
 
 #include <boresight/app/simulate/drive_run.hpp>
 #include <boresight/app/simulate/position_run.hpp>
-#include <boresight/plant/error.hpp>
+#include <boresight/numerics/error.hpp>
 #include <boresight/python/bindings.hpp>
 #include <boresight/python/interruptible.hpp>
 #include <boresight/python/results.hpp>
@@ -19,11 +19,10 @@ struct Record {
   std::string test;
   std::string description;
   double sample_time = 0.0;
-  app::CsvTable table;
+  io::CsvTable table;
 };
 
-std::vector<Record> simulate(const app::Case& antenna, const std::string& test,
-                             std::uint64_t seed) {
+std::vector<Record> simulate(const io::Case& antenna, const std::string& test, std::uint64_t seed) {
   const auto& known = app::simulated_test_names();
   if (std::ranges::find(known, test) == known.end()) {
     throw InvalidInput(
@@ -75,7 +74,7 @@ void add_simulation(py::module_& module) {
           },
           "Of the columns, by name")
       .def(
-          "to_csv", [](const Record& record) { return app::to_csv(record.table); },
+          "to_csv", [](const Record& record) { return io::to_csv(record.table); },
           "The text that `boresight simulate` writes to the record's file.");
   module.def(
       "simulate", &simulate, py::arg("case"), py::arg("test"), py::arg("seed") = 1,

@@ -6,9 +6,9 @@
 #include <pybind11/numpy.h>
 #include <pybind11/stl.h>
 
-#include <boresight/plant/dense_response.hpp>
-#include <boresight/plant/eigenvalues.hpp>
-#include <boresight/plant/state_space.hpp>
+#include <boresight/numerics/eigenvalues.hpp>
+#include <boresight/plant/linear/dense_response.hpp>
+#include <boresight/plant/linear/state_space.hpp>
 #include <boresight/python/bindings.hpp>
 
 namespace boresight::python {
@@ -81,7 +81,7 @@ void add_state_space(py::module_& module) {
       .def_readonly("states", &StateSpace::states, "Names of the states")
       .def_readonly("sample_time", &StateSpace::sample_time, "s; 0: continuous")
       .def(
-          "poles", [](const StateSpace& system) { return plant::eigenvalues(system.a); },
+          "poles", [](const StateSpace& system) { return numerics::eigenvalues(system.a); },
           "Eigenvalues of A (rad/s; of a sampled system in the z plane), by magnitude.")
       .def("frequency_response", &response, py::arg("angular_frequency"),
            "C (s I - A)^-1 B + D at s = jw (sampled: z = e^(jwT)) for each w in rad/s: an array of "

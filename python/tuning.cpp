@@ -29,12 +29,12 @@ struct Tuning : Found {
   }
 };
 
-Tuning tune(app::Case antenna, std::vector<std::string> structures, std::vector<double> wind_speeds,
+Tuning tune(io::Case antenna, std::vector<std::string> structures, std::vector<double> wind_speeds,
             const std::map<std::string, std::string>& goals, int starts, std::uint64_t seed,
             unsigned threads) {
   std::vector<std::string> changes;
   for (const auto& [key, value] : goals) changes.push_back(fmt::format("{}={}", key, value));
-  app::change_goals(antenna.goals, changes);
+  io::change_goals(antenna.goals, changes);
   if (!structures.empty()) app::asked_structures(antenna, structures);
   Tuning result{{report_of(antenna, "tune", seed)}};
   result.report.tuned = interruptible([&](const StopRequest& stop) {

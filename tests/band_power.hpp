@@ -7,7 +7,7 @@
 
 #include <Eigen/Core>
 
-#include <boresight/plant/fourier_transform.hpp>
+#include <boresight/numerics/fourier_transform.hpp>
 
 namespace boresight::reference {
 
@@ -50,8 +50,9 @@ inline Eigen::ArrayXd line_powers(const Eigen::VectorXd& series, bool window) {
       tapered[i] *= std::sqrt(2.0 / 3.0) * (1.0 - std::cos(turn * (static_cast<double>(i) + 0.5)));
     }
   }
-  Eigen::ArrayXd powers = plant::fourier_transform(tapered).tail(series.size() / 2).array().abs2() *
-                          2.0 / (samples * samples);
+  Eigen::ArrayXd powers =
+      numerics::fourier_transform(tapered).tail(series.size() / 2).array().abs2() * 2.0 /
+      (samples * samples);
   if (series.size() % 2 == 0) powers[powers.size() - 1] *= 0.5;
   return powers;
 }

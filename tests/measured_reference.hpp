@@ -1,9 +1,9 @@
 #pragma once
 
 #include "design/reference_problem.hpp"
-#include <boresight/control/measured_channels.hpp>
-#include <boresight/plant/normal_numbers.hpp>
-#include <boresight/plant/point_response.hpp>
+#include <boresight/control/measured/measured_channels.hpp>
+#include <boresight/numerics/normal_numbers.hpp>
+#include <boresight/plant/antenna/point_response.hpp>
 
 /// The reference antenna as a test would measure it: its exact response to the valve command, with
 /// noise of known coherence.
@@ -35,7 +35,7 @@ inline control::MeasuredPlant measured_plant(const plant::AntennaPlant& plant,
                                              double averages, std::uint64_t seed = 1) {
   const Eigen::Index count = frequency.size();
   const plant::PointResponse response(plant);
-  const plant::NormalNumbers numbers(seed);
+  const numerics::NormalNumbers numbers(seed);
   control::MeasuredPlant measured{frequency,
                                   Eigen::ArrayXcd(count),
                                   Eigen::ArrayXcd(count),

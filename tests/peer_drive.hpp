@@ -6,7 +6,7 @@
 #include <Eigen/Core>
 
 #include "peer_family.hpp"
-#include <boresight/plant/feedback_system.hpp>
+#include <boresight/plant/integration/feedback_system.hpp>
 
 /// The rate loop of the peers' antenna with the square root of its valve and with friction
 /// (tests/data/reference/peers.json, nl_none, nl_tanh, nl_lugre): a triangular rate command, 60 s

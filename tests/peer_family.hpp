@@ -8,8 +8,8 @@
 
 #include <Eigen/Core>
 
-#include <boresight/plant/modal_system.hpp>
-#include <boresight/plant/state_space.hpp>
+#include <boresight/plant/linear/state_space.hpp>
+#include <boresight/plant/modal/modal_system.hpp>
 
 /// The antenna servo that other programs were measured on (tests/data/reference/peers.json):
 /// motor, valve, wind filter and rate and position loop at the motor side, with `modes` structural

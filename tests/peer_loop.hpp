@@ -4,9 +4,9 @@
 #include <vector>
 
 #include "peer_family.hpp"
-#include <boresight/control/loop_evaluator.hpp>
-#include <boresight/plant/complex_packs.hpp>
-#include <boresight/plant/vector_clones.hpp>
+#include <boresight/control/loops/loop_evaluator.hpp>
+#include <boresight/numerics/complex_packs.hpp>
+#include <boresight/numerics/vector_clones.hpp>
 
 /// The peers' antenna servo (peer_family.hpp) as an evaluator of control laws sees it.
 namespace boresight::reference {
@@ -15,14 +15,14 @@ namespace boresight::reference {
 class PeerChannels {
  public:
   explicit PeerChannels(const PeerModes& modes)
-      : modes_(plant::pack_count(static_cast<std::size_t>(modes.frequency.size()))) {
-    for (std::size_t i = 0; i < modes_.size() * plant::pack_size; ++i) {
+      : modes_(numerics::pack_count(static_cast<std::size_t>(modes.frequency.size()))) {
+    for (std::size_t i = 0; i < modes_.size() * numerics::pack_size; ++i) {
       const auto k = static_cast<Eigen::Index>(i);
       const bool there = k < modes.frequency.size();
       const auto value = [&](const Eigen::VectorXd& x) { return there ? x[k] : 0.0; };
       const double w = there ? modes.frequency[k] : 1.0;
-      ModePack& pack = modes_[i / plant::pack_size];
-      const std::size_t lane = i % plant::pack_size;
+      ModePack& pack = modes_[i / numerics::pack_size];
+      const std::size_t lane = i % numerics::pack_size;
       pack.stiffness.set(lane, w * w);
       pack.damping.set(lane, 2.0 * value(modes.damping_ratio) * w);
       pack.motor_motor.set(lane, value(modes.motor) * value(modes.motor));
@@ -36,12 +36,12 @@ class PeerChannels {
   BORESIGHT_VECTOR_CLONES
   plant::ResponsePoint operator()(double frequency) const {
     using Complex = std::complex<double>;
-    plant::ComplexPack motor_motor{}, motor_wind{}, beam_motor{}, beam_wind{};
-    const plant::RealPack w = frequency, square = frequency * frequency;
+    numerics::ComplexPack motor_motor{}, motor_wind{}, beam_motor{}, beam_wind{};
+    const numerics::RealPack w = frequency, square = frequency * frequency;
     for (const ModePack& mode : modes_) {
-      const plant::RealPack real = mode.stiffness - square, imaginary = mode.damping * w;
-      const plant::RealPack scale = 1.0 / (real * real + imaginary * imaginary);
-      const plant::ComplexPack inverse{real * scale, -imaginary * scale};
+      const numerics::RealPack real = mode.stiffness - square, imaginary = mode.damping * w;
+      const numerics::RealPack scale = 1.0 / (real * real + imaginary * imaginary);
+      const numerics::ComplexPack inverse{real * scale, -imaginary * scale};
       motor_motor = motor_motor + inverse * mode.motor_motor;
       motor_wind = motor_wind + inverse * mode.motor_wind;
       beam_motor = beam_motor + inverse * mode.beam_motor;
@@ -50,8 +50,8 @@ class PeerChannels {
     const PeerDrive& d = drive_;
     const Complex s{0.0, frequency};
     const double rigid = -1.0 / (d.inertia * frequency * frequency);
-    const auto total = [&](const plant::ComplexPack& x) {
-      return Complex{rigid + plant::sum(x.re), plant::sum(x.im)};
+    const auto total = [&](const numerics::ComplexPack& x) {
+      return Complex{rigid + numerics::sum(x.re), numerics::sum(x.im)};
     };
     const double wv = d.valve_frequency;
     const Complex valve = wv * wv / (s * s + 2.0 * d.valve_damping * wv * s + wv * wv);
@@ -76,7 +76,7 @@ class PeerChannels {
 
  private:
   struct ModePack {
-    plant::RealPack stiffness, damping, motor_motor, motor_wind, beam_motor, beam_wind;
+    numerics::RealPack stiffness, damping, motor_motor, motor_wind, beam_motor, beam_wind;
   };
   PeerDrive drive_;
   std::vector<ModePack> modes_;

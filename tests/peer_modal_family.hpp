@@ -1,7 +1,7 @@
 #pragma once
 
 #include "peer_family.hpp"
-#include <boresight/plant/modal_system.hpp>
+#include <boresight/plant/modal/modal_system.hpp>
 
 namespace boresight::reference {
 

@@ -7,11 +7,11 @@
 #include <vector>
 
 #include "peer_loop.hpp"
-#include <boresight/control/h2_norm.hpp>
-#include <boresight/control/peak_gain.hpp>
-#include <boresight/control/spectral_rms.hpp>
-#include <boresight/design/feasible_search.hpp>
-#include <boresight/plant/eigenvalues.hpp>
+#include <boresight/control/analysis/h2_norm.hpp>
+#include <boresight/control/analysis/peak_gain.hpp>
+#include <boresight/control/analysis/spectral_rms.hpp>
+#include <boresight/design/tuning/feasible_search.hpp>
+#include <boresight/numerics/eigenvalues.hpp>
 
 /// The peers' tuning: least rms of the pointing error with the peak of S at the valve at most 2,
 /// over the logarithms of four gains within the peers' bounds.
@@ -98,7 +98,7 @@ struct PeerJudgement {
 inline PeerJudgement judge_peer(Eigen::Index modes, const PeerGains& gains) {
   const plant::StateSpace closed = peer_closed_loop(modes, gains);
   PeerJudgement judgement;
-  judgement.abscissa = plant::spectral_abscissa(closed.a);
+  judgement.abscissa = numerics::spectral_abscissa(closed.a);
   if (!(judgement.abscissa < 0.0)) return judgement;
   judgement.rms = control::h2_norm(channel(closed, "n", "y")).value;
   judgement.peak = control::peak_gain(channel(closed, "d", "u")).upper;

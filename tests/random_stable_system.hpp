@@ -3,8 +3,8 @@
 #include <string>
 
 #include "random_numbers.hpp"
-#include <boresight/plant/linear_solve.hpp>
-#include <boresight/plant/state_space.hpp>
+#include <boresight/numerics/linear_solve.hpp>
+#include <boresight/plant/linear/state_space.hpp>
 
 namespace boresight::reference {
 
@@ -52,8 +52,8 @@ inline plant::StateSpace random_stable_system(RandomNumbers& random,
     at += size;
   }
   const Eigen::MatrixXd mix = Eigen::MatrixXd::Identity(n, n) + 0.4 * random.matrix(n, n);
-  system.a = plant::linear_solve(mix, system.a * mix, "random system");
-  system.b = plant::linear_solve(mix, system.b, "random system");
+  system.a = numerics::linear_solve(mix, system.a * mix, "random system");
+  system.b = numerics::linear_solve(mix, system.b, "random system");
   system.c = system.c * mix;
   for (Eigen::Index i = 0; i < n; ++i) system.states.push_back("x" + std::to_string(i));
   for (Eigen::Index i = 0; i < options.inputs; ++i) {

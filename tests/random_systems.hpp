@@ -6,7 +6,7 @@
 
 #include "random_numbers.hpp"
 #include "reference_values.hpp"
-#include <boresight/plant/state_space.hpp>
+#include <boresight/plant/linear/state_space.hpp>
 
 namespace boresight::reference {
 

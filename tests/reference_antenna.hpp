@@ -4,10 +4,10 @@
 #include <vector>
 
 #include "random_numbers.hpp"
-#include <boresight/plant/antenna_plant.hpp>
-#include <boresight/plant/gear_train.hpp>
-#include <boresight/plant/hydraulics.hpp>
-#include <boresight/plant/wind.hpp>
+#include <boresight/plant/antenna/antenna_plant.hpp>
+#include <boresight/plant/antenna/gear_train.hpp>
+#include <boresight/plant/antenna/hydraulics.hpp>
+#include <boresight/plant/wind/wind.hpp>
 
 /// The elevation axis of the 70-m antenna: Sommerville's paper where it gives a number, the assumed
 /// scale of physics elsewhere.

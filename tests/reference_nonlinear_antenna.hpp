@@ -1,7 +1,7 @@
 #pragma once
 
 #include "reference_antenna.hpp"
-#include <boresight/plant/nonlinear_antenna.hpp>
+#include <boresight/plant/nonlinear/nonlinear_antenna.hpp>
 
 /// The 70-m antenna with what its paper leaves open assumed (physics of the reference antenna,
 /// section 2): friction, lines between the shortest and the longest of the paper.

@@ -15,7 +15,7 @@
 
 #include "zero_order_hold.hpp"
 #include "zeros_poles_gain.hpp"
-#include <boresight/plant/state_space.hpp>
+#include <boresight/plant/linear/state_space.hpp>
 
 /// What others found (tests/data/reference), read for tests, benchmarks and the accuracy report.
 namespace boresight::reference {

@@ -4,7 +4,7 @@
 
 #include <Eigen/Core>
 
-#include <boresight/plant/state_space.hpp>
+#include <boresight/plant/linear/state_space.hpp>
 
 namespace boresight::reference {
 

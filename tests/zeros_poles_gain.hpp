@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include <boresight/plant/state_space.hpp>
+#include <boresight/plant/linear/state_space.hpp>
 
 namespace boresight::reference {
 

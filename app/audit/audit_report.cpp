@@ -9,11 +9,11 @@
 
 namespace boresight::app {
 
-AuditReport audit(const Case& antenna) {
-  const identification::AuditGraph graph = case_graph(antenna);
+AuditReport audit(const io::Case& antenna) {
+  const design::AuditGraph graph = case_graph(antenna);
   AuditReport report;
   report.title = antenna.title;
-  report.findings = identification::find_misprints(graph);
+  report.findings = design::find_misprints(graph);
   report.implausible = implausibilities(antenna, graph);
   report.remarks = antenna.remarks;
   for (std::size_t i = 0; i < graph.nodes().size(); ++i) {

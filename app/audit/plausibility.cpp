@@ -1,35 +1,34 @@
 #include <boresight/app/audit/plausibility_checks.hpp>
-#include <boresight/app/io/drive_numbers.hpp>
-#include <boresight/identification/source_reading.hpp>
+#include <boresight/design/audit/source_reading.hpp>
+#include <boresight/io/case/drive_numbers.hpp>
 
 namespace boresight::app {
 namespace {
 
-double from_nearest_prints(const identification::AuditGraph& graph, const std::string& id) {
+double from_nearest_prints(const design::AuditGraph& graph, const std::string& id) {
   const std::size_t node = graph.index(id);
   if (graph.is_input(node)) return graph.value(node, {});
-  return graph.derive(
-      node, identification::values_of(graph, identification::reading_in_column(graph, node, 0)));
+  return graph.derive(node, design::values_of(graph, design::reading_in_column(graph, node, 0)));
 }
 
 }  // namespace
 
-CaseNumbers case_numbers(const Case& antenna, const identification::AuditGraph& graph) {
+CaseNumbers case_numbers(const io::Case& antenna, const design::AuditGraph& graph) {
   CaseNumbers numbers{antenna, graph};
   numbers.motors = from_nearest_prints(graph, "motor_inertia");
-  for (const RotatingAssembly& assembly : antenna.gear_train.assemblies) {
+  for (const io::RotatingAssembly& assembly : antenna.gear_train.assemblies) {
     numbers.gear_train += from_nearest_prints(graph, "load_inertia." + assembly.name);
   }
   numbers.antenna_at_motor = from_nearest_prints(graph, "load_inertia.antenna");
   numbers.oil_stiffness = from_nearest_prints(graph, "oil_stiffness");
-  numbers.supply_torque = supply_torque(antenna);
+  numbers.supply_torque = io::supply_torque(antenna);
   numbers.slew_rate_at_motor =
       antenna.drive.slew_rate.value * from_nearest_prints(graph, "gear_ratio");
   return numbers;
 }
 
-std::vector<Implausibility> implausibilities(const Case& antenna,
-                                             const identification::AuditGraph& graph) {
+std::vector<Implausibility> implausibilities(const io::Case& antenna,
+                                             const design::AuditGraph& graph) {
   const CaseNumbers numbers = case_numbers(antenna, graph);
   Implausibilities found;
   check_inertia_remainders(numbers, found);

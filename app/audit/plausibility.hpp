@@ -3,8 +3,8 @@
 #include <string>
 #include <vector>
 
-#include <boresight/app/io/case_file.hpp>
-#include <boresight/identification/audit_graph.hpp>
+#include <boresight/design/audit/audit_graph.hpp>
+#include <boresight/io/case/case_file.hpp>
 
 namespace boresight::app {
 
@@ -42,7 +42,7 @@ struct Implausibility {
 /// - structural predictions: with the motors held the linear plant's frequencies, the lowest first
 ///   as those of structure.prediction, are more than 5 % away from them;
 /// - motors held: several antennas have the frequencies that the case states with the motors held
-///   (plant/motors_held_modes.hpp);
+///   (plant/antenna/motors_held_modes.hpp);
 /// - gear stiffness: that of the gear train as stated and the plant's, which follows from the
 ///   locked-rotor frequency, are more than a factor of 1.3 apart; where an uncertainty of it is
 ///   stated, instead more than three standard uncertainties u, a factor of 1 + 3 u, and 1.05. u
@@ -61,8 +61,9 @@ struct Implausibility {
 ///   turn at without load, by simulation.valve_stroke or the valve's rated flow, or against their
 ///   load: friction and offset torque T there leave of that rate, with the torque Ts of what the
 ///   supply has above the return, the share sqrt(1 - T/Ts), less what leaks (Merritt, Hydraulic
-///   Control Systems, 1967; the same valve as design/drive_reach.hpp's, without its overlap); or
-///   these two strokes are more than 5 % apart. All by more than two standard uncertainties;
+///   Control Systems, 1967; the same valve as design/problem/drive_reach.hpp's, without its
+///   overlap); or these two strokes are more than 5 % apart. All by more than two standard
+///   uncertainties;
 /// - inertia against the dish: antenna inertia over diameter^5 is a tenth of the least or ten times
 ///   the largest of DSS-14's, 0.126 (64 m, elevation), 0.195 and 0.245 kg/m3 (70 m, elevation and
 ///   azimuth; Sommerville, section II). Structures of one kind have one figure: their masses go
@@ -81,7 +82,7 @@ struct Implausibility {
 ///   and two standard uncertainties apart;
 /// - coincidence: two methods print the same inertia to the last digit;
 /// - carrier frequency: a beam wider than 5 deg.
-std::vector<Implausibility> implausibilities(const Case& antenna,
-                                             const identification::AuditGraph& graph);
+std::vector<Implausibility> implausibilities(const io::Case& antenna,
+                                             const design::AuditGraph& graph);
 
 }  // namespace boresight::app

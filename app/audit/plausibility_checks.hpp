@@ -6,8 +6,8 @@ namespace boresight::app {
 
 /// A case's numbers as the checks take them, recomputed from what is printed nearest to them (SI).
 struct CaseNumbers {
-  const Case& antenna;
-  const identification::AuditGraph& graph;
+  const io::Case& antenna;
+  const design::AuditGraph& graph;
   double motors = 0.0;            // inertia of all motors
   double gear_train = 0.0;        // load inertia without the antenna
   double antenna_at_motor = 0.0;  // antenna inertia at the motor
@@ -15,7 +15,7 @@ struct CaseNumbers {
   double supply_torque = 0.0;
   double slew_rate_at_motor = 0.0;
 };
-CaseNumbers case_numbers(const Case& antenna, const identification::AuditGraph& graph);
+CaseNumbers case_numbers(const io::Case& antenna, const design::AuditGraph& graph);
 
 /// Torque of all motors (N m), with its standard uncertainty.
 struct MotorTorque {

@@ -7,15 +7,15 @@
 namespace boresight::app {
 
 void check_ensemble_ranges(const CaseNumbers& numbers, Implausibilities& found) {
-  const Case& antenna = numbers.antenna;
-  const EnsembleEntry& ensemble = antenna.ensemble;
+  const io::Case& antenna = numbers.antenna;
+  const io::EnsembleEntry& ensemble = antenna.ensemble;
   const MemberRanges ranges = member_ranges(antenna);
   const MemberRanges spread = spread_of_stated(antenna);
   const double leakage = antenna.drive.leakage_rate.value;
   std::vector<std::string> narrow;
   std::string first;
   std::vector<NamedNumber> ends;
-  const auto check = [&](const std::optional<RangeEntry>& stated, const char* key,
+  const auto check = [&](const std::optional<io::RangeEntry>& stated, const char* key,
                          const char* number, const MemberRanges::Ends& range,
                          const MemberRanges::Ends& least, double scale) {
     if (!stated || (range.lower <= least.lower && range.upper >= least.upper)) return;

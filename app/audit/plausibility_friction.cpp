@@ -8,8 +8,8 @@
 #include <fmt/format.h>
 
 #include <boresight/app/audit/plausibility_checks.hpp>
-#include <boresight/app/io/drive_numbers.hpp>
 #include <boresight/app/redesign/antenna_model.hpp>
+#include <boresight/io/case/drive_numbers.hpp>
 
 namespace boresight::app {
 namespace {
@@ -17,12 +17,13 @@ namespace {
 constexpr double large_share = 0.4;  // of the supply's torque
 constexpr double clear_factor = 1.5;
 
-std::string as_written(const Quantity& quantity) {
-  return fmt::format("'{}'{}", quantity.text, quantity.basis == Basis::assumed ? " (assumed)" : "");
+std::string as_written(const io::Quantity& quantity) {
+  return fmt::format("'{}'{}", quantity.text,
+                     quantity.basis == io::Basis::assumed ? " (assumed)" : "");
 }
 
-const Quantity& largest_part(const FrictionCurveEntry& curve, double rate) {
-  const std::array<std::pair<double, const Quantity*>, 3> parts{
+const io::Quantity& largest_part(const io::FrictionCurveEntry& curve, double rate) {
+  const std::array<std::pair<double, const io::Quantity*>, 3> parts{
       {{curve.viscous.value * rate, &curve.viscous},
        {curve.saturating.value, &curve.saturating},
        {curve.coulomb.value, &curve.coulomb}}};
@@ -32,7 +33,7 @@ const Quantity& largest_part(const FrictionCurveEntry& curve, double rate) {
 }
 
 std::string taken_by_friction(const CaseNumbers& numbers, const MotorTorque& friction,
-                              const Quantity& most, bool at_rest) {
+                              const io::Quantity& most, bool at_rest) {
   if (at_rest) {
     return fmt::format("to break away takes {:.3g} N.m, by {} {}", friction.value, most.key,
                        as_written(most));
@@ -46,7 +47,7 @@ std::string taken_by_friction(const CaseNumbers& numbers, const MotorTorque& fri
 
 // Of what takes more than the whole of the supply's torque, or a large share of it.
 std::string too_much_friction(const CaseNumbers& numbers, const MotorTorque& friction,
-                              const Quantity& most, bool at_rest, bool impossible) {
+                              const io::Quantity& most, bool at_rest, bool impossible) {
   std::string claim = fmt::format("Friction takes {:.0f} % of the supply's torque",
                                   100.0 * friction.value / numbers.supply_torque);
   std::string doubt = "wind and acceleration need torque as well, or ";
@@ -68,7 +69,7 @@ struct Reach {
   double of_least = 0.0, of_most = 0.0;
 };
 
-bool beyond(const Quantity& quantity, const Reach& reach) {
+bool beyond(const io::Quantity& quantity, const Reach& reach) {
   const auto clear = [&](double difference, double uncertainty) {
     return difference > 2.0 * std::hypot(quantity.standard_uncertainty, uncertainty);
   };
@@ -85,7 +86,7 @@ bool beyond(const Quantity& quantity, const Reach& reach) {
 // at whatever speeds, can leave what the tangents span. With x = w/ws the curve's bump, of height
 // Ts - Tc, adds (1 + 2 x^2) exp(-x^2) heights to a tangent's intercept and -2 x exp(-x^2) heights
 // over ws to its slope.
-Reach intercepts_of(const FrictionCurveEntry& curve) {
+Reach intercepts_of(const io::FrictionCurveEntry& curve) {
   const double largest = 2.0 / std::sqrt(std::numbers::e);
   const double height = curve.breakaway.value - curve.coulomb.value;
   return {curve.coulomb.value, curve.coulomb.value + curve.saturating.value + largest * height,
@@ -95,7 +96,7 @@ Reach intercepts_of(const FrictionCurveEntry& curve) {
                      largest * curve.breakaway.standard_uncertainty)};
 }
 
-Reach slopes_of(const FrictionCurveEntry& curve) {
+Reach slopes_of(const io::FrictionCurveEntry& curve) {
   const double steepest = std::sqrt(2.0 / std::numbers::e);
   const double fall =
       steepest * (curve.breakaway.value - curve.coulomb.value) / curve.stribeck_rate.value;
@@ -112,7 +113,7 @@ Reach slopes_of(const FrictionCurveEntry& curve) {
           std::hypot(curve.viscous.standard_uncertainty, of_rise)};
 }
 
-void compare(const std::string& what, const Quantity& tested, const Reach& reach,
+void compare(const std::string& what, const io::Quantity& tested, const Reach& reach,
              const std::string& unit, Implausibilities& found) {
   if (!beyond(tested, reach)) return;
   found.push_back(
@@ -137,17 +138,18 @@ bool above(const MotorTorque& friction, double share, const MotorTorque& supply)
 }  // namespace
 
 MotorTorque torque_of_supply(const CaseNumbers& numbers) {
-  const MotorEntry& motor = numbers.antenna.motor;
-  const double relative = std::hypot(relative_uncertainty(numbers.antenna.drive.supply_pressure),
-                                     relative_uncertainty(motor.displacement),
-                                     relative_uncertainty(motor.torque_efficiency));
+  const io::MotorEntry& motor = numbers.antenna.motor;
+  const double relative =
+      std::hypot(io::relative_uncertainty(numbers.antenna.drive.supply_pressure),
+                 io::relative_uncertainty(motor.displacement),
+                 io::relative_uncertainty(motor.torque_efficiency));
   return {numbers.supply_torque, relative * numbers.supply_torque};
 }
 
 // The rates at which the curve falls and levels off hardly show at slew rate.
 MotorTorque friction_at_slew_rate(const CaseNumbers& numbers) {
-  const FrictionCurveEntry& entry = numbers.antenna.friction_curve;
-  const plant::FrictionCurve curve = friction_curve(numbers.antenna);
+  const io::FrictionCurveEntry& entry = numbers.antenna.friction_curve;
+  const plant::FrictionCurve curve = io::friction_curve(numbers.antenna);
   const double rate = numbers.slew_rate_at_motor;
   const double of_rate = rate * relative_uncertainty(numbers.antenna.drive.slew_rate);
   return {
@@ -162,7 +164,7 @@ bool friction_stops_slewing(const CaseNumbers& numbers) {
 }
 
 void check_friction_against_supply(const CaseNumbers& numbers, Implausibilities& found) {
-  const FrictionCurveEntry& curve = numbers.antenna.friction_curve;
+  const io::FrictionCurveEntry& curve = numbers.antenna.friction_curve;
   const MotorTorque supply = torque_of_supply(numbers);
   const MotorTorque starting{curve.breakaway.value, curve.breakaway.standard_uncertainty};
   const MotorTorque slewing = friction_at_slew_rate(numbers);
@@ -170,7 +172,7 @@ void check_friction_against_supply(const CaseNumbers& numbers, Implausibilities&
   const bool at_rest = starting.value >= slewing.value || above(starting, 1.0, supply);
   const MotorTorque& friction = at_rest ? starting : slewing;
   if (!above(friction, large_share, supply)) return;
-  const Quantity& most =
+  const io::Quantity& most =
       at_rest ? curve.breakaway : largest_part(curve, numbers.slew_rate_at_motor);
   found.push_back(
       {"friction against the supply",
@@ -183,8 +185,8 @@ void check_friction_against_supply(const CaseNumbers& numbers, Implausibilities&
 }
 
 void check_friction_tests(const CaseNumbers& numbers, Implausibilities& found) {
-  const FrictionTestsEntry& tests = numbers.antenna.friction_tests;
-  const FrictionCurveEntry& curve = numbers.antenna.friction_curve;
+  const io::FrictionTestsEntry& tests = numbers.antenna.friction_tests;
+  const io::FrictionCurveEntry& curve = numbers.antenna.friction_curve;
   if (const auto& intercept = tests.constant_speed_coulomb) {
     compare("intercept", *intercept, intercepts_of(curve), "N.m", found);
   }

@@ -6,7 +6,7 @@
 #include <boresight/app/audit/plausibility_checks.hpp>
 #include <boresight/app/redesign/antenna_model.hpp>
 #include <boresight/app/redesign/resonating_mode.hpp>
-#include <boresight/plant/hydraulics.hpp>
+#include <boresight/plant/antenna/hydraulics.hpp>
 
 namespace boresight::app {
 namespace {
@@ -27,7 +27,7 @@ std::vector<MeasuredInertia> measured_inertias(const CaseNumbers& numbers) {
                           plant::inertia_from_resonance(
                               numbers.oil_stiffness, numbers.antenna.resonance_frequency->value)});
     }
-    for (const StatedEntry& stated : numbers.antenna.stated) {
+    for (const io::StatedEntry& stated : numbers.antenna.stated) {
       // The summary prints it again.
       const bool again = !inertias.empty() && inertias.back().value == stated.value.value;
       if (stated.quantity == id && !again) {
@@ -35,7 +35,7 @@ std::vector<MeasuredInertia> measured_inertias(const CaseNumbers& numbers) {
       }
     }
   }
-  for (const ImpulseResult& result : numbers.antenna.impulse_results) {
+  for (const io::ImpulseResult& result : numbers.antenna.impulse_results) {
     inertias.push_back({"impulse." + result.name + ".reflected_inertia", "as printed",
                         result.reflected_inertia.value});
   }
@@ -73,7 +73,7 @@ void check_coincidences(const CaseNumbers& numbers, Implausibilities& found) {
     std::string id, text;
   };
   std::vector<Print> prints;
-  for (const StatedEntry& stated : numbers.antenna.stated) {
+  for (const io::StatedEntry& stated : numbers.antenna.stated) {
     if (stated.quantity == "resonance.reflected_inertia" ||
         stated.quantity == "reflected_inertia") {
       const bool again = std::any_of(prints.begin(), prints.end(), [&](const Print& print) {
@@ -82,7 +82,7 @@ void check_coincidences(const CaseNumbers& numbers, Implausibilities& found) {
       if (!again) prints.push_back({stated.quantity, stated.value.text});
     }
   }
-  for (const ImpulseResult& result : numbers.antenna.impulse_results) {
+  for (const io::ImpulseResult& result : numbers.antenna.impulse_results) {
     prints.push_back(
         {"impulse." + result.name + ".reflected_inertia", result.reflected_inertia.text});
   }
@@ -101,15 +101,15 @@ void check_coincidences(const CaseNumbers& numbers, Implausibilities& found) {
 }
 
 void check_impulse_order(const CaseNumbers& numbers, Implausibilities& found) {
-  const FrictionTestsEntry& tests = numbers.antenna.friction_tests;
+  const io::FrictionTestsEntry& tests = numbers.antenna.friction_tests;
   if (!tests.constant_speed_coulomb || !tests.slow_ramp_up || !tests.slow_ramp_down) return;
   const double constant_speed = tests.constant_speed_coulomb->value;
   const double slow_ramp = 0.5 * (tests.slow_ramp_up->value + tests.slow_ramp_down->value);
-  const auto subtracted = [&](const ImpulseResult& result) {
+  const auto subtracted = [&](const io::ImpulseResult& result) {
     return result.friction == "constant_speed" ? constant_speed : slow_ramp;
   };
-  for (const ImpulseResult& more : numbers.antenna.impulse_results) {
-    for (const ImpulseResult& less : numbers.antenna.impulse_results) {
+  for (const io::ImpulseResult& more : numbers.antenna.impulse_results) {
+    for (const io::ImpulseResult& less : numbers.antenna.impulse_results) {
       const double torque = subtracted(more) - subtracted(less);
       const double inertia = more.reflected_inertia.value - less.reflected_inertia.value;
       if (torque <= 0.0 || inertia <= 0.0) continue;

@@ -7,12 +7,12 @@
 #include <boresight/app/redesign/antenna_model.hpp>
 #include <boresight/app/redesign/resonance_verdict.hpp>
 #include <boresight/app/redesign/resonating_mode.hpp>
-#include <boresight/plant/hydraulics.hpp>
+#include <boresight/plant/antenna/hydraulics.hpp>
 
 namespace boresight::app {
 namespace {
 
-plant::PlantMode flexible_mode(const Case& antenna, const PlantVariant& variant = {}) {
+plant::PlantMode flexible_mode(const io::Case& antenna, const PlantVariant& variant = {}) {
   return resonating_mode(antenna, make_plant(antenna, variant));
 }
 
@@ -34,7 +34,7 @@ void check_expected_resonance(const CaseNumbers& numbers, Implausibilities& foun
                               {"without the antenna", rigid(0.0), "Hz"},
                               {"standard uncertainties", verdict->deviation(), "1"}}};
   std::string others;
-  for (const AntennaAlternative& alternative : numbers.antenna.antenna.alternatives) {
+  for (const io::AntennaAlternative& alternative : numbers.antenna.antenna.alternatives) {
     const double frequency =
         flexible_mode(numbers.antenna, variant_of(numbers.antenna, alternative)).frequency;
     others += fmt::format("; the flexible antenna has {:.3f} Hz with the inertia of {}", frequency,
@@ -58,7 +58,7 @@ void check_resonance_damping(const CaseNumbers& numbers, Implausibilities& found
   const double measured = numbers.antenna.resonance_damping->value;
   const double expected = flexible_mode(numbers.antenna).damping_ratio;
   if (std::max(measured, expected) <= agrees * std::min(measured, expected)) return;
-  const DriveEntry& drive = numbers.antenna.drive;
+  const io::DriveEntry& drive = numbers.antenna.drive;
   const auto verdict = resonance_verdict(numbers.antenna);
   found.push_back(
       {"resonance damping",

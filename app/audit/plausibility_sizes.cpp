@@ -21,7 +21,7 @@ constexpr double heaviest_disks = 10.0;
 }  // namespace
 
 void check_inertia_against_dish(const CaseNumbers& numbers, Implausibilities& found) {
-  const AntennaEntry& antenna = numbers.antenna.antenna;
+  const io::AntennaEntry& antenna = numbers.antenna.antenna;
   const double figure = antenna.inertia.value / std::pow(antenna.dish_diameter.value, 5);
   const auto [least, most] = std::ranges::minmax(known_figures);
   const bool light = figure < least / wide_factor;
@@ -44,7 +44,7 @@ void check_inertia_against_dish(const CaseNumbers& numbers, Implausibilities& fo
 }
 
 void check_flywheels(const CaseNumbers& numbers, Implausibilities& found) {
-  const MotorEntry& motor = numbers.antenna.motor;
+  const io::MotorEntry& motor = numbers.antenna.motor;
   if (motor.disk_radius) {
     const double rim = motor.disk_radius->value * numbers.slew_rate_at_motor;
     if (rim > fastest_rim) {

@@ -10,10 +10,10 @@
 #include <fmt/ranges.h>
 
 #include <boresight/app/audit/plausibility_checks.hpp>
-#include <boresight/app/io/structure_numbers.hpp>
 #include <boresight/app/redesign/antenna_model.hpp>
 #include <boresight/app/report/sky_units.hpp>
-#include <boresight/plant/motors_held_modes.hpp>
+#include <boresight/io/case/structure_numbers.hpp>
+#include <boresight/plant/antenna/motors_held_modes.hpp>
 
 namespace boresight::app {
 namespace {
@@ -40,8 +40,8 @@ std::string effective_fractions(const plant::StructureSpecification& antenna) {
 }
 
 // With every body's shares of wind and beam those of the inertia.
-Case with_inertial_shares(Case antenna) {
-  StructureEntry& structure = antenna.structure;
+io::Case with_inertial_shares(io::Case antenna) {
+  io::StructureEntry& structure = antenna.structure;
   double bull_gear = 1.0;
   for (auto& mode : structure.modes) {
     mode.wind_fraction.value = mode.beam_weight.value = mode.inertia_fraction.value;
@@ -51,7 +51,8 @@ Case with_inertial_shares(Case antenna) {
   return antenna;
 }
 
-double gear_stiffness_at_axis(const Case& antenna, const plant::StructureSpecification& structure) {
+double gear_stiffness_at_axis(const io::Case& antenna,
+                              const plant::StructureSpecification& structure) {
   return antenna.antenna.inertia.value * plant::make_structure(structure).gear_stiffness;
 }
 
@@ -60,11 +61,11 @@ double factor_between(double one, double other) {
 }
 
 // Up to which the stated stiffness of the gear train and the plant's are one.
-double agreeing_factor(const Case& antenna, const Quantity& stiffness) {
+double agreeing_factor(const io::Case& antenna, const io::Quantity& stiffness) {
   constexpr double usual = 1.3, least = 1.05, deviations = 3.0;
   if (!stiffness.uncertainty_given) return usual;
-  const auto stated = [](const Quantity& quantity) {
-    return quantity.uncertainty_given ? relative_uncertainty(quantity) : 0.0;
+  const auto stated = [](const io::Quantity& quantity) {
+    return quantity.uncertainty_given ? io::relative_uncertainty(quantity) : 0.0;
   };
   // The plant's goes with the inertia and with the square of the frequencies.
   const double uncertainty = std::hypot(stated(stiffness), stated(antenna.antenna.inertia),
@@ -95,8 +96,8 @@ std::optional<double> heaviest_mode_for(plant::StructureSpecification antenna, s
 }
 
 // Of frequencies with the motors held: another antenna of these, if one has the stated stiffness.
-std::string other_antenna_for(const Case& antenna, double stiffness, double agreeing) {
-  for (const auto& other : structure_specifications(antenna.structure)) {
+std::string other_antenna_for(const io::Case& antenna, double stiffness, double agreeing) {
+  for (const auto& other : io::structure_specifications(antenna.structure)) {
     const double own = gear_stiffness_at_axis(antenna, other);
     if (factor_between(own, stiffness) > agreeing) continue;
     return fmt::format(
@@ -109,9 +110,9 @@ std::string other_antenna_for(const Case& antenna, double stiffness, double agre
 }
 
 // What would make the plant's gear spring as stiff as stated; a frequency is noted.
-std::string gear_remedy(const Case& antenna, double stiffness, double agreeing,
+std::string gear_remedy(const io::Case& antenna, double stiffness, double agreeing,
                         std::vector<NamedNumber>& compared) {
-  const StructureEntry& structure = antenna.structure;
+  const io::StructureEntry& structure = antenna.structure;
   if (structure.motors_held) return other_antenna_for(antenna, stiffness, agreeing);
   const auto& modes = structure.modes;
   if (modes.empty()) {
@@ -119,8 +120,8 @@ std::string gear_remedy(const Case& antenna, double stiffness, double agreeing,
            "one of these or the stated stiffness is wrong, or modes are missing.";
   }
   const auto heaviest = std::ranges::max_element(
-      modes, {}, [](const StructureModeEntry& mode) { return mode.inertia_fraction.value; });
-  const auto found = heaviest_mode_for(structure_specification(structure),
+      modes, {}, [](const io::StructureModeEntry& mode) { return mode.inertia_fraction.value; });
+  const auto found = heaviest_mode_for(io::structure_specification(structure),
                                        static_cast<std::size_t>(heaviest - modes.begin()),
                                        stiffness / antenna.antenna.inertia.value);
   if (!found) {
@@ -157,7 +158,7 @@ void check_structural_shares(const CaseNumbers& numbers, Implausibilities& found
     }
   }
   if (shares.empty()) return;
-  const auto bending = [](const Case& antenna) {
+  const auto bending = [](const io::Case& antenna) {
     return std::abs(static_bending(make_problem(antenna))) / millidegree;
   };
   const double stated = bending(numbers.antenna);
@@ -181,7 +182,7 @@ void check_structural_predictions(const CaseNumbers& numbers, Implausibilities& 
   if (predicted.empty()) return;
   constexpr double agrees = 0.05;
   const auto own = plant::motors_held_modes(
-      plant::make_structure(structure_specification(numbers.antenna.structure)));
+      plant::make_structure(io::structure_specification(numbers.antenna.structure)));
   std::vector<std::string> apart;
   std::vector<NamedNumber> compared;
   for (std::size_t i = 0; i < std::min(own.size(), predicted.size()); ++i) {
@@ -208,7 +209,7 @@ void check_structural_predictions(const CaseNumbers& numbers, Implausibilities& 
 }
 
 void check_motors_held_antennas(const CaseNumbers& numbers, Implausibilities& found) {
-  const auto antennas = structure_specifications(numbers.antenna.structure);
+  const auto antennas = io::structure_specifications(numbers.antenna.structure);
   if (antennas.size() < 2) return;
   std::vector<std::string> others;
   std::vector<NamedNumber> springs;
@@ -234,10 +235,11 @@ void check_motors_held_antennas(const CaseNumbers& numbers, Implausibilities& fo
 }
 
 void check_gear_stiffness(const CaseNumbers& numbers, Implausibilities& found) {
-  const Case& antenna = numbers.antenna;
+  const io::Case& antenna = numbers.antenna;
   const auto& stated = antenna.structure.gear_stiffness;
   if (!stated) return;
-  const double own = gear_stiffness_at_axis(antenna, structure_specification(antenna.structure));
+  const double own =
+      gear_stiffness_at_axis(antenna, io::structure_specification(antenna.structure));
   const double agreeing = agreeing_factor(antenna, *stated);
   const double factor = factor_between(own, stated->value);
   if (factor <= agreeing) return;

@@ -5,7 +5,7 @@
 #include <fmt/format.h>
 
 #include <boresight/app/audit/plausibility_checks.hpp>
-#include <boresight/plant/hydraulics.hpp>
+#include <boresight/plant/antenna/hydraulics.hpp>
 
 namespace boresight::app {
 namespace {
@@ -15,7 +15,7 @@ constexpr double widest_beam_deg = 5.0;
 constexpr double rpm = 2.0 * std::numbers::pi / 60.0;
 constexpr double degree = std::numbers::pi / 180.0;
 
-double motor_rate_per_volt(const TachometerEntry& tachometer) {
+double motor_rate_per_volt(const io::TachometerEntry& tachometer) {
   return tachometer.shaft_speed.value / tachometer.voltage.value * tachometer.motor_teeth.value /
          tachometer.tachometer_teeth.value;
 }
@@ -42,7 +42,7 @@ SlopeEffect effect_of(const CaseNumbers& numbers, const std::string& reading, do
 }  // namespace
 
 void check_friction_slope(const CaseNumbers& numbers, Implausibilities& found) {
-  const FrictionTestsEntry& tests = numbers.antenna.friction_tests;
+  const io::FrictionTestsEntry& tests = numbers.antenna.friction_tests;
   if (!tests.constant_speed_slope) return;
   const double slope = tests.constant_speed_slope->value;
   const double coulomb = tests.constant_speed_coulomb ? tests.constant_speed_coulomb->value : 0.0;
@@ -51,7 +51,7 @@ void check_friction_slope(const CaseNumbers& numbers, Implausibilities& found) {
   const bool overdamped = rings && effects[0].damping > 1.0;
   if (!overdamped && effects[0].torque <= numbers.supply_torque) return;
   if (numbers.antenna.tachometer) {
-    const TachometerEntry& tachometer = *numbers.antenna.tachometer;
+    const io::TachometerEntry& tachometer = *numbers.antenna.tachometer;
     const double motor_per_tachometer =
         tachometer.motor_teeth.value / tachometer.tachometer_teeth.value;
     effects.push_back(effect_of(numbers, "if the speed is the tachometer's",
@@ -81,13 +81,14 @@ void check_friction_slope(const CaseNumbers& numbers, Implausibilities& found) {
   }
   implausible.reasoning += fmt::format(
       ". The supply gives {:.3g} N.m, {:.3g} kW{}.", numbers.supply_torque, 1e-3 * supply_power,
-      numbers.antenna.drive.supply_pressure.basis == Basis::assumed ? " (from an assumed pressure)"
-                                                                    : "");
+      numbers.antenna.drive.supply_pressure.basis == io::Basis::assumed
+          ? " (from an assumed pressure)"
+          : "");
   found.push_back(std::move(implausible));
 }
 
 void check_coulomb_levels(const CaseNumbers& numbers, Implausibilities& found) {
-  const FrictionTestsEntry& tests = numbers.antenna.friction_tests;
+  const io::FrictionTestsEntry& tests = numbers.antenna.friction_tests;
   if (!tests.constant_speed_coulomb || !tests.slow_ramp_up || !tests.slow_ramp_down) return;
   const double intercept = tests.constant_speed_coulomb->value;
   const double ramp = 0.5 * (tests.slow_ramp_up->value + tests.slow_ramp_down->value);
@@ -109,7 +110,7 @@ void check_coulomb_levels(const CaseNumbers& numbers, Implausibilities& found) {
 void check_return_pressures(const CaseNumbers& numbers, Implausibilities& found) {
   const auto& recorded = numbers.antenna.campaign.return_pressure;
   if (!recorded || !numbers.antenna.simulation) return;
-  const Quantity& simulated = numbers.antenna.simulation->return_pressure;
+  const io::Quantity& simulated = numbers.antenna.simulation->return_pressure;
   const double difference = std::abs(recorded->value - simulated.value);
   if (difference <= 0.05 * std::max(recorded->value, simulated.value) ||
       difference <=
@@ -130,7 +131,7 @@ void check_return_pressures(const CaseNumbers& numbers, Implausibilities& found)
 
 void check_recorder_limit(const CaseNumbers& numbers, Implausibilities& found) {
   if (!numbers.antenna.tachometer) return;
-  const TachometerEntry& tachometer = *numbers.antenna.tachometer;
+  const io::TachometerEntry& tachometer = *numbers.antenna.tachometer;
   const double volts = numbers.slew_rate_at_motor / motor_rate_per_volt(tachometer);
   const double limit = tachometer.recorder_limit.value;
   if (volts <= limit) return;
@@ -151,15 +152,15 @@ void check_wave_speeds(const CaseNumbers& numbers, Implausibilities& found) {
     bool restated;
   };
   std::vector<Wave> waves;
-  const auto add = [&](const OilLine& line, const Quantity& frequency, bool restated) {
+  const auto add = [&](const io::OilLine& line, const io::Quantity& frequency, bool restated) {
     const double speed = 2.0 * line.length.value * frequency.value;
-    const double relative =
-        std::hypot(relative_uncertainty(line.length), relative_uncertainty(line.slosh_frequency));
+    const double relative = std::hypot(io::relative_uncertainty(line.length),
+                                       io::relative_uncertainty(line.slosh_frequency));
     waves.push_back({"line." + line.name + ".slosh_frequency", speed, speed * relative, restated});
   };
-  for (const OilLine& line : numbers.antenna.oil.lines) {
+  for (const io::OilLine& line : numbers.antenna.oil.lines) {
     add(line, line.slosh_frequency, false);
-    for (const StatedEntry& stated : numbers.antenna.stated) {
+    for (const io::StatedEntry& stated : numbers.antenna.stated) {
       if (stated.quantity == waves.back().id) add(line, stated.value, true);
     }
   }
@@ -187,7 +188,7 @@ void check_wave_speeds(const CaseNumbers& numbers, Implausibilities& found) {
 }
 
 void check_structural_bound(const CaseNumbers& numbers, Implausibilities& found) {
-  const StructureEntry& structure = numbers.antenna.structure;
+  const io::StructureEntry& structure = numbers.antenna.structure;
   if (!structure.lowest_predicted || structure.lowest_predicted_axis == numbers.antenna.axis) {
     return;
   }
@@ -202,7 +203,7 @@ void check_structural_bound(const CaseNumbers& numbers, Implausibilities& found)
 
 void check_carrier_frequencies(const CaseNumbers& numbers, Implausibilities& found) {
   const double dish = numbers.antenna.antenna.dish_diameter.value;
-  const auto check = [&](const BandEntry& band, const Quantity& frequency) {
+  const auto check = [&](const io::BandEntry& band, const io::Quantity& frequency) {
     const double wavelength = speed_of_light / frequency.value;
     const double beam = band.beamwidth_factor.value * wavelength / dish / degree;
     if (beam <= widest_beam_deg) return;
@@ -214,9 +215,9 @@ void check_carrier_frequencies(const CaseNumbers& numbers, Implausibilities& fou
                      frequency.text, wavelength, dish, beam),
          {{"wavelength", wavelength, "m"}, {"beam width", beam * degree, "rad"}}});
   };
-  for (const BandEntry& band : numbers.antenna.bands) {
+  for (const io::BandEntry& band : numbers.antenna.bands) {
     check(band, band.frequency);
-    for (const StatedEntry& stated : numbers.antenna.stated) {
+    for (const io::StatedEntry& stated : numbers.antenna.stated) {
       if (stated.quantity == "band." + band.name + ".frequency") check(band, stated.value);
     }
   }

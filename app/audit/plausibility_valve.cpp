@@ -5,26 +5,26 @@
 #include <fmt/format.h>
 
 #include <boresight/app/audit/plausibility_checks.hpp>
-#include <boresight/app/io/drive_numbers.hpp>
 #include <boresight/app/redesign/loaded_drive.hpp>
+#include <boresight/io/case/drive_numbers.hpp>
 
 namespace boresight::app {
 namespace {
 
 struct Stroke {
   std::string how;
-  Quantity rate;
+  io::Quantity rate;
 };
 
-std::vector<Stroke> strokes_of(const Case& antenna) {
+std::vector<Stroke> strokes_of(const io::Case& antenna) {
   std::vector<Stroke> strokes;
   if (antenna.simulation && antenna.simulation->valve_stroke_stated) {
     strokes.push_back(
         {fmt::format("by simulation.valve_stroke '{}'", antenna.simulation->valve_stroke.text),
          antenna.simulation->valve_stroke});
   }
-  const DriveEntry& drive = antenna.drive;
-  if (const auto rated = rated_stroke(antenna);
+  const io::DriveEntry& drive = antenna.drive;
+  if (const auto rated = io::rated_stroke(antenna);
       rated && drive.valve_rated_flow && drive.valve_rated_pressure_drop) {
     strokes.push_back(
         {fmt::format("by its rated flow of '{}' at '{}'", drive.valve_rated_flow->text,
@@ -39,10 +39,12 @@ LoadedDrive loaded_drive(const CaseNumbers& numbers) {
 }
 
 // Of the excess at the slew rate.
-double uncertainty(const CaseNumbers& numbers, const LoadedDrive& drive, const Quantity& stroke) {
+double uncertainty(const CaseNumbers& numbers, const LoadedDrive& drive,
+                   const io::Quantity& stroke) {
   const double square = std::pow(numbers.slew_rate_at_motor / stroke.value, 2);
-  const double of_share = 2.0 * std::hypot(relative_uncertainty(numbers.antenna.drive.slew_rate),
-                                           relative_uncertainty(stroke));
+  const double of_share =
+      2.0 * std::hypot(io::relative_uncertainty(numbers.antenna.drive.slew_rate),
+                       io::relative_uncertainty(stroke));
   return std::hypot(friction_at_slew_rate(numbers).uncertainty,
                     drive.available() * square * of_share,
                     torque_of_supply(numbers).uncertainty * (1.0 - square));
@@ -108,8 +110,8 @@ void check_valve_stroke(const CaseNumbers& numbers, Implausibilities& found) {
     }
   }
   if (strokes.size() < 2) return;
-  const Quantity& stated = strokes[0].rate;
-  const Quantity& rated = strokes[1].rate;
+  const io::Quantity& stated = strokes[0].rate;
+  const io::Quantity& rated = strokes[1].rate;
   const double difference = std::abs(stated.value - rated.value);
   if (difference <= 0.05 * rated.value ||
       difference <= 2.0 * std::hypot(stated.standard_uncertainty, rated.standard_uncertainty)) {

@@ -9,7 +9,7 @@
 #include <boresight/app/figures/figure_json.hpp>
 #include <boresight/app/report/json_design.hpp>
 #include <boresight/app/report/sky_units.hpp>
-#include <boresight/plant/error.hpp>
+#include <boresight/numerics/error.hpp>
 
 namespace boresight::app {
 namespace {

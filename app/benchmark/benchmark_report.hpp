@@ -8,11 +8,11 @@
 
 #include <boresight/app/document/document.hpp>
 #include <boresight/app/figures/figure.hpp>
-#include <boresight/app/io/case_file.hpp>
 #include <boresight/app/redesign/antenna_model.hpp>
 #include <boresight/app/simulate/time_domain.hpp>
 #include <boresight/app/uncertainty/designed_antenna.hpp>
-#include <boresight/design/rejection_benchmark.hpp>
+#include <boresight/design/benchmark/rejection_benchmark.hpp>
+#include <boresight/io/case/case_file.hpp>
 
 namespace boresight::app {
 
@@ -60,7 +60,7 @@ struct BenchmarkReport {
   std::vector<control::CoursePoint> step_course, impulse_course;
   std::optional<TimeDomainSection> time_domain;
   std::string no_time_domain;  // why there is none
-  std::vector<Quantity> assumed;
+  std::vector<io::Quantity> assumed;
   std::string compared_with;  // description of the other sheet; empty: none
   std::vector<ComparedQuantity> comparison;
   std::optional<ComparedSheet> compared_sheet;

@@ -13,9 +13,9 @@
 #include <boresight/app/report/json_report.hpp>
 #include <boresight/app/report/sky_units.hpp>
 #include <boresight/app/tune/engineer_units.hpp>
-#include <boresight/control/sampled_law.hpp>
-#include <boresight/control/state_space_controller.hpp>
-#include <boresight/plant/error.hpp>
+#include <boresight/control/controllers/sampled_law.hpp>
+#include <boresight/control/loops/state_space_controller.hpp>
+#include <boresight/numerics/error.hpp>
 
 namespace boresight::app {
 namespace {
@@ -24,7 +24,7 @@ constexpr double degree = std::numbers::pi / 180.0;
 
 // Attitudes of the protocol that the table covers: every 45 degrees of yaw at every 20 of elevation
 // from 10.
-std::vector<design::WindAttitudeCoefficient> attitudes_of(const Case& antenna) {
+std::vector<design::WindAttitudeCoefficient> attitudes_of(const io::Case& antenna) {
   std::vector<design::WindAttitudeCoefficient> attitudes;
   if (!antenna.wind.torque_table) return attitudes;
   for (int elevation = 10; elevation <= 90; elevation += 20) {
@@ -40,7 +40,7 @@ std::vector<design::WindAttitudeCoefficient> attitudes_of(const Case& antenna) {
   return attitudes;
 }
 
-bool is_present(const control::ControlLaw& law, const Case& antenna) {
+bool is_present(const control::ControlLaw& law, const io::Case& antenna) {
   return std::ranges::any_of(present_laws(antenna), [&](const control::ControlLaw& present) {
     return present.structure == law.structure && present.gains == law.gains;
   });
@@ -60,7 +60,7 @@ BenchmarkedController controller_of(const control::ControlLaw& law, const std::s
 
 BenchmarkReport benchmark(const DesignedAntenna& designed, const BenchmarkedController& controller,
                           const BenchmarkOptions& options) {
-  const Case& antenna = designed.antenna;
+  const io::Case& antenna = designed.antenna;
   const design::TrackingProblem problem = make_problem(antenna);
   BenchmarkReport report;
   report.case_path = antenna.path;
@@ -78,7 +78,7 @@ BenchmarkReport benchmark(const DesignedAntenna& designed, const BenchmarkedCont
   report.budgets = make_budgets(antenna);
   report.from_records = designed.from_records;
   report.ensemble_source = designed.ensemble.source;
-  const double expected = sample_time_of(problem.delay);
+  const double expected = io::sample_time_of(problem.delay);
   if (sample_time > 0.0 && std::abs(sample_time - expected) > 1e-6 * expected) {
     report.controller.remarks.push_back(
         fmt::format("warning: the controller samples every {:g} s, the case's delay of {:g} s "

@@ -7,13 +7,14 @@
 #include <boresight/app/commands/benchmark_command.hpp>
 #include <boresight/app/commands/progress_line.hpp>
 #include <boresight/app/figures/benchmark_figures.hpp>
-#include <boresight/app/io/controller_file.hpp>
-#include <boresight/app/io/input_files.hpp>
 #include <boresight/app/page/report_page.hpp>
 #include <boresight/app/redesign/antenna_model.hpp>
 #include <boresight/app/report/json_report.hpp>
 #include <boresight/app/tune/engineer_units.hpp>
-#include <boresight/plant/error.hpp>
+#include <boresight/io/exchange/controller_file.hpp>
+#include <boresight/io/files/input_files.hpp>
+#include <boresight/io/files/write_atomically.hpp>
+#include <boresight/numerics/error.hpp>
 
 namespace boresight::app {
 namespace {
@@ -29,21 +30,22 @@ std::vector<std::string> names_in(const std::string& text) {
   return names;
 }
 
-BenchmarkedController chosen_controller(const BenchmarkArguments& arguments, const Case& antenna) {
+BenchmarkedController chosen_controller(const BenchmarkArguments& arguments,
+                                        const io::Case& antenna) {
   const double sample_time =
-      arguments.sampled ? sample_time_of(antenna.controller_delay.value) : 0.0;
+      arguments.sampled ? io::sample_time_of(antenna.controller_delay.value) : 0.0;
   if (!arguments.controller_path.empty()) {
     if (!arguments.gains_path.empty() || arguments.sampled) {
       throw InvalidInput(
           "benchmark: expected either --controller or gains (--gains, --sampled), found both");
     }
-    const auto file = read_controller(arguments.controller_path, gear_ratio(antenna),
-                                      {names_in(arguments.controller_inputs),
-                                       names_in(arguments.controller_outputs), arguments.part});
+    const auto file = io::read_controller(arguments.controller_path, io::gear_ratio(antenna),
+                                          {names_in(arguments.controller_inputs),
+                                           names_in(arguments.controller_outputs), arguments.part});
     return {file.system, "controller of " + arguments.controller_path, std::nullopt, file.remarks};
   }
   if (!arguments.gains_path.empty()) {
-    const auto gains = read_gains_file(arguments.gains_path, antenna, arguments.structure);
+    const auto gains = io::read_gains_file(arguments.gains_path, antenna, arguments.structure);
     return controller_of(gains.law, gains.description, sample_time);
   }
   const auto present = present_laws(antenna);
@@ -61,7 +63,7 @@ std::string text_of(const std::string& path) {
   std::ifstream file(path, std::ios::binary);
   std::string text{std::istreambuf_iterator<char>(file), {}};
   if (!file) throw InvalidInput(fmt::format("{}: expected a readable file, found none", path));
-  note_input(path, text);
+  io::note_input(path, text);
   return text;
 }
 
@@ -69,13 +71,14 @@ std::string text_of(const std::string& path) {
 
 BenchmarkReport benchmark_case(const BenchmarkArguments& arguments,
                                const std::function<bool()>& interrupted) {
-  const Case antenna = read_case(arguments.case_path);
+  const io::Case antenna = io::read_case(arguments.case_path);
   arguments.outputs.require_writable();
-  if (!arguments.export_path.empty()) require_writable(arguments.export_path);
+  if (!arguments.export_path.empty()) io::require_writable(arguments.export_path);
   const BenchmarkedController controller = chosen_controller(arguments, antenna);
   const std::string other =
       arguments.compare_path.empty() ? std::string() : text_of(arguments.compare_path);
-  if (!arguments.export_path.empty()) write_controller(arguments.export_path, controller.system);
+  if (!arguments.export_path.empty())
+    io::write_controller(arguments.export_path, controller.system);
   ProgressLine progress("scoring");
   BenchmarkOptions options;
   options.seed = arguments.seed;

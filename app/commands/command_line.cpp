@@ -11,7 +11,7 @@
 
 #include <boresight/app/commands/command_line.hpp>
 #include <boresight/app/commands/program.hpp>
-#include <boresight/plant/error.hpp>
+#include <boresight/numerics/error.hpp>
 
 namespace boresight::app {
 

@@ -9,7 +9,8 @@
 #include <boresight/app/commands/progress_line.hpp>
 #include <boresight/app/page/report_page.hpp>
 #include <boresight/app/uncertainty/designed_antenna.hpp>
-#include <boresight/plant/error.hpp>
+#include <boresight/io/files/write_atomically.hpp>
+#include <boresight/numerics/error.hpp>
 
 namespace boresight::app {
 namespace {
@@ -45,8 +46,8 @@ CommissionReport commission_case(const CommissionArguments& arguments,
     working = work;
     line->show(done, all);
   };
-  const DesignedAntenna designed =
-      designed_antenna(read_case(arguments.case_path), options.seed, options.threads, interrupted);
+  const DesignedAntenna designed = designed_antenna(io::read_case(arguments.case_path),
+                                                    options.seed, options.threads, interrupted);
   return plan_commission(designed.antenna, designed.ensemble, options);
 }
 

@@ -10,7 +10,6 @@
 #include <boresight/app/evaluate/evaluate_study.hpp>
 #include <boresight/app/evaluate/unfit_candidates.hpp>
 #include <boresight/app/figures/report_figures.hpp>
-#include <boresight/app/io/friction_leeway.hpp>
 #include <boresight/app/page/report_page.hpp>
 #include <boresight/app/redesign/assumed_inputs.hpp>
 #include <boresight/app/redesign/guessed_shares_held.hpp>
@@ -19,16 +18,19 @@
 #include <boresight/app/report/text_report.hpp>
 #include <boresight/app/tune/asked_structures.hpp>
 #include <boresight/app/uncertainty/designed_antenna.hpp>
-#include <boresight/plant/error.hpp>
+#include <boresight/io/case/friction_leeway.hpp>
+#include <boresight/io/files/write_atomically.hpp>
+#include <boresight/numerics/error.hpp>
 
 namespace boresight::app {
 namespace {
 
 // Numbers that the proposals assume, beside the case's.
-void add_assumed(const std::vector<Proposal>& proposals, std::vector<Quantity>& assumed) {
-  const auto add = [&](const Proposal& proposal, const Quantity& quantity, const std::string& key) {
+void add_assumed(const std::vector<Proposal>& proposals, std::vector<io::Quantity>& assumed) {
+  const auto add = [&](const Proposal& proposal, const io::Quantity& quantity,
+                       const std::string& key) {
     const bool uncertainty = quantity.uncertainty_source.starts_with("assumed");
-    if (quantity.basis != Basis::assumed && !uncertainty) return;
+    if (quantity.basis != io::Basis::assumed && !uncertainty) return;
     assumed.push_back(quantity);
     assumed.back().key = fmt::format("{}: {}", proposal.name, key);
   };
@@ -70,8 +72,8 @@ int run(EvaluateArguments arguments) {
 }  // namespace
 
 Report evaluate_case(const EvaluateArguments& arguments, const std::function<bool()>& interrupted) {
-  Case antenna = read_case(arguments.case_path);
-  change_goals(antenna.goals, arguments.goals);
+  io::Case antenna = io::read_case(arguments.case_path);
+  io::change_goals(antenna.goals, arguments.goals);
   std::vector<Proposal> proposals;
   for (const auto& path : arguments.proposals) proposals.push_back(read_proposal(path));
   check_proposals(antenna, proposals);
@@ -115,7 +117,7 @@ Report evaluate_case(const EvaluateArguments& arguments, const std::function<boo
                               report.conclusions);
     }
   }
-  conclude_friction_doubt(antenna, report.conclusions);
+  io::conclude_friction_doubt(antenna, report.conclusions);
   lead_with_resonance(report);
   return report;
 }

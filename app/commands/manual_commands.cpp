@@ -8,9 +8,9 @@
 #include <boresight/app/commands/completion_scripts.hpp>
 #include <boresight/app/commands/man_page.hpp>
 #include <boresight/app/commands/manual_commands.hpp>
-#include <boresight/app/io/field.hpp>
-#include <boresight/app/io/wording.hpp>
-#include <boresight/plant/error.hpp>
+#include <boresight/io/case/field.hpp>
+#include <boresight/io/units/wording.hpp>
+#include <boresight/numerics/error.hpp>
 
 namespace boresight::app {
 namespace {
@@ -20,8 +20,9 @@ std::string completion_for(const std::string& shell, const ProgramText& program)
   if (shell == "zsh") return zsh_completion(program);
   if (shell == "fish") return fish_completion(program);
   const std::vector<std::string_view> known(completion_shells().begin(), completion_shells().end());
-  throw InvalidInput(fmt::format("completion: expected one of {}, found {}{}", quoted_list(known),
-                                 in_quotes(shell), did_you_mean(shell, known)));
+  throw InvalidInput(fmt::format("completion: expected one of {}, found {}{}",
+                                 io::quoted_list(known), io::in_quotes(shell),
+                                 io::did_you_mean(shell, known)));
 }
 
 }  // namespace

@@ -8,7 +8,6 @@
 #include <boresight/app/commands/match_command.hpp>
 #include <boresight/app/commands/progress_line.hpp>
 #include <boresight/app/figures/report_figures.hpp>
-#include <boresight/app/io/friction_leeway.hpp>
 #include <boresight/app/match/match_study.hpp>
 #include <boresight/app/match/what_if.hpp>
 #include <boresight/app/page/report_page.hpp>
@@ -17,7 +16,9 @@
 #include <boresight/app/report/json_report.hpp>
 #include <boresight/app/report/text_report.hpp>
 #include <boresight/app/uncertainty/designed_antenna.hpp>
-#include <boresight/plant/error.hpp>
+#include <boresight/io/case/friction_leeway.hpp>
+#include <boresight/io/files/write_atomically.hpp>
+#include <boresight/numerics/error.hpp>
 
 namespace boresight::app {
 namespace {
@@ -33,7 +34,7 @@ struct Arguments {
 };
 
 int run(const Arguments& arguments) {
-  Case antenna = read_case(arguments.case_path);
+  io::Case antenna = io::read_case(arguments.case_path);
   arguments.outputs.require_writable();
   MatchOptions options = arguments.options;
   options.threads = all_or(options.threads);
@@ -65,7 +66,7 @@ int run(const Arguments& arguments) {
   }
   report.interrupted = interrupt_requested();
   report.conclusions = conclude(*report.matched);
-  conclude_friction_doubt(antenna, report.conclusions);
+  io::conclude_friction_doubt(antenna, report.conclusions);
   lead_with_resonance(report);
   // Seconds that only a page's sliders are worth.
   if (!arguments.outputs.report_path.empty() && !report.interrupted) {

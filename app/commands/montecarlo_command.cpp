@@ -7,7 +7,8 @@
 #include <boresight/app/montecarlo/montecarlo_study.hpp>
 #include <boresight/app/page/report_page.hpp>
 #include <boresight/app/report/json_report.hpp>
-#include <boresight/plant/error.hpp>
+#include <boresight/io/files/write_atomically.hpp>
+#include <boresight/numerics/error.hpp>
 
 namespace boresight::app {
 namespace {
@@ -26,7 +27,7 @@ int run(MonteCarloArguments arguments) {
     return done;
   }
   const MonteCarloOutcome outcome = run_montecarlo(arguments, ranks, interrupt_requested);
-  if (!arguments.csv_path.empty()) write_atomically(arguments.csv_path, to_csv(outcome));
+  if (!arguments.csv_path.empty()) io::write_atomically(arguments.csv_path, to_csv(outcome));
   arguments.outputs.deliver({.text = [&] { return to_text(outcome.section); },
                              .json = [&] { return to_json(outcome.section); },
                              .page = [&] { return page_of(outcome.section); }});

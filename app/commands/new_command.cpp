@@ -7,8 +7,8 @@
 
 #include <boresight/app/commands/new_command.hpp>
 #include <boresight/app/new_case/case_form.hpp>
-#include <boresight/app/report/json_report.hpp>
-#include <boresight/plant/error.hpp>
+#include <boresight/io/files/write_atomically.hpp>
+#include <boresight/numerics/error.hpp>
 
 namespace boresight::app {
 
@@ -30,7 +30,7 @@ std::string write_case_form(const std::string& folder) {
                                    failure.message()));
   }
   const CaseForm form = case_form(title);
-  write_atomically(path.string(), form.text);
+  io::write_atomically(path.string(), form.text);
   return fmt::format(
       "Wrote {0}: {1} blanks (\"?\") to fill in, the first in line {2}.\n"
       "Then: boresight audit {3}     what in it does not follow from the rest\n"

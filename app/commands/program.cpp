@@ -17,8 +17,8 @@
 #include <boresight/app/commands/report_commands.hpp>
 #include <boresight/app/commands/simulate_command.hpp>
 #include <boresight/app/commands/tune_command.hpp>
-#include <boresight/app/io/field.hpp>
-#include <boresight/app/io/wording.hpp>
+#include <boresight/io/case/field.hpp>
+#include <boresight/io/units/wording.hpp>
 
 namespace boresight::app {
 namespace {
@@ -80,7 +80,7 @@ std::string refused_option(const CLI::App& command, const std::vector<std::strin
     }
     return fmt::format("{}expected one of the options, found {}{}",
                        command.get_parent() == nullptr ? "" : command.get_name() + ": ",
-                       in_quotes(name), did_you_mean(name, names_of(known)));
+                       io::in_quotes(name), io::did_you_mean(name, names_of(known)));
   }
   return {};
 }
@@ -97,8 +97,8 @@ std::string explained(const CLI::App& program, const std::vector<std::string>& a
   if (first.starts_with("-")) return refused_option(program, {first});
   if (std::ranges::find(commands, first) == commands.end()) {
     return fmt::format("expected one of the commands {}, found {}{}",
-                       quoted_list(names_of(commands)), in_quotes(first),
-                       did_you_mean(first, names_of(commands)));
+                       io::quoted_list(names_of(commands)), io::in_quotes(first),
+                       io::did_you_mean(first, names_of(commands)));
   }
   const std::string option =
       refused_option(*program.get_subcommand(first), {arguments.begin() + 1, arguments.end()});

@@ -20,7 +20,8 @@
 #include <boresight/app/report/text_report.hpp>
 #include <boresight/app/tune/budgets_on_plants.hpp>
 #include <boresight/app/tune/plant_members.hpp>
-#include <boresight/design/plant_ensemble.hpp>
+#include <boresight/design/ensembles/plant_ensemble.hpp>
+#include <boresight/io/files/write_atomically.hpp>
 
 namespace boresight::app {
 namespace {
@@ -32,7 +33,7 @@ struct Arguments {
   unsigned threads = 0;
 };
 
-using Section = std::function<void(const Case&, const StudyOptions&, Report&)>;
+using Section = std::function<void(const io::Case&, const StudyOptions&, Report&)>;
 
 struct Command {
   const char* name = "";
@@ -42,7 +43,7 @@ struct Command {
   const char* work = "tuning and verifying";  // as its progress line begins
 };
 
-void fill_identification(const Case& antenna, const StudyOptions& options, Report& report) {
+void fill_identification(const io::Case& antenna, const StudyOptions& options, Report& report) {
   report.identification = identify(antenna, options);
   if (antenna.campaign.records.empty()) return;
   report.campaign = identify_campaign(antenna, options);
@@ -52,8 +53,9 @@ void fill_identification(const Case& antenna, const StudyOptions& options, Repor
 
 // The tuned law on other plants that may be the true one: those that the records leave open,
 // without records those of the case.
-void judge_on_ensemble(const Case& antenna, const Case& designed, const StudyOptions& options,
-                       const std::optional<CampaignSection>& campaign, TuningSection& section) {
+void judge_on_ensemble(const io::Case& antenna, const io::Case& designed,
+                       const StudyOptions& options, const std::optional<CampaignSection>& campaign,
+                       TuningSection& section) {
   if (section.design.tuning.status == design::TuningStatus::unstable) return;
   constexpr std::size_t drawn_plants = 200;
   const bool recorded = campaign && campaign->grey_box;
@@ -72,12 +74,12 @@ void judge_on_ensemble(const Case& antenna, const Case& designed, const StudyOpt
   for (std::size_t i = 0; i < met.size(); ++i) section.budgets[i].plants_met = met[i];
 }
 
-void fill_redesign(const Case& antenna, const StudyOptions& options, Report& report) {
+void fill_redesign(const io::Case& antenna, const StudyOptions& options, Report& report) {
   fill_identification(antenna, options, report);
   report.audit = audit(antenna);
   // With records the redesign is of the drive that they show, and is judged on what they leave
   // open.
-  Case designed = antenna;
+  io::Case designed = antenna;
   if (report.campaign && report.campaign->grey_box) {
     designed = with_identified(antenna, report.campaign->grey_box->estimate);
   }
@@ -106,7 +108,7 @@ const std::vector<Command>& commands() {
       {"redesign", "identify, audit, model, tune, match and conclude: the whole report",
        fill_redesign, true},
       {"audit", "recompute every derived number the case states; list what does not follow",
-       [](const Case& antenna, const StudyOptions&, Report& report) {
+       [](const io::Case& antenna, const StudyOptions&, Report& report) {
          report.audit = audit(antenna);
          if (antenna.campaign.records.empty()) return;
          report.conclusions.push_back(fmt::format(
@@ -117,7 +119,7 @@ const std::vector<Command>& commands() {
       {"identify",
        "inertia and motor-to-load ratio by each method, with intervals; of a case with records all "
        "that they say of the drive",
-       [](const Case& antenna, const StudyOptions& options, Report& report) {
+       [](const io::Case& antenna, const StudyOptions& options, Report& report) {
          fill_identification(antenna, options, report);
          if (report.campaign) return;
          report.conclusions = first_tests(antenna);
@@ -132,7 +134,7 @@ const std::vector<Command>& commands() {
        },
        false, "identifying"},
       {"model", "the linear plant: parameters, poles, what each mode is",
-       [](const Case& antenna, const StudyOptions&, Report& report) {
+       [](const io::Case& antenna, const StudyOptions&, Report& report) {
          report.plant = describe_plant(antenna);
        },
        true}};
@@ -140,7 +142,7 @@ const std::vector<Command>& commands() {
 }
 
 int run(const Command& command, const Arguments& arguments) {
-  const Case antenna = read_case(arguments.case_path);
+  const io::Case antenna = io::read_case(arguments.case_path);
   arguments.outputs.require_writable();
   StudyOptions options;
   options.seed = arguments.seed;

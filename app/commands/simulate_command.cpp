@@ -17,9 +17,6 @@
 #include <boresight/app/commands/progress_line.hpp>
 #include <boresight/app/commands/simulate_command.hpp>
 #include <boresight/app/figures/simulation_figures.hpp>
-#include <boresight/app/io/field.hpp>
-#include <boresight/app/io/record_mat_writer.hpp>
-#include <boresight/app/io/wording.hpp>
 #include <boresight/app/montecarlo/held_law.hpp>
 #include <boresight/app/page/report_page.hpp>
 #include <boresight/app/redesign/antenna_model.hpp>
@@ -27,8 +24,12 @@
 #include <boresight/app/redesign/sections.hpp>
 #include <boresight/app/report/json_report.hpp>
 #include <boresight/app/simulate/antenna_tests.hpp>
-#include <boresight/design/parallel_loop.hpp>
-#include <boresight/plant/error.hpp>
+#include <boresight/io/case/field.hpp>
+#include <boresight/io/files/write_atomically.hpp>
+#include <boresight/io/records/record_mat_writer.hpp>
+#include <boresight/io/units/wording.hpp>
+#include <boresight/numerics/error.hpp>
+#include <boresight/numerics/parallel_loop.hpp>
 
 namespace boresight::app {
 namespace {
@@ -50,8 +51,8 @@ void check_tests(const std::vector<std::string>& tests) {
   for (const auto& test : tests) {
     if (std::ranges::find(known, test) == known.end()) {
       throw InvalidInput(fmt::format("simulate: expected tests out of {}, found {}{}",
-                                     fmt::join(known, ", "), in_quotes(test),
-                                     did_you_mean(test, {known.begin(), known.end()})));
+                                     fmt::join(known, ", "), io::in_quotes(test),
+                                     io::did_you_mean(test, {known.begin(), known.end()})));
     }
     if (std::ranges::count(tests, test) != 1) {
       throw InvalidInput(fmt::format("simulate: expected each test once, found '{}' again", test));
@@ -59,7 +60,8 @@ void check_tests(const std::vector<std::string>& tests) {
   }
 }
 
-SimulatedLaw law_of(const Case& antenna, const std::string& gains, const std::string& structure) {
+SimulatedLaw law_of(const io::Case& antenna, const std::string& gains,
+                    const std::string& structure) {
   SimulatedLaw asked;
   if (auto named = named_law(antenna, gains, structure)) {
     asked.law = std::move(named->law);
@@ -94,7 +96,7 @@ class Campaign {
   Campaign(const SimulateArguments& arguments, const std::function<bool()>& interrupted)
       : arguments_(arguments),
         interrupted_(interrupted),
-        antenna_(read_case(arguments.case_path)),
+        antenna_(io::read_case(arguments.case_path)),
         line_("simulating, percent") {
     check_tests(arguments.tests);
     if (arguments.sample_rate > 0.0 && antenna_.recorder) {
@@ -108,14 +110,15 @@ class Campaign {
     arguments.outputs.require_writable();
     NonlinearInputs inputs{.time_runs = true};
     for (const auto& name : arguments.tests) add_runs(name, inputs);
-    for (const auto& run : runs_) require_writable(path_of(run));
+    for (const auto& run : runs_) io::require_writable(path_of(run));
     states_.resize(runs_.size());
     report_.assumed = assumed_inputs(antenna_, inputs);
   }
 
   SimulateOutcome run() {
     // An error of the loop itself, such as of a full disk, is the failure of nobody's test.
-    design::for_each_index(runs_.size(), arguments_.threads, [this](std::size_t i) { run_one(i); });
+    numerics::for_each_index(runs_.size(), arguments_.threads,
+                             [this](std::size_t i) { run_one(i); });
     std::set<std::string> begun;
     for (std::size_t i = 0; i < runs_.size(); ++i) {
       if (states_[i].begun && i <= kept_) begun.insert(runs_[i].asked);
@@ -213,12 +216,12 @@ class Campaign {
     const auto path = path_of(run);
     if constexpr (std::is_same_v<MadeRecord, DriveRecord>) {
       report_.figures.push_back(drive_test_figure(
-          record, supply_torque(antenna_) / antenna_.drive.supply_pressure.value));
+          record, io::supply_torque(antenna_) / antenna_.drive.supply_pressure.value));
     } else {
       report_.figures.push_back(position_test_figure(record));
     }
-    write_atomically(path,
-                     arguments_.format == "mat" ? to_mat(record.record) : to_csv(record.record));
+    io::write_atomically(
+        path, arguments_.format == "mat" ? to_mat(record.record) : to_csv(record.record));
     record.record = {};
     report_.written.push_back(path);
     report_.interrupted = report_.interrupted || !record.complete;
@@ -231,7 +234,7 @@ class Campaign {
 
   const SimulateArguments& arguments_;
   const std::function<bool()>& interrupted_;
-  Case antenna_;
+  io::Case antenna_;
   std::filesystem::path folder_;
   std::vector<Run> runs_;
   std::mutex mutex_;  // of all below

@@ -10,8 +10,8 @@
 
 #include <boresight/app/commands/subcommand.hpp>
 #include <boresight/app/figures/figure_csv.hpp>
-#include <boresight/app/report/json_report.hpp>
-#include <boresight/plant/error.hpp>
+#include <boresight/io/files/write_atomically.hpp>
+#include <boresight/numerics/error.hpp>
 
 namespace boresight::app {
 namespace {
@@ -36,7 +36,7 @@ void require_writable_folder(const std::string& folder) {
     throw InvalidInput(fmt::format("{}: expected a folder to write curves to, found none{}", folder,
                                    failure ? " (" + failure.message() + ")" : ""));
   }
-  require_writable((std::filesystem::path(folder) / "curves.csv").string());
+  io::require_writable((std::filesystem::path(folder) / "curves.csv").string());
 }
 
 }  // namespace
@@ -105,15 +105,15 @@ bool interrupt_requested() {
 }
 
 void Outputs::require_writable() const {
-  if (!json_path.empty() && json_path != "-") app::require_writable(json_path);
-  if (!report_path.empty()) app::require_writable(report_path);
-  if (!mat_path.empty()) app::require_writable(mat_path);
+  if (!json_path.empty() && json_path != "-") io::require_writable(json_path);
+  if (!report_path.empty()) io::require_writable(report_path);
+  if (!mat_path.empty()) io::require_writable(mat_path);
   if (!curves_folder.empty()) require_writable_folder(curves_folder);
 }
 
 void Outputs::deliver(const Findings& findings) const {
   if (!mat_path.empty() && findings.mat) {
-    write_atomically(mat_path, findings.mat());
+    io::write_atomically(mat_path, findings.mat());
   } else if (!mat_path.empty()) {
     fmt::print(stderr, "boresight: {} is not written: there is no model yet\n", mat_path);
   }
@@ -121,13 +121,13 @@ void Outputs::deliver(const Findings& findings) const {
     const Page page = findings.page();
     if (!curves_folder.empty()) write_curves(page.figures, curves_folder);
     if (!report_path.empty()) {
-      write_atomically(report_path, to_html(page, {command_line, inputs_read()}));
+      io::write_atomically(report_path, to_html(page, {command_line, io::inputs_read()}));
     }
   }
   if (json_path == "-") {
     fmt::print("{}", findings.json());
   } else {
-    if (!json_path.empty()) write_atomically(json_path, findings.json());
+    if (!json_path.empty()) io::write_atomically(json_path, findings.json());
     if (!quiet()) fmt::print("{}", findings.text());
   }
   if (std::fflush(stdout) != 0) throw InvalidInput("standard output: cannot be written to");

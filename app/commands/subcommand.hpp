@@ -7,6 +7,7 @@
 #include <vector>
 
 #include <boresight/app/page/page.hpp>
+#include <boresight/io/files/write_atomically.hpp>
 
 namespace CLI {
 class App;

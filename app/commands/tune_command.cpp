@@ -6,7 +6,6 @@
 #include <boresight/app/commands/progress_line.hpp>
 #include <boresight/app/commands/tune_command.hpp>
 #include <boresight/app/figures/report_figures.hpp>
-#include <boresight/app/io/wording.hpp>
 #include <boresight/app/models/linear_models.hpp>
 #include <boresight/app/page/report_page.hpp>
 #include <boresight/app/redesign/assumed_inputs.hpp>
@@ -21,7 +20,9 @@
 #include <boresight/app/tune/tune_study.hpp>
 #include <boresight/app/tune/tune_verdict.hpp>
 #include <boresight/app/uncertainty/designed_antenna.hpp>
-#include <boresight/plant/error.hpp>
+#include <boresight/io/files/write_atomically.hpp>
+#include <boresight/io/units/wording.hpp>
+#include <boresight/numerics/error.hpp>
 
 namespace boresight::app {
 namespace {
@@ -30,9 +31,9 @@ std::vector<double> read_speeds(const std::vector<std::string>& texts) {
   std::vector<double> speeds;
   for (const auto& text : texts) {
     try {
-      speeds.push_back(parse_quantity(text, Kind::speed).value);
+      speeds.push_back(io::parse_quantity(text, io::Kind::speed).value);
     } catch (const InvalidInput& error) {
-      throw InvalidInput(fmt::format("--speed {}: {}", in_quotes(text), error.what()));
+      throw InvalidInput(fmt::format("--speed {}: {}", io::in_quotes(text), error.what()));
     }
   }
   return speeds;
@@ -53,8 +54,8 @@ std::vector<DescribedLaw> alternatives(const TuneSection& section, const TunedLa
 }  // namespace
 
 Report tune_case(const TuneArguments& arguments, const std::function<bool()>& interrupted) {
-  Case antenna = read_case(arguments.case_path);
-  change_goals(antenna.goals, arguments.goals);
+  io::Case antenna = io::read_case(arguments.case_path);
+  io::change_goals(antenna.goals, arguments.goals);
   TuneOptions options;
   options.structures = arguments.structures;
   options.wind_speeds = read_speeds(arguments.speeds);

@@ -1,24 +1,14 @@
-#include <cmath>
 #include <numbers>
 
 #include <nlohmann/json.hpp>
 
 #include <boresight/app/commission/commission_study.hpp>
 #include <boresight/app/figures/figure_json.hpp>
+#include <boresight/app/report/json_number.hpp>
 #include <boresight/app/report/sky_units.hpp>
 
 namespace boresight::app {
 namespace {
-
-using Json = nlohmann::ordered_json;
-
-Json number(double value) {
-  return std::isfinite(value) ? Json(value) : Json(nullptr);
-}
-
-Json number(const std::optional<double>& value) {
-  return value ? number(*value) : Json(nullptr);
-}
 
 Json band(const design::PlantBand& band, double unit = 1.0) {
   return {{"nominal", number(band.nominal / unit)},

@@ -5,7 +5,7 @@
 
 #include <boresight/app/commission/commission_study.hpp>
 #include <boresight/app/identify/loaded_record.hpp>
-#include <boresight/plant/error.hpp>
+#include <boresight/numerics/error.hpp>
 
 namespace boresight::app {
 namespace {
@@ -59,7 +59,8 @@ design::RecordedChannel of(const Signal& signal, double sample_time) {
 
 }  // namespace
 
-std::vector<ChannelComparison> compare_case_records(const Case& antenna, const std::string& before,
+std::vector<ChannelComparison> compare_case_records(const io::Case& antenna,
+                                                    const std::string& before,
                                                     const std::string& after, unsigned threads) {
   if (antenna.campaign.records.empty()) {
     throw InvalidInput(fmt::format(

@@ -1,7 +1,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <iterator>
 #include <numbers>
 
 #include <fmt/format.h>
@@ -9,14 +8,15 @@
 
 #include <boresight/app/commission/commission_study.hpp>
 #include <boresight/app/figures/commission_figures.hpp>
-#include <boresight/app/io/wording.hpp>
 #include <boresight/app/redesign/assumed_inputs.hpp>
 #include <boresight/app/redesign/sections.hpp>
 #include <boresight/app/report/sky_units.hpp>
 #include <boresight/app/simulate/time_domain.hpp>
 #include <boresight/app/tune/engineer_units.hpp>
 #include <boresight/app/tune/gains_at_bounds.hpp>
-#include <boresight/plant/error.hpp>
+#include <boresight/app/tune/tuned_assessment.hpp>
+#include <boresight/io/units/wording.hpp>
+#include <boresight/numerics/error.hpp>
 
 namespace boresight::app {
 namespace {
@@ -32,8 +32,8 @@ constexpr double move_ramp = 2.0;
 // Steps of commands are no larger than this at the sky.
 constexpr double largest_angle_step = 100.0 * millidegree;
 
-control::ControlLaw given_law(const Case& antenna, const CommissionOptions& options) {
-  control::ControlLaw law{loop_structure(antenna, options.structure), {}};
+control::ControlLaw given_law(const io::Case& antenna, const CommissionOptions& options) {
+  control::ControlLaw law{io::loop_structure(antenna, options.structure), {}};
   std::vector<std::string> known;
   for (const auto& block : law.structure.blocks()) {
     for (std::size_t i = 0; i < block.gains.size(); ++i) {
@@ -46,11 +46,11 @@ control::ControlLaw given_law(const Case& antenna, const CommissionOptions& opti
                                        symbol, block.gains[i].name, options.structure));
       }
       try {
-        law.gains.push_back(
-            parse_quantity(text->substr(symbol.size() + 1), gain_kind(block.path, block.kind, i))
-                .value);
+        law.gains.push_back(io::parse_quantity(text->substr(symbol.size() + 1),
+                                               io::gain_kind(block.path, block.kind, i))
+                                .value);
       } catch (const InvalidInput& error) {
-        throw InvalidInput(fmt::format("--gains {}: {}", in_quotes(*text), error.what()));
+        throw InvalidInput(fmt::format("--gains {}: {}", io::in_quotes(*text), error.what()));
       }
     }
   }
@@ -58,7 +58,7 @@ control::ControlLaw given_law(const Case& antenna, const CommissionOptions& opti
     const std::string symbol = text.substr(0, text.find('='));
     if (std::ranges::find(known, symbol) == known.end()) {
       throw InvalidInput(fmt::format("--gains {}: expected KEY=VALUE with a key of {}, found none",
-                                     in_quotes(text), fmt::join(known, ", ")));
+                                     io::in_quotes(text), fmt::join(known, ", ")));
     }
   }
   control::validate(law);
@@ -66,7 +66,7 @@ control::ControlLaw given_law(const Case& antenna, const CommissionOptions& opti
 }
 
 // Its bounds are told in `bounds`.
-control::ControlLaw tuned_law(const Case& antenna, const PlantEnsemble& ensemble,
+control::ControlLaw tuned_law(const io::Case& antenna, const PlantEnsemble& ensemble,
                               const CommissionOptions& options, std::vector<std::string>& bounds) {
   TuneOptions tuning;
   tuning.structures = {options.structure};
@@ -82,13 +82,12 @@ control::ControlLaw tuned_law(const Case& antenna, const PlantEnsemble& ensemble
   }
   const TuneSection section = tune_structures(antenna, ensemble, tuning);
   if (options.interrupted && options.interrupted()) throw Interrupted("interrupted by the user");
-  for (const auto& row : section.laws) {
-    if (row.tuned_for == TunedFor::robust && row.usable() &&
-        row.wind_speed == antenna.wind.design_speed.value) {
-      bounds = gains_at_bounds({&row}, sample_time_of(section.problem.delay));
-      std::ranges::move(gain_trades({&row}), std::back_inserter(bounds));
-      return row.design.tuning.law;
-    }
+  // Its stages are for every plant: a nominal design will not do.
+  const TunedLaw* recommended = recommended_at(section, antenna.wind.design_speed.value, true,
+                                               {.accepted = design::Fitness::misses_budget});
+  if (recommended != nullptr) {
+    bounds = about_bounds(section, {recommended});
+    return recommended->design.tuning.law;
   }
   throw InfeasibleRequirement(fmt::format(
       "commission: no law of {} meets its goals on every plant that may be the true one{}",
@@ -108,7 +107,7 @@ double round_down(double value) {
 }
 
 // In rad/s or rad at the sky, a round number of mdeg.
-double step_of(const Case& antenna, const design::CommissioningStage& stage) {
+double step_of(const io::Case& antenna, const design::CommissioningStage& stage) {
   const double by_valve =
       step_share * largest_demand(antenna) / stage.expected.largest_demand.largest;
   const double by_torque =
@@ -116,7 +115,7 @@ double step_of(const Case& antenna, const design::CommissioningStage& stage) {
   const double largest =
       stage.law.position_open ? step_share * antenna.drive.slew_rate.value : largest_angle_step;
   const double step =
-      std::min({by_valve / gear_ratio(antenna), by_torque / gear_ratio(antenna), largest});
+      std::min({by_valve / io::gear_ratio(antenna), by_torque / io::gear_ratio(antenna), largest});
   return std::isfinite(step) ? millidegree * round_down(step / millidegree) : std::nan("");
 }
 
@@ -140,9 +139,9 @@ bool foreseen(const design::CommissioningStage& stage) {
   return stage.expected.stable == stage.expected.plants;
 }
 
-void describe_check(const Case& antenna, StageSheet& sheet) {
+void describe_check(const io::Case& antenna, StageSheet& sheet) {
   const auto& expected = sheet.stage.expected;
-  const double gear = gear_ratio(antenna);
+  const double gear = io::gear_ratio(antenna);
   const double sky = gear * millidegree;
   if (!foreseen(sheet.stage)) {
     sheet.check = fmt::format("Nothing: as the plants have it, {} of {} are unstable.",
@@ -172,7 +171,7 @@ void describe_check(const Case& antenna, StageSheet& sheet) {
                            range(expected.beam_rms, sky, 3) + " mdeg.";
 }
 
-void describe_abort(const Case& antenna, StageSheet& sheet, const CommissionReport& report) {
+void describe_abort(const io::Case& antenna, StageSheet& sheet, const CommissionReport& report) {
   const auto& abort = sheet.stage.abort;
   if (!foreseen(sheet.stage)) {
     sheet.abort =
@@ -184,7 +183,7 @@ void describe_abort(const Case& antenna, StageSheet& sheet, const CommissionRepo
       100.0 * abort.overshoot, abort.still_valve_rms);
   if (!sheet.stage.law.position_open) {
     sheet.abort += fmt::format(" or of the encoder error above {:.3g} mdeg",
-                               abort.still_encoder_rms / (gear_ratio(antenna) * millidegree));
+                               abort.still_encoder_rms / (io::gear_ratio(antenna) * millidegree));
   }
   sheet.abort += ", or any ringing that does not die out. ";
   sheet.abort += std::isfinite(abort.gain_reserve)
@@ -220,7 +219,7 @@ void describe_way_back(const StageSheet* before, StageSheet& sheet) {
   }
 }
 
-std::vector<StageGain> acting_gains(const Case& antenna, const design::StageLaw& stage,
+std::vector<StageGain> acting_gains(const io::Case& antenna, const design::StageLaw& stage,
                                     const StageSheet* before) {
   const auto texts = in_engineers_units(antenna, stage.law);
   std::vector<StageGain> gains;
@@ -242,7 +241,7 @@ std::vector<StageGain> acting_gains(const Case& antenna, const design::StageLaw&
   return gains;
 }
 
-std::vector<StageSheet> make_sheets(const Case& antenna, const CommissionReport& report) {
+std::vector<StageSheet> make_sheets(const io::Case& antenna, const CommissionReport& report) {
   std::vector<StageSheet> sheets;
   sheets.reserve(report.plan.stages.size());
   for (const auto& stage : report.plan.stages) {
@@ -278,7 +277,7 @@ void predict(const design::CommissioningPlan& plan, ChannelComparison& channel) 
 }
 
 // The linear plant of the stages does not know friction. In still air: the wind is theirs.
-std::optional<double> hunting_beyond_budget(const Case& antenna,
+std::optional<double> hunting_beyond_budget(const io::Case& antenna,
                                             const design::TrackingProblem& problem,
                                             const control::ControlLaw& law, std::uint64_t seed) {
   auto options = comparison_options(antenna, seed);
@@ -289,7 +288,7 @@ std::optional<double> hunting_beyond_budget(const Case& antenna,
                                             : std::numeric_limits<double>::infinity();
 }
 
-void conclude_plan(const CommissionReport& report, const Case& antenna,
+void conclude_plan(const CommissionReport& report, const io::Case& antenna,
                    std::vector<std::string>& sentences) {
   if (report.hunting) {
     sentences.push_back(fmt::format(
@@ -304,7 +303,7 @@ void conclude_plan(const CommissionReport& report, const Case& antenna,
   sentences.insert(sentences.end(), report.bounds.begin(), report.bounds.end());
   const auto& first = report.plan.stages.front();
   const auto& last = report.plan.stages.back();
-  const double sky = gear_ratio(antenna) * millidegree;
+  const double sky = io::gear_ratio(antenna) * millidegree;
   if (!foreseen(first)) {
     sentences.push_back(fmt::format(
         "With the gains as found {} of {} plants are unstable, but the antenna runs on them: its "
@@ -337,7 +336,7 @@ void conclude_plan(const CommissionReport& report, const Case& antenna,
   }
 }
 
-std::vector<std::string> conclude(const CommissionReport& report, const Case& antenna) {
+std::vector<std::string> conclude(const CommissionReport& report, const io::Case& antenna) {
   std::vector<std::string> sentences;
   if (report.failure == nullptr) {
     conclude_plan(report, antenna, sentences);
@@ -366,7 +365,7 @@ std::vector<std::string> conclude(const CommissionReport& report, const Case& an
 
 }  // namespace
 
-CommissionReport plan_commission(const Case& antenna, const PlantEnsemble& ensemble,
+CommissionReport plan_commission(const io::Case& antenna, const PlantEnsemble& ensemble,
                                  const CommissionOptions& options) {
   if (options.before.empty() != options.after.empty()) {
     throw InvalidInput(
@@ -399,7 +398,7 @@ CommissionReport plan_commission(const Case& antenna, const PlantEnsemble& ensem
   }
   const double rate = move_share * antenna.drive.slew_rate.value * problem.gear_ratio;
   report.move = {rate, rate / move_ramp};
-  loop_structure(antenna, options.structure);
+  io::loop_structure(antenna, options.structure);
   if (!options.before.empty()) {
     report.comparisons =
         compare_case_records(antenna, options.before, options.after, options.threads);

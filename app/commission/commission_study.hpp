@@ -12,8 +12,8 @@
 #include <boresight/app/figures/figure.hpp>
 #include <boresight/app/redesign/antenna_model.hpp>
 #include <boresight/app/tune/tune_study.hpp>
-#include <boresight/design/commissioning.hpp>
-#include <boresight/design/commissioning_records.hpp>
+#include <boresight/design/commissioning/commissioning.hpp>
+#include <boresight/design/commissioning/commissioning_records.hpp>
 
 namespace boresight::app {
 
@@ -92,7 +92,7 @@ struct CommissionReport {
   std::string before, after;
   std::vector<ChannelComparison> comparisons;
   std::vector<std::string> conclusions;
-  std::vector<Quantity> assumed;
+  std::vector<io::Quantity> assumed;
   std::vector<Figure> figures;
 };
 
@@ -101,12 +101,13 @@ struct CommissionReport {
 /// @throws InvalidInput for a structure, gains or records that there are none of; Interrupted;
 /// InfeasibleRequirement if no law of the structure meets the goals on every plant, or no path to
 /// it was found, and NumericalFailure, if no records are compared: else the report holds them.
-CommissionReport plan_commission(const Case& antenna, const PlantEnsemble& ensemble,
+CommissionReport plan_commission(const io::Case& antenna, const PlantEnsemble& ensemble,
                                  const CommissionOptions& options);
 
 /// The comparison of two records of a case by its channels. @throws InvalidInput for a name that no
 /// usable record has.
-std::vector<ChannelComparison> compare_case_records(const Case& antenna, const std::string& before,
+std::vector<ChannelComparison> compare_case_records(const io::Case& antenna,
+                                                    const std::string& before,
                                                     const std::string& after, unsigned threads);
 
 /// The report, and as text for a terminal.

@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 
 #include <boresight/app/document/document_html.hpp>
-#include <boresight/app/io/printable.hpp>
+#include <boresight/io/units/printable.hpp>
 
 namespace boresight::app {
 namespace {
@@ -127,7 +127,7 @@ class Elements {
 std::string escaped_html(std::string_view text) {
   std::string html;
   for (std::size_t i = 0; i < text.size();) {
-    const std::size_t length = printable_length(text, i);
+    const std::size_t length = io::printable_length(text, i);
     const char c = text[i];
     if (c == '&') {
       html += "&amp;";

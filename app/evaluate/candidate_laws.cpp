@@ -9,8 +9,8 @@
 #include <boresight/app/tune/budgets_on_plants.hpp>
 #include <boresight/app/tune/engineer_units.hpp>
 #include <boresight/app/tune/plant_members.hpp>
-#include <boresight/design/parallel_loop.hpp>
-#include <boresight/design/structure_parts.hpp>
+#include <boresight/design/tuning/structure_parts.hpp>
+#include <boresight/numerics/parallel_loop.hpp>
 
 namespace boresight::app {
 namespace {
@@ -20,7 +20,7 @@ using design::TuningStatus;
 constexpr double infinity = std::numeric_limits<double>::infinity();
 // As many as the reference ensemble has.
 constexpr std::size_t drawn_members = 30;
-std::vector<design::EnsembleMember> members_of(const Case& as_is, const Case& proposed,
+std::vector<design::EnsembleMember> members_of(const io::Case& as_is, const io::Case& proposed,
                                                const PlantUncertainty& uncertainty,
                                                std::uint64_t seed) {
   if (!uncertainty.from_records) return plant_members(proposed, seed);
@@ -54,7 +54,7 @@ struct Task {
 
 class Study {
  public:
-  Study(const std::vector<Case>& cases, const PlantUncertainty& uncertainty, int starts,
+  Study(const std::vector<io::Case>& cases, const PlantUncertainty& uncertainty, int starts,
         const EvaluateOptions& options)
       : cases_(cases), options_(options), starts_(starts) {
     for (const auto& one : cases) {
@@ -86,7 +86,7 @@ class Study {
   void finish(Task& task) const {
     task.whole = task.whole && !stopped();
     if (!task.whole) return;
-    const Case& antenna = cases_[task.candidate];
+    const io::Case& antenna = cases_[task.candidate];
     const design::DesignTask search = search_of(task);
     task.law.structure = task.name;
     task.law.design = std::move(task.design);
@@ -114,7 +114,7 @@ class Study {
   bool stopped() const { return options_.interrupted && options_.interrupted(); }
 
   design::DesignTask search_of(const Task& task) const {
-    const Case& antenna = cases_[task.candidate];
+    const io::Case& antenna = cases_[task.candidate];
     design::DesignTask search;
     search.name = task.name;
     search.problem = make_problem(antenna);
@@ -133,22 +133,22 @@ class Study {
     return search;
   }
 
-  const std::vector<Case>& cases_;
+  const std::vector<io::Case>& cases_;
   const EvaluateOptions& options_;
   int starts_;
   std::vector<std::vector<design::EnsembleMember>> members_;
 };
 
-std::vector<Task> tasks_of(const std::vector<Case>& cases,
+std::vector<Task> tasks_of(const std::vector<io::Case>& cases,
                            const std::vector<std::vector<std::string>>& names) {
   std::vector<Task> tasks;
   for (std::size_t candidate = 0; candidate < cases.size(); ++candidate) {
     std::vector<control::LoopStructure> structures;
     for (const auto& name : names[candidate]) {
-      structures.push_back(loop_structure(cases[candidate], name));
+      structures.push_back(io::loop_structure(cases[candidate], name));
     }
     const auto missing =
-        design::missing_parts(structures, usual_structures_with_lag(cases[candidate]));
+        design::missing_parts(structures, io::usual_structures_with_lag(cases[candidate]));
     structures.insert(structures.end(), missing.begin(), missing.end());
     const auto parts = design::parts_of(structures);
     const std::size_t first = tasks.size();
@@ -164,7 +164,7 @@ std::vector<Task> tasks_of(const std::vector<Case>& cases,
 
 }  // namespace
 
-TunedCandidates tune_candidates(const std::vector<Case>& cases,
+TunedCandidates tune_candidates(const std::vector<io::Case>& cases,
                                 const std::vector<std::vector<std::string>>& structures,
                                 const PlantUncertainty& uncertainty, int starts,
                                 const EvaluateOptions& options) {
@@ -173,7 +173,8 @@ TunedCandidates tune_candidates(const std::vector<Case>& cases,
   std::vector<std::vector<std::size_t>> parts;
   for (const auto& task : tasks) parts.push_back(task.parts);
   // One step more is left to the comparison that follows.
-  design::StepCounter counter(design::steps_of_search(parts) + tasks.size() + 1, options.progress);
+  numerics::StepCounter counter(design::steps_of_search(parts) + tasks.size() + 1,
+                                options.progress);
   const auto search = [&](std::size_t i) {
     study.search(tasks[i]);
     counter.step();
@@ -183,7 +184,7 @@ TunedCandidates tune_candidates(const std::vector<Case>& cases,
     counter.step();
   };
   design::search_then_improve(parts, options.threads, search, improve);
-  design::for_each_index(tasks.size(), options.threads, [&](std::size_t i) {
+  numerics::for_each_index(tasks.size(), options.threads, [&](std::size_t i) {
     if (!tasks[i].name.empty()) study.finish(tasks[i]);
     counter.step();
   });

@@ -22,7 +22,7 @@ struct TunedCandidates {
 /// judges the laws on the members and runs them on the nonlinear antenna. `cases`: the antenna as
 /// it is, then what each proposal makes of it; `structures`: of each, by name. Progress is told
 /// with one step left for the draws. The same for any number of threads.
-TunedCandidates tune_candidates(const std::vector<Case>& cases,
+TunedCandidates tune_candidates(const std::vector<io::Case>& cases,
                                 const std::vector<std::vector<std::string>>& structures,
                                 const PlantUncertainty& uncertainty, int starts,
                                 const EvaluateOptions& options);

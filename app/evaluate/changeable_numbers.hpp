@@ -3,7 +3,7 @@
 #include <functional>
 #include <vector>
 
-#include <boresight/app/io/case_file.hpp>
+#include <boresight/io/case/case_file.hpp>
 
 namespace boresight::app {
 
@@ -11,10 +11,10 @@ namespace boresight::app {
 struct ChangeableNumber {
   const char* table = "";
   const char* key = "";
-  Kind kind = Kind::number;
-  Range range;  // of the number once changed
+  io::Kind kind = io::Kind::number;
+  io::Range range;  // of the number once changed
   /// Where it stands in a case; none where the case has no such table.
-  Quantity* (*in)(Case& antenna) = nullptr;
+  io::Quantity* (*in)(io::Case& antenna) = nullptr;
 
   std::string path() const { return std::string(table) + "." + key; }
 };

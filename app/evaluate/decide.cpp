@@ -10,8 +10,8 @@
 #include <boresight/app/evaluate/evaluate_study.hpp>
 #include <boresight/app/evaluate/held_candidate.hpp>
 #include <boresight/app/evaluate/pairs_by_structure.hpp>
-#include <boresight/design/pareto_front.hpp>
-#include <boresight/plant/error.hpp>
+#include <boresight/design/decisions/pareto_front.hpp>
+#include <boresight/numerics/error.hpp>
 
 namespace boresight::app {
 namespace {
@@ -54,7 +54,7 @@ design::Probability share_of(const Eigen::ArrayXd& indicator) {
 
 class Decision {
  public:
-  Decision(const std::vector<Candidate>& candidates, const std::vector<Case>& cases,
+  Decision(const std::vector<Candidate>& candidates, const std::vector<io::Case>& cases,
            const PlantDistribution& distribution, const EvaluateOptions& options)
       : candidates_(candidates), cases_(cases), distribution_(distribution), options_(options) {
     for (std::size_t i = 0; i < candidates.size(); ++i) {
@@ -165,7 +165,7 @@ class Decision {
       section_.tornado = design::tornado(inputs, [&](const std::vector<double>& shares) {
         return difference(best, second, shares);
       });
-      design::SobolOptions sobol;
+      numerics::SobolOptions sobol;
       sobol.points = 64;
       sobol.seed = options_.seed;
       sobol.threads = options_.threads;
@@ -179,7 +179,7 @@ class Decision {
         out(0) = difference(pair->best, pair->second, shares);
         pool.give(std::move(pair));
       };
-      section_.sobol = design::sobol_indices(inputs, 1, function, sobol);
+      section_.sobol = numerics::sobol_indices(inputs, 1, function, sobol);
     } catch (const NumericalFailure& error) {
       section_.tornado.reset();
       section_.notes.push_back(
@@ -221,7 +221,7 @@ class Decision {
   }
 
   const std::vector<Candidate>& candidates_;
-  const std::vector<Case>& cases_;
+  const std::vector<io::Case>& cases_;
   const PlantDistribution& distribution_;
   const EvaluateOptions& options_;
   std::vector<HeldCandidate> held_;
@@ -232,7 +232,7 @@ class Decision {
 
 }  // namespace
 
-DecisionSection decide(const std::vector<Candidate>& candidates, const std::vector<Case>& cases,
+DecisionSection decide(const std::vector<Candidate>& candidates, const std::vector<io::Case>& cases,
                        const PlantDistribution& distribution, const EvaluateOptions& options) {
   return Decision(candidates, cases, distribution, options).run();
 }

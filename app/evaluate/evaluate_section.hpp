@@ -9,12 +9,12 @@
 #include <boresight/app/evaluate/proposed_case.hpp>
 #include <boresight/app/redesign/antenna_model.hpp>
 #include <boresight/app/uncertainty/plant_distribution.hpp>
-#include <boresight/design/decision_statistics.hpp>
-#include <boresight/design/nonlinear_verification.hpp>
-#include <boresight/design/plant_ensemble.hpp>
-#include <boresight/design/sobol_indices.hpp>
-#include <boresight/design/test_value.hpp>
-#include <boresight/design/tornado.hpp>
+#include <boresight/design/decisions/decision_statistics.hpp>
+#include <boresight/design/decisions/test_value.hpp>
+#include <boresight/design/decisions/tornado.hpp>
+#include <boresight/design/ensembles/plant_ensemble.hpp>
+#include <boresight/design/verification/nonlinear_verification.hpp>
+#include <boresight/numerics/statistics/sobol_indices.hpp>
 
 namespace boresight::app {
 
@@ -92,8 +92,8 @@ struct Candidate {
   double motor_to_load_ratio = 0.0;
   plant::PlantMode oil_mode;       // plant::mode_of_oil, no loop closed
   std::vector<CandidateLaw> laws;  // one a structure
-  /// The law that stands for it: of the usable ones that of least compared_rms, else the same of
-  /// those that meet their goals, else that nearest to its goals; none if no structure is stable.
+  /// The law that stands for it: design::recommend by compared_rms and limit cycles; where none
+  /// meets its goals, that nearest to them; none if no structure is stable.
   std::optional<std::size_t> chosen;
   std::optional<CandidateFigures> figures;  // of the chosen law
 
@@ -149,7 +149,7 @@ struct DecisionSection {
   std::size_t best = 0, second = 0;
   /// Of rms of second less best, mdeg.
   std::optional<design::Tornado> tornado;
-  std::optional<design::SobolResult> sobol;
+  std::optional<numerics::SobolResult> sobol;
   /// mdeg; of the choice between those fit to be chosen, `choice` and `mean_loss` by `candidates`.
   std::optional<design::TestValue> tests;
   std::vector<std::string> notes;  // what is missing, and why
@@ -159,8 +159,8 @@ struct DecisionSection {
 struct EvaluateSection {
   double wind_speed = 0.0;  // m/s
   plant::WindModel wind_model = plant::WindModel::coherence;
-  std::optional<WindMast> wind_mast;  // none: the case states speeds at the dish's centre
-  bool climate = false;               // the case has one
+  std::optional<io::WindMast> wind_mast;  // none: the case states speeds at the dish's centre
+  bool climate = false;                   // the case has one
   bool minimises_climate = false;
   std::string currency;  // empty: no proposal states a cost
   std::string ensemble_source;

@@ -7,15 +7,16 @@
 
 #include <boresight/app/evaluate/candidate_laws.hpp>
 #include <boresight/app/evaluate/evaluate_study.hpp>
-#include <boresight/app/io/field.hpp>
-#include <boresight/app/io/wording.hpp>
 #include <boresight/app/redesign/loaded_drive.hpp>
 #include <boresight/app/simulate/nonlinear_model.hpp>
 #include <boresight/app/simulate/time_domain.hpp>
-#include <boresight/design/drive_reach.hpp>
-#include <boresight/design/parallel_loop.hpp>
-#include <boresight/design/pareto_front.hpp>
-#include <boresight/plant/error.hpp>
+#include <boresight/design/decisions/pareto_front.hpp>
+#include <boresight/design/decisions/recommend.hpp>
+#include <boresight/design/problem/drive_reach.hpp>
+#include <boresight/io/case/field.hpp>
+#include <boresight/io/units/wording.hpp>
+#include <boresight/numerics/error.hpp>
+#include <boresight/numerics/parallel_loop.hpp>
 
 namespace boresight::app {
 namespace {
@@ -24,26 +25,45 @@ constexpr double degree = std::numbers::pi / 180.0;
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 constexpr std::string_view as_it_is = "as it is";
 
-// The best of laws: usable ones first, then those that meet their goals, then stable ones.
-std::optional<std::size_t> choose(const std::vector<CandidateLaw>& laws) {
-  std::optional<std::size_t> best;
-  const auto rank = [&](std::size_t i) {
-    const auto& law = laws[i];
-    const int worth = law.usable() ? 0 : law.goals_met ? 1 : 2;
-    const double nearness = worth < 2 ? law.compared_rms() : law.design.tuning.worst_goal_ratio;
-    return std::pair(worth, nearness);
-  };
-  for (std::size_t i = 0; i < laws.size(); ++i) {
-    if (laws[i].stable() && (!best || rank(i) < rank(*best))) best = i;
+// Compared by what the proposal's whole ensemble has, not its nominal plant alone.
+design::Assessment assessment_of(const CandidateLaw& law) {
+  design::Assessment result;
+  result.structure = law.structure;
+  result.purpose = design::DesignPurpose::robust;
+  result.parts = law.design.tuning.law.structure.gains().size();
+  result.stable = law.stable();
+  result.verified = law.design.verification.passed;
+  result.nominal_constraints_met = result.member_constraints_met = law.goals_met;
+  result.linear_rms = std::isfinite(law.member_rms) ? law.member_rms : law.design.beam_rms;
+  if (law.time_domain) {
+    result.simulated_rms = law.compared_rms();
+    result.limit_cycle_amplitude = design::hunting_amplitude(law.time_domain->hunting);
+    result.limit_cycles =
+        limit_cycle_verdict(law.still, design::hunting_seen(law.time_domain->hunting));
   }
-  return best;
+  return result;
 }
 
-std::optional<SlewFigures> slew_of(const Case& antenna, double inertia) {
+// Where none is fit the least unfit; of those that miss their goals the nearest to them.
+std::optional<std::size_t> choose(const std::vector<CandidateLaw>& laws) {
+  std::vector<design::Assessment> candidates;
+  for (const auto& law : laws) candidates.push_back(assessment_of(law));
+  const auto winner =
+      design::recommend(candidates, {.accepted = design::Fitness::lost_in_wind}).winner;
+  if (winner) return winner;
+  std::optional<std::size_t> nearest;
+  const auto distance = [&](std::size_t i) { return laws[i].design.tuning.worst_goal_ratio; };
+  for (std::size_t i = 0; i < laws.size(); ++i) {
+    if (laws[i].stable() && (!nearest || distance(i) < distance(*nearest))) nearest = i;
+  }
+  return nearest;
+}
+
+std::optional<SlewFigures> slew_of(const io::Case& antenna, double inertia) {
   if (!antenna.simulation) return std::nullopt;
   constexpr double distance = 10.0 * degree;
   constexpr double acceleration = 0.2 * degree;
-  const double ratio = gear_ratio(antenna);
+  const double ratio = io::gear_ratio(antenna);
   SlewFigures slew;
   slew.distance = distance;
   slew.rate_asked = antenna.drive.slew_rate.value;
@@ -64,7 +84,7 @@ std::optional<SlewFigures> slew_of(const Case& antenna, double inertia) {
   return slew;
 }
 
-CandidateFigures figures_of(const Case& antenna, const CandidateLaw& tuned,
+CandidateFigures figures_of(const io::Case& antenna, const CandidateLaw& tuned,
                             const EvaluateSection& section) {
   const control::ControlLaw& law = tuned.design.tuning.law;
   const double factor = tuned.nonlinear_factor();
@@ -97,10 +117,10 @@ CandidateFigures figures_of(const Case& antenna, const CandidateLaw& tuned,
                                problem.gear_ratio);
   const auto& drive = problem.plant.drive;
   figures.supply_margin =
-      torque_for_wind(antenna) / (mean + crest * std::sqrt(evaluation.wind_torque_variance));
+      io::torque_for_wind(antenna) / (mean + crest * std::sqrt(evaluation.wind_torque_variance));
   figures.demand_margin =
-      largest_demand(antenna) / (drive.leakage_rate / drive.oil_stiffness * mean +
-                                 crest * std::sqrt(evaluation.wind_demand_variance));
+      io::largest_demand(antenna) / (drive.leakage_rate / drive.oil_stiffness * mean +
+                                     crest * std::sqrt(evaluation.wind_demand_variance));
   figures.slew_rate_margin = slew_rate_margin(antenna);
   figures.slew = slew_of(antenna, motor_inertia(antenna, antenna.motor.flywheel_disks) +
                                       gear_train_inertia(antenna) + antenna_inertia(antenna));
@@ -115,7 +135,7 @@ CandidateFigures figures_of(const Case& antenna, const CandidateLaw& tuned,
   return figures;
 }
 
-Candidate describe_candidate(const Case& antenna) {
+Candidate describe_candidate(const io::Case& antenna) {
   Candidate candidate;
   candidate.motor_inertia = motor_inertia(antenna, antenna.motor.flywheel_disks);
   const double load = gear_train_inertia(antenna) + antenna_inertia(antenna);
@@ -131,10 +151,10 @@ Candidate describe_candidate(const ProposedCase& proposed, const Proposal& propo
   candidate.path = proposal.path;
   candidate.description = proposal.description;
   if (proposal.cost) {
-    const Quantity& amount = proposal.cost->amount;
+    const io::Quantity& amount = proposal.cost->amount;
     candidate.cost = amount.value;
     if (amount.uncertainty_given) candidate.cost_uncertainty = amount.standard_uncertainty;
-    candidate.cost_assumed = amount.basis == Basis::assumed;
+    candidate.cost_assumed = amount.basis == io::Basis::assumed;
   }
   candidate.risks = proposal.risks;
   candidate.changes = proposed.changes;
@@ -149,24 +169,25 @@ void check_together(const std::vector<Proposal>& proposals) {
   for (std::size_t i = 0; i < proposals.size(); ++i) {
     const auto& one = proposals[i];
     if (one.name == as_it_is) {
-      refuse_at(
+      io::refuse_at(
           one.name_location, "name",
           fmt::format("expected another name than {}, which is the antenna without proposals, "
                       "found it",
-                      in_quotes(as_it_is)));
+                      io::in_quotes(as_it_is)));
     }
     for (std::size_t k = 0; k < i; ++k) {
       if (proposals[k].name == one.name) {
-        refuse_at(one.name_location, "name",
-                  fmt::format("expected a name of its own, found {}, which {} has too",
-                              in_quotes(one.name), proposals[k].path));
+        io::refuse_at(one.name_location, "name",
+                      fmt::format("expected a name of its own, found {}, which {} has too",
+                                  io::in_quotes(one.name), proposals[k].path));
       }
       const auto& other = proposals[k].cost;
       if (one.cost && other && other->currency != one.cost->currency) {
-        refuse_at(one.cost_location, "cost.currency",
-                  fmt::format("expected the currency of {}, {}, since costs are compared, found {}",
-                              proposals[k].path, in_quotes(other->currency),
-                              in_quotes(one.cost->currency)));
+        io::refuse_at(
+            one.cost_location, "cost.currency",
+            fmt::format("expected the currency of {}, {}, since costs are compared, found {}",
+                        proposals[k].path, io::in_quotes(other->currency),
+                        io::in_quotes(one.cost->currency)));
       }
     }
   }
@@ -206,24 +227,25 @@ std::optional<double> Candidate::reversal_error() const {
   return reversal.beam_error;
 }
 
-plant::AntennaPlant proposed_plant(const Case& as_is, const Case& proposed, const PlantDraw& draw) {
+plant::AntennaPlant proposed_plant(const io::Case& as_is, const io::Case& proposed,
+                                   const PlantDraw& draw) {
   PlantDraw own = draw;
-  const double slope = tracking_friction(as_is);
+  const double slope = io::tracking_friction(as_is);
   if (slope > 0.0) {
     own.values.at(static_cast<std::size_t>(UncertainInput::friction_slope)) *=
-        tracking_friction(proposed) / slope;
+        io::tracking_friction(proposed) / slope;
   }
   return make_plant(proposed, own);
 }
 
-void check_proposals(const Case& antenna, const std::vector<Proposal>& proposals) {
+void check_proposals(const io::Case& antenna, const std::vector<Proposal>& proposals) {
   check_together(proposals);
   for (const auto& proposal : proposals) {
     design::validate(make_goals(apply_proposal(antenna, proposal).antenna));
   }
 }
 
-EvaluateSection evaluate_proposals(const Case& antenna, const std::vector<Proposal>& proposals,
+EvaluateSection evaluate_proposals(const io::Case& antenna, const std::vector<Proposal>& proposals,
                                    const PlantUncertainty& uncertainty,
                                    const EvaluateOptions& options) {
   check_together(proposals);
@@ -234,7 +256,7 @@ EvaluateSection evaluate_proposals(const Case& antenna, const std::vector<Propos
   }
   std::vector<std::string> structures = options.structures;
   if (structures.empty()) structures = {"PI"};
-  for (const auto& name : structures) loop_structure(antenna, name);
+  for (const auto& name : structures) io::loop_structure(antenna, name);
 
   EvaluateSection section;
   section.bands = make_bands(antenna);
@@ -255,7 +277,7 @@ EvaluateSection evaluate_proposals(const Case& antenna, const std::vector<Propos
         "climate, found none");
   }
 
-  std::vector<Case> cases{antenna};
+  std::vector<io::Case> cases{antenna};
   section.candidates.push_back(describe_candidate(antenna));
   section.candidates.front().name = as_it_is;
   section.candidates.front().cost = 0.0;
@@ -287,7 +309,7 @@ EvaluateSection evaluate_proposals(const Case& antenna, const std::vector<Propos
     section.candidates.erase(section.candidates.begin() + static_cast<std::ptrdiff_t>(i));
     cases.erase(cases.begin() + static_cast<std::ptrdiff_t>(i));
   }
-  design::for_each_index(section.candidates.size(), options.threads, [&](std::size_t i) {
+  numerics::for_each_index(section.candidates.size(), options.threads, [&](std::size_t i) {
     Candidate& candidate = section.candidates[i];
     candidate.chosen = choose(candidate.laws);
     if (!candidate.chosen) return;

@@ -33,24 +33,25 @@ struct PlantUncertainty {
 
 /// Whether the proposals fit the case and one another: to be asked before any work.
 /// @throws InvalidInput as evaluate_proposals.
-void check_proposals(const Case& antenna, const std::vector<Proposal>& proposals);
+void check_proposals(const io::Case& antenna, const std::vector<Proposal>& proposals);
 
 /// Tunes the antenna as it is and every proposal, robustly and with the same draws of what is
 /// uncertain, and compares them. The same for any number of threads.
 /// @throws InvalidInput as apply_proposal, and for two proposals of one name or of different
 /// currencies, no proposals, a structure that is none, fewer than 100 draws.
-EvaluateSection evaluate_proposals(const Case& antenna, const std::vector<Proposal>& proposals,
+EvaluateSection evaluate_proposals(const io::Case& antenna, const std::vector<Proposal>& proposals,
                                    const PlantUncertainty& uncertainty,
                                    const EvaluateOptions& options);
 
 /// The plant of a draw on a case that a proposal made of another: factors apply to whatever the
 /// proposal makes of the number; the friction slope scales with the friction curve's slope at the
 /// tracking rate.
-plant::AntennaPlant proposed_plant(const Case& as_is, const Case& proposed, const PlantDraw& draw);
+plant::AntennaPlant proposed_plant(const io::Case& as_is, const io::Case& proposed,
+                                   const PlantDraw& draw);
 
 /// Chances, regrets and what decides, of the candidates with a stable law; `cases` in their order,
 /// the antenna as it is first. Interrupted, or with fewer than two of them: no draws.
-DecisionSection decide(const std::vector<Candidate>& candidates, const std::vector<Case>& cases,
+DecisionSection decide(const std::vector<Candidate>& candidates, const std::vector<io::Case>& cases,
                        const PlantDistribution& distribution, const EvaluateOptions& options);
 
 }  // namespace boresight::app

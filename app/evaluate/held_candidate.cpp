@@ -4,14 +4,14 @@
 
 #include <boresight/app/evaluate/held_candidate.hpp>
 #include <boresight/app/report/sky_units.hpp>
-#include <boresight/design/parallel_loop.hpp>
+#include <boresight/numerics/parallel_loop.hpp>
 
 namespace boresight::app {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-design::TrackingProblem problem_of(const Case& antenna) {
+design::TrackingProblem problem_of(const io::Case& antenna) {
   auto problem = make_problem(antenna);
   if (antenna.goals.over_climate) problem.climate = make_climate(antenna);
   return problem;
@@ -19,7 +19,8 @@ design::TrackingProblem problem_of(const Case& antenna) {
 
 }  // namespace
 
-HeldCandidate::HeldCandidate(const Case& as_is, const Case& antenna, const CandidateLaw& law)
+HeldCandidate::HeldCandidate(const io::Case& as_is, const io::Case& antenna,
+                             const CandidateLaw& law)
     : as_is_(&as_is),
       antenna_(&antenna),
       nonlinear_factor_(law.nonlinear_factor()),
@@ -56,7 +57,7 @@ std::optional<DrawnOutcomes> judge_draws(const std::vector<HeldCandidate>& held,
                          Eigen::ArrayXXd::Ones(draws, columns)};
   constexpr Eigen::Index block = 100;
   const Eigen::Index blocks = (draws + block - 1) / block;
-  design::for_each_index(
+  numerics::for_each_index(
       static_cast<std::size_t>(blocks * columns), options.threads, [&](std::size_t task) {
         if (stopped()) return;
         const auto index = static_cast<Eigen::Index>(task);

@@ -6,7 +6,7 @@
 #include <Eigen/Core>
 
 #include <boresight/app/evaluate/evaluate_study.hpp>
-#include <boresight/design/held_gains_evaluator.hpp>
+#include <boresight/design/ensembles/held_gains_evaluator.hpp>
 
 namespace boresight::app {
 
@@ -14,7 +14,7 @@ namespace boresight::app {
 /// threads: copies are independent. The cases must outlive it.
 class HeldCandidate {
  public:
-  HeldCandidate(const Case& as_is, const Case& antenna, const CandidateLaw& law);
+  HeldCandidate(const io::Case& as_is, const io::Case& antenna, const CandidateLaw& law);
 
   struct Outcome {
     double rms = 0.0;  // mdeg, of linear loops times the law's nonlinear_factor; infinite: unstable
@@ -24,8 +24,8 @@ class HeldCandidate {
   Outcome judge(const PlantDraw& draw);
 
  private:
-  const Case* as_is_;
-  const Case* antenna_;
+  const io::Case* as_is_;
+  const io::Case* antenna_;
   double nonlinear_factor_;
   design::TrackingProblem problem_;
   design::HardGoals goals_;

@@ -26,7 +26,7 @@ std::optional<std::size_t> law_of(const Candidate& candidate, const std::string&
 class Columns {
  public:
   Columns(const DecisionSection& decision, Eigen::MatrixXd rms,
-          const std::vector<Candidate>& candidates, const std::vector<Case>& cases)
+          const std::vector<Candidate>& candidates, const std::vector<io::Case>& cases)
       : candidates_(candidates), cases_(cases), rms_(std::move(rms)) {
     for (const auto& one : decision.candidates) {
       keys_.emplace_back(one.candidate, candidates[one.candidate].chosen.value_or(0));
@@ -61,7 +61,7 @@ class Columns {
 
  private:
   const std::vector<Candidate>& candidates_;
-  const std::vector<Case>& cases_;
+  const std::vector<io::Case>& cases_;
   Eigen::MatrixXd rms_;  // mdeg
   std::vector<std::pair<std::size_t, std::size_t>> keys_;
   std::vector<HeldCandidate> held_;
@@ -171,7 +171,7 @@ std::optional<Winner> winner_of(const EvaluateSection& section, const DecisionSe
 
 std::optional<std::vector<PairByStructure>> compare_by_structure(
     const DecisionSection& decision, const Eigen::MatrixXd& rms,
-    const std::vector<Candidate>& candidates, const std::vector<Case>& cases,
+    const std::vector<Candidate>& candidates, const std::vector<io::Case>& cases,
     const PlantDistribution& distribution, const EvaluateOptions& options) {
   std::vector<PairByStructure> pairs;
   std::vector<Comparison> comparisons;

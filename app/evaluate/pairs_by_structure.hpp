@@ -16,7 +16,7 @@ namespace boresight::app {
 /// interrupted.
 std::optional<std::vector<PairByStructure>> compare_by_structure(
     const DecisionSection& decision, const Eigen::MatrixXd& rms,
-    const std::vector<Candidate>& candidates, const std::vector<Case>& cases,
+    const std::vector<Candidate>& candidates, const std::vector<io::Case>& cases,
     const PlantDistribution& distribution, const EvaluateOptions& options);
 
 /// What of the difference between such candidates is the law's and what the hardware's, in a

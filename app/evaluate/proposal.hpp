@@ -5,7 +5,7 @@
 #include <string_view>
 #include <vector>
 
-#include <boresight/app/io/quantity.hpp>
+#include <boresight/io/units/quantity.hpp>
 
 namespace boresight::app {
 
@@ -14,12 +14,12 @@ struct ProposedChange {
   /// In the case's words: "motor.displacement", "gear_train.stage[3].driven_teeth" (counted from
   /// the motors, from 1), "gear_train.assembly[J3].inertia".
   std::string key;
-  Quantity number;
+  io::Quantity number;
   bool multiplies = false;  // the number is a factor
 };
 
 struct ProposedCost {
-  Quantity amount;
+  io::Quantity amount;
   std::string currency;
 };
 
@@ -27,14 +27,14 @@ struct ProposedCost {
 struct Proposal {
   std::string path;
   std::string name;
-  Location name_location;
+  io::Location name_location;
   std::string description;
   std::optional<ProposedCost> cost;  // none: nobody has priced it
-  Location cost_location;
+  io::Location cost_location;
   std::vector<std::string> risks;
   /// Loop structures to tune it with; empty: those of the antenna as it is.
   std::vector<std::string> structures;
-  Location structures_location;
+  io::Location structures_location;
   std::vector<ProposedChange> changes;  // in the order of docs/proposals.md
 
   /// The change of that key, or none.

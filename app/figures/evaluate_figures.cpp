@@ -200,7 +200,7 @@ Figure tornado_figure(const EvaluateSection& section, const DecisionSection& dec
 }
 
 Figure sobol_figure(const EvaluateSection& section, const DecisionSection& decision,
-                    const design::SobolIndices& indices) {
+                    const numerics::SobolIndices& indices) {
   Figure figure;
   figure.id = "sobol";
   figure.section = heading_of(decision);
@@ -223,7 +223,7 @@ Figure sobol_figure(const EvaluateSection& section, const DecisionSection& decis
   for (const std::size_t input : order) {
     const auto place = static_cast<double>(panel.y.categories.size());
     panel.y.categories.push_back(decision.inputs[input]);
-    const auto add = [](FigureSeries& series, const design::EstimatedIndex& index, double at) {
+    const auto add = [](FigureSeries& series, const numerics::EstimatedIndex& index, double at) {
       series.x.push_back(index.value);
       series.x_lower.push_back(index.lower);
       series.x_upper.push_back(index.upper);

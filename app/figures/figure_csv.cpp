@@ -6,8 +6,8 @@
 
 #include <boresight/app/figures/figure_csv.hpp>
 #include <boresight/app/figures/figure_number.hpp>
-#include <boresight/app/report/json_report.hpp>
-#include <boresight/plant/error.hpp>
+#include <boresight/io/files/write_atomically.hpp>
+#include <boresight/numerics/error.hpp>
 
 namespace boresight::app {
 namespace {
@@ -92,7 +92,7 @@ void write_curves(const std::vector<Figure>& figures, const std::string& folder)
   }
   for (const auto& figure : figures) {
     const auto path = std::filesystem::path(folder) / (figure.id + ".csv");
-    write_atomically(path.string(), to_csv(figure));
+    io::write_atomically(path.string(), to_csv(figure));
   }
 }
 

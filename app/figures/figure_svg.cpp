@@ -9,7 +9,7 @@
 #include <boresight/app/figures/panel_svg.hpp>
 #include <boresight/app/figures/series_svg.hpp>
 #include <boresight/app/figures/svg_text.hpp>
-#include <boresight/plant/error.hpp>
+#include <boresight/numerics/error.hpp>
 
 namespace boresight::app {
 namespace {

@@ -3,7 +3,7 @@
 
 #include <boresight/app/figures/figure_parts.hpp>
 #include <boresight/app/figures/friction_figure.hpp>
-#include <boresight/plant/friction.hpp>
+#include <boresight/plant/antenna/friction.hpp>
 
 namespace boresight::app {
 namespace {

@@ -7,12 +7,12 @@
 
 #include <boresight/app/figures/figure_parts.hpp>
 #include <boresight/app/figures/inertia_figures.hpp>
-#include <boresight/plant/error.hpp>
+#include <boresight/numerics/error.hpp>
 
 namespace boresight::app {
 namespace {
 
-using identification::Interval;
+using numerics::Interval;
 
 constexpr double none = std::numeric_limits<double>::quiet_NaN();
 
@@ -24,7 +24,7 @@ struct Row {
   bool reconciled = false;
 };
 
-Interval interval_of(const identification::PropagatedResult& result) {
+Interval interval_of(const numerics::PropagatedResult& result) {
   return {result.value, result.standard_uncertainty, result.lower, result.upper};
 }
 
@@ -108,10 +108,10 @@ std::vector<Figure> figures_of(const std::vector<Row>& rows, const std::string& 
 }
 
 // A value that a case prints, in SI; it was read with the case and so can be read again.
-double printed_value(const std::string& text, Kind kind) {
+double printed_value(const std::string& text, io::Kind kind) {
   if (text.empty()) return none;
   try {
-    return parse_quantity(text, kind).value;
+    return io::parse_quantity(text, kind).value;
   } catch (const InvalidInput&) {
     return none;
   }
@@ -161,8 +161,8 @@ std::vector<Figure> inertia_figures(const IdentificationSection& section) {
     const auto& method = section.inertia.methods[i];
     rows.push_back({method.name, interval_of(method.reflected_inertia),
                     interval_of(method.motor_to_load_ratio),
-                    printed_value(section.printed[i].inertia, Kind::inertia),
-                    printed_value(section.printed[i].ratio, Kind::number), false});
+                    printed_value(section.printed[i].inertia, io::Kind::inertia),
+                    printed_value(section.printed[i].ratio, io::Kind::number), false});
   }
   return figures_of(
       rows, "stated",

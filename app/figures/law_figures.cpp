@@ -9,9 +9,9 @@
 #include <boresight/app/figures/frequency_curves.hpp>
 #include <boresight/app/figures/law_figures.hpp>
 #include <boresight/app/report/sky_units.hpp>
-#include <boresight/control/closed_loop.hpp>
-#include <boresight/plant/plant_response.hpp>
-#include <boresight/plant/response_grid.hpp>
+#include <boresight/control/loops/closed_loop.hpp>
+#include <boresight/plant/antenna/plant_response.hpp>
+#include <boresight/plant/linear/response_grid.hpp>
 
 namespace boresight::app {
 namespace {

@@ -6,10 +6,10 @@
 
 #include <boresight/app/figures/figure.hpp>
 #include <boresight/app/redesign/antenna_model.hpp>
-#include <boresight/control/control_law.hpp>
-#include <boresight/control/margins.hpp>
-#include <boresight/design/goals.hpp>
-#include <boresight/design/tracking_problem.hpp>
+#include <boresight/control/analysis/margins.hpp>
+#include <boresight/control/controllers/control_law.hpp>
+#include <boresight/design/problem/goals.hpp>
+#include <boresight/design/problem/tracking_problem.hpp>
 
 namespace boresight::app {
 

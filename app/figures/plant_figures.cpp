@@ -8,7 +8,7 @@
 #include <boresight/app/figures/frequency_curves.hpp>
 #include <boresight/app/figures/plant_figures.hpp>
 #include <boresight/app/report/sky_units.hpp>
-#include <boresight/plant/plant_response.hpp>
+#include <boresight/plant/antenna/plant_response.hpp>
 
 namespace boresight::app {
 namespace {

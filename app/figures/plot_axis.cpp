@@ -5,7 +5,7 @@
 #include <fmt/format.h>
 
 #include <boresight/app/figures/plot_axis.hpp>
-#include <boresight/plant/error.hpp>
+#include <boresight/numerics/error.hpp>
 
 namespace boresight::app {
 namespace {

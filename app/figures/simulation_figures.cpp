@@ -12,13 +12,13 @@
 namespace boresight::app {
 namespace {
 
-const CsvTable::Column* find(const CsvTable& table, std::string_view name) {
-  const auto found = std::ranges::find(table.columns, name, &CsvTable::Column::name);
+const io::CsvTable::Column* find(const io::CsvTable& table, std::string_view name) {
+  const auto found = std::ranges::find(table.columns, name, &io::CsvTable::Column::name);
   return found == table.columns.end() ? nullptr : &*found;
 }
 
 // Draws a column, if the record has it.
-void draw(const CsvTable& table, std::string_view name, const std::string& called,
+void draw(const io::CsvTable& table, std::string_view name, const std::string& called,
           SeriesStyle style, FigurePanel& panel) {
   const auto* column = find(table, name);
   if (column == nullptr) return;
@@ -30,7 +30,7 @@ void keep(FigurePanel panel, Figure& figure) {
   if (!panel.series.empty()) figure.panels.push_back(std::move(panel));
 }
 
-std::string caption_of(const std::string& description, const CsvTable& table, bool complete) {
+std::string caption_of(const std::string& description, const io::CsvTable& table, bool complete) {
   return fmt::format(
       "{}; {} samples, least and largest value of every stretch that a pixel shows.{}", description,
       table.columns.front().values.size(),
@@ -38,7 +38,7 @@ std::string caption_of(const std::string& description, const CsvTable& table, bo
 }
 
 // Torque of all motors: the mean of the motors' pressure differences times what it makes.
-void draw_torque(const CsvTable& table, double torque_per_pressure, FigurePanel& panel) {
+void draw_torque(const io::CsvTable& table, double torque_per_pressure, FigurePanel& panel) {
   Eigen::VectorXd sum = Eigen::VectorXd::Zero(table.columns.front().values.size());
   double motors = 0.0;
   for (int motor = 1;; ++motor) {
@@ -77,7 +77,7 @@ void mark_starts(const DriveRecord& record, FigurePanel& panel) {
 }  // namespace
 
 Figure drive_test_figure(const DriveRecord& record, double torque_per_pressure) {
-  const CsvTable& table = record.record;
+  const io::CsvTable& table = record.record;
   Figure figure = make_figure(
       figure_id("simulated " + record.test), "Tests of the drive (true values, at the motor shaft)",
       fmt::format("Simulated test {}", record.test), "", make_axis("time", "s"));
@@ -104,7 +104,7 @@ Figure drive_test_figure(const DriveRecord& record, double torque_per_pressure) 
 }
 
 Figure position_test_figure(const PositionRecord& record) {
-  const CsvTable& table = record.record;
+  const io::CsvTable& table = record.record;
   const bool slew = record.test == "slew";
   Figure figure = make_figure(figure_id("simulated " + record.test),
                               "Position loop, tuned PI with lag, at the sky (mdeg)",

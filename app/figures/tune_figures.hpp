@@ -6,7 +6,7 @@
 #include <boresight/app/figures/figure.hpp>
 #include <boresight/app/simulate/time_domain.hpp>
 #include <boresight/app/tune/tune_section.hpp>
-#include <boresight/design/pointing_limit.hpp>
+#include <boresight/design/limits/pointing_limit.hpp>
 
 namespace boresight::app {
 

@@ -7,8 +7,8 @@
 
 namespace boresight::app {
 
-using identification::Interval;
-using identification::Uncertain;
+using numerics::Interval;
+using numerics::Uncertain;
 
 std::optional<Interval> reconciled(const CampaignSection& section, const std::string& quantity) {
   if (section.grey_box) return section.grey_box->quantity(quantity).posterior;

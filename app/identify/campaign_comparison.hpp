@@ -1,23 +1,23 @@
 #pragma once
 
 #include <boresight/app/identify/campaign_section.hpp>
-#include <boresight/app/io/case_file.hpp>
+#include <boresight/io/case/case_file.hpp>
 
 namespace boresight::app {
 
 /// The reconciled estimate of a quantity (GreyBoxQuantity::name), where there is one.
-std::optional<identification::Interval> reconciled(const CampaignSection& section,
-                                                   const std::string& quantity);
+std::optional<numerics::Interval> reconciled(const CampaignSection& section,
+                                             const std::string& quantity);
 std::optional<Difference> difference_from_reconciled(const CampaignSection& section,
                                                      const std::string& quantity,
-                                                     const identification::Interval& other);
+                                                     const numerics::Interval& other);
 
 /// All motors over everything else (eq. 27) from a reflected inertia (kg m2).
-identification::Interval motor_to_load_ratio(const identification::DriveKnowledge& knowledge,
-                                             const identification::Interval& inertia);
+numerics::Interval motor_to_load_ratio(const identification::DriveKnowledge& knowledge,
+                                       const numerics::Interval& inertia);
 
 /// One row a method, with the difference from the reconciled inertia and its reasons.
-std::vector<InertiaRow> inertia_rows(const CampaignSection& section, const Case& antenna);
+std::vector<InertiaRow> inertia_rows(const CampaignSection& section, const io::Case& antenna);
 
 /// Other estimates of bulk modulus, oil stiffness, leakage, offset and Coulomb level.
 std::vector<QuantityRow> quantity_rows(const CampaignSection& section);
@@ -48,6 +48,6 @@ std::vector<std::string> not_identifiable(const CampaignSection& section);
 
 /// Numbers that the case states and the records contradict by more than two combined standard
 /// uncertainties, the worst first.
-std::vector<Contradiction> contradictions(const CampaignSection& section, const Case& antenna);
+std::vector<Contradiction> contradictions(const CampaignSection& section, const io::Case& antenna);
 
 }  // namespace boresight::app

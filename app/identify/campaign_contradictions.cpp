@@ -5,25 +5,25 @@
 
 #include <boresight/app/identify/campaign_comparison.hpp>
 #include <boresight/app/redesign/antenna_model.hpp>
-#include <boresight/plant/friction.hpp>
+#include <boresight/plant/antenna/friction.hpp>
 
 namespace boresight::app {
 namespace {
 
-using identification::Interval;
+using numerics::Interval;
 
 constexpr double contradicts = 2.0;  // standard uncertainties, both sides' together
 
 /// Holds stated numbers against the records' and keeps those that are apart.
 class Contradictions {
  public:
-  void compare(const Quantity& quantity, const std::string& key, const char* unit,
+  void compare(const io::Quantity& quantity, const std::string& key, const char* unit,
                const std::optional<Interval>& records, const std::string& by) {
     if (!records) return;
-    compare({key, quantity.text, quantity.basis == Basis::assumed, quantity.value,
+    compare({key, quantity.text, quantity.basis == io::Basis::assumed, quantity.value,
              quantity.standard_uncertainty, unit, *records, by, 0.0});
   }
-  void compare(const std::optional<Quantity>& quantity, const char* unit,
+  void compare(const std::optional<io::Quantity>& quantity, const char* unit,
                const std::optional<Interval>& records, const std::string& by) {
     if (quantity) compare(*quantity, quantity->key, unit, records, by);
   }
@@ -83,7 +83,7 @@ class Records {
     if (!inertia) return std::nullopt;
     const auto& knowledge = section_.knowledge;
     const double motors = knowledge.motor_count * knowledge.motor_inertia.value;
-    return identification::normal_interval(
+    return numerics::normal_interval(
         inertia->value - motors,
         std::hypot(inertia->standard_uncertainty,
                    knowledge.motor_count * knowledge.motor_inertia.standard_uncertainty));
@@ -108,14 +108,14 @@ class Records {
       mean += one.value / static_cast<double>(both.size());
       worst = std::max(worst, one.standard_uncertainty);
     }
-    return identification::normal_interval(mean, worst);
+    return numerics::normal_interval(mean, worst);
   }
 
  private:
   const CampaignSection& section_;
 };
 
-void compare_friction(const CampaignSection& section, const Case& antenna,
+void compare_friction(const CampaignSection& section, const io::Case& antenna,
                       Contradictions& contradictions) {
   const auto& tests = antenna.friction_tests;
   if (section.impulse && section.impulse->constant_speed &&
@@ -127,7 +127,7 @@ void compare_friction(const CampaignSection& section, const Case& antenna,
                            "constant-speed tests");
   }
   const auto& curve = antenna.friction_curve;
-  const bool assumed = curve.coulomb.basis == Basis::assumed;
+  const bool assumed = curve.coulomb.basis == io::Basis::assumed;
   std::vector<const FrictionRow*> tested;
   for (const auto& row : section.friction) {
     if (!row.extrapolated && (row.reconciled || row.curve)) tested.push_back(&row);
@@ -140,7 +140,7 @@ void compare_friction(const CampaignSection& section, const Case& antenna,
     const FrictionRow& row = *one;
     const auto& records = row.reconciled ? row.reconciled : row.curve;
     if (!records) continue;
-    const double stated = plant::friction_torque(friction_curve(antenna), row.rate);
+    const double stated = plant::friction_torque(io::friction_curve(antenna), row.rate);
     const double uncertainty =
         std::hypot(curve.coulomb.standard_uncertainty, curve.saturating.standard_uncertainty,
                    row.rate * curve.viscous.standard_uncertainty);
@@ -151,7 +151,7 @@ void compare_friction(const CampaignSection& section, const Case& antenna,
 }
 
 // The numbers that a case states as derived ones.
-void compare_stated(const Case& antenna, const Records& records, const CampaignSection& section,
+void compare_stated(const io::Case& antenna, const Records& records, const CampaignSection& section,
                     Contradictions& contradictions) {
   for (const auto& stated : antenna.stated) {
     const std::string& id = stated.quantity;
@@ -205,7 +205,7 @@ void compare_drawings(const CampaignSection& section, Contradictions& contradict
          fmt::format("{:.4g}{}{}", parameter.prior, unit == "1" ? "" : " ",
                      unit == "1" ? "" : unit),
          false, parameter.prior, spread, unit,
-         identification::normal_interval(
+         numerics::normal_interval(
              p.value, p.remaining * parameter.spread * (parameter.logarithmic ? p.value : 1.0)),
          "grey box", 0.0});
   }
@@ -213,7 +213,7 @@ void compare_drawings(const CampaignSection& section, Contradictions& contradict
 
 }  // namespace
 
-std::vector<Contradiction> contradictions(const CampaignSection& section, const Case& antenna) {
+std::vector<Contradiction> contradictions(const CampaignSection& section, const io::Case& antenna) {
   Contradictions contradictions;
   const Records records(section);
   contradictions.compare(antenna.resonance_frequency, "Hz", records.frequency(),

@@ -9,16 +9,16 @@
 #include <boresight/app/identify/campaign_comparison.hpp>
 #include <boresight/app/identify/campaign_identification.hpp>
 #include <boresight/app/redesign/antenna_model.hpp>
-#include <boresight/design/parallel_loop.hpp>
-#include <boresight/identification/drive_response.hpp>
+#include <boresight/identification/resonance/drive_response.hpp>
+#include <boresight/numerics/parallel_loop.hpp>
 
 namespace boresight::app {
 namespace {
 
 using identification::Campaign;
-using identification::Interval;
 using identification::TestKind;
-using identification::Uncertain;
+using numerics::Interval;
+using numerics::Uncertain;
 
 /// Several methods at once, each telling how far it is, as one number of hundredths.
 class SharedProgress {
@@ -69,23 +69,23 @@ void run_slosh(const Campaign& campaign, CampaignSection& section) {
   }
 }
 
-bool is_vouched_for(const Quantity& stated) {
-  return stated.uncertainty_given && stated.basis != Basis::assumed;
+bool is_vouched_for(const io::Quantity& stated) {
+  return stated.uncertainty_given && stated.basis != io::Basis::assumed;
 }
 
 // What the case says where no line was heard to ring. A number that nobody vouches for may be off
 // by the air in the oil.
-Interval stated_bulk_modulus(const Case& antenna) {
+Interval stated_bulk_modulus(const io::Case& antenna) {
   const double value = bulk_modulus(antenna);
   constexpr double by_air = 0.15;
   double uncertainty = by_air * value;
   if (const auto& stated = antenna.oil.bulk_modulus; stated && is_vouched_for(*stated)) {
     uncertainty = stated->standard_uncertainty;
   }
-  return identification::normal_interval(value, uncertainty);
+  return numerics::normal_interval(value, uncertainty);
 }
 
-void choose_bulk_modulus(const Case& antenna, CampaignSection& section) {
+void choose_bulk_modulus(const io::Case& antenna, CampaignSection& section) {
   const Interval* best = nullptr;
   for (const auto& test : section.slosh) {
     const auto& found = test.result.bulk_modulus;
@@ -210,7 +210,7 @@ void require_something(const CampaignSection& section) {
 
 }  // namespace
 
-CampaignSection identify_campaign(const Case& antenna, const StudyOptions& options) {
+CampaignSection identify_campaign(const io::Case& antenna, const StudyOptions& options) {
   CampaignSection section;
   SharedProgress progress(options);
   const Campaign campaign = make_campaign(antenna, section.notes, options.threads);
@@ -223,7 +223,7 @@ CampaignSection identify_campaign(const Case& antenna, const StudyOptions& optio
 
   // Each with a list of failures of its own: their order must not depend on the threads.
   std::array<std::vector<MethodFailure>, 3> failures;
-  design::for_each_index(3, options.threads, [&](std::size_t which) {
+  numerics::for_each_index(3, options.threads, [&](std::size_t which) {
     if (which == 0) {
       run_grey_box(campaign, options, progress, section, failures[0]);
     } else if (which == 1) {

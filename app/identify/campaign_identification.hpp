@@ -10,6 +10,6 @@ namespace boresight::app {
 /// depends on the seed, not on the number of threads; progress is told in hundredths.
 /// @throws InvalidInput as make_campaign; NumericalFailure if not one method beside the mass
 /// properties gives an inertia; what options.progress throws (Interrupted).
-CampaignSection identify_campaign(const Case& antenna, const StudyOptions& options);
+CampaignSection identify_campaign(const io::Case& antenna, const StudyOptions& options);
 
 }  // namespace boresight::app

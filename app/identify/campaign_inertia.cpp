@@ -11,9 +11,9 @@ namespace boresight::app {
 namespace {
 
 using identification::FrictionTreatment;
-using identification::Interval;
 using identification::ResonanceReading;
 using identification::WindowRule;
+using numerics::Interval;
 
 double percent(double ratio) {
   return 100.0 * (ratio - 1.0);
@@ -100,7 +100,7 @@ std::string harmonic_lock(const identification::TorqueSpectrum& spectrum, double
 // What in a spectrum's reading is oil data, flexibility, and the rest: harmonic or losses.
 std::string why_spectrum(const CampaignSection& section,
                          const identification::ResonanceResult& resonance,
-                         const identification::InertiaReading& one, const Case& antenna) {
+                         const identification::InertiaReading& one, const io::Case& antenna) {
   const auto inertia = reconciled(section, "inertia");
   const double frequency = one.frequency ? one.frequency->value : 0.0;
   std::string why;
@@ -173,7 +173,7 @@ InertiaRow mass_row(const CampaignSection& section) {
   InertiaRow row;
   row.name = "mass properties (drawings)";
   row.of_the_paper = true;
-  row.inertia = identification::normal_interval(
+  row.inertia = numerics::normal_interval(
       side + knowledge.antenna_inertia.value,
       std::hypot(knowledge.motor_count * knowledge.motor_inertia.standard_uncertainty,
                  knowledge.gear_inertia.standard_uncertainty,
@@ -189,7 +189,7 @@ InertiaRow mass_row(const CampaignSection& section) {
   return row;
 }
 
-void add_resonance(const CampaignSection& section, const Case& antenna,
+void add_resonance(const CampaignSection& section, const io::Case& antenna,
                    std::vector<InertiaRow>& rows) {
   if (!section.resonance) return;
   const auto& resonance = *section.resonance;
@@ -249,7 +249,7 @@ Interval motor_to_load_ratio(const identification::DriveKnowledge& knowledge,
   return {value, spread, ratio(end(inertia.upper)), ratio(end(inertia.lower))};
 }
 
-std::vector<InertiaRow> inertia_rows(const CampaignSection& section, const Case& antenna) {
+std::vector<InertiaRow> inertia_rows(const CampaignSection& section, const io::Case& antenna) {
   std::vector<InertiaRow> rows{mass_row(section)};
   add_resonance(section, antenna, rows);
   add_impulse(section, rows);

@@ -5,12 +5,12 @@
 #include <vector>
 
 #include <boresight/app/identify/campaign.hpp>
-#include <boresight/identification/grey_box.hpp>
-#include <boresight/identification/grey_box_hold_out.hpp>
-#include <boresight/identification/grey_box_test_gain.hpp>
-#include <boresight/identification/hydraulic_resonance.hpp>
-#include <boresight/identification/impulse_momentum.hpp>
-#include <boresight/identification/slosh.hpp>
+#include <boresight/identification/grey_box/grey_box.hpp>
+#include <boresight/identification/grey_box/grey_box_hold_out.hpp>
+#include <boresight/identification/grey_box/grey_box_test_gain.hpp>
+#include <boresight/identification/impulse/impulse_momentum.hpp>
+#include <boresight/identification/lines/slosh.hpp>
+#include <boresight/identification/resonance/hydraulic_resonance.hpp>
 
 namespace boresight::app {
 
@@ -37,10 +37,10 @@ struct InertiaRow {
   std::string name;
   /// Whether this is one of the founding paper's own procedures.
   bool of_the_paper = false;
-  identification::Interval inertia;  // kg m2
+  numerics::Interval inertia;  // kg m2
   /// All motors over everything else, eq. 27; upper end infinite where the inertia's interval
   /// reaches the motors' own.
-  identification::Interval motor_to_load_ratio;
+  numerics::Interval motor_to_load_ratio;
   std::optional<Difference> difference;  // where there is a reconciled inertia
   std::string assumes;
   /// Why it differs from the reconciled inertia, in words and numbers.
@@ -52,18 +52,18 @@ struct QuantityRow {
   std::string quantity;  // as GreyBoxQuantity::name
   std::string unit;
   std::string method;
-  identification::Interval interval;
+  numerics::Interval interval;
   std::optional<Difference> difference;
 };
 
 /// Friction at one motor speed, N m.
 struct FrictionRow {
-  double rate = 0.0;          // rad/s of motor
-  bool tracking = false;      // at which the antenna follows a star
-  bool extrapolated = false;  // slower or faster than the constant-speed tests
-  std::optional<identification::Interval> reconciled;  // grey box
-  std::optional<identification::Interval> curve;       // curve fitted to all tests' windows
-  std::optional<identification::Interval> tested;      // constant-speed test at this speed
+  double rate = 0.0;                             // rad/s of motor
+  bool tracking = false;                         // at which the antenna follows a star
+  bool extrapolated = false;                     // slower or faster than the constant-speed tests
+  std::optional<numerics::Interval> reconciled;  // grey box
+  std::optional<numerics::Interval> curve;       // curve fitted to all tests' windows
+  std::optional<numerics::Interval> tested;      // constant-speed test at this speed
 };
 
 /// A number of the case that the records contradict.
@@ -74,7 +74,7 @@ struct Contradiction {
   double stated_value = 0.0;  // SI
   double stated_uncertainty = 0.0;
   std::string unit;
-  identification::Interval records;
+  numerics::Interval records;
   std::string by;  // which method
   /// Records less stated, over both standard uncertainties' root sum of squares.
   double normalised = 0.0;
@@ -94,7 +94,7 @@ struct CampaignSection {
   std::vector<SloshTest> slosh;
   /// Of the slosh test with the smallest uncertainty; without one what the case states, and then
   /// `bulk_modulus_stated`.
-  identification::Interval bulk_modulus;  // Pa
+  numerics::Interval bulk_modulus;  // Pa
   bool bulk_modulus_stated = false;
   /// Stated, but nobody vouches for it: records may contradict it.
   bool bulk_modulus_guessed = false;

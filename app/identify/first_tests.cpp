@@ -8,15 +8,15 @@
 namespace boresight::app {
 namespace {
 
-bool measured(const Quantity& quantity) {
-  return quantity.basis == Basis::measured;
+bool measured(const io::Quantity& quantity) {
+  return quantity.basis == io::Basis::measured;
 }
 
 // Keys of the friction curve's numbers that nobody measured; a rate is none where the part that it
 // belongs to is zero.
-std::vector<std::string> unmeasured_friction(const FrictionCurveEntry& curve) {
+std::vector<std::string> unmeasured_friction(const io::FrictionCurveEntry& curve) {
   std::vector<std::string> keys;
-  const auto add = [&](const char* key, const Quantity& quantity, bool counts = true) {
+  const auto add = [&](const char* key, const io::Quantity& quantity, bool counts = true) {
     if (counts && !measured(quantity)) keys.emplace_back(key);
   };
   add("coulomb", curve.coulomb);
@@ -28,14 +28,14 @@ std::vector<std::string> unmeasured_friction(const FrictionCurveEntry& curve) {
   return keys;
 }
 
-bool nothing_measured(const FrictionCurveEntry& curve) {
+bool nothing_measured(const io::FrictionCurveEntry& curve) {
   const auto all = {&curve.coulomb,    &curve.breakaway,       &curve.stribeck_rate,
                     &curve.saturating, &curve.saturating_rate, &curve.viscous};
   return std::none_of(all.begin(), all.end(),
-                      [](const Quantity* quantity) { return measured(*quantity); });
+                      [](const io::Quantity* quantity) { return measured(*quantity); });
 }
 
-std::string shown_friction(const FrictionCurveEntry& curve) {
+std::string shown_friction(const io::FrictionCurveEntry& curve) {
   if (nothing_measured(curve)) {
     return "they show the friction curve, which the case does not have as measured";
   }
@@ -47,7 +47,7 @@ std::string shown_friction(const FrictionCurveEntry& curve) {
       fmt::join(keys, ", "));
 }
 
-std::string how_to_practise(const Case& antenna) {
+std::string how_to_practise(const io::Case& antenna) {
   std::vector<std::string> missing;
   if (!antenna.simulation) missing.emplace_back("[simulation]");
   if (!antenna.recorder) missing.emplace_back("[recorder]");
@@ -64,7 +64,7 @@ std::string how_to_practise(const Case& antenna) {
 
 }  // namespace
 
-std::vector<std::string> first_tests(const Case& antenna) {
+std::vector<std::string> first_tests(const io::Case& antenna) {
   const bool modulus_known = antenna.oil.bulk_modulus && measured(*antenna.oil.bulk_modulus);
   std::vector<std::string> sentences{
       "The case has no records, so nothing here rests on the drive's motion but what the case "

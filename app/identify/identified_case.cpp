@@ -5,7 +5,7 @@
 
 #include <boresight/app/identify/identified_case.hpp>
 #include <boresight/app/redesign/antenna_model.hpp>
-#include <boresight/plant/error.hpp>
+#include <boresight/numerics/error.hpp>
 
 namespace boresight::app {
 namespace {
@@ -13,24 +13,24 @@ namespace {
 // The number of a case's quantity by what the records say; in the list of all quantities too.
 class Replacement {
  public:
-  explicit Replacement(Case& antenna) : antenna_(antenna) {}
-  void set(Quantity& quantity, double value) {
+  explicit Replacement(io::Case& antenna) : antenna_(antenna) {}
+  void set(io::Quantity& quantity, double value) {
     quantity.value = value;
-    quantity.basis = Basis::measured;
+    quantity.basis = io::Basis::measured;
     quantity.source = "identified from the records";
     quantity.uncertainty_source.clear();
     quantity.text.clear();
     quantity.also.clear();
-    for (Quantity& listed : antenna_.quantities) {
+    for (io::Quantity& listed : antenna_.quantities) {
       if (listed.key == quantity.key) listed = quantity;
     }
   }
 
  private:
-  Case& antenna_;
+  io::Case& antenna_;
 };
 
-void set_inertias(Case& antenna, Replacement& replace,
+void set_inertias(io::Case& antenna, Replacement& replace,
                   const identification::DriveEstimate& estimate) {
   const double motors = static_cast<double>(antenna.motor.count);
   replace.set(antenna.motor.inertia, estimate.motor_inertia / motors);
@@ -41,28 +41,29 @@ void set_inertias(Case& antenna, Replacement& replace,
                     "gear train {:.4g}",
                     estimate.inertia, estimate.motor_inertia, gear_train_inertia(antenna)));
   }
-  replace.set(antenna.antenna.inertia, left * std::pow(gear_ratio(antenna), 2));
+  replace.set(antenna.antenna.inertia, left * std::pow(io::gear_ratio(antenna), 2));
 }
 
-void set_oil(Case& antenna, Replacement& replace, const identification::DriveEstimate& estimate) {
+void set_oil(io::Case& antenna, Replacement& replace,
+             const identification::DriveEstimate& estimate) {
   if (!antenna.oil.bulk_modulus) {
     // The mean of the lines gives way to one number, which then has to have a key.
-    antenna.oil.bulk_modulus = Quantity{};
-    antenna.oil.bulk_modulus->kind = Kind::pressure;
+    antenna.oil.bulk_modulus = io::Quantity{};
+    antenna.oil.bulk_modulus->kind = io::Kind::pressure;
     antenna.oil.bulk_modulus->key = "oil.bulk_modulus";
   }
   replace.set(*antenna.oil.bulk_modulus, estimate.bulk_modulus);
   // The plant takes the case's convention about efficiencies, motion shows K with both: the volumes
   // make up for either.
   const double scale = oil_stiffness(antenna) / estimate.oil_stiffness;
-  for (Quantity* volume : {&antenna.oil.volume_1, &antenna.oil.volume_2}) {
+  for (io::Quantity* volume : {&antenna.oil.volume_1, &antenna.oil.volume_2}) {
     replace.set(*volume, volume->value * scale);
   }
 }
 
-void set_friction(Case& antenna, Replacement& replace,
+void set_friction(io::Case& antenna, Replacement& replace,
                   const identification::DriveEstimate& estimate) {
-  FrictionCurveEntry& curve = antenna.friction_curve;
+  io::FrictionCurveEntry& curve = antenna.friction_curve;
   const plant::FrictionCurve& found = estimate.friction;
   replace.set(curve.coulomb, found.coulomb_torque);
   replace.set(curve.breakaway, found.breakaway_torque);
@@ -77,27 +78,27 @@ void set_friction(Case& antenna, Replacement& replace,
   replace.set(antenna.simulation->bristle_damping, estimate.bristle_damping);
 }
 
-void set_structure(Case& antenna, Replacement& replace,
+void set_structure(io::Case& antenna, Replacement& replace,
                    const identification::DriveEstimate& estimate) {
   if (!(estimate.lowest_frequency > 0.0)) return;
-  StructureEntry& structure = antenna.structure;
+  io::StructureEntry& structure = antenna.structure;
   const double scale = estimate.lowest_frequency / structure.locked_rotor_frequency.value;
   replace.set(structure.locked_rotor_frequency, estimate.lowest_frequency);
-  for (StructureModeEntry& mode : structure.modes) {
+  for (io::StructureModeEntry& mode : structure.modes) {
     replace.set(mode.frequency, mode.frequency.value * scale);
   }
 }
 
 }  // namespace
 
-Case with_identified(const Case& antenna, const identification::DriveEstimate& estimate) {
+io::Case with_identified(const io::Case& antenna, const identification::DriveEstimate& estimate) {
   if (estimate.contradicted) {
     throw NumericalFailure(fmt::format(
         "{}: the records contradict the stated numbers that inertia and stiffness rest on: there "
         "is no drive to design for until the wrong one is found; `boresight identify` names it",
         antenna.path));
   }
-  Case identified = antenna;
+  io::Case identified = antenna;
   Replacement replace(identified);
   set_inertias(identified, replace, estimate);
   set_oil(identified, replace, estimate);
@@ -109,7 +110,7 @@ Case with_identified(const Case& antenna, const identification::DriveEstimate& e
 }
 
 std::vector<design::EnsembleMember> identified_ensemble(
-    const Case& antenna, const std::vector<identification::DriveEstimate>& draws,
+    const io::Case& antenna, const std::vector<identification::DriveEstimate>& draws,
     std::size_t count) {
   std::vector<design::EnsembleMember> members;
   for (std::size_t i = 0; i < draws.size() && members.size() < count; ++i) {

@@ -4,8 +4,8 @@
 #include <vector>
 
 #include <boresight/app/redesign/sections.hpp>
-#include <boresight/design/plant_ensemble.hpp>
-#include <boresight/identification/grey_box.hpp>
+#include <boresight/design/ensembles/plant_ensemble.hpp>
+#include <boresight/identification/grey_box/grey_box.hpp>
 
 namespace boresight::app {
 
@@ -16,12 +16,12 @@ namespace boresight::app {
 /// numbers then have the basis "measured".
 /// @throws NumericalFailure for an estimate that leaves the antenna no inertia, and for one that
 /// the records' contradiction with the case makes none (DriveEstimate::contradicted).
-Case with_identified(const Case& antenna, const identification::DriveEstimate& estimate);
+io::Case with_identified(const io::Case& antenna, const identification::DriveEstimate& estimate);
 
 /// Plants of the identified distribution, at most `count`, named "draw 1" and so on. Draws that
 /// leave the antenna no inertia are passed over.
 std::vector<design::EnsembleMember> identified_ensemble(
-    const Case& antenna, const std::vector<identification::DriveEstimate>& draws,
+    const io::Case& antenna, const std::vector<identification::DriveEstimate>& draws,
     std::size_t count);
 
 }  // namespace boresight::app

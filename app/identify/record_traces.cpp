@@ -4,7 +4,7 @@
 
 #include <boresight/app/identify/loaded_record.hpp>
 #include <boresight/app/identify/record_traces.hpp>
-#include <boresight/identification/record_defects.hpp>
+#include <boresight/identification/records/record_defects.hpp>
 
 namespace boresight::app {
 namespace {
@@ -74,7 +74,7 @@ std::vector<RecordTrace> record_traces(const identification::RawRecord& raw,
   return traces;
 }
 
-std::vector<std::vector<RecordTrace>> campaign_traces(const Case& antenna, unsigned threads) {
+std::vector<std::vector<RecordTrace>> campaign_traces(const io::Case& antenna, unsigned threads) {
   CampaignNotes notes;
   const auto knowledge = drive_knowledge(antenna, notes);
   std::vector<LoadedRecord> works = load_records(antenna, threads);

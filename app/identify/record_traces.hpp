@@ -4,7 +4,7 @@
 #include <vector>
 
 #include <boresight/app/figures/thinned_series.hpp>
-#include <boresight/app/io/case_file.hpp>
+#include <boresight/io/case/case_file.hpp>
 
 namespace boresight::identification {
 struct CleanRecord;
@@ -33,6 +33,6 @@ std::vector<RecordTrace> record_traces(const identification::RawRecord& raw,
 /// The traces of every record of a case, in its order: the files are read once more, as
 /// make_campaign reads them, since nothing but plots needs what is in them thereafter.
 /// @throws InvalidInput as make_campaign.
-std::vector<std::vector<RecordTrace>> campaign_traces(const Case& antenna, unsigned threads);
+std::vector<std::vector<RecordTrace>> campaign_traces(const io::Case& antenna, unsigned threads);
 
 }  // namespace boresight::app

@@ -8,9 +8,9 @@
 
 #include <boresight/app/match/what_if_table.hpp>
 #include <boresight/app/redesign/antenna_model.hpp>
-#include <boresight/design/matching_curves.hpp>
-#include <boresight/design/matching_smoothness.hpp>
-#include <boresight/design/nonlinear_verification.hpp>
+#include <boresight/design/matching/matching_curves.hpp>
+#include <boresight/design/matching/matching_smoothness.hpp>
+#include <boresight/design/verification/nonlinear_verification.hpp>
 
 namespace boresight::app {
 
@@ -119,7 +119,7 @@ struct MatchSection {
   std::optional<WhatIfTable> what_if;  // where a page asks for it
   double wind_speed = 0.0;
   plant::WindModel wind_model = plant::WindModel::coherence;
-  std::optional<WindMast> wind_mast;  // none: the case states speeds at the dish's centre
+  std::optional<io::WindMast> wind_mast;  // none: the case states speeds at the dish's centre
   design::HardGoals goals;
   design::SoftGoal soft_goal;
   std::size_t members = 0;

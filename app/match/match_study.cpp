@@ -8,10 +8,10 @@
 #include <boresight/app/match/match_study.hpp>
 #include <boresight/app/simulate/nonlinear_model.hpp>
 #include <boresight/app/tune/asked_structures.hpp>
-#include <boresight/design/drive_reach.hpp>
-#include <boresight/design/parallel_loop.hpp>
-#include <boresight/plant/antenna_parameters.hpp>
-#include <boresight/plant/error.hpp>
+#include <boresight/design/problem/drive_reach.hpp>
+#include <boresight/numerics/error.hpp>
+#include <boresight/numerics/parallel_loop.hpp>
+#include <boresight/plant/nonlinear/antenna_parameters.hpp>
 
 namespace boresight::app {
 namespace {
@@ -21,7 +21,7 @@ constexpr double degree = std::numbers::pi / 180.0;
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
 // Evenly spaced disks, and between them ratio 1 and as built.
-std::vector<MatchPoint> points_of(const Case& antenna, const MatchOptions& options) {
+std::vector<MatchPoint> points_of(const io::Case& antenna, const MatchOptions& options) {
   if (options.points < 4) {
     throw InvalidInput(fmt::format("match: expected at least 4 points, found {}", options.points));
   }
@@ -51,7 +51,7 @@ std::vector<MatchPoint> points_of(const Case& antenna, const MatchOptions& optio
 }
 
 // Rate and acceleration at the motor with whatever acceleration the drive has reserve for.
-control::CommandLimits reach_of(const Case& antenna, double inertia) {
+control::CommandLimits reach_of(const io::Case& antenna, double inertia) {
   constexpr double any_acceleration = std::numeric_limits<double>::infinity();
   return design::within_reach(
       make_nonlinear_antenna(antenna), inertia,
@@ -61,16 +61,16 @@ control::CommandLimits reach_of(const Case& antenna, double inertia) {
 // The case's slew rate, or four fifths of the highest that the supply holds against friction if
 // that is less (as design::within_reach has it): on the nonlinear antenna, or without a simulation
 // by the torque and by what the valve lets through without load.
-double rate_within_reach(const Case& antenna) {
-  const double ratio = gear_ratio(antenna);
+double rate_within_reach(const io::Case& antenna) {
+  const double ratio = io::gear_ratio(antenna);
   if (antenna.simulation) {
     return reach_of(antenna, plant::reflected_inertia(make_plant(antenna))).rate / ratio;
   }
   // At the motor, where the two are equal to the last bit if the case states no stroke.
   const double wanted = antenna.drive.slew_rate.value * ratio;
-  const double open = largest_demand(antenna);
-  const auto curve = friction_curve(antenna);
-  const double supply = supply_torque(antenna);
+  const double open = io::largest_demand(antenna);
+  const auto curve = io::friction_curve(antenna);
+  const double supply = io::supply_torque(antenna);
   if (wanted <= open && plant::friction_torque(curve, wanted) < supply) {
     return antenna.drive.slew_rate.value;
   }
@@ -82,7 +82,7 @@ double rate_within_reach(const Case& antenna) {
   return 0.8 * low / ratio;
 }
 
-void describe(const Case& antenna, const MatchSection& section, MatchPoint& point) {
+void describe(const io::Case& antenna, const MatchSection& section, MatchPoint& point) {
   const auto plant = make_plant(antenna, {.flywheel_disks = point.disks});
   point.motor_inertia = motor_inertia(antenna, point.disks);
   point.reflected_inertia = plant::reflected_inertia(plant);
@@ -91,12 +91,13 @@ void describe(const Case& antenna, const MatchSection& section, MatchPoint& poin
   const auto modes = plant::plant_modes(plant);
   point.hydraulic = plant::hydraulic_mode(modes);
   point.oil_mode = plant::mode_of_oil(modes);
-  const double ratio = gear_ratio(antenna);
+  const double ratio = io::gear_ratio(antenna);
   if (section.slew_by_simulation) {
     point.acceleration = reach_of(antenna, point.reflected_inertia).acceleration / ratio;
   } else {
-    const double left = supply_torque(antenna) -
-                        plant::friction_torque(friction_curve(antenna), section.slew_rate * ratio);
+    const double left =
+        io::supply_torque(antenna) -
+        plant::friction_torque(io::friction_curve(antenna), section.slew_rate * ratio);
     point.acceleration = left / point.reflected_inertia / ratio;
   }
   point.slew_time = std::numeric_limits<double>::infinity();
@@ -138,7 +139,7 @@ void look_at_position_loop(const design::TrackingProblem& problem, const control
   }
 }
 
-MatchValue look_at(const Case& antenna, const MatchSection& section, const MatchPoint& point,
+MatchValue look_at(const io::Case& antenna, const MatchSection& section, const MatchPoint& point,
                    const design::MatchedLaw& law, const design::WindTable& wind) {
   MatchValue value;
   value.beam_rms = value.wind_rms = value.noise_rms = value.valve_effort = nan;
@@ -176,7 +177,7 @@ MatchValue look_at(const Case& antenna, const MatchSection& section, const Match
 }
 
 // In still air: the linear figures say what wind does.
-MatchTimeDomain run_in_time(const Case& antenna, const MatchPoint& point,
+MatchTimeDomain run_in_time(const io::Case& antenna, const MatchPoint& point,
                             const control::ControlLaw& law) {
   const auto problem = make_problem(antenna, {.flywheel_disks = point.disks});
   const auto nonlinear =
@@ -248,7 +249,8 @@ FlatRange flat_range(const std::vector<double>& axis, const std::vector<double>&
           reach([&](std::size_t i) { return i + 1 < axis.size() ? Next(i + 1) : Next(); })};
 }
 
-MatchSection match_motors(const Case& antenna, const std::vector<design::EnsembleMember>& members,
+MatchSection match_motors(const io::Case& antenna,
+                          const std::vector<design::EnsembleMember>& members,
                           const MatchOptions& options) {
   const auto names = asked_structures(antenna, options.structures);
   MatchSection section;
@@ -256,7 +258,7 @@ MatchSection match_motors(const Case& antenna, const std::vector<design::Ensembl
   section.slew_by_simulation = antenna.simulation.has_value();
   section.slew_distance = 10.0 * degree;
   section.tracking_rate = antenna.drive.tracking_rate.value;
-  section.tracking_friction = tracking_friction(antenna);
+  section.tracking_friction = io::tracking_friction(antenna);
   section.friction = antenna.drive.viscous_friction.value;
   section.tightest_budget = tightest_budget(antenna);
   section.points = points_of(antenna, options);
@@ -278,7 +280,7 @@ MatchSection match_motors(const Case& antenna, const std::vector<design::Ensembl
     task.motor_inertia.push_back(
         make_plant(antenna, {.flywheel_disks = point.disks}).drive.motor_inertia);
   }
-  for (const auto& name : names) task.structures.push_back(loop_structure(antenna, name));
+  for (const auto& name : names) task.structures.push_back(io::loop_structure(antenna, name));
   design::MatchingOptions how;
   how.starts = options.starts;
   how.seed = options.seed;
@@ -301,10 +303,10 @@ MatchSection match_motors(const Case& antenna, const std::vector<design::Ensembl
   }
   const design::WindTable wind(task.problem);
   const std::size_t all = section.points.size() * names.size();
-  design::StepCounter counter(all, [&](std::size_t done, std::size_t of) {
+  numerics::StepCounter counter(all, [&](std::size_t done, std::size_t of) {
     if (options.progress) options.progress("checking", done, of);
   });
-  design::for_each_index(all, options.threads, [&](std::size_t i) {
+  numerics::for_each_index(all, options.threads, [&](std::size_t i) {
     MatchSeries& series = section.series[i % names.size()];
     const std::size_t p = i / names.size();
     const MatchPoint& point = section.points[p];

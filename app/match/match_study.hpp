@@ -33,7 +33,8 @@ struct MatchOptions {
 /// The same for any number of threads.
 /// @throws InvalidInput for structures that are none or asked for twice, fewer than 4 points, a
 /// most_disks that is negative, and as design::match_motors.
-MatchSection match_motors(const Case& antenna, const std::vector<design::EnsembleMember>& members,
+MatchSection match_motors(const io::Case& antenna,
+                          const std::vector<design::EnsembleMember>& members,
                           const MatchOptions& options);
 
 /// The least of a curve over the axis, and the range around it within `share` of that least. NaN
@@ -44,10 +45,10 @@ FlatRange flat_range(const std::vector<double>& axis, const std::vector<double>&
 
 /// What else the optimum depends on: coarser studies on single plants, the friction that makes the
 /// inertia unimportant, for the best PI structure of the section and the best of all.
-void vary(const Case& antenna, const MatchOptions& options, MatchSection& section);
+void vary(const io::Case& antenna, const MatchOptions& options, MatchSection& section);
 
 /// The classic rules against the curves.
-std::vector<RuleVerdict> judge_rules(const Case& antenna, const MatchSection& section);
+std::vector<RuleVerdict> judge_rules(const io::Case& antenna, const MatchSection& section);
 
 /// A few sentences that say what the numbers mean, with their conditions.
 std::vector<std::string> conclude(const MatchSection& section);

@@ -21,7 +21,7 @@ struct Change {
   std::optional<plant::WindModel> wind = std::nullopt;
 };
 
-std::vector<Change> changes_of(const Case& antenna, const MatchSection& section) {
+std::vector<Change> changes_of(const io::Case& antenna, const MatchSection& section) {
   const double leakage = antenna.drive.leakage_rate.value;
   std::vector<Change> changes{{"the case's plant", {}, {}},
                               {"leakage x 0.3", {.leakage_rate = 0.3 * leakage}, {}},
@@ -59,7 +59,7 @@ std::vector<Change> changes_of(const Case& antenna, const MatchSection& section)
 }
 
 // Rms at the sky along some disks, tuned on single plants.
-std::vector<double> curve_of(const Case& antenna, const MatchSection& section,
+std::vector<double> curve_of(const io::Case& antenna, const MatchSection& section,
                              const MatchOptions& options, const control::LoopStructure& structure,
                              const std::vector<double>& disks, const Change& change) {
   design::MatchingTask task;
@@ -128,24 +128,18 @@ bool leads(const control::LoopStructure& structure) {
       structure.blocks(), [](const auto& block) { return block.kind == control::BlockKind::lead; });
 }
 
-// The best of all, and the best of the plain PI loops, without lead and torque feedback: of those
-// weighed, or of all where none is.
+// The structure recommended, and the same of the plain PI loops, without lead and torque feedback.
 std::vector<const MatchSeries*> worth_varying(const MatchSection& section) {
-  const MatchSeries* best = nullptr;
-  const MatchSeries* best_pi = nullptr;
-  const bool some = most_moved(section) != nullptr;
-  for (const auto& series : section.series) {
-    if (!series.best || (some && !weighed(section, series))) continue;
-    const auto better = [&](const MatchSeries* other) {
-      return other == nullptr ||
-             series.values[*series.best].beam_rms < other->values[*other->best].beam_rms;
-    };
-    if (better(best)) best = &series;
+  const auto plain = [](const MatchSeries& series) {
     const auto& structure = series.curve.structure;
-    const bool plain = !structure.has(control::LoopPath::pressure) &&
-                       !structure.has(control::LoopPath::compliance) && !leads(structure);
-    if (plain && better(best_pi)) best_pi = &series;
-  }
+    return !structure.has(control::LoopPath::pressure) &&
+           !structure.has(control::LoopPath::compliance) && !leads(structure);
+  };
+  const bool some = most_moved(section) != nullptr;
+  const auto counts = [&](const MatchSeries& series) { return !some || weighed(section, series); };
+  const MatchSeries* best = recommended_structure(section, counts);
+  const MatchSeries* best_pi = recommended_structure(
+      section, [&](const MatchSeries& series) { return counts(series) && plain(series); });
   std::vector<const MatchSeries*> chosen;
   if (best_pi != nullptr) chosen.push_back(best_pi);
   if (best != nullptr && best != best_pi) chosen.push_back(best);
@@ -154,7 +148,7 @@ std::vector<const MatchSeries*> worth_varying(const MatchSection& section) {
 
 }  // namespace
 
-void vary(const Case& antenna, const MatchOptions& options, MatchSection& section) {
+void vary(const io::Case& antenna, const MatchOptions& options, MatchSection& section) {
   constexpr int coarse = 7;
   std::vector<double> disks;
   const double most = section.points.back().disks;
@@ -191,7 +185,7 @@ void vary(const Case& antenna, const MatchOptions& options, MatchSection& sectio
   }
 }
 
-std::vector<RuleVerdict> judge_rules(const Case& antenna, const MatchSection& section) {
+std::vector<RuleVerdict> judge_rules(const io::Case& antenna, const MatchSection& section) {
   const double load = gear_train_inertia(antenna) + antenna_inertia(antenna);
   const auto disks_at = [&](double ratio) { return disks_at_unit_ratio(antenna, ratio * load); };
   std::vector<RuleVerdict> rules{

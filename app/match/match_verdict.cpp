@@ -5,6 +5,8 @@
 
 #include <boresight/app/match/match_verdict.hpp>
 #include <boresight/app/report/influences.hpp>
+#include <boresight/app/simulate/time_domain.hpp>
+#include <boresight/design/decisions/recommend.hpp>
 
 namespace boresight::app {
 
@@ -80,6 +82,31 @@ bool weighed(const MatchSection& section, std::string_view structure) {
   return std::ranges::any_of(section.series, [&](const MatchSeries& series) {
     return series.name == structure && weighed(section, series);
   });
+}
+
+const MatchSeries* recommended_structure(const MatchSection& section,
+                                         const std::function<bool(const MatchSeries&)>& counts) {
+  std::vector<const MatchSeries*> structures;
+  std::vector<design::Assessment> candidates;
+  for (const auto& series : section.series) {
+    if (!series.best || !counts(series)) continue;
+    design::Assessment candidate;
+    candidate.structure = series.name;
+    candidate.purpose = design::DesignPurpose::robust;
+    candidate.parts = series.curve.structure.gains().size();
+    candidate.stable = candidate.verified = true;
+    candidate.nominal_constraints_met = candidate.member_constraints_met = true;
+    candidate.linear_rms = series.values[*series.best].beam_rms;
+    if (!hunting_of(section, series).empty()) {
+      candidate.limit_cycles = limit_cycle_verdict(
+          !hunts(section, series), design::hunting_seen(hunting_of(section, series)));
+    }
+    structures.push_back(&series);
+    candidates.push_back(std::move(candidate));
+  }
+  const auto winner =
+      design::recommend(candidates, {.accepted = design::Fitness::limit_cycle}).winner;
+  return winner ? structures[*winner] : nullptr;
 }
 
 const MatchSeries* most_moved(const MatchSection& section) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -38,6 +39,12 @@ bool weighed(const MatchSection& section, const MatchSeries& series);
 
 /// The same of a structure by its name; false for one that was not studied.
 bool weighed(const MatchSection& section, std::string_view structure);
+
+/// The structure that design::recommend chooses of those that `counts` is true of, each with its
+/// best motors; one that limit-cycles only where all do. Null where none has a controller that
+/// meets its constraints.
+const MatchSeries* recommended_structure(const MatchSection& section,
+                                         const std::function<bool(const MatchSeries&)>& counts);
 
 /// The structure weighed whose rms changes most over the inertias; null where none is weighed.
 const MatchSeries* most_moved(const MatchSection& section);

@@ -2,8 +2,8 @@
 #include <limits>
 
 #include <boresight/app/match/what_if.hpp>
-#include <boresight/design/monte_carlo.hpp>
-#include <boresight/design/parallel_loop.hpp>
+#include <boresight/design/ensembles/monte_carlo.hpp>
+#include <boresight/numerics/parallel_loop.hpp>
 
 namespace boresight::app {
 namespace {
@@ -46,7 +46,7 @@ std::size_t WhatIfTable::place(std::size_t structure, std::size_t disk, std::siz
   return at * wind_speeds.size() + speed;
 }
 
-WhatIfTable what_if(const Case& antenna, const MatchSection& section,
+WhatIfTable what_if(const io::Case& antenna, const MatchSection& section,
                     const WhatIfOptions& options) {
   WhatIfTable table;
   table.leakage_rate = antenna.drive.leakage_rate.value;
@@ -81,8 +81,8 @@ WhatIfTable what_if(const Case& antenna, const MatchSection& section,
     // The sliders name one speed; a climate has no say in it.
     problems.back().climate.clear();
   }
-  design::StepCounter counter(laws, options.progress);
-  design::for_each_index(laws, options.threads, [&](std::size_t i) {
+  numerics::StepCounter counter(laws, options.progress);
+  numerics::for_each_index(laws, options.threads, [&](std::size_t i) {
     if (options.interrupted && options.interrupted()) return;
     const std::size_t s = i / points.size(), d = i % points.size();
     const auto& law = section.series[s].curve.laws[points[d]];

@@ -19,6 +19,7 @@ struct WhatIfOptions {
 /// to twice the design's. Goals in the winds of the table; on the case's plant alone otherwise.
 /// Some 0.2 ms of one core an entry. The same for any number of threads.
 /// @throws as design::MonteCarloJudge.
-WhatIfTable what_if(const Case& antenna, const MatchSection& section, const WhatIfOptions& options);
+WhatIfTable what_if(const io::Case& antenna, const MatchSection& section,
+                    const WhatIfOptions& options);
 
 }  // namespace boresight::app

@@ -5,7 +5,7 @@
 #include <boresight/app/redesign/antenna_model.hpp>
 #include <boresight/app/tune/laws_in_time.hpp>
 #include <boresight/app/tune/tune_verdict.hpp>
-#include <boresight/control/closed_loop.hpp>
+#include <boresight/control/loops/closed_loop.hpp>
 
 namespace boresight::app {
 
@@ -16,7 +16,7 @@ LinearModels linear_models(const plant::AntennaPlant& antenna, double gear_ratio
 LinearModels linear_models(const design::TrackingProblem& problem, const control::ControlLaw& law,
                            const std::string& description) {
   LinearModels models = linear_models(problem.plant, problem.gear_ratio);
-  const double sample_time = sample_time_of(problem.delay);
+  const double sample_time = io::sample_time_of(problem.delay);
   models.loop = {description,
                  law,
                  problem.delay,

@@ -5,7 +5,7 @@
 #include <string>
 
 #include <boresight/app/report/report.hpp>
-#include <boresight/plant/state_space.hpp>
+#include <boresight/plant/linear/state_space.hpp>
 
 namespace boresight::app {
 

@@ -1,10 +1,10 @@
 #include <numbers>
 
-#include <boresight/app/io/state_space_formats.hpp>
 #include <boresight/app/models/linear_models.hpp>
-#include <boresight/control/loop_evaluator.hpp>
-#include <boresight/plant/plant_response.hpp>
-#include <boresight/plant/point_response.hpp>
+#include <boresight/control/loops/loop_evaluator.hpp>
+#include <boresight/io/exchange/state_space_formats.hpp>
+#include <boresight/plant/antenna/plant_response.hpp>
+#include <boresight/plant/antenna/point_response.hpp>
 
 namespace boresight::app {
 namespace {
@@ -15,10 +15,10 @@ constexpr double two_pi = 2.0 * std::numbers::pi;
 constexpr double lowest_frequency = 1e-3, highest_frequency = 25.0;
 constexpr int points_per_decade = 100;
 
-MatVariables parameters(const LinearModels& models) {
+io::MatVariables parameters(const LinearModels& models) {
   const auto& drive = models.antenna.drive;
   const auto& structure = models.antenna.structure;
-  MatVariables fields;
+  io::MatVariables fields;
   fields.add_number("gear_ratio_1", models.gear_ratio);
   if (models.loop) fields.add_number("dead_time_s", models.loop->dead_time);
   fields.add_number("oil_stiffness_N_m_per_rad", drive.oil_stiffness);
@@ -51,21 +51,22 @@ MatVariables parameters(const LinearModels& models) {
 }
 
 // Fields frequency_Hz and response, outputs x inputs x frequencies, beside the names.
-MatVariables response_fields(const Eigen::ArrayXd& frequency,
-                             const std::vector<Eigen::MatrixXcd>& pages,
-                             const std::vector<std::string>& inputs,
-                             const std::vector<std::string>& outputs) {
-  MatVariables fields;
+io::MatVariables response_fields(const Eigen::ArrayXd& frequency,
+                                 const std::vector<Eigen::MatrixXcd>& pages,
+                                 const std::vector<std::string>& inputs,
+                                 const std::vector<std::string>& outputs) {
+  io::MatVariables fields;
   fields.add_matrix("frequency_Hz", (frequency / two_pi).matrix());
   fields.add_pages("response", pages);
   fields.add_texts("inputs", inputs);
-  fields.add_texts("input_units", signal_units(inputs));
+  fields.add_texts("input_units", io::signal_units(inputs));
   fields.add_texts("outputs", outputs);
-  fields.add_texts("output_units", signal_units(outputs));
+  fields.add_texts("output_units", io::signal_units(outputs));
   return fields;
 }
 
-MatVariables plant_response_fields(const LinearModels& models, const Eigen::ArrayXd& frequency) {
+io::MatVariables plant_response_fields(const LinearModels& models,
+                                       const Eigen::ArrayXd& frequency) {
   const auto response = plant::plant_response(models.antenna, frequency);
   std::vector<Eigen::MatrixXcd> pages;
   for (Eigen::Index i = 0; i < frequency.size(); ++i) {
@@ -78,7 +79,8 @@ MatVariables plant_response_fields(const LinearModels& models, const Eigen::Arra
   return response_fields(frequency, pages, models.plant.inputs, models.plant.outputs);
 }
 
-MatVariables closed_loop_response_fields(const LawModels& loop, const Eigen::ArrayXd& frequency) {
+io::MatVariables closed_loop_response_fields(const LawModels& loop,
+                                             const Eigen::ArrayXd& frequency) {
   std::vector<Eigen::MatrixXcd> pages;
   for (const double w : frequency) {
     pages.push_back(plant::frequency_response(loop.closed_loop, w));
@@ -87,10 +89,10 @@ MatVariables closed_loop_response_fields(const LawModels& loop, const Eigen::Arr
 }
 
 // L at each break with its exact dead time: S = 1/(1 + L).
-MatVariables loop_gain_fields(const LinearModels& models, const LawModels& loop,
-                              const Eigen::ArrayXd& frequency) {
+io::MatVariables loop_gain_fields(const LinearModels& models, const LawModels& loop,
+                                  const Eigen::ArrayXd& frequency) {
   const plant::PointResponse response(models.antenna);
-  MatVariables fields;
+  io::MatVariables fields;
   fields.add_matrix("frequency_Hz", (frequency / two_pi).matrix());
   constexpr std::array names{"rate_loop_alone", "valve_command", "position_loop"};
   for (std::size_t b = 0; b < control::loop_breaks.size(); ++b) {
@@ -105,9 +107,9 @@ MatVariables loop_gain_fields(const LinearModels& models, const LawModels& loop,
   return fields;
 }
 
-MatVariables gain_fields(const control::ControlLaw& law) {
+io::MatVariables gain_fields(const control::ControlLaw& law) {
   const auto& descriptions = law.structure.gains();
-  MatVariables fields;
+  io::MatVariables fields;
   std::vector<std::string> symbols, names, units;
   for (std::size_t i = 0; i < law.gains.size(); ++i) {
     fields.add_number(descriptions[i].symbol, law.gains[i]);
@@ -127,21 +129,21 @@ std::string to_mat(const LinearModels& models, const std::string& command,
                    const std::string& case_path) {
   const Eigen::ArrayXd frequency =
       plant::frequency_grid(models.antenna, lowest_frequency, highest_frequency, points_per_decade);
-  MatVariables variables;
+  io::MatVariables variables;
   variables.add_text("program", "boresight " BORESIGHT_VERSION);
   variables.add_text("command", command);
   variables.add_text("case_path", case_path);
   variables.add_structure("parameters", parameters(models));
-  variables.add_structure("plant", state_space_mat(models.plant));
+  variables.add_structure("plant", io::state_space_mat(models.plant));
   variables.add_structure("plant_response", plant_response_fields(models, frequency));
   if (models.loop) {
     const LawModels& loop = *models.loop;
     variables.add_text("law", loop.description);
     variables.add_text("structure", loop.law.structure.name());
     variables.add_structure("gains", gain_fields(loop.law));
-    variables.add_structure("controller", state_space_mat(loop.controller));
-    variables.add_structure("sampled_controller", state_space_mat(loop.sampled_controller));
-    variables.add_structure("closed_loop", state_space_mat(loop.closed_loop));
+    variables.add_structure("controller", io::state_space_mat(loop.controller));
+    variables.add_structure("sampled_controller", io::state_space_mat(loop.sampled_controller));
+    variables.add_structure("closed_loop", io::state_space_mat(loop.closed_loop));
     variables.add_structure("closed_loop_response", closed_loop_response_fields(loop, frequency));
     variables.add_structure("loop_gain", loop_gain_fields(models, loop, frequency));
   }

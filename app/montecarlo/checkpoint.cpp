@@ -9,8 +9,8 @@
 #include <fmt/format.h>
 
 #include <boresight/app/montecarlo/checkpoint.hpp>
-#include <boresight/app/report/json_report.hpp>
-#include <boresight/plant/error.hpp>
+#include <boresight/io/files/write_atomically.hpp>
+#include <boresight/numerics/error.hpp>
 
 namespace boresight::app {
 namespace {
@@ -108,7 +108,7 @@ void write_checkpoint(const std::string& path, std::uint64_t digest, const Monte
   append(bytes, digest);
   append(bytes, run.study().plants);
   append(bytes, Digest().add(bytes).value());
-  write_atomically(path, bytes + to_bytes(run, whole_blocks(run)));
+  io::write_atomically(path, bytes + to_bytes(run, whole_blocks(run)));
 }
 
 std::size_t read_checkpoint(const std::string& path, std::uint64_t digest, MonteCarloRun& run) {

@@ -5,7 +5,7 @@
 #include <string_view>
 #include <vector>
 
-#include <boresight/design/monte_carlo.hpp>
+#include <boresight/design/ensembles/monte_carlo.hpp>
 
 namespace boresight::app {
 

@@ -1,19 +1,23 @@
 #include <algorithm>
 #include <fstream>
-#include <tuple>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include <boresight/app/io/input_files.hpp>
 #include <boresight/app/montecarlo/held_law.hpp>
 #include <boresight/app/tune/engineer_units.hpp>
-#include <boresight/plant/error.hpp>
+#include <boresight/app/tune/tuned_assessment.hpp>
+#include <boresight/io/exchange/reported_controller.hpp>
+#include <boresight/io/files/input_files.hpp>
+#include <boresight/numerics/error.hpp>
 
 namespace boresight::app {
 namespace {
 
 using Json = nlohmann::ordered_json;
+
+// What is held on samples may miss its goals.
+constexpr auto usable = design::Fitness::unverified;
 
 [[noreturn]] void refuse(const std::string& path, const std::string& found) {
   throw InvalidInput(
@@ -24,7 +28,7 @@ using Json = nlohmann::ordered_json;
 
 // The gains of a "design": numbers whose keys are the gains' names with blanks replaced and the
 // unit behind.
-control::ControlLaw read_law(const Case& antenna, const std::string& path, const Json& design,
+control::ControlLaw read_law(const io::Case& antenna, const std::string& path, const Json& design,
                              const std::string& structure) {
   control::ControlLaw law{structure_named(antenna, structure), {}};
   const Json gains = design.value("gains", Json::object());
@@ -44,22 +48,22 @@ control::ControlLaw read_law(const Case& antenna, const std::string& path, const
 
 }  // namespace
 
-control::LoopStructure structure_named(const Case& antenna, const std::string& name) {
+control::LoopStructure structure_named(const io::Case& antenna, const std::string& name) {
   for (const auto& law : present_laws(antenna)) {
     if (law.structure.name() == name) return law.structure;
   }
   for (const auto* base : {"PI-0", "PI", "DPF", "LL", "FULL"}) {
     for (const auto* added : {"", "+N", "+C", "+N+C"}) {
-      auto structure = loop_structure(antenna, std::string(base) + added);
+      auto structure = io::loop_structure(antenna, std::string(base) + added);
       if (structure.name() == name) return structure;
     }
   }
-  return loop_structure(antenna, name);
+  return io::loop_structure(antenna, name);
 }
 
-HeldLaw present_law(const Case& antenna, const std::string& structure) {
+HeldLaw present_law(const io::Case& antenna, const std::string& structure) {
   for (const auto& law : present_laws(antenna)) {
-    if (structure.empty() || law.structure == loop_structure(antenna, structure)) {
+    if (structure.empty() || law.structure == io::loop_structure(antenna, structure)) {
       return {law, structure.empty() ? law.structure.name() : structure,
               "the gains that the case says the antenna runs on"};
     }
@@ -69,26 +73,16 @@ HeldLaw present_law(const Case& antenna, const std::string& structure) {
                   structure.empty() ? "" : fmt::format(" of the structure {}", structure)));
 }
 
-HeldLaw law_of_report(const Case& antenna, const std::string& path, const std::string& structure) {
+HeldLaw law_of_report(const io::Case& antenna, const std::string& path,
+                      const std::string& structure) {
   std::ifstream file(path, std::ios::binary);
   const std::string text{std::istreambuf_iterator<char>(file), {}};
   if (!file) refuse(path, "no file that can be read");
-  note_input(path, text);
+  io::note_input(path, text);
   try {
     const Json report = Json::parse(text);
     if (report.contains("tuned")) {
-      const Json* best = nullptr;
-      const auto rank = [](const Json& row) {
-        const Json& rms = row.at("beam_rms_mdeg");
-        return std::tuple(
-            row.value("recommended", false) ? 0 : 1, row.at("tuned_for") == "robust" ? 0 : 1,
-            row.at("goals_met").get<bool>() ? 0 : 1, rms.is_number() ? rms.get<double>() : 1e300);
-      };
-      for (const auto& row : report.at("tuned").at("laws")) {
-        if (row.at("design").is_null() || row.at("tuned_for") == "present") continue;
-        if (!structure.empty() && row.at("structure") != structure) continue;
-        if (best == nullptr || rank(row) < rank(*best)) best = &row;
-      }
+      const Json* best = io::recommended_row(report.at("tuned").at("laws"), structure, usable);
       if (best == nullptr) {
         refuse(path, structure.empty() ? "none" : fmt::format("none of {}", structure));
       }
@@ -100,7 +94,7 @@ HeldLaw law_of_report(const Case& antenna, const std::string& path, const std::s
       const Json& design = report.at("tuning").at("design");
       const auto name = design.at("structure").get<std::string>();
       if (!structure.empty() &&
-          loop_structure(antenna, structure) != structure_named(antenna, name)) {
+          io::loop_structure(antenna, structure) != structure_named(antenna, name)) {
         refuse(path, fmt::format("only one of {}", name));
       }
       return {read_law(antenna, path, design, name), structure.empty() ? name : structure, path};
@@ -111,15 +105,16 @@ HeldLaw law_of_report(const Case& antenna, const std::string& path, const std::s
   }
 }
 
-std::optional<HeldLaw> named_law(const Case& antenna, const std::string& gains,
+std::optional<HeldLaw> named_law(const io::Case& antenna, const std::string& gains,
                                  const std::string& structure) {
   if (gains == "tuned") return std::nullopt;
   return gains == "case" ? present_law(antenna, structure)
                          : law_of_report(antenna, gains, structure);
 }
 
-HeldLaw tuned_law(const Case& antenna, const PlantEnsemble& ensemble, const std::string& structure,
-                  std::uint64_t seed, unsigned threads, const std::function<bool()>& interrupted) {
+HeldLaw tuned_law(const io::Case& antenna, const PlantEnsemble& ensemble,
+                  const std::string& structure, std::uint64_t seed, unsigned threads,
+                  const std::function<bool()>& interrupted) {
   TuneOptions options;
   options.structures = {structure};
   options.wind_speeds = {antenna.wind.design_speed.value};
@@ -128,23 +123,22 @@ HeldLaw tuned_law(const Case& antenna, const PlantEnsemble& ensemble, const std:
   options.interrupted = interrupted;
   const TuneSection section = tune_structures(antenna, ensemble, options);
   if (interrupted && interrupted()) throw Interrupted("interrupted while tuning the law to hold");
-  const TunedLaw* best = nullptr;
-  for (const auto& row : section.laws) {
-    if (row.tuned_for == TunedFor::robust && row.stable() &&
-        row.wind_speed == options.wind_speeds.front()) {
-      best = &row;
-    }
-  }
+  const TunedLaw* best =
+      recommended_at(section, options.wind_speeds.front(), true, {.accepted = usable});
   if (best == nullptr) {
     throw InfeasibleRequirement(
-        fmt::format("montecarlo: no law of {} keeps every plant of the ensemble stable; name "
+        fmt::format("montecarlo: no law of {} keeps the antenna stable; name "
                     "another with --structure or gains with --gains",
                     structure));
   }
   return {best->design.tuning.law, structure,
-          fmt::format("tuned now at {:g} m/s, robust over {} plants{}", best->wind_speed,
-                      ensemble.members.size(),
-                      best->goals_met ? "" : "; MISSES its goals on some of them")};
+          best->tuned_for == TunedFor::nominal
+              ? fmt::format("tuned now at {:g} m/s, for the nominal plant: no robust design meets "
+                            "its goals on all {} plants",
+                            best->wind_speed, ensemble.members.size())
+              : fmt::format("tuned now at {:g} m/s, robust over {} plants{}", best->wind_speed,
+                            ensemble.members.size(),
+                            best->goals_met ? "" : "; MISSES its goals on some of them")};
 }
 
 }  // namespace boresight::app

@@ -9,8 +9,8 @@
 #include <boresight/app/figures/figure.hpp>
 #include <boresight/app/redesign/antenna_model.hpp>
 #include <boresight/app/uncertainty/plant_distribution.hpp>
-#include <boresight/design/monte_carlo.hpp>
-#include <boresight/design/monte_carlo_statistics.hpp>
+#include <boresight/design/ensembles/monte_carlo.hpp>
+#include <boresight/design/ensembles/monte_carlo_statistics.hpp>
 
 namespace boresight::app {
 
@@ -87,7 +87,7 @@ struct MonteCarloSection {
   };
   std::optional<Retuned> retuned;
 
-  std::vector<Quantity> assumed;
+  std::vector<io::Quantity> assumed;
   std::vector<std::string> conclusions;
   std::vector<Figure> figures;
 };

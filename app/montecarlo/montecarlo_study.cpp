@@ -13,10 +13,10 @@
 #include <boresight/app/montecarlo/montecarlo_study.hpp>
 #include <boresight/app/redesign/assumed_inputs.hpp>
 #include <boresight/app/redesign/sections.hpp>
-#include <boresight/app/report/json_report.hpp>
 #include <boresight/app/tune/engineer_units.hpp>
 #include <boresight/app/uncertainty/designed_antenna.hpp>
-#include <boresight/plant/error.hpp>
+#include <boresight/io/files/write_atomically.hpp>
+#include <boresight/numerics/error.hpp>
 
 namespace boresight::app {
 namespace {
@@ -113,7 +113,7 @@ std::string gains_text(const std::string& text) {
   return text.substr(text.find('\n', text.find('\n') + 1) + 1);
 }
 
-HeldLaw law_from(const std::string& text, const Case& antenna) {
+HeldLaw law_from(const std::string& text, const io::Case& antenna) {
   HeldLaw held;
   std::istringstream lines(text);
   std::getline(lines, held.structure);
@@ -127,7 +127,7 @@ HeldLaw law_from(const std::string& text, const Case& antenna) {
 
 HeldLaw make_law(const MonteCarloArguments& arguments, const Population& population,
                  const std::function<bool()>& interrupted) {
-  const Case& antenna = population->antenna;
+  const io::Case& antenna = population->antenna;
   if (auto named = named_law(antenna, arguments.gains, arguments.structure)) {
     return std::move(*named);
   }
@@ -229,7 +229,7 @@ class Work {
 
 design::MonteCarlo make_study(const MonteCarloArguments& arguments, const Population& population,
                               const control::ControlLaw& law) {
-  const Case& antenna = population->antenna;
+  const io::Case& antenna = population->antenna;
   design::MonteCarlo study;
   study.problem = make_problem(antenna);
   study.problem.climate = make_climate(antenna);
@@ -245,7 +245,7 @@ design::MonteCarlo make_study(const MonteCarloArguments& arguments, const Popula
 }
 
 // Law and case of a report; summarise() has the rest.
-MonteCarloSection new_section(const MonteCarloArguments& arguments, const Case& antenna,
+MonteCarloSection new_section(const MonteCarloArguments& arguments, const io::Case& antenna,
                               const design::MonteCarlo& study, const HeldLaw& held) {
   MonteCarloSection section;
   section.case_path = arguments.case_path;
@@ -268,7 +268,7 @@ MonteCarloSection new_section(const MonteCarloArguments& arguments, const Case& 
 void require_outputs(const MonteCarloArguments& arguments) {
   arguments.outputs.require_writable();
   for (const auto* path : {&arguments.csv_path, &arguments.checkpoint_path}) {
-    if (!path->empty()) require_writable(*path);
+    if (!path->empty()) io::require_writable(*path);
   }
 }
 
@@ -283,10 +283,10 @@ MonteCarloOutcome run_montecarlo(const MonteCarloArguments& arguments, Ranks& ra
   std::string law_text;
   on_all(ranks, [&] {
     if (ranks.first()) require_outputs(arguments);
-    Case antenna = read_case(arguments.case_path);
+    io::Case antenna = io::read_case(arguments.case_path);
     if (!arguments.structure.empty()) {
       try {
-        loop_structure(antenna, arguments.structure);
+        io::loop_structure(antenna, arguments.structure);
       } catch (const InvalidInput& error) {
         throw InvalidInput(fmt::format("--structure: {}", error.what()));
       }

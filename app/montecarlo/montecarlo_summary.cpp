@@ -7,8 +7,8 @@
 
 #include <boresight/app/montecarlo/montecarlo_study.hpp>
 #include <boresight/app/report/sky_units.hpp>
-#include <boresight/design/pointing.hpp>
-#include <boresight/plant/error.hpp>
+#include <boresight/design/problem/pointing.hpp>
+#include <boresight/numerics/error.hpp>
 
 namespace boresight::app {
 namespace {

@@ -8,7 +8,7 @@
 #include <fmt/format.h>
 #include <mpi.h>
 
-#include <boresight/plant/error.hpp>
+#include <boresight/numerics/error.hpp>
 
 namespace boresight::app {
 namespace {

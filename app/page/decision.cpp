@@ -4,7 +4,6 @@
 
 #include <fmt/format.h>
 
-#include <boresight/app/io/drive_numbers.hpp>
 #include <boresight/app/page/decision.hpp>
 #include <boresight/app/page/study_decision.hpp>
 #include <boresight/app/redesign/assumed_inputs.hpp>
@@ -37,7 +36,7 @@ std::string audited(const AuditReport& report) {
          (sound ? ": design on the case." : ".");
 }
 
-std::string assumptions(const std::vector<Quantity>& assumed) {
+std::string assumptions(const std::vector<io::Quantity>& assumed) {
   const std::size_t count = count_of_antenna(assumed);
   if (count == 0) return "No number of the antenna is assumed.";
   return fmt::format(
@@ -49,7 +48,7 @@ std::string assumptions(const std::vector<Quantity>& assumed) {
 Sentences audit_decision(const AuditReport& report) {
   Sentences sentences{audited(report)};
   const auto& findings = report.findings;
-  const identification::Finding* largest = nullptr;
+  const design::Finding* largest = nullptr;
   double change = 0.0;
   for (const auto& finding : findings) {
     for (const auto& consequence : finding.consequences) {
@@ -177,9 +176,7 @@ std::vector<std::string> reservations(const Report& report) {
     if (!report.tuned) return sentences;
     const TunedLaw* law = recommended_law(*report.tuned);
     if (law == nullptr) return sentences;
-    std::ranges::move(gains_at_bounds({law}, sample_time_of(report.tuned->problem.delay)),
-                      std::back_inserter(sentences));
-    std::ranges::move(gain_trades({law}), std::back_inserter(sentences));
+    std::ranges::move(about_bounds(*report.tuned, {law}), std::back_inserter(sentences));
     return sentences;
   }
   if (report.tuning) sentences = tuning_reservations(report, *report.tuning);

@@ -101,7 +101,7 @@ std::string methods_html(const Document& document) {
          rows + "</tbody>\n</table></div>\n";
 }
 
-std::string inputs_html(const std::vector<InputFile>& inputs) {
+std::string inputs_html(const std::vector<io::InputFile>& inputs) {
   std::string html =
       "<h3>Inputs</h3>\n<p>Every file that was read, as it was then. <code>sha256sum</code> "
       "prints the same digest of the same file.</p>\n"
@@ -188,7 +188,8 @@ std::string security_policy(const std::vector<std::string_view>& scripts) {
   std::string policy = "default-src 'none'; style-src 'unsafe-inline'; img-src data:; ";
   policy += "base-uri 'none'; form-action 'none'; script-src";
   if (scripts.empty()) policy += " 'none'";
-  for (const auto script : scripts) policy += fmt::format(" 'sha256-{}'", sha256_base64(script));
+  for (const auto script : scripts)
+    policy += fmt::format(" 'sha256-{}'", io::sha256_base64(script));
   return policy;
 }
 

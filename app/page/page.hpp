@@ -7,7 +7,7 @@
 
 #include <boresight/app/document/document.hpp>
 #include <boresight/app/figures/figure.hpp>
-#include <boresight/app/io/input_files.hpp>
+#include <boresight/io/files/input_files.hpp>
 
 namespace boresight::app {
 
@@ -31,7 +31,7 @@ struct Page {
 /// How a page was made: enough to make it again, and to see that it is of the same inputs.
 struct Provenance {
   std::string command_line;
-  std::vector<InputFile> inputs;
+  std::vector<io::InputFile> inputs;
 };
 
 /// One HTML file without references to any other: header, decision, contents, the document's

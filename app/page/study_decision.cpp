@@ -94,22 +94,15 @@ Sentences unstable_now(const TuneSection& section) {
 
 // Of structures that do not hunt; `others_hunt`: some were left out.
 Sentences decide_inertia(const MatchSection& section, bool others_hunt) {
-  const MatchSeries* best = nullptr;
-  std::size_t best_point = 0;
-  double least = HUGE_VAL;
-  for (const auto& series : section.series) {
-    if (!series.best || series.values[*series.best].beam_rms >= least) continue;
-    best = &series;
-    best_point = *series.best;
-    least = series.values[best_point].beam_rms;
-  }
+  const MatchSeries* best = recommended_structure(section, [](const MatchSeries&) { return true; });
   if (best == nullptr) {
     return {others_hunt
                 ? "No structure that meets the goals was seen to hold still within the tightest "
                   "budget on the nonlinear antenna: look at the friction before the motors."
                 : "No structure meets the goals at any motor inertia."};
   }
-  const std::size_t built = as_built(section);
+  const std::size_t built = as_built(section), best_point = best->best.value_or(built);
+  const double least = best->values[best_point].beam_rms;
   const MatchPoint& point = section.points[best_point];
   const MatchValue& present = best->values[built];
   const MatchSeries* moved = most_moved(section);
@@ -121,10 +114,14 @@ Sentences decide_inertia(const MatchSection& section, bool others_hunt) {
         best->name, mdeg(present.beam_rms), section.wind_speed, section.points.front().disks,
         section.points.back().disks, 100.0 * span_of(*moved), what_matters_more(section))};
   }
+  const bool least_of_all = std::ranges::none_of(section.series, [&](const MatchSeries& series) {
+    return series.best && series.values[*series.best].beam_rms < least;
+  });
+  const char* lead = least_of_all ? "The least rms" : "The rms of the structure recommended";
   Sentences sentences{fmt::format(
-      "The least rms, {:.3f} mdeg in {:.3g} m/s, comes with {} loops and {:g} disks on each motor "
+      "{}, {:.3f} mdeg in {:.3g} m/s, comes with {} loops and {:g} disks on each motor "
       "(ratio {:.2f}); from {:.1f} to {:.1f} disks it stays within 5 % of that.",
-      mdeg(least), section.wind_speed, best->name, point.disks, point.motor_to_load_ratio,
+      lead, mdeg(least), section.wind_speed, best->name, point.disks, point.motor_to_load_ratio,
       best->within_5_percent.lowest, best->within_5_percent.highest)};
   const bool inertia_matters =
       !present.found || present.beam_rms / least - 1.0 >= negligible_change;

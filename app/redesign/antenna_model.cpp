@@ -4,37 +4,37 @@
 
 #include <fmt/format.h>
 
-#include <boresight/app/io/structure_numbers.hpp>
 #include <boresight/app/redesign/antenna_model.hpp>
 #include <boresight/app/redesign/resonating_mode.hpp>
+#include <boresight/io/case/structure_numbers.hpp>
 
 namespace boresight::app {
 namespace {
 
 constexpr double two_pi = 2.0 * std::numbers::pi;
 
-identification::Uncertain uncertain(const Quantity& quantity) {
+numerics::Uncertain uncertain(const io::Quantity& quantity) {
   return {quantity.value, quantity.standard_uncertainty};
 }
 
 // An inertia about the antenna axis, at the motor shaft.
-identification::Uncertain reflected(const Case& antenna, const Quantity& inertia) {
-  const double square = std::pow(gear_ratio(antenna), 2);
+numerics::Uncertain reflected(const io::Case& antenna, const io::Quantity& inertia) {
+  const double square = std::pow(io::gear_ratio(antenna), 2);
   return {inertia.value / square, inertia.standard_uncertainty / square};
 }
 
-identification::Uncertain part_inertia(const Case& antenna, const AssemblyPart& part) {
+numerics::Uncertain part_inertia(const io::Case& antenna, const io::AssemblyPart& part) {
   if (part.inertia) return uncertain(*part.inertia);
-  const std::optional<Quantity>& density = antenna.gear_train.density;
+  const std::optional<io::Quantity>& density = antenna.gear_train.density;
   if (!part.radius || !part.length || !density) {
     throw InvalidInput(
         fmt::format("part_inertia: '{}' has neither inertia nor dimensions", part.name));
   }
-  return uncertain(solid_disk(*part.radius, *part.length, *density));
+  return uncertain(io::solid_disk(*part.radius, *part.length, *density));
 }
 
 // Of an alternative, at the motor shaft.
-identification::Uncertain reflected(const Case& antenna, const AntennaAlternative& alternative) {
+numerics::Uncertain reflected(const io::Case& antenna, const io::AntennaAlternative& alternative) {
   if (alternative.reflected_inertia) return uncertain(*alternative.reflected_inertia);
   if (!alternative.inertia) {
     throw InvalidInput(fmt::format("antenna alternative '{}' has no inertia", alternative.name));
@@ -43,9 +43,10 @@ identification::Uncertain reflected(const Case& antenna, const AntennaAlternativ
 }
 
 // A composite inertia if the case gives one, else the sum of its parts' inertias or disks.
-identification::Uncertain assembly_inertia(const Case& antenna, const RotatingAssembly& assembly) {
+numerics::Uncertain assembly_inertia(const io::Case& antenna,
+                                     const io::RotatingAssembly& assembly) {
   if (assembly.inertia) return uncertain(*assembly.inertia);
-  identification::Uncertain sum;
+  numerics::Uncertain sum;
   double variance = 0.0;
   for (const auto& part : assembly.parts) {
     const auto inertia = part_inertia(antenna, part);
@@ -56,8 +57,8 @@ identification::Uncertain assembly_inertia(const Case& antenna, const RotatingAs
   return sum;
 }
 
-plant::Structure make_structure(const Case& antenna, const PlantVariant& variant) {
-  auto specification = structure_specifications(antenna.structure).at(variant.structure);
+plant::Structure make_structure(const io::Case& antenna, const PlantVariant& variant) {
+  auto specification = io::structure_specifications(antenna.structure).at(variant.structure);
   place_guessed_shares(antenna.structure, variant.guessed_shares, specification);
   specification.antenna_inertia =
       variant.inertia_scale * variant.antenna_inertia.value_or(antenna_inertia(antenna));
@@ -80,8 +81,8 @@ plant::WindModel wind_model(const std::string& name) {
 
 }  // namespace
 
-double gear_train_inertia(const Case& antenna) {
-  const auto stages = gear_stages(antenna);
+double gear_train_inertia(const io::Case& antenna) {
+  const auto stages = io::gear_stages(antenna);
   double sum = 0.0;
   for (const auto& assembly : antenna.gear_train.assemblies) {
     sum += plant::reflected_inertia(assembly_inertia(antenna, assembly).value,
@@ -91,48 +92,48 @@ double gear_train_inertia(const Case& antenna) {
   return sum;
 }
 
-double motor_inertia(const Case& antenna, double disks) {
-  const MotorEntry& motor = antenna.motor;
+double motor_inertia(const io::Case& antenna, double disks) {
+  const io::MotorEntry& motor = antenna.motor;
   // As built the stated inertia holds; rotor and disks say what a change of disks does to it.
   return static_cast<double>(motor.count) *
          (motor.inertia.value + (disks - motor.flywheel_disks) * motor.disk_inertia.value);
 }
 
-double antenna_inertia(const Case& antenna) {
+double antenna_inertia(const io::Case& antenna) {
   return reflected(antenna, antenna.antenna.inertia).value;
 }
 
-double antenna_inertia(const Case& antenna, const AntennaAlternative& alternative) {
+double antenna_inertia(const io::Case& antenna, const io::AntennaAlternative& alternative) {
   return reflected(antenna, alternative).value;
 }
 
-PlantVariant variant_of(const Case& antenna, const AntennaAlternative& alternative) {
+PlantVariant variant_of(const io::Case& antenna, const io::AntennaAlternative& alternative) {
   const double inertia = antenna_inertia(antenna, alternative);
   return {.antenna_inertia = inertia,
           .structure_frequency_scale =
               alternative.keeps_springs ? std::sqrt(antenna_inertia(antenna) / inertia) : 1.0};
 }
 
-double bulk_modulus(const Case& antenna) {
-  return bulk_modulus_of(antenna.oil).value;
+double bulk_modulus(const io::Case& antenna) {
+  return io::bulk_modulus_of(antenna.oil).value;
 }
 
-double oil_stiffness(const Case& antenna, plant::EfficiencyInStiffness efficiency) {
-  plant::HydraulicDrive drive = hydraulic_drive(antenna);
+double oil_stiffness(const io::Case& antenna, plant::EfficiencyInStiffness efficiency) {
+  plant::HydraulicDrive drive = io::hydraulic_drive(antenna);
   drive.efficiency_in_stiffness = efficiency;
   return plant::oil_stiffness(drive);
 }
 
-double oil_stiffness(const Case& antenna) {
-  return plant::oil_stiffness(hydraulic_drive(antenna));
+double oil_stiffness(const io::Case& antenna) {
+  return plant::oil_stiffness(io::hydraulic_drive(antenna));
 }
 
-double leakage_rate_at(const Case& antenna, double bulk_modulus_factor) {
-  const DriveEntry& drive = antenna.drive;
+double leakage_rate_at(const io::Case& antenna, double bulk_modulus_factor) {
+  const io::DriveEntry& drive = antenna.drive;
   return drive.leakage_rate.value * (drive.leakage_by_flow ? bulk_modulus_factor : 1.0);
 }
 
-plant::AntennaPlant make_plant(const Case& antenna, const PlantVariant& variant) {
+plant::AntennaPlant make_plant(const io::Case& antenna, const PlantVariant& variant) {
   plant::AntennaPlant plant;
   const double disks = variant.flywheel_disks.value_or(antenna.motor.flywheel_disks);
   plant.drive.oil_stiffness = variant.oil_stiffness.value_or(oil_stiffness(antenna));
@@ -152,19 +153,19 @@ plant::AntennaPlant make_plant(const Case& antenna, const PlantVariant& variant)
   return plant;
 }
 
-double largest_viscous_friction(const Case& antenna) {
-  return std::max(tracking_friction(antenna), antenna.drive.viscous_friction.value);
+double largest_viscous_friction(const io::Case& antenna) {
+  return std::max(io::tracking_friction(antenna), antenna.drive.viscous_friction.value);
 }
 
-design::TrackingProblem make_problem(const Case& antenna, const PlantVariant& variant) {
+design::TrackingProblem make_problem(const io::Case& antenna, const PlantVariant& variant) {
   design::TrackingProblem problem;
   problem.plant = make_plant(antenna, variant);
-  problem.gear_ratio = gear_ratio(antenna);
+  problem.gear_ratio = io::gear_ratio(antenna);
   problem.delay = antenna.controller_delay.value;
   problem.noise = {antenna.sensors.encoder_noise.value * problem.gear_ratio,
                    antenna.sensors.tachometer_noise.value, antenna.sensors.noise_bandwidth.value,
                    antenna.sensors.torque_noise ? antenna.sensors.torque_noise->value : 0.0};
-  const WindEntry& wind = antenna.wind;
+  const io::WindEntry& wind = antenna.wind;
   problem.wind = {{wind.air_density.value, wind.gusts.surface_drag, wind.torque_coefficient.value,
                    wind.gradient_coefficient.value, wind.coherence_decay.value,
                    antenna.antenna.dish_diameter.value, wind.gusts},
@@ -174,8 +175,8 @@ design::TrackingProblem make_problem(const Case& antenna, const PlantVariant& va
   return problem;
 }
 
-double supply_wind_speed(const Case& antenna, const design::TrackingProblem& problem) {
-  const double left = torque_for_wind(antenna);
+double supply_wind_speed(const io::Case& antenna, const design::TrackingProblem& problem) {
+  const double left = io::torque_for_wind(antenna);
   if (!(left > 0.0)) return 0.0;
   const double speed = problem.wind.mean_speed;
   // The torque goes with the square of the speed.
@@ -192,8 +193,8 @@ double static_bending(const design::TrackingProblem& problem) {
          (problem.gear_ratio * problem.gear_ratio);
 }
 
-design::HardGoals make_goals(const Case& antenna) {
-  const GoalsEntry& entry = antenna.goals;
+design::HardGoals make_goals(const io::Case& antenna) {
+  const io::GoalsEntry& entry = antenna.goals;
   design::HardGoals goals;
   for (std::size_t b = 0; b < goals.sensitivity_peak.size(); ++b) {
     const auto& own = entry.peak_at_break.at(b);
@@ -205,38 +206,38 @@ design::HardGoals make_goals(const Case& antenna) {
   if (entry.bandwidth) goals.bandwidth = entry.bandwidth->value;
   if (entry.crest_factor) {
     goals.crest_factor = entry.crest_factor->value;
-    goals.gust_torque = torque_for_wind(antenna);
+    goals.gust_torque = io::torque_for_wind(antenna);
     if (!(*goals.gust_torque > 0.0)) {
       throw InvalidInput(fmt::format(
           "goals.crest_factor: expected a supply torque above friction and offset at the tracking "
           "rate, found {:.4g} N.m, which they take",
-          supply_torque(antenna)));
+          io::supply_torque(antenna)));
     }
-    goals.gust_demand = largest_demand(antenna);
+    goals.gust_demand = io::largest_demand(antenna);
   }
   return goals;
 }
 
-design::SoftGoal make_soft_goal(const Case& antenna) {
+design::SoftGoal make_soft_goal(const io::Case& antenna) {
   design::SoftGoal soft;
   soft.quantile = antenna.goals.quantile;
   switch (antenna.goals.soft_goal) {
-    case SoftGoalKind::nominal:
+    case io::SoftGoalKind::nominal:
       break;
-    case SoftGoalKind::expected:
+    case io::SoftGoalKind::expected:
       soft.kind = design::SoftGoalKind::expected;
       break;
-    case SoftGoalKind::worst_case:
+    case io::SoftGoalKind::worst_case:
       soft.kind = design::SoftGoalKind::worst_case;
       break;
-    case SoftGoalKind::quantile:
+    case io::SoftGoalKind::quantile:
       soft.kind = design::SoftGoalKind::quantile;
       break;
   }
   return soft;
 }
 
-std::vector<design::WeightedWind> make_climate(const Case& antenna) {
+std::vector<design::WeightedWind> make_climate(const io::Case& antenna) {
   design::WindCondition wind = make_problem(antenna).wind;
   if (antenna.wind.climate_torque_coefficient) {
     wind.site.torque_coefficient = *antenna.wind.climate_torque_coefficient;
@@ -249,14 +250,14 @@ std::vector<design::WeightedWind> make_climate(const Case& antenna) {
   return winds;
 }
 
-identification::DriveEvidence make_evidence(const Case& antenna) {
+identification::DriveEvidence make_evidence(const io::Case& antenna) {
   identification::DriveEvidence evidence;
-  evidence.stages = gear_stages(antenna);
+  evidence.stages = io::gear_stages(antenna);
   for (const auto& assembly : antenna.gear_train.assemblies) {
     evidence.assemblies.push_back({assembly.name, assembly_inertia(antenna, assembly),
                                    static_cast<double>(assembly.count), assembly.stages});
   }
-  const Quantity& own = antenna.antenna.inertia;
+  const io::Quantity& own = antenna.antenna.inertia;
   evidence.antenna.push_back(
       {own.source.empty() ? "the case" : own.source, reflected(antenna, own)});
   for (const auto& alternative : antenna.antenna.alternatives) {
@@ -267,13 +268,13 @@ identification::DriveEvidence make_evidence(const Case& antenna) {
     if (stated.quantity != "load_inertia" || evidence.printed_load) continue;
     evidence.printed_load = {stated.value.source, stated.value.value};
   }
-  const MotorEntry& motor = antenna.motor;
+  const io::MotorEntry& motor = antenna.motor;
   evidence.motor_count = static_cast<double>(motor.count);
   evidence.motor_inertia = uncertain(motor.inertia);
   evidence.displacement = uncertain(motor.displacement);
   evidence.torque_efficiency = uncertain(motor.torque_efficiency);
   evidence.volumetric_efficiency = uncertain(motor.volumetric_efficiency);
-  const OilEntry& oil = antenna.oil;
+  const io::OilEntry& oil = antenna.oil;
   if (oil.density) evidence.oil_density = uncertain(*oil.density);
   for (const auto& line : oil.lines) {
     evidence.lines.push_back({line.name, uncertain(line.length), uncertain(line.slosh_frequency)});
@@ -293,7 +294,7 @@ identification::DriveEvidence make_evidence(const Case& antenna) {
   return evidence;
 }
 
-std::vector<PointingBand> make_bands(const Case& antenna) {
+std::vector<PointingBand> make_bands(const io::Case& antenna) {
   std::vector<PointingBand> bands;
   bands.reserve(antenna.bands.size());
   for (const auto& band : antenna.bands) {
@@ -305,7 +306,7 @@ std::vector<PointingBand> make_bands(const Case& antenna) {
   return bands;
 }
 
-std::vector<PointingBudget> make_budgets(const Case& antenna) {
+std::vector<PointingBudget> make_budgets(const io::Case& antenna) {
   std::vector<PointingBudget> budgets;
   const auto bands = make_bands(antenna);
   for (const auto& entry : antenna.budgets) {
@@ -329,14 +330,14 @@ std::vector<PointingBudget> make_budgets(const Case& antenna) {
   return budgets;
 }
 
-double tightest_budget(const Case& antenna) {
+double tightest_budget(const io::Case& antenna) {
   const auto budgets = make_budgets(antenna);
   const auto tightest = std::ranges::min_element(budgets, {}, &PointingBudget::rms);
   return tightest != budgets.end() ? tightest->rms : 1e-3 * std::numbers::pi / 180.0;
 }
 
-std::optional<double> disks_at_unit_ratio(const Case& antenna, double load_inertia) {
-  const MotorEntry& motor = antenna.motor;
+std::optional<double> disks_at_unit_ratio(const io::Case& antenna, double load_inertia) {
+  const io::MotorEntry& motor = antenna.motor;
   const double each = load_inertia / static_cast<double>(motor.count);
   const double disks =
       motor.flywheel_disks + (each - motor.inertia.value) / motor.disk_inertia.value;

@@ -16,7 +16,8 @@ constexpr std::array steady_keys{
 // What identification takes of [recorder] where there are no [instruments].
 constexpr std::array instrument_keys{"pressure_gain"sv, "pressure_zero"sv, "tachometer_gain"sv};
 
-bool rests_on_simulation(const Case& antenna, std::string_view name, const NonlinearInputs& uses) {
+bool rests_on_simulation(const io::Case& antenna, std::string_view name,
+                         const NonlinearInputs& uses) {
   const bool records = !antenna.campaign.records.empty() && !antenna.campaign.return_pressure;
   if (name == "return_pressure" && records) return true;
   if (name == "valve_stroke" && (uses.valve_stroke || antenna.goals.crest_factor)) return true;
@@ -28,13 +29,14 @@ bool rests_on_simulation(const Case& antenna, std::string_view name, const Nonli
   return uses.time_runs && (name != "preload_torque" || loose_gears);
 }
 
-bool rests_on_recorder(const Case& antenna, std::string_view name, const NonlinearInputs& uses) {
+bool rests_on_recorder(const io::Case& antenna, std::string_view name,
+                       const NonlinearInputs& uses) {
   const bool records = !antenna.campaign.records.empty() && !antenna.campaign.instruments;
   return uses.recorder ||
          (records && std::ranges::find(instrument_keys, name) != instrument_keys.end());
 }
 
-bool rests_on(const Case& antenna, std::string_view key, const NonlinearInputs& uses) {
+bool rests_on(const io::Case& antenna, std::string_view key, const NonlinearInputs& uses) {
   constexpr auto simulation = "simulation."sv, recorder = "recorder."sv;
   if (key.starts_with(simulation)) {
     return rests_on_simulation(antenna, key.substr(simulation.size()), uses);
@@ -47,18 +49,19 @@ bool rests_on(const Case& antenna, std::string_view key, const NonlinearInputs& 
 
 }  // namespace
 
-std::vector<Quantity> assumed_inputs(const Case& antenna, const NonlinearInputs& nonlinear) {
-  std::vector<Quantity> assumed;
+std::vector<io::Quantity> assumed_inputs(const io::Case& antenna,
+                                         const NonlinearInputs& nonlinear) {
+  std::vector<io::Quantity> assumed;
   for (const auto& quantity : antenna.quantities) {
     const bool guessed =
-        quantity.basis == Basis::assumed || quantity.uncertainty_source.starts_with("assumed");
+        quantity.basis == io::Basis::assumed || quantity.uncertainty_source.starts_with("assumed");
     if (guessed && rests_on(antenna, quantity.key, nonlinear)) assumed.push_back(quantity);
   }
   return assumed;
 }
 
-std::size_t count_of_antenna(const std::vector<Quantity>& assumed) {
-  return static_cast<std::size_t>(std::ranges::count_if(assumed, [](const Quantity& quantity) {
+std::size_t count_of_antenna(const std::vector<io::Quantity>& assumed) {
+  return static_cast<std::size_t>(std::ranges::count_if(assumed, [](const io::Quantity& quantity) {
     return !quantity.key.starts_with("goals.") && !quantity.key.starts_with("pointing.");
   }));
 }

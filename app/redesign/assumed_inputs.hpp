@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include <boresight/app/io/case_file.hpp>
+#include <boresight/io/case/case_file.hpp>
 
 namespace boresight::app {
 
@@ -26,9 +26,10 @@ struct NonlinearInputs {
 /// Quantities of basis `assumed`, and those whose uncertainty is, in the case's order. Of
 /// [simulation] and [recorder] those that `nonlinear` takes in, and those that stand in for
 /// [instruments] and drive.return_pressure where a case has records and lacks them.
-std::vector<Quantity> assumed_inputs(const Case& antenna, const NonlinearInputs& nonlinear = {});
+std::vector<io::Quantity> assumed_inputs(const io::Case& antenna,
+                                         const NonlinearInputs& nonlinear = {});
 
 /// How many of them describe the antenna, and not what is asked of it (goals, pointing).
-std::size_t count_of_antenna(const std::vector<Quantity>& assumed);
+std::size_t count_of_antenna(const std::vector<io::Quantity>& assumed);
 
 }  // namespace boresight::app

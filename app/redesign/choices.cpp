@@ -5,17 +5,17 @@
 
 #include <fmt/format.h>
 
-#include <boresight/app/io/structure_numbers.hpp>
 #include <boresight/app/redesign/choices.hpp>
 #include <boresight/app/redesign/resonance_verdict.hpp>
 #include <boresight/app/redesign/resonating_mode.hpp>
+#include <boresight/io/case/structure_numbers.hpp>
 
 namespace boresight::app {
 namespace {
 
 class Choices {
  public:
-  explicit Choices(const Case& antenna)
+  explicit Choices(const io::Case& antenna)
       : antenna_(antenna), motors_(motor_inertia(antenna, antenna.motor.flywheel_disks)) {}
 
   // Motors and gear train.
@@ -86,14 +86,14 @@ class Choices {
   std::vector<PlantChoice> take() { return std::move(choices_); }
 
  private:
-  const Case& antenna_;
+  const io::Case& antenna_;
   double motors_ = 0.0;
   std::vector<PlantChoice> choices_;
 };
 
 // The oil by which the flexible antenna resonates at that frequency (Hz), if that is other oil than
 // the case's.
-void add_flexible_resonance(const Case& antenna, double frequency, const std::string& leakage,
+void add_flexible_resonance(const io::Case& antenna, double frequency, const std::string& leakage,
                             Choices& choices) {
   constexpr double same_oil = 0.01, gigapascal = 1e9;
   const auto modulus = bulk_modulus_for(antenna, frequency);
@@ -110,7 +110,7 @@ void add_flexible_resonance(const Case& antenna, double frequency, const std::st
 }
 
 // By a resonance at that frequency (Hz); `other`: the oil spring by the other convention.
-void add_resonance(const Case& antenna, double frequency, double other, Choices& choices) {
+void add_resonance(const io::Case& antenna, double frequency, double other, Choices& choices) {
   const std::string leakage =
       antenna.drive.leakage_by_flow ? ", and the leakage rate with it," : "";
   add_flexible_resonance(antenna, frequency, leakage, choices);
@@ -139,7 +139,7 @@ void add_resonance(const Case& antenna, double frequency, double other, Choices&
 
 }  // namespace
 
-std::vector<PlantChoice> plant_choices(const Case& antenna) {
+std::vector<PlantChoice> plant_choices(const io::Case& antenna) {
   Choices choices(antenna);
   choices.add("reference", "masses and oil stiffness of the plant above", {});
   for (const auto& alternative : antenna.antenna.alternatives) {
@@ -157,7 +157,7 @@ std::vector<PlantChoice> plant_choices(const Case& antenna) {
   // A convention changes no oil, and so no leakage rate.
   choices.add(efficient ? "stiffness without efficiencies" : "stiffness with efficiencies",
               "the other convention for the oil spring", {.oil_stiffness = other});
-  const std::size_t antennas = structure_specifications(antenna.structure).size();
+  const std::size_t antennas = io::structure_specifications(antenna.structure).size();
   for (std::size_t i = 1; i < antennas; ++i) {
     const PlantVariant variant{.structure = i};
     const double spring = make_plant(antenna, variant).structure.gear_stiffness;

@@ -19,6 +19,6 @@ struct PlantChoice {
 /// held, other places of the guessed shares of wind and beam (GuessedShares), and what resonance
 /// and impulses say of oil spring or inertia: the resonance of the flexible antenna
 /// (bulk_modulus_for) first, then of rigid masses.
-std::vector<PlantChoice> plant_choices(const Case& antenna);
+std::vector<PlantChoice> plant_choices(const io::Case& antenna);
 
 }  // namespace boresight::app

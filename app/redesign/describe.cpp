@@ -6,12 +6,12 @@
 
 #include <boresight/app/redesign/loaded_drive.hpp>
 #include <boresight/app/redesign/sections.hpp>
-#include <boresight/plant/plant_response.hpp>
+#include <boresight/plant/antenna/plant_response.hpp>
 
 namespace boresight::app {
 namespace {
 
-std::string printed(const Case& antenna, const std::string& id) {
+std::string printed(const io::Case& antenna, const std::string& id) {
   for (const auto& stated : antenna.stated) {
     if (stated.quantity == id) return stated.value.text;
   }
@@ -19,18 +19,17 @@ std::string printed(const Case& antenna, const std::string& id) {
 }
 
 // Tachometer scale, friction and offset: small results with inputs of their own.
-void identify_sensors(const Case& antenna, const StudyOptions& options,
+void identify_sensors(const io::Case& antenna, const StudyOptions& options,
                       IdentificationSection& section) {
   using Point = std::span<const double>;
-  const auto input = [](const Quantity& quantity) {
-    return identification::UncertainInput{quantity.key, quantity.value,
-                                          quantity.standard_uncertainty};
+  const auto input = [](const io::Quantity& quantity) {
+    return numerics::UncertainInput{quantity.key, quantity.value, quantity.standard_uncertainty};
   };
-  const identification::PropagationOptions draws{20000, options.seed};
+  const numerics::PropagationOptions draws{20000, options.seed};
   if (antenna.tachometer) {
-    const TachometerEntry& tachometer = *antenna.tachometer;
+    const io::TachometerEntry& tachometer = *antenna.tachometer;
     section.tachometer_scale =
-        identification::propagate(
+        numerics::propagate(
             {input(tachometer.shaft_speed), input(tachometer.voltage)},
             {{"tachometer scale",
               [turns = tachometer.motor_teeth.value / tachometer.tachometer_teeth.value](Point x) {
@@ -39,9 +38,9 @@ void identify_sensors(const Case& antenna, const StudyOptions& options,
             draws)
             .front();
   }
-  const FrictionTestsEntry& tests = antenna.friction_tests;
+  const io::FrictionTestsEntry& tests = antenna.friction_tests;
   if (tests.slow_ramp_up && tests.slow_ramp_down) {
-    const auto results = identification::propagate(
+    const auto results = numerics::propagate(
         {input(*tests.slow_ramp_up), input(*tests.slow_ramp_down)},
         {{"Coulomb friction, slow ramp",
           [](Point x) { return identification::friction_and_offset(x[0], x[1]).coulomb; }},
@@ -56,7 +55,7 @@ void identify_sensors(const Case& antenna, const StudyOptions& options,
 // What the case prints for each method. A printed total belongs to the printed load it sums, or to
 // the first mass properties.
 std::vector<IdentificationSection::Printed> printed_beside(
-    const Case& antenna, const std::vector<identification::InertiaMethod>& methods) {
+    const io::Case& antenna, const std::vector<identification::InertiaMethod>& methods) {
   using identification::MethodKind;
   std::vector<IdentificationSection::Printed> beside(methods.size());
   const bool load = !printed(antenna, "load_inertia").empty();
@@ -83,14 +82,14 @@ std::vector<IdentificationSection::Printed> printed_beside(
 }
 
 // One estimate a kind: the first mass properties, the resonance, the impulses' mean.
-std::vector<identification::Uncertain> independent_estimates(
+std::vector<numerics::Uncertain> independent_estimates(
     const std::vector<identification::InertiaMethod>& methods) {
   using identification::MethodKind;
-  std::vector<identification::Uncertain> estimates;
-  std::vector<identification::Uncertain> impulses;
+  std::vector<numerics::Uncertain> estimates;
+  std::vector<numerics::Uncertain> impulses;
   for (const auto& method : methods) {
-    const identification::Uncertain estimate{method.reflected_inertia.value,
-                                             method.reflected_inertia.standard_uncertainty};
+    const numerics::Uncertain estimate{method.reflected_inertia.value,
+                                       method.reflected_inertia.standard_uncertainty};
     if (method.kind == MethodKind::impulse) {
       impulses.push_back(estimate);
     } else if (method.kind == MethodKind::resonance || estimates.empty()) {
@@ -110,11 +109,12 @@ std::vector<identification::Uncertain> independent_estimates(
 }
 
 // What the mass properties take from the case.
-std::string stated_masses(const Case& antenna) {
-  const auto solid = [](const RotatingAssembly& assembly) {
-    return !assembly.inertia && std::ranges::any_of(assembly.parts, [](const AssemblyPart& part) {
-      return !part.inertia.has_value();
-    });
+std::string stated_masses(const io::Case& antenna) {
+  const auto solid = [](const io::RotatingAssembly& assembly) {
+    return !assembly.inertia &&
+           std::ranges::any_of(assembly.parts, [](const io::AssemblyPart& part) {
+             return !part.inertia.has_value();
+           });
   };
   std::string text = "the case's inertias of motors and antenna";
   if (std::ranges::any_of(antenna.gear_train.assemblies, solid)) {
@@ -125,19 +125,19 @@ std::string stated_masses(const Case& antenna) {
 
 }  // namespace
 
-IdentificationSection identify(const Case& antenna, const StudyOptions& options) {
+IdentificationSection identify(const io::Case& antenna, const StudyOptions& options) {
   IdentificationSection section;
   section.inertia = identification::identify_inertia(make_evidence(antenna), {20000, options.seed});
 
   const auto& methods = section.inertia.methods;
   section.printed = printed_beside(antenna, methods);
-  section.pounds_force = std::ranges::any_of(antenna.quantities, [](const Quantity& quantity) {
+  section.pounds_force = std::ranges::any_of(antenna.quantities, [](const io::Quantity& quantity) {
     const auto in_pounds = [](const std::string& text) {
       return text.find("lbf") != std::string::npos;
     };
-    return quantity.kind == Kind::inertia &&
+    return quantity.kind == io::Kind::inertia &&
            (in_pounds(quantity.text) ||
-            std::ranges::any_of(quantity.also, [&](const PrintedNumber& number) {
+            std::ranges::any_of(quantity.also, [&](const io::PrintedNumber& number) {
               return in_pounds(number.text);
             }));
   });
@@ -156,23 +156,23 @@ IdentificationSection identify(const Case& antenna, const StudyOptions& options)
   return section;
 }
 
-PlantSection describe_plant(const Case& antenna) {
+PlantSection describe_plant(const io::Case& antenna) {
   PlantSection section;
   section.plant = make_plant(antenna);
-  section.gear_ratio = gear_ratio(antenna);
+  section.gear_ratio = io::gear_ratio(antenna);
   section.reflected_inertia = plant::reflected_inertia(section.plant);
   section.motor_to_load_ratio = plant::motor_to_load_ratio(
       motor_inertia(antenna, antenna.motor.flywheel_disks), section.reflected_inertia);
   section.rigid_frequency =
       plant::hydraulic_frequency(section.plant.drive.oil_stiffness, section.reflected_inertia);
-  section.tracking_slope = tracking_slope(antenna);
-  section.friction = friction_curve(antenna);
+  section.tracking_slope = io::tracking_slope(antenna);
+  section.friction = io::friction_curve(antenna);
   section.friction_tests = antenna.friction_curve.tests;
   section.modes = plant::plant_modes(section.plant);
   section.motors_held = antenna.structure.motors_held;
   section.hydraulic = plant::hydraulic_mode(section.modes);
-  section.supply_torque = supply_torque(antenna);
-  section.torque_for_wind = torque_for_wind(antenna);
+  section.supply_torque = io::supply_torque(antenna);
+  section.torque_for_wind = io::torque_for_wind(antenna);
   const auto problem = make_problem(antenna);
   section.mean_wind_torque =
       plant::mean_wind_torque(problem.wind.site, problem.wind.mean_speed) / section.gear_ratio;

@@ -3,8 +3,8 @@
 #include <cmath>
 #include <vector>
 
-#include <boresight/app/io/structure_numbers.hpp>
 #include <boresight/app/redesign/guessed_shares.hpp>
+#include <boresight/io/case/structure_numbers.hpp>
 
 namespace boresight::app {
 namespace {
@@ -41,15 +41,15 @@ std::string_view to_string(GuessedShares place) {
   return names.at(static_cast<std::size_t>(place));
 }
 
-bool is_unbounded_guess(const Quantity& quantity) {
-  return quantity.basis == Basis::assumed && !quantity.uncertainty_given;
+bool is_unbounded_guess(const io::Quantity& quantity) {
+  return quantity.basis == io::Basis::assumed && !quantity.uncertainty_given;
 }
 
-bool is_guessed_share(const Quantity& share) {
+bool is_guessed_share(const io::Quantity& share) {
   return is_unbounded_guess(share) && share.value >= 0.0;
 }
 
-void place_guessed_shares(const StructureEntry& structure, GuessedShares where,
+void place_guessed_shares(const io::StructureEntry& structure, GuessedShares where,
                           plant::StructureSpecification& specification) {
   if (where == GuessedShares::as_stated) return;
   double bull_gear = 1.0;
@@ -70,9 +70,9 @@ void place_guessed_shares(const StructureEntry& structure, GuessedShares where,
   place(std::move(beam), where);
 }
 
-bool moves_guessed_shares(const StructureEntry& structure, GuessedShares where) {
+bool moves_guessed_shares(const io::StructureEntry& structure, GuessedShares where) {
   constexpr double same = 0.02;
-  const plant::StructureSpecification stated = structure_specification(structure);
+  const plant::StructureSpecification stated = io::structure_specification(structure);
   plant::StructureSpecification placed = stated;
   place_guessed_shares(structure, where, placed);
   const auto apart = [](double x, double y) { return std::abs(x - y) > same; };

@@ -8,13 +8,13 @@
 #include <boresight/app/redesign/guessed_shares_held.hpp>
 #include <boresight/app/report/influences.hpp>
 #include <boresight/app/report/sky_units.hpp>
-#include <boresight/design/plant_ensemble.hpp>
+#include <boresight/design/ensembles/plant_ensemble.hpp>
 
 namespace boresight::app {
 namespace {
 
 // Beam rms (rad); NaN where the loop is unstable.
-double held_rms(const Case& antenna, const control::ControlLaw& law, double wind_speed,
+double held_rms(const io::Case& antenna, const control::ControlLaw& law, double wind_speed,
                 GuessedShares place) {
   design::TrackingProblem problem = make_problem(antenna, {.guessed_shares = place});
   problem.wind.mean_speed = wind_speed;
@@ -25,8 +25,8 @@ double held_rms(const Case& antenna, const control::ControlLaw& law, double wind
 
 }  // namespace
 
-void conclude_guessed_shares(const Case& antenna, const control::ControlLaw& law, double wind_speed,
-                             std::vector<std::string>& sentences) {
+void conclude_guessed_shares(const io::Case& antenna, const control::ControlLaw& law,
+                             double wind_speed, std::vector<std::string>& sentences) {
   const double own = held_rms(antenna, law, wind_speed, GuessedShares::as_stated);
   // The shares stand in no loop: what is stable with one guess is so with all.
   if (!std::isfinite(own)) return;

@@ -9,14 +9,14 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <boresight/app/io/structure_numbers.hpp>
 #include <boresight/app/redesign/antenna_model.hpp>
 #include <boresight/app/redesign/input_effects.hpp>
 #include <boresight/app/report/influences.hpp>
 #include <boresight/app/report/sky_units.hpp>
-#include <boresight/design/parallel_loop.hpp>
-#include <boresight/design/plant_ensemble.hpp>
-#include <boresight/plant/error.hpp>
+#include <boresight/design/ensembles/plant_ensemble.hpp>
+#include <boresight/io/case/structure_numbers.hpp>
+#include <boresight/numerics/error.hpp>
+#include <boresight/numerics/parallel_loop.hpp>
 
 namespace boresight::app {
 namespace {
@@ -25,25 +25,25 @@ constexpr double unstated_share = 0.1;
 
 // A number as the case states it, and where it works.
 struct Input {
-  const Quantity* stated = nullptr;
+  const io::Quantity* stated = nullptr;
   double* value = nullptr;
 };
 
-void add(std::vector<Quantity*>& places, std::optional<Quantity>& quantity) {
+void add(std::vector<io::Quantity*>& places, std::optional<io::Quantity>& quantity) {
   if (quantity) places.push_back(&*quantity);
 }
 
 // Whether the case states the gear train's stiffness in the place of the locked-rotor frequency.
-bool frequency_by_stiffness(const StructureEntry& structure) {
+bool frequency_by_stiffness(const io::StructureEntry& structure) {
   return structure.gear_stiffness &&
          structure.locked_rotor_frequency.key == structure.gear_stiffness->key;
 }
 
 // Those that a case keeps as quantities, in its order.
-std::vector<Quantity*> quantities_of(Case& c) {
-  std::vector<Quantity*> places{&c.antenna.dish_diameter,   &c.antenna.inertia,
-                                &c.motor.inertia,           &c.motor.displacement,
-                                &c.motor.torque_efficiency, &c.motor.volumetric_efficiency};
+std::vector<io::Quantity*> quantities_of(io::Case& c) {
+  std::vector<io::Quantity*> places{&c.antenna.dish_diameter,   &c.antenna.inertia,
+                                    &c.motor.inertia,           &c.motor.displacement,
+                                    &c.motor.torque_efficiency, &c.motor.volumetric_efficiency};
   add(places, c.oil.bulk_modulus);
   if (!c.oil.bulk_modulus) {
     add(places, c.oil.density);
@@ -55,7 +55,7 @@ std::vector<Quantity*> quantities_of(Case& c) {
   places.insert(places.end(),
                 {&c.oil.volume_1, &c.oil.volume_2, &c.drive.leakage_rate, &c.drive.viscous_friction,
                  &c.drive.valve_frequency, &c.drive.valve_damping});
-  StructureEntry& structure = c.structure;
+  io::StructureEntry& structure = c.structure;
   if (structure.gear_stiffness && frequency_by_stiffness(structure)) {
     places.push_back(&*structure.gear_stiffness);
   } else {
@@ -74,20 +74,21 @@ std::vector<Quantity*> quantities_of(Case& c) {
   places.insert(places.end(), {&c.controller_delay, &c.wind.air_density, &c.wind.torque_coefficient,
                                &c.wind.gradient_coefficient, &c.wind.coherence_decay});
   // What another number of the case gives has no key of its own, and what records gave no text.
-  std::erase_if(places, [](const Quantity* one) { return one->key.empty() || one->text.empty(); });
+  std::erase_if(places,
+                [](const io::Quantity* one) { return one->key.empty() || one->text.empty(); });
   return places;
 }
 
 // With the gusts' strength and length, which a case keeps as the plant takes them.
-std::vector<Input> linear_inputs(Case& c) {
+std::vector<Input> linear_inputs(io::Case& c) {
   std::vector<Input> inputs;
-  for (Quantity* quantity : quantities_of(c)) inputs.push_back({quantity, &quantity->value});
+  for (io::Quantity* quantity : quantities_of(c)) inputs.push_back({quantity, &quantity->value});
   plant::GustSpectrum& gusts = c.wind.gusts;
   for (const auto& [key, value] :
        {std::pair{"wind.surface_drag", &gusts.surface_drag},
         std::pair{"wind.turbulence_intensity", &gusts.turbulence_intensity},
         std::pair{"wind.length_scale", &gusts.length_scale}}) {
-    const auto stated = std::ranges::find(c.quantities, std::string_view(key), &Quantity::key);
+    const auto stated = std::ranges::find(c.quantities, std::string_view(key), &io::Quantity::key);
     if (stated != c.quantities.end()) inputs.push_back({&*stated, value});
   }
   return inputs;
@@ -100,7 +101,7 @@ struct Share {
 };
 
 // Bull gear's and modes' shares of wind and beam, each of which sum to 1.
-std::array<std::vector<Share>, 2> shares(StructureEntry& structure) {
+std::array<std::vector<Share>, 2> shares(io::StructureEntry& structure) {
   double bull_gear = 1.0;
   for (const auto& mode : structure.modes) bull_gear -= mode.inertia_fraction.value;
   std::array<std::vector<Share>, 2> groups{{{{&structure.bull_gear_wind_fraction.value, bull_gear}},
@@ -132,7 +133,8 @@ void make_room(std::vector<Share>& group, const double* moved, double by) {
 }
 
 // Of the body whose share of wind or beam this is; none of any other number.
-std::optional<double> inertia_fraction_of(const StructureEntry& structure, const Quantity& share) {
+std::optional<double> inertia_fraction_of(const io::StructureEntry& structure,
+                                          const io::Quantity& share) {
   double bull_gear = 1.0;
   for (const auto& mode : structure.modes) {
     if (&share == &mode.wind_fraction || &share == &mode.beam_weight) {
@@ -146,12 +148,12 @@ std::optional<double> inertia_fraction_of(const StructureEntry& structure, const
 }
 
 // Of a mode's share: an entry of frequencies with the motors held has shares of another mode.
-std::string mode_of(const StructureEntry& structure, const Quantity& share) {
+std::string mode_of(const io::StructureEntry& structure, const io::Quantity& share) {
   for (std::size_t i = 0; i < structure.modes.size(); ++i) {
     const auto& mode = structure.modes[i];
     if (&share != &mode.wind_fraction && &share != &mode.beam_weight) continue;
     return fmt::format("the mode of {:.3g} Hz{}",
-                       structure_specification(structure).modes.at(i).frequency,
+                       io::structure_specification(structure).modes.at(i).frequency,
                        structure.motors_held ? " with the bull gear held" : "");
   }
   return "";
@@ -169,7 +171,7 @@ std::pair<double, double> guessed_range(double share, double inertia_fraction) {
 }
 
 // How far a number is moved; by nothing where nothing says how far.
-InputEffect planned(const Case& antenna, const Quantity& stated) {
+InputEffect planned(const io::Case& antenna, const io::Quantity& stated) {
   InputEffect effect;
   effect.quantity = stated;
   effect.mode = mode_of(antenna.structure, stated);
@@ -186,7 +188,7 @@ InputEffect planned(const Case& antenna, const Quantity& stated) {
   return effect;
 }
 
-void move(Case& antenna, std::size_t which, double by) {
+void move(io::Case& antenna, std::size_t which, double by) {
   const Input input = linear_inputs(antenna)[which];
   double* moved = input.value;
   // A number that works converted, as of a wind mast, moves by the same share.
@@ -195,21 +197,21 @@ void move(Case& antenna, std::size_t which, double by) {
     if (std::ranges::find(group, moved, &Share::value) != group.end()) make_room(group, moved, by);
   }
   *moved += by;
-  StructureEntry& structure = antenna.structure;
+  io::StructureEntry& structure = antenna.structure;
   if (structure.gear_stiffness && moved == &structure.gear_stiffness->value) {
-    structure.locked_rotor_frequency.value = locked_rotor_frequency_for(
-        structure_specification(structure), *moved / antenna.antenna.inertia.value);
+    structure.locked_rotor_frequency.value = io::locked_rotor_frequency_for(
+        io::structure_specification(structure), *moved / antenna.antenna.inertia.value);
   }
 }
 
 // Of the oil on both sides (Pa/m3): a leakage flow makes a leakage rate in proportion to it.
-double pressure_per_volume(const Case& antenna) {
+double pressure_per_volume(const io::Case& antenna) {
   return bulk_modulus(antenna) *
          (1.0 / antenna.oil.volume_1.value + 1.0 / antenna.oil.volume_2.value);
 }
 
 // Not a number where the loop is unstable; nothing where no antenna can be made of the case.
-std::optional<double> held_rms(const Case& antenna, const control::ControlLaw& law,
+std::optional<double> held_rms(const io::Case& antenna, const control::ControlLaw& law,
                                const design::HardGoals& goals) {
   try {
     const design::TrackingProblem problem = make_problem(antenna);
@@ -254,10 +256,10 @@ double InputEffect::change(double rms) const {
   return std::max(std::abs(low_rms - rms), std::abs(high_rms - rms)) / rms;
 }
 
-std::vector<InputEffect> input_effects(const Case& antenna, const control::ControlLaw& law,
+std::vector<InputEffect> input_effects(const io::Case& antenna, const control::ControlLaw& law,
                                        const design::HardGoals& goals, double rms, std::size_t most,
                                        unsigned threads) {
-  Case whole = antenna;
+  io::Case whole = antenna;
   std::vector<InputEffect> effects;
   std::vector<std::size_t> which;
   const auto inputs = linear_inputs(whole);
@@ -268,14 +270,14 @@ std::vector<InputEffect> input_effects(const Case& antenna, const control::Contr
     which.push_back(i);
   }
   std::vector<std::optional<double>> held(2 * effects.size());
-  design::for_each_index(held.size(), threads, [&](std::size_t job) {
+  numerics::for_each_index(held.size(), threads, [&](std::size_t job) {
     const InputEffect& effect = effects[job / 2];
     const bool lower = job % 2 == 0;
     double by = lower ? -effect.moved_by : effect.moved_by;
     if (effect.range) {
       by = (lower ? effect.range->first : effect.range->second) - effect.quantity.value;
     }
-    Case moved = antenna;
+    io::Case moved = antenna;
     try {
       move(moved, which[job / 2], by);
     } catch (const InvalidInput&) {

@@ -5,16 +5,16 @@
 #include <utility>
 #include <vector>
 
-#include <boresight/app/io/case_file.hpp>
 #include <boresight/app/simulate/time_domain.hpp>
-#include <boresight/control/control_law.hpp>
-#include <boresight/design/goals.hpp>
+#include <boresight/control/controllers/control_law.hpp>
+#include <boresight/design/problem/goals.hpp>
+#include <boresight/io/case/case_file.hpp>
 
 namespace boresight::app {
 
 /// What a tuned law's rms owes to one number of the case.
 struct InputEffect {
-  Quantity quantity;
+  io::Quantity quantity;
   /// Which mode's share of wind or beam it is, by its frequency; empty for any other number.
   std::string mode = {};
   /// How far it is moved to either side, in its SI unit (Hz for frequencies): by the standard
@@ -41,7 +41,7 @@ struct InputEffect {
 /// others give way in proportion. Left out is what changes the rms by less than a thousandth, what
 /// leaves no antenna, and what was identified from records: what those leave open is not the case's
 /// uncertainty. The same for any number of threads.
-std::vector<InputEffect> input_effects(const Case& antenna, const control::ControlLaw& law,
+std::vector<InputEffect> input_effects(const io::Case& antenna, const control::ControlLaw& law,
                                        const design::HardGoals& goals, double rms, std::size_t most,
                                        unsigned threads);
 

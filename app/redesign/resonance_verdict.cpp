@@ -15,19 +15,20 @@ namespace {
 
 constexpr double gigapascal = 1e9;  // Pa
 
-double resonance(const Case& antenna, const PlantVariant& variant) {
+double resonance(const io::Case& antenna, const PlantVariant& variant) {
   return resonating_mode(antenna, make_plant(antenna, variant)).frequency;
 }
 
 // With a bulk modulus so many times the case's.
-PlantVariant with_modulus(const Case& antenna, double factor) {
+PlantVariant with_modulus(const io::Case& antenna, double factor) {
   return {.oil_stiffness = factor * oil_stiffness(antenna),
           .leakage_rate = leakage_rate_at(antenna, factor)};
 }
 
 // Where the frequency passes through the wanted one between two factors; nothing where it jumps
 // over it, as the mode's place passes to another.
-std::optional<double> crossing(const Case& antenna, double frequency, double lower, double upper) {
+std::optional<double> crossing(const io::Case& antenna, double frequency, double lower,
+                               double upper) {
   const auto above = [&](double factor) {
     return resonance(antenna, with_modulus(antenna, factor)) > frequency;
   };
@@ -43,11 +44,13 @@ std::optional<double> crossing(const Case& antenna, double frequency, double low
   return std::abs(found / frequency - 1.0) < same ? std::optional(lower) : std::nullopt;
 }
 
-double expected_uncertainty(const Case& antenna, double expected) {
+double expected_uncertainty(const io::Case& antenna, double expected) {
   const auto stiffness =
       identification::identify_inertia(make_evidence(antenna), {1000, 1}).oil_stiffness;
   const double oil = stiffness.standard_uncertainty / stiffness.value;
-  const auto upward = [](const Quantity& quantity) { return 1.0 + relative_uncertainty(quantity); };
+  const auto upward = [](const io::Quantity& quantity) {
+    return 1.0 + io::relative_uncertainty(quantity);
+  };
   PlantVariant heavier;
   heavier.antenna_inertia = upward(antenna.antenna.inertia) * antenna_inertia(antenna);
   double variance = 0.0;
@@ -71,7 +74,7 @@ bool ResonanceVerdict::contradicts() const {
   return deviation() > 3.0;
 }
 
-std::optional<double> bulk_modulus_for(const Case& antenna, double frequency) {
+std::optional<double> bulk_modulus_for(const io::Case& antenna, double frequency) {
   constexpr double farthest = 30.0;
   constexpr int steps = 20;  // to either side
   const double step = std::pow(farthest, 1.0 / steps);
@@ -87,7 +90,7 @@ std::optional<double> bulk_modulus_for(const Case& antenna, double frequency) {
   return std::nullopt;
 }
 
-std::optional<ResonanceVerdict> resonance_verdict(const Case& antenna) {
+std::optional<ResonanceVerdict> resonance_verdict(const io::Case& antenna) {
   if (!antenna.resonance_frequency) return std::nullopt;
   ResonanceVerdict verdict;
   verdict.measured = antenna.resonance_frequency->value;

@@ -3,9 +3,9 @@
 #include <optional>
 #include <string>
 
-#include <boresight/app/io/case_file.hpp>
-#include <boresight/identification/inertia_methods.hpp>
-#include <boresight/plant/antenna_plant.hpp>
+#include <boresight/identification/campaign/inertia_methods.hpp>
+#include <boresight/io/case/case_file.hpp>
+#include <boresight/plant/antenna/antenna_plant.hpp>
 
 namespace boresight::app {
 
@@ -36,10 +36,10 @@ struct ResonanceVerdict {
 /// antenna has that frequency (Hz), all else as in the case and the leakage rate as
 /// leakage_rate_at has it; nothing if none within a factor of 30 of the case's does, the nearest of
 /// several.
-std::optional<double> bulk_modulus_for(const Case& antenna, double frequency);
+std::optional<double> bulk_modulus_for(const io::Case& antenna, double frequency);
 
 /// Nothing for a case without a measured frequency.
-std::optional<ResonanceVerdict> resonance_verdict(const Case& antenna);
+std::optional<ResonanceVerdict> resonance_verdict(const io::Case& antenna);
 
 /// The oil_remark of the expected mode, and to make sure which was measured; empty without one and
 /// where the case says which.

@@ -10,12 +10,12 @@ constexpr double half = 0.5;
 
 }  // namespace
 
-plant::PlantMode resonating_mode(const Case& antenna, const plant::AntennaPlant& plant) {
+plant::PlantMode resonating_mode(const io::Case& antenna, const plant::AntennaPlant& plant) {
   const auto modes = plant::plant_modes(plant);
   return antenna.resonance_of_oil ? plant::mode_of_oil(modes) : plant::hydraulic_mode(modes);
 }
 
-bool rings_as_rigid(const Case& antenna) {
+bool rings_as_rigid(const io::Case& antenna) {
   const auto modes = plant::plant_modes(make_plant(antenna));
   const plant::PlantMode hydraulic = plant::hydraulic_mode(modes);
   const bool of_it =

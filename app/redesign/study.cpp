@@ -8,8 +8,9 @@
 #include <boresight/app/redesign/sections.hpp>
 #include <boresight/app/tune/engineer_units.hpp>
 #include <boresight/app/tune/position_gain_trade.hpp>
-#include <boresight/design/parallel_loop.hpp>
-#include <boresight/plant/plant_response.hpp>
+#include <boresight/design/decisions/recommend.hpp>
+#include <boresight/numerics/parallel_loop.hpp>
+#include <boresight/plant/antenna/plant_response.hpp>
 
 namespace boresight::app {
 namespace {
@@ -17,7 +18,7 @@ namespace {
 using control::LoopStructure;
 constexpr int seed_count = 8;
 
-design::DesignTask make_task(const Case& antenna, const StudyOptions& options, std::string name,
+design::DesignTask make_task(const io::Case& antenna, const StudyOptions& options, std::string name,
                              const PlantVariant& variant, LoopStructure structure) {
   design::DesignTask task;
   task.name = std::move(name);
@@ -28,22 +29,22 @@ design::DesignTask make_task(const Case& antenna, const StudyOptions& options, s
   return task;
 }
 
-double ratio_of(const Case& antenna, const design::TrackingProblem& problem, double disks) {
+double ratio_of(const io::Case& antenna, const design::TrackingProblem& problem, double disks) {
   return plant::motor_to_load_ratio(motor_inertia(antenna, disks),
                                     plant::reflected_inertia(problem.plant));
 }
 
-std::vector<design::DesignTask> tuning_tasks(const Case& antenna, const StudyOptions& options) {
+std::vector<design::DesignTask> tuning_tasks(const io::Case& antenna, const StudyOptions& options) {
   std::vector<design::DesignTask> tasks;
   for (int i = 0; i < seed_count; ++i) {
-    tasks.push_back(make_task(antenna, options, "as built", {}, loop_structure(antenna, "PI")));
+    tasks.push_back(make_task(antenna, options, "as built", {}, io::loop_structure(antenna, "PI")));
     tasks.back().options.seed = options.seed + static_cast<std::uint64_t>(i);
   }
   return tasks;
 }
 
 // What the tuned law means at the sky: other winds, bending, bands and budgets.
-void judge_in_wind(const Case& antenna, const design::TrackingProblem& problem,
+void judge_in_wind(const io::Case& antenna, const design::TrackingProblem& problem,
                    TuningSection& section) {
   control::LoopEvaluator evaluator = design::make_evaluator(problem);
   const control::ControlLaw& law = section.design.tuning.law;
@@ -81,14 +82,26 @@ void judge_in_wind(const Case& antenna, const design::TrackingProblem& problem,
   }
 }
 
-TuningSection tuning_section(const Case& antenna, const StudyOptions& options,
+// Of one structure's designs on the nominal plant; where none is stable, the first.
+std::size_t recommended_design(const std::vector<design::Design>& designs) {
+  std::vector<design::Assessment> candidates;
+  for (const auto& one : designs) {
+    design::Assessment candidate;
+    candidate.structure = one.name;
+    candidate.parts = one.tuning.law.structure.gains().size();
+    candidate.stable = one.tuning.status != design::TuningStatus::unstable;
+    candidate.verified = one.verification.passed;
+    candidate.nominal_constraints_met = one.tuning.status == design::TuningStatus::optimal;
+    candidate.linear_rms = one.beam_rms;
+    candidates.push_back(std::move(candidate));
+  }
+  return design::recommend(candidates, {.accepted = design::Fitness::unstable}).winner.value_or(0);
+}
+
+TuningSection tuning_section(const io::Case& antenna, const StudyOptions& options,
                              const std::vector<design::Design>& designs) {
   TuningSection section;
-  const auto better = [](const design::Design& x, const design::Design& y) {
-    const bool x_good = x.verification.passed, y_good = y.verification.passed;
-    return x_good != y_good ? x_good : x.beam_rms < y.beam_rms;
-  };
-  section.design = *std::min_element(designs.begin(), designs.end(), better);
+  section.design = designs[recommended_design(designs)];
   section.goals = make_goals(antenna);
   for (std::size_t i = 0; i < designs.size(); ++i) {
     section.seeds.push_back(
@@ -106,7 +119,7 @@ TuningSection tuning_section(const Case& antenna, const StudyOptions& options,
   section.wind_attitude = antenna.wind.attitude;
   section.wind_mast = antenna.wind.mast;
   section.climate = antenna.wind.climate_parts;
-  section.demand_assumption = demand_assumption(antenna);
+  section.demand_assumption = io::demand_assumption(antenna);
   for (const auto& law : present_laws(antenna)) {
     section.present.push_back({law.structure.name(), design::assess(problem, law, section.goals)});
   }
@@ -127,7 +140,7 @@ struct MatchingPlan {
   std::vector<design::DesignTask> tasks;
 };
 
-MatchingPlan plan_matching(const Case& antenna, const StudyOptions& options) {
+MatchingPlan plan_matching(const io::Case& antenna, const StudyOptions& options) {
   MatchingPlan plan;
   std::vector<double> disks = antenna.matching_disks;
   const double as_built = antenna.motor.flywheel_disks;
@@ -161,7 +174,7 @@ MatchingPlan plan_matching(const Case& antenna, const StudyOptions& options) {
     plan.section.rows.push_back(std::move(row));
   }
   const double linear = antenna.drive.viscous_friction.value;
-  const double tracking = tracking_friction(antenna);
+  const double tracking = io::tracking_friction(antenna);
   std::vector<std::pair<double, std::string>> frictions{{linear, "linear plant"},
                                                         {tracking, "slope at tracking rate"}};
   // Twice the same study would tell nothing.
@@ -169,7 +182,8 @@ MatchingPlan plan_matching(const Case& antenna, const StudyOptions& options) {
     frictions = {{linear, ""}};
   }
   for (const auto& [friction, name] : frictions) {
-    for (const auto& structure : {loop_structure(antenna, "PI"), loop_structure(antenna, "PI-0")}) {
+    for (const auto& structure :
+         {io::loop_structure(antenna, "PI"), io::loop_structure(antenna, "PI-0")}) {
       plan.section.series.push_back({name, friction, structure, {}});
       for (const auto& row : plan.section.rows) {
         plan.tasks.push_back(make_task(antenna, options, row.label,
@@ -189,7 +203,7 @@ MatchingSection finish_matching(MatchingPlan plan, std::vector<design::Design>::
                           std::make_move_iterator(design + static_cast<std::ptrdiff_t>(rows)));
     design += static_cast<std::ptrdiff_t>(rows);
   }
-  design::for_each_index(plan.section.series.size(), threads, [&](std::size_t s) {
+  numerics::for_each_index(plan.section.series.size(), threads, [&](std::size_t s) {
     const auto first = plan.tasks.begin() + static_cast<std::ptrdiff_t>(s * rows);
     design::improve_along({first, first + static_cast<std::ptrdiff_t>(rows)},
                           plan.section.series[s].designs);
@@ -198,7 +212,7 @@ MatchingSection finish_matching(MatchingPlan plan, std::vector<design::Design>::
 }
 
 // Wind speeds (m/s) up to which a law keeps the budgets on its own plant.
-std::optional<std::vector<double>> speed_limits(const Case& antenna,
+std::optional<std::vector<double>> speed_limits(const io::Case& antenna,
                                                 const design::TrackingProblem& problem,
                                                 const design::Design& design) {
   if (design.tuning.status == design::TuningStatus::unstable) return std::nullopt;
@@ -211,20 +225,20 @@ std::optional<std::vector<double>> speed_limits(const Case& antenna,
   return limits;
 }
 
-std::vector<design::DesignTask> choice_tasks(const Case& antenna, const StudyOptions& options,
+std::vector<design::DesignTask> choice_tasks(const io::Case& antenna, const StudyOptions& options,
                                              const std::vector<PlantChoice>& choices) {
   std::vector<design::DesignTask> tasks;
   for (const auto& choice : choices) {
     if (!choice.variant) continue;
     tasks.push_back(make_task(antenna, options, choice.result.name, *choice.variant,
-                              loop_structure(antenna, "PI")));
+                              io::loop_structure(antenna, "PI")));
   }
   return tasks;
 }
 
 }  // namespace
 
-void redesign(const Case& antenna, const StudyOptions& options, Report& report) {
+void redesign(const io::Case& antenna, const StudyOptions& options, Report& report) {
   const auto tuning = tuning_tasks(antenna, options);
   std::vector<PlantChoice> choices = plant_choices(antenna);
   const auto chosen_tasks = choice_tasks(antenna, options, choices);

@@ -103,7 +103,7 @@ std::string bound_text(const TuningSection& section) {
       "too).",
       fmt::join(names, ", "));
   const SearchedLaw law{section.structure.name(), &section.design.tuning,
-                        sample_time_of(section.problem.delay)};
+                        io::sample_time_of(section.problem.delay)};
   for (const auto& sentence : corners_beyond_sampling(law)) text += " " + sentence;
   if (section.trade) {
     text += " " + trade_in_words(*section.trade, law.name, section.design.beam_rms, 0);

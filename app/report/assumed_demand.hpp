@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include <boresight/design/tuner.hpp>
+#include <boresight/design/tuning/tuner.hpp>
 
 namespace boresight::app {
 

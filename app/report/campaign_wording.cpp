@@ -20,7 +20,7 @@ std::string significant(double value) {
   return std::isfinite(value) ? fmt::format("{:.4g}", value) : "inf";
 }
 
-std::string range(const identification::Interval& interval, double scale) {
+std::string range(const numerics::Interval& interval, double scale) {
   return fmt::format("{} .. {}", significant(scale * interval.lower),
                      significant(scale * interval.upper));
 }

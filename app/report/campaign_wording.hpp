@@ -4,8 +4,8 @@
 #include <string_view>
 #include <vector>
 
-#include <boresight/identification/grey_box_test_gain.hpp>
-#include <boresight/identification/interval.hpp>
+#include <boresight/identification/grey_box/grey_box_test_gain.hpp>
+#include <boresight/numerics/statistics/interval.hpp>
 
 namespace boresight::app {
 
@@ -20,7 +20,7 @@ ShownUnit shown_unit(const std::string& unit);
 std::string significant(double value);
 
 /// "1.741 .. 1.82": four digits each.
-std::string range(const identification::Interval& interval, double scale = 1.0);
+std::string range(const numerics::Interval& interval, double scale = 1.0);
 
 /// Quantities (GreyBoxQuantity::name) that tests are ranked for.
 bool advised_quantity(std::string_view name);

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include <boresight/design/wind_climate.hpp>
+#include <boresight/design/problem/wind_climate.hpp>
 
 namespace boresight::app {
 

@@ -12,7 +12,7 @@ std::string hunting_cell(const design::HuntingResult& hunting) {
   if (!hunting.limit_cycle) return "none";
   std::string cell = fmt::format("+-{:.4f}", hunting.beam_amplitude / millidegree);
   if (hunting.some_only()) {
-    cell += fmt::format(" ({}/{})", hunting.hunting, hunting.starts);
+    cell += fmt::format(" ({}/{})", hunting.starts_hunting, hunting.starts);
   }
   return cell;
 }

@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include <boresight/design/nonlinear_verification.hpp>
+#include <boresight/design/verification/nonlinear_verification.hpp>
 
 namespace boresight::app {
 

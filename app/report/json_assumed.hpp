@@ -4,11 +4,11 @@
 
 #include <nlohmann/json_fwd.hpp>
 
-#include <boresight/app/io/quantity.hpp>
+#include <boresight/io/units/quantity.hpp>
 
 namespace boresight::app {
 
 /// "assumed_inputs" of docs/report.schema.json.
-nlohmann::ordered_json assumed_json(const std::vector<Quantity>& assumed);
+nlohmann::ordered_json assumed_json(const std::vector<io::Quantity>& assumed);
 
 }  // namespace boresight::app

@@ -1,19 +1,13 @@
-#include <cmath>
 
 #include <nlohmann/json.hpp>
 
 #include <boresight/app/report/json_audit.hpp>
+#include <boresight/app/report/json_number.hpp>
 
 namespace boresight::app {
 namespace {
 
-using Json = nlohmann::ordered_json;
-
-Json number(double value) {
-  return std::isfinite(value) ? Json(value) : Json(nullptr);
-}
-
-Json finding_json(const identification::Finding& finding) {
+Json finding_json(const design::Finding& finding) {
   Json forms = Json::array();
   for (const auto& form : finding.forms) {
     forms.push_back({{"printed_text", form.text},
@@ -31,7 +25,7 @@ Json finding_json(const identification::Finding& finding) {
                             {"as_corrected_si", number(consequence.as_corrected)},
                             {"relative_change_1", number(consequence.relative_change())}});
   }
-  return {{"kind", identification::to_string(finding.kind)},
+  return {{"kind", to_string(finding.kind)},
           {"id", finding.id},
           {"description", finding.description},
           {"unit", finding.unit},

@@ -1,4 +1,3 @@
-#include <cmath>
 #include <iterator>
 
 #include <fmt/format.h>
@@ -7,21 +6,12 @@
 #include <boresight/app/identify/campaign_comparison.hpp>
 #include <boresight/app/report/campaign_wording.hpp>
 #include <boresight/app/report/json_campaign.hpp>
+#include <boresight/app/report/json_number.hpp>
 
 namespace boresight::app {
 namespace {
 
-using identification::Interval;
-using Json = nlohmann::ordered_json;
-
-Json number(double value) {
-  return std::isfinite(value) ? Json(value) : Json(nullptr);
-}
-
-Json text_or_null(const std::string& text) {
-  return text.empty() ? Json(nullptr) : Json(text);
-}
-
+using numerics::Interval;
 Json optional_json(const std::optional<Interval>& interval, const std::string& unit) {
   return interval ? interval_json(*interval, unit) : Json(nullptr);
 }
@@ -130,7 +120,7 @@ Json reconciled_json(const CampaignSection& section) {
           {"parameters", std::move(parameters)},
           {"residuals", std::move(residuals)},
           {"starts", std::move(starts)},
-          {"status", std::string(identification::describe(fit.status))},
+          {"status", std::string(numerics::describe(fit.status))},
           {"rank", fit.rank},
           {"varied", fit.varied},
           {"condition_1", number(fit.condition)},

@@ -15,7 +15,6 @@ nlohmann::ordered_json campaign_json(const CampaignSection& section);
 nlohmann::ordered_json campaign_plots_json(const CampaignSection& section);
 
 /// {unit, value_si, standard_uncertainty_si, lower_95_si, upper_95_si}
-nlohmann::ordered_json interval_json(const identification::Interval& interval,
-                                     const std::string& unit);
+nlohmann::ordered_json interval_json(const numerics::Interval& interval, const std::string& unit);
 
 }  // namespace boresight::app

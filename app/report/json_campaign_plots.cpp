@@ -7,7 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include <boresight/app/report/json_campaign.hpp>
-#include <boresight/plant/friction.hpp>
+#include <boresight/plant/antenna/friction.hpp>
 
 namespace boresight::app {
 namespace {

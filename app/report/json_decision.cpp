@@ -9,7 +9,7 @@ Json share_json(const design::Probability& probability) {
           {"upper_95_1", number(probability.upper)}};
 }
 
-Json index_json(const design::EstimatedIndex& index) {
+Json index_json(const numerics::EstimatedIndex& index) {
   return {{"value_1", number(index.value)},
           {"standard_error_1", number(index.standard_error)},
           {"lower_95_1", number(index.lower)},

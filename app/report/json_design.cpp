@@ -34,14 +34,6 @@ std::string gain_key(const control::GainDescription& gain) {
 
 }  // namespace
 
-Json number(double value) {
-  return std::isfinite(value) ? Json(value) : Json(nullptr);
-}
-
-Json text_or_null(const std::string& text) {
-  return text.empty() ? Json(nullptr) : Json(text);
-}
-
 Json share_of_time_json(const std::vector<design::ClimatePart>& climate, double speed) {
   if (climate.empty() || std::isnan(speed)) return nullptr;
   return number(design::share_of_time(climate, speed));

@@ -5,18 +5,12 @@
 
 #include <nlohmann/json.hpp>
 
-#include <boresight/design/design_study.hpp>
-#include <boresight/design/plant_ensemble.hpp>
-#include <boresight/design/wind_climate.hpp>
+#include <boresight/app/report/json_number.hpp>
+#include <boresight/design/ensembles/plant_ensemble.hpp>
+#include <boresight/design/problem/wind_climate.hpp>
+#include <boresight/design/tuning/design_study.hpp>
 
 namespace boresight::app {
-
-using Json = nlohmann::ordered_json;
-
-/// JSON has neither infinity nor NaN: null.
-Json number(double value);
-/// null for an empty text.
-Json text_or_null(const std::string& text);
 
 /// Share of the climate's time up to a speed (m/s); null without a climate, or if it is not a
 /// number.

@@ -2,7 +2,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include <boresight/design/pointing_limit.hpp>
+#include <boresight/design/limits/pointing_limit.hpp>
 
 namespace boresight::app {
 

@@ -57,7 +57,7 @@ Json time_json(const std::optional<MatchTimeDomain>& run) {
                        {"status", design::to_string(one.status)},
                        {"limit_cycle", one.limit_cycle},
                        {"starts", one.starts},
-                       {"starts_hunting", one.hunting},
+                       {"starts_hunting", one.starts_hunting},
                        {"encoder_amplitude_mdeg", mdeg(one.encoder_amplitude)},
                        {"beam_amplitude_mdeg", mdeg(one.beam_amplitude)},
                        {"frequency_Hz", one.frequency ? number(*one.frequency) : Json(nullptr)}});

@@ -25,7 +25,7 @@ namespace {
 
 constexpr double two_pi = 2.0 * std::numbers::pi;
 
-Json propagated(const identification::PropagatedResult& result, const std::string& unit) {
+Json propagated(const numerics::PropagatedResult& result, const std::string& unit) {
   Json json{{"name", result.name},
             {"value_" + unit, number(result.value)},
             {"standard_uncertainty_" + unit, number(result.standard_uncertainty)},
@@ -40,7 +40,7 @@ Json propagated(const identification::PropagatedResult& result, const std::strin
   return json;
 }
 
-Json list(const std::vector<identification::PropagatedResult>& results, const std::string& unit) {
+Json list(const std::vector<numerics::PropagatedResult>& results, const std::string& unit) {
   Json json = Json::array();
   for (const auto& result : results) json.push_back(propagated(result, unit));
   return json;
@@ -84,7 +84,7 @@ Json identification_json(const IdentificationSection& section) {
   json["bulk_modulus"] = propagated(section.inertia.bulk_modulus, "Pa");
   json["oil_stiffness"] = propagated(section.inertia.oil_stiffness, "N_m_per_rad");
   json["expected_hydraulic_frequency"] = propagated(section.inertia.expected_frequency, "Hz");
-  const auto optional = [](const std::optional<identification::PropagatedResult>& result,
+  const auto optional = [](const std::optional<numerics::PropagatedResult>& result,
                            const std::string& unit) {
     return result ? propagated(*result, unit) : Json(nullptr);
   };

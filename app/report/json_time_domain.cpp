@@ -1,31 +1,18 @@
-#include <cmath>
 #include <numbers>
 
 #include <nlohmann/json.hpp>
 
+#include <boresight/app/report/json_number.hpp>
 #include <boresight/app/report/json_time_domain.hpp>
 #include <boresight/app/report/sky_units.hpp>
 
 namespace boresight::app {
 namespace {
 
-using Json = nlohmann::ordered_json;
 constexpr double degree = std::numbers::pi / 180.0;
 
-Json finite(double value) {
-  return std::isfinite(value) ? Json(value) : Json(nullptr);
-}
-
 Json mdeg(double angle) {
-  return finite(angle / millidegree);
-}
-
-Json optional_number(const std::optional<double>& value) {
-  return value ? finite(*value) : Json(nullptr);
-}
-
-Json message(const std::string& text) {
-  return text.empty() ? Json(nullptr) : Json(text);
+  return number(angle / millidegree);
 }
 
 Json wind_json(const TimeDomainSection& section) {
@@ -38,7 +25,7 @@ Json wind_json(const TimeDomainSection& section) {
                           {"difference_mdeg", mdeg(influence.difference)}});
   }
   return {{"status", design::to_string(wind.status)},
-          {"message", message(wind.message)},
+          {"message", text_or_null(wind.message)},
           {"duration_s", section.options.wind_duration},
           {"seed", section.options.seeds.front()},
           {"beam_rms_mdeg", mdeg(wind.beam_rms)},
@@ -54,37 +41,37 @@ Json wind_json(const TimeDomainSection& section) {
 Json hunting_json(const design::HuntingResult& hunting) {
   return {{"rate_mdeg_per_s", mdeg(hunting.rate)},
           {"status", design::to_string(hunting.status)},
-          {"message", message(hunting.message)},
+          {"message", text_or_null(hunting.message)},
           {"limit_cycle", hunting.limit_cycle},
           {"starts", hunting.starts},
-          {"starts_hunting", hunting.hunting},
+          {"starts_hunting", hunting.starts_hunting},
           {"encoder_amplitude_mdeg", mdeg(hunting.encoder_amplitude)},
           {"beam_amplitude_mdeg", mdeg(hunting.beam_amplitude)},
-          {"frequency_Hz", optional_number(hunting.frequency)},
-          {"persistence_1", finite(hunting.persistence)}};
+          {"frequency_Hz", number(hunting.frequency)},
+          {"persistence_1", number(hunting.persistence)}};
 }
 
 Json reversal_json(const design::ReversalResult& reversal) {
   return {{"status", design::to_string(reversal.status)},
-          {"message", message(reversal.message)},
+          {"message", text_or_null(reversal.message)},
           {"encoder_error_mdeg", mdeg(reversal.encoder_error)},
           {"beam_error_mdeg", mdeg(reversal.beam_error)},
           {"encoder_error_without_friction_mdeg", mdeg(reversal.encoder_error_without_friction)},
-          {"time_of_largest_s", finite(reversal.time_of_largest)}};
+          {"time_of_largest_s", number(reversal.time_of_largest)}};
 }
 
 Json slew_json(const design::SlewResult& slew, double settled_error) {
   return {{"status", design::to_string(slew.status)},
-          {"message", message(slew.message)},
+          {"message", text_or_null(slew.message)},
           {"distance_deg", slew.distance / degree},
-          {"rate_limit_deg_per_s", finite(slew.limits.rate / degree)},
-          {"acceleration_limit_deg_per_s2", finite(slew.limits.acceleration / degree)},
+          {"rate_limit_deg_per_s", number(slew.limits.rate / degree)},
+          {"acceleration_limit_deg_per_s2", number(slew.limits.acceleration / degree)},
           {"limits_within_reach", slew.within_reach},
-          {"command_time_s", finite(slew.command_time)},
+          {"command_time_s", number(slew.command_time)},
           {"largest_error_mdeg", mdeg(slew.largest_error)},
           {"overshoot_mdeg", mdeg(slew.overshoot)},
           {"settled_error_mdeg", mdeg(settled_error)},
-          {"settling_time_s", optional_number(slew.settling_time)},
+          {"settling_time_s", number(slew.settling_time)},
           {"at_command_limit_1", slew.at_command_limit}};
 }
 
@@ -107,7 +94,7 @@ nlohmann::ordered_json compared_run_json(const design::NonlinearVerification& ru
   Json hunting = Json::array();
   for (const auto& one : run.hunting) hunting.push_back(hunting_json(one));
   return {{"status", design::to_string(run.wind.status)},
-          {"message", message(run.wind.message)},
+          {"message", text_or_null(run.wind.message)},
           {"beam_rms_mdeg", mdeg(run.wind.beam_rms)},
           {"predicted_rms_mdeg", mdeg(run.wind.predicted_rms)},
           {"linear_rms_of_the_record_mdeg", mdeg(run.wind.continuous_rms)},

@@ -5,7 +5,7 @@
 
 namespace boresight::app {
 
-Report begin_report(std::string command, const Case& antenna, std::string case_path,
+Report begin_report(std::string command, const io::Case& antenna, std::string case_path,
                     std::uint64_t seed) {
   Report report;
   report.command = std::move(command);

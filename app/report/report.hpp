@@ -18,8 +18,8 @@
 #include <boresight/app/tune/measured_study.hpp>
 #include <boresight/app/tune/position_gain_trade.hpp>
 #include <boresight/app/tune/tune_section.hpp>
-#include <boresight/design/plant_ensemble.hpp>
-#include <boresight/design/pointing_limit.hpp>
+#include <boresight/design/ensembles/plant_ensemble.hpp>
+#include <boresight/design/limits/pointing_limit.hpp>
 
 namespace boresight::app {
 
@@ -32,9 +32,9 @@ struct IdentificationSection {
     std::string ratio;
   };
   std::vector<Printed> printed;
-  std::optional<identification::PropagatedResult> tachometer_scale;   // rad/(s V), eq. 32
-  std::optional<identification::PropagatedResult> slow_ramp_coulomb;  // N m
-  std::optional<identification::PropagatedResult> slow_ramp_offset;   // N m
+  std::optional<numerics::PropagatedResult> tachometer_scale;   // rad/(s V), eq. 32
+  std::optional<numerics::PropagatedResult> slow_ramp_coulomb;  // N m
+  std::optional<numerics::PropagatedResult> slow_ramp_offset;   // N m
   /// Whether the case writes an inertia in pounds-force, so that tables show those too.
   bool pounds_force = false;
 };
@@ -48,7 +48,7 @@ struct PlantSection {
   double tracking_slope = 0.0;   // N m s/rad, of the friction curve
   plant::FrictionCurve friction;
   /// The case's tests at steady rates that the friction curve goes through; empty if it is stated.
-  std::vector<SteadyFrictionTest> friction_tests;
+  std::vector<io::SteadyFrictionTest> friction_tests;
   std::vector<plant::PlantMode> modes;
   plant::PlantMode hydraulic;
   /// The case states its structure's frequencies with the motors held.
@@ -84,8 +84,8 @@ struct TuningSection {
   double design_speed = 0.0;
   plant::WindModel wind_model = plant::WindModel::coherence;
   plant::WindSite wind_site;
-  std::optional<WindAttitude> wind_attitude;  // none: one torque coefficient for all
-  std::optional<WindMast> wind_mast;          // none: the case states speeds at the dish's centre
+  std::optional<io::WindAttitude> wind_attitude;  // none: one torque coefficient for all
+  std::optional<io::WindMast> wind_mast;  // none: the case states speeds at the dish's centre
   struct SeedResult {
     std::uint64_t seed = 0;
     double beam_rms = 0.0;  // rad
@@ -202,7 +202,7 @@ struct Report {
   std::optional<MatchingSection> matching;
   std::optional<MatchSection> matched;       // of the command match
   std::optional<EvaluateSection> evaluated;  // of the command evaluate
-  std::vector<Quantity> assumed;
+  std::vector<io::Quantity> assumed;
   std::vector<std::string> conclusions;
   std::vector<Figure> figures;  // report_figures of all this
   /// The user stopped the work: the sections here are whole, others are missing.
@@ -213,7 +213,7 @@ struct Report {
 void lead_with_resonance(Report& report);
 
 /// A report of that command on a case, whose sections are still missing.
-Report begin_report(std::string command, const Case& antenna, std::string case_path,
+Report begin_report(std::string command, const io::Case& antenna, std::string case_path,
                     std::uint64_t seed);
 
 }  // namespace boresight::app

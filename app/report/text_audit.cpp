@@ -12,10 +12,10 @@
 namespace boresight::app {
 namespace {
 
-using identification::Consequence;
-using identification::DepartingForm;
-using identification::Finding;
-using identification::FindingKind;
+using design::Consequence;
+using design::DepartingForm;
+using design::Finding;
+using design::FindingKind;
 
 constexpr double change_that_matters = 1e-3;
 constexpr double change_worth_telling = 1e-5;
@@ -165,7 +165,7 @@ Document document_of(const AuditReport& report) {
                     "", "    ");
   }
   if (!report.remarks.empty()) page += subheading("Remarks by the case's writer", "") + "\n";
-  for (const RemarkEntry& remark : report.remarks) {
+  for (const io::RemarkEntry& remark : report.remarks) {
     page += wrapped(fmt::format("{:2}. {}: {}", ++number, remark.place, remark.text), "", "    ");
   }
   page += subheading("Summary", "") + "\n";

@@ -12,7 +12,7 @@
 namespace boresight::app {
 namespace {
 
-using identification::Interval;
+using numerics::Interval;
 using Rows = std::vector<std::vector<std::string>>;
 
 std::string with_unit(const std::string& name, const ShownUnit& unit) {
@@ -252,7 +252,7 @@ Document fit_part(const CampaignSection& section) {
   text += wrapped(fmt::format("Rank {} of {} varied parameters, condition {:.3g}. Sum of squares "
                               "by start: {}. The search ended because {}.",
                               fit.rank, fit.varied, fit.condition, starts,
-                              std::string(identification::describe(fit.status))),
+                              std::string(numerics::describe(fit.status))),
                   "  ");
   if (const auto& held = section.hold_out) {
     text += wrapped(

@@ -121,7 +121,7 @@ Document inputs_table(const EvaluateSection& section, const DecisionSection& dec
   const auto& indices = decision.sobol->outputs.front();
   Rows rows{{"input", "at 5 %", "at 95 %", "swing", "first order", "", "total", ""}};
   std::vector<std::string> nothing;
-  const auto interval = [](const design::EstimatedIndex& index) {
+  const auto interval = [](const numerics::EstimatedIndex& index) {
     return fmt::format("[{:.3f}, {:.3f}]", index.lower, index.upper);
   };
   for (const auto& bar : decision.tornado->bars) {

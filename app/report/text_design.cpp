@@ -177,7 +177,7 @@ Document effects_part(const TuningSection& section) {
   std::vector<std::vector<std::string>> rows{
       {"number", "as", "value", "moved by", "rms mdeg, lower", "higher"}};
   for (const auto& effect : section.input_effects) {
-    const Quantity& quantity = effect.quantity;
+    const io::Quantity& quantity = effect.quantity;
     const auto rms = [](double angle) {
       return std::isfinite(angle) ? mdeg(angle) : std::string("unstable");
     };

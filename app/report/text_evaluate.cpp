@@ -5,13 +5,13 @@
 #include <fmt/ranges.h>
 
 #include <boresight/app/document/document.hpp>
-#include <boresight/app/io/wording.hpp>
 #include <boresight/app/redesign/resonating_mode.hpp>
 #include <boresight/app/report/evaluate_report.hpp>
 #include <boresight/app/report/hunting_wording.hpp>
 #include <boresight/app/report/loss_wording.hpp>
 #include <boresight/app/report/sky_units.hpp>
 #include <boresight/app/report/wind_mast.hpp>
+#include <boresight/io/units/wording.hpp>
 
 namespace boresight::app {
 namespace {
@@ -108,9 +108,9 @@ Document oil_modes_part(const EvaluateSection& section) {
     const CandidateLaw* law = candidate.chosen_law();
     const plant::PlantMode& most = candidate.oil_mode;
     if (law == nullptr || !little_of_oil(law->design.hydraulic_mode, most)) continue;
-    modes.push_back(
-        fmt::format("{:.3g} Hz (zeta {:.3f}) {}", most.frequency, most.damping_ratio,
-                    candidate.path.empty() ? candidate.name : "with " + in_quotes(candidate.name)));
+    modes.push_back(fmt::format(
+        "{:.3g} Hz (zeta {:.3f}) {}", most.frequency, most.damping_ratio,
+        candidate.path.empty() ? candidate.name : "with " + io::in_quotes(candidate.name)));
   }
   if (modes.empty()) return {};
   return wrapped(fmt::format("Less than half of the hydraulic mode's elastic energy is in the oil, "
@@ -275,7 +275,7 @@ Document changes_part(const EvaluateSection& section) {
       for (const auto& change : candidate.changes) {
         rows.push_back(
             {change.key, change.before, change.after,
-             change.basis == Basis::assumed ? "assumed: " + change.source : change.source});
+             change.basis == io::Basis::assumed ? "assumed: " + change.source : change.source});
       }
       for (const auto& one : candidate.consequences) {
         const std::string unit = one.unit == "1" ? "" : " " + one.unit;

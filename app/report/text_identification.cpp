@@ -11,7 +11,7 @@
 namespace boresight::app {
 namespace {
 
-using identification::PropagatedResult;
+using numerics::PropagatedResult;
 
 std::string bound(double value, int decimals) {
   return std::isfinite(value) ? fmt::format("{:.{}f}", value, decimals) : "infinity";

@@ -3,7 +3,7 @@
 #include <string>
 
 #include <boresight/app/document/document.hpp>
-#include <boresight/design/pointing_limit.hpp>
+#include <boresight/design/limits/pointing_limit.hpp>
 
 namespace boresight::app {
 

@@ -6,11 +6,11 @@
 #include <fmt/ranges.h>
 
 #include <boresight/app/document/document.hpp>
-#include <boresight/app/io/friction_leeway.hpp>
 #include <boresight/app/redesign/resonating_mode.hpp>
 #include <boresight/app/report/sky_units.hpp>
 #include <boresight/app/report/text_report.hpp>
-#include <boresight/plant/motors_held_modes.hpp>
+#include <boresight/io/case/friction_leeway.hpp>
+#include <boresight/plant/antenna/motors_held_modes.hpp>
 
 namespace boresight::app {
 namespace {
@@ -18,23 +18,23 @@ namespace {
 // What single torques make of the curve, and whether anything is left to check it by.
 std::string friction_doubts(const PlantSection& section, bool exact) {
   constexpr double worth_telling = 0.02;  // of the number
-  const auto points = steady_friction(section.friction_tests);
+  const auto points = io::steady_friction(section.friction_tests);
   const auto intervals = identification::steady_friction_intervals(points);
   std::vector<std::string> moved;
   if (intervals.stribeck_rate) {
     moved.push_back(
-        fmt::format("the Stribeck rate is {}", in_words(*intervals.stribeck_rate, "rad/s")));
+        fmt::format("the Stribeck rate is {}", io::in_words(*intervals.stribeck_rate, "rad/s")));
   }
   const auto add = [&](const char* name, const identification::FrictionInterval& interval,
                        double value) {
     if (std::max(interval.largest - value, value - interval.least) > worth_telling * value) {
-      moved.push_back(fmt::format("{} is {}", name, in_words(interval, "N.m")));
+      moved.push_back(fmt::format("{} is {}", name, io::in_words(interval, "N.m")));
     }
   };
   add("breakaway", intervals.breakaway_torque, section.friction.breakaway_torque);
   add("Coulomb", intervals.coulomb_torque, section.friction.coulomb_torque);
   std::string text;
-  if (!moved.empty()) text = fmt::format("{} {}.", moved_torques(), fmt::join(moved, ", "));
+  if (!moved.empty()) text = fmt::format("{} {}.", io::moved_torques(), fmt::join(moved, ", "));
   if (identification::steady_friction_freedom(points) > 0) return text;
   const bool told = intervals.stribeck_rate.has_value();
   return fmt::format(
@@ -42,7 +42,7 @@ std::string friction_doubts(const PlantSection& section, bool exact) {
       text, text.empty() ? "" : " ",
       exact ? "so that the residuals say nothing of the curve"
             : "and what the residuals show is only that a number of it ended at its bound",
-      told && !is_loose(*intervals.stribeck_rate)
+      told && !io::is_loose(*intervals.stribeck_rate)
           ? ""
           : fmt::format(" Hunting and reversals hang on the Stribeck rate{}: more tests at low "
                         "rates settle it.",

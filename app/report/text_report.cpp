@@ -22,12 +22,12 @@ bool rests_on_tests(const IdentificationSection& section) {
 
 }  // namespace
 
-Document document_of(const std::vector<Quantity>& assumed) {
+Document document_of(const std::vector<io::Quantity>& assumed) {
   Document text = heading("Assumed inputs");
   if (assumed.empty()) return text + "  none\n";
   std::vector<std::vector<std::string>> rows{{"key", "value", "assumed", "because"}};
   for (const auto& quantity : assumed) {
-    const bool value = quantity.basis == Basis::assumed;
+    const bool value = quantity.basis == io::Basis::assumed;
     const std::string& source = value ? quantity.source : quantity.uncertainty_source;
     rows.push_back({quantity.key, quantity.text, value ? "value" : "uncertainty", source});
   }

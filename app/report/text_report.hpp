@@ -31,6 +31,6 @@ Document document_of(const TimeDomainSection& section);
 Document document_of(const std::vector<ChoiceResult>& choices);
 Document document_of(const MatchingSection& section);
 /// The assumed inputs, and why each.
-Document document_of(const std::vector<Quantity>& assumed);
+Document document_of(const std::vector<io::Quantity>& assumed);
 
 }  // namespace boresight::app

@@ -99,7 +99,7 @@ Document hunting_part(const TimeDomainSection& section) {
                   mdeg(hunting.encoder_amplitude), mdeg(hunting.beam_amplitude),
                   hunting.frequency ? fmt::format("{:.3g} Hz", *hunting.frequency)
                                     : std::string("of no steady period"),
-                  hunting.hunting, hunting.starts,
+                  hunting.starts_hunting, hunting.starts,
                   hunting.some_only() ? ", each moved by another step at its start" : "")
             : fmt::format(
                   "no limit cycle above the encoder's resolution that lasts, in {} runs (+-{} mdeg "
@@ -153,7 +153,7 @@ Document slew_part(const TimeDomainSection& section) {
   return wrapped(text, "  ", "  ");
 }
 
-// By what rule the law above was chosen (best_in_time).
+// By what rule the law above was chosen (design::recommend).
 std::string choice_text(const TimeDomainSection& section) {
   using Candidate = TimeDomainSection::Candidate;
   const double error = section.options.settled_error;
@@ -169,14 +169,14 @@ std::string choice_text(const TimeDomainSection& section) {
   };
   const std::string beyond = fmt::format("beyond the tightest budget (+-{} mdeg)", mdeg(amplitude));
   const std::string least = fmt::format(
-      "the one above has the least simulated rms, or one within {:.0f} % of it and "
-      "hunts less",
+      "the one above meets most budgets and, of those, has the least simulated rms with its limit "
+      "cycle added in quadrature, or one within {:.0f} % of it and fewer gains",
       100.0 * negligible_change);
   if (std::ranges::any_of(section.candidates, fit)) {
     return fmt::format("Of the laws that do not hunt {}, {}.", beyond, least);
   }
   if (std::ranges::none_of(section.candidates, simulated)) {
-    return "None was seen to hold in wind: the one above hunts least.";
+    return "None was seen to hold in wind: the one above has the least linear rms.";
   }
   if (std::ranges::all_of(section.candidates, hunts)) {
     return fmt::format("All hunt {}; {}.", beyond, least);

@@ -266,7 +266,7 @@ Document limits_part(const TuneSection& section) {
   }
   std::vector<const TunedLaw*> laws;
   for (const auto& row : section.laws) laws.push_back(&row);
-  const double sample_time = sample_time_of(section.problem.delay);
+  const double sample_time = io::sample_time_of(section.problem.delay);
   for (const auto& sentence : gains_at_bounds(laws, sample_time)) {
     text += wrapped(sentence, "  ", "  ");
   }

@@ -7,28 +7,28 @@
 
 namespace boresight::app {
 
-std::string mast_in_words(const WindMast& mast) {
+std::string mast_in_words(const io::WindMast& mast) {
   return fmt::format(
       "Wind speeds are those at the dish's centre, {:g} m above ground: the case's, on a mast of "
       "{:g} m, times {:.4g} by a power law with the exponent {:g}.",
       mast.dish_height, mast.height, mast.speed_ratio, mast.shear_exponent);
 }
 
-std::string dish_and_mast(const std::optional<WindMast>& mast, double speed) {
+std::string dish_and_mast(const std::optional<io::WindMast>& mast, double speed) {
   if (!mast || !std::isfinite(speed)) return "";
   return fmt::format(" at the dish, {:.3g} at the mast", speed / mast->speed_ratio);
 }
 
-std::string speed_at_mast(const std::optional<WindMast>& mast, double speed) {
+std::string speed_at_mast(const std::optional<io::WindMast>& mast, double speed) {
   if (!mast || !std::isfinite(speed)) return "";
   return fmt::format(" ({:.3g})", speed / mast->speed_ratio);
 }
 
-std::string mast_column(const std::optional<WindMast>& mast) {
+std::string mast_column(const std::optional<io::WindMast>& mast) {
   return mast ? " (at the mast)" : "";
 }
 
-std::string conclude_mast(const WindMast& mast) {
+std::string conclude_mast(const io::WindMast& mast) {
   return fmt::format(
       "Wind speeds are those at the dish's centre, {:g} m above ground, where nothing else is "
       "said: "
@@ -36,7 +36,7 @@ std::string conclude_mast(const WindMast& mast) {
       mast.dish_height, mast.speed_ratio, mast.height);
 }
 
-nlohmann::ordered_json mast_json(const WindMast& mast) {
+nlohmann::ordered_json mast_json(const io::WindMast& mast) {
   return {{"height_m", mast.height},
           {"dish_height_m", mast.dish_height},
           {"shear_exponent_1", mast.shear_exponent},

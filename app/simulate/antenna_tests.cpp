@@ -9,7 +9,7 @@
 #include <boresight/app/redesign/antenna_model.hpp>
 #include <boresight/app/simulate/antenna_tests.hpp>
 #include <boresight/app/simulate/nonlinear_model.hpp>
-#include <boresight/plant/error.hpp>
+#include <boresight/numerics/error.hpp>
 
 namespace boresight::app {
 namespace {
@@ -131,7 +131,7 @@ const std::vector<std::string>& simulated_test_names() {
   return names;
 }
 
-std::vector<AntennaTest> drive_tests(const Case& antenna, const std::string& name) {
+std::vector<AntennaTest> drive_tests(const io::Case& antenna, const std::string& name) {
   const auto& names = simulated_test_names();
   if (std::ranges::find(names, name) == names.end()) {
     throw InvalidInput(fmt::format("simulate: expected tests out of {}, found '{}'",

@@ -5,7 +5,7 @@
 
 #include <Eigen/Core>
 
-#include <boresight/app/io/case_file.hpp>
+#include <boresight/io/case/case_file.hpp>
 
 namespace boresight::app {
 
@@ -26,6 +26,6 @@ const std::vector<std::string>& simulated_test_names();
 /// The drive tests of that name: one a file. Amplitudes follow from the case: tachometer limit,
 /// valve stroke, slew rate. Nothing for tracking and slew, which are runs of the position loop.
 /// @throws InvalidInput for an unknown name, or a case without recorder, tachometer or oil line.
-std::vector<AntennaTest> drive_tests(const Case& antenna, const std::string& name);
+std::vector<AntennaTest> drive_tests(const io::Case& antenna, const std::string& name);
 
 }  // namespace boresight::app

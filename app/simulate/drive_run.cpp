@@ -9,10 +9,10 @@
 #include <boresight/app/simulate/drive_run.hpp>
 #include <boresight/app/simulate/nonlinear_model.hpp>
 #include <boresight/app/simulate/recorder_filter.hpp>
-#include <boresight/plant/error.hpp>
-#include <boresight/plant/feedback_interconnection.hpp>
-#include <boresight/plant/operating_point.hpp>
-#include <boresight/plant/simulation.hpp>
+#include <boresight/numerics/error.hpp>
+#include <boresight/plant/integration/feedback_interconnection.hpp>
+#include <boresight/plant/nonlinear/operating_point.hpp>
+#include <boresight/plant/nonlinear/simulation.hpp>
 
 namespace boresight::app {
 namespace {
@@ -37,7 +37,7 @@ plant::StateSpace rate_loop(double gain, double corner) {
 // A test's record under way: the channels that the run's samples give.
 class Recording {
  public:
-  Recording(DriveRecord& record, const Case& antenna, double interval, Index stride)
+  Recording(DriveRecord& record, const io::Case& antenna, double interval, Index stride)
       : record_(record), filter_(low_pass_of(antenna)), interval_(interval), stride_(stride) {}
 
   /// A channel that is written as it is, in its own unit.
@@ -118,13 +118,13 @@ double largest(const Eigen::VectorXd& values) {
 
 }  // namespace
 
-DriveRecord run_drive_test(const Case& antenna, const AntennaTest& test, std::uint64_t seed,
+DriveRecord run_drive_test(const io::Case& antenna, const AntennaTest& test, std::uint64_t seed,
                            const RunProgress& progress) {
   const auto model = make_recorded_antenna(antenna);
   const std::size_t motors = model.oil.lines.size();
   const RecorderSensors sensors = make_sensors(antenna, motors, seed);
   const auto drive = plant::to_feedback_system(model);
-  const SimulationEntry& entry = simulation_of(antenna);
+  const io::SimulationEntry& entry = simulation_of(antenna);
   const auto system =
       test.rate_loop_closed
           ? plant::closed(drive, rate_loop(entry.rate_loop_gain.value,

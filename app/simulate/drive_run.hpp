@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
-#include <boresight/app/io/csv_table.hpp>
 #include <boresight/app/simulate/antenna_tests.hpp>
 #include <boresight/app/simulate/run_events.hpp>
+#include <boresight/io/records/csv_table.hpp>
 
 namespace boresight::app {
 
@@ -25,7 +25,7 @@ struct ClippedChannel {
 struct DriveRecord {
   std::string test;
   std::string description;
-  CsvTable record;
+  io::CsvTable record;
   bool complete = true;
   double duration = 0.0;  // s simulated
   double sample_time = 0.0;
@@ -44,7 +44,7 @@ struct DriveRecord {
 /// motor (MPa), tachometer, rate and valve commands (V; 10 V are the slew rate and the full
 /// stroke). A run that is ended gives the samples up to there, with a comment that says so.
 /// @throws InvalidInput as drive_tests; NumericalFailure as plant::simulate.
-DriveRecord run_drive_test(const Case& antenna, const AntennaTest& test, std::uint64_t seed,
+DriveRecord run_drive_test(const io::Case& antenna, const AntennaTest& test, std::uint64_t seed,
                            const RunProgress& progress);
 
 }  // namespace boresight::app

@@ -5,8 +5,8 @@
 
 #include <boresight/app/redesign/antenna_model.hpp>
 #include <boresight/app/simulate/nonlinear_model.hpp>
-#include <boresight/plant/error.hpp>
-#include <boresight/plant/normal_numbers.hpp>
+#include <boresight/numerics/error.hpp>
+#include <boresight/numerics/normal_numbers.hpp>
 
 namespace boresight::app {
 namespace {
@@ -14,13 +14,13 @@ namespace {
 // What is recorded; a run of the position loop is not.
 constexpr const char* recorded_only = "; tracking and slew need none";
 
-[[noreturn]] void refuse_missing(const Case& antenna, const char* table, const char* purpose) {
+[[noreturn]] void refuse_missing(const io::Case& antenna, const char* table, const char* purpose) {
   throw InvalidInput(fmt::format(
       "{}: expected a table [{}] with {}, found none (see docs/case-file.md{})", antenna.path,
       table, purpose, std::string_view(table) == "simulation" ? "" : recorded_only));
 }
 
-std::vector<double> line_lengths(const Case& antenna) {
+std::vector<double> line_lengths(const io::Case& antenna) {
   std::vector<double> given;
   for (const auto& line : antenna.campaign.lines) given.push_back(line.length.value);
   if (given.empty()) return {};
@@ -38,19 +38,19 @@ std::vector<double> line_lengths(const Case& antenna) {
 
 }  // namespace
 
-const SimulationEntry& simulation_of(const Case& antenna) {
+const io::SimulationEntry& simulation_of(const io::Case& antenna) {
   if (!antenna.simulation) {
     refuse_missing(antenna, "simulation", "what the linear plant leaves out of the drive");
   }
   return *antenna.simulation;
 }
 
-const RecorderEntry& recorder_of(const Case& antenna) {
+const io::RecorderEntry& recorder_of(const io::Case& antenna) {
   if (!antenna.recorder) refuse_missing(antenna, "recorder", "how records are written");
   return *antenna.recorder;
 }
 
-RecorderTachometer tachometer_of(const Case& antenna) {
+RecorderTachometer tachometer_of(const io::Case& antenna) {
   const auto& tachometer = antenna.campaign.tachometer;
   if (!tachometer) {
     refuse_missing(antenna, "tachometer", "the scale the recorder writes motor rates in");
@@ -69,12 +69,12 @@ RecorderTachometer tachometer_of(const Case& antenna) {
   }
   double turns = 1.0;  // of the motor, one of the shaft
   if (motor_teeth && tachometer_teeth) turns = motor_teeth->value / tachometer_teeth->value;
-  if (shaft == "antenna") turns = gear_ratio(antenna);
+  if (shaft == "antenna") turns = io::gear_ratio(antenna);
   return {shaft_speed->value * turns / voltage->value, limit->value};
 }
 
-plant::NonlinearAntenna make_nonlinear_antenna(const Case& antenna) {
-  const SimulationEntry& entry = simulation_of(antenna);
+plant::NonlinearAntenna make_nonlinear_antenna(const io::Case& antenna) {
+  const io::SimulationEntry& entry = simulation_of(antenna);
   plant::DriveDetails details;
   details.supply_pressure = antenna.drive.supply_pressure.value;
   details.return_pressure = entry.return_pressure.value;
@@ -88,17 +88,17 @@ plant::NonlinearAntenna make_nonlinear_antenna(const Case& antenna) {
   if (antenna.oil.density) details.oil_density = antenna.oil.density->value;
   details.line_lengths = line_lengths(antenna);
   details.line_damping_ratio = entry.line_damping_ratio.value;
-  details.friction = {friction_curve(antenna), entry.bristle_stiffness.value,
+  details.friction = {io::friction_curve(antenna), entry.bristle_stiffness.value,
                       entry.bristle_damping.value, 0.0};
-  details.offset = offset_torque(antenna);
+  details.offset = io::offset_torque(antenna);
   if (entry.backlash) {
     details.backlash = entry.backlash->value;
     details.preload_torque = entry.preload_torque.value;
   }
-  return plant::make_nonlinear_antenna(make_plant(antenna), hydraulic_drive(antenna), details);
+  return plant::make_nonlinear_antenna(make_plant(antenna), io::hydraulic_drive(antenna), details);
 }
 
-plant::NonlinearAntenna make_recorded_antenna(const Case& antenna) {
+plant::NonlinearAntenna make_recorded_antenna(const io::Case& antenna) {
   auto model = make_nonlinear_antenna(antenna);
   if (model.oil.lines.empty()) {
     throw InvalidInput(
@@ -109,19 +109,19 @@ plant::NonlinearAntenna make_recorded_antenna(const Case& antenna) {
   return model;
 }
 
-LowPass low_pass_of(const Case& antenna) {
-  const RecorderEntry& recorder = recorder_of(antenna);
+LowPass low_pass_of(const io::Case& antenna) {
+  const io::RecorderEntry& recorder = recorder_of(antenna);
   return {static_cast<int>(recorder.filter_order),
           recorder.filter_frequency ? recorder.filter_frequency->value : 0.0};
 }
 
-double tachometer_scale(const Case& antenna) {
+double tachometer_scale(const io::Case& antenna) {
   return tachometer_of(antenna).scale;
 }
 
-RecorderSensors make_sensors(const Case& antenna, std::size_t motors, std::uint64_t seed) {
-  const RecorderEntry& recorder = recorder_of(antenna);
-  const plant::NormalNumbers numbers(seed, 1000);
+RecorderSensors make_sensors(const io::Case& antenna, std::size_t motors, std::uint64_t seed) {
+  const io::RecorderEntry& recorder = recorder_of(antenna);
+  const numerics::NormalNumbers numbers(seed, 1000);
   std::uint64_t drawn = 0;
   const auto pressure = [&] {
     const auto pair = numbers.pair(drawn++);

@@ -7,13 +7,13 @@
 #include <boresight/app/redesign/antenna_model.hpp>
 #include <boresight/app/simulate/nonlinear_model.hpp>
 #include <boresight/app/simulate/position_run.hpp>
-#include <boresight/design/design_study.hpp>
-#include <boresight/design/drive_reach.hpp>
-#include <boresight/design/simulated_loop.hpp>
-#include <boresight/design/tuner.hpp>
-#include <boresight/plant/error.hpp>
-#include <boresight/plant/simulation.hpp>
-#include <boresight/plant/wind_time_series.hpp>
+#include <boresight/design/problem/drive_reach.hpp>
+#include <boresight/design/tuning/design_study.hpp>
+#include <boresight/design/tuning/tuner.hpp>
+#include <boresight/design/verification/simulated_loop.hpp>
+#include <boresight/numerics/error.hpp>
+#include <boresight/plant/nonlinear/simulation.hpp>
+#include <boresight/plant/wind/wind_time_series.hpp>
 
 namespace boresight::app {
 namespace {
@@ -37,11 +37,11 @@ struct PositionRun {
   std::optional<double> predicted_rms;  // rad at the sky
 };
 
-double controller_sample_time(const Case& antenna) {
-  return sample_time_of(antenna.controller_delay.value);
+double controller_sample_time(const io::Case& antenna) {
+  return io::sample_time_of(antenna.controller_delay.value);
 }
 
-double run_interval(const Case& antenna) {
+double run_interval(const io::Case& antenna) {
   return controller_sample_time(antenna) / static_cast<double>(intervals_per_sample);
 }
 
@@ -58,12 +58,12 @@ std::optional<double> predicted_rms(const design::TrackingProblem& problem,
                                    tuned.evaluation.noise_variance, mean_speed);
 }
 
-control::LoopStructure structure_of_run(const Case& antenna, const SimulatedLaw& asked) {
+control::LoopStructure structure_of_run(const io::Case& antenna, const SimulatedLaw& asked) {
   if (asked.law) return asked.law->structure;
-  return asked.structure ? *asked.structure : loop_structure(antenna, "PI");
+  return asked.structure ? *asked.structure : io::loop_structure(antenna, "PI");
 }
 
-design::TuningResult law_of_run(const Case& antenna, const design::TrackingProblem& problem,
+design::TuningResult law_of_run(const io::Case& antenna, const design::TrackingProblem& problem,
                                 const SimulatedLaw& asked) {
   if (asked.law) return design::assess(problem, *asked.law, make_goals(antenna)).tuning;
   const auto structure = structure_of_run(antenna, asked);
@@ -76,8 +76,9 @@ design::TuningResult law_of_run(const Case& antenna, const design::TrackingProbl
   return tuned;
 }
 
-PositionRun run_position_loop(const Case& antenna, const SimulatedLaw& asked, const Course& course,
-                              std::uint64_t seed, const RunProgress& progress) {
+PositionRun run_position_loop(const io::Case& antenna, const SimulatedLaw& asked,
+                              const Course& course, std::uint64_t seed,
+                              const RunProgress& progress) {
   const auto problem = make_problem(antenna);
   const auto tuned = law_of_run(antenna, problem, asked);
   const auto loop =
@@ -96,7 +97,7 @@ PositionRun run_position_loop(const Case& antenna, const SimulatedLaw& asked, co
   return {std::move(run), predicted_rms(problem, tuned, course.mean_wind_speed)};
 }
 
-std::string described(const Case& antenna, const SimulatedLaw& asked) {
+std::string described(const io::Case& antenna, const SimulatedLaw& asked) {
   return fmt::format("by {}, {}", structure_of_run(antenna, asked).name(), asked.source);
 }
 
@@ -105,8 +106,8 @@ double rms_about_mean(const VectorXd& values) {
 }
 
 // The record without its errors.
-PositionRecord describe(const Case& antenna, const PositionRun& run, const Course& course) {
-  const double gear = gear_ratio(antenna);
+PositionRecord describe(const io::Case& antenna, const PositionRun& run, const Course& course) {
+  const double gear = io::gear_ratio(antenna);
   const auto& result = run.loop.result;
   const double interval = course.loop.interval;
   const Index samples = result.values.rows();
@@ -169,7 +170,7 @@ WindCourse synthesised_wind(const design::WindCondition& wind, double gear, doub
 
 // Straight between the samples of the record. The gradient over the dish, which an anemometer does
 // not see, is drawn from the site's spectrum at the record's mean speed.
-WindCourse recorded_wind(const Case& antenna, const plant::WindRecord& record,
+WindCourse recorded_wind(const io::Case& antenna, const plant::WindRecord& record,
                          const design::WindCondition& wind, double gear, double interval,
                          std::uint64_t seed) {
   const plant::RecordTorqueOptions options{wind.model, false};
@@ -207,12 +208,12 @@ WindCourse recorded_wind(const Case& antenna, const plant::WindRecord& record,
 
 }  // namespace
 
-PositionRecord run_tracking(const Case& antenna, const SimulatedLaw& law, std::uint64_t seed,
+PositionRecord run_tracking(const io::Case& antenna, const SimulatedLaw& law, std::uint64_t seed,
                             const RunProgress& progress) {
   constexpr double settle = 60.0;
   constexpr double measured = 600.0;
   const auto wind = make_problem(antenna).wind;
-  const double gear = gear_ratio(antenna);
+  const double gear = io::gear_ratio(antenna);
   const double interval = run_interval(antenna);
   const double rate = antenna.drive.tracking_rate.value * gear;
   const WindCourse gusts =
@@ -236,12 +237,12 @@ PositionRecord run_tracking(const Case& antenna, const SimulatedLaw& law, std::u
   return record;
 }
 
-PositionRecord run_slew(const Case& antenna, const SimulatedLaw& law, std::uint64_t seed,
+PositionRecord run_slew(const io::Case& antenna, const SimulatedLaw& law, std::uint64_t seed,
                         const RunProgress& progress) {
   constexpr double distance = 1.0 * degree;
   constexpr double still = 5.0;  // s before
   constexpr double hold = 60.0;  // s after
-  const double gear = gear_ratio(antenna);
+  const double gear = io::gear_ratio(antenna);
   const auto model = make_nonlinear_antenna(antenna);
   const double wanted = antenna.drive.slew_rate.value;
   const double attainable = design::attainable_rate(model, wanted * gear) / gear;

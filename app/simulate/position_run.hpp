@@ -5,7 +5,7 @@
 #include <string>
 
 #include <boresight/app/simulate/drive_run.hpp>
-#include <boresight/control/control_law.hpp>
+#include <boresight/control/controllers/control_law.hpp>
 
 namespace boresight::app {
 
@@ -21,7 +21,7 @@ struct SimulatedLaw {
 struct PositionRecord {
   std::string test;
   std::string description;
-  CsvTable record;
+  io::CsvTable record;
   bool complete = true;
   double duration = 0.0;     // s simulated
   double sample_time = 0.0;  // s of the record
@@ -47,13 +47,13 @@ struct PositionRecord {
 /// which is one sample of computing and half of one of holding. @throws as run_drive_test, and
 /// InfeasibleRequirement if no law meets the goals or, for a slew, if the supply cannot move the
 /// antenna.
-PositionRecord run_tracking(const Case& antenna, const SimulatedLaw& law, std::uint64_t seed,
+PositionRecord run_tracking(const io::Case& antenna, const SimulatedLaw& law, std::uint64_t seed,
                             const RunProgress& progress);
 
 /// One degree through the command preprocessor, at the case's slew rate, or at 0.8 times what the
 /// supply can hold against friction if that is less, and at 0.2 deg/s2, or with half the torque the
 /// supply has left at that rate if that is less, in still air, then 60 s of holding.
-PositionRecord run_slew(const Case& antenna, const SimulatedLaw& law, std::uint64_t seed,
+PositionRecord run_slew(const io::Case& antenna, const SimulatedLaw& law, std::uint64_t seed,
                         const RunProgress& progress);
 
 }  // namespace boresight::app

@@ -5,8 +5,8 @@
 #include <fmt/format.h>
 
 #include <boresight/app/simulate/recorder_filter.hpp>
-#include <boresight/plant/error.hpp>
-#include <boresight/plant/time_response.hpp>
+#include <boresight/numerics/error.hpp>
+#include <boresight/plant/linear/time_response.hpp>
 
 namespace boresight::app {
 namespace {

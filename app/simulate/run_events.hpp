@@ -3,9 +3,9 @@
 #include <optional>
 #include <vector>
 
-#include <boresight/plant/fast_integrator.hpp>
-#include <boresight/plant/nonlinear_antenna.hpp>
-#include <boresight/plant/simulation.hpp>
+#include <boresight/plant/integration/fast_integrator.hpp>
+#include <boresight/plant/nonlinear/nonlinear_antenna.hpp>
+#include <boresight/plant/nonlinear/simulation.hpp>
 
 namespace boresight::app {
 

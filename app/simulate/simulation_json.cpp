@@ -1,23 +1,13 @@
-#include <cmath>
 
 #include <nlohmann/json.hpp>
 
 #include <boresight/app/figures/figure_json.hpp>
+#include <boresight/app/report/json_number.hpp>
 #include <boresight/app/report/sky_units.hpp>
 #include <boresight/app/simulate/simulation_report.hpp>
 
 namespace boresight::app {
 namespace {
-
-using Json = nlohmann::ordered_json;
-
-Json number(double value) {
-  return std::isfinite(value) ? Json(value) : Json(nullptr);
-}
-
-Json number(const std::optional<double>& value, double unit = 1.0) {
-  return value ? number(*value / unit) : Json(nullptr);
-}
 
 Json sampled_json(const SampledEvent& event) {
   return {{"first_s", number(event.first)},
@@ -115,7 +105,7 @@ std::string to_json(const SimulationReport& report) {
     json["position_tests"].push_back(position_json(record));
   }
   for (const auto& quantity : report.assumed) {
-    const bool value = quantity.basis == Basis::assumed;
+    const bool value = quantity.basis == io::Basis::assumed;
     json["assumed_inputs"].push_back(
         {{"key", quantity.key},
          {"value", quantity.text},

@@ -26,7 +26,7 @@ struct SimulationReport {
   std::vector<DriveRecord> drive;
   std::vector<PositionRecord> position;
   std::vector<std::string> written;  // paths of records
-  std::vector<Quantity> assumed;
+  std::vector<io::Quantity> assumed;
   std::vector<Figure> figures;
 };
 

@@ -2,13 +2,12 @@
 #include <cmath>
 #include <numbers>
 
-#include <boresight/app/io/friction_leeway.hpp>
 #include <boresight/app/redesign/antenna_model.hpp>
-#include <boresight/app/report/influences.hpp>
 #include <boresight/app/simulate/nonlinear_model.hpp>
 #include <boresight/app/simulate/time_domain.hpp>
-#include <boresight/design/drive_reach.hpp>
-#include <boresight/plant/error.hpp>
+#include <boresight/design/problem/drive_reach.hpp>
+#include <boresight/io/case/friction_leeway.hpp>
+#include <boresight/numerics/error.hpp>
 
 namespace boresight::app {
 namespace {
@@ -16,13 +15,13 @@ namespace {
 constexpr double degree = std::numbers::pi / 180.0;
 
 // All but the result.
-TimeDomainSection plan(const Case& antenna, const design::TrackingProblem& problem,
+TimeDomainSection plan(const io::Case& antenna, const design::TrackingProblem& problem,
                        std::string_view description, std::uint64_t seed, unsigned threads) {
   TimeDomainSection section;
   section.law = description;
   section.wind_speed = problem.wind.mean_speed;
-  section.stroke_assumption = demand_assumption(antenna);
-  section.friction_doubt = loose_stribeck_text(antenna.friction_curve);
+  section.stroke_assumption = io::demand_assumption(antenna);
+  section.friction_doubt = io::loose_stribeck_text(antenna.friction_curve);
   // Rounding to steps q errs by q/sqrt(12) rms.
   section.encoder_resolution = std::sqrt(12.0) * antenna.sensors.encoder_noise.value;
   auto& options = section.options;
@@ -41,7 +40,7 @@ bool held_with_more_stroke(plant::NonlinearAntenna model, double rate) {
   return design::attainable_rate(model, rate) >= rate;
 }
 
-void simulate(const Case& antenna, const design::TrackingProblem& problem,
+void simulate(const io::Case& antenna, const design::TrackingProblem& problem,
               const control::ControlLaw& law, TimeDomainSection& section) {
   auto loop = design::make_simulated_loop(problem, make_nonlinear_antenna(antenna), law);
   section.sample_time = loop.sample_time;
@@ -54,34 +53,43 @@ void simulate(const Case& antenna, const design::TrackingProblem& problem,
                                  held_with_more_stroke(loop.antenna, asked * problem.gear_ratio);
 }
 
-}  // namespace
-
-std::size_t best_in_time(const std::vector<TimeDomainSection::Candidate>& candidates,
-                         double error) {
-  const auto still = [&](const TimeDomainSection::Candidate& one) {
-    return std::isfinite(one.result.wind.beam_rms) &&
-           design::holds_still(one.result.hunting, error);
-  };
-  const bool some_still = std::ranges::any_of(candidates, still);
-  const auto rms = [&](const TimeDomainSection::Candidate& one) {
-    const double value = one.result.wind.beam_rms;
-    return (some_still && !still(one)) || std::isnan(value) ? HUGE_VAL : value;
-  };
-  const double least = rms(*std::ranges::min_element(candidates, {}, rms));
-  std::size_t best = 0;
-  double least_hunting = HUGE_VAL;
-  for (std::size_t i = 0; i < candidates.size(); ++i) {
-    if (!(rms(candidates[i]) <= (1.0 + negligible_change) * least)) continue;
-    const double hunting = design::hunting_amplitude(candidates[i].result.hunting);
-    if (hunting < least_hunting * (1.0 - negligible_change)) {
-      least_hunting = hunting;
-      best = i;
-    }
+// Budgets required in this wind are held against the larger of both rms and the limit cycle.
+void count_budgets(const io::Case& antenna, double wind_speed,
+                   const design::NonlinearVerification& result, design::Assessment& assessment) {
+  constexpr double round_off = 1e-6;
+  const double rms = std::max(result.wind.beam_rms, result.wind.predicted_rms);
+  for (const auto& budget : make_budgets(antenna)) {
+    if (budget.wind_speed != wind_speed) continue;
+    const double limit = (1.0 + round_off) * budget.rms;
+    ++assessment.budgets_required;
+    if (rms <= limit && design::holds_still(result.hunting, limit)) ++assessment.budgets_met;
   }
-  return best;
 }
 
-std::optional<TimeDomainSection> verify_in_time_domain(const Case& antenna,
+}  // namespace
+
+design::LimitCycleVerdict limit_cycle_verdict(bool within_budget, bool shown) {
+  using design::LimitCycleVerdict;
+  if (within_budget) return LimitCycleVerdict::within_budget;
+  return shown ? LimitCycleVerdict::beyond_budget : LimitCycleVerdict::not_shown;
+}
+
+design::Assessment assessment_of(const DescribedLaw& controller,
+                                 const design::NonlinearVerification& result, double budget) {
+  design::Assessment assessment;
+  assessment.structure = controller.description;
+  assessment.parts = controller.law.structure.gains().size();
+  assessment.stable = assessment.verified = true;
+  assessment.nominal_constraints_met = assessment.member_constraints_met = true;
+  assessment.linear_rms = result.wind.predicted_rms;
+  assessment.simulated_rms = result.wind.beam_rms;
+  assessment.limit_cycle_amplitude = design::hunting_amplitude(result.hunting);
+  assessment.limit_cycles = limit_cycle_verdict(design::holds_still(result.hunting, budget),
+                                                design::hunting_seen(result.hunting));
+  return assessment;
+}
+
+std::optional<TimeDomainSection> verify_in_time_domain(const io::Case& antenna,
                                                        const design::TrackingProblem& problem,
                                                        const control::ControlLaw& law,
                                                        std::string_view description,
@@ -92,27 +100,33 @@ std::optional<TimeDomainSection> verify_in_time_domain(const Case& antenna,
   return section;
 }
 
-std::optional<TimeDomainSection> choose_in_time_domain(const Case& antenna,
+std::optional<TimeDomainSection> choose_in_time_domain(const io::Case& antenna,
                                                        const design::TrackingProblem& problem,
                                                        const std::vector<DescribedLaw>& laws,
                                                        std::uint64_t seed, unsigned threads) {
   if (laws.empty()) throw InvalidInput("choose_in_time_domain: expected laws, found none");
   if (!antenna.simulation) return std::nullopt;
   std::vector<TimeDomainSection::Candidate> candidates;
-  for (const auto& [description, law] : laws) {
-    TimeDomainSection section = plan(antenna, problem, description, seed, threads);
+  std::vector<design::Assessment> assessments;
+  for (const auto& one : laws) {
+    TimeDomainSection section = plan(antenna, problem, one.description, seed, threads);
     section.options.explain = false;
-    simulate(antenna, problem, law, section);
-    candidates.push_back({description, std::move(section.result)});
+    simulate(antenna, problem, one.law, section);
+    assessments.push_back(assessment_of(one, section.result, tightest_budget(antenna)));
+    count_budgets(antenna, problem.wind.mean_speed, section.result, assessments.back());
+    candidates.push_back({one.description, std::move(section.result)});
   }
-  const std::size_t best = best_in_time(candidates, tightest_budget(antenna));
+  // What is shown of none that is fit is shown of the least unfit.
+  const std::size_t best =
+      design::recommend(assessments, {.accepted = design::Fitness::unstable}).winner.value_or(0);
   auto chosen = verify_in_time_domain(antenna, problem, laws[best].law, laws[best].description,
                                       seed, threads);
   if (chosen && candidates.size() > 1) chosen->candidates = std::move(candidates);
   return chosen;
 }
 
-design::NonlinearVerificationOptions comparison_options(const Case& antenna, std::uint64_t seed) {
+design::NonlinearVerificationOptions comparison_options(const io::Case& antenna,
+                                                        std::uint64_t seed) {
   auto options = plan(antenna, make_problem(antenna), "", seed, 1).options;
   options.explain = false;
   options.slew_distance = 0.0;
@@ -120,7 +134,7 @@ design::NonlinearVerificationOptions comparison_options(const Case& antenna, std
 }
 
 std::optional<design::NonlinearVerification> run_in_time_domain(
-    const Case& antenna, const design::TrackingProblem& problem, const control::ControlLaw& law,
+    const io::Case& antenna, const design::TrackingProblem& problem, const control::ControlLaw& law,
     const design::NonlinearVerificationOptions& options) {
   if (!antenna.simulation) return std::nullopt;
   TimeDomainSection section = plan(antenna, problem, "", options.seeds.front(), options.threads);

@@ -6,8 +6,9 @@
 #include <string_view>
 #include <vector>
 
-#include <boresight/app/io/case_file.hpp>
-#include <boresight/design/nonlinear_verification.hpp>
+#include <boresight/design/decisions/recommend.hpp>
+#include <boresight/design/verification/nonlinear_verification.hpp>
+#include <boresight/io/case/case_file.hpp>
 
 namespace boresight::app {
 
@@ -40,7 +41,7 @@ struct TimeDomainSection {
 /// rate and 0.2 deg/s2, settled within the tightest pointing budget (1 mdeg without one). Some 2 s
 /// of computing on the 70-m antenna, over `threads`. None for a case without a [simulation] table.
 /// The same for any number of threads. @throws as design::verify_in_time.
-std::optional<TimeDomainSection> verify_in_time_domain(const Case& antenna,
+std::optional<TimeDomainSection> verify_in_time_domain(const io::Case& antenna,
                                                        const design::TrackingProblem& problem,
                                                        const control::ControlLaw& law,
                                                        std::string_view description,
@@ -52,26 +53,30 @@ struct DescribedLaw {
   control::ControlLaw law;
 };
 
-/// Which of several laws is best on the nonlinear antenna: of those that hold still within `error`
-/// (rad rms; design::holds_still) the one of least beam rms in wind, and of those within
-/// negligible_change of it the one that hunts least, the first where they are alike. Of all if none
-/// holds still; a law whose run in wind did not complete is never the one, unless none did.
-std::size_t best_in_time(const std::vector<TimeDomainSection::Candidate>& candidates, double error);
+/// `within_budget`: design::holds_still within the tightest budget; `shown`: design::hunting_seen.
+design::LimitCycleVerdict limit_cycle_verdict(bool within_budget, bool shown);
 
-/// The best_in_time of laws within the tightest budget, verified as above; the others' results
-/// stand among its candidates. None for a case without a [simulation] table.
-/// @throws InvalidInput without laws; as design::verify_in_time.
-std::optional<TimeDomainSection> choose_in_time_domain(const Case& antenna,
+/// A controller that meets every constraint, as design::recommend compares it by its simulation.
+/// `budget`: the tightest (rad rms). Of pointing budgets it counts none.
+design::Assessment assessment_of(const DescribedLaw& controller,
+                                 const design::NonlinearVerification& result, double budget);
+
+/// Of controllers that meet every constraint the one that design::recommend chooses by their
+/// simulations and the budgets required in the problem's wind, whatever its fitness; verified as
+/// above, with the others' results among its candidates. None for a case without a [simulation]
+/// table. @throws InvalidInput without laws; as design::verify_in_time.
+std::optional<TimeDomainSection> choose_in_time_domain(const io::Case& antenna,
                                                        const design::TrackingProblem& problem,
                                                        const std::vector<DescribedLaw>& laws,
                                                        std::uint64_t seed, unsigned threads);
 
 /// How many laws are compared on the nonlinear antenna: as verify_in_time_domain has it, but for
 /// the slew and for telling the influences apart.
-design::NonlinearVerificationOptions comparison_options(const Case& antenna, std::uint64_t seed);
+design::NonlinearVerificationOptions comparison_options(const io::Case& antenna,
+                                                        std::uint64_t seed);
 /// One of them. None for a case without a [simulation] table. @throws as design::verify_in_time.
 std::optional<design::NonlinearVerification> run_in_time_domain(
-    const Case& antenna, const design::TrackingProblem& problem, const control::ControlLaw& law,
+    const io::Case& antenna, const design::TrackingProblem& problem, const control::ControlLaw& law,
     const design::NonlinearVerificationOptions& options);
 
 /// In a sentence that the drive cannot slew as the case asks; empty if it can.

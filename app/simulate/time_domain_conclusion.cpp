@@ -103,14 +103,19 @@ std::string first_text(const design::NonlinearVerification& first, double error)
   return text;
 }
 
-// What the law chosen, whose run in wind completed, does better by the rule of best_in_time.
-std::string merit(const TimeDomainSection& section, const design::WindResult& first) {
-  const double rms = section.result.wind.beam_rms;
-  if (rms < first.beam_rms || !std::isfinite(first.beam_rms)) {
+// What the controller chosen, whose run in wind completed, does better by design::recommend.
+std::string merit(const TimeDomainSection& section, const design::NonlinearVerification& first) {
+  const double rms = section.result.wind.beam_rms, other = first.wind.beam_rms;
+  if (rms < other || !std::isfinite(other)) {
     return fmt::format("{} points within {:.3f}", section.law, rms / millidegree);
   }
-  return fmt::format("{} points as well within {:.0f} % and hunts less", section.law,
-                     100.0 * negligible_change);
+  const bool tied = rms <= (1.0 + negligible_change) * other;
+  const bool hunts_less =
+      design::hunting_amplitude(section.result.hunting) < design::hunting_amplitude(first.hunting);
+  return fmt::format("{} points {} and {}", section.law,
+                     tied ? fmt::format("as well within {:.0f} %", 100.0 * negligible_change)
+                          : fmt::format("within {:.3f}", rms / millidegree),
+                     hunts_less ? "hunts less" : "has fewer gains");
 }
 
 // Why this law and not the one that the linear plant puts first.
@@ -130,14 +135,14 @@ std::string conclude_choice(const TimeDomainSection& section) {
   if (!std::isfinite(section.result.wind.beam_rms)) {
     text += fmt::format("{} does not hold in wind either", section.law);
   } else if (!design::holds_still(hunting, error)) {
-    text += fmt::format("{}, but {}", merit(section, wind),
+    text += fmt::format("{}, but {}", merit(section, first->result),
                         first_still ? unrest(hunting, error) : unrest_too(hunting, error));
   } else if (!first_still) {
     text += fmt::format("{} does not hunt beyond the budget", section.law);
   } else if (section.result.wind.beam_rms < wind.beam_rms || !std::isfinite(wind.beam_rms)) {
     text += fmt::format("{} is better", section.law);
   } else {
-    text += merit(section, wind);
+    text += merit(section, first->result);
   }
   return text + ". ";
 }
@@ -152,7 +157,8 @@ std::string hunting_text(const design::HuntingResult& hunting, double error) {
   if (!hunting.limit_cycle) return "";
   return fmt::format(
       " {} it hunts by +-{:.2f} mdeg{}{}.", where, hunting.beam_amplitude / millidegree,
-      hunting.some_only() ? fmt::format(" in {} of {} runs", hunting.hunting, hunting.starts) : "",
+      hunting.some_only() ? fmt::format(" in {} of {} runs", hunting.starts_hunting, hunting.starts)
+                          : "",
       hunts_beyond({hunting}, error)
           ? fmt::format(", beyond the tightest budget of {:.3f}", error / millidegree)
           : "");

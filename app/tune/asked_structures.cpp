@@ -3,11 +3,11 @@
 #include <fmt/format.h>
 
 #include <boresight/app/tune/asked_structures.hpp>
-#include <boresight/plant/error.hpp>
+#include <boresight/numerics/error.hpp>
 
 namespace boresight::app {
 
-std::vector<std::string> asked_structures(const Case& antenna, std::vector<std::string> asked) {
+std::vector<std::string> asked_structures(const io::Case& antenna, std::vector<std::string> asked) {
   if (asked.empty()) asked = antenna.tuning.structures;
   if (asked.empty()) {
     asked = {"PI", "DPF", "LL", "FULL", "PI+C", "DPF+C"};
@@ -15,7 +15,7 @@ std::vector<std::string> asked_structures(const Case& antenna, std::vector<std::
   }
   for (const auto& name : asked) {
     try {
-      loop_structure(antenna, name);
+      io::loop_structure(antenna, name);
     } catch (const InvalidInput& error) {
       throw InvalidInput(fmt::format("--structure: {}", error.what()));
     }

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include <boresight/app/redesign/antenna_model.hpp>
-#include <boresight/design/plant_ensemble.hpp>
+#include <boresight/design/ensembles/plant_ensemble.hpp>
 
 namespace boresight::app {
 

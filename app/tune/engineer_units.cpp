@@ -17,7 +17,8 @@ std::string unit_of(const std::string& written) {
   return unit;
 }
 
-std::vector<Quantity> written_like(const Case& antenna, const control::LoopStructure& structure) {
+std::vector<io::Quantity> written_like(const io::Case& antenna,
+                                       const control::LoopStructure& structure) {
   if (antenna.present_gains && antenna.present_gains->structure == structure) {
     return antenna.present_gains->gains;
   }
@@ -28,7 +29,7 @@ std::vector<Quantity> written_like(const Case& antenna, const control::LoopStruc
 }
 
 control::ControlLaw law_of(const control::LoopStructure& structure,
-                           const std::vector<Quantity>& gains) {
+                           const std::vector<io::Quantity>& gains) {
   control::ControlLaw law{structure, {}};
   for (const auto& gain : gains) law.gains.push_back(gain.value);
   return law;
@@ -36,7 +37,8 @@ control::ControlLaw law_of(const control::LoopStructure& structure,
 
 }  // namespace
 
-std::vector<std::string> in_engineers_units(const Case& antenna, const control::ControlLaw& law) {
+std::vector<std::string> in_engineers_units(const io::Case& antenna,
+                                            const control::ControlLaw& law) {
   const auto written = written_like(antenna, law.structure);
   const auto& descriptions = law.structure.gains();
   std::vector<std::string> texts;
@@ -45,7 +47,7 @@ std::vector<std::string> in_engineers_units(const Case& antenna, const control::
     double factor = 1.0;
     if (!written.empty()) {
       unit = unit_of(written[i].text);
-      factor = unit.empty() ? 1.0 : parse_unit(unit).factor;
+      factor = unit.empty() ? 1.0 : io::parse_unit(unit).factor;
     }
     texts.push_back(
         fmt::format("{:.5g}{}{}", law.gains[i] / factor, unit.empty() ? "" : " ", unit));
@@ -53,7 +55,7 @@ std::vector<std::string> in_engineers_units(const Case& antenna, const control::
   return texts;
 }
 
-std::vector<control::ControlLaw> present_laws(const Case& antenna) {
+std::vector<control::ControlLaw> present_laws(const io::Case& antenna) {
   std::vector<control::ControlLaw> laws;
   if (antenna.present_gains) {
     laws.push_back(law_of(antenna.present_gains->structure, antenna.present_gains->gains));

@@ -7,8 +7,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <boresight/app/io/usual_structures.hpp>
 #include <boresight/app/tune/gains_at_bounds.hpp>
+#include <boresight/io/case/usual_structures.hpp>
 
 namespace boresight::app {
 namespace {
@@ -76,7 +76,7 @@ std::string usual_name(const std::vector<LoopBlock>& blocks) {
     return found;
   };
   const auto wanted = kinds(blocks);
-  for (const auto& name : usual_structures()) {
+  for (const auto& name : io::usual_structures()) {
     if (kinds(control::LoopStructure::named(name).blocks()) == wanted) return name;
   }
   return "";
@@ -202,6 +202,13 @@ std::vector<std::string> gain_trades(const std::vector<const TunedLaw*>& laws) {
                                        row->beam_rms,
                                        row->ensemble ? row->ensemble->members.size() : 0));
   }
+  return sentences;
+}
+
+std::vector<std::string> about_bounds(const TuneSection& section,
+                                      const std::vector<const TunedLaw*>& laws) {
+  auto sentences = gains_at_bounds(laws, io::sample_time_of(section.problem.delay));
+  std::ranges::move(gain_trades(laws), std::back_inserter(sentences));
   return sentences;
 }
 

@@ -35,4 +35,8 @@ std::vector<std::string> corners_beyond_sampling(const SearchedLaw& law);
 /// (TunedLaw::trade).
 std::vector<std::string> gain_trades(const std::vector<const TunedLaw*>& laws);
 
+/// All that is to be said of gains at bounds of rows of a study: gains_at_bounds, then gain_trades.
+std::vector<std::string> about_bounds(const TuneSection& section,
+                                      const std::vector<const TunedLaw*>& laws);
+
 }  // namespace boresight::app

@@ -6,7 +6,7 @@
 #include <boresight/app/report/sky_units.hpp>
 #include <boresight/app/tune/laws_in_time.hpp>
 #include <boresight/app/tune/tune_study.hpp>
-#include <boresight/design/parallel_loop.hpp>
+#include <boresight/numerics/parallel_loop.hpp>
 
 namespace boresight::app {
 namespace {
@@ -37,7 +37,7 @@ std::string description_of(const TunedLaw& row) {
   return fmt::format("{}, {}", row.structure, to_string(row.tuned_for));
 }
 
-void judge_in_time(const Case& antenna, const std::optional<TimeDomainSection>& compared,
+void judge_in_time(const io::Case& antenna, const std::optional<TimeDomainSection>& compared,
                    TunedFor purpose, std::uint64_t seed, unsigned threads,
                    const std::function<bool()>& interrupted, TuneSection& section) {
   if (!compared) return;
@@ -52,7 +52,7 @@ void judge_in_time(const Case& antenna, const std::optional<TimeDomainSection>& 
     }
   }
   const auto options = comparison_options(antenna, seed);
-  design::for_each_index(to_run.size(), threads, [&](std::size_t i) {
+  numerics::for_each_index(to_run.size(), threads, [&](std::size_t i) {
     if (interrupted && interrupted()) return;
     TunedLaw& row = *to_run[i];
     auto problem = make_problem(antenna);

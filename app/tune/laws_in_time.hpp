@@ -17,7 +17,7 @@ std::string description_of(const TunedLaw& row);
 /// at the wind speed of `compared` by what ran there, at the speeds that budgets are needed up to
 /// by runs of their own, some seconds a law; then looks for shortfalls again. Nothing for a case
 /// without a [simulation] table. The same for any number of threads.
-void judge_in_time(const Case& antenna, const std::optional<TimeDomainSection>& compared,
+void judge_in_time(const io::Case& antenna, const std::optional<TimeDomainSection>& compared,
                    TunedFor purpose, std::uint64_t seed, unsigned threads,
                    const std::function<bool()>& interrupted, TuneSection& section);
 

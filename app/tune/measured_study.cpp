@@ -6,17 +6,17 @@
 #include <fmt/ranges.h>
 
 #include <boresight/app/identify/campaign.hpp>
-#include <boresight/app/io/kinds.hpp>
-#include <boresight/app/io/record_columns.hpp>
-#include <boresight/app/io/record_file.hpp>
-#include <boresight/app/io/wording.hpp>
 #include <boresight/app/redesign/antenna_model.hpp>
 #include <boresight/app/tune/measured_study.hpp>
-#include <boresight/control/closed_loop.hpp>
-#include <boresight/identification/drive_response.hpp>
-#include <boresight/identification/local_polynomial_response.hpp>
-#include <boresight/plant/error.hpp>
-#include <boresight/plant/fourier_transform.hpp>
+#include <boresight/control/loops/closed_loop.hpp>
+#include <boresight/identification/resonance/drive_response.hpp>
+#include <boresight/identification/signals/local_polynomial_response.hpp>
+#include <boresight/io/records/record_columns.hpp>
+#include <boresight/io/records/record_file.hpp>
+#include <boresight/io/units/kinds.hpp>
+#include <boresight/io/units/wording.hpp>
+#include <boresight/numerics/error.hpp>
+#include <boresight/numerics/fourier_transform.hpp>
 
 namespace boresight::app {
 namespace {
@@ -31,27 +31,27 @@ const identification::DriveRecord& record_named(const identification::Campaign& 
   std::vector<std::string> names;
   for (const auto& note : notes.records) {
     if (note.name == name && !note.refusal.empty()) {
-      throw InvalidInput(
-          fmt::format("--measured {}: the record was left out: {}", in_quotes(name), note.refusal));
+      throw InvalidInput(fmt::format("--measured {}: the record was left out: {}",
+                                     io::in_quotes(name), note.refusal));
     }
     names.push_back(note.name);
   }
   const auto found = std::ranges::find(campaign.records, name, &identification::DriveRecord::name);
   if (found == campaign.records.end()) {
     throw InvalidInput(fmt::format("--measured {}: expected a record of the case, one of {}",
-                                   in_quotes(name), fmt::join(names, ", ")));
+                                   io::in_quotes(name), fmt::join(names, ", ")));
   }
   if (!found->valve_command || found->inlet_pressure.empty() || found->outlet_pressure.empty()) {
     throw InvalidInput(fmt::format(
         "--measured {}: expected a record with valve command and pressures, found none of {}: "
         "record them, or state their columns in [record_columns]",
-        in_quotes(name), found->valve_command ? "the pressures" : "the valve command"));
+        io::in_quotes(name), found->valve_command ? "the pressures" : "the valve command"));
   }
   if (found->rate_loop_closed) {
     throw InvalidInput(
         fmt::format("--measured {}: expected a test with the rate loop open: closed, the valve "
                     "command answers the noise that the response is to be freed of",
-                    in_quotes(name)));
+                    io::in_quotes(name)));
   }
   return *found;
 }
@@ -60,7 +60,7 @@ const identification::DriveRecord& record_named(const identification::Campaign& 
 control::FrequencyBand excited_band(const Eigen::VectorXd& command, double sample_time) {
   constexpr Index half = 4;
   const Eigen::VectorXd centred = (command.array() - command.mean()).matrix();
-  const Eigen::VectorXd power = plant::fourier_transform(centred).cwiseAbs2();
+  const Eigen::VectorXd power = numerics::fourier_transform(centred).cwiseAbs2();
   Eigen::VectorXd smooth = Eigen::VectorXd::Zero(power.size());
   for (Index k = half; k + half < power.size(); ++k) {
     smooth[k] = power.segment(k - half, 2 * half + 1).mean();
@@ -89,25 +89,25 @@ bool begins_with_encoder(const std::string& name) {
 
 // The antenna's angle beside the drive's signals. Only of a file whose rows are the record's
 // samples: nothing was cut or put on another time base.
-std::optional<EncoderColumn> encoder_of(const Case& antenna, const RecordNotes& notes,
+std::optional<EncoderColumn> encoder_of(const io::Case& antenna, const RecordNotes& notes,
                                         Index samples, std::vector<std::string>& remarks) {
-  const RecordTable table = read_record(notes.path);
+  const io::RecordTable table = io::read_record(notes.path);
   const auto column = std::ranges::find_if(
-      table.columns, [](const RecordColumn& one) { return begins_with_encoder(one.name); });
+      table.columns, [](const io::RecordColumn& one) { return begins_with_encoder(one.name); });
   if (column == table.columns.end()) return std::nullopt;
-  const auto unit = recorded_unit(column->unit);
-  const bool usable = unit && unit->dimension == dimension_of(Kind::angle);
+  const auto unit = io::recorded_unit(column->unit);
+  const bool usable = unit && unit->dimension == io::dimension_of(io::Kind::angle);
   if (!usable || static_cast<Index>(column->values.size()) != samples ||
       !std::ranges::all_of(column->values, [](double value) { return std::isfinite(value); })) {
     remarks.push_back(fmt::format(
         "column {} is not used: it needs an angle's unit and a number in each of the record's {} "
         "samples",
-        in_quotes(column->name), samples));
+        io::in_quotes(column->name), samples));
     return std::nullopt;
   }
   const auto& reversed = antenna.campaign.columns.reversed;
   const bool turned = std::ranges::any_of(
-      reversed, [&](const std::string& name) { return is_named(*column, name); });
+      reversed, [&](const std::string& name) { return io::is_named(*column, name); });
   const double scale = unit->factor * gear_ratio(antenna) * (turned ? -1.0 : 1.0);
   return EncoderColumn{column->name,
                        scale * Eigen::Map<const Eigen::VectorXd>(column->values.data(), samples)};
@@ -169,7 +169,7 @@ void judge_on_case(const design::TrackingProblem& problem, MeasuredLaw& row) {
 }
 
 // Of the same record where it tells it, else as the case states it.
-void find_oil(const Case& antenna, const identification::Campaign& campaign,
+void find_oil(const io::Case& antenna, const identification::Campaign& campaign,
               const identification::DriveRecord& record, MeasuredTuneSection& section) {
   section.oil = {oil_stiffness(antenna), antenna.drive.leakage_rate.value};
   section.oil_source = "stated by the case";
@@ -186,7 +186,7 @@ void find_oil(const Case& antenna, const identification::Campaign& campaign,
   }
 }
 
-void add_notes(const Case& antenna, MeasuredTuneSection& section) {
+void add_notes(const io::Case& antenna, MeasuredTuneSection& section) {
   auto& notes = section.notes;
   notes.emplace_back(
       "the rms is the encoder's for wind as a torque at the motor shaft: what the structure bends "
@@ -221,11 +221,11 @@ bool MeasuredTuneSection::any_confident() const {
   });
 }
 
-MeasuredTuneSection tune_measured(const Case& antenna, const MeasuredStudyOptions& options) {
+MeasuredTuneSection tune_measured(const io::Case& antenna, const MeasuredStudyOptions& options) {
   std::vector<std::string> names = options.structures;
   if (names.empty()) names = {"PI", "DPF"};
   std::vector<control::LoopStructure> structures;
-  for (const auto& name : names) structures.push_back(loop_structure(antenna, name));
+  for (const auto& name : names) structures.push_back(io::loop_structure(antenna, name));
 
   CampaignNotes notes;
   const identification::Campaign campaign = make_campaign(antenna, notes);
@@ -244,7 +244,7 @@ MeasuredTuneSection tune_measured(const Case& antenna, const MeasuredStudyOption
     throw NumericalFailure(
         fmt::format("--measured {}: the drive moves one way for {:.3g} s at most ({} samples); a "
                     "response needs 1000 samples",
-                    in_quotes(options.record), section.length, part.samples));
+                    io::in_quotes(options.record), section.length, part.samples));
   }
   section.mean_rate = record.motor_rate.values.segment(part.first, part.samples).mean();
   const auto& valve = record.valve_command;

@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include <boresight/app/io/case_file.hpp>
-#include <boresight/design/measured_tuning.hpp>
+#include <boresight/design/tuning/measured_tuning.hpp>
+#include <boresight/io/case/case_file.hpp>
 
 namespace boresight::app {
 
@@ -64,6 +64,6 @@ struct MeasuredTuneSection {
 /// @throws InvalidInput for a record that the case has not or that was left out, one without valve
 /// command or with the rate loop closed, a structure that is none; as make_campaign;
 /// NumericalFailure where it is not coherent.
-MeasuredTuneSection tune_measured(const Case& antenna, const MeasuredStudyOptions& options);
+MeasuredTuneSection tune_measured(const io::Case& antenna, const MeasuredStudyOptions& options);
 
 }  // namespace boresight::app

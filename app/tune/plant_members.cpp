@@ -7,7 +7,7 @@
 
 #include <boresight/app/redesign/antenna_model.hpp>
 #include <boresight/app/tune/plant_members.hpp>
-#include <boresight/plant/normal_numbers.hpp>
+#include <boresight/numerics/normal_numbers.hpp>
 
 namespace boresight::app {
 namespace {
@@ -19,7 +19,7 @@ struct Draw {
   double structure_frequency = 1.0, oil_stiffness = 1.0, leakage_rate = 0.0, viscous_friction = 0.0;
 };
 
-plant::AntennaPlant plant_of(const Case& antenna, const Draw& draw) {
+plant::AntennaPlant plant_of(const io::Case& antenna, const Draw& draw) {
   return make_plant(antenna, {.viscous_friction = draw.viscous_friction,
                               .oil_stiffness = draw.oil_stiffness * oil_stiffness(antenna),
                               .leakage_rate = draw.leakage_rate,
@@ -29,7 +29,7 @@ plant::AntennaPlant plant_of(const Case& antenna, const Draw& draw) {
 // Uniform within [0, 1), number `index` of a stream.
 double uniform(std::uint64_t state, std::size_t index) {
   constexpr double unit = 0x1p-53;
-  return static_cast<double>(plant::splitmix64(state, index) >> 11U) * unit;
+  return static_cast<double>(numerics::splitmix64(state, index) >> 11U) * unit;
 }
 
 // One number in each of `count` equal parts of [0, 1), the parts in a random order.
@@ -53,7 +53,8 @@ double between(const MemberRanges::Ends& ends, double share) {
   return ends.lower + share * (ends.upper - ends.lower);
 }
 
-MemberRanges::Ends stated(const std::optional<RangeEntry>& range, const MemberRanges::Ends& usual) {
+MemberRanges::Ends stated(const std::optional<io::RangeEntry>& range,
+                          const MemberRanges::Ends& usual) {
   if (!range) return usual;
   return {range->lower.value, range->upper.value};
 }
@@ -63,7 +64,7 @@ MemberRanges::Ends both(const MemberRanges::Ends& one, const MemberRanges::Ends&
 }
 
 // Of a number, `scale` times the factors about 1 that its stated uncertainty leaves.
-MemberRanges::Ends spread(const Quantity& quantity, double scale) {
+MemberRanges::Ends spread(const io::Quantity& quantity, double scale) {
   constexpr double least = 0.05;
   if (!quantity.uncertainty_given) return {scale, scale};
   const double half = std::numbers::sqrt3 * relative_uncertainty(quantity);
@@ -72,8 +73,8 @@ MemberRanges::Ends spread(const Quantity& quantity, double scale) {
 
 }  // namespace
 
-MemberRanges member_ranges(const Case& antenna) {
-  const EnsembleEntry& ensemble = antenna.ensemble;
+MemberRanges member_ranges(const io::Case& antenna) {
+  const io::EnsembleEntry& ensemble = antenna.ensemble;
   const double leakage = antenna.drive.leakage_rate.value;
   const MemberRanges spread = spread_of_stated(antenna);
   return {stated(ensemble.structure_frequency, both({0.95, 1.05}, spread.structure_frequency)),
@@ -82,8 +83,8 @@ MemberRanges member_ranges(const Case& antenna) {
           stated(ensemble.viscous_friction, {0.0, largest_viscous_friction(antenna)})};
 }
 
-MemberRanges spread_of_stated(const Case& antenna) {
-  const Quantity& leakage = antenna.drive.leakage_rate;
+MemberRanges spread_of_stated(const io::Case& antenna) {
+  const io::Quantity& leakage = antenna.drive.leakage_rate;
   const double friction = antenna.drive.viscous_friction.value;
   return {spread(antenna.structure.locked_rotor_frequency, 1.0),
           antenna.oil.bulk_modulus ? spread(*antenna.oil.bulk_modulus, 1.0) : MemberRanges::Ends{},
@@ -91,7 +92,7 @@ MemberRanges spread_of_stated(const Case& antenna) {
           {friction, friction}};
 }
 
-std::vector<design::EnsembleMember> plant_members(const Case& antenna, std::uint64_t seed) {
+std::vector<design::EnsembleMember> plant_members(const io::Case& antenna, std::uint64_t seed) {
   const MemberRanges ranges = member_ranges(antenna);
   const Draw own{1.0, 1.0, antenna.drive.leakage_rate.value, antenna.drive.viscous_friction.value};
   std::vector<design::EnsembleMember> members;
@@ -117,7 +118,7 @@ std::vector<design::EnsembleMember> plant_members(const Case& antenna, std::uint
   const auto draws = static_cast<std::size_t>(stated_draws > 0 ? stated_draws : reference_draws);
   std::array<std::vector<double>, 4> shares;
   for (std::size_t i = 0; i < shares.size(); ++i) {
-    shares.at(i) = stratified(draws, plant::splitmix64(seed, i));
+    shares.at(i) = stratified(draws, numerics::splitmix64(seed, i));
   }
   for (std::size_t i = 0; i < draws; ++i) {
     add(fmt::format("draw {}", i + 1),

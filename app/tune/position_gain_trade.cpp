@@ -43,7 +43,7 @@ bool ends_at_position_gain(const design::TuningResult& tuning) {
 }
 
 std::optional<PositionGainTrade> position_gain_trade(
-    const Case& antenna, design::TrackingProblem problem, const design::TuningResult& tuning,
+    const io::Case& antenna, design::TrackingProblem problem, const design::TuningResult& tuning,
     double beam_rms, const design::HardGoals& goals,
     const std::vector<design::EnsembleMember>& members) {
   const auto traded = traded_gains(tuning);

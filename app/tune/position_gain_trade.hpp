@@ -6,8 +6,8 @@
 #include <string_view>
 #include <vector>
 
-#include <boresight/app/io/case_file.hpp>
-#include <boresight/design/plant_ensemble.hpp>
+#include <boresight/design/ensembles/plant_ensemble.hpp>
+#include <boresight/io/case/case_file.hpp>
 
 namespace boresight::app {
 
@@ -28,7 +28,7 @@ bool ends_at_position_gain(const design::TuningResult& tuning);
 /// judged on members that may be empty. None unless ends_at_position_gain and the position gain can
 /// be halved or lowered further. Ten judgements of a law and one of all members.
 std::optional<PositionGainTrade> position_gain_trade(
-    const Case& antenna, design::TrackingProblem problem, const design::TuningResult& tuning,
+    const io::Case& antenna, design::TrackingProblem problem, const design::TuningResult& tuning,
     double beam_rms, const design::HardGoals& goals,
     const std::vector<design::EnsembleMember>& members);
 

@@ -82,9 +82,7 @@ void conclude_best(const TuneSection& section, std::vector<std::string>& sentenc
     if (std::ranges::find(concluded, recommended) != concluded.end()) continue;
     say(*recommended, fmt::format("the law recommended is {}", name_and_purpose(*recommended)));
   }
-  std::ranges::move(gains_at_bounds(concluded, sample_time_of(section.problem.delay)),
-                    std::back_inserter(sentences));
-  std::ranges::move(gain_trades(concluded), std::back_inserter(sentences));
+  std::ranges::move(about_bounds(section, concluded), std::back_inserter(sentences));
 }
 
 void conclude_before_and_after(const TuneSection& section, std::vector<std::string>& sentences) {
@@ -160,7 +158,7 @@ std::string alternative_text(const TuneSection& section, const PointingBudget& b
 void conclude_budgets(const TuneSection& section, std::vector<std::string>& sentences) {
   for (const auto& budget : section.budgets) {
     if (!budget.wind_speed || section.supply_wind_speed < *budget.wind_speed) continue;
-    const TunedLaw* nearest = best_pointing_law(section, budget.wind_speed);
+    const TunedLaw* nearest = nearest_to_budget(section, budget.wind_speed);
     if (nearest == nullptr || !nearest->keeps(budget.rms)) continue;
     std::string text = fmt::format(
         "The budget '{}' in band {} ({}) is met at the {:.3g} m/s{} that it is needed up to",

@@ -5,7 +5,7 @@
 
 namespace boresight::app {
 
-design::PointingLimit pointing_limit_of(const Case& antenna, const TuneSection& section,
+design::PointingLimit pointing_limit_of(const io::Case& antenna, const TuneSection& section,
                                         const PlantEnsemble& ensemble, double wind_speed,
                                         unsigned threads) {
   design::TrackingProblem problem = make_problem(antenna);
@@ -17,7 +17,7 @@ design::PointingLimit pointing_limit_of(const Case& antenna, const TuneSection& 
         {fmt::format("{}, {}", row.structure, to_string(row.tuned_for)), row.design.tuning.law});
   }
   design::PointingLimitOptions options;
-  options.sample_time = sample_time_of(problem.delay);
+  options.sample_time = io::sample_time_of(problem.delay);
   options.threads = threads;
   return design::pointing_limit(problem, section.goals, ensemble.members, laws, options);
 }

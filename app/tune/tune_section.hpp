@@ -8,9 +8,9 @@
 
 #include <boresight/app/redesign/antenna_model.hpp>
 #include <boresight/app/tune/position_gain_trade.hpp>
-#include <boresight/design/design_study.hpp>
-#include <boresight/design/nonlinear_verification.hpp>
-#include <boresight/design/plant_ensemble.hpp>
+#include <boresight/design/ensembles/plant_ensemble.hpp>
+#include <boresight/design/tuning/design_study.hpp>
+#include <boresight/design/verification/nonlinear_verification.hpp>
 
 namespace boresight::app {
 
@@ -81,7 +81,7 @@ struct TuneSection {
   std::vector<std::string> structures;
   std::vector<double> wind_speeds;  // m/s: the design's and those that budgets ask for
   plant::WindModel wind_model = plant::WindModel::coherence;
-  std::optional<WindMast> wind_mast;  // none: the case states speeds at the dish's centre
+  std::optional<io::WindMast> wind_mast;  // none: the case states speeds at the dish's centre
   design::HardGoals goals;
   design::SoftGoal soft_goal;
   std::optional<double> beam_rms_goal;  // rad

@@ -9,10 +9,11 @@
 #include <boresight/app/tune/engineer_units.hpp>
 #include <boresight/app/tune/position_gain_trade.hpp>
 #include <boresight/app/tune/tune_study.hpp>
-#include <boresight/design/parallel_loop.hpp>
-#include <boresight/design/structure_parts.hpp>
-#include <boresight/plant/error.hpp>
-#include <boresight/plant/point_response.hpp>
+#include <boresight/app/tune/tuned_assessment.hpp>
+#include <boresight/design/tuning/structure_parts.hpp>
+#include <boresight/numerics/error.hpp>
+#include <boresight/numerics/parallel_loop.hpp>
+#include <boresight/plant/antenna/point_response.hpp>
 
 namespace boresight::app {
 namespace {
@@ -33,7 +34,7 @@ struct TuningUnit {
 
 class Study {
  public:
-  Study(const Case& antenna, const PlantEnsemble& ensemble, const TuneOptions& options,
+  Study(const io::Case& antenna, const PlantEnsemble& ensemble, const TuneOptions& options,
         const TuneSection& section)
       : antenna_(antenna),
         ensemble_(ensemble),
@@ -175,7 +176,7 @@ class Study {
                                     section_.goals, ensemble_.members);
   }
 
-  const Case& antenna_;
+  const io::Case& antenna_;
   const PlantEnsemble& ensemble_;
   const TuneOptions& options_;
   const TuneSection& section_;
@@ -184,7 +185,7 @@ class Study {
 };
 
 // The speeds asked for, or the design's, and those of budgets that must be met.
-std::vector<double> speeds_of(const Case& antenna, const TuneOptions& options) {
+std::vector<double> speeds_of(const io::Case& antenna, const TuneOptions& options) {
   std::vector<double> speeds = options.wind_speeds;
   if (speeds.empty()) speeds.push_back(antenna.wind.design_speed.value);
   for (const auto& budget : antenna.budgets) {
@@ -212,12 +213,12 @@ std::string short_name(const control::LoopStructure& structure) {
   return structure.name();
 }
 
-std::vector<TuningUnit> units_of(const Case& antenna, const TuneSection& section) {
+std::vector<TuningUnit> units_of(const io::Case& antenna, const TuneSection& section) {
   std::vector<control::LoopStructure> structures;
   for (const auto& name : section.structures) {
-    structures.push_back(loop_structure(antenna, name));
+    structures.push_back(io::loop_structure(antenna, name));
   }
-  const auto missing = design::missing_parts(structures, usual_structures_with_lag(antenna));
+  const auto missing = design::missing_parts(structures, io::usual_structures_with_lag(antenna));
   structures.insert(structures.end(), missing.begin(), missing.end());
   const auto parts = design::parts_of(structures);
   std::vector<TuningUnit> units;
@@ -245,23 +246,6 @@ bool only_unverified(const std::vector<TunedLaw>& laws) {
          std::ranges::none_of(laws, [&](const auto& row) { return tuned(row) && row.usable(); });
 }
 
-// The usable law of least `rms` of those that `counts`, robust ones before nominal ones.
-template <typename Counts, typename Rms>
-const TunedLaw* best_of(const TuneSection& section, std::optional<double> wind_speed,
-                        const Counts& counts, const Rms& rms) {
-  const TunedLaw* best = nullptr;
-  for (const auto& row : section.laws) {
-    if (row.tuned_for == TunedFor::present || !row.usable() || !counts(row)) continue;
-    if (wind_speed && row.wind_speed != *wind_speed) continue;
-    const bool first_choice = best == nullptr || row.tuned_for > best->tuned_for;
-    if (first_choice || (row.tuned_for == best->tuned_for && row.wind_speed == best->wind_speed &&
-                         std::invoke(rms, row) < std::invoke(rms, *best))) {
-      best = &row;
-    }
-  }
-  return best;
-}
-
 }  // namespace
 
 std::string_view to_string(TunedFor purpose) {
@@ -270,27 +254,38 @@ std::string_view to_string(TunedFor purpose) {
 }
 
 const TunedLaw* best_law(const TuneSection& section, std::optional<double> wind_speed) {
-  return best_of(
-      section, wind_speed, [](const TunedLaw&) { return true; }, &TunedLaw::beam_rms);
+  // Round-off of the search does not outweigh robustness.
+  design::RecommendOptions options{.tie = 1e-3};
+  const auto best_at = [&](double speed) { return recommended_at(section, speed, false, options); };
+  if (wind_speed) return best_at(*wind_speed);
+  for (const auto accepted : {design::Fitness::misses_budget, design::Fitness::misses_member}) {
+    options.accepted = accepted;
+    for (const double speed : section.wind_speeds) {
+      if (const TunedLaw* best = best_at(speed)) return best;
+    }
+  }
+  return nullptr;
 }
 
-const TunedLaw* best_pointing_law(const TuneSection& section, std::optional<double> wind_speed) {
+const TunedLaw* nearest_to_budget(const TuneSection& section, std::optional<double> wind_speed) {
   const TunedLaw* linear = best_law(section, wind_speed);
   if (linear == nullptr) return nullptr;
-  // A nominal law that did not run is no substitute for robust ones that failed.
   const auto least = [&](bool left_out) {
-    const auto counts = [&](const TunedLaw& row) {
-      return row.tuned_for == linear->tuned_for && row.left_out() == left_out &&
-             (!row.in_time || std::isfinite(row.in_time->beam_rms));
-    };
-    return best_of(section, linear->wind_speed, counts, &TunedLaw::budget_rms);
+    const TunedLaw* nearest = nullptr;
+    for (const auto& row : section.laws) {
+      if (row.tuned_for != linear->tuned_for || row.wind_speed != linear->wind_speed) continue;
+      if (!row.usable() || row.left_out() != left_out) continue;
+      if (row.in_time && !std::isfinite(row.in_time->beam_rms)) continue;
+      if (nearest == nullptr || row.budget_rms() < nearest->budget_rms()) nearest = &row;
+    }
+    return nearest;
   };
-  const TunedLaw* held = least(false);
-  if (held == nullptr) held = least(true);
-  return held != nullptr ? held : linear;
+  const TunedLaw* nearest = least(false);
+  if (nearest == nullptr) nearest = least(true);
+  return nearest != nullptr ? nearest : linear;
 }
 
-TuneSection tune_structures(const Case& antenna, const PlantEnsemble& ensemble,
+TuneSection tune_structures(const io::Case& antenna, const PlantEnsemble& ensemble,
                             const TuneOptions& options) {
   TuneSection section;
   section.structures = asked_structures(antenna, options.structures);
@@ -314,11 +309,11 @@ TuneSection tune_structures(const Case& antenna, const PlantEnsemble& ensemble,
   section.wind_model = section.problem.wind.model;
   section.wind_mast = antenna.wind.mast;
   section.climate = antenna.wind.climate_parts;
-  section.demand_assumption = demand_assumption(antenna);
+  section.demand_assumption = io::demand_assumption(antenna);
   auto units = units_of(antenna, section);
   std::vector<std::vector<std::size_t>> parts;
   for (const auto& unit : units) parts.push_back(unit.parts);
-  design::StepCounter counter(design::steps_of_search(parts), options.progress);
+  numerics::StepCounter counter(design::steps_of_search(parts), options.progress);
   const auto search = [&](std::size_t i) {
     study.search(units[i]);
     counter.step();
@@ -329,8 +324,8 @@ TuneSection tune_structures(const Case& antenna, const PlantEnsemble& ensemble,
   };
   design::search_then_improve(parts, options.threads, search, improve);
   std::erase_if(units, [](const auto& unit) { return !unit.asked; });
-  design::for_each_index(units.size(), options.threads,
-                         [&](std::size_t i) { study.finish(units[i]); });
+  numerics::for_each_index(units.size(), options.threads,
+                           [&](std::size_t i) { study.finish(units[i]); });
   for (auto& unit : units) {
     std::ranges::move(unit.laws, std::back_inserter(section.laws));
     std::ranges::move(unit.not_run, std::back_inserter(section.not_run));

@@ -34,18 +34,18 @@ struct PlantEnsemble {
 /// number of threads.
 /// @throws InvalidInput for a structure that is none or asked for twice, a speed outside 0.1 to 60
 /// m/s, and goals that design::validate or the case's tables do not allow.
-TuneSection tune_structures(const Case& antenna, const PlantEnsemble& ensemble,
+TuneSection tune_structures(const io::Case& antenna, const PlantEnsemble& ensemble,
                             const TuneOptions& options);
 
-/// The law of least rms on the linear plant of those that meet all they must, robust ones before
-/// nominal ones: at one wind speed, or at the first that such a law was tuned for. Null if there is
-/// none.
+/// What design::recommend chooses on the linear plant alone, where only 0.1 % of the rms is a tie:
+/// at one wind speed, or at the first that has a robust design which meets every constraint, else a
+/// nominal one. Null if there is none.
 const TunedLaw* best_law(const TuneSection& section, std::optional<double> wind_speed = {});
 
-/// What budgets are held against, which best_law, the best on the linear plant, need not be: of the
-/// laws of its purpose and wind speed that are not left_out, that of the least budget_rms; where
-/// all are, the same of those whose run in wind completed; best_law where none did.
-const TunedLaw* best_pointing_law(const TuneSection& section,
+/// What decides whether a budget can be met, no choice of a controller: of the designs of
+/// best_law's purpose and wind speed that are not left_out, that of the least budget_rms; where all
+/// are, the same of those whose run in wind completed; best_law where none did.
+const TunedLaw* nearest_to_budget(const TuneSection& section,
                                   std::optional<double> wind_speed = {});
 
 /// What of the goals, budgets and plant the laws of a finished study do not reach, with the closest

@@ -15,6 +15,7 @@
 #include <boresight/app/tune/laws_in_time.hpp>
 #include <boresight/app/tune/tune_study.hpp>
 #include <boresight/app/tune/tune_verdict.hpp>
+#include <boresight/app/tune/tuned_assessment.hpp>
 
 namespace boresight::app {
 namespace {
@@ -73,20 +74,8 @@ std::string found_and_limit(const GoalRatio& goal, const design::HardGoals& goal
 
 // Whether one of its corners does nothing that a sampled controller can do.
 bool has_idle_corner(const TuneSection& section, const TunedLaw& row) {
-  const SearchedLaw searched{"", &row.design.tuning, sample_time_of(section.problem.delay)};
+  const SearchedLaw searched{"", &row.design.tuning, io::sample_time_of(section.problem.delay)};
   return !corners_beyond_sampling(searched).empty();
-}
-
-// What best_in_time goes by of a law's run.
-TimeDomainSection::Candidate candidate_of(const TunedLaw& row, const LawInTime& run) {
-  design::HuntingResult hunting;
-  hunting.limit_cycle = run.hunting > 0.0;
-  hunting.beam_amplitude = run.hunting;
-  TimeDomainSection::Candidate candidate;
-  candidate.law = description_of(row);
-  candidate.result.wind.beam_rms = run.beam_rms;
-  candidate.result.hunting.push_back(std::move(hunting));
-  return candidate;
 }
 
 // Every goal that stands in the way, once.
@@ -238,7 +227,7 @@ void find_unreached_rms(const TuneSection& section, std::vector<Shortfall>& shor
                        section.supply_wind_speed)});
       continue;
     }
-    const TunedLaw* best = best_pointing_law(section, budget.wind_speed);
+    const TunedLaw* best = nearest_to_budget(section, budget.wind_speed);
     if (best == nullptr || best->keeps(met * budget.rms)) continue;
     const auto more_of = [&](const TunedLaw& law) {
       return fmt::format(
@@ -260,7 +249,7 @@ void find_unreached_rms(const TuneSection& section, std::vector<Shortfall>& shor
   }
   if (!section.beam_rms_goal) return;
   const double speed = section.wind_speeds.front();
-  const TunedLaw* best = best_pointing_law(section, speed);
+  const TunedLaw* best = nearest_to_budget(section, speed);
   if (best == nullptr || best->keeps(met * *section.beam_rms_goal)) return;
   const std::string barred = barred_by_hunting(section, *best, met * *section.beam_rms_goal);
   shortfalls.push_back({fmt::format("A beam rms of {:.4f} mdeg {} at {:.3g} m/s{}{}.",
@@ -277,18 +266,12 @@ std::string name_and_purpose(const TunedLaw& row) {
 }
 
 const TunedLaw* recommended_law(const TuneSection& section, std::optional<double> wind_speed) {
-  const TunedLaw* pointing = best_pointing_law(section, wind_speed);
-  if (pointing == nullptr || pointing->left_out()) return nullptr;
-  std::vector<const TunedLaw*> rows;
-  std::vector<TimeDomainSection::Candidate> candidates;
-  for (const auto* row : rows_at(section, pointing->wind_speed)) {
-    if (row->tuned_for != pointing->tuned_for || !row->usable()) continue;
-    if (!row->in_time || row->left_out()) continue;
-    rows.push_back(row);
-    candidates.push_back(candidate_of(*row, *row->in_time));
+  if (!wind_speed) {
+    const TunedLaw* best = best_law(section);
+    if (best == nullptr) return nullptr;
+    wind_speed = best->wind_speed;
   }
-  // All of these hold still, whatever the error.
-  return rows.empty() ? pointing : rows[best_in_time(candidates, HUGE_VAL)];
+  return recommended_at(section, *wind_speed, true, {});
 }
 
 const TunedLaw* shown_law(const TuneSection& section,
@@ -331,7 +314,13 @@ std::string why_not_recommended(const TuneSection& section, const TunedLaw& othe
   if (has_idle_corner(section, other) && !has_idle_corner(section, recommended)) {
     reasons.emplace_back("has a corner beyond half the sampling rate, where it does nothing");
   }
-  if (reasons.empty()) {
+  const auto gains = [](const TunedLaw& row) {
+    return row.design.tuning.law.structure.gains().size();
+  };
+  if (reasons.empty() && gains(other) > gains(recommended)) {
+    reasons.push_back(fmt::format("is better by no more than {:.0f} % with {} gains rather than {}",
+                                  100.0 * negligible_change, gains(other), gains(recommended)));
+  } else if (reasons.empty()) {
     reasons.push_back(fmt::format("is better by no more than {:.0f} %", 100.0 * negligible_change));
   }
   return fmt::format("{}", fmt::join(reasons, ", and "));

@@ -11,10 +11,8 @@ namespace boresight::app {
 /// What a law is called in sentences: "PI (robust)".
 std::string name_and_purpose(const TunedLaw& row);
 
-/// The one law that every conclusion of a study names, at one wind speed or at that of best_law: of
-/// the laws of best_law's purpose that ran on the nonlinear antenna and are not left_out the
-/// best_in_time, by which the time domain chooses; best_pointing_law where none ran. Null without a
-/// law, and where all are left_out: then none is to be commissioned.
+/// The one controller that every conclusion of a study names: design::recommend at one wind speed,
+/// or at that of best_law. Null where none is fit: then none is to be commissioned.
 const TunedLaw* recommended_law(const TuneSection& section, std::optional<double> wind_speed = {});
 
 /// The law that figures and exported models are of: the one recommended; where none is, that of the

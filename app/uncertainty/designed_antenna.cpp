@@ -4,11 +4,11 @@
 #include <boresight/app/identify/identified_case.hpp>
 #include <boresight/app/tune/plant_members.hpp>
 #include <boresight/app/uncertainty/designed_antenna.hpp>
-#include <boresight/plant/error.hpp>
+#include <boresight/numerics/error.hpp>
 
 namespace boresight::app {
 
-DesignedAntenna designed_antenna(const Case& stated, std::uint64_t seed, unsigned threads,
+DesignedAntenna designed_antenna(const io::Case& stated, std::uint64_t seed, unsigned threads,
                                  const std::function<bool()>& interrupted) {
   // As many as the reference ensemble has.
   constexpr std::size_t members = 30;
@@ -21,7 +21,7 @@ DesignedAntenna designed_antenna(const Case& stated, std::uint64_t seed, unsigne
     };
     const CampaignSection campaign = identify_campaign(stated, study);
     if (campaign.grey_box) {
-      const Case identified = with_identified(stated, campaign.grey_box->estimate);
+      const io::Case identified = with_identified(stated, campaign.grey_box->estimate);
       const auto distribution = PlantDistribution::of_records(identified, campaign.grey_box->draws);
       PlantEnsemble ensemble{"drawn from what the records leave open", {}};
       for (std::size_t i = 0; i < members; ++i) {

@@ -13,7 +13,7 @@ namespace boresight::app {
 /// The antenna that a study works on, and the plants that may be the true one.
 struct DesignedAntenna {
   /// The case as stated; with records that show a drive, the case with that one.
-  Case antenna;
+  io::Case antenna;
   /// As many as the reference ensemble has: draws of the distribution where records leave it open,
   /// else tune/plant_members.hpp.
   PlantEnsemble ensemble;
@@ -26,7 +26,7 @@ struct DesignedAntenna {
 /// Identifies a case's records, if it has any. The same for any number of threads.
 /// @throws Interrupted once `interrupted` (may be empty) said yes, as identify_campaign and
 /// with_identified.
-DesignedAntenna designed_antenna(const Case& stated, std::uint64_t seed, unsigned threads,
+DesignedAntenna designed_antenna(const io::Case& stated, std::uint64_t seed, unsigned threads,
                                  const std::function<bool()>& interrupted);
 
 }  // namespace boresight::app

@@ -9,8 +9,8 @@
 
 #include <boresight/app/tune/plant_members.hpp>
 #include <boresight/app/uncertainty/plant_distribution.hpp>
-#include <boresight/plant/error.hpp>
-#include <boresight/plant/normal_numbers.hpp>
+#include <boresight/numerics/error.hpp>
+#include <boresight/numerics/normal_numbers.hpp>
 
 namespace boresight::app {
 namespace {
@@ -22,7 +22,7 @@ constexpr std::size_t place(UncertainInput input) {
 // Uniform within (0, 1), both ends left out.
 double uniform(std::uint64_t state, std::uint64_t index) {
   constexpr double unit = 0x1p-53;
-  return (static_cast<double>(plant::splitmix64(state, index) >> 12U) + 0.5) * 2.0 * unit;
+  return (static_cast<double>(numerics::splitmix64(state, index) >> 12U) + 0.5) * 2.0 * unit;
 }
 
 // Streams of a seed: shares of uniform inputs, normal numbers of the others.
@@ -36,7 +36,7 @@ constexpr std::size_t plant_inputs = place(UncertainInput::wind_torque);
 
 // Logarithms of a draw's factors against the estimate's case, in the order of PlantDraw::values;
 // the friction slope's stays 0. Nothing where it leaves the antenna no inertia.
-std::optional<Eigen::VectorXd> log_factors(const Case& identified,
+std::optional<Eigen::VectorXd> log_factors(const io::Case& identified,
                                            const identification::DriveEstimate& draw) {
   const double antenna = draw.inertia - draw.motor_inertia - gear_train_inertia(identified);
   if (!(antenna > 0.0)) return std::nullopt;
@@ -66,7 +66,7 @@ std::string_view to_string(UncertainInput input) {
   return names.at(place(input));
 }
 
-PlantVariant variant_of(const Case& antenna, const PlantDraw& draw) {
+PlantVariant variant_of(const io::Case& antenna, const PlantDraw& draw) {
   using enum UncertainInput;
   return {.viscous_friction = draw[friction_slope],
           .antenna_inertia = draw[antenna_inertia] * app::antenna_inertia(antenna),
@@ -77,7 +77,7 @@ PlantVariant variant_of(const Case& antenna, const PlantDraw& draw) {
           .wind_torque_scale = draw[wind_torque]};
 }
 
-plant::AntennaPlant make_plant(const Case& antenna, const PlantDraw& draw) {
+plant::AntennaPlant make_plant(const io::Case& antenna, const PlantDraw& draw) {
   return make_plant(antenna, variant_of(antenna, draw));
 }
 
@@ -86,9 +86,9 @@ double PlantDistribution::Marginal::at(double share) const {
   return std::exp(centre - deviation * std::numbers::sqrt2 * boost::math::erfc_inv(2.0 * share));
 }
 
-void PlantDistribution::set_wind_torque(const Case& antenna) {
-  const auto stated = [](const Quantity& quantity) {
-    return quantity.uncertainty_given ? relative_uncertainty(quantity) : 0.0;
+void PlantDistribution::set_wind_torque(const io::Case& antenna) {
+  const auto stated = [](const io::Quantity& quantity) {
+    return quantity.uncertainty_given ? io::relative_uncertainty(quantity) : 0.0;
   };
   Marginal& marginal = marginals_.at(place(UncertainInput::wind_torque));
   marginal.uniform = false;
@@ -108,7 +108,7 @@ void PlantDistribution::list_inputs() {
   }
 }
 
-PlantDistribution PlantDistribution::of_ranges(const Case& antenna) {
+PlantDistribution PlantDistribution::of_ranges(const io::Case& antenna) {
   const MemberRanges ranges = member_ranges(antenna);
   const double leakage = antenna.drive.leakage_rate.value;
   PlantDistribution distribution;
@@ -131,7 +131,7 @@ PlantDistribution PlantDistribution::of_ranges(const Case& antenna) {
                                         std::pair{motor_inertia, &antenna.motor.inertia}}) {
     Marginal& marginal = distribution.marginals_.at(place(input));
     marginal.uniform = false;
-    marginal.deviation = relative_uncertainty(*quantity);
+    marginal.deviation = io::relative_uncertainty(*quantity);
     const auto i = static_cast<Eigen::Index>(place(input));
     distribution.factor_(i, i) = marginal.deviation;
   }
@@ -144,7 +144,7 @@ PlantDistribution PlantDistribution::of_ranges(const Case& antenna) {
 }
 
 PlantDistribution PlantDistribution::of_records(
-    const Case& identified, const std::vector<identification::DriveEstimate>& draws) {
+    const io::Case& identified, const std::vector<identification::DriveEstimate>& draws) {
   constexpr Eigen::Index least = 20;
   Eigen::MatrixXd logs(static_cast<Eigen::Index>(draws.size()), plant_inputs);
   Eigen::Index kept = 0;
@@ -184,7 +184,7 @@ PlantDistribution PlantDistribution::of_records(
 }
 
 PlantDraw PlantDistribution::draw(std::uint64_t seed, std::uint64_t index) const {
-  const plant::NormalNumbers normals(seed, normal_stream);
+  const numerics::NormalNumbers normals(seed, normal_stream);
   constexpr std::uint64_t pairs = (plant_inputs + 1) / 2;
   std::array<double, 2 * pairs> standard{};
   for (std::uint64_t k = 0; k < pairs; ++k) {
@@ -192,7 +192,7 @@ PlantDraw PlantDistribution::draw(std::uint64_t seed, std::uint64_t index) const
     standard.at(2 * k) = pair.real();
     standard.at(2 * k + 1) = pair.imag();
   }
-  const std::uint64_t shares = plant::splitmix64(seed, uniform_stream);
+  const std::uint64_t shares = numerics::splitmix64(seed, uniform_stream);
   PlantDraw draw;
   for (std::size_t i = 0; i < plant_inputs; ++i) {
     const Marginal& marginal = marginals_.at(i);
@@ -207,7 +207,7 @@ PlantDraw PlantDistribution::draw(std::uint64_t seed, std::uint64_t index) const
     draw.values.at(i) = std::exp(sum);
   }
   const Marginal& wind = marginals_.at(place(UncertainInput::wind_torque));
-  const double of_wind = plant::NormalNumbers(seed, wind_stream).pair(index).real();
+  const double of_wind = numerics::NormalNumbers(seed, wind_stream).pair(index).real();
   draw.values.at(place(UncertainInput::wind_torque)) = std::exp(wind.deviation * of_wind);
   return draw;
 }

@@ -9,7 +9,7 @@
 #include <Eigen/Core>
 
 #include <boresight/app/redesign/antenna_model.hpp>
-#include <boresight/identification/grey_box.hpp>
+#include <boresight/identification/grey_box/grey_box.hpp>
 
 namespace boresight::app {
 
@@ -37,8 +37,8 @@ struct PlantDraw {
   }
 };
 
-PlantVariant variant_of(const Case& antenna, const PlantDraw& draw);
-plant::AntennaPlant make_plant(const Case& antenna, const PlantDraw& draw);
+PlantVariant variant_of(const io::Case& antenna, const PlantDraw& draw);
+plant::AntennaPlant make_plant(const io::Case& antenna, const PlantDraw& draw);
 
 /// How the plants that may be the true one are distributed.
 class PlantDistribution {
@@ -46,13 +46,13 @@ class PlantDistribution {
   /// Independent, uniform over the case's ensemble ranges (tune/plant_members.hpp); the inertias
   /// lognormal with the case's own uncertainties, and the wind torque with those that the case
   /// states of torque coefficient and air density, none otherwise.
-  static PlantDistribution of_ranges(const Case& antenna);
+  static PlantDistribution of_ranges(const io::Case& antenna);
   /// Lognormal with mean and covariance of what the records leave open, about `identified` (the
   /// case at the estimate, identify/identified_case.hpp); the friction slope uniform from 0 to that
   /// at the tracking rate; the wind torque as in of_ranges. Draws that leave the antenna no inertia
   /// are passed over.
   /// @throws InvalidInput for fewer than 20 draws.
-  static PlantDistribution of_records(const Case& identified,
+  static PlantDistribution of_records(const io::Case& identified,
                                       const std::vector<identification::DriveEstimate>& draws);
 
   /// Draw number `index` of a seed, whatever was drawn before.
@@ -77,7 +77,7 @@ class PlantDistribution {
 
     double at(double share) const;
   };
-  void set_wind_torque(const Case& antenna);
+  void set_wind_torque(const io::Case& antenna);
   void list_inputs();
 
   std::array<Marginal, uncertain_inputs> marginals_;

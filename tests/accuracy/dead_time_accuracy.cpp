@@ -1,8 +1,8 @@
 #include <fmt/format.h>
 
 #include "accuracy_table.hpp"
-#include <boresight/control/delay.hpp>
-#include <boresight/plant/dense_response.hpp>
+#include <boresight/control/controllers/delay.hpp>
+#include <boresight/plant/linear/dense_response.hpp>
 
 namespace boresight::reference {
 

@@ -2,9 +2,9 @@
 #include <limits>
 
 #include "accuracy_table.hpp"
-#include <boresight/control/crossovers.hpp>
-#include <boresight/control/margins.hpp>
-#include <boresight/plant/dense_response.hpp>
+#include <boresight/control/analysis/crossovers.hpp>
+#include <boresight/control/analysis/margins.hpp>
+#include <boresight/plant/linear/dense_response.hpp>
 
 namespace boresight::reference {
 
@@ -142,7 +142,8 @@ AccuracySection margin_accuracy() {
       "values at the end of its scan, and our response is compared there. The values of "
       "pc_disc_gh523a_T0.05 belong to 1.1 w^2/(s^2 + 0.4 w s + w^2), w = 2 pi, of which the file "
       "prints rounded coefficients and a slip, 43.42624593 for 43.42625936 (proof: "
-      "tests/plant/reference_values_test.cpp). Crossovers at w = 0 and pi/T, where L is real, are "
+      "tests/plant/linear/reference_values_test.cpp). Crossovers at w = 0 and pi/T, where L is "
+      "real, are "
       "ours alone; they are compared with the value of the rational function.");
   const auto file = reference_values("margins");
   for (auto entry : file.at("cases")) {

@@ -2,10 +2,10 @@
 #include <functional>
 
 #include "accuracy_table.hpp"
-#include <boresight/control/pole_placement.hpp>
-#include <boresight/control/riccati.hpp>
-#include <boresight/plant/dense_response.hpp>
-#include <boresight/plant/error.hpp>
+#include <boresight/control/equations/riccati.hpp>
+#include <boresight/control/reduction/pole_placement.hpp>
+#include <boresight/numerics/error.hpp>
+#include <boresight/plant/linear/dense_response.hpp>
 
 namespace boresight::reference {
 

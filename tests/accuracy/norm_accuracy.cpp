@@ -1,11 +1,11 @@
 #include <cmath>
 
 #include "accuracy_table.hpp"
-#include <boresight/control/gramians.hpp>
-#include <boresight/control/h2_norm.hpp>
-#include <boresight/control/peak_gain.hpp>
-#include <boresight/plant/interconnection.hpp>
-#include <boresight/plant/sampling.hpp>
+#include <boresight/control/analysis/h2_norm.hpp>
+#include <boresight/control/analysis/peak_gain.hpp>
+#include <boresight/control/reduction/gramians.hpp>
+#include <boresight/plant/linear/interconnection.hpp>
+#include <boresight/plant/linear/sampling.hpp>
 
 namespace boresight::reference {
 
@@ -98,7 +98,8 @@ AccuracySection norm_accuracy() {
       "Norms, covariances, Hankel singular values",
       "`values/norms_gramians.json`, from python-control, ControlSystems.jl, Octave and the "
       "literature. Its property of 10 000 random systems is a test of its own "
-      "(tests/control/peak_gain_test.cpp), and SLICOT's AB13DD is among SLICOT's examples.");
+      "(tests/control/analysis/peak_gain_test.cpp), and SLICOT's AB13DD is among SLICOT's "
+      "examples.");
   const auto file = reference_values("norms_gramians");
   peak_and_h2_rows(section, file.at("hinf_h2"));
   covariance_rows(section, file.at("covariance").at(0));

@@ -2,15 +2,15 @@
 
 #include "../peer_modal_family.hpp"
 #include "accuracy_table.hpp"
-#include <boresight/control/h2_norm.hpp>
-#include <boresight/control/modal_margins.hpp>
-#include <boresight/control/peak_gain.hpp>
-#include <boresight/control/spectral_rms.hpp>
-#include <boresight/plant/dense_response.hpp>
-#include <boresight/plant/matrix_exponential.hpp>
-#include <boresight/plant/modal_response.hpp>
-#include <boresight/plant/sampling.hpp>
-#include <boresight/plant/time_response.hpp>
+#include <boresight/control/analysis/h2_norm.hpp>
+#include <boresight/control/analysis/modal_margins.hpp>
+#include <boresight/control/analysis/peak_gain.hpp>
+#include <boresight/control/analysis/spectral_rms.hpp>
+#include <boresight/numerics/matrix_exponential.hpp>
+#include <boresight/plant/linear/dense_response.hpp>
+#include <boresight/plant/linear/sampling.hpp>
+#include <boresight/plant/linear/time_response.hpp>
+#include <boresight/plant/modal/modal_response.hpp>
 
 namespace boresight::reference {
 
@@ -141,7 +141,7 @@ AccuracySection peer_accuracy() {
     margin_rows(rows, modes);
     response_rows(rows, modes, closed);
     simulation_rows(rows, noise);
-    const Eigen::MatrixXd moved = plant::matrix_exponential(noise.a * step);
+    const Eigen::MatrixXd moved = numerics::matrix_exponential(noise.a * step);
     rows.compare("expm", "exp(A T): norm, trace", {moved.norm(), moved.trace()});
     const auto held = plant::sample(noise, step);
     rows.compare("c2d", "zero-order hold: norms of A, B", {held.a.norm(), held.b.norm()});

@@ -1,7 +1,7 @@
 #include <complex>
 
 #include "accuracy_table.hpp"
-#include <boresight/plant/sampling.hpp>
+#include <boresight/plant/linear/sampling.hpp>
 
 namespace boresight::reference {
 

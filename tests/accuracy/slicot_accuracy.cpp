@@ -1,13 +1,13 @@
 #include "accuracy_table.hpp"
-#include <boresight/control/balanced_truncation.hpp>
-#include <boresight/control/h2_norm.hpp>
-#include <boresight/control/lyapunov.hpp>
-#include <boresight/control/peak_gain.hpp>
-#include <boresight/control/riccati.hpp>
-#include <boresight/plant/dense_response.hpp>
-#include <boresight/plant/eigenvalues.hpp>
-#include <boresight/plant/linear_solve.hpp>
-#include <boresight/plant/matrix_exponential.hpp>
+#include <boresight/control/analysis/h2_norm.hpp>
+#include <boresight/control/analysis/peak_gain.hpp>
+#include <boresight/control/equations/lyapunov.hpp>
+#include <boresight/control/equations/riccati.hpp>
+#include <boresight/control/reduction/balanced_truncation.hpp>
+#include <boresight/numerics/eigenvalues.hpp>
+#include <boresight/numerics/linear_solve.hpp>
+#include <boresight/numerics/matrix_exponential.hpp>
+#include <boresight/plant/linear/dense_response.hpp>
 
 namespace boresight::reference {
 
@@ -17,7 +17,7 @@ void matrix_exponential_rows(AccuracySection& section) {
   SlicotData data("MB05ND.dat");
   const auto n = static_cast<Eigen::Index>(data.scalar(0));
   const Eigen::MatrixXd a = data.next_matrix(n, n);
-  const auto moved = plant::held_transition(a, Eigen::MatrixXd::Identity(n, n), data.scalar(1));
+  const auto moved = numerics::held_transition(a, Eigen::MatrixXd::Identity(n, n), data.scalar(1));
   section.printed("MB05ND", "exp(A t)", flattened(moved.state),
                   flattened(slicot_result("MB05ND.res", "exp(A*DELTA)")));
   section.printed("MB05ND", "its integral", flattened(moved.step),
@@ -88,7 +88,7 @@ void response_rows(AccuracySection& section) {
   section.printed("TB05AD", "(sI - A)^-1 B", parts(at_s(Eigen::MatrixXd::Identity(n, n))),
                   flattened(slicot_result("TB05AD.res", "H(inverse)*B")));
   std::vector<double> eigenvalues;
-  for (const auto value : plant::eigenvalues(a)) eigenvalues.push_back(std::abs(value));
+  for (const auto value : numerics::eigenvalues(a)) eigenvalues.push_back(std::abs(value));
   std::vector<PrintedNumber> printed;
   for (const auto& row : slicot_result("TB05AD.res", "Eigenvalues of the state")) {
     printed.push_back({std::abs(row.front().value), row.front().half_unit});

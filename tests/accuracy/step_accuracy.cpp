@@ -1,7 +1,7 @@
 #include <cmath>
 
 #include "accuracy_table.hpp"
-#include <boresight/control/step_characteristics.hpp>
+#include <boresight/control/analysis/step_characteristics.hpp>
 
 namespace boresight::reference {
 
@@ -80,7 +80,7 @@ AccuracySection step_accuracy() {
       "recomputed. Published values rest on coarse time grids and are off by up to two percent; "
       "the "
       "recomputed peak times rest on one of 5e-5 s (that ours are right is shown by the slope, in "
-      "tests/control/step_characteristics_test.cpp).");
+      "tests/control/analysis/step_characteristics_test.cpp).");
   const auto file = reference_values("step_info");
   for (const auto& entry : file.at("cases")) {
     const std::string name = entry.at("id");

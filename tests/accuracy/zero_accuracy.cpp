@@ -1,7 +1,7 @@
 #include <algorithm>
 
 #include "accuracy_table.hpp"
-#include <boresight/control/transmission_zeros.hpp>
+#include <boresight/control/analysis/transmission_zeros.hpp>
 
 namespace boresight::reference {
 

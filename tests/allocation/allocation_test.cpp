@@ -8,10 +8,10 @@
 #include "../peer_drive.hpp"
 #include "../peer_family.hpp"
 #include "allocation_count.hpp"
-#include <boresight/plant/dense_response.hpp>
-#include <boresight/plant/fast_integrator.hpp>
-#include <boresight/plant/modal_response.hpp>
-#include <boresight/plant/time_response.hpp>
+#include <boresight/plant/integration/fast_integrator.hpp>
+#include <boresight/plant/linear/dense_response.hpp>
+#include <boresight/plant/linear/time_response.hpp>
+#include <boresight/plant/modal/modal_response.hpp>
 
 // What is prepared once and then called many times asks for no memory at all when it is called.
 namespace boresight {

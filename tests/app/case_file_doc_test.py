@@ -133,7 +133,7 @@ class CaseFileDocument(unittest.TestCase):
 
     def test_names_the_units_of_the_program(self):
         documented = re.findall(r"`([^`]+)`", "".join(row[1] for row in table_rows(section("Units"))))
-        source = (SOURCE / "app/io/unit_names.cpp").read_text(encoding="utf-8")
+        source = (SOURCE / "io/units/unit_names.cpp").read_text(encoding="utf-8")
         self.assertEqual(sorted(documented), sorted(re.findall(r'NamedUnit\{"(.+?)"', source)))
 
     def test_every_stated_id_is_taken_with_its_kind(self):

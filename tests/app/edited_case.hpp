@@ -5,9 +5,9 @@
 #include <string>
 #include <string_view>
 
-#include "program_run.hpp"
-#include <boresight/app/io/case_file.hpp>
-#include <boresight/plant/error.hpp>
+#include "app/program_run.hpp"
+#include <boresight/io/case/case_file.hpp>
+#include <boresight/numerics/error.hpp>
 
 namespace boresight::app {
 
@@ -74,7 +74,7 @@ class EditedCase {
 /// Why the program does not take a case of this text; "taken" if it does.
 inline std::string refusal_of(const std::string& text) {
   try {
-    parse_case(text, "case.toml");
+    io::parse_case(text, "case.toml");
   } catch (const InvalidInput& error) {
     return error.what();
   }

@@ -2,14 +2,14 @@
 
 #include <vector>
 
-#include <boresight/app/io/units.hpp>
+#include <boresight/io/units/units.hpp>
 
 namespace boresight::app {
 
-inline std::vector<Kind> every_kind() {
-  std::vector<Kind> kinds;
-  for (int i = 0; i <= static_cast<int>(Kind::level); ++i) {
-    kinds.push_back(static_cast<Kind>(i));
+inline std::vector<io::Kind> every_kind() {
+  std::vector<io::Kind> kinds;
+  for (int i = 0; i <= static_cast<int>(io::Kind::level); ++i) {
+    kinds.push_back(static_cast<io::Kind>(i));
   }
   return kinds;
 }

@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include <boresight/app/io/units.hpp>
+#include <boresight/io/units/units.hpp>
 
 namespace boresight::app {
 
@@ -16,7 +16,7 @@ template <typename Read>
 Refusal refusal_of(Read read) {
   try {
     read();
-  } catch (const UnitError& error) {
+  } catch (const io::UnitError& error) {
     return {error.what(), error.column};
   }
   return {"accepted", 0};

@@ -14,7 +14,7 @@ import tempfile
 
 LENGTH = 12
 SUFFIXES = {".cpp", ".hpp", ".py", ".js", ".ts"}
-FOLDERS = ("plant", "identification", "control", "design", "app", "bench", "tests", "docs", "python",
+FOLDERS = ("numerics", "plant", "identification", "control", "design", "io", "app", "bench", "tests", "docs", "python",
            "web", "examples")
 SILENT = re.compile(r"[\s{}()\[\];,]*$|//|/\*|\*|#(?!if|else|endif)|using |namespace |\"\"\"|import |from ")
 

@@ -1,8 +1,9 @@
 # Every public header once as the first line of a source file, so that none lives on what another
 # happened to include before it.
-file(GLOB headers CONFIGURE_DEPENDS
-  ${PROJECT_SOURCE_DIR}/plant/*.hpp ${PROJECT_SOURCE_DIR}/identification/*.hpp
-  ${PROJECT_SOURCE_DIR}/control/*.hpp ${PROJECT_SOURCE_DIR}/design/*.hpp)
+file(GLOB_RECURSE headers CONFIGURE_DEPENDS
+  ${PROJECT_SOURCE_DIR}/numerics/*.hpp ${PROJECT_SOURCE_DIR}/plant/*.hpp
+  ${PROJECT_SOURCE_DIR}/identification/*.hpp ${PROJECT_SOURCE_DIR}/control/*.hpp
+  ${PROJECT_SOURCE_DIR}/design/*.hpp ${PROJECT_SOURCE_DIR}/io/*.hpp)
 set(sources "")
 foreach(header IN LISTS headers)
   file(RELATIVE_PATH name ${PROJECT_SOURCE_DIR} ${header})
@@ -16,4 +17,4 @@ endforeach()
 add_library(header_self_sufficiency OBJECT ${sources})
 # Nothing here runs, and parsing is all that is asked.
 target_compile_options(header_self_sufficiency PRIVATE -O0 -g0 -fno-sanitize=all)
-target_link_libraries(header_self_sufficiency PRIVATE boresight::design boresight_warnings)
+target_link_libraries(header_self_sufficiency PRIVATE boresight::io boresight_warnings)

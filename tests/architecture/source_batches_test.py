@@ -8,7 +8,7 @@ import sys
 import tempfile
 
 sys.path.insert(0, str(pathlib.Path(sys.argv[1]) / "cmake"))
-from source_batches import batches, local_names  # noqa: E402  (its folder is an argument)
+from source_batches import batch_text, batches, local_names, renamed  # noqa: E402  (its folder is an argument)
 
 HEAD, TAIL = "namespace boresight {\nnamespace {\n", "}  // namespace\n}  // namespace boresight\n"
 
@@ -51,3 +51,16 @@ with tempfile.TemporaryDirectory() as name:
     assert batches([other, member, first], 10, kept) == [[other, member], [first]]
     write("other.cpp", "int two() { return one; }\n")
     assert batches([first, other], 10, {first: 0, other: 0}) == [[first], [other]]
+
+    # With what headers declare known, names that are a file's own are renamed and no longer clash.
+    assert batches([first, same, word, member], 10, None, set()) == [[first, same, word, member]]
+    text = batch_text([first, same], set())
+    assert "#define one one_of_" in text and text.count("#undef one\n") == 2, text
+    # A header's name, a member's and one that a macro makes text of stay as they are.
+    assert renamed(HEAD + "int one() { return 1; }\n" + TAIL, {"one"}) == set()
+    assert renamed(HEAD + "int one() { return row.one; }\n" + TAIL, set()) == set()
+    assert renamed(HEAD + "struct One {};\n" + TAIL + "TEST_F(One, Two) {}\n", set()) == set()
+    # Includes come first, those under a condition only where the file has them.
+    head = write("head.cpp", "int three() { return 3; }\n")
+    pathlib.Path(head).write_text("#include <vector>\n#ifdef X\n#include <none>\n#endif\n", encoding="utf-8")
+    assert batch_text([head], set()) == f'#include <vector>\n#include "{head}"\n'

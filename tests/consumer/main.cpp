@@ -4,9 +4,11 @@
 #include <limits>
 #include <numbers>
 
-#include <boresight/plant/error.hpp>
-#include <boresight/plant/gear_train.hpp>
-#include <boresight/plant/hydraulics.hpp>
+#include <boresight/io/case/case_file.hpp>
+#include <boresight/io/case/drive_numbers.hpp>
+#include <boresight/numerics/error.hpp>
+#include <boresight/plant/antenna/gear_train.hpp>
+#include <boresight/plant/antenna/hydraulics.hpp>
 
 namespace {
 
@@ -22,7 +24,7 @@ void expect(const char* what, double found, double expected) {
 
 }  // namespace
 
-int main() {
+int main(int count, char** arguments) {
   namespace plant = boresight::plant;
 
   expect("disk inertia", plant::disk_inertia(2.0, 3.0, 5.0), 120.0 * std::numbers::pi);
@@ -47,5 +49,14 @@ int main() {
     ++failures;
   } catch (const boresight::InvalidInput&) {
   }
+
+  // A case file becomes an antenna without the program: the ratio of the 70-m antenna's gear train.
+  if (count != 2) {
+    std::puts("usage: consumer CASE");
+    return 2;
+  }
+  const boresight::io::Case antenna = boresight::io::read_case(arguments[1]);
+  expect("gear ratio as published, rounded", std::round(boresight::io::gear_ratio(antenna)),
+         28724.0);
   return failures == 0 ? 0 : 1;
 }

@@ -17,7 +17,8 @@ execute_process(COMMAND ${CMAKE_COMMAND} --install ${BUILD} --prefix ${prefix}
 run(${CMAKE_COMMAND} -G Ninja -S ${SOURCE} -B ${build}
   -D CMAKE_BUILD_TYPE=Release -D CMAKE_CXX_COMPILER=${CXX} -D CMAKE_PREFIX_PATH=${prefix})
 run(${CMAKE_COMMAND} --build ${build})
-run(${build}/consumer)
+set(case ${prefix}/share/boresight/cases/dss14-70m/case.toml)
+run(${build}/consumer ${case})
 
 file(GLOB_RECURSE description ${prefix}/*/boresight.pc)
 get_filename_component(folder "${description}" DIRECTORY)
@@ -26,7 +27,7 @@ execute_process(COMMAND ${PKG_CONFIG} --cflags --libs boresight
   OUTPUT_VARIABLE flags OUTPUT_STRIP_TRAILING_WHITESPACE COMMAND_ERROR_IS_FATAL ANY)
 separate_arguments(flags UNIX_COMMAND "${flags}")
 run(${CXX} -std=c++20 ${SOURCE}/main.cpp -o ${build}/by_pkg_config ${flags})
-run(${build}/by_pkg_config)
+run(${build}/by_pkg_config ${case})
 
 run(${CMAKE_COMMAND} -G Ninja -S ${prefix}/share/doc/libboresight-dev/examples -B ${build}-examples
   -D CMAKE_BUILD_TYPE=Debug -D CMAKE_CXX_COMPILER=${CXX} -D CMAKE_PREFIX_PATH=${prefix})
@@ -34,7 +35,7 @@ run(${CMAKE_COMMAND} --build ${build}-examples)
 run(${PYTHON} -B ${SOURCE}/../examples/examples_test.py ${build}-examples)
 
 run(${prefix}/bin/boresight --version)
-run(${prefix}/bin/boresight audit ${prefix}/share/boresight/cases/dss14-70m/case.toml)
+run(${prefix}/bin/boresight audit ${case})
 foreach(document README.md copyright docs/README.md docs/case-file.md)
   if(NOT EXISTS ${prefix}/share/doc/boresight/${document})
     message(FATAL_ERROR "${document} is not installed")

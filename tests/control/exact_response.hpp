@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include <boresight/plant/state_space.hpp>
+#include <boresight/plant/linear/state_space.hpp>
 
 /// Loop gains in extended precision by elimination, and zeros and extrema by bisection: an
 /// independent way to crossovers and margins.

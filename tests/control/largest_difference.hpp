@@ -6,8 +6,8 @@
 
 #include <Eigen/Core>
 
-#include <boresight/plant/hermitian_eigen.hpp>
-#include <boresight/plant/state_space.hpp>
+#include <boresight/numerics/hermitian_eigen.hpp>
+#include <boresight/plant/linear/state_space.hpp>
 
 namespace boresight::reference {
 
@@ -22,7 +22,7 @@ inline double largest_difference(const plant::StateSpace& first, const plant::St
     const Eigen::MatrixXcd error =
         plant::frequency_response(first, w) - plant::frequency_response(second, w);
     return std::sqrt(
-        std::max(0.0, plant::hermitian_eigen(error.adjoint() * error).values.tail<1>()[0]));
+        std::max(0.0, numerics::hermitian_eigen(error.adjoint() * error).values.tail<1>()[0]));
   };
   constexpr int points = 1500;
   const double end = sampled ? std::numbers::pi : std::numbers::pi - 1e-6;

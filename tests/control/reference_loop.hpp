@@ -2,10 +2,10 @@
 
 #include <numbers>
 
-#include "../reference_antenna.hpp"
-#include <boresight/control/loop_evaluator.hpp>
-#include <boresight/plant/wind.hpp>
-#include <boresight/plant/wind_filter.hpp>
+#include "reference_antenna.hpp"
+#include <boresight/control/loops/loop_evaluator.hpp>
+#include <boresight/plant/wind/wind.hpp>
+#include <boresight/plant/wind/wind_filter.hpp>
 
 /// The loops around the reference antenna: noise, dead time, wind of 10 m/s at the motor shaft.
 namespace boresight::reference {

@@ -2,9 +2,9 @@
 
 #include <gtest/gtest.h>
 
-#include <boresight/control/riccati.hpp>
-#include <boresight/plant/balance.hpp>
-#include <boresight/plant/eigenvalues.hpp>
+#include <boresight/control/equations/riccati.hpp>
+#include <boresight/numerics/balance.hpp>
+#include <boresight/numerics/eigenvalues.hpp>
 
 namespace boresight::control {
 
@@ -21,15 +21,15 @@ inline void expect_solution(const RiccatiProblem& problem, bool sampled,
   const Eigen::MatrixXd cross = s.size() > 0 ? s : Eigen::MatrixXd::Zero(b.rows(), b.cols());
   const Eigen::MatrixXd& x = solution.x;
   EXPECT_EQ((x - x.transpose()).norm(), 0.0);
-  EXPECT_GE(plant::eigenvalues(x).real().minCoeff(), -1e-12 * x.norm());
+  EXPECT_GE(numerics::eigenvalues(x).real().minCoeff(), -1e-12 * x.norm());
   const Eigen::MatrixXd closed = a - b * solution.gain;
   if (sampled) {
-    EXPECT_LT(plant::eigenvalues(closed).cwiseAbs().maxCoeff(), 1.0);
+    EXPECT_LT(numerics::eigenvalues(closed).cwiseAbs().maxCoeff(), 1.0);
   } else {
-    const Eigen::VectorXd scale = plant::balancing_scale(closed);
-    EXPECT_LT(
-        plant::spectral_abscissa(scale.cwiseInverse().asDiagonal() * closed * scale.asDiagonal()),
-        0.0);
+    const Eigen::VectorXd scale = numerics::balancing_scale(closed);
+    EXPECT_LT(numerics::spectral_abscissa(scale.cwiseInverse().asDiagonal() * closed *
+                                          scale.asDiagonal()),
+              0.0);
   }
   EXPECT_GT(solution.stability_margin, 0.0);
   const Eigen::MatrixXd k = solution.gain;

@@ -21,7 +21,7 @@
 #include "coverage_case.hpp"
 #include "coverage_table.hpp"
 #include <boresight/app/commands/progress_line.hpp>
-#include <boresight/design/parallel_loop.hpp>
+#include <boresight/numerics/parallel_loop.hpp>
 
 namespace {
 
@@ -83,7 +83,7 @@ std::vector<CoverageCase> run(const Arguments& arguments) {
   boresight::app::ProgressLine line("campaigns");
   std::mutex mutex;
   std::size_t done = 0;
-  boresight::design::for_each_index(cases.size(), arguments.threads, [&](std::size_t i) {
+  boresight::numerics::for_each_index(cases.size(), arguments.threads, [&](std::size_t i) {
     cases[i] = coverage_case(arguments.seed + i / arguments.campaigns,
                              arguments.first + i % arguments.campaigns, {});
     const std::lock_guard lock(mutex);

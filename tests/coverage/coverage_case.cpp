@@ -6,16 +6,16 @@
 #include <fmt/format.h>
 
 #include "simulated_campaign.hpp"
-#include <boresight/identification/grey_box.hpp>
-#include <boresight/identification/hydraulic_resonance.hpp>
-#include <boresight/identification/impulse_momentum.hpp>
-#include <boresight/identification/slosh.hpp>
-#include <boresight/plant/error.hpp>
+#include <boresight/identification/grey_box/grey_box.hpp>
+#include <boresight/identification/impulse/impulse_momentum.hpp>
+#include <boresight/identification/lines/slosh.hpp>
+#include <boresight/identification/resonance/hydraulic_resonance.hpp>
+#include <boresight/numerics/error.hpp>
 
 namespace boresight::coverage {
 namespace {
 
-using identification::Interval;
+using numerics::Interval;
 
 // What each method gave, as identify runs them.
 struct Identified {
@@ -46,7 +46,7 @@ Identified identify(const identification::Campaign& campaign, const CoverageSett
   const bool heard = found.slosh && found.slosh->bulk_modulus;
   // Without it the guess of a case that states nothing.
   found.bulk_modulus =
-      heard ? *found.slosh->bulk_modulus : identification::normal_interval(1.3e9, 0.15 * 1.3e9);
+      heard ? *found.slosh->bulk_modulus : numerics::normal_interval(1.3e9, 0.15 * 1.3e9);
   attempt("impulse and momentum", into, [&] {
     identification::ImpulseMomentumOptions options;
     options.draws = setting.draws;

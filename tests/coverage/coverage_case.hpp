@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include <boresight/identification/interval.hpp>
+#include <boresight/numerics/statistics/interval.hpp>
 
 namespace boresight::coverage {
 
@@ -14,7 +14,7 @@ struct Judged {
   std::string quantity;
   std::string method;
   double truth = 0.0;
-  std::optional<identification::Interval> interval;  // nothing: the method gave none
+  std::optional<numerics::Interval> interval;  // nothing: the method gave none
 };
 
 /// One campaign: always the same rows in the same order.

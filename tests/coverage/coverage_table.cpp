@@ -16,7 +16,7 @@ double median(std::vector<double> numbers) {
   return numbers.size() % 2 == 1 ? numbers[middle] : 0.5 * (numbers[middle - 1] + numbers[middle]);
 }
 
-bool covers(const identification::Interval& interval, double truth) {
+bool covers(const numerics::Interval& interval, double truth) {
   return interval.lower <= truth && truth <= interval.upper;
 }
 

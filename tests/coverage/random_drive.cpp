@@ -5,14 +5,14 @@
 #include <numbers>
 
 #include "../random_numbers.hpp"
-#include <boresight/plant/eigenvalues.hpp>
-#include <boresight/plant/hydraulics.hpp>
-#include <boresight/plant/structure_dynamics.hpp>
+#include <boresight/numerics/eigenvalues.hpp>
+#include <boresight/plant/antenna/hydraulics.hpp>
+#include <boresight/plant/antenna/structure_dynamics.hpp>
 
 namespace boresight::coverage {
 namespace {
 
-using identification::Uncertain;
+using numerics::Uncertain;
 
 constexpr double turn = 2.0 * std::numbers::pi;
 
@@ -43,7 +43,7 @@ std::vector<double> locked_rotor_frequencies(const plant::Structure& structure) 
   const auto model = plant::structure_dynamics(structure);
   // The gear spring as feedback of the bull gear's angle.
   const Eigen::MatrixXd held = model.a - structure.gear_stiffness * model.b.col(0) * model.c.row(0);
-  const Eigen::VectorXcd poles = plant::eigenvalues(held);
+  const Eigen::VectorXcd poles = numerics::eigenvalues(held);
   std::vector<double> frequencies;
   for (const auto& pole : poles) {
     if (pole.imag() > 0.0) frequencies.push_back(std::abs(pole) / turn);

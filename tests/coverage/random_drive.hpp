@@ -3,9 +3,9 @@
 #include <cstdint>
 #include <vector>
 
-#include <boresight/identification/drive_record.hpp>
-#include <boresight/plant/nonlinear_antenna.hpp>
-#include <boresight/plant/sensor.hpp>
+#include <boresight/identification/records/drive_record.hpp>
+#include <boresight/plant/nonlinear/nonlinear_antenna.hpp>
+#include <boresight/plant/nonlinear/sensor.hpp>
 
 namespace boresight::coverage {
 

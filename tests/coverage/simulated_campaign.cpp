@@ -10,12 +10,12 @@
 #include <fmt/format.h>
 
 #include <boresight/app/simulate/recorder_filter.hpp>
-#include <boresight/identification/record_defects.hpp>
-#include <boresight/plant/error.hpp>
-#include <boresight/plant/feedback_interconnection.hpp>
-#include <boresight/plant/normal_numbers.hpp>
-#include <boresight/plant/operating_point.hpp>
-#include <boresight/plant/simulation.hpp>
+#include <boresight/identification/records/record_defects.hpp>
+#include <boresight/numerics/error.hpp>
+#include <boresight/numerics/normal_numbers.hpp>
+#include <boresight/plant/integration/feedback_interconnection.hpp>
+#include <boresight/plant/nonlinear/operating_point.hpp>
+#include <boresight/plant/nonlinear/simulation.hpp>
 
 namespace boresight::coverage {
 namespace {
@@ -118,7 +118,7 @@ plant::StateSpace rate_loop(double integral_gain) {
 
 // First-order noise of the wind's corner.
 VectorXd wind_torque(const RandomDrive& drive, Index samples, double interval,
-                     const plant::NormalNumbers& numbers) {
+                     const numerics::NormalNumbers& numbers) {
   VectorXd torque(samples);
   const double keep = std::exp(-turn * drive.wind_corner * interval);
   const double fresh = std::sqrt(1.0 - keep * keep) * drive.wind_rms;
@@ -196,7 +196,7 @@ identification::DriveRecord Bench::record(const DriveTest& test, std::uint64_t n
   plan.held = {true, false};
   const std::uint64_t streams = 100 * number;
   plan.values.col(1) =
-      wind_torque(drive_, steps, plan.interval, plant::NormalNumbers(seed_, streams + 99));
+      wind_torque(drive_, steps, plan.interval, numerics::NormalNumbers(seed_, streams + 99));
   const auto run = plant::simulate(system, plan);
 
   const auto recorded = [&](const VectorXd& signal) {

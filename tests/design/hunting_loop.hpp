@@ -3,10 +3,10 @@
 #include <complex>
 #include <numbers>
 
-#include "../reference_nonlinear_antenna.hpp"
-#include "reference_problem.hpp"
-#include <boresight/control/control_law.hpp>
-#include <boresight/plant/state_space.hpp>
+#include "design/reference_problem.hpp"
+#include "reference_nonlinear_antenna.hpp"
+#include <boresight/control/controllers/control_law.hpp>
+#include <boresight/plant/linear/state_space.hpp>
 
 namespace boresight::reference {
 

@@ -1,8 +1,8 @@
 #pragma once
 
-#include "../reference_antenna.hpp"
-#include <boresight/control/closed_loop.hpp>
-#include <boresight/design/tuner.hpp>
+#include "reference_antenna.hpp"
+#include <boresight/control/loops/closed_loop.hpp>
+#include <boresight/design/tuning/tuner.hpp>
 
 namespace boresight::reference {
 

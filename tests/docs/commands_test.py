@@ -32,6 +32,7 @@ ELSEWHERE = {
     "./dev api": "tests/docs/api_test.py",
     "./dev bench": "minutes of timing",
     "./dev coverage": "an hour of two cores",
+    "./dev compare": "minutes, and a program of another build",
     "./dev figures": "draws docs/figures; their numbers are tested by identification_doc and readme",
     "./dev package": "tests/packaging",
     "./dev python": "tests/python imports the module and runs the document's examples",

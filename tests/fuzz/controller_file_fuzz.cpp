@@ -3,19 +3,19 @@
 #include <cstdint>
 #include <string_view>
 
-#include <boresight/app/io/controller_file.hpp>
-#include <boresight/app/io/record_mat.hpp>
-#include <boresight/plant/error.hpp>
+#include <boresight/io/exchange/controller_file.hpp>
+#include <boresight/io/records/record_mat.hpp>
+#include <boresight/numerics/error.hpp>
 
 using namespace boresight;
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const std::string_view content(reinterpret_cast<const char*>(data), size);
   try {
-    if (app::is_mat(content)) {
-      app::controller_from_mat(content, "controller.mat");
+    if (io::is_mat(content)) {
+      io::controller_from_mat(content, "controller.mat");
     } else {
-      app::controller_from_json(content, "controller.json");
+      io::controller_from_json(content, "controller.json");
     }
   } catch (const InvalidInput&) {  // refused in words, as it should be
   }

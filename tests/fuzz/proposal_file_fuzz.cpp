@@ -4,7 +4,7 @@
 #include <string_view>
 
 #include <boresight/app/evaluate/proposal.hpp>
-#include <boresight/plant/error.hpp>
+#include <boresight/numerics/error.hpp>
 
 using namespace boresight;
 

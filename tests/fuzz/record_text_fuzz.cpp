@@ -4,16 +4,16 @@
 #include <cstdlib>
 #include <string_view>
 
-#include <boresight/app/io/record_columns.hpp>
-#include <boresight/app/io/record_text.hpp>
-#include <boresight/identification/record_defects.hpp>
-#include <boresight/plant/error.hpp>
+#include <boresight/identification/records/record_defects.hpp>
+#include <boresight/io/records/record_columns.hpp>
+#include <boresight/io/records/record_text.hpp>
+#include <boresight/numerics/error.hpp>
 
 using namespace boresight;
 
 namespace {
 
-identification::RawChannel channel(const app::RecordColumn& column) {
+identification::RawChannel channel(const io::RecordColumn& column) {
   identification::RawChannel result;
   result.name = column.name;
   result.values = Eigen::Map<const Eigen::VectorXd>(
@@ -21,7 +21,7 @@ identification::RawChannel channel(const app::RecordColumn& column) {
   return result;
 }
 
-void clean(const app::RecordTable& table) {
+void clean(const io::RecordTable& table) {
   if (table.columns.size() < 6) return;
   identification::RawRecord raw;
   raw.time = channel(table.columns[0]).values;
@@ -46,13 +46,13 @@ void clean(const app::RecordTable& table) {
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const std::string_view content(reinterpret_cast<const char*>(data), size);
   try {
-    const app::RecordTable table = app::read_record_text(content, "record.csv");
+    const io::RecordTable table = io::read_record_text(content, "record.csv");
     for (const auto& column : table.columns) {
       if (column.values.size() != table.columns[0].values.size()) std::abort();
-      app::recorded_unit(column.unit);
+      io::recorded_unit(column.unit);
     }
     clean(table);
-    app::choose_columns(table, {}, 1);
+    io::choose_columns(table, {}, 1);
   } catch (const InvalidInput&) {  // refused in words, as it should be
   }
   return 0;

@@ -9,9 +9,9 @@
 
 #include <Eigen/Core>
 
-#include <boresight/identification/drive_record.hpp>
-#include <boresight/plant/friction.hpp>
-#include <boresight/plant/normal_numbers.hpp>
+#include <boresight/identification/records/drive_record.hpp>
+#include <boresight/numerics/normal_numbers.hpp>
+#include <boresight/plant/antenna/friction.hpp>
 
 namespace boresight::reference {
 
@@ -66,7 +66,7 @@ struct PrescribedMotion {
     }
     made.motor_rate.values.resize(samples);
     made.motor_rate.valid.assign(static_cast<std::size_t>(samples), true);
-    const plant::NormalNumbers normal(seed, stream);
+    const numerics::NormalNumbers normal(seed, stream);
     const double scale = identification::torque_per_pressure(knowledge());
     for (Eigen::Index i = 0; i < samples; ++i) {
       const double t = static_cast<double>(i) * sample_time;

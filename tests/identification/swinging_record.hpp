@@ -8,7 +8,7 @@
 
 #include <gtest/gtest.h>
 
-#include <boresight/identification/record_defects.hpp>
+#include <boresight/identification/records/record_defects.hpp>
 
 /// A record as a recorder writes it, with nothing wrong: for tests to spoil.
 namespace boresight::identification::swinging {

@@ -7,12 +7,12 @@
 #include <utility>
 #include <vector>
 
-#include <boresight/identification/grey_box.hpp>
-#include <boresight/identification/grey_box_parameters.hpp>
-#include <boresight/identification/grey_box_posterior.hpp>
-#include <boresight/identification/grey_box_simulation.hpp>
-#include <boresight/identification/interval.hpp>
-#include <boresight/plant/normal_numbers.hpp>
+#include <boresight/identification/grey_box/grey_box.hpp>
+#include <boresight/identification/grey_box/grey_box_parameters.hpp>
+#include <boresight/identification/grey_box/grey_box_posterior.hpp>
+#include <boresight/identification/grey_box/grey_box_simulation.hpp>
+#include <boresight/numerics/normal_numbers.hpp>
+#include <boresight/numerics/statistics/interval.hpp>
 
 /// A small hydraulic drive with known truth, and the records it would give.
 namespace boresight::identification::synthetic {
@@ -59,7 +59,7 @@ inline GreyBoxRecord glance() {
 
 inline GreyBoxParameters truth_parameters() {
   Campaign campaign{knowledge(), instruments(), {}};
-  return {campaign, {glance()}, normal_interval(1.3e9, 6.5e6)};
+  return {campaign, {glance()}, numerics::normal_interval(1.3e9, 6.5e6)};
 }
 
 /// The point at which parameters have these values, the others their priors'.
@@ -88,7 +88,7 @@ inline std::vector<std::pair<Eigen::Index, double>> truth_values() {
 /// A record as a recorder with errors would write it, 50 samples a second; torque and rate noise
 /// of the given share of their usual size.
 inline DriveRecord recorded(const GreyBoxRecord& run, double noise, std::uint64_t seed) {
-  const plant::NormalNumbers numbers(seed, 7);
+  const numerics::NormalNumbers numbers(seed, 7);
   const DriveKnowledge k = knowledge();
   const double pressure = 1.0 / (torque_per_pressure(k) * k.motor_count);
   DriveRecord r;
@@ -149,7 +149,7 @@ inline Campaign campaign(const GreyBoxParameters& parameters, const Eigen::Vecto
 }
 
 /// The oil's bulk modulus as another test gives it.
-inline const Interval bulk = normal_interval(1.3e9, 6.5e6);
+inline const numerics::Interval bulk = numerics::normal_interval(1.3e9, 6.5e6);
 
 /// A fit from one start, with few draws.
 inline GreyBoxOptions quick() {

@@ -6,8 +6,8 @@
 
 #include <Eigen/Core>
 
-#include <boresight/plant/hydraulic_elements.hpp>
-#include <boresight/plant/ode_integrator.hpp>
+#include <boresight/plant/integration/ode_integrator.hpp>
+#include <boresight/plant/nonlinear/hydraulic_elements.hpp>
 
 namespace boresight::reference {
 
@@ -77,9 +77,9 @@ class HydrostaticTransmission : public plant::OdeSystem {
 
  private:
   struct Side {
-    plant::Slope makeup;
-    plant::Slope target;  // of the spool
-    plant::Slope relief_per_opening;
+    numerics::Slope makeup;
+    numerics::Slope target;  // of the spool
+    numerics::Slope relief_per_opening;
   };
   Side side(Eigen::Index k, double pressure) const;
 

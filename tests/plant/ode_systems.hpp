@@ -5,7 +5,7 @@
 
 #include <Eigen/Core>
 
-#include <boresight/plant/ode_system.hpp>
+#include <boresight/plant/integration/ode_system.hpp>
 
 namespace boresight::reference {
 

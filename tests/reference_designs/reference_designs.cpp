@@ -1,8 +1,8 @@
 // The best loops of the reference antenna in a wind of 10 m/s, written as
 // docs/reference-designs.md:
 //   boresight_reference_designs PATH [THREADS]
-// Two minutes of searching on two cores; tests/design/reference_designs_test.cpp holds the table
-// against the library.
+// Two minutes of searching on two cores; tests/design/tuning/reference_designs_test.cpp holds the
+// table against the library.
 
 #include <algorithm>
 #include <cmath>
@@ -14,10 +14,10 @@
 #include <fmt/format.h>
 
 #include "../design/reference_problem.hpp"
-#include <boresight/control/closed_loop.hpp>
-#include <boresight/design/design_study.hpp>
-#include <boresight/design/plant_ensemble.hpp>
-#include <boresight/plant/error.hpp>
+#include <boresight/control/loops/closed_loop.hpp>
+#include <boresight/design/ensembles/plant_ensemble.hpp>
+#include <boresight/design/tuning/design_study.hpp>
+#include <boresight/numerics/error.hpp>
 
 namespace {
 

@@ -1,0 +1,161 @@
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include <boresight/control/controllers/antenna_controller.hpp>
+#include <boresight/control/controllers/sampled_law.hpp>
+#include <boresight/numerics/eigenvalues.hpp>
+#include <boresight/numerics/error.hpp>
+#include <boresight/numerics/linear_solve.hpp>
+#include <boresight/plant/linear/interconnection.hpp>
+
+namespace boresight::control {
+namespace {
+
+using Eigen::Index;
+
+enum Input : Index { tachometer, angle_error, rate_feedforward, torque };
+enum Measured : Index { measured_rate, measured_angle, measured_torque };
+
+// Product of the gain blocks of a path.
+double path_gain(const ControlLaw& law, LoopPath path) {
+  double product = 1.0;
+  std::size_t k = 0;
+  for (const LoopBlock& block : law.structure.blocks()) {
+    if (block.path == path && block.kind == BlockKind::gain) product *= law.gains[k];
+    k += block.gains.size();
+  }
+  return product;
+}
+
+// Q'(0) of a pressure path, s kT/wd of a washed out gain: from its response well below all corners.
+double pressure_slope(const ControlLaw& law) {
+  if (!law.structure.has(LoopPath::pressure)) return 0.0;
+  constexpr double low = 1e-6;
+  return compensator_response(law, low).pressure.imag() / low;
+}
+
+}  // namespace
+
+Feedforward plant_feedforward(const plant::AntennaPlant& antenna, const ControlLaw& law,
+                              double delay) {
+  validate(law);
+  if (!(delay >= 0.0) || !std::isfinite(delay)) {
+    throw InvalidInput(
+        fmt::format("plant_feedforward: expected a delay of 0 or more, found {} s", delay));
+  }
+  const auto& drive = antenna.drive;
+  const double inertia = plant::reflected_inertia(antenna);
+  const double opening = 1.0 + drive.leakage_rate * drive.viscous_friction / drive.oil_stiffness;
+  Feedforward result;
+  result.rate_to_rate_command = 1.0;
+  result.acceleration_to_rate_command = -1.0 / drive.tachometer_corner;
+  result.rate_to_valve_command = opening;
+  result.acceleration_to_valve_command =
+      (drive.leakage_rate * inertia + drive.viscous_friction) / drive.oil_stiffness +
+      opening * (2.0 * drive.valve_damping / drive.valve_corner + delay) +
+      pressure_slope(law) * drive.viscous_friction;
+  return result;
+}
+
+AntennaController::AntennaController(const ControlLaw& law, double sample_time,
+                                     const AntennaControllerOptions& options)
+    : sample_time_(sample_time), options_(options), outputs_{"valve_command"} {
+  const auto& forward = options.feedforward;
+  if (!(options.command_limit > 0.0) ||
+      !std::isfinite(forward.rate_to_rate_command + forward.acceleration_to_rate_command +
+                     forward.rate_to_valve_command + forward.acceleration_to_valve_command)) {
+    throw InvalidInput(
+        fmt::format("antenna controller: expected a command limit above 0 and finite feedforward, "
+                    "found a limit of {} rad/s",
+                    options.command_limit));
+  }
+  const plant::StateSpace sampled = sampled_law(law, sample_time);
+  reads_torque_ = law.structure.has(LoopPath::pressure) || law.structure.has(LoopPath::compliance);
+  std::vector<std::string> ports{"tachometer", "encoder", "rate_disturbance"};
+  inputs_ = {"tachometer", "encoder"};
+  if (reads_torque_) {
+    ports.emplace_back("motor_torque");
+    inputs_.emplace_back("motor_torque");
+  }
+  for (const char* reference : {"reference", "reference_rate", "reference_acceleration"}) {
+    inputs_.emplace_back(reference);
+  }
+  const auto seen = plant::subsystem(sampled, ports, {"valve_demand"});
+  a_ = seen.a;
+  b_ = seen.b;
+  c_ = seen.c;
+  d_ = seen.d;
+  const Index states = a_.rows();
+  initial_ = state_ = next_ = Eigen::VectorXd::Zero(states);
+  back_calculation_ = Eigen::VectorXd::Zero(states);
+  const auto radius = [&](const Eigen::VectorXd& back) {
+    return states == 0 ? 0.0 : numerics::eigenvalues(a_ - back * c_).cwiseAbs().maxCoeff();
+  };
+  // A pole within rounding of 1: a double one is known to the root of the working precision.
+  constexpr double integrates = 1.0 - 1e-7;
+  if (!options.anti_windup || radius(back_calculation_) < integrates) return;
+  const Eigen::VectorXd whole =
+      -b_.col(angle_error) / (path_gain(law, LoopPath::rate) * path_gain(law, LoopPath::position));
+  constexpr int most_halvings = 10;
+  double share = 1.0;
+  for (int i = 0; i < most_halvings; ++i, share *= 0.5) {
+    if (radius(share * whole) < 1.0) {
+      back_calculation_ = share * whole;
+      back_calculation_share_ = share;
+      return;
+    }
+  }
+}
+
+void AntennaController::update(double /*time*/, const Eigen::Ref<const Eigen::VectorXd>& measured,
+                               Eigen::Ref<Eigen::VectorXd> commands) {
+  const Index first = reads_torque_ ? 3 : 2;
+  const double rate = measured[first + 1];
+  const double acceleration = measured[first + 2];
+  const auto& forward = options_.feedforward;
+  const double error = measured[measured_angle] - measured[first];
+  const double added =
+      forward.rate_to_rate_command * rate + forward.acceleration_to_rate_command * acceleration;
+  double wanted = forward.rate_to_valve_command * rate +
+                  forward.acceleration_to_valve_command * acceleration +
+                  d_[tachometer] * measured[measured_rate] + d_[angle_error] * error +
+                  d_[rate_feedforward] * added;
+  wanted += c_.dot(state_);
+  next_.noalias() = a_ * state_;
+  next_ += b_.col(tachometer) * measured[measured_rate] + b_.col(angle_error) * error +
+           b_.col(rate_feedforward) * added;
+  if (reads_torque_) {
+    wanted += d_[torque] * measured[measured_torque];
+    next_ += b_.col(torque) * measured[measured_torque];
+  }
+  commands[0] = std::clamp(wanted, -options_.command_limit, options_.command_limit);
+  next_ -= back_calculation_ * (wanted - commands[0]);
+  state_.swap(next_);
+}
+
+double AntennaController::start_from(const SteadyMotion& motion) {
+  const Index states = a_.rows();
+  const auto& forward = options_.feedforward;
+  // x = A x + B m and u = C x + D m + feedforward, for x and the angle's error.
+  Eigen::VectorXd given = Eigen::VectorXd::Zero(b_.cols());
+  given[tachometer] = motion.tachometer;
+  given[rate_feedforward] = forward.rate_to_rate_command * motion.tachometer;
+  if (reads_torque_) given[torque] = motion.motor_torque;
+  Eigen::MatrixXd equations(states + 1, states + 1);
+  equations.topLeftCorner(states, states) = Eigen::MatrixXd::Identity(states, states) - a_;
+  equations.topRightCorner(states, 1) = -b_.col(angle_error);
+  equations.bottomLeftCorner(1, states) = c_;
+  equations(states, states) = d_[angle_error];
+  Eigen::VectorXd right(states + 1);
+  right.head(states) = b_ * given;
+  right[states] =
+      motion.valve_command - d_.dot(given) - forward.rate_to_valve_command * motion.tachometer;
+  const Eigen::VectorXd steady =
+      numerics::linear_solve(equations, right, "antenna controller: steady motion");
+  initial_ = state_ = steady.head(states);
+  return steady[states];
+}
+
+}  // namespace boresight::control

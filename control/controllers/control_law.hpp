@@ -1,0 +1,47 @@
+#pragma once
+
+#include <array>
+#include <complex>
+#include <string_view>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include <boresight/control/controllers/loop_structure.hpp>
+#include <boresight/plant/linear/state_space.hpp>
+
+namespace boresight::control {
+
+/// One control law: a structure with its gains, each positive, in the order of gain_descriptions.
+struct ControlLaw {
+  LoopStructure structure;
+  std::vector<double> gains;
+};
+
+/// @throws InvalidInput for the wrong number of gains or one that is not positive and finite.
+void validate(const ControlLaw& law);
+
+/// The gain of that symbol. @throws InvalidInput if the structure has none.
+double gain(const ControlLaw& law, std::string_view symbol);
+
+/// Compensators at s = j w, and the logarithmic derivative of its own compensator by each gain
+/// (d ln X/d ln g).
+struct CompensatorResponse {
+  std::complex<double> rate;        // R, rad/s of valve command per rad/s of rate error
+  std::complex<double> pressure;    // Q, rad/s of valve command per N m; 0 where absent
+  std::complex<double> position;    // P, rad/s of rate command per rad
+  std::complex<double> compliance;  // C, rad per N m; 0 where absent
+  std::array<std::complex<double>, most_gains> by_gain{};
+};
+CompensatorResponse compensator_response(const ControlLaw& law, double angular_frequency);
+
+/// The law as a state space: inputs tachometer (rad/s), encoder (rad), motor_torque (N m; only if
+/// pressure or compliance path feed it back), rate_disturbance (rad/s, added to the rate command);
+/// outputs valve_demand (rad/s, before the dead time), rate_command.
+plant::StateSpace to_state_space(const ControlLaw& law);
+
+/// The same with the position loop open: inputs tachometer, motor_torque (only with a pressure
+/// path); output valve_demand.
+plant::StateSpace rate_loop_law(const ControlLaw& law);
+
+}  // namespace boresight::control

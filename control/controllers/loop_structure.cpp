@@ -1,0 +1,295 @@
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <set>
+
+#include <fmt/format.h>
+
+#include <boresight/control/controllers/loop_structure.hpp>
+#include <boresight/numerics/error.hpp>
+
+namespace boresight::control {
+
+struct LoopStructure::Definition {
+  std::string name;
+  std::vector<LoopBlock> blocks;
+  std::vector<GainDescription> gains;
+};
+
+namespace {
+
+LoopBlock block(LoopPath path, BlockKind kind, std::vector<GainDescription> gains) {
+  return {path, kind, std::move(gains)};
+}
+
+LoopBlock rate_gain() {
+  return block(LoopPath::rate, BlockKind::gain, {{"rate gain", "kr", "1", 0.01, 30.0}});
+}
+LoopBlock rate_integral() {
+  return block(LoopPath::rate, BlockKind::integral,
+               {{"rate integral corner", "wi", "rad/s", 0.01, 30.0}});
+}
+LoopBlock rate_lead() {
+  return block(LoopPath::rate, BlockKind::lead, {{"rate lead corner", "wz", "rad/s", 0.3, 300.0}});
+}
+LoopBlock rate_lag() {
+  return block(LoopPath::rate, BlockKind::lag, {{"rate lag corner", "wp", "rad/s", 0.3, 300.0}});
+}
+LoopBlock rate_notch() {
+  return block(LoopPath::rate, BlockKind::notch,
+               {{"notch frequency", "wn", "rad/s", 3.0, 100.0},
+                {"notch numerator damping", "zz", "1", 1e-3, 1.0},
+                {"notch denominator damping", "zp", "1", 0.05, 2.0}});
+}
+LoopBlock pressure_gain() {
+  return block(LoopPath::pressure, BlockKind::gain,
+               {{"pressure feedback gain", "kT", "rad/(s.N.m)", 1e-4, 10.0}});
+}
+LoopBlock pressure_washout() {
+  return block(LoopPath::pressure, BlockKind::washout,
+               {{"pressure washout corner", "wd", "rad/s", 0.1, 60.0}});
+}
+LoopBlock position_gain() {
+  return block(LoopPath::position, BlockKind::gain, {{"position gain", "kp", "1/s", 0.03, 30.0}});
+}
+LoopBlock position_integral() {
+  return block(LoopPath::position, BlockKind::integral,
+               {{"position integral corner", "wip", "rad/s", 1e-4, 3.0}});
+}
+LoopBlock compliance_gain() {
+  return block(LoopPath::compliance, BlockKind::gain,
+               {{"compliance", "cs", "rad/(N.m)", 1e-4, 0.1}});
+}
+LoopBlock compliance_lag() {
+  return block(LoopPath::compliance, BlockKind::lag,
+               {{"compliance corner", "wcs", "rad/s", 0.1, 60.0}});
+}
+
+[[noreturn]] void refuse(const std::string& name, const std::string& why) {
+  throw InvalidInput(fmt::format("loop structure '{}': {}", name, why));
+}
+
+int count_of(const std::vector<LoopBlock>& blocks, LoopPath path, BlockKind kind) {
+  return static_cast<int>(std::ranges::count_if(blocks, [&](const LoopBlock& candidate) {
+    return candidate.path == path && candidate.kind == kind;
+  }));
+}
+
+void check_paths(const std::string& name, const std::vector<LoopBlock>& blocks) {
+  for (const LoopPath path :
+       {LoopPath::rate, LoopPath::pressure, LoopPath::position, LoopPath::compliance}) {
+    const bool used = std::ranges::any_of(
+        blocks, [&](const LoopBlock& candidate) { return candidate.path == path; });
+    const bool needed = path == LoopPath::rate || path == LoopPath::position;
+    if ((used || needed) && count_of(blocks, path, BlockKind::gain) != 1) {
+      refuse(name, fmt::format("expected one gain block in the {} path, found {}", to_string(path),
+                               count_of(blocks, path, BlockKind::gain)));
+    }
+    if (count_of(blocks, path, BlockKind::lead) > count_of(blocks, path, BlockKind::lag)) {
+      refuse(name, fmt::format("expected a lag for every lead in the {} path", to_string(path)));
+    }
+    if (!needed && count_of(blocks, path, BlockKind::integral) > 0) {
+      refuse(name, fmt::format("expected no integral in the {} path", to_string(path)));
+    }
+  }
+  if (count_of(blocks, LoopPath::pressure, BlockKind::gain) > 0 &&
+      count_of(blocks, LoopPath::pressure, BlockKind::washout) == 0) {
+    refuse(name, "expected a washout in the pressure path: a static one makes the drive yield");
+  }
+}
+
+void check_gains(const std::string& name, const std::vector<LoopBlock>& blocks,
+                 const std::vector<GainDescription>& gains) {
+  for (const LoopBlock& candidate : blocks) {
+    if (candidate.gains.size() != gain_count(candidate.kind)) {
+      refuse(name, fmt::format("expected {} gains for a {}, found {}", gain_count(candidate.kind),
+                               to_string(candidate.kind), candidate.gains.size()));
+    }
+  }
+  if (gains.size() > most_gains) {
+    refuse(name, fmt::format("expected at most {} gains, found {}", most_gains, gains.size()));
+  }
+  std::set<std::string> symbols;
+  for (const GainDescription& gain : gains) {
+    if (!(gain.lower > 0.0) || !(gain.upper > gain.lower) || !(gain.upper < 1e12)) {
+      refuse(name, fmt::format("expected bounds 0 < lower < upper for {}, found {} and {}",
+                               gain.symbol, gain.lower, gain.upper));
+    }
+    if (!symbols.insert(gain.symbol).second) {
+      refuse(name, fmt::format("expected each symbol once, found '{}' twice", gain.symbol));
+    }
+  }
+}
+
+double nearest_power_of_ten(double factor) {
+  return std::pow(10.0, std::clamp(std::round(std::log10(factor)), -6.0, 6.0));
+}
+
+// By which gain `k` of a block changes with a load that is so much faster and heavier.
+double gain_factor(const LoopBlock& block, std::size_t k, double faster, double heavier) {
+  if (block.kind == BlockKind::notch && k > 0) return 1.0;
+  if (block.kind != BlockKind::gain) return faster;
+  switch (block.path) {
+    case LoopPath::rate:
+      break;
+    case LoopPath::pressure:
+      return 1.0 / (heavier * faster);
+    case LoopPath::position:
+      return faster;
+    case LoopPath::compliance:
+      return 1.0 / (heavier * faster * faster);
+  }
+  return 1.0;
+}
+
+}  // namespace
+
+std::string_view to_string(LoopPath path) {
+  static constexpr std::array names{"rate", "pressure", "position", "compliance"};
+  return names.at(static_cast<std::size_t>(path));
+}
+
+std::string_view to_string(BlockKind kind) {
+  static constexpr std::array names{"gain", "integral", "lag", "lead", "washout", "notch"};
+  return names.at(static_cast<std::size_t>(kind));
+}
+
+std::size_t gain_count(BlockKind kind) {
+  return kind == BlockKind::notch ? 3 : 1;
+}
+
+LoopStructure::LoopStructure() : LoopStructure(pi_with_lag()) {}
+
+LoopStructure::LoopStructure(std::string name, std::vector<LoopBlock> blocks) {
+  std::vector<GainDescription> gains;
+  for (const LoopBlock& one : blocks) gains.insert(gains.end(), one.gains.begin(), one.gains.end());
+  check_gains(name, blocks, gains);
+  check_paths(name, blocks);
+  definition_ = std::make_shared<const Definition>(
+      Definition{std::move(name), std::move(blocks), std::move(gains)});
+}
+
+const LoopStructure& LoopStructure::pi() {
+  static const LoopStructure structure(
+      "PI without lag", {rate_gain(), rate_integral(), position_gain(), position_integral()});
+  return structure;
+}
+
+const LoopStructure& LoopStructure::pi_with_lag() {
+  static const LoopStructure structure("PI with lag", {rate_gain(), rate_integral(), rate_lag(),
+                                                       position_gain(), position_integral()});
+  return structure;
+}
+
+const LoopStructure& LoopStructure::pressure_feedback() {
+  static const LoopStructure structure("PI with lag and pressure feedback",
+                                       {rate_gain(), rate_integral(), rate_lag(), pressure_gain(),
+                                        pressure_washout(), position_gain(), position_integral()});
+  return structure;
+}
+
+const LoopStructure& LoopStructure::lead_lag() {
+  static const LoopStructure structure("PI with lead and lag",
+                                       {rate_gain(), rate_integral(), rate_lead(), rate_lag(),
+                                        position_gain(), position_integral()});
+  return structure;
+}
+
+const LoopStructure& LoopStructure::full() {
+  static const LoopStructure structure(
+      "PI with lead, lag and pressure feedback",
+      {rate_gain(), rate_integral(), rate_lead(), rate_lag(), pressure_gain(), pressure_washout(),
+       position_gain(), position_integral()});
+  return structure;
+}
+
+LoopStructure LoopStructure::with_compliance_compensation() const {
+  std::vector<LoopBlock> blocks = this->blocks();
+  blocks.push_back(compliance_gain());
+  blocks.push_back(compliance_lag());
+  return {name() + ", compliance compensation", std::move(blocks)};
+}
+
+LoopStructure LoopStructure::with_notch() const {
+  std::vector<LoopBlock> blocks = this->blocks();
+  blocks.push_back(rate_notch());
+  return {name() + ", notch", std::move(blocks)};
+}
+
+LoopStructure LoopStructure::named(std::string_view short_name) {
+  std::string_view base = short_name;
+  const bool compliance = base.ends_with("+C");
+  if (compliance) base.remove_suffix(2);
+  const bool notch = base.ends_with("+N");
+  if (notch) base.remove_suffix(2);
+  const std::array<std::pair<std::string_view, const LoopStructure*>, 5> list{
+      {{"PI-0", &pi()},
+       {"PI", &pi_with_lag()},
+       {"DPF", &pressure_feedback()},
+       {"LL", &lead_lag()},
+       {"FULL", &full()}}};
+  const auto* found =
+      std::ranges::find_if(list, [&](const auto& one) { return one.first == base; });
+  if (found == list.end()) {
+    throw InvalidInput(
+        fmt::format("loop structure: expected PI-0, PI, DPF, LL or FULL, with +N (notch) and +C "
+                    "(compliance compensation) behind it as wanted, found '{}'",
+                    short_name));
+  }
+  LoopStructure structure = *found->second;
+  if (notch) structure = structure.with_notch();
+  return compliance ? structure.with_compliance_compensation() : structure;
+}
+
+LoopStructure LoopStructure::with_bounds_for(const DrivenLoad& load) const {
+  for (const double number : {load.frequency, load.inertia}) {
+    if (!(number > 0.0) || !std::isfinite(number)) {
+      throw InvalidInput(
+          fmt::format("driven load: expected frequency and inertia above 0 and "
+                      "finite, found {:g} Hz and {:g} kg.m2",
+                      load.frequency, load.inertia));
+    }
+  }
+  const DrivenLoad usual;
+  const double faster = load.frequency / usual.frequency;
+  const double heavier = load.inertia / usual.inertia;
+  std::vector<LoopBlock> blocks = this->blocks();
+  for (LoopBlock& one : blocks) {
+    for (std::size_t k = 0; k < one.gains.size(); ++k) {
+      const double moved = nearest_power_of_ten(gain_factor(one, k, faster, heavier));
+      one.gains[k].lower *= moved;
+      one.gains[k].upper *= moved;
+    }
+  }
+  return {name(), std::move(blocks)};
+}
+
+const std::string& LoopStructure::name() const {
+  return definition_->name;
+}
+
+const std::vector<LoopBlock>& LoopStructure::blocks() const {
+  return definition_->blocks;
+}
+
+const std::vector<GainDescription>& LoopStructure::gains() const {
+  return definition_->gains;
+}
+
+bool LoopStructure::has(LoopPath path) const {
+  return std::ranges::any_of(blocks(), [&](const LoopBlock& one) { return one.path == path; });
+}
+
+bool LoopStructure::operator==(const LoopStructure& other) const {
+  return definition_ == other.definition_ || name() == other.name();
+}
+
+std::string_view to_string(const LoopStructure& structure) {
+  return structure.name();
+}
+
+const std::vector<GainDescription>& gain_descriptions(const LoopStructure& structure) {
+  return structure.gains();
+}
+
+}  // namespace boresight::control

@@ -1,0 +1,62 @@
+#pragma once
+
+#include <complex>
+#include <string>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include <boresight/control/equations/schur_lyapunov.hpp>
+#include <boresight/numerics/real_schur.hpp>
+
+namespace boresight::control {
+
+/// How far eigenvalues of A are from being out of the reach of B; see ModeAccess::distance.
+class ModeDistance {
+ public:
+  /// `schur`: of A in balanced states; `b`: in the same states; `norm`: |A|, Frobenius.
+  ModeDistance(const numerics::RealSchur& schur, const Eigen::MatrixXd& b, double norm,
+               TimeDomain domain);
+
+  /// A number at which the rank was tested.
+  struct Mode {
+    std::complex<double> eigenvalue;
+    double distance = 0.0;
+    Eigen::VectorXcd combination;  // unit vector of balanced states
+  };
+
+  /// The rank of [A - s, B] at one number, eigenvalue or not.
+  Mode test(std::complex<double> s);
+  /// Every distinct eigenvalue with Im >= 0, in the order of the Schur form. Where the mean of a
+  /// cluster of eigenvalues is out of reach to `tolerance` it stands for the cluster.
+  std::vector<Mode> modes(double tolerance);
+  /// Those of them that are out of reach and not stable.
+  std::vector<Mode> unreached_unstable(double tolerance);
+
+  /// Stable by more than the rounding of eigenvalues, 10 n eps |A| (10 n eps in sampled time).
+  bool stable(std::complex<double> eigenvalue) const;
+  /// w^H b/|b| in magnitude for each column of B.
+  Eigen::VectorXd by_port(const Eigen::VectorXcd& combination) const;
+
+ private:
+  Mode test_with_neighbours(std::complex<double> s, double tolerance);
+  void triangularise(std::complex<double> s);
+
+  numerics::ComplexSchur schur_;
+  Eigen::MatrixXcd b_;  // in Schur coordinates, columns of length norm_
+  double norm_;
+  TimeDomain domain_;
+  Eigen::MatrixXcd triangle_, rest_;  // [T - s, B] with B rotated away
+};
+
+/// Those of `modes` that are out of reach in the states as given too. Balancing takes a coupling
+/// that is a rounding error for one that counts and may then scale others out of sight.
+std::vector<ModeDistance::Mode> confirm_unreached(std::vector<ModeDistance::Mode> modes,
+                                                  const Eigen::MatrixXd& a,
+                                                  const Eigen::MatrixXd& b, TimeDomain domain,
+                                                  double tolerance);
+
+/// "2", "-0.1 +- 3 j"
+std::string describe_eigenvalue(std::complex<double> eigenvalue);
+
+}  // namespace boresight::control

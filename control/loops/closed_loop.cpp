@@ -1,0 +1,157 @@
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include <boresight/control/controllers/delay.hpp>
+#include <boresight/control/equations/lyapunov.hpp>
+#include <boresight/control/loops/closed_loop.hpp>
+#include <boresight/numerics/eigenvalues.hpp>
+
+namespace boresight::control {
+namespace {
+
+plant::StateSpace adder(const std::string& first, const std::string& second,
+                        const std::string& sum) {
+  return plant::static_gain(Eigen::MatrixXd::Ones(1, 2), {first, second}, {sum});
+}
+
+plant::StateSpace renamed(plant::StateSpace system, const std::string& from,
+                          const std::string& to) {
+  for (auto* names : {&system.inputs, &system.outputs}) {
+    for (auto& name : *names) {
+      if (name == from) name = to;
+    }
+  }
+  return system;
+}
+
+// The plant seen at tachometer and motor torque, without the free angle: angles relative to the
+// bull gear.
+plant::StateSpace without_free_angle(const plant::AntennaPlant& antenna) {
+  plant::StateSpace system = plant::to_state_space(antenna);
+  const auto n = static_cast<Eigen::Index>(system.states.size());
+  Eigen::Index bull = 0;
+  Eigen::MatrixXd relative = Eigen::MatrixXd::Identity(n, n);
+  Eigen::MatrixXd absolute = relative;
+  for (Eigen::Index i = 0; i < n; ++i) {
+    if (system.states[static_cast<std::size_t>(i)] == "bull_gear_angle") bull = i;
+  }
+  for (Eigen::Index i = 0; i < n; ++i) {
+    const auto& name = system.states[static_cast<std::size_t>(i)];
+    if (i != bull && name.ends_with("_angle")) {
+      relative(i, bull) = -1.0;
+      absolute(i, bull) = 1.0;
+    }
+  }
+  const Eigen::MatrixXd a = relative * system.a * absolute;
+  const Eigen::MatrixXd b = relative * system.b;
+  const std::vector<Eigen::Index> seen{plant::output_index(system, "tachometer"),
+                                       plant::output_index(system, "motor_torque")};
+  std::vector<Eigen::Index> kept;
+  for (Eigen::Index i = 0; i < n; ++i) {
+    if (i != bull) kept.push_back(i);
+  }
+  plant::StateSpace rate{a(kept, kept),
+                         b(kept, Eigen::all),
+                         system.c(seen, kept),
+                         Eigen::MatrixXd::Zero(2, 2),
+                         system.inputs,
+                         {"tachometer", "motor_torque"},
+                         {}};
+  for (const Eigen::Index i : kept)
+    rate.states.push_back(system.states[static_cast<std::size_t>(i)]);
+  return rate;
+}
+
+plant::StateSpace rate_loop_alone(const plant::AntennaPlant& antenna, const ControlLaw& law,
+                                  double delay) {
+  return plant::connect({without_free_angle(antenna), rate_loop_law(law),
+                         delay_approximant(delay, delay_order, "valve_demand", "valve_command")},
+                        {"wind_torque"}, {"tachometer"});
+}
+
+bool feeds_torque_back(const ControlLaw& law) {
+  return law.structure.has(LoopPath::pressure) || law.structure.has(LoopPath::compliance);
+}
+
+}  // namespace
+
+plant::StateSpace closed_loop(const plant::AntennaPlant& antenna, const ControlLaw& law,
+                              double delay) {
+  auto controller = renamed(renamed(to_state_space(law), "tachometer", "measured_rate"), "encoder",
+                            "measured_angle");
+  std::vector<plant::StateSpace> parts{
+      plant::to_state_space(antenna), adder("tachometer", "tachometer_noise", "measured_rate"),
+      adder("encoder", "encoder_noise", "measured_angle"),
+      delay_approximant(delay, delay_order, "valve_demand", "valve_command")};
+  std::vector<std::string> inputs{"wind_torque", "encoder_noise", "tachometer_noise",
+                                  "rate_disturbance"};
+  if (feeds_torque_back(law)) {
+    controller = renamed(controller, "motor_torque", "measured_torque");
+    parts.push_back(adder("motor_torque", "torque_noise", "measured_torque"));
+    inputs.emplace_back("torque_noise");
+  }
+  parts.push_back(std::move(controller));
+  return plant::connect(parts, inputs,
+                        {"beam", "encoder", "tachometer", "motor_torque", "valve_demand"});
+}
+
+StabilityVerdict stability(const plant::AntennaPlant& antenna, const ControlLaw& law, double delay,
+                           const Eigen::ArrayXd& frequency) {
+  StabilityVerdict verdict;
+  verdict.rate_loop_abscissa = numerics::spectral_abscissa(rate_loop_alone(antenna, law, delay).a);
+  verdict.closed_loop_abscissa = numerics::spectral_abscissa(closed_loop(antenna, law, delay).a);
+  const auto response = plant::plant_response(antenna, frequency);
+  const auto approximant = delay_approximant(delay, delay_order, "in", "out");
+  for (Eigen::Index i = 0; i < frequency.size(); ++i) {
+    const double w = frequency[i];
+    // Below a tenth of the dead time's corner the approximant is exact to working precision.
+    if (w * delay < 0.1) continue;
+    const std::complex<double> exact = std::polar(1.0, -w * delay);
+    const std::complex<double> change =
+        1.0 - plant::frequency_response(approximant, w)(0, 0) / exact;
+    for (const auto loop_break : {LoopBreak::rate_loop_alone, LoopBreak::valve_command}) {
+      const std::complex<double> loop =
+          loop_gain(plant::point(response, i), w, law, delay, loop_break);
+      verdict.dead_time_residue =
+          std::max(verdict.dead_time_residue, std::abs(change * loop / (1.0 + loop)));
+    }
+  }
+  return verdict;
+}
+
+LyapunovRms lyapunov_rms(const plant::AntennaPlant& antenna, const ControlLaw& law, double delay,
+                         const plant::ShapingFilter& wind, const SensorNoise& noise) {
+  const auto loop = closed_loop(antenna, law, delay);
+  LyapunovRms rms;
+  {
+    std::vector<std::string> inputs = loop.inputs;
+    std::replace(inputs.begin(), inputs.end(), std::string("wind_torque"),
+                 std::string("white_noise"));
+    const auto driven =
+        plant::connect({loop, plant::to_state_space(wind, "wind_torque")}, inputs, {"beam"});
+    const Eigen::VectorXd b = driven.b.col(plant::input_index(driven, "white_noise"));
+    const auto solution = solve_lyapunov(driven.a, b * b.transpose());
+    rms.wind = std::sqrt((driven.c * solution.covariance * driven.c.transpose())(0, 0));
+    rms.relative_residual = solution.relative_residual;
+  }
+  {
+    // One-sided density sigma^2/bandwidth per Hz is an intensity of half that.
+    Eigen::MatrixXd q = Eigen::MatrixXd::Zero(loop.a.rows(), loop.a.rows());
+    std::vector<std::pair<const char*, double>> sources{{"encoder_noise", noise.encoder_rms},
+                                                        {"tachometer_noise", noise.tachometer_rms}};
+    if (feeds_torque_back(law)) sources.emplace_back("torque_noise", noise.torque_rms);
+    for (const auto& [name, value] : sources) {
+      const Eigen::VectorXd b = loop.b.col(plant::input_index(loop, name));
+      q += value * value / (2.0 * noise.bandwidth) * b * b.transpose();
+    }
+    const auto solution = solve_lyapunov(loop.a, q);
+    const Eigen::RowVectorXd c = loop.c.row(plant::output_index(loop, "beam"));
+    rms.noise = std::sqrt(c * solution.covariance * c.transpose());
+    rms.relative_residual = std::max(rms.relative_residual, solution.relative_residual);
+  }
+  rms.total = std::hypot(rms.wind, rms.noise);
+  return rms;
+}
+
+}  // namespace boresight::control

@@ -1,0 +1,272 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <limits>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include <boresight/control/controllers/control_law.hpp>
+#include <boresight/plant/antenna/plant_response.hpp>
+#include <boresight/plant/antenna/point_response.hpp>
+
+namespace boresight::control {
+
+/// Sensor noise: independent, white from 0 to `bandwidth` (Hz), given as rms over that band.
+struct SensorNoise {
+  double encoder_rms = 0.0;     // rad of motor
+  double tachometer_rms = 0.0;  // rad/s of motor
+  double bandwidth = 25.0;      // Hz
+  double torque_rms = 0.0;      // N m, heard only where a law feeds torque back
+};
+
+/// Frequencies (Hz) over which variances are integrated; all of the grid by default.
+struct FrequencyBand {
+  double lowest = 0.0;
+  double highest = std::numeric_limits<double>::infinity();
+};
+
+/// Where the loop is cut to look at its sensitivity.
+enum class LoopBreak {
+  rate_loop_alone,  // at the valve command, position loop open: 1/(1 + L_rate)
+  valve_command,    // at the valve command, both loops closed
+  position_loop,    // at the rate command, rate loop closed
+};
+inline constexpr std::array loop_breaks{LoopBreak::rate_loop_alone, LoopBreak::valve_command,
+                                        LoopBreak::position_loop};
+std::string_view to_string(LoopBreak loop_break);
+
+/// The open-loop gain at a break (positive gain with the -1 taken out, so that S = 1/(1 + L)) at
+/// one frequency (rad/s), with exact dead time.
+std::complex<double> loop_gain(const plant::ResponsePoint& response, double frequency,
+                               const ControlLaw& law, double delay, LoopBreak loop_break);
+
+/// A local maximum of a sensitivity.
+struct SensitivityPeak {
+  double frequency = 0.0;  // rad/s
+  double magnitude = 0.0;
+  /// d ln(magnitude) / d ln(gain), in the order of the gain vector.
+  std::array<double, most_gains> log_gradient{};
+};
+
+/// The highest local maxima at a break, highest first.
+class PeakList {
+ public:
+  static constexpr std::size_t most = 3;
+  void push_back(const SensitivityPeak& peak) { peaks_.at(size_++) = peak; }
+  std::size_t size() const { return size_; }
+  bool empty() const { return size_ == 0; }
+  const SensitivityPeak& operator[](std::size_t i) const { return peaks_[i]; }
+  const SensitivityPeak& front() const { return peaks_[0]; }
+  SensitivityPeak* begin() { return peaks_.data(); }
+  SensitivityPeak* end() { return peaks_.data() + size_; }
+  const SensitivityPeak* begin() const { return peaks_.data(); }
+  const SensitivityPeak* end() const { return peaks_.data() + size_; }
+
+ private:
+  std::array<SensitivityPeak, most> peaks_;
+  std::size_t size_ = 0;
+};
+
+/// One control law on one plant, seen through the frequency response. Variances in rad^2 of motor
+/// (beam) and (rad/s)^2 (valve effort); *_log_gradient holds d variance / d ln(gain).
+struct LoopEvaluation {
+  double wind_variance = 0.0;
+  double noise_variance = 0.0;
+  double effort_variance = 0.0;
+  /// Of valve demand, (rad/s)^2, and motor torque, (N m)^2, as the wind drives them: what comes
+  /// near saturation in gusts. 0 unless look_at_gusts() asked for them.
+  double wind_demand_variance = 0.0;
+  double wind_torque_variance = 0.0;
+  std::array<double, most_gains> wind_log_gradient{};
+  std::array<double, most_gains> noise_log_gradient{};
+  std::array<double, most_gains> effort_log_gradient{};
+  std::array<double, most_gains> wind_demand_log_gradient{};
+  std::array<double, most_gains> wind_torque_log_gradient{};
+  std::array<PeakList, 3> peaks;  // of |S|, by break
+  /// Closed-loop poles in the right half plane by the winding of 1 + L along the grid, position
+  /// loop open and closed. A quick filter: the verdict is the eigenvalues' (closed_loop.hpp).
+  int unstable_rate_loop = 0;
+  int unstable_closed_loop = 0;
+
+  bool stable() const { return unstable_rate_loop == 0 && unstable_closed_loop == 0; }
+  double beam_variance() const { return wind_variance + noise_variance; }
+  double highest_peak(LoopBreak loop_break) const;
+};
+
+/// What a loop needs to know of its plant: the response on a grid, and between its points. The
+/// response may be a model's or a measured one.
+struct LoopChannels {
+  plant::PlantResponse response;
+  std::function<plant::ResponsePoint(double frequency)> at;
+};
+LoopChannels make_channels(const plant::AntennaPlant& plant, const Eigen::ArrayXd& frequency);
+
+/// Where and how closely an evaluator looks by itself. The frequencies from `analysis.lowest` to
+/// `analysis.highest` are cut into panels of eight Gauss points in ln f: at the edges of rms band
+/// and noise, until the plant's channels are polynomials of that degree within `channel_tolerance`
+/// of their largest value in the panel, and no wider than `widest_panel`. An evaluation halves them
+/// on where its own closed loop asks for it: where poles near the axis leave variances and their
+/// gradients an error near `tolerance` of the variance, or where 1 + L turns by more than a
+/// right angle from point to point.
+struct LoopQuadrature {
+  FrequencyBand analysis{1e-4, 100.0};  // Hz: peaks and stability
+  /// Hz: variances. Where it begins below the analysis band, the density below that is taken for
+  /// constant.
+  FrequencyBand band;
+  /// Of the whole variance of beam, effort, demand or torque: the estimated error of one panel,
+  /// over the root of its half width in ln f.
+  double tolerance = 3e-11;
+  double channel_tolerance = 0.1;
+  double widest_panel = 2.0;  // in ln f
+};
+
+/// Evaluates control laws on one plant. The plant enters through its frequency response only,
+/// computed once; an evaluation costs some hundred operations a frequency, and ten more a gain for
+/// all gradients (by the adjoint of the closed loop), whatever the number of structural modes; dead
+/// time is exact. Not to be shared between threads: it keeps its work arrays, and the frequencies
+/// that laws asked for.
+class LoopEvaluator {
+ public:
+  /// `wind_spectrum`: one-sided spectrum of the wind torque at the motor shaft, (N m)^2/Hz, at the
+  /// response's frequencies. Integrals run over the part of the grid within `band` (noise: within
+  /// its bandwidth too) by the trapezoid rule in ln f; put the edges among the frequencies. Peaks
+  /// and stability are taken over the whole grid.
+  /// @throws InvalidInput for sizes that differ or a grid that does not rise.
+  LoopEvaluator(const LoopChannels& channels, double delay, SensorNoise noise,
+                const Eigen::ArrayXd& wind_spectrum, FrequencyBand band = {});
+  LoopEvaluator(const plant::AntennaPlant& plant, const Eigen::ArrayXd& frequency, double delay,
+                SensorNoise noise, const Eigen::ArrayXd& wind_spectrum, FrequencyBand band = {});
+  /// With weights of another quadrature in place of the trapezoid rule's: `weight` turns a sum over
+  /// the grid into an integral over Hz.
+  LoopEvaluator(LoopChannels channels, double delay, SensorNoise noise,
+                const Eigen::ArrayXd& wind_spectrum, const Eigen::ArrayXd& weight,
+                const Eigen::ArrayXd& noise_weight);
+  /// On frequencies of its own choice (LoopQuadrature): every law's integrals to the stated
+  /// tolerance, however lightly its closed loop is damped. Frequencies that one law asked for are
+  /// at hand for the next; no value depends on what was evaluated before. `channels`: the response
+  /// at a frequency in rad/s; `wind_spectrum`: one-sided, (N m)^2/Hz at the motor shaft, at a
+  /// frequency in Hz; both smooth: what has kinks is better served on a grid.
+  /// @throws InvalidInput for bands that are not in order or do not meet, or a tolerance or panel
+  /// width that is not positive; NumericalFailure for a response or spectrum that is not finite.
+  LoopEvaluator(std::function<plant::ResponsePoint(double frequency)> channels, double delay,
+                SensorNoise noise, std::function<double(double hertz)> wind_spectrum,
+                const LoopQuadrature& quadrature);
+
+  /// Breaks whose peaks are looked for; all by default.
+  void look_at(std::array<bool, 3> breaks) { breaks_ = breaks; }
+  /// Whether the variances of valve demand and motor torque by wind are taken; not by default.
+  void look_at_gusts(bool look) { gusts_ = look; }
+
+  /// @throws InvalidInput as validate(law).
+  LoopEvaluation evaluate(const ControlLaw& law, bool with_gradients);
+  /// How many frequencies the last evaluation took.
+  std::size_t frequencies_used() const { return leaves_.size() * numerics::pack_size; }
+
+  /// |beam / wind torque|^2 of the closed loop at each frequency of the grid, rad^2/(N m)^2.
+  Eigen::ArrayXd wind_transmission(const ControlLaw& law) const;
+
+  /// On the grid, or on the panels that every evaluation starts from.
+  const plant::PlantResponse& response() const { return channels_.response; }
+  double delay() const { return delay_; }
+  /// Weights that turn a sum over the response's frequencies into an integral over Hz.
+  const Eigen::ArrayXd& integration_weight() const { return weight_; }
+
+ private:
+  // Eight frequencies: responses to the command with the dead time in them.
+  struct GridPack {
+    numerics::RealPack frequency, period, wind_weight, noise_weight;  // period: 1/frequency
+    numerics::ComplexPack tachometer_command, torque_command, encoder_command, beam_command;
+    numerics::ComplexPack tachometer_wind, torque_wind, encoder_wind, beam_wind;
+    bool weighted = false, noisy = false;  // whether any weight is above 0
+
+    void set(std::size_t lane, double frequency, const plant::ResponsePoint& response,
+             double delay);
+    void set_weights(std::size_t lane, double wind, double noise);
+  };
+  // What a law makes of eight frequencies: weighted integrands, and their tails (panel_rule.hpp) of
+  // beam and effort, of demand and torque by wind.
+  struct LoopValues {
+    numerics::ComplexPack rate_return, both_return;  // 1 + L, position loop open, closed
+    std::array<numerics::RealPack, 3> sensitivity_square;
+    numerics::RealPack wind, noise, effort, wind_demand, wind_torque, tail, gust_tail;
+    // Below 0 where a return turns by more than a right angle to the next point.
+    numerics::RealPack turn;
+  };
+  // A stretch of ln w; its halves once an evaluation asked for them.
+  struct Panel {
+    double from = 0.0, to = 0.0;
+    std::uint32_t first_half = 0;  // 0: not made
+
+    double centre() const { return 0.5 * (from + to); }
+    double half_width() const { return 0.5 * (to - from); }
+  };
+  struct PlacedBlock {
+    BlockKind kind = BlockKind::gain;
+    std::size_t first_gain = 0;
+  };
+  // What a sweep needs of a law.
+  struct Sweep {
+    const ControlLaw* law = nullptr;
+    std::array<PlacedBlock, most_gains> blocks{};  // path by path
+    std::array<std::size_t, 4> path_end{};
+    std::array<std::size_t, most_gains> path_of_gain{};
+    std::array<bool, 4> present{};
+    double tachometer_density = 0.0, encoder_density = 0.0, torque_density = 0.0;
+    bool noisy = false;
+  };
+  struct LoopPack;
+  struct GradientSums;
+  struct Limits;
+  struct PointOnAxis {
+    double place = 0.0, value = 0.0;  // ln w, ln|S|^2
+  };
+
+  // ln|S|^2 between points, the product of the distances from them, the leaf they are in.
+  struct Interpolation {
+    double value = 0.0, product = 0.0;
+    std::size_t leaf = 0;
+  };
+
+  void use_first_panels();
+  void make_panels(const LoopQuadrature& quadrature);
+  void add_resolved(double from, double to, const LoopQuadrature& quadrature);
+  double panel_weight(const Panel& panel, std::size_t lane) const;
+  std::uint32_t add_panel(double from, double to);
+  void keep_first_panels();
+  void choose_leaves(const Sweep& sweep);
+  bool close_enough(std::uint32_t i, const Limits& limits) const;
+  Sweep prepare(const ControlLaw& law) const;
+  void sweep_values(const Sweep& sweep, const std::uint32_t* packs, std::size_t count);
+  void sweep_gradients(const Sweep& sweep, LoopEvaluation& result) const;
+  void count_unstable(const ControlLaw& law, LoopEvaluation& result) const;
+
+  std::size_t points() const;
+  double sensitivity_square(std::size_t loop_break, std::size_t i) const;
+  PointOnAxis point_on_axis(LoopBreak loop_break, std::size_t i) const;
+  Interpolation interpolate(LoopBreak loop_break, std::size_t near, double place) const;
+  SensitivityPeak peak_at(const ControlLaw& law, LoopBreak loop_break, double frequency) const;
+  SensitivityPeak polish(const ControlLaw& law, LoopBreak loop_break, std::size_t i) const;
+  void find_peaks(const ControlLaw& law, LoopBreak loop_break, PeakList& peaks) const;
+
+  LoopChannels channels_;
+  double delay_;
+  SensorNoise noise_;
+  std::array<bool, 3> breaks_{true, true, true};
+  bool gusts_ = false;
+  Eigen::ArrayXd weight_;
+  std::vector<GridPack> packs_;
+  std::vector<LoopValues> values_;     // by pack
+  std::vector<std::uint32_t> leaves_;  // packs of the last evaluation, rising in frequency
+  // Empty where the frequencies were given.
+  std::vector<Panel> panels_;                // by pack
+  std::vector<std::uint32_t> first_panels_;  // those every evaluation starts from, rising
+  std::function<double(double)> wind_spectrum_;
+  FrequencyBand band_;
+  double tolerance_ = 0.0;
+  double lowest_place_ = -std::numeric_limits<double>::infinity();
+};
+
+}  // namespace boresight::control

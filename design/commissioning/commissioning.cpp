@@ -1,0 +1,347 @@
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include <fmt/format.h>
+
+#include <boresight/design/commissioning/commissioning.hpp>
+#include <boresight/design/commissioning/commissioning_path.hpp>
+#include <boresight/numerics/error.hpp>
+#include <boresight/numerics/parallel_loop.hpp>
+#include <boresight/numerics/statistics/distribution_quantiles.hpp>
+
+namespace boresight::design {
+namespace {
+
+using control::ControlLaw;
+using control::LoopPath;
+
+constexpr double no_number = std::numeric_limits<double>::quiet_NaN();
+constexpr double infinity = std::numeric_limits<double>::infinity();
+// How far the loop gain is raised in search of the peak at which to give up.
+constexpr double highest_raise = 8.0;
+constexpr double largest_detuning = 64.0;
+
+void check(const std::vector<EnsembleMember>& members, const CommissioningOptions& options) {
+  if (members.size() < 3) {
+    throw InvalidInput(
+        fmt::format("plan_commissioning: expected at least 3 plants that may be the "
+                    "true one, found {}",
+                    members.size()));
+  }
+  const bool in_order = options.largest_step > 1.0 && options.largest_step <= 10.0 &&
+                        options.sensitivity_limit > 1.0 &&
+                        options.abort_peak > options.sensitivity_limit &&
+                        options.abort_peak < infinity && options.overshoot_allowance >= 0.0 &&
+                        options.rms_allowance >= 1.0;
+  if (!in_order) {
+    throw InvalidInput(fmt::format(
+        "plan_commissioning: expected a largest step above 1, at most 10, 1 < limit of S < peak to "
+        "give up at, and allowances of at least 0 for overshoot and 1 for rms, found {}, {} and "
+        "{}, "
+        "{} and {}",
+        options.largest_step, options.sensitivity_limit, options.abort_peak,
+        options.overshoot_allowance, options.rms_allowance));
+  }
+  const bool within = options.confidence > 0.0 && options.confidence < 1.0;
+  if (!within) {
+    throw InvalidInput(fmt::format(
+        "plan_commissioning: expected a confidence within (0, 1), found {}", options.confidence));
+  }
+}
+
+// The gain by which a stage's loop is raised as a whole.
+std::size_t loop_gain_index(const StageLaw& stage) {
+  const LoopPath path = stage.position_open ? LoopPath::rate : LoopPath::position;
+  std::size_t first = 0;
+  for (const auto& block : stage.law.structure.blocks()) {
+    if (block.path == path && block.kind == control::BlockKind::gain) return first;
+    first += block.gains.size();
+  }
+  return 0;
+}
+
+StageLaw raised(StageLaw stage, double factor) {
+  stage.law.gains[loop_gain_index(stage)] *= factor;
+  return stage;
+}
+
+// All plants, the problem's own first.
+class Plants {
+ public:
+  Plants(const TrackingProblem& problem, const std::vector<EnsembleMember>& members,
+         const CommandedMove& move, const CommissioningOptions& options)
+      : options_(options) {
+    const WindTable wind(problem);
+    names_.emplace_back("the problem's own");
+    observers_.emplace_back(problem, problem.plant, wind, move);
+    for (const auto& member : members) {
+      names_.push_back(member.name);
+      observers_.emplace_back(problem, member.plant, wind, move);
+    }
+  }
+
+  // The largest over the plants, and whose.
+  double worst_peak(const StageLaw& stage, std::size_t& worst) {
+    std::vector<double> peaks(observers_.size());
+    each([&](std::size_t i) { peaks[i] = observers_[i].peak(stage); });
+    const auto largest = std::ranges::max_element(peaks);
+    worst = static_cast<std::size_t>(largest - peaks.begin());
+    return *largest;
+  }
+  double worst_peak(const StageLaw& stage) {
+    std::size_t worst = 0;
+    return worst_peak(stage, worst);
+  }
+
+  CommissioningStage look_at(StageKind kind, const StageLaw& law) {
+    if (options_.stop && options_.stop()) throw Interrupted("interrupted by the user");
+    std::vector<StageObservation> seen(observers_.size());
+    each([&](std::size_t i) { seen[i] = observers_[i].observe(law); });
+    CommissioningStage stage;
+    stage.kind = kind;
+    stage.law = law;
+    expect(seen, stage.expected);
+    limit(stage);
+    return stage;
+  }
+
+ private:
+  void each(const std::function<void(std::size_t)>& work) {
+    numerics::for_each_index(observers_.size(), options_.threads, work);
+  }
+
+  PlantBand band(const std::vector<StageObservation>& seen,
+                 const std::function<double(const StageObservation&)>& quantity) const {
+    std::vector<double> values;
+    for (const auto& one : seen) values.push_back(quantity(one));
+    return plant_band(values.front(), values, options_.confidence);
+  }
+
+  void expect(const std::vector<StageObservation>& seen, StageExpectation& expected) const {
+    using Seen = StageObservation;
+    expected.plants = seen.size();
+    expected.stable = static_cast<std::size_t>(
+        std::ranges::count_if(seen, [](const Seen& one) { return one.stable; }));
+    expected.peak = band(seen, [](const Seen& s) { return s.peak; });
+    expected.crossover = band(seen, [](const Seen& s) { return s.crossover; });
+    expected.rise_time = band(seen, [](const Seen& s) { return s.rise_time; });
+    // Of the peak, 1 and the overshoot: logarithms of overshoots near 0 would scatter wildly.
+    expected.overshoot = band(seen, [](const Seen& s) { return 1.0 + s.overshoot; });
+    for (auto* end :
+         {&expected.overshoot.nominal, &expected.overshoot.least, &expected.overshoot.largest,
+          &expected.overshoot.lower, &expected.overshoot.upper}) {
+      *end = *end < 1.0 ? 0.0 : *end - 1.0;
+    }
+    expected.settling_time = band(seen, [](const Seen& s) { return s.settling_time; });
+    expected.largest_demand = band(seen, [](const Seen& s) { return s.largest_demand; });
+    expected.largest_torque = band(seen, [](const Seen& s) { return s.largest_torque; });
+    expected.still_encoder = band(seen, [](const Seen& s) { return s.still.encoder_error; });
+    expected.still_tachometer = band(seen, [](const Seen& s) { return s.still.tachometer; });
+    expected.still_torque = band(seen, [](const Seen& s) { return s.still.torque; });
+    expected.still_valve = band(seen, [](const Seen& s) { return s.still.valve_command; });
+    expected.windy_encoder = band(seen, [](const Seen& s) { return s.windy.encoder_error; });
+    expected.windy_tachometer = band(seen, [](const Seen& s) { return s.windy.tachometer; });
+    expected.windy_torque = band(seen, [](const Seen& s) { return s.windy.torque; });
+    expected.windy_valve = band(seen, [](const Seen& s) { return s.windy.valve_command; });
+    expected.beam_rms = band(seen, [](const Seen& s) { return s.beam_rms; });
+    expected.move_error = band(seen, [](const Seen& s) { return s.move_error; });
+  }
+
+  // Where the band ends, with what is allowed for measuring; or earlier where the worst plant is at
+  // the peak to give up at, if that is beyond the band by half of what is allowed.
+  static double earlier(const PlantBand& expected, double allowed, double at_peak) {
+    return at_peak > 0.5 * (expected.upper + allowed) ? std::min(allowed, at_peak) : allowed;
+  }
+
+  void limit(CommissioningStage& stage) {
+    AbortLimits& abort = stage.abort;
+    std::size_t worst = 0;
+    const double peak = worst_peak(stage.law, worst);
+    abort.worst_plant = names_[worst];
+    abort.overshoot = stage.expected.overshoot.upper + options_.overshoot_allowance;
+    abort.still_valve_rms = stage.expected.still_valve.upper * options_.rms_allowance;
+    abort.still_encoder_rms = stage.expected.still_encoder.upper * options_.rms_allowance;
+    abort.gain_reserve = peak < options_.abort_peak ? infinity : 1.0;
+    if (!(peak < options_.abort_peak) ||
+        observers_[worst].peak(raised(stage.law, highest_raise)) < options_.abort_peak) {
+      return;
+    }
+    double low = 1.0;
+    double high = highest_raise;
+    for (int k = 0; k < 30 && high - low > 1e-4; ++k) {
+      const double middle = std::sqrt(low * high);
+      (observers_[worst].peak(raised(stage.law, middle)) < options_.abort_peak ? low : high) =
+          middle;
+    }
+    abort.gain_reserve = low;
+    const auto there = observers_[worst].observe(raised(stage.law, low));
+    abort.overshoot = earlier(stage.expected.overshoot, abort.overshoot, there.overshoot);
+    abort.still_valve_rms =
+        earlier(stage.expected.still_valve, abort.still_valve_rms, there.still.valve_command);
+    if (!stage.law.position_open) {
+      abort.still_encoder_rms =
+          earlier(stage.expected.still_encoder, abort.still_encoder_rms, there.still.encoder_error);
+    }
+  }
+
+  const CommissioningOptions& options_;
+  std::vector<std::string> names_;
+  std::vector<StageObserver> observers_;
+};
+
+void number_steps(std::vector<CommissioningStage>& stages) {
+  for (auto& stage : stages) {
+    const auto same = [&](const CommissioningStage& other) { return other.kind == stage.kind; };
+    stage.steps = static_cast<int>(std::ranges::count_if(stages, same));
+    stage.step = static_cast<int>(std::count_if(stages.data(), &stage, same)) + 1;
+  }
+}
+
+bool all_stable(const CommissioningStage& stage) {
+  return stage.expected.stable == stage.expected.plants;
+}
+
+// The gains the plan starts from where none can be started from.
+ControlLaw assumed_start(Plants& plants, const ControlLaw& target, double limit,
+                         CommissioningPlan& plan) {
+  const ControlLaw plain = without_torque_paths(target);
+  for (double factor = 2.0; factor <= largest_detuning; factor *= 2.0) {
+    // A law whose position loop does the rate loop's work must keep its rate loop: slower, its
+    // integral would reach into the position loop.
+    for (const double rate_factor : {factor, 1.0}) {
+      ControlLaw start = detuned(plain, rate_factor, factor);
+      if (plants.worst_peak({start, true, false}) <= limit &&
+          plants.worst_peak({start, false, false}) <= limit) {
+        plan.detuning = factor;
+        plan.rate_detuned = rate_factor > 1.0;
+        return start;
+      }
+    }
+  }
+  throw InfeasibleRequirement(fmt::format(
+      "the gains of the antenna as found are not known, and the law chosen, "
+      "without pressure feedback, has no peaks of S below {:g} on every plant even with its gains "
+      "divided by {:g}: give the gains found",
+      limit, largest_detuning));
+}
+
+}  // namespace
+
+std::string_view to_string(StageKind kind) {
+  static constexpr std::array names{"as found",      "rate loop",  "pressure feedback",
+                                    "position loop", "compliance", "feedforward"};
+  return names.at(static_cast<std::size_t>(kind));
+}
+
+PlantBand plant_band(double nominal, const std::vector<double>& values, double confidence) {
+  const bool within = confidence > 0.0 && confidence < 1.0;
+  if (values.size() < 3 || !within) {
+    throw InvalidInput(
+        fmt::format("plant_band: expected at least 3 values and a confidence within "
+                    "(0, 1), found {} and {}",
+                    values.size(), confidence));
+  }
+  if (!std::ranges::all_of(values, [](double value) { return std::isfinite(value); })) {
+    return {nominal, no_number, no_number, no_number, no_number};
+  }
+  const auto [least, largest] = std::ranges::minmax(values);
+  const bool logarithmic = least > 0.0;
+  const auto count = static_cast<double>(values.size());
+  double mean = 0.0;
+  for (const double value : values) mean += (logarithmic ? std::log(value) : value) / count;
+  double square = 0.0;
+  for (const double value : values) {
+    square += std::pow((logarithmic ? std::log(value) : value) - mean, 2);
+  }
+  const double reach = numerics::student_quantile(0.5 + 0.5 * confidence, count - 1.0) *
+                       std::sqrt(square / (count - 1.0) * (1.0 + 1.0 / count));
+  double lower = mean - reach;
+  double upper = mean + reach;
+  if (logarithmic) {
+    lower = std::exp(lower);
+    upper = std::exp(upper);
+  }
+  return {nominal, least, largest, std::clamp(lower, 0.0, std::max(least, 0.0)),
+          std::max(upper, largest)};
+}
+
+CommissioningPlan plan_commissioning(const TrackingProblem& problem,
+                                     const std::vector<EnsembleMember>& members,
+                                     const std::optional<control::ControlLaw>& found,
+                                     const control::ControlLaw& target, const CommandedMove& move,
+                                     const CommissioningOptions& options) {
+  check(members, options);
+  control::validate(target);
+  Plants plants(problem, members, move, options);
+  CommissioningPlan plan;
+  const double own =
+      std::max(plants.worst_peak({target, true, false}), plants.worst_peak({target, false, false}));
+  if (!std::isfinite(own)) {
+    throw InfeasibleRequirement(
+        "the law chosen is unstable on a plant that may be the true one: "
+        "choose a law that is tuned robustly");
+  }
+  if (own > options.sensitivity_limit) {
+    plan.remarks.push_back(
+        fmt::format("The law chosen has itself a peak of S of {:.2f} on a plant, above the {:g} "
+                    "meant to be kept "
+                    "on the way: its own is kept instead.",
+                    own, options.sensitivity_limit));
+  }
+  const double limit = std::max(options.sensitivity_limit, own * (1.0 + 1e-9));
+
+  std::optional<ControlLaw> start;
+  if (found) {
+    control::validate(*found);
+    plan.stages.push_back(plants.look_at(StageKind::as_found, {*found, false, false}));
+    start = law_within(*found, target);
+    if (!start) {
+      plan.remarks.emplace_back(
+          "The law found has parts that the law chosen has not: no path of gains leads from one to "
+          "the other. The plan starts afresh, from gains of the law chosen.");
+    } else if (plants.worst_peak({*start, true, false}) > limit) {
+      plan.remarks.push_back(fmt::format(
+          "The rate loop as found has a peak of S above {:g} on a plant that may be the true one. "
+          "The plan starts afresh, from gains of the law chosen.",
+          limit));
+      start.reset();
+    }
+  }
+  if (!start) start = assumed_start(plants, target, limit, plan);
+
+  const auto allowed = [&](const StageLaw& stage) {
+    if (options.stop && options.stop()) throw Interrupted("interrupted by the user");
+    return plants.worst_peak(stage) <= limit;
+  };
+  std::string why_not;
+  std::optional<std::vector<PathStage>> path;
+  plan.largest_step = options.largest_step;
+  for (int attempt = 0; attempt < 3 && !path; ++attempt) {
+    if (attempt > 0) plan.largest_step = std::sqrt(plan.largest_step);
+    path = commissioning_path(*start, target, plan.largest_step, allowed, why_not);
+  }
+  if (!path) {
+    throw InfeasibleRequirement(
+        fmt::format("no path of gains with peaks of S below {:g} on every plant was found, "
+                    "with steps down to a factor of {:.3g}: {}",
+                    limit, plan.largest_step, why_not));
+  }
+  for (const auto& stage : *path) {
+    plan.stages.push_back(plants.look_at(stage.kind, stage.law));
+    if (options.progress) options.progress(plan.stages.size(), path->size());
+    if (!all_stable(plan.stages.back())) {
+      throw NumericalFailure(
+          fmt::format("a stage of the {} is unstable on {} of {} plants by its "
+                      "eigenvalues, though not by its frequency response",
+                      to_string(stage.kind),
+                      plan.stages.back().expected.plants - plan.stages.back().expected.stable,
+                      plan.stages.back().expected.plants));
+    }
+  }
+  number_steps(plan.stages);
+  return plan;
+}
+
+}  // namespace boresight::design

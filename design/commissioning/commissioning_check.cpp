@@ -1,0 +1,280 @@
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include <fmt/format.h>
+
+#include <boresight/control/controllers/antenna_controller.hpp>
+#include <boresight/control/controllers/delay.hpp>
+#include <boresight/control/loops/closed_loop.hpp>
+#include <boresight/design/commissioning/commissioning_check.hpp>
+#include <boresight/numerics/eigenvalues.hpp>
+#include <boresight/numerics/error.hpp>
+#include <boresight/plant/antenna/point_response.hpp>
+#include <boresight/plant/linear/time_response.hpp>
+
+namespace boresight::design {
+namespace {
+
+using control::LoopBreak;
+
+constexpr double no_number = std::numeric_limits<double>::quiet_NaN();
+constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr Eigen::Index samples_watched = 6000;
+constexpr double settled = 0.05;
+
+TrackingProblem with_plant(TrackingProblem problem, const plant::AntennaPlant& plant) {
+  problem.plant = plant;
+  problem.points_per_decade = 60;
+  return problem;
+}
+
+plant::StateSpace sum(double first, const std::string& first_name, double second,
+                      const std::string& second_name, const std::string& name) {
+  return plant::static_gain((Eigen::MatrixXd(1, 2) << first, second).finished(),
+                            {first_name, second_name}, {name});
+}
+
+void rename_input(plant::StateSpace& system, const std::string& from, const std::string& to) {
+  std::ranges::replace(system.inputs, from, to);
+}
+
+// From the rate command to what is measured, the position loop open.
+plant::StateSpace rate_loop(const TrackingProblem& problem, const control::ControlLaw& law) {
+  plant::StateSpace controller = control::rate_loop_law(law);
+  rename_input(controller, "tachometer", "rate_less_command");
+  return plant::connect({plant::to_state_space(problem.plant),
+                         sum(1.0, "tachometer", -1.0, "command", "rate_less_command"), controller,
+                         control::delay_approximant(problem.delay, control::delay_order,
+                                                    "valve_demand", "valve_command")},
+                        {"command", "wind_torque"}, {"tachometer", "motor_torque", "valve_demand"});
+}
+
+// From position command and feedforward to what is measured.
+plant::StateSpace position_loop(const TrackingProblem& problem, const control::ControlLaw& law) {
+  plant::StateSpace controller = control::to_state_space(law);
+  rename_input(controller, "encoder", "angle_less_command");
+  return plant::connect({plant::to_state_space(problem.plant),
+                         sum(1.0, "encoder", -1.0, "command", "angle_less_command"), controller,
+                         sum(1.0, "valve_demand", 1.0, "valve_feedforward", "whole_demand"),
+                         control::delay_approximant(problem.delay, control::delay_order,
+                                                    "whole_demand", "valve_command")},
+                        {"command", "rate_disturbance", "valve_feedforward", "wind_torque"},
+                        {"encoder", "motor_torque", "whole_demand"});
+}
+
+// First time at which the samples reach a level, straight between them.
+double time_at(const Eigen::VectorXd& values, double level, double step) {
+  for (Eigen::Index k = 1; k < values.size(); ++k) {
+    if (values[k] >= level) {
+      const double part = (level - values[k - 1]) / (values[k] - values[k - 1]);
+      return step * (static_cast<double>(k - 1) + std::clamp(part, 0.0, 1.0));
+    }
+  }
+  return infinity;
+}
+
+double settling_time(const Eigen::VectorXd& values, double step) {
+  Eigen::Index last = values.size() - 1;
+  while (last >= 0 && std::abs(values[last] - 1.0) <= settled) --last;
+  return last == values.size() - 1 ? infinity : step * static_cast<double>(last + 1);
+}
+
+// Trapezoidal weights in Hz on a grid in rad/s, nothing beyond `highest` Hz.
+Eigen::ArrayXd weights(const Eigen::ArrayXd& frequency, double highest) {
+  Eigen::ArrayXd weight = Eigen::ArrayXd::Zero(frequency.size());
+  for (Eigen::Index i = 1; i < frequency.size(); ++i) {
+    const double turn = 2.0 * std::numbers::pi;
+    const double from = std::min(frequency[i - 1] / turn, highest);
+    const double to = std::min(frequency[i] / turn, highest);
+    weight[i - 1] += 0.5 * (to - from);
+    weight[i] += 0.5 * (to - from);
+  }
+  return weight;
+}
+
+}  // namespace
+
+StageObserver::StageObserver(const TrackingProblem& problem, const plant::AntennaPlant& plant,
+                             const WindTable& wind, const CommandedMove& move)
+    : problem_(with_plant(problem, plant)),
+      move_(move),
+      evaluator_(make_adaptive_evaluator(problem_, wind)) {
+  const bool moves = move.rate > 0.0 && move.acceleration > 0.0;
+  if (!moves) {
+    throw InvalidInput(
+        fmt::format("StageObserver: expected a move of positive rate and "
+                    "acceleration, found {} rad/s and {} rad/s2",
+                    move.rate, move.acceleration));
+  }
+  const Eigen::ArrayXd frequency = analysis_grid(problem_);
+  response_ = plant::plant_response(plant, frequency);
+  wind_spectrum_ = motor_wind_spectrum(problem_, frequency);
+}
+
+double StageObserver::peak(const StageLaw& stage) {
+  const auto evaluation = evaluator_.evaluate(stage.law, false);
+  if (evaluation.unstable_rate_loop > 0) return infinity;
+  double largest = evaluation.highest_peak(LoopBreak::rate_loop_alone);
+  if (stage.position_open) return largest;
+  if (evaluation.unstable_closed_loop > 0) return infinity;
+  for (const auto loop_break : {LoopBreak::valve_command, LoopBreak::position_loop}) {
+    largest = std::max(largest, evaluation.highest_peak(loop_break));
+  }
+  return largest;
+}
+
+double StageObserver::crossover(const StageLaw& stage) const {
+  const auto loop_break =
+      stage.position_open ? LoopBreak::rate_loop_alone : LoopBreak::position_loop;
+  double before = 0.0;
+  for (Eigen::Index i = 0; i < response_.frequency.size(); ++i) {
+    const double gain =
+        std::log(std::abs(control::loop_gain(plant::point(response_, i), response_.frequency[i],
+                                             stage.law, problem_.delay, loop_break)));
+    if (i > 0 && before >= 0.0 && gain < 0.0) {
+      const double from = std::log(response_.frequency[i - 1]);
+      const double to = std::log(response_.frequency[i]);
+      return std::exp(from + (to - from) * before / (before - gain));
+    }
+    before = gain;
+  }
+  return no_number;
+}
+
+void StageObserver::observe_step(const StageLaw& stage, StageObservation& seen) const {
+  const plant::StateSpace loop =
+      stage.position_open ? rate_loop(problem_, stage.law) : position_loop(problem_, stage.law);
+  const double step = 60.0 / (seen.crossover * static_cast<double>(samples_watched));
+  Eigen::MatrixXd input =
+      Eigen::MatrixXd::Zero(samples_watched, static_cast<Eigen::Index>(loop.inputs.size()));
+  input.col(0).setOnes();
+  plant::LinearSimulation simulation(loop, step);
+  const Eigen::MatrixXd output = simulation.simulate(input);
+  const Eigen::VectorXd response = output.col(0);
+  seen.rise_time = time_at(response, 0.9, step) - time_at(response, 0.1, step);
+  seen.overshoot = std::max(0.0, response.maxCoeff() - 1.0);
+  seen.settling_time = settling_time(response, step);
+  seen.largest_torque = output.col(1).cwiseAbs().maxCoeff();
+  seen.largest_demand = output.col(2).cwiseAbs().maxCoeff();
+}
+
+void StageObserver::observe_move(const StageLaw& stage, StageObservation& seen) const {
+  const plant::StateSpace loop = position_loop(problem_, stage.law);
+  const auto forward = stage.feedforward
+                           ? control::plant_feedforward(problem_.plant, stage.law, problem_.delay)
+                           : control::Feedforward{};
+  // Speeding up, as long at the rate, slowing down, and time for what is left to show.
+  const double ramp = move_.rate / move_.acceleration;
+  const double wait = 30.0 / seen.crossover;
+  const double step = (3.0 * ramp + 2.0 * wait) / static_cast<double>(samples_watched);
+  Eigen::MatrixXd input = Eigen::MatrixXd::Zero(samples_watched, 4);
+  for (Eigen::Index k = 0; k < samples_watched; ++k) {
+    const double t = step * static_cast<double>(k);
+    const double end = 2.0 * ramp + wait;
+    const double up = std::clamp(t, 0.0, ramp);
+    const double down = std::clamp(t - end, 0.0, ramp);
+    const double rate = move_.acceleration * (up - down);
+    const double acceleration =
+        move_.acceleration * ((t < ramp ? 1.0 : 0.0) - (t >= end && t < end + ramp ? 1.0 : 0.0));
+    input(k, 0) = move_.acceleration * (0.5 * up * up + ramp * std::max(0.0, t - ramp) -
+                                        0.5 * down * down - ramp * std::max(0.0, t - end - ramp));
+    input(k, 1) =
+        forward.rate_to_rate_command * rate + forward.acceleration_to_rate_command * acceleration;
+    input(k, 2) =
+        forward.rate_to_valve_command * rate + forward.acceleration_to_valve_command * acceleration;
+  }
+  plant::LinearSimulation simulation(loop, step,
+                                     {.interpolation = plant::Interpolation::first_order_hold});
+  const Eigen::MatrixXd output = simulation.simulate(input);
+  seen.move_error = (input.col(0) - output.col(0)).cwiseAbs().maxCoeff();
+}
+
+void StageObserver::observe_recorder(const StageLaw& stage, StageObservation& seen) const {
+  const auto& noise = problem_.noise;
+  const Eigen::ArrayXd& frequency = response_.frequency;
+  const Eigen::ArrayXd noise_weight = weights(frequency, noise.bandwidth);
+  const std::array<double, 3> densities{std::pow(noise.encoder_rms, 2) / noise.bandwidth,
+                                        std::pow(noise.tachometer_rms, 2) / noise.bandwidth,
+                                        std::pow(noise.torque_rms, 2) / noise.bandwidth};
+  // Encoder error, tachometer, torque, valve command.
+  std::array<double, 4> still{};
+  std::array<double, 4> windy{};
+  for (Eigen::Index i = 0; i < frequency.size(); ++i) {
+    const double w = frequency[i];
+    auto plant = plant::point(response_, i);
+    const std::complex<double> late = std::polar(1.0, -w * problem_.delay);
+    for (auto* one : {&plant.tachometer_command, &plant.torque_command, &plant.encoder_command}) {
+      *one *= late;
+    }
+    auto law = control::compensator_response(stage.law, w);
+    if (stage.position_open) law.position = 0.0;
+    // u = R (r - tachometer) - Q torque, r = -P (encoder - C torque).
+    const std::complex<double> outer = law.rate * law.position;
+    const std::complex<double> torque_path = law.pressure - outer * law.compliance;
+    const std::complex<double> loop = 1.0 + law.rate * plant.tachometer_command +
+                                      torque_path * plant.torque_command +
+                                      outer * plant.encoder_command;
+    const std::array<std::complex<double>, 3> to_valve{-outer / loop, -law.rate / loop,
+                                                       -torque_path / loop};
+    for (std::size_t source = 0; source < 3; ++source) {
+      const auto u = to_valve[source];
+      const double power = densities[source] * noise_weight[i];
+      still[0] += power * std::norm(plant.encoder_command * u + (source == 0 ? 1.0 : 0.0));
+      still[1] += power * std::norm(plant.tachometer_command * u + (source == 1 ? 1.0 : 0.0));
+      still[2] += power * std::norm(plant.torque_command * u + (source == 2 ? 1.0 : 0.0));
+      still[3] += power * std::norm(u);
+    }
+    const std::complex<double> by_wind =
+        -(law.rate * plant.tachometer_wind + torque_path * plant.torque_wind +
+          outer * plant.encoder_wind) /
+        loop;
+    const double power = wind_spectrum_[i] * noise_weight[i];
+    windy[0] += power * std::norm(plant.encoder_wind + plant.encoder_command * by_wind);
+    windy[1] += power * std::norm(plant.tachometer_wind + plant.tachometer_command * by_wind);
+    windy[2] += power * std::norm(plant.torque_wind + plant.torque_command * by_wind);
+    windy[3] += power * std::norm(by_wind);
+  }
+  const auto rms = [](const std::array<double, 4>& power) {
+    return RecordedRms{std::sqrt(power[0]), std::sqrt(power[1]), std::sqrt(power[2]),
+                       std::sqrt(power[3])};
+  };
+  seen.still = rms(still);
+  for (std::size_t k = 0; k < windy.size(); ++k) windy[k] += still[k];
+  seen.windy = rms(windy);
+  if (stage.position_open) seen.still.encoder_error = seen.windy.encoder_error = no_number;
+}
+
+StageObservation StageObserver::observe(const StageLaw& stage) {
+  StageObservation seen;
+  const auto verdict =
+      control::stability(problem_.plant, stage.law, problem_.delay, response_.frequency);
+  seen.abscissa = stage.position_open
+                      ? verdict.rate_loop_abscissa
+                      : std::max(verdict.rate_loop_abscissa, verdict.closed_loop_abscissa);
+  seen.peak = peak(stage);
+  seen.stable = seen.abscissa < 0.0 && verdict.dead_time_residue < 1.0 && std::isfinite(seen.peak);
+  if (stage.position_open) {
+    // The residue is of both loops: of an open one only the winding speaks beside the eigenvalues.
+    seen.stable = seen.abscissa < 0.0 && std::isfinite(seen.peak);
+  }
+  seen.crossover = seen.stable ? crossover(stage) : no_number;
+  seen.beam_rms = seen.move_error = no_number;
+  if (!seen.stable || !(seen.crossover > 0.0)) {
+    seen.crossover = seen.rise_time = seen.overshoot = seen.settling_time = no_number;
+    seen.largest_demand = seen.largest_torque = no_number;
+    seen.still = seen.windy = {no_number, no_number, no_number, no_number};
+    return seen;
+  }
+  observe_step(stage, seen);
+  observe_recorder(stage, seen);
+  if (!stage.position_open) {
+    seen.beam_rms = std::sqrt(evaluator_.evaluate(stage.law, false).beam_variance());
+    observe_move(stage, seen);
+  }
+  return seen;
+}
+
+}  // namespace boresight::design

@@ -1,0 +1,77 @@
+#pragma once
+
+#include <Eigen/Core>
+
+#include <boresight/control/controllers/control_law.hpp>
+#include <boresight/design/problem/tracking_problem.hpp>
+
+namespace boresight::design {
+
+/// A law as it acts in one stage of commissioning.
+struct StageLaw {
+  control::ControlLaw law;
+  bool position_open = false;  // a rate command from outside; position and compliance path rest
+  bool feedforward = false;    // control::plant_feedforward, with the position loop closed
+};
+
+/// Rms of what a recorder shows, at the motor: measured, with the sensors' own noise in it, over
+/// the noise's band. The encoder error is NaN with the position loop open.
+struct RecordedRms {
+  double encoder_error = 0.0;  // rad
+  double tachometer = 0.0;     // rad/s
+  double torque = 0.0;         // N m
+  double valve_command = 0.0;  // rad/s
+};
+
+/// What one plant does under a stage's law; the linear plant: steps within saturation, no friction
+/// curve. All at the motor. NaN but for `stable` where it is unstable.
+struct StageObservation {
+  bool stable = false;          // by eigenvalues, of what is closed
+  double abscissa = 0.0;        // 1/s, of the eigenvalue farthest to the right
+  double peak = 0.0;            // largest |S| over the breaks that are closed
+  double crossover = 0.0;       // rad/s, lowest gain crossover of the outer closed loop
+  double rise_time = 0.0;       // s, 10 % to 90 % of a step of the rate or position command
+  double overshoot = 0.0;       // share of the step
+  double settling_time = 0.0;   // s, into 5 %; infinite if not within the time watched
+  double largest_demand = 0.0;  // rad/s of valve demand per unit of step
+  double largest_torque = 0.0;  // N m per unit of step
+  RecordedRms still;            // in still air
+  RecordedRms windy;            // in the problem's wind, and noise
+  double beam_rms = 0.0;        // rad, in the wind; NaN with the position loop open
+  double move_error = 0.0;  // rad, largest encoder error of the move; NaN with position loop open
+};
+
+/// A move that the command preprocessor could make: rest to rate to rest (at the motor).
+struct CommandedMove {
+  double rate = 0.0;          // rad/s
+  double acceleration = 0.0;  // rad/s2
+};
+
+/// One plant, ready to be looked at under law after law. Not to be shared between threads.
+class StageObserver {
+ public:
+  /// `plant` in the place of the problem's. @throws InvalidInput for a move that is not positive.
+  StageObserver(const TrackingProblem& problem, const plant::AntennaPlant& plant,
+                const WindTable& wind, const CommandedMove& move);
+
+  /// Largest |S| over the breaks that are closed, infinity for an unstable loop: by the winding
+  /// along the frequencies. Quick. @throws InvalidInput as control::validate.
+  double peak(const StageLaw& stage);
+  /// Everything, stability by eigenvalues. Time responses are exact at their samples, of which the
+  /// time watched, 60 over the crossover, has 6000. @throws as peak.
+  StageObservation observe(const StageLaw& stage);
+
+ private:
+  void observe_step(const StageLaw& stage, StageObservation& seen) const;
+  void observe_move(const StageLaw& stage, StageObservation& seen) const;
+  void observe_recorder(const StageLaw& stage, StageObservation& seen) const;
+  double crossover(const StageLaw& stage) const;
+
+  TrackingProblem problem_;
+  CommandedMove move_;
+  control::LoopEvaluator evaluator_;
+  plant::PlantResponse response_;  // on a grid of 60 points a decade
+  Eigen::ArrayXd wind_spectrum_;   // on it, (N m)^2/Hz
+};
+
+}  // namespace boresight::design

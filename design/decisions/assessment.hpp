@@ -1,0 +1,64 @@
+#pragma once
+
+#include <cstddef>
+#include <limits>
+#include <optional>
+#include <string>
+
+namespace boresight::design {
+
+/// What a controller was tuned for.
+enum class DesignPurpose { nominal, robust };
+
+/// What a nonlinear simulation at steady rates without wind shows of limit cycles.
+enum class LimitCycleVerdict {
+  not_simulated,
+  within_budget,  // none, or none that exceeds the tightest pointing budget
+  not_shown,      // a nonlinear run in search of limit cycles did not complete
+  beyond_budget,
+};
+
+/// One controller on one antenna in one wind. Angles at the sky, rad.
+struct Assessment {
+  std::string structure;  // decides exact ties, by alphabetical order
+  DesignPurpose purpose = DesignPurpose::nominal;
+  std::size_t parts = 0;  // gains of the structure
+  bool stable = false;    // on the nominal plant
+  /// Stability and constraints on the nominal plant, confirmed by independent code.
+  bool verified = false;
+  bool nominal_constraints_met = false;
+  /// Stable and within every constraint on every ensemble member; false: also not asked for.
+  bool member_constraints_met = false;
+  double linear_rms = std::numeric_limits<double>::quiet_NaN();  // boresight error in wind
+  /// The same on the nonlinear antenna: none where it was not simulated, NaN where the run in wind
+  /// did not complete.
+  std::optional<double> simulated_rms;
+  LimitCycleVerdict limit_cycles = LimitCycleVerdict::not_simulated;
+  /// Largest amplitude of the boresight's limit cycles; none where not simulated.
+  std::optional<double> limit_cycle_amplitude;
+  /// Pointing budgets required in this wind, and those met.
+  std::size_t budgets_required = 0, budgets_met = 0;
+};
+
+/// How far a controller may be trusted, best first. The first deficiency found from the end of this
+/// list decides.
+enum class Fitness {
+  fit,             // free of everything below
+  misses_budget,   // a required pointing budget
+  misses_member,   // unstable or beyond a constraint on an ensemble member, or not evaluated there
+  not_shown,       // a nonlinear run in search of limit cycles did not complete
+  limit_cycle,     // beyond the tightest pointing budget
+  lost_in_wind,    // the nonlinear run in wind did not complete
+  misses_nominal,  // a constraint on the nominal plant
+  unverified,      // not confirmed by independent code
+  unstable,        // on the nominal plant, or without an rms
+};
+
+Fitness fitness(const Assessment& assessment);
+
+/// What controllers of equal fitness are ranked by, rad rms: the simulated rms with the limit cycle
+/// added in quadrature as the rms of a sinusoid, sqrt(rms^2 + amplitude^2 / 2); the linear rms
+/// where no run in wind completed.
+double ranking_figure(const Assessment& assessment);
+
+}  // namespace boresight::design

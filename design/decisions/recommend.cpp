@@ -1,0 +1,104 @@
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <tuple>
+
+#include <fmt/format.h>
+
+#include <boresight/design/decisions/recommend.hpp>
+#include <boresight/numerics/error.hpp>
+
+namespace boresight::design {
+namespace {
+
+struct Candidate {
+  const Assessment* assessment;
+  Fitness fitness;
+  double figure;
+
+  auto grade() const {
+    return std::tuple(fitness, assessment->budgets_required -
+                                   std::min(assessment->budgets_met, assessment->budgets_required));
+  }
+  // Among those of tied figures.
+  auto order() const {
+    return std::tuple(assessment->parts, assessment->purpose == DesignPurpose::nominal, figure,
+                      std::string_view(assessment->structure));
+  }
+};
+
+std::vector<Candidate> graded(std::span<const Assessment> assessments) {
+  const bool simulated = std::ranges::any_of(
+      assessments, [](const auto& one) { return one.simulated_rms.has_value(); });
+  std::vector<Candidate> candidates;
+  candidates.reserve(assessments.size());
+  for (const auto& one : assessments) {
+    Fitness grade = fitness(one);
+    if (simulated && !one.simulated_rms) grade = std::max(grade, Fitness::not_shown);
+    candidates.push_back({&one, grade, ranking_figure(one)});
+  }
+  return candidates;
+}
+
+const Candidate* best_of(const std::vector<Candidate>& candidates,
+                         const RecommendOptions& options) {
+  const auto accepted = [&](const Candidate& one) { return one.fitness <= options.accepted; };
+  const Candidate* least = nullptr;
+  for (const auto& one : candidates) {
+    if (!accepted(one)) continue;
+    if (least == nullptr ||
+        std::tuple(one.grade(), one.figure) < std::tuple(least->grade(), least->figure)) {
+      least = &one;
+    }
+  }
+  const Candidate* best = least;
+  for (const auto& one : candidates) {
+    if (!accepted(one) || one.grade() != least->grade()) continue;
+    if (!(one.figure <= (1.0 + options.tie) * least->figure)) continue;
+    if (one.order() < best->order()) best = &one;
+  }
+  return best;
+}
+
+RecommendationReason reason_against(const Candidate& rival, const Candidate& winner, double tie) {
+  if (rival.fitness != winner.fitness) return RecommendationReason::fitness;
+  if (rival.grade() != winner.grade()) return RecommendationReason::budgets;
+  const bool tied = rival.figure <= (1.0 + tie) * winner.figure;
+  if (tied && rival.assessment->parts > winner.assessment->parts) {
+    return RecommendationReason::fewer_parts;
+  }
+  if (tied && rival.assessment->purpose != winner.assessment->purpose) {
+    return RecommendationReason::robustness;
+  }
+  return rival.figure > winner.figure ? RecommendationReason::figure : RecommendationReason::name;
+}
+
+}  // namespace
+
+Recommendation recommend(std::span<const Assessment> candidates, const RecommendOptions& options) {
+  if (!(options.tie >= 0.0) || !std::isfinite(options.tie)) {
+    throw InvalidInput(
+        fmt::format("recommend: expected a tie of at least 0, found {:g}", options.tie));
+  }
+  const auto all = graded(candidates);
+  const Candidate* best = best_of(all, options);
+  Recommendation result;
+  if (best != nullptr) result.winner = static_cast<std::size_t>(best - all.data());
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    if (result.winner == i) continue;
+    RejectedController rejected{i, all[i].fitness, RecommendationReason::fitness,
+                                std::numeric_limits<double>::quiet_NaN()};
+    if (best != nullptr) {
+      rejected.reason = reason_against(all[i], *best, options.tie);
+      rejected.figure_ratio = all[i].figure / best->figure;
+      result.reasons.push_back(rejected.reason);
+    }
+    result.rejected.push_back(rejected);
+  }
+  std::ranges::sort(result.reasons);
+  const auto repeated = std::ranges::unique(result.reasons);
+  result.reasons.erase(repeated.begin(), repeated.end());
+  return result;
+}
+
+}  // namespace boresight::design

@@ -1,0 +1,76 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include <boresight/control/loops/panel_rule.hpp>
+#include <boresight/design/ensembles/held_gains_evaluator.hpp>
+#include <boresight/numerics/complex_packs.hpp>
+
+namespace boresight::design {
+
+/// The frequencies of a held law: panels of eight Gauss points in ln w that halve on demand and are
+/// kept from plant to plant, with all that no plant changes: weights of wind, climate and noise,
+/// the law's compensators times the dead time. And the closed loop of one plant on them. Parts of
+/// HeldGainsEvaluator.
+class HeldPanels {
+ public:
+  HeldPanels(const TrackingProblem& problem, const control::ControlLaw& law, bool gusts);
+
+  /// What the panels that cover the band make of a plant, within the tolerance.
+  /// @throws NumericalFailure for a response that is not finite.
+  void sweep(const plant::AntennaPlant& plant, double tolerance);
+
+  // Of the last sweep.
+  struct Sums {
+    double wind = 0.0, climate = 0.0, noise = 0.0, effort = 0.0, demand = 0.0, torque = 0.0;
+  };
+  const Sums& sums() const { return sums_; }
+  /// Poles in the right half plane by the winding, of either loop.
+  bool stable() const;
+  std::size_t points() const { return leaves_.size() * numerics::pack_size; }
+  double frequency(std::size_t point) const;
+  double sensitivity_square(std::size_t loop_break, std::size_t point) const;
+
+ private:
+  struct Panel {
+    double from = 0.0, to = 0.0;   // ln w
+    std::uint32_t first_half = 0;  // 0: not made
+    bool weighted = false, noisy = false;
+    numerics::RealPack frequency;
+    numerics::RealPack wind, climate;      // (N m)^2 a point
+    numerics::RealPack effort;             // (rad/s)^2 a point, of the open loop's demand by noise
+    numerics::ComplexPack rate, pressure;  // times the dead time
+    numerics::ComplexPack position, bending;  // R P, with the dead time; C
+  };
+  struct Values {
+    numerics::ComplexPack rate_return, both_return;  // 1 + L, position loop open, closed
+    std::array<numerics::RealPack, 3> sensitivity_square;
+    numerics::RealPack wind, climate, noise, effort, demand, torque;
+    numerics::RealPack tail, climate_tail,
+        gust_tail;                            // of beam and effort; climate; demand and torque
+    numerics::RealPack rate_tail, both_tail;  // of the returns, real and imaginary part
+    bool turns = false;  // a return by more than a right angle from point to point
+  };
+  std::uint32_t add_panel(double from, double to);
+  void evaluate(const plant::AntennaPlant& plant, const std::uint32_t* panels, std::size_t count);
+  struct Limits;
+  bool close_enough(std::uint32_t i, const Limits& limits) const;
+
+  control::FrequencyBand band_;
+  control::SensorNoise noise_;
+  double delay_;
+  control::ControlLaw law_;
+  bool gusts_;
+  int rate_integrators_ = 0, position_integrators_ = 0;
+  std::vector<WindTable> winds_;  // at the design's speed; of the climate where there is one
+  bool climate_ = false;
+  std::vector<Panel> panels_;
+  std::vector<Values> values_;        // by panel
+  std::vector<std::uint32_t> first_;  // that every plant starts from, rising
+  std::vector<std::uint32_t> leaves_;
+  Sums sums_;
+};
+
+}  // namespace boresight::design

@@ -1,0 +1,286 @@
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <condition_variable>
+#include <exception>
+#include <limits>
+#include <mutex>
+#include <optional>
+#include <thread>
+
+#include <fmt/format.h>
+
+#include <boresight/design/ensembles/monte_carlo.hpp>
+#include <boresight/design/tuning/tuner.hpp>
+#include <boresight/numerics/error.hpp>
+
+namespace boresight::design {
+namespace {
+
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr std::size_t kinds = 7;
+constexpr std::size_t breaks = control::loop_breaks.size();
+
+// A goal's bit: kind by kind, break by break where the kind has one; those not asked for stay 0.
+std::size_t bit_of(GoalKind kind, std::optional<control::LoopBreak> loop_break) {
+  return static_cast<std::size_t>(kind) * breaks +
+         (loop_break ? static_cast<std::size_t>(*loop_break) : 0);
+}
+
+struct NamedGoal {
+  GoalKind kind;
+  std::optional<control::LoopBreak> loop_break;
+};
+
+std::vector<NamedGoal> asked_for(const HardGoals& goals) {
+  std::vector<NamedGoal> asked;
+  for (const auto cut : control::loop_breaks) asked.push_back({GoalKind::sensitivity_peak, cut});
+  asked.push_back({GoalKind::valve_effort, std::nullopt});
+  for (std::size_t b = 0; b < breaks; ++b) {
+    if (goals.gain_margin.at(b)) {
+      asked.push_back({GoalKind::gain_margin, control::loop_breaks.at(b)});
+    }
+  }
+  for (std::size_t b = 0; b < breaks; ++b) {
+    if (goals.phase_margin.at(b)) {
+      asked.push_back({GoalKind::phase_margin, control::loop_breaks.at(b)});
+    }
+  }
+  if (goals.bandwidth) {
+    asked.push_back({GoalKind::bandwidth, control::LoopBreak::position_loop});
+  }
+  if (goals.gust_demand) asked.push_back({GoalKind::gust_demand, std::nullopt});
+  if (goals.gust_torque) asked.push_back({GoalKind::gust_torque, std::nullopt});
+  return asked;
+}
+
+static_assert(kinds * breaks <= 32);
+
+}  // namespace
+
+std::vector<std::string> goal_names(const HardGoals& goals) {
+  std::vector<std::string> names;
+  for (const auto& [kind, loop_break] : asked_for(goals)) {
+    GoalRatio ratio;
+    ratio.kind = kind;
+    ratio.loop_break = loop_break;
+    names.push_back(describe(ratio));
+  }
+  return names;
+}
+
+MonteCarloJudge::MonteCarloJudge(const MonteCarlo& study)
+    : study_(study), held_(study.problem, study.law, study.goals, study.held) {
+  validate(study.goals);
+  if (study.confirm_every < 1) {
+    throw InvalidInput("MonteCarlo: expected confirm_every of 1 or more, found 0");
+  }
+  mean_torque_ = plant::mean_wind_torque(study.problem.wind.site, study.problem.wind.mean_speed) /
+                 study.problem.gear_ratio;
+}
+
+PlantOutcome MonteCarloJudge::judge(std::uint64_t index) {
+  try {
+    return judge(study_.plant(index), index % study_.confirm_every == 0);
+  } catch (const NumericalFailure& failure) {
+    throw NumericalFailure(fmt::format("plant {}: {}", index, failure.what()));
+  }
+}
+
+PlantOutcome MonteCarloJudge::judge(const plant::AntennaPlant& plant, bool confirm_this) {
+  const HeldGainsValues values = held_.evaluate(plant);
+  PlantOutcome outcome;
+  outcome.standing = values.stable ? Standing::stable_by_winding : Standing::unstable;
+  // The values come first: confirming looks at the plant again.
+  set_goals(plant, values, outcome);
+  if (confirm_this || held_.near_the_axis(values)) confirm(plant, outcome);
+  const double ratio = study_.problem.gear_ratio;
+  outcome.beam_rms = std::sqrt(values.wind_variance + values.noise_variance) / ratio;
+  outcome.climate_rms = study_.problem.climate.empty()
+                            ? nan
+                            : std::sqrt(values.climate_variance + values.noise_variance) / ratio;
+  outcome.valve_effort = std::sqrt(values.effort_variance);
+  outcome.sensitivity_peaks = values.sensitivity_peaks;
+  outcome.retuned_rms = study_.retune ? retuned_rms(plant) : nan;
+  if (!outcome.stable()) {
+    outcome.beam_rms = outcome.climate_rms = outcome.valve_effort = nan;
+    outcome.sensitivity_peaks.fill(nan);
+    outcome.worst_goal_ratio = infinity;
+    outcome.broken_goals = 0;
+  }
+  return outcome;
+}
+
+void MonteCarloJudge::confirm(const plant::AntennaPlant& plant, PlantOutcome& outcome) {
+  const auto verdict = held_.confirm(plant);
+  outcome.confirmed = 1;
+  const bool winding = outcome.standing == Standing::stable_by_winding;
+  const bool poles = verdict.rate_loop_abscissa < 0.0 && verdict.closed_loop_abscissa < 0.0;
+  outcome.contradicted = winding != poles ? 1 : 0;
+  if (verdict.dead_time_residue >= 1.0) {
+    outcome.standing = Standing::undecided;
+  } else {
+    outcome.standing = poles ? Standing::stable_by_eigenvalues : Standing::unstable;
+  }
+}
+
+void MonteCarloJudge::add_margins(const plant::AntennaPlant& plant) {
+  append_margin_ratios(control::make_channels(plant, held_.frequencies()), study_.problem.delay,
+                       study_.law, study_.goals, ratios_);
+}
+
+void MonteCarloJudge::set_goals(const plant::AntennaPlant& plant, const HeldGainsValues& values,
+                                PlantOutcome& outcome) {
+  const HardGoals& goals = study_.goals;
+  ratios_.clear();
+  const auto add = [&](GoalKind kind, std::optional<control::LoopBreak> loop_break, double ratio) {
+    GoalRatio& goal = ratios_.emplace_back();
+    goal.kind = kind;
+    goal.loop_break = loop_break;
+    goal.ratio = ratio;
+  };
+  for (std::size_t b = 0; b < breaks; ++b) {
+    add(GoalKind::sensitivity_peak, control::loop_breaks.at(b),
+        values.sensitivity_peaks.at(b) / goals.sensitivity_peak.at(b));
+  }
+  add(GoalKind::valve_effort, std::nullopt, std::sqrt(values.effort_variance) / goals.valve_effort);
+  if (goals.gust_demand) {
+    const double leaking = plant.drive.leakage_rate / plant.drive.oil_stiffness * mean_torque_;
+    add(GoalKind::gust_demand, std::nullopt,
+        (leaking + goals.crest_factor * std::sqrt(values.wind_demand_variance)) /
+            *goals.gust_demand);
+  }
+  if (goals.gust_torque) {
+    add(GoalKind::gust_torque, std::nullopt,
+        (mean_torque_ + goals.crest_factor * std::sqrt(values.wind_torque_variance)) /
+            *goals.gust_torque);
+  }
+  if (goals.ask_for_margins()) add_margins(plant);
+  // A law tuned to rest on a limit may be above it by rounding on the plant it was tuned for.
+  constexpr double rounding = 1e-4;
+  std::uint32_t broken = 0;
+  for (const auto& goal : ratios_) {
+    outcome.worst_goal_ratio = std::max(outcome.worst_goal_ratio, goal.ratio);
+    if (!(goal.ratio <= 1.0 + rounding)) broken |= 1U << bit_of(goal.kind, goal.loop_break);
+  }
+  // In the order of goal_names().
+  std::uint32_t place = 0;
+  for (const auto& [kind, loop_break] : asked_for(goals)) {
+    outcome.broken_goals |= ((broken >> bit_of(kind, loop_break)) & 1U) << place++;
+  }
+}
+
+double MonteCarloJudge::retuned_rms(const plant::AntennaPlant& plant) const {
+  TrackingProblem problem = study_.problem;
+  problem.plant = plant;
+  if (!study_.retune_over_climate) problem.climate.clear();
+  TuningOptions options;
+  options.starts = 0;
+  options.warm_starts = {study_.law.gains};
+  const TuningResult tuned = tune(problem, study_.law.structure, study_.goals, options);
+  if (tuned.status != TuningStatus::optimal) return nan;
+  if (!study_.retune_over_climate) {
+    return std::sqrt(tuned.evaluation.beam_variance()) / problem.gear_ratio;
+  }
+  problem.climate.clear();
+  auto evaluator = make_adaptive_evaluator(problem, WindTable(problem));
+  return std::sqrt(evaluator.evaluate(tuned.law, false).beam_variance()) / problem.gear_ratio;
+}
+
+MonteCarloRun::MonteCarloRun(const MonteCarlo& study) : study_(study), judge_(study) {
+  if (study_.plants < 1) throw InvalidInput("MonteCarlo: expected 1 plant or more, found 0");
+  if (!study_.plant) throw InvalidInput("MonteCarlo: expected plants, found no function of them");
+  blocks_ = static_cast<std::size_t>((study_.plants + block_size - 1) / block_size);
+  outcomes_.resize(study_.plants);
+  whole_ = std::make_unique<std::atomic<bool>[]>(blocks_);
+}
+
+std::uint64_t MonteCarloRun::size_of(std::size_t block) const {
+  const std::uint64_t first = static_cast<std::uint64_t>(block) * block_size;
+  return std::min(block_size, study_.plants - first);
+}
+
+std::vector<std::size_t> MonteCarloRun::missing_blocks() const {
+  std::vector<std::size_t> missing;
+  for (std::size_t block = 0; block < blocks_; ++block) {
+    if (!whole(block)) missing.push_back(block);
+  }
+  return missing;
+}
+
+std::uint64_t MonteCarloRun::plants_done() const {
+  std::uint64_t done = 0;
+  for (std::size_t block = 0; block < blocks_; ++block) done += whole(block) ? size_of(block) : 0;
+  return done;
+}
+
+std::span<const PlantOutcome> MonteCarloRun::outcomes(std::size_t block) const {
+  return {outcomes_.data() + block * block_size, static_cast<std::size_t>(size_of(block))};
+}
+
+void MonteCarloRun::put(std::size_t block, std::span<const PlantOutcome> outcomes) {
+  if (block >= blocks_ || outcomes.size() != size_of(block)) {
+    throw InvalidInput(
+        fmt::format("MonteCarloRun::put: expected a block below {} and all of its "
+                    "plants, found block {} and {}",
+                    blocks_, block, outcomes.size()));
+  }
+  std::ranges::copy(outcomes, outcomes_.begin() + static_cast<std::ptrdiff_t>(block * block_size));
+  whole_[block].store(true, std::memory_order_release);
+}
+
+void MonteCarloRun::work_on(const std::vector<std::size_t>& blocks, const Options& options) {
+  constexpr auto watch_every = std::chrono::milliseconds(200);
+  const std::size_t threads =
+      std::min<std::size_t>(std::max(options.threads, 1U), std::max<std::size_t>(blocks.size(), 1));
+  std::atomic<std::size_t> next{0};
+  std::mutex mutex;
+  std::condition_variable finished;
+  std::size_t working = threads;
+  std::exception_ptr failure;
+  const auto take_turns = [&] {
+    try {
+      // Worked on where no other thread writes, and put in place when whole.
+      MonteCarloJudge judge = judge_;
+      std::vector<PlantOutcome> block_outcomes;
+      bool stopped = false;
+      for (std::size_t i = next++; i < blocks.size() && !stopped; i = next++) {
+        const std::uint64_t first = static_cast<std::uint64_t>(blocks[i]) * block_size;
+        const std::uint64_t size = size_of(blocks[i]);
+        block_outcomes.clear();
+        for (std::uint64_t k = 0; k < size && !stopped; ++k) {
+          stopped = options.stop && options.stop();
+          if (!stopped) block_outcomes.push_back(judge.judge(first + k));
+        }
+        if (!stopped) put(blocks[i], block_outcomes);
+      }
+    } catch (...) {
+      const std::lock_guard lock(mutex);
+      if (!failure) failure = std::current_exception();
+      next = blocks.size();
+    }
+    const std::lock_guard lock(mutex);
+    if (--working == 0) finished.notify_one();
+  };
+  std::vector<std::jthread> workers;
+  for (std::size_t t = 0; t < threads; ++t) workers.emplace_back(take_turns);
+  std::unique_lock lock(mutex);
+  try {
+    while (!finished.wait_for(lock, watch_every, [&] { return working == 0; })) {
+      if (!options.watch) continue;
+      lock.unlock();
+      options.watch();
+      lock.lock();
+    }
+  } catch (...) {
+    // Of the watch, called without the lock.
+    next = blocks.size();
+    throw;
+  }
+  lock.unlock();
+  if (failure) std::rethrow_exception(failure);
+  if (options.watch) options.watch();
+}
+
+}  // namespace boresight::design

@@ -1,0 +1,266 @@
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include <fmt/format.h>
+
+#include <boresight/control/controllers/sampled_law.hpp>
+#include <boresight/control/lqg/noise_effort_lqg.hpp>
+#include <boresight/design/limits/pointing_limit.hpp>
+#include <boresight/numerics/error.hpp>
+#include <boresight/numerics/parallel_loop.hpp>
+
+namespace boresight::design {
+namespace {
+
+constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
+
+// Frequencies that show the peaks of every plant: each one's own grid, put together.
+Eigen::ArrayXd peak_frequencies(const TrackingProblem& problem,
+                                const std::vector<EnsembleMember>& members, double sample_time) {
+  const double nyquist = 0.5 / sample_time;
+  std::vector<double> all;
+  const auto add = [&](const plant::AntennaPlant& plant) {
+    const Eigen::ArrayXd grid = plant::frequency_grid(plant, 1e-3, 0.9999 * nyquist, 60);
+    all.insert(all.end(), grid.begin(), grid.end());
+  };
+  add(problem.plant);
+  for (const EnsembleMember& member : members) add(member.plant);
+  std::ranges::sort(all);
+  std::vector<double> kept;
+  for (const double w : all) {
+    if (w >= 2.0 * std::numbers::pi * nyquist) break;
+    if (kept.empty() || w > kept.back() * (1.0 + 1e-5)) kept.push_back(w);
+  }
+  return Eigen::Map<Eigen::ArrayXd>(kept.data(), static_cast<Eigen::Index>(kept.size()));
+}
+
+class Study {
+ public:
+  Study(const TrackingProblem& problem, const HardGoals& goals,
+        const std::vector<EnsembleMember>& members, const PointingLimitOptions& options)
+      : threads_(options.threads),
+        ratio_(problem.gear_ratio),
+        goals_{goals.sensitivity_peak[1], goals.valve_effort},
+        filter_(fit_wind_filter(problem)) {
+    const Eigen::ArrayXd frequency = peak_frequencies(problem, members, options.sample_time);
+    const auto add = [&](const std::string& name, const plant::AntennaPlant& plant) {
+      settings_.emplace_back(name, plant, filter_, problem.noise, options.sample_time, frequency);
+    };
+    add("nominal", problem.plant);
+    for (const EnsembleMember& member : members) add(member.name, member.plant);
+  }
+
+  const SampledSetting& nominal() const { return settings_.front(); }
+  const LqgSearchGoals& goals() const { return goals_; }
+  const plant::ShapingFilter& filter() const { return filter_; }
+
+  SampledDesign judge(plant::StateSpace controller) const {
+    SampledDesign design;
+    const Eigen::ArrayXXcd response =
+        SampledSetting::controller_response(controller, nominal().frequency());
+    std::vector<SampledResult> results(settings_.size());
+    numerics::for_each_index(results.size(), threads_, [&](std::size_t i) {
+      const SampledSetting& setting = settings_[i];
+      const SampledJudgement found = setting.judge(controller);
+      results[i] = {setting.name(),
+                    found.spectral_radius,
+                    found.beam_rms / ratio_,
+                    found.wind_rms / ratio_,
+                    found.noise_rms / ratio_,
+                    found.valve_effort,
+                    setting.highest_peak(response)};
+    });
+    design.controller = std::move(controller);
+    design.nominal = results.front();
+    design.members.assign(results.begin() + 1, results.end());
+    design.stable_members = static_cast<int>(
+        std::ranges::count_if(design.members, [](const auto& one) { return one.stable(); }));
+    const bool all = design.nominal.stable() && !design.members.empty() &&
+                     design.stable_members == static_cast<int>(design.members.size());
+    design.worst_rms =
+        all ? std::ranges::max(results, {}, &SampledResult::beam_rms).beam_rms : nothing;
+    return design;
+  }
+
+  std::optional<LimitedLqg> limited(const LqgSearchResult& found) const {
+    if (!found.found) return std::nullopt;
+    return LimitedLqg{found.weights, judge(found.controller)};
+  }
+  std::optional<LimitedLqg> margin_limited() const {
+    return limited(search_limited_lqg(nominal(), goals_));
+  }
+  std::optional<LimitedLqg> robustified() const {
+    if (settings_.size() == 1) return std::nullopt;
+    return limited(search_robust_lqg(nominal(), settings_, goals_, threads_));
+  }
+
+  // The command weight at which the LQG that charges all of the command has the effort allowed:
+  // next to the one sought.
+  double similar_weight() const {
+    control::SampledLqgProblem problem = nominal().sampled();
+    const control::StateEstimator estimator = control::state_estimator(problem);
+    const double own = problem.r(0, 0);
+    const auto excess = [&](double log_weight) {
+      problem.r(0, 0) = own + std::exp(log_weight);
+      const auto controller =
+          control::lqg_controller(problem, control::lq_regulator(problem), estimator);
+      return std::log(nominal().valve_effort(controller) / goals_.valve_effort);
+    };
+    problem.r(0, 0) = own + 1.0;
+    const double rms = nominal().beam_rms(
+        control::lqg_controller(problem, control::lq_regulator(problem), estimator));
+    // Effort falls with some -0.4th power of the weight.
+    double place = 2.0 * std::log(rms / goals_.valve_effort), slope = -0.4;
+    double value = excess(place);
+    for (int i = 0; i < 8 && std::abs(value) > 0.01; ++i) {
+      const double next = place + std::clamp(-value / slope, -4.0, 4.0);
+      const double at_next = excess(next);
+      const double secant = (at_next - value) / (next - place);
+      if (secant < -0.05) slope = secant;
+      place = next;
+      value = at_next;
+    }
+    return std::exp(place);
+  }
+
+  // Points about the weight for the effort allowed, and those on the way to it.
+  void bound(PointingLimit& limit) const {
+    const double weight = similar_weight();
+    control::LqgProblem problem = nominal().problem();
+    // So little that the bound loses some 1e-5 of the rms by it.
+    problem.command_weight["valve_command"] = 1e-4 * weight;
+    const control::SampledLqgProblem sampled = control::sampled_problem(problem);
+    const control::LqgDesign design = control::lqg(problem);
+    const auto at = [&](double w) {
+      auto one = control::noise_effort_lqg(problem, sampled, design, w);
+      limit.bound.points.push_back({w / (ratio_ * ratio_), one.cost / (ratio_ * ratio_)});
+      return one;
+    };
+    for (const double factor : {0.25, 0.5, 2.0, 4.0, 8.0, 16.0}) at(factor * weight);
+    // Where the effort is just what is allowed the bound is reached: by secants, the effort falling
+    // with some -0.43rd power of the weight.
+    double log_weight = std::log(weight), slope = -0.43;
+    control::NoiseEffortDesign best = at(weight);
+    double excess = std::log(nominal().valve_effort(best.controller) / goals_.valve_effort);
+    for (int i = 0; i < 5 && std::abs(excess) > 1e-6; ++i) {
+      const double step = std::clamp(-excess / slope, -1.0, 1.0);
+      best = at(std::exp(log_weight + step));
+      const double next = std::log(nominal().valve_effort(best.controller) / goals_.valve_effort);
+      const double secant = (next - excess) / step;
+      if (secant < -0.05) slope = secant;
+      log_weight += step;
+      excess = next;
+    }
+    limit.unconstrained = judge(std::move(best.controller));
+    std::ranges::sort(limit.bound.points, {}, &EffortBound::Point::weight);
+    limit.least_rms = limit.bound.least_rms(goals_.valve_effort);
+  }
+
+  // The cost with next to no charge for the command, until less changes it by less than 1 %.
+  double full_information_rms() const {
+    control::SampledLqgProblem problem = nominal().sampled();
+    const double own = problem.r(0, 0);
+    const auto cost = [&](double weight) {
+      problem.r(0, 0) = own + weight;
+      return problem.unavoidable_cost + control::lq_regulator(problem)
+                                            .cost_to_go.cwiseProduct(problem.process_covariance)
+                                            .sum();
+    };
+    double weight = similar_weight(), last = cost(weight);
+    for (int i = 0; i < 12; ++i) {
+      weight *= 1e-2;
+      double next = last;
+      try {
+        next = cost(weight);
+      } catch (const NumericalFailure&) {
+        break;  // as little as can be solved
+      }
+      const bool settled = next > 0.98 * last;
+      last = std::min(next, last);
+      if (settled) break;
+    }
+    return std::sqrt(last) / ratio_;
+  }
+
+ private:
+  unsigned threads_;
+  double ratio_;
+  LqgSearchGoals goals_;
+  plant::ShapingFilter filter_;
+  std::vector<SampledSetting> settings_;  // nominal, then the members
+};
+
+LawAgainstLimit against(const NamedLaw& named, const Study& study, const PointingLimit& limit) {
+  const plant::StateSpace& plant = study.nominal().problem().plant;
+  LawAgainstLimit result;
+  result.name = named.name;
+  result.design =
+      study.judge(control::sampled_loop(plant, named.law, limit.sample_time).controller);
+  const SampledResult& nominal = result.design.nominal;
+  if (!nominal.stable()) return result;
+  result.least_rms = limit.bound.least_rms(nominal.valve_effort);
+  const auto ratio = [](double mine, double other) {
+    return other > 0.0 && std::isfinite(mine / other) ? std::optional(mine / other) : std::nullopt;
+  };
+  result.to_least = ratio(nominal.beam_rms, result.least_rms);
+  result.to_encoder_held = ratio(nominal.beam_rms, limit.encoder_held_rms);
+  result.to_full_information = ratio(nominal.beam_rms, limit.full_information_rms);
+  if (limit.margin_limited) {
+    result.to_margin_limited =
+        ratio(nominal.beam_rms, limit.margin_limited->design.nominal.beam_rms);
+  }
+  if (limit.robustified) {
+    const SampledDesign& other = limit.robustified->design;
+    result.to_robustified = ratio(nominal.beam_rms, other.nominal.beam_rms);
+    result.worst_to_robustified = ratio(result.design.worst_rms, other.worst_rms);
+  }
+  return result;
+}
+
+}  // namespace
+
+double EffortBound::least_rms(double valve_effort) const {
+  double best = 0.0;
+  for (const Point& point : points) {
+    best = std::max(best, point.cost - point.weight * valve_effort * valve_effort);
+  }
+  return std::sqrt(best);
+}
+
+double encoder_held_rms(const TrackingProblem& problem) {
+  const control::LoopEvaluator evaluator = make_evaluator(problem);
+  const Eigen::ArrayXd& frequency = evaluator.response().frequency;
+  const auto structure = plant::structure_response(problem.plant.structure, frequency);
+  return std::sqrt((evaluator.integration_weight() * structure.beam_per_wind.abs2() *
+                    motor_wind_spectrum(problem, frequency))
+                       .sum()) /
+         problem.gear_ratio;
+}
+
+PointingLimit pointing_limit(const TrackingProblem& problem, const HardGoals& goals,
+                             const std::vector<EnsembleMember>& members,
+                             const std::vector<NamedLaw>& laws,
+                             const PointingLimitOptions& options) {
+  if (!(options.sample_time > 0.0) || !std::isfinite(options.sample_time)) {
+    throw InvalidInput(fmt::format("pointing_limit: expected a sample time above 0, found {} s",
+                                   options.sample_time));
+  }
+  for (const NamedLaw& named : laws) control::validate(named.law);
+  const Study study(problem, goals, members, options);
+  PointingLimit limit;
+  limit.sample_time = limit.computation_delay = options.sample_time;
+  limit.effort_limit = study.goals().valve_effort;
+  limit.peak_limit = study.goals().sensitivity_peak;
+  limit.wind_filter_log_error = study.filter().worst_log_error;
+  study.bound(limit);
+  limit.margin_limited = study.margin_limited();
+  limit.robustified = study.robustified();
+  limit.full_information_rms = study.full_information_rms();
+  limit.encoder_held_rms = encoder_held_rms(problem);
+  for (const NamedLaw& named : laws) limit.laws.push_back(against(named, study, limit));
+  return limit;
+}
+
+}  // namespace boresight::design

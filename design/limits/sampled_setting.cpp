@@ -1,0 +1,211 @@
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <fmt/format.h>
+
+#include <boresight/control/analysis/h2_norm.hpp>
+#include <boresight/control/equations/lyapunov.hpp>
+#include <boresight/control/loops/antenna_in_wind.hpp>
+#include <boresight/design/limits/sampled_setting.hpp>
+#include <boresight/numerics/eigenvalues.hpp>
+#include <boresight/numerics/error.hpp>
+#include <boresight/plant/linear/dense_response.hpp>
+
+namespace boresight::design {
+namespace {
+
+const std::vector<std::string>& sensors() {
+  static const std::vector<std::string> names{"tachometer", "encoder", "motor_torque"};
+  return names;
+}
+
+// The controller as one that takes every sensor in their order and nothing else.
+plant::StateSpace from_sensors(const plant::StateSpace& controller) {
+  const Eigen::Index output = plant::output_index(controller, "valve_command");
+  const auto count = static_cast<Eigen::Index>(sensors().size());
+  plant::StateSpace result{controller.a,
+                           Eigen::MatrixXd::Zero(controller.a.rows(), count),
+                           controller.c.row(output),
+                           Eigen::MatrixXd::Zero(1, count),
+                           sensors(),
+                           {"valve_command"},
+                           controller.states,
+                           controller.sample_time};
+  for (Eigen::Index i = 0; i < count; ++i) {
+    const auto taken = std::ranges::find(controller.inputs, sensors()[static_cast<std::size_t>(i)]);
+    if (taken == controller.inputs.end()) continue;
+    const auto column = taken - controller.inputs.begin();
+    result.b.col(i) = controller.b.col(column);
+    result.d(0, i) = controller.d(output, column);
+  }
+  return result;
+}
+
+Eigen::ArrayXXcd responses(const plant::StateSpace& system, const Eigen::ArrayXd& frequency,
+                           Eigen::Index channels, bool of_inputs) {
+  plant::DenseResponse dense(system);
+  Eigen::ArrayXXcd result(frequency.size(), channels);
+  Eigen::ArrayXcd channel;
+  for (Eigen::Index i = 0; i < channels; ++i) {
+    dense.evaluate(frequency, channel, of_inputs ? 0 : i, of_inputs ? i : 0);
+    result.col(i) = channel;
+  }
+  return result;
+}
+
+// Share of the wind's torque that the torque's noise is where none is stated: laws that feed torque
+// back hear none then, and an LQG that hears so little is as good as without.
+constexpr double least_torque_noise = 1e-3;
+
+double wind_torque_rms(const plant::ShapingFilter& wind) {
+  return control::h2_norm(plant::to_state_space(wind, "wind_torque")).value;
+}
+
+Eigen::MatrixXd steady_covariance(const Eigen::MatrixXd& a, const Eigen::MatrixXd& jolts) {
+  return control::solve_discrete_lyapunov(a, jolts, {.estimate_condition = false}).covariance;
+}
+
+}  // namespace
+
+SampledSetting::SampledSetting(std::string name, const plant::AntennaPlant& plant,
+                               const plant::ShapingFilter& wind, const control::SensorNoise& noise,
+                               double sample_time, Eigen::ArrayXd frequency)
+    : name_(std::move(name)), plant_(plant), frequency_(std::move(frequency)) {
+  problem_.plant = control::antenna_in_wind(plant, wind);
+  problem_.commands = {"valve_command"};
+  problem_.measured = sensors();
+  problem_.sample_time = problem_.computation_delay = sample_time;
+  problem_.disturbance_intensity = {{"wind_white_noise", 1.0}};
+  const double torque_rms =
+      noise.torque_rms == 0.0 ? least_torque_noise * wind_torque_rms(wind) : noise.torque_rms;
+  for (const auto& [sensor, rms] :
+       {std::pair("tachometer", noise.tachometer_rms), std::pair("encoder", noise.encoder_rms),
+        std::pair("motor_torque", torque_rms)}) {
+    if (!(rms > 0.0)) {
+      throw InvalidInput(
+          fmt::format("pointing limit: expected noise of the {} above 0, found {}: state it, a "
+                      "sensor without noise leaves nothing to estimate",
+                      sensor, rms));
+    }
+    problem_.measurement_variance[sensor] =
+        control::sample_variance(rms, noise.bandwidth, sample_time);
+  }
+  problem_.output_weight = {{"beam", 1.0}};
+  problem_.command_weight = {{"valve_command", std::numeric_limits<double>::min()}};
+  sampled_ = control::sampled_problem(problem_);
+  response_ = responses(sampled_.plant, frequency_, sampled_.plant.c.rows(), false);
+}
+
+// States: those of the sampled plant, then the controller's.
+struct SampledSetting::ClosedLoop {
+  Eigen::MatrixXd a;
+  Eigen::MatrixXd noise;       // of the sensors, into the states
+  Eigen::RowVectorXd command;  // from the states
+  Eigen::RowVectorXd direct;   // from the noise
+};
+
+SampledSetting::ClosedLoop SampledSetting::close(const plant::StateSpace& controller) const {
+  const plant::StateSpace law = from_sensors(controller);
+  const plant::StateSpace& plant = sampled_.plant;
+  const Eigen::Index n = plant.a.rows(), m = law.a.rows();
+  ClosedLoop loop;
+  loop.direct = law.d;
+  loop.command.resize(n + m);
+  loop.command << law.d * plant.c, law.c;
+  loop.a = Eigen::MatrixXd::Zero(n + m, n + m);
+  loop.a.topLeftCorner(n, n) = plant.a;
+  loop.a.topRows(n) += plant.b * loop.command;
+  loop.a.bottomLeftCorner(m, n) = law.b * plant.c;
+  loop.a.bottomRightCorner(m, m) = law.a;
+  loop.noise.resize(n + m, plant.c.rows());
+  loop.noise << plant.b * law.d, law.b;
+  return loop;
+}
+
+double SampledSetting::spectral_radius(const plant::StateSpace& controller) const {
+  return numerics::eigenvalues(close(controller).a).cwiseAbs().maxCoeff();
+}
+
+Eigen::MatrixXd SampledSetting::wind_jolts(const ClosedLoop& loop) const {
+  const Eigen::Index n = sampled_.plant.a.rows();
+  Eigen::MatrixXd jolts = Eigen::MatrixXd::Zero(loop.a.rows(), loop.a.rows());
+  jolts.topLeftCorner(n, n) = sampled_.process_covariance;
+  return jolts;
+}
+
+Eigen::MatrixXd SampledSetting::noise_jolts(const ClosedLoop& loop) const {
+  return loop.noise * sampled_.measurement_covariance * loop.noise.transpose();
+}
+
+// Over all time, but for what the wind does within a sample. The command's own noise is
+// independent of the states that it meets.
+double SampledSetting::beam_variance(const ClosedLoop& loop, const Eigen::MatrixXd& covariance,
+                                     double direct_variance) const {
+  const Eigen::Index n = sampled_.plant.a.rows();
+  const Eigen::VectorXd to_command = covariance * loop.command.transpose();
+  return sampled_.q.cwiseProduct(covariance.topLeftCorner(n, n)).sum() +
+         2.0 * sampled_.s.col(0).dot(to_command.head(n)) +
+         sampled_.r(0, 0) * (loop.command.dot(to_command) + direct_variance);
+}
+
+SampledJudgement SampledSetting::judge(const plant::StateSpace& controller) const {
+  const ClosedLoop loop = close(controller);
+  constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
+  SampledJudgement result{0.0, nothing, nothing, nothing, nothing};
+  result.spectral_radius = numerics::eigenvalues(loop.a).cwiseAbs().maxCoeff();
+  if (!(result.spectral_radius < 1.0 - 1e-12)) return result;
+  const Eigen::MatrixXd wind = steady_covariance(loop.a, wind_jolts(loop));
+  const Eigen::MatrixXd noise = steady_covariance(loop.a, noise_jolts(loop));
+  const double direct =
+      (loop.direct * sampled_.measurement_covariance * loop.direct.transpose())(0, 0);
+  result.wind_rms = std::sqrt(beam_variance(loop, wind, 0.0) + sampled_.unavoidable_cost);
+  result.noise_rms = std::sqrt(beam_variance(loop, noise, direct));
+  result.beam_rms = std::hypot(result.wind_rms, result.noise_rms);
+  result.valve_effort = std::sqrt((loop.command * noise * loop.command.transpose())(0, 0) + direct);
+  return result;
+}
+
+double SampledSetting::beam_rms(const plant::StateSpace& controller) const {
+  const ClosedLoop loop = close(controller);
+  const Eigen::MatrixXd both = steady_covariance(loop.a, wind_jolts(loop) + noise_jolts(loop));
+  const double direct =
+      (loop.direct * sampled_.measurement_covariance * loop.direct.transpose())(0, 0);
+  return std::sqrt(beam_variance(loop, both, direct) + sampled_.unavoidable_cost);
+}
+
+double SampledSetting::valve_effort(const plant::StateSpace& controller) const {
+  const ClosedLoop loop = close(controller);
+  const Eigen::MatrixXd noise = steady_covariance(loop.a, noise_jolts(loop));
+  return std::sqrt((loop.command * noise * loop.command.transpose())(0, 0) +
+                   (loop.direct * sampled_.measurement_covariance * loop.direct.transpose())(0, 0));
+}
+
+Eigen::ArrayXXcd SampledSetting::controller_response(const plant::StateSpace& controller,
+                                                     const Eigen::ArrayXd& frequency) {
+  return responses(from_sensors(controller), frequency, static_cast<Eigen::Index>(sensors().size()),
+                   true);
+}
+
+SampledPeak SampledSetting::highest_peak(const Eigen::ArrayXXcd& controller_response) const {
+  const Eigen::ArrayXd level =
+      -(1.0 - (controller_response * response_).rowwise().sum()).abs().log();
+  Eigen::Index top = 0;
+  level.maxCoeff(&top);
+  SampledPeak peak{frequency_[top], std::exp(level[top])};
+  if (top == 0 || top + 1 == level.size()) return peak;
+  const double left = std::log(frequency_[top - 1] / frequency_[top]);
+  const double right = std::log(frequency_[top + 1] / frequency_[top]);
+  const double from_left = (level[top] - level[top - 1]) / -left;
+  const double from_right = (level[top + 1] - level[top]) / right;
+  const double curvature = (from_right - from_left) / (right - left);
+  if (!(curvature < 0.0)) return peak;
+  // The parabola through the three points: slope at the top and curvature.
+  const double slope = from_right - curvature * right;
+  const double place = std::clamp(-slope / (2.0 * curvature), left, right);
+  peak.frequency *= std::exp(place);
+  peak.magnitude = std::exp(level[top] + place * (slope + curvature * place));
+  return peak;
+}
+
+}  // namespace boresight::design

@@ -1,0 +1,80 @@
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <random>
+#include <vector>
+
+#include <boresight/design/matching/matching_curves.hpp>
+#include <boresight/design/tuning/ensemble_search.hpp>
+
+namespace boresight::design {
+
+/// The best law of one structure at one inertia, and what has been tried to better it.
+struct MatchingCell {
+  std::vector<HeldLaw> history;  // each better than the one before
+  std::vector<std::size_t> carried{0};
+  unsigned version = 0;
+  std::vector<unsigned> tried;      // versions of: left, right, the structures, left and right
+  std::vector<double> start_costs;  // ln rms of what each random start ended at
+  double best_cold = std::numeric_limits<double>::infinity();  // ln rms
+  int warm_starts = 0;
+  bool searched = false;
+
+  const HeldLaw* best() const { return history.empty() ? nullptr : &history.back(); }
+};
+
+/// What neighbours see of a cell between two rounds.
+struct SeenCell {
+  std::vector<double> point;  // empty: none
+  unsigned version = 0;
+};
+
+/// One motor inertia of match_motors with its plants: searches a law of each structure, and betters
+/// it from those beside it. Keeps references to what it is made of.
+class MatchingColumn {
+ public:
+  /// `parts`: of each structure those that it extends; `number`: of the inertia.
+  MatchingColumn(const MatchingTask& task, const MatchingOptions& options, const WindTable& wind,
+                 const std::vector<std::vector<std::size_t>>& parts, std::size_t number);
+
+  long evaluations() const { return evaluations_; }
+  SeenCell seen(std::size_t structure) const;
+
+  /// Random starts on the problem's plant; the best two held on all; random starts on those plants
+  /// that matter, and the best of these held.
+  void start(std::size_t structure, int starts);
+
+  /// Tries laws of neighbours (null: none) and of the structures that this one extends, where they
+  /// changed since; whether that was of use.
+  bool improve(std::size_t structure, const SeenCell* left, const SeenCell* right);
+
+  /// The best law found that is stable by eigenvalues on every plant.
+  MatchedLaw finish(std::size_t structure);
+
+ private:
+  bool stopped() const { return search_.stop && search_.stop(); }
+  control::ControlLaw law_of(std::size_t structure) const;
+  bool stable_by_eigenvalues(const control::ControlLaw& law) const;
+  FeasibleSearch search_on(std::size_t structure, const CarriedPlants& carried);
+  void random_starts(std::size_t structure, const std::vector<std::size_t>& carried, int count,
+                     std::mt19937_64& generator);
+  std::optional<double> attempt(std::size_t structure, const std::vector<double>& point);
+  bool clearly_better(const EnsembleSearch& ensemble, const HeldLaw& one,
+                      const HeldLaw& other) const;
+  std::vector<std::size_t> worth_carrying(const std::vector<std::size_t>& carried,
+                                          const control::ControlLaw& law);
+
+  const MatchingTask& task_;
+  const std::vector<std::vector<std::size_t>>& parts_;
+  std::size_t number_;
+  std::uint64_t seed_;
+  double tolerance_;
+  TuningOptions search_;
+  std::vector<JudgedPlant> plants_;
+  std::vector<MatchingCell> cells_;
+  long evaluations_ = 0;
+};
+
+}  // namespace boresight::design

@@ -1,0 +1,93 @@
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <boresight/control/loops/loop_evaluator.hpp>
+
+namespace boresight::design {
+
+/// What a design must meet. Goals by break are in the order of control::loop_breaks.
+struct HardGoals {
+  /// Largest |S| allowed.
+  std::array<double, 3> sensitivity_peak{2.0, 2.0, 2.0};
+  double valve_effort = 0.6;  // rad/s rms of noise-driven valve demand
+  /// Least factor, up or down, by which the gain may change; above 1.
+  std::array<std::optional<double>, 3> gain_margin{};
+  /// Least angle to -1 (rad), within (0, pi).
+  std::array<std::optional<double>, 3> phase_margin{};
+  /// Least frequency (rad/s) at which the position loop's |S| reaches 1/sqrt(2).
+  std::optional<double> bandwidth = std::nullopt;
+  /// Largest valve demand (rad/s) and motor torque (N m) in the problem's wind: what its mean
+  /// takes, and `crest_factor` times the rms of its gusts.
+  std::optional<double> gust_demand = std::nullopt;
+  std::optional<double> gust_torque = std::nullopt;
+  double crest_factor = 3.5;
+
+  bool ask_for_gusts() const { return gust_demand.has_value() || gust_torque.has_value(); }
+  bool ask_for_margins() const;
+};
+
+/// @throws InvalidInput for a limit that no loop or every loop meets: a peak not above 1, a gain
+/// margin not above 1, a phase margin outside (0, pi), anything else not positive and finite.
+void validate(const HardGoals& goals);
+
+/// What a tuning minimises: a beam rms, made of the plants' own.
+enum class SoftGoalKind {
+  nominal,     // of the problem's own plant
+  expected,    // root of the mean variance over the ensemble
+  worst_case,  // the largest over the ensemble
+  quantile,    // the smallest value that a share of the ensemble stays below
+};
+std::string_view to_string(SoftGoalKind kind);
+
+struct SoftGoal {
+  SoftGoalKind kind = SoftGoalKind::nominal;
+  double quantile = 0.95;  // share of the members, within (0, 1]
+};
+
+enum class GoalKind {
+  sensitivity_peak,
+  valve_effort,
+  gain_margin,
+  phase_margin,
+  bandwidth,
+  gust_demand,
+  gust_torque,
+};
+std::string_view to_string(GoalKind kind);
+
+/// One quantity of one loop against its goal.
+struct GoalRatio {
+  GoalKind kind = GoalKind::sensitivity_peak;
+  std::optional<control::LoopBreak> loop_break;
+  double frequency = 0.0;  // rad/s; 0 where the quantity is of all frequencies
+  /// Quantity over limit where the limit is the largest allowed, the other way round where it is
+  /// the least: met up to 1.
+  double ratio = 0.0;
+  /// d ln(ratio) / d ln(gain).
+  std::array<double, control::most_gains> log_gradient{};
+};
+
+/// "sensitivity peak at valve command, 0.84 Hz".
+std::string describe(const GoalRatio& goal);
+
+/// Mean loads of the wind that gusts come on top of, at the motor.
+struct MeanWindLoad {
+  double torque = 0.0;  // N m
+  double demand = 0.0;  // rad/s: what leaks away at that torque
+};
+
+/// Goals judged without margins and bandwidth, from one evaluation alone.
+void append_goal_ratios(const control::LoopEvaluation& evaluation, const HardGoals& goals,
+                        const MeanWindLoad& mean, std::vector<GoalRatio>& ratios);
+/// Margins and bandwidth, where asked for, from the loop gain. A bandwidth below the grid counts as
+/// the grid's first frequency.
+void append_margin_ratios(const control::LoopChannels& channels, double delay,
+                          const control::ControlLaw& law, const HardGoals& goals,
+                          std::vector<GoalRatio>& ratios);
+
+}  // namespace boresight::design

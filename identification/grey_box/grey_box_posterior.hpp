@@ -1,0 +1,107 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include <boresight/identification/grey_box/grey_box_objective.hpp>
+#include <boresight/identification/grey_box/grey_box_parameters.hpp>
+#include <boresight/numerics/statistics/interval.hpp>
+#include <boresight/plant/antenna/friction.hpp>
+
+namespace boresight::identification {
+
+/// A drive as the grey box sees it, true (not as recorded) but where it says so. SI at the motor
+/// shaft.
+struct DriveEstimate {
+  double inertia = 0.0;              // kg m2, all of it
+  double inertia_as_recorded = 0.0;  // what the recorder's torque and rate show of it
+  double motor_inertia = 0.0;        // all motors with flywheels
+  double motor_to_load_ratio = 0.0;  // motors against everything else, Sommerville eq. 27
+  double oil_stiffness = 0.0;        // N m/rad
+  double bulk_modulus = 0.0;         // Pa
+  double leakage_rate = 0.0;         // 1/s
+  double offset_as_recorded = 0.0;   // N m, at the campaign's mean pressure
+  /// Level at which friction saturates, N m: what a straight line through high speeds meets.
+  double coulomb_level = 0.0;
+  double lowest_frequency = 0.0;  // Hz, locked rotor; 0 without structure
+  plant::FrictionCurve friction;
+  double bristle_stiffness = 0.0;  // N m/rad
+  double bristle_damping = 0.0;    // N m s/rad
+  double rigid_inertia = 0.0;      // kg m2: what turns rigidly with the motors, motors included
+  Eigen::VectorXd mode_inertia;    // kg m2, of each mode of the locked rotor
+  Eigen::VectorXd mode_frequency;  // Hz
+  double mode_damping = 0.0;
+  /// The records contradict the stated numbers that inertia or stiffness rest on: nothing to design
+  /// for.
+  bool contradicted = false;
+};
+
+/// By what the models' laws may be off where nothing in the records tells: standard uncertainties
+/// of engineering judgement, kept apart from what the fit says.
+struct GreyBoxDiscrepancy {
+  /// Of the torque balance, relative: friction that changes with load or place, oil torque that is
+  /// not in proportion to pressure. Widens inertia and friction, frequencies by half of it, and the
+  /// offset by its share of the torque over the root of the number of records.
+  double torque_balance = 0.003;
+  /// Of the flow balance, relative to the flow: valve and lines other than modelled. Widens the
+  /// leakage, which is a small part of the flow.
+  double flow_balance = 0.003;
+  /// Of the oil's stiffness, relative: waves in the lines, hoses that yield, a bulk modulus that
+  /// changes with pressure.
+  double stiffness = 0.006;
+};
+
+/// Where the fit has arrived and how far it may be off, in the parameters' points.
+struct GreyBoxPosterior {
+  Eigen::VectorXd point;
+  /// Covariance if the model were true and the errors white.
+  Eigen::MatrixXd formal;
+  /// Covariance with the errors' correlation and the model's misfit in it; never below `formal`.
+  Eigen::MatrixXd covariance;
+  /// The part of it that no further record of the same kind would take away: how far the optimum
+  /// moves with the predictions' reach, which a true model's would not.
+  Eigen::MatrixXd misfit;
+  /// Mean variance of the covariance over the formal one's, by directions.
+  double inflation = 1.0;
+  double leakage_discrepancy = 0.0;    // relative standard uncertainty
+  double torque_discrepancy = 0.0;     // relative
+  double stiffness_discrepancy = 0.0;  // relative
+  double offset_discrepancy = 0.0;     // N m, standard uncertainty: offset_discrepancy
+  /// Where the drive moves one way, friction's level and the offset are one number: by how much
+  /// either may be the other's (N m, standard uncertainty; the sign is the motion's). 0 otherwise.
+  double one_way = 0.0;
+  /// Where the drive is never fast enough for friction to saturate, standard uncertainty of the
+  /// logarithm of the saturating level, and with it of its rate: slow friction stays as it is.
+  double unsaturated = 0.0;
+};
+
+/// Covariance at the optimum of an objective: the formal one made wider by the scatter of the
+/// scores over stretches of `stretch` s (a sandwich after P. J. Huber, Proc. 5th Berkeley Symp. 1,
+/// 1967, with correlation kept within stretches as in W. K. Newey and K. D. West, Econometrica
+/// 55(3), 1987), no direction narrower than the formal one, and by the mean square of `shifts`:
+/// how far the optimum moves when predictions reach less far or farther ahead (columns).
+GreyBoxPosterior grey_box_posterior(const GreyBoxObjective& objective, const Eigen::VectorXd& point,
+                                    const Eigen::MatrixXd& shifts, double stretch);
+
+/// The drive at a point.
+DriveEstimate drive_estimate(const GreyBoxParameters& parameters, const Eigen::VectorXd& point);
+
+/// Draws from the posterior, discrepancies included; deterministic by seed.
+std::vector<DriveEstimate> posterior_draws(const GreyBoxParameters& parameters,
+                                           const GreyBoxPosterior& posterior, int count,
+                                           std::uint64_t seed);
+
+/// A number of an estimate by name.
+struct DriveQuantity {
+  const char* name;
+  const char* unit;
+  double DriveEstimate::*member;
+};
+
+/// Those that intervals are given for.
+const std::vector<DriveQuantity>& drive_quantities();
+
+}  // namespace boresight::identification

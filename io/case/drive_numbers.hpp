@@ -1,0 +1,75 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <boresight/control/controllers/loop_structure.hpp>
+#include <boresight/io/case/case_file.hpp>
+#include <boresight/plant/antenna/friction.hpp>
+#include <boresight/plant/antenna/gear_train.hpp>
+#include <boresight/plant/antenna/hydraulics.hpp>
+#include <boresight/plant/nonlinear/drive_elements.hpp>
+
+namespace boresight::io {
+
+/// What the numbers that a case states of its drive come to. SI, at the motor shaft.
+
+std::vector<plant::GearStage> gear_stages(const Case& antenna);
+double gear_ratio(const Case& antenna);
+
+/// What the bounds of the usual loop structures follow: the antenna on its locked rotor.
+control::DrivenLoad driven_load(const Case& antenna);
+
+/// Inertia of a solid disk (kg m2) about its axis; value and standard uncertainty to first order.
+Quantity solid_disk(const Quantity& radius, const Quantity& length, const Quantity& density);
+
+/// The oil's bulk modulus (Pa) as stated, or the mean over the lines by their slosh frequencies,
+/// which have the density in common; value and standard uncertainty to first order.
+Quantity bulk_modulus_of(const OilEntry& oil);
+
+plant::FrictionCurve friction_curve(const Case& antenna);
+/// Slope of the friction curve at the tracking rate (N m s/rad of motor); negative where friction
+/// falls with the rate there, which is what makes a drive stick and slip.
+double tracking_slope(const Case& antenna);
+/// The same as the viscous friction of a linear plant, 0 at least: a steady loop about a falling
+/// slope is a question for the simulation, which has the whole curve.
+double tracking_friction(const Case& antenna);
+/// The motors and the oil between valve and motors, by the case's convention for the oil spring.
+plant::HydraulicDrive hydraulic_drive(const Case& antenna);
+/// Torque of all motors at the supply pressure (N m), the return pressure not taken off.
+double supply_torque(const Case& antenna);
+/// Torque of gravity and the like that the motors hold, by [simulation]; none without that table.
+plant::OffsetTorque offset_torque(const Case& antenna);
+/// What of it is left against wind (N m): the supply's less the friction at the tracking rate and
+/// the magnitude of the offset torque at antenna.elevation, since the wind may blow the way that
+/// both resist; 0 where they take all of it.
+double torque_for_wind(const Case& antenna);
+
+/// No-load rate of the motors (rad/s) with the valve fully open, by its rated flow; nothing if the
+/// case does not state that flow. The flow goes with the root of the drop over both edges, which
+/// without load is what the supply has above `return_pressure` (none: 0). The volumetric efficiency
+/// is not in it: without load nothing drives oil past the pistons, and under load that is the
+/// leakage rate.
+std::optional<Quantity> rated_stroke(const Case& antenna,
+                                     const std::optional<Quantity>& return_pressure);
+/// The same with simulation.return_pressure, else drive.return_pressure.
+std::optional<Quantity> rated_stroke(const Case& antenna);
+
+/// The largest rate (rad/s of motor) that may be asked of the valve: simulation.valve_stroke; else
+/// by its rated flow; else what the slew rate takes.
+double largest_demand(const Case& antenna);
+/// What largest_demand rests on where the case states no number of its valve for it, in words;
+/// empty where it does.
+std::string demand_assumption(const Case& antenna);
+
+/// The time between the controller's samples (s) that a dead time speaks of, and back: one sample
+/// of computing and half of one of holding.
+inline double sample_time_of(double dead_time) {
+  return dead_time / 1.5;
+}
+inline double dead_time_of(double sample_time) {
+  return 1.5 * sample_time;
+}
+
+}  // namespace boresight::io

@@ -1,0 +1,16 @@
+#include <boresight/io/case/usual_structures.hpp>
+
+namespace boresight::io {
+
+const std::vector<std::string>& usual_structures() {
+  static const std::vector<std::string> names = [] {
+    std::vector<std::string> all;
+    for (const auto* base : {"PI-0", "PI", "DPF", "LL", "FULL"}) {
+      for (const auto* added : {"", "+N", "+C", "+N+C"}) all.push_back(std::string(base) + added);
+    }
+    return all;
+  }();
+  return names;
+}
+
+}  // namespace boresight::io

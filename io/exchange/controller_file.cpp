@@ -1,0 +1,312 @@
+#include <cerrno>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <limits>
+#include <map>
+#include <system_error>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <nlohmann/json.hpp>
+
+#include <boresight/control/loops/state_space_controller.hpp>
+#include <boresight/io/case/table_reader.hpp>
+#include <boresight/io/exchange/controller_file.hpp>
+#include <boresight/io/exchange/reported_controller.hpp>
+#include <boresight/io/files/input_files.hpp>
+#include <boresight/io/files/write_atomically.hpp>
+#include <boresight/io/records/record_mat.hpp>
+#include <boresight/io/units/wording.hpp>
+#include <boresight/numerics/error.hpp>
+
+namespace boresight::io {
+namespace {
+
+constexpr std::uintmax_t largest_file = 64U << 20U;
+constexpr Eigen::Index most_states = 300;
+
+// What a name of a signal stands for; a sign of 0 is a reference that rests.
+struct Signal {
+  std::string_view name, meaning;
+  double sign = 1.0;
+  Kind kind = Kind::number;
+  bool angle = false;
+};
+constexpr std::array input_signals{
+    Signal{"tachometer", "tachometer", 1.0, Kind::angular_rate, false},
+    Signal{"encoder", "encoder", 1.0, Kind::angle, true},
+    Signal{"position_error", "encoder", -1.0, Kind::angle, true},
+    Signal{"motor_torque", "motor_torque", 1.0, Kind::torque, false},
+    Signal{"rate_disturbance", "rate_disturbance", 1.0, Kind::angular_rate, false},
+    Signal{"reference", "", 0.0, Kind::angle, true},
+    Signal{"angle_reference", "", 0.0, Kind::angle, true},
+    Signal{"rate_reference", "", 0.0, Kind::angular_rate, false},
+};
+constexpr std::array output_signals{
+    Signal{"valve_demand", "valve_demand", 1.0, Kind::angular_rate, false},
+    Signal{"valve_command", "valve_demand", 1.0, Kind::angular_rate, false},
+    Signal{"rate_command", "rate_command", 1.0, Kind::angular_rate, false},
+};
+
+template <std::size_t count>
+const Signal& signal_of(const std::array<Signal, count>& known, const std::string& name,
+                        const std::string& file, const char* what) {
+  std::vector<std::string_view> names;
+  for (const Signal& signal : known) {
+    if (signal.name == name) return signal;
+    names.push_back(signal.name);
+  }
+  const auto near = nearest_name(name, names);
+  throw InvalidInput(fmt::format("{}: {}: expected one of {}, found {}{}", file, what,
+                                 fmt::join(names, ", "), in_quotes(name),
+                                 near.empty() ? "" : fmt::format(" (did you mean '{}'?)", near)));
+}
+
+// How many SI units one unit of the file is.
+double factor_of(const std::string& unit, const Signal& signal, const std::string& file) {
+  if (unit.empty()) return 1.0;
+  Unit read;
+  try {
+    read = parse_unit(unit);
+  } catch (const InvalidInput& error) {
+    throw InvalidInput(fmt::format("{}: unit of {}: {}", file, signal.name, error.what()));
+  }
+  if (read.dimension != parse_unit(describe(signal.kind).si_unit).dimension) {
+    throw InvalidInput(fmt::format("{}: unit of {}: expected {}, found {}", file, signal.name,
+                                   expectation(signal.kind), in_quotes(unit)));
+  }
+  return read.factor;
+}
+
+void check_sizes(const ControllerText& text, const std::string& file) {
+  const auto size = [](const Eigen::MatrixXd& matrix) {
+    return fmt::format("{} x {}", matrix.rows(), matrix.cols());
+  };
+  const Eigen::Index n = text.a.rows();
+  const auto inputs = static_cast<Eigen::Index>(text.inputs.size());
+  const auto outputs = static_cast<Eigen::Index>(text.outputs.size());
+  const auto require = [&](const char* name, const Eigen::MatrixXd& matrix, Eigen::Index rows,
+                           Eigen::Index columns) {
+    if (matrix.rows() != rows || matrix.cols() != columns) {
+      throw InvalidInput(
+          fmt::format("{}: {}: expected {} x {} for {} states, {} inputs and {} outputs, found {}",
+                      file, name, rows, columns, n, inputs, outputs, size(matrix)));
+    }
+    if (!matrix.allFinite()) {
+      throw InvalidInput(
+          fmt::format("{}: {}: expected finite elements, found NaN or infinity", file, name));
+    }
+  };
+  if (n > most_states) {
+    throw InvalidInput(
+        fmt::format("{}: A: expected at most {} states, found {}", file, most_states, n));
+  }
+  require("A", text.a, n, n);
+  require("D", text.d, outputs, inputs);
+  require("B", text.b, n, inputs);
+  require("C", text.c, outputs, n);
+  if (!(text.sample_time >= 0.0) || !std::isfinite(text.sample_time)) {
+    throw InvalidInput(fmt::format("{}: sample time: expected 0 (continuous) or more, found {} s",
+                                   file, text.sample_time));
+  }
+  if (text.angles != "motor" && text.angles != "sky") {
+    throw InvalidInput(
+        fmt::format("{}: angles: expected motor or sky, found {}", file, in_quotes(text.angles)));
+  }
+  const auto units = [&](const char* name, const std::vector<std::string>& list,
+                         Eigen::Index count) {
+    if (!list.empty() && static_cast<Eigen::Index>(list.size()) != count) {
+      throw InvalidInput(fmt::format("{}: {}: expected {} units or none, found {}", file, name,
+                                     count, list.size()));
+    }
+  };
+  units("input_units", text.input_units, inputs);
+  units("output_units", text.output_units, outputs);
+}
+
+std::string unit_at(const std::vector<std::string>& units, std::size_t i) {
+  return units.empty() ? std::string() : units[i];
+}
+
+std::string content_of_file(const std::string& path) {
+  std::error_code unknown;
+  if (std::filesystem::is_directory(path, unknown)) {
+    throw InvalidInput(fmt::format("{}: expected a readable file, found a folder", path));
+  }
+  const std::uintmax_t size = std::filesystem::file_size(path, unknown);
+  if (!unknown && size > largest_file) {
+    throw InvalidInput(
+        fmt::format("{}: expected at most {} bytes, found {}", path, largest_file, size));
+  }
+  errno = 0;
+  std::ifstream file(path, std::ios::binary);
+  std::string text{std::istreambuf_iterator<char>(file), {}};
+  if (!file) {
+    throw InvalidInput(fmt::format("{}: expected a readable file, found none ({})", path,
+                                   std::generic_category().message(errno)));
+  }
+  note_input(path, text);
+  return text;
+}
+
+}  // namespace
+
+ControllerFile parse_controller(std::string_view content, const std::string& name,
+                                double gear_ratio, const ControllerNames& names) {
+  ControllerText text = is_mat(content) ? controller_from_mat(content, name, names.part)
+                                        : controller_from_json(content, name, names.part);
+  ControllerFile file;
+  const auto fill = [&](std::vector<std::string>& own, const std::vector<std::string>& given,
+                        const char* what) {
+    if (own.empty()) own = given;
+    if (own.empty()) {
+      throw InvalidInput(fmt::format(
+          "{}: expected names of the {} in the file or by --{}, found none", name, what, what));
+    }
+  };
+  fill(text.inputs, names.inputs, "inputs");
+  fill(text.outputs, names.outputs, "outputs");
+  check_sizes(text, name);
+
+  // Columns and rows in SI at the motor; references rest.
+  std::vector<Eigen::Index> kept;
+  plant::StateSpace& system = file.system;
+  for (std::size_t i = 0; i < text.inputs.size(); ++i) {
+    const Signal& signal = signal_of(input_signals, text.inputs[i], name, "inputs");
+    const auto column = static_cast<Eigen::Index>(i);
+    const double at_sky = signal.angle && text.angles == "sky" ? gear_ratio : 1.0;
+    const double unit = factor_of(unit_at(text.input_units, i), signal, name);
+    if (signal.sign == 0.0) {
+      file.remarks.push_back(fmt::format("input {} is a reference and rests at 0", signal.name));
+      continue;
+    }
+    const double factor = signal.sign / (unit * at_sky);
+    text.b.col(column) *= factor;
+    text.d.col(column) *= factor;
+    if (signal.name != signal.meaning) {
+      file.remarks.push_back(
+          fmt::format("input {} is taken as minus the {}", signal.name, signal.meaning));
+    }
+    kept.push_back(column);
+    system.inputs.emplace_back(signal.meaning);
+  }
+  for (std::size_t i = 0; i < text.outputs.size(); ++i) {
+    const Signal& signal = signal_of(output_signals, text.outputs[i], name, "outputs");
+    const double unit = factor_of(unit_at(text.output_units, i), signal, name);
+    text.c.row(static_cast<Eigen::Index>(i)) *= unit;
+    text.d.row(static_cast<Eigen::Index>(i)) *= unit;
+    system.outputs.emplace_back(signal.meaning);
+  }
+  system.a = text.a;
+  system.b = text.b(Eigen::all, kept);
+  system.c = text.c;
+  system.d = text.d(Eigen::all, kept);
+  system.sample_time = text.sample_time;
+  for (Eigen::Index i = 0; i < text.a.rows(); ++i) {
+    system.states.push_back(fmt::format("controller_{}", i + 1));
+  }
+  if (text.angles == "sky") {
+    file.remarks.emplace_back("angles of the file are at the sky, all else at the motor");
+  }
+  try {
+    system = control::antenna_state_space_controller(system);
+  } catch (const InvalidInput& error) {
+    throw InvalidInput(fmt::format("{}: {}", name, error.what()));
+  }
+  return file;
+}
+
+ControllerFile read_controller(const std::string& path, double gear_ratio,
+                               const ControllerNames& names) {
+  return parse_controller(content_of_file(path), path, gear_ratio, names);
+}
+
+void write_controller(const std::string& path, const plant::StateSpace& controller) {
+  write_atomically(
+      path, path.ends_with(".mat") ? controller_mat(controller) : controller_json(controller));
+}
+
+namespace {
+
+control::ControlLaw law_from(TableReader& table, const Case& antenna) {
+  control::ControlLaw law;
+  const std::string name = table.text("structure");
+  try {
+    law.structure = loop_structure(antenna, name);
+  } catch (const InvalidInput& error) {
+    table.refuse("structure", error.what());
+  }
+  for (const auto& block : law.structure.blocks()) {
+    for (std::size_t i = 0; i < block.gains.size(); ++i) {
+      law.gains.push_back(table
+                              .quantity(block.gains[i].symbol, gain_kind(block.path, block.kind, i),
+                                        Range::positive(1e11))
+                              .value);
+    }
+  }
+  table.finish();
+  return law;
+}
+
+GainsFile law_of_report(const std::string& text, const std::string& path, const Case& antenna,
+                        const std::string& structure) {
+  try {
+    const auto report = nlohmann::json::parse(text);
+    const nlohmann::json* row =
+        recommended_row(report.at("tuned").at("laws"), structure, design::Fitness::misses_member);
+    if (row == nullptr) {
+      throw InvalidInput(fmt::format(
+          "{}: expected a tuned law that meets its goals{}, found none", path,
+          structure.empty() ? "" : fmt::format(" of structure {}", in_quotes(structure))));
+    }
+    GainsFile file;
+    const auto name = row->at("structure").get<std::string>();
+    file.law.structure = loop_structure(antenna, name);
+    std::map<std::string, std::string> written;
+    for (const auto& gain : row->at("gains_as_written")) {
+      written[gain.at("symbol").get<std::string>()] = gain.at("value").get<std::string>();
+    }
+    for (const auto& block : file.law.structure.blocks()) {
+      for (std::size_t i = 0; i < block.gains.size(); ++i) {
+        const auto found = written.find(block.gains[i].symbol);
+        if (found == written.end()) {
+          throw InvalidInput(fmt::format("{}: expected a gain {} of {}, found none", path,
+                                         block.gains[i].symbol, in_quotes(name)));
+        }
+        file.law.gains.push_back(
+            parse_quantity(found->second, gain_kind(block.path, block.kind, i)).value);
+      }
+    }
+    control::validate(file.law);
+    file.description =
+        fmt::format("{}, {}, of {}", name, row->at("tuned_for").get<std::string>(), path);
+    return file;
+  } catch (const nlohmann::json::exception& error) {
+    throw InvalidInput(
+        fmt::format("{}: expected a report of `boresight tune`, found: {}", path, error.what()));
+  }
+}
+
+}  // namespace
+
+GainsFile read_gains_file(const std::string& path, const Case& antenna,
+                          const std::string& structure) {
+  const std::string text = content_of_file(path);
+  const auto first = text.find_first_not_of(" \t\r\n");
+  if (first != std::string::npos && text[first] == '{') {
+    return law_of_report(text, path, antenna, structure);
+  }
+  TableReader file = TableReader::parse(text, path);
+  GainsFile result;
+  if (auto table = file.optional_table("gains")) {
+    result.law = law_from(*table, antenna);
+    file.finish();
+  } else {
+    result.law = law_from(file, antenna);
+  }
+  result.description = fmt::format("{}, gains of {}", result.law.structure.name(), path);
+  return result;
+}
+
+}  // namespace boresight::io

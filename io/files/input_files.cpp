@@ -1,0 +1,70 @@
+#include <array>
+#include <map>
+#include <mutex>
+#include <span>
+#include <utility>
+
+#include <fmt/format.h>
+#include <nettle/base64.h>
+#include <nettle/sha2.h>
+
+#include <boresight/io/files/input_files.hpp>
+
+namespace boresight::io {
+namespace {
+
+using Digest = std::array<std::uint8_t, SHA256_DIGEST_SIZE>;
+
+Digest sha256(std::string_view bytes) {
+  sha256_ctx context{};
+  sha256_init(&context);
+  sha256_update(&context, bytes.size(), reinterpret_cast<const std::uint8_t*>(bytes.data()));
+  Digest digest{};
+  sha256_digest(&context, digest.size(), digest.data());
+  return digest;
+}
+
+std::string hexadecimal(std::span<const std::uint8_t> bytes) {
+  std::string text;
+  for (const auto byte : bytes) fmt::format_to(std::back_inserter(text), "{:02x}", byte);
+  return text;
+}
+
+// What this process read: readers stand deep in the libraries of formats, on threads of their own.
+struct Log {
+  std::mutex mutex;
+  std::map<std::pair<std::string, std::string>, std::uint64_t> sizes;  // by path and digest
+};
+
+Log& log() {
+  static Log log;
+  return log;
+}
+
+}  // namespace
+
+std::string sha256_hex(std::string_view bytes) {
+  return hexadecimal(sha256(bytes));
+}
+
+std::string sha256_base64(std::string_view bytes) {
+  const Digest digest = sha256(bytes);
+  std::string text(BASE64_ENCODE_RAW_LENGTH(digest.size()), '\0');
+  base64_encode_raw(text.data(), digest.size(), digest.data());
+  return text;
+}
+
+void note_input(const std::string& path, std::string_view content) {
+  std::pair<std::string, std::string> key(path, sha256_hex(content));
+  const std::lock_guard lock(log().mutex);
+  log().sizes.emplace(std::move(key), content.size());
+}
+
+std::vector<InputFile> inputs_read() {
+  const std::lock_guard lock(log().mutex);
+  std::vector<InputFile> files;
+  for (const auto& [key, bytes] : log().sizes) files.push_back({key.first, bytes, key.second});
+  return files;
+}
+
+}  // namespace boresight::io

@@ -1,0 +1,28 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace boresight::io {
+
+/// A file that this run read, as it was then.
+struct InputFile {
+  std::string path;  // as it was asked for
+  std::uint64_t bytes = 0;
+  std::string sha256;  // 64 hexadecimal digits
+};
+
+/// SHA-256 (FIPS 180-4) in hexadecimal digits, and in base 64 as browsers take it.
+std::string sha256_hex(std::string_view bytes);
+std::string sha256_base64(std::string_view bytes);
+
+/// Every reader of input files tells here what it was given, from any thread, so that a report can
+/// name all that its numbers rest on.
+void note_input(const std::string& path, std::string_view content);
+
+/// All noted so far, by path; a file read twice is there once, one that changed meanwhile twice.
+std::vector<InputFile> inputs_read();
+
+}  // namespace boresight::io

@@ -1,0 +1,55 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <boresight/io/case/case_campaign.hpp>
+#include <boresight/io/records/record_table.hpp>
+#include <boresight/io/units/units.hpp>
+
+namespace boresight::io {
+
+/// A column of a file that was taken for a signal.
+struct ChosenColumn {
+  std::size_t index = 0;
+  /// By its name; else the case says so.
+  bool guessed = false;
+};
+
+/// The columns of a record that hold what is known to be in it; one a motor in order.
+struct ChosenColumns {
+  ChosenColumn tachometer;
+  /// No time only where the case states the sample rate.
+  std::optional<ChosenColumn> time, rate_command, valve_command;
+  std::vector<ChosenColumn> inlet, outlet;
+  /// Of commands that the case names a column for and the file has none of that name, a sentence
+  /// each.
+  std::vector<std::string> remarks;
+};
+
+/// Picks columns: those the case names (any case of letters), others by their names. Words of a
+/// name are letters or digits that stand together, "MotorSpeed" has two. A pressure is guessed from
+/// a motor's number and in, inlet, a, or out, outlet, b ("p1_in", "PressIn1", "Motor 2 outlet");
+/// the tachometer from tach, or speed or rate without a word for command; commands from rate, speed
+/// or velocity, or valve or servo, with command, cmd, reference, setpoint or demand (valve alone
+/// will do); the time from time or t. A column of another kind of unit is not guessed, one without
+/// a known unit only if none has one that fits, and nothing that two columns could be. A command
+/// that the case names may be missing in a file: see remarks.
+/// @throws InvalidInput for a column that the case names and the file has not (but a command's), or
+/// has twice; for a missing or ambiguous pressure, tachometer or time. Lists the file's columns.
+ChosenColumns choose_columns(const RecordTable& table, const RecordColumnsEntry& entry,
+                             long motors);
+
+/// Whether a file's column is the one that a case names: equal but for the case of letters, with or
+/// without its unit in brackets.
+bool is_named(const RecordColumn& column, const std::string& name);
+
+/// "'a', 'b'", the first twenty.
+std::string columns_of(const RecordTable& table);
+
+/// A unit as recorders write it: as in a case, in any case of letters and with a few names more
+/// (volts, sec, psig, deg/sec, a degree sign). Nothing if it has no unit known.
+std::optional<Unit> recorded_unit(const std::string& text);
+
+}  // namespace boresight::io

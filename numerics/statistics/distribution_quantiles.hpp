@@ -1,0 +1,17 @@
+#pragma once
+
+namespace boresight::numerics {
+
+// Quantiles of the usual distributions, by Boost.Math, to 1e-12. `share` within (0, 1).
+// @throws InvalidInput for a share outside, or parameters that are not positive and finite.
+
+/// Student's t of `freedom` degrees.
+double student_quantile(double share, double freedom);
+/// Beta(a, b): within (0, 1).
+double beta_quantile(double share, double a, double b);
+/// Fisher's F: the ratio of two mean squares of `numerator` and `denominator` degrees of freedom.
+double f_quantile(double share, double numerator, double denominator);
+/// Chi-squared of `freedom` degrees.
+double chi_squared_quantile(double share, double freedom);
+
+}  // namespace boresight::numerics

@@ -1,0 +1,82 @@
+#include <boresight/numerics/vector_clones.hpp>
+#include <boresight/plant/antenna/point_response.hpp>
+
+namespace boresight::plant {
+
+ResponsePoint point(const PlantResponse& response, Eigen::Index i) {
+  return {response.tachometer_command[i], response.torque_command[i],  response.encoder_command[i],
+          response.beam_command[i],       response.tachometer_wind[i], response.torque_wind[i],
+          response.encoder_wind[i],       response.beam_wind[i]};
+}
+
+void set_point(PlantResponse& response, Eigen::Index i, const ResponsePoint& point) {
+  response.tachometer_command[i] = point.tachometer_command;
+  response.torque_command[i] = point.torque_command;
+  response.encoder_command[i] = point.encoder_command;
+  response.beam_command[i] = point.beam_command;
+  response.tachometer_wind[i] = point.tachometer_wind;
+  response.torque_wind[i] = point.torque_wind;
+  response.encoder_wind[i] = point.encoder_wind;
+  response.beam_wind[i] = point.beam_wind;
+}
+
+PlantResponse unset_response(const Eigen::ArrayXd& frequency) {
+  PlantResponse response;
+  response.frequency = frequency;
+  for (auto* channel :
+       {&response.tachometer_command, &response.torque_command, &response.encoder_command,
+        &response.beam_command, &response.tachometer_wind, &response.torque_wind,
+        &response.encoder_wind, &response.beam_wind}) {
+    channel->resize(frequency.size());
+  }
+  return response;
+}
+
+PointResponse::PointResponse(const AntennaPlant& plant)
+    : drive_(plant.drive),
+      structure_(plant.structure),
+      modes_(numerics::pack_count(plant.structure.modes.size())) {
+  structure_.modes.clear();
+  for (std::size_t i = 0; i < modes_.size() * numerics::pack_size; ++i) {
+    // What fills the last pack up weighs nothing and follows nothing.
+    const bool there = i < plant.structure.modes.size();
+    const StructuralMode mode =
+        there ? plant.structure.modes[i] : StructuralMode{0.0, 1.0, 0.0, 0.0, 0.0};
+    ModePack& pack = modes_[i / numerics::pack_size];
+    pack.inertia.set(i % numerics::pack_size, mode.inertia);
+    pack.stiffness.set(i % numerics::pack_size, mode.stiffness);
+    pack.damping.set(i % numerics::pack_size, mode.damping);
+    pack.wind_fraction.set(i % numerics::pack_size, mode.wind_fraction);
+    pack.beam_weight.set(i % numerics::pack_size, mode.beam_weight);
+  }
+}
+
+BORESIGHT_VECTOR_CLONES
+ResponsePoint PointResponse::operator()(double frequency) const {
+  const double w = frequency;
+  numerics::ComplexPack inertial{}, wind{}, beam{}, bending{};
+  for (const ModePack& mode : modes_) {
+    const numerics::RealPack damping = mode.damping * w;
+    const numerics::RealPack inertia = mode.inertia * (w * w);
+    const numerics::RealPack real = mode.stiffness - inertia;
+    const numerics::RealPack scale = 1.0 / (real * real + damping * damping);
+    const numerics::ComplexPack inverse{real * scale, -damping * scale};
+    const numerics::ComplexPack follow = numerics::ComplexPack{mode.stiffness, damping} * inverse;
+    inertial = inertial - follow * inertia;
+    wind = wind + follow * mode.wind_fraction;
+    beam = beam + follow * mode.beam_weight;
+    bending = bending + inverse * (mode.wind_fraction * mode.beam_weight);
+  }
+  const auto total = [](const numerics::ComplexPack& x) {
+    return std::complex<double>(numerics::sum(x.re), numerics::sum(x.im));
+  };
+  return drive_on_structure(drive_,
+                            {total(inertial) - structure_.bull_gear_inertia * w * w,
+                             {structure_.gear_stiffness, structure_.gear_damping * w},
+                             total(wind) + structure_.bull_gear_wind_fraction,
+                             total(beam) + structure_.bull_gear_beam_weight,
+                             total(bending)},
+                            w);
+}
+
+}  // namespace boresight::plant

@@ -1,0 +1,193 @@
+#include <string>
+#include <vector>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "app/edited_case.hpp"
+#include <boresight/app/commission/commission_study.hpp>
+#include <boresight/app/redesign/antenna_model.hpp>
+#include <boresight/numerics/error.hpp>
+
+namespace boresight::app {
+namespace {
+
+using testing::ContainsRegex;
+using testing::HasSubstr;
+using testing::Not;
+
+const std::vector<std::string> pressure_gains{
+    "kr=1.2",       "wi=2 rad/s", "wp=300 rad/s", "kT=0.2 rad/(s.N.m)",
+    "wd=5.5 rad/s", "kp=0.8 1/s", "wip=0.2 rad/s"};
+
+// With a small ensemble, so that a plan takes a moment.
+std::string small_case(const ScratchFolder& folder, const std::string& more = "") {
+  return folder.write("case.toml", EditedCase().text() + "\n[ensemble]\ndraws = 1\n" + more);
+}
+
+ProgramResult commission(const std::string& path, const std::vector<std::string>& gains,
+                         const std::vector<std::string>& more = {}) {
+  std::vector<std::string> arguments{"commission", path, "--threads", "1"};
+  if (!gains.empty()) arguments.emplace_back("--gains");
+  arguments.insert(arguments.end(), gains.begin(), gains.end());
+  arguments.insert(arguments.end(), more.begin(), more.end());
+  return run_program(arguments);
+}
+
+TEST(Commission, PlansFromTheCasesGainsInTheCasesUnits) {
+  const ScratchFolder folder;
+  const std::string path =
+      small_case(folder,
+                 "[gains]\nstructure = 'DPF'\nkr = 0.3\nwi = '0.25 Hz'\nwp = '48 Hz'\nkT = '0.1 "
+                 "rad/(s.N.m)'\nwd = '0.9 Hz'\nkp = '0.1 1/s'\nwip = '0.02 rad/s'\n");
+  const ProgramResult result = commission(path, pressure_gains, {"--json", folder.file("plan")});
+  EXPECT_EQ(result.exit_code, 0) << result.errors;
+  EXPECT_THAT(result.output, HasSubstr("1  as found"));
+  EXPECT_THAT(result.output, Not(HasSubstr("ASSUMED start")));
+  EXPECT_THAT(result.output, HasSubstr("wi = 0.25 Hz"));
+  EXPECT_THAT(result.output, HasSubstr("kr = 1.2"));
+  EXPECT_THAT(result.output, ContainsRegex("mdeg as found, .* mdeg at the end"));
+  EXPECT_THAT(result.output,
+              HasSubstr("Open the position loop, set the gains of the stage before"));
+  EXPECT_THAT(result.output, HasSubstr("coherence"));
+  EXPECT_THAT(content_of(folder.file("plan")), HasSubstr("\"assumed_detuning_1\": null"));
+  // The same again, bytes and all, for two threads.
+  const auto again = run_program({"commission", path, "--threads", "2", "--gains", "kr=1.2",
+                                  "wi=2 rad/s", "wp=300 rad/s", "kT=0.2 rad/(s.N.m)",
+                                  "wd=5.5 rad/s", "kp=0.8 1/s", "wip=0.2 rad/s"});
+  EXPECT_EQ(again.output, result.output);
+}
+
+TEST(Commission, SaysWhatItAssumesWhereNoGainsAreKnown) {
+  const ScratchFolder folder;
+  const ProgramResult result = commission(small_case(folder), pressure_gains);
+  EXPECT_EQ(result.exit_code, 0) << result.errors;
+  EXPECT_THAT(result.output, HasSubstr("ASSUMED start"));
+  EXPECT_THAT(result.output, Not(HasSubstr("as found  ")));
+  EXPECT_THAT(result.output, HasSubstr("rate loop, 1 of"));
+}
+
+TEST(Commission, SaysThatGainsOnWhichTheAntennaRunsCannotBeUnstable) {
+  const ScratchFolder folder;
+  const std::string path = small_case(
+      folder,
+      "[gains]\nstructure = 'PI-0'\nkr = 6\nwi = '4 rad/s'\nkp = '2 1/s'\nwip = '0.1 rad/s'\n");
+  const ProgramResult result = commission(path, pressure_gains);
+  EXPECT_EQ(result.exit_code, 0) << result.errors;
+  EXPECT_THAT(result.output, HasSubstr("plants are unstable, but the antenna runs on them"));
+  EXPECT_THAT(result.output, HasSubstr("no way was found from the gains as found"));
+  EXPECT_THAT(result.output, Not(HasSubstr("nan ")));
+  EXPECT_THAT(result.output, HasSubstr("Brakes on; nothing has been changed yet."));
+  EXPECT_THAT(result.output, HasSubstr("whatever the plants say"));
+}
+
+TEST(Commission, TunesWhereNoGainsAreGiven) {
+  const ScratchFolder folder;
+  const ProgramResult result =
+      commission(small_case(folder), {}, {"--structure", "PI", "--starts", "3"});
+  EXPECT_EQ(result.exit_code, 0) << result.errors;
+  EXPECT_THAT(result.output, HasSubstr("those of the robust tuning"));
+  EXPECT_THAT(result.output, Not(HasSubstr("pressure feedback, 1")));
+}
+
+// Friction that breaks away at more than twice what slides by hunts; that of the case does not.
+TEST(Commission, SaysThatALawHuntsOnTheNonlinearAntenna) {
+  const ScratchFolder folder;
+  const std::vector<std::string> gains{"kr=0.043", "wi=0.3 rad/s", "wp=2.5 rad/s", "kp=30 1/s",
+                                       "wip=0.2 rad/s"};
+  const std::vector<std::string> structure{"--structure", "PI"};
+  const ProgramResult still = commission(small_case(folder), gains, structure);
+  EXPECT_EQ(still.exit_code, 0) << still.errors;
+  EXPECT_THAT(still.output, Not(HasSubstr("On the nonlinear antenna")));
+  const std::string sticky = folder.write(
+      "sticky.toml",
+      EditedCase()
+              .replace("breakaway = { value = \"16.83 N.m\"", "breakaway = { value = \"55 N.m\"")
+              .text() +
+          "\n[ensemble]\ndraws = 1\n");
+  const ProgramResult hunting = commission(sticky, gains, structure);
+  EXPECT_EQ(hunting.exit_code, 0) << hunting.errors;
+  EXPECT_THAT(hunting.output, ContainsRegex("On the nonlinear antenna PI hunts by \\+-[1-9]"));
+}
+
+TEST(Commission, RefusesWhatItCannotUse) {
+  const ScratchFolder folder;
+  const std::string path = small_case(folder);
+  const auto refusal = [&](const std::vector<std::string>& gains,
+                           const std::vector<std::string>& more = {}) {
+    const ProgramResult result = commission(path, gains, more);
+    EXPECT_EQ(result.exit_code, 2);
+    EXPECT_EQ(result.output, "");
+    return result.errors;
+  };
+  EXPECT_THAT(refusal({"kr=1.2"}), HasSubstr("expected a value for wi (rate integral corner)"));
+  auto unknown = pressure_gains;
+  unknown.emplace_back("kx=1");
+  EXPECT_THAT(refusal(unknown), HasSubstr("with a key of kr, wi, wp, kT, wd, kp, wip, found none"));
+  auto wrong = pressure_gains;
+  wrong[1] = "wi=2 m";
+  EXPECT_THAT(refusal(wrong), HasSubstr("--gains 'wi=2 m'"));
+  EXPECT_THAT(refusal({}, {"--structure", "XY"}), HasSubstr("XY"));
+  EXPECT_THAT(refusal(pressure_gains, {"--before", "one"}),
+              HasSubstr("expected both --before and --after, or neither"));
+  EXPECT_THAT(refusal(pressure_gains, {"--before", "one", "--after", "two"}),
+              HasSubstr("expected [[record]]s to compare, found none"));
+  // A law that no plant can be run on is infeasible, not bad input.
+  auto wild = pressure_gains;
+  wild[0] = "kr=60";
+  const ProgramResult result = commission(path, wild);
+  EXPECT_EQ(result.exit_code, 3);
+  EXPECT_THAT(result.errors, HasSubstr("unstable on a plant that may be the true one"));
+}
+
+TEST(Commission, ComparesTwoRecordsOfTheCase) {
+  const io::Case antenna = io::read_case(BORESIGHT_SOURCE_DIR "/cases/dss14-70m/campaign.toml");
+  // Constant speeds of 0.25 V and 0.5 V: the faster one moves more, in every channel.
+  const auto channels =
+      compare_case_records(antenna, "constant-speed-0.25V", "constant-speed-0.5V", 1);
+  ASSERT_GE(channels.size(), 2U);
+  for (const auto& channel : channels) {
+    EXPECT_FALSE(channel.predicted.has_value());
+    EXPECT_LT(channel.comparison.whole.lower, channel.comparison.whole.ratio);
+    EXPECT_LT(channel.comparison.whole.ratio, channel.comparison.whole.upper);
+    EXPECT_GE(channel.comparison.bands.size(), 3U);
+    if (channel.channel == "motor rate") {
+      EXPECT_EQ(channel.comparison.whole.change, design::Change::worse);
+    }
+  }
+  // A plan that there is none of does not take the comparison with it.
+  CommissionOptions options;
+  options.gains = pressure_gains;
+  options.gains[0] = "kr=60";
+  options.before = "constant-speed-0.25V";
+  options.after = "constant-speed-0.5V";
+  const auto plant = make_plant(antenna);
+  const auto report = plan_commission(
+      antenna, {"as stated", {{"one", plant}, {"another", plant}, {"a third", plant}}}, options);
+  ASSERT_TRUE(report.failure);
+  EXPECT_THROW(std::rethrow_exception(report.failure), InfeasibleRequirement);
+  EXPECT_EQ(report.comparisons.size(), channels.size());
+  const std::string text = to_text(report);
+  EXPECT_THAT(text, HasSubstr("None: "));
+  EXPECT_THAT(text, HasSubstr("Before and after: 'constant-speed-0.25V'"));
+  EXPECT_THAT(text, HasSubstr("There is no plan for DPF: "));
+  const auto json = nlohmann::json::parse(to_json(report));
+  EXPECT_TRUE(json.at("no_plan").is_string());
+  EXPECT_TRUE(json.at("stages").empty());
+  EXPECT_EQ(json.at("comparisons").size(), channels.size());
+
+  const auto refusal = [&](const std::string& before, const std::string& after) -> std::string {
+    try {
+      compare_case_records(antenna, before, after, 1);
+    } catch (const InvalidInput& error) {
+      return error.what();
+    }
+    return "nothing was thrown";
+  };
+  EXPECT_THAT(refusal("slosh", "slosh"), HasSubstr("found 'slosh' twice"));
+  EXPECT_THAT(refusal("slosh", "none"), HasSubstr("expected a record of the case"));
+}
+
+}  // namespace
+}  // namespace boresight::app

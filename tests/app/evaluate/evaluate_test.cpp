@@ -1,0 +1,273 @@
+// The command evaluate: what stands in its section, and how it ends.
+#include <csignal>
+#include <string>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "app/edited_case.hpp"
+#include <boresight/app/commands/evaluate_command.hpp>
+#include <boresight/app/report/json_report.hpp>
+#include <boresight/app/report/text_report.hpp>
+#include <boresight/numerics/error.hpp>
+
+namespace boresight::app {
+namespace {
+
+using ::testing::Contains;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using ::testing::Not;
+using ::testing::StartsWith;
+
+std::string proposal_path(const std::string& name) {
+  std::string path = BORESIGHT_SOURCE_DIR "/cases/dss14-70m/proposals/";
+  path += name;
+  return path + ".toml";
+}
+
+EvaluateArguments arguments_of(std::vector<std::string> proposals) {
+  EvaluateArguments arguments;
+  arguments.case_path = case_path("dss14-70m");
+  arguments.proposals = std::move(proposals);
+  arguments.draws = 200;
+  arguments.starts = 2;
+  arguments.threads = 1;
+  return arguments;
+}
+
+const Report& two_proposals() {
+  static const Report report = evaluate_case(
+      arguments_of({proposal_path("no-flywheels"), proposal_path("displacement-1.41")}), nullptr);
+  return report;
+}
+
+std::string proposal_text(const std::string& name, const std::string& rest,
+                          const std::string& currency = "kUSD") {
+  return "name = '" + name + "'\ndescription = 'd'\n[cost]\namount = 1\ncurrency = '" + currency +
+         "'\n" + rest;
+}
+
+TEST(Evaluate, ListsWhatSlewingRestsOn) {
+  std::vector<std::string> keys;
+  for (const auto& quantity : two_proposals().assumed) keys.push_back(quantity.key);
+  EXPECT_THAT(keys, Contains("simulation.valve_stroke"));
+  EXPECT_THAT(keys, Contains("simulation.bristle_stiffness"));
+  EXPECT_THAT(keys, Not(Contains(StartsWith("recorder."))));
+}
+
+TEST(Evaluate, PutsTheAntennaAsItIsFirst) {
+  const auto& section = *two_proposals().evaluated;
+  ASSERT_EQ(section.candidates.size(), 3U);
+  const auto& base = section.candidates[0];
+  EXPECT_EQ(base.name, "as it is");
+  EXPECT_EQ(base.cost, 0.0);
+  EXPECT_THAT(base.changes, IsEmpty());
+  for (const auto& candidate : section.candidates) {
+    ASSERT_TRUE(candidate.chosen) << candidate.name;
+    EXPECT_TRUE(candidate.feasible()) << candidate.name;
+    EXPECT_TRUE(candidate.laws[*candidate.chosen].design.verification.passed);
+    EXPECT_EQ(candidate.laws[*candidate.chosen].ensemble->members.size(), 30U);
+  }
+}
+
+TEST(Evaluate, HoldsTheDriveToItsLimits) {
+  const auto& section = *two_proposals().evaluated;
+  const auto& base = *section.candidates[0].figures;
+  const auto& larger = *section.candidates[2].figures;
+  // Without load the valve lets the motors turn at 1.2 times the slew rate; against friction and
+  // offset not, and a slew keeps a fifth of what is left.
+  EXPECT_LT(*base.slew_rate_margin, 1.0);
+  EXPECT_LT(*larger.slew_rate_margin, 1.0);
+  EXPECT_GT(larger.supply_margin, base.supply_margin);
+  ASSERT_TRUE(base.slew && base.slew->time);
+  EXPECT_NEAR(base.slew->rate / base.slew->rate_asked, 0.8 * *base.slew_rate_margin, 1e-4);
+  // Rest to rest takes at least the distance over the rate.
+  EXPECT_GT(*base.slew->time, base.slew->distance / base.slew->rate);
+  EXPECT_THAT(to_text(two_proposals()),
+              HasSubstr("The stated slew rate is out of reach of the drive as it is"));
+}
+
+TEST(Evaluate, ComparesOnTheSameDraws) {
+  const auto& decision = *two_proposals().evaluated->decision;
+  EXPECT_EQ(decision.draws, 200U);
+  ASSERT_EQ(decision.statistics.options.size(), 3U);
+  ASSERT_EQ(decision.statistics.pairs.size(), 3U);
+  double best = 0.0;
+  for (const auto& option : decision.statistics.options) {
+    best += option.best.value;
+    EXPECT_GE(option.expected_regret, 0.0);
+  }
+  EXPECT_NEAR(best, 1.0, 1e-9);
+  // Both proposals stand above the antenna as it is on nearly every plant: paired, not apart.
+  for (const auto& pair : decision.statistics.pairs) {
+    if (pair.first == 0) {
+      EXPECT_LT(pair.better.value, 0.2);
+    }
+  }
+  ASSERT_TRUE(decision.tornado && decision.sobol && decision.tests);
+  EXPECT_EQ(decision.inputs.size(), 6U);
+  double first_order = 0.0;
+  for (const auto& input : decision.sobol->outputs[0].inputs) {
+    first_order += input.first_order.value;
+  }
+  EXPECT_LT(first_order, 1.1);
+  EXPECT_GE(decision.tests->perfect.gain, 0.0);
+  // Of those fit to be chosen, by the places of all.
+  ASSERT_EQ(decision.tests->mean_loss.size(), 3U);
+  EXPECT_EQ(decision.tests->choice, decision.best);
+  EXPECT_EQ(decision.tests->mean_loss[decision.best],
+            decision.statistics.options[decision.best].mean);
+}
+
+TEST(Evaluate, DrawsAgreeWithTheEnsemble) {
+  // Both are over the same ranges, apart from the corners: their means are near.
+  const auto& section = *two_proposals().evaluated;
+  for (std::size_t i = 0; i < section.candidates.size(); ++i) {
+    const auto& candidate = section.candidates[i];
+    const double members =
+        candidate.laws[*candidate.chosen].compared_rms() * 180e3 / 3.14159265358979;
+    EXPECT_NEAR(section.decision->statistics.options[i].mean, members, 0.06 * members)
+        << candidate.name;
+  }
+}
+
+TEST(Evaluate, ComparesOnTheNonlinearAntenna) {
+  const auto& section = *two_proposals().evaluated;
+  ASSERT_TRUE(section.time_domain);
+  for (const auto& candidate : section.candidates) {
+    const auto& law = candidate.laws[*candidate.chosen];
+    ASSERT_TRUE(law.time_domain) << candidate.name;
+    const auto& wind = law.time_domain->wind;
+    ASSERT_EQ(wind.status, design::RunStatus::complete) << candidate.name;
+    EXPECT_DOUBLE_EQ(law.nonlinear_factor(), wind.beam_rms / wind.continuous_rms);
+    EXPECT_DOUBLE_EQ(law.compared_rms(), law.nonlinear_factor() * law.member_rms);
+    // Friction and backlash cost something, and no PI loop twice of what wind does.
+    EXPECT_GT(law.nonlinear_factor(), 1.0) << candidate.name;
+    EXPECT_LT(law.nonlinear_factor(), 2.0) << candidate.name;
+    EXPECT_EQ(law.time_domain->hunting.size(), 2U);
+    EXPECT_TRUE(law.time_domain->reversal);
+    // Losses go with the square of the rms.
+    const double rms = law.nonlinear_factor() * law.design.beam_rms;
+    const double loss = design::pointing_loss_db(rms, section.bands[0].beamwidth,
+                                                 design::LossConvention::mean_loss_two_axes);
+    EXPECT_NEAR(candidate.figures->losses[0], loss, 1e-5 * loss);
+  }
+  EXPECT_THAT(to_text(two_proposals()), HasSubstr("The laws on the nonlinear antenna"));
+}
+
+TEST(Evaluate, ComparesLinearLoopsIfAskedTo) {
+  auto arguments = arguments_of({proposal_path("half-flywheels")});
+  arguments.draws = 100;
+  arguments.time_domain = false;
+  const Report report = evaluate_case(arguments, nullptr);
+  EXPECT_FALSE(report.evaluated->time_domain);
+  for (const auto& candidate : report.evaluated->candidates) {
+    const auto& law = candidate.laws[*candidate.chosen];
+    EXPECT_FALSE(law.time_domain);
+    EXPECT_EQ(law.compared_rms(), law.member_rms);
+  }
+  EXPECT_THAT(to_text(report), HasSubstr("linear loops only"));
+  // What only simulated runs rest on is not listed then.
+  for (const auto& quantity : report.assumed) {
+    EXPECT_NE(quantity.key, "simulation.bristle_stiffness");
+  }
+}
+
+TEST(Evaluate, ListsWhatProposalsAssume) {
+  bool cost = false, change = false;
+  for (const auto& one : two_proposals().assumed) {
+    cost = cost || one.key == "no flywheels: cost.amount";
+    change = change || one.key == "displacement x 1.41: motor.displacement";
+  }
+  EXPECT_TRUE(cost);
+  EXPECT_TRUE(change);
+}
+
+TEST(Evaluate, DoesNotDependOnThreads) {
+  auto arguments = arguments_of({proposal_path("half-flywheels")});
+  arguments.draws = 150;
+  const std::string one = to_json(evaluate_case(arguments, nullptr));
+  arguments.threads = 3;
+  EXPECT_EQ(to_json(evaluate_case(arguments, nullptr)), one);
+}
+
+TEST(Evaluate, KeepsProposalsThatMissTheirGoals) {
+  const ScratchFolder folder;
+  // A valve of 0.3 Hz leaves no loop its sensitivity; nothing here is stable enough.
+  const std::string slow =
+      folder.write("slow.toml", proposal_text("slow valve",
+                                              "[drive]\nvalve_frequency = '0.02 Hz'\n"
+                                              "valve_damping = '0.01'\n"));
+  const auto run =
+      run_program({"evaluate", case_path("dss14-70m"), slow, "--draws", "100", "--starts", "2"});
+  EXPECT_EQ(run.exit_code, 3) << run.errors;
+  EXPECT_THAT(run.errors, HasSubstr("boresight: slow valve: "));
+  EXPECT_THAT(run.output, HasSubstr("as it is"));
+  EXPECT_THAT(run.output, HasSubstr("Not to be built as they stand"));
+}
+
+TEST(Evaluate, EndsWithCode3WhereNoCandidateMeetsANeededBudget) {
+  const ScratchFolder folder;
+  const std::string antenna =
+      folder.write("case.toml", EditedCase()
+                                    .replace("name = \"stated Ka-band need\"",
+                                             "name = \"stated Ka-band need\"\n"
+                                             "wind_speed = \"50 m/s\"")
+                                    .text());
+  const auto run = run_program({"evaluate", antenna, proposal_path("half-flywheels"), "--draws",
+                                "100", "--starts", "2", "--time-domain", "none"});
+  EXPECT_EQ(run.exit_code, 3) << run.errors;
+  EXPECT_THAT(run.errors, HasSubstr(antenna + ": NOT MET: stated Ka-band need"));
+}
+
+TEST(Evaluate, RefusesBadProposalsBeforeAnyWork) {
+  const ScratchFolder folder;
+  const std::string one =
+      folder.write("one.toml", proposal_text("same", "[motor]\nflywheel_disks = 3\n"));
+  const std::string two =
+      folder.write("two.toml", proposal_text("same", "[motor]\nflywheel_disks = 4\n"));
+  auto run = run_program({"evaluate", case_path("dss14-70m"), one, two});
+  EXPECT_EQ(run.exit_code, 2);
+  EXPECT_EQ(run.output, "");
+  EXPECT_THAT(run.errors, StartsWith("boresight: " + two +
+                                     ":1:8: name: expected a name of its own, "
+                                     "found 'same', which " +
+                                     one + " has too"));
+  const std::string money =
+      folder.write("money.toml", proposal_text("other", "[motor]\nflywheel_disks = 4\n", "MEUR"));
+  run = run_program({"evaluate", case_path("dss14-70m"), one, money});
+  EXPECT_EQ(run.exit_code, 2);
+  EXPECT_THAT(run.errors, HasSubstr("cost.currency: expected the currency of"));
+  const std::string own =
+      folder.write("own.toml", proposal_text("as it is", "[motor]\nflywheel_disks = 4\n"));
+  run = run_program({"evaluate", case_path("dss14-70m"), own});
+  EXPECT_EQ(run.exit_code, 2);
+  EXPECT_THAT(run.errors, HasSubstr("expected another name than 'as it is'"));
+  run = run_program({"evaluate", case_path("dss14-70m"), one, "--structure", "PIDD"});
+  EXPECT_EQ(run.exit_code, 2);
+  EXPECT_THAT(run.errors, HasSubstr("--structure: "));
+  run = run_program({"evaluate", case_path("dss14-70m"), "no-such-file.toml"});
+  EXPECT_EQ(run.exit_code, 2);
+  EXPECT_THAT(run.errors, HasSubstr("no-such-file.toml: expected a readable file"));
+  run = run_program({"evaluate", case_path("dss14-70m")});
+  EXPECT_EQ(run.exit_code, 2);
+}
+
+TEST(Evaluate, TellsWhatWasWholeWhenInterrupted) {
+  auto arguments = arguments_of({proposal_path("no-flywheels")});
+  int asked = 0;
+  const Report report = evaluate_case(arguments, [&] { return ++asked > 2000; });
+  EXPECT_TRUE(report.interrupted);
+  ASSERT_TRUE(report.evaluated);
+  EXPECT_FALSE(report.evaluated->decision);
+  EXPECT_FALSE(report.evaluated->not_run.empty());
+  EXPECT_THAT(to_text(report), HasSubstr("Not run: "));
+  const Report none = evaluate_case(arguments, [] { return true; });
+  EXPECT_TRUE(none.evaluated->candidates.empty());
+  EXPECT_THAT(to_text(none), HasSubstr("INTERRUPTED"));
+  EXPECT_FALSE(to_json(none).empty());
+}
+
+}  // namespace
+}  // namespace boresight::app

@@ -1,0 +1,90 @@
+#include <cmath>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <boresight/app/identify/identified_case.hpp>
+#include <boresight/app/redesign/antenna_model.hpp>
+#include <boresight/app/redesign/assumed_inputs.hpp>
+#include <boresight/numerics/error.hpp>
+
+namespace boresight::app {
+namespace {
+
+io::Case seventy_metres() {
+  return io::read_case(BORESIGHT_SOURCE_DIR "/cases/dss14-70m/case.toml");
+}
+
+identification::DriveEstimate estimate() {
+  identification::DriveEstimate found;
+  found.inertia = 1.79;
+  found.motor_inertia = 1.21;
+  found.oil_stiffness = 51.0;
+  found.bulk_modulus = 1.2e9;
+  found.leakage_rate = 0.6;
+  found.lowest_frequency = 1.9;
+  found.friction = {11.0, 17.0, 0.16, 60.0, 1.4, 2.2};
+  found.offset_as_recorded = -4.0;
+  found.bristle_stiffness = 2000.0;
+  found.bristle_damping = 4.0;
+  return found;
+}
+
+TEST(IdentifiedCase, IsThePlantOfTheEstimate) {
+  const io::Case antenna = seventy_metres();
+  const auto found = estimate();
+  const io::Case identified = with_identified(antenna, found);
+  const auto plant = make_plant(identified);
+  EXPECT_NEAR(plant::reflected_inertia(plant), found.inertia, 1e-12);
+  EXPECT_NEAR(motor_inertia(identified, identified.motor.flywheel_disks), found.motor_inertia,
+              1e-12);
+  EXPECT_NEAR(plant.drive.oil_stiffness, found.oil_stiffness, 1e-10);
+  EXPECT_NEAR(bulk_modulus(identified), found.bulk_modulus, 1e-3);
+  EXPECT_EQ(plant.drive.leakage_rate, found.leakage_rate);
+  EXPECT_EQ(plant::friction_torque(io::friction_curve(identified), 3.0),
+            plant::friction_torque(found.friction, 3.0));
+  // All of the structure in proportion to its lowest frequency.
+  const double scale = 1.9 / antenna.structure.locked_rotor_frequency.value;
+  ASSERT_EQ(identified.structure.modes.size(), antenna.structure.modes.size());
+  for (std::size_t i = 0; i < antenna.structure.modes.size(); ++i) {
+    EXPECT_NEAR(identified.structure.modes[i].frequency.value,
+                scale * antenna.structure.modes[i].frequency.value, 1e-12);
+  }
+}
+
+TEST(IdentifiedCase, NoLongerAssumesWhatTheRecordsSay) {
+  const io::Case antenna = seventy_metres();
+  const auto keys = [](const io::Case& one) {
+    std::vector<std::string> list;
+    for (const auto& quantity : assumed_inputs(one)) list.push_back(quantity.key);
+    return list;
+  };
+  EXPECT_THAT(keys(antenna), testing::Contains("drive.leakage_rate"));
+  const auto left = keys(with_identified(antenna, estimate()));
+  EXPECT_THAT(left, testing::Not(testing::Contains("drive.leakage_rate")));
+  EXPECT_THAT(left, testing::Not(testing::Contains("friction_curve.coulomb")));
+  EXPECT_THAT(left, testing::Contains("drive.valve_frequency"));
+}
+
+TEST(IdentifiedCase, RefusesAnInertiaThatLeavesNoAntenna) {
+  const io::Case antenna = seventy_metres();
+  auto found = estimate();
+  found.inertia = found.motor_inertia + 0.5 * gear_train_inertia(antenna);
+  EXPECT_THROW(with_identified(antenna, found), NumericalFailure);
+}
+
+TEST(IdentifiedEnsemble, HasAPlantForEveryDrawThatLeavesAnAntenna) {
+  const io::Case antenna = seventy_metres();
+  std::vector<identification::DriveEstimate> draws(3, estimate());
+  draws[1].inertia = 1.0;
+  draws[2].oil_stiffness = 55.0;
+  const auto members = identified_ensemble(antenna, draws, 10);
+  ASSERT_EQ(members.size(), 2u);
+  EXPECT_EQ(members[0].name, "draw 1");
+  EXPECT_EQ(members[1].name, "draw 3");
+  EXPECT_NEAR(members[1].plant.drive.oil_stiffness, 55.0, 1e-10);
+  EXPECT_EQ(identified_ensemble(antenna, draws, 1).size(), 1u);
+}
+
+}  // namespace
+}  // namespace boresight::app

@@ -1,0 +1,125 @@
+#include <string>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include <boresight/app/page/embedded_files.hpp>
+#include <boresight/app/page/html_text.hpp>
+#include <boresight/app/page/page.hpp>
+#include <boresight/app/page/section_methods.hpp>
+
+namespace boresight::app {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+Figure figure_of(const std::string& id, const std::string& section) {
+  Figure figure;
+  figure.id = id;
+  figure.section = section;
+  figure.title = "Title of " + id;
+  figure.caption = "</script><b>";
+  figure.x.label = "frequency";
+  FigurePanel panel;
+  FigureSeries series;
+  series.name = "<script>";
+  series.x = {1.0, 2.0, 3.0};
+  series.y = {1.0, 4.0, 9.0};
+  panel.series.push_back(series);
+  figure.panels.push_back(panel);
+  return figure;
+}
+
+Page page_of_two_sections() {
+  Page page;
+  page.command = "tune";
+  page.title = "A & B <antenna>";
+  page.axis = "elevation";
+  page.seed = 7;
+  page.decision = {"Choose <this>."};
+  page.reservations = {"If <that> holds."};
+  page.document = heading("Tuned loops: PI") + wrapped("First.", "  ") + heading("Assumed inputs") +
+                  wrapped("Second.", "  ");
+  page.figures = {figure_of("first", "Assumed inputs"), figure_of("second", "Nowhere")};
+  return page;
+}
+
+const Provenance provenance{"boresight tune 'a b.toml'", {{"a b.toml", 12, io::sha256_hex("abc")}}};
+
+TEST(Page, NoTagBeginsInEmbeddedJson) {
+  const nlohmann::json value{{"text", "</script><!-- <script>"}};
+  const std::string embedded = json_for_script(value.dump());
+  EXPECT_THAT(embedded, Not(HasSubstr("<")));
+  EXPECT_EQ(nlohmann::json::parse(embedded), value);
+}
+
+TEST(Page, StyleSheetStringsCannotEndEarly) {
+  EXPECT_EQ(css_string("a\"b\\c</style>"), "\"a\\22 b\\5c c\\3c /style>\"");
+}
+
+TEST(Page, FiguresStandBehindTheirHeadingsAndNoneIsLost) {
+  const std::string html = to_html(page_of_two_sections(), provenance);
+  const auto heading_at = html.find("<h2>Assumed inputs");
+  const auto first = html.find("id=\"figure-first\""), second = html.find("id=\"figure-second\"");
+  const auto text = html.find("Second.");
+  const auto further = html.find("<h2>Further figures");
+  ASSERT_NE(first, std::string::npos);
+  EXPECT_LT(heading_at, first);
+  EXPECT_LT(first, text);
+  EXPECT_LT(text, further);
+  EXPECT_LT(further, second);
+  EXPECT_THAT(html, HasSubstr("Figure 1. Title of first."));
+  EXPECT_THAT(html, HasSubstr("Figure 2. Title of second."));
+}
+
+TEST(Page, SaysHowItWasMade) {
+  const std::string html = to_html(page_of_two_sections(), provenance);
+  EXPECT_THAT(html, HasSubstr("boresight tune &#39;a b.toml&#39;"));
+  EXPECT_THAT(html, HasSubstr(io::sha256_hex("abc")));
+  EXPECT_THAT(html, HasSubstr("design/tuning/tuner.hpp"));
+  EXPECT_THAT(html, HasSubstr("<td>7</td>"));
+  EXPECT_EQ(html, to_html(page_of_two_sections(), provenance));
+}
+
+TEST(Page, TextOfOthersIsEscaped) {
+  const std::string html = to_html(page_of_two_sections(), provenance);
+  EXPECT_THAT(html, HasSubstr("A &amp; B &lt;antenna&gt;"));
+  EXPECT_THAT(html, HasSubstr("Choose &lt;this&gt;."));
+  EXPECT_THAT(html, HasSubstr("<li>If &lt;that&gt; holds.</li>"));
+  EXPECT_THAT(html, Not(HasSubstr("<antenna>")));
+  EXPECT_THAT(html, Not(HasSubstr("</script><b>")));
+}
+
+TEST(Page, OnlyItsOwnScriptsMayRun) {
+  const std::string html = to_html(page_of_two_sections(), provenance);
+  EXPECT_THAT(html, HasSubstr("default-src 'none'"));
+  if (plotting_library().empty()) {
+    EXPECT_THAT(html, HasSubstr("script-src 'none'"));
+    EXPECT_THAT(html, HasSubstr("figures are static"));
+  } else {
+    EXPECT_THAT(html, HasSubstr("'sha256-" + io::sha256_base64(figures_script()) + "'"));
+    EXPECT_THAT(html, HasSubstr("'sha256-" + io::sha256_base64(plotting_library()) + "'"));
+  }
+  Page still = page_of_two_sections();
+  still.figures.clear();
+  EXPECT_THAT(to_html(still, provenance), HasSubstr("script-src 'none'"));
+}
+
+TEST(Page, AnInterruptIsSaidAtTheTop) {
+  Page page = page_of_two_sections();
+  EXPECT_THAT(to_html(page, provenance), Not(HasSubstr("the rest is missing")));
+  page.interrupted = true;
+  EXPECT_THAT(to_html(page, provenance), HasSubstr("the rest is missing"));
+}
+
+TEST(SectionMethods, AreFoundByTheBeginningOfAHeading) {
+  EXPECT_EQ(method_of("Inertia matching").explained_in, "docs/matching.md");
+  EXPECT_EQ(method_of("Inertia matching: re-tuned at each motor inertia").explained_in,
+            "design/tuning/design_study.hpp");
+  EXPECT_TRUE(method_of("Nothing known").how.empty());
+}
+
+}  // namespace
+}  // namespace boresight::app

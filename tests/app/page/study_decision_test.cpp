@@ -1,0 +1,483 @@
+#include <algorithm>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <boresight/app/match/match_study.hpp>
+#include <boresight/app/page/decision.hpp>
+#include <boresight/app/page/study_decision.hpp>
+#include <boresight/app/report/sky_units.hpp>
+
+namespace boresight::app {
+namespace {
+
+using testing::AllOf;
+using testing::Contains;
+using testing::Each;
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::Not;
+using testing::StartsWith;
+
+// At 0 disks, 1 as built and 3.
+MatchSeries series_of(const std::string& name, const std::vector<double>& rms_mdeg) {
+  MatchSeries series;
+  series.name = name;
+  series.curve.structure = control::LoopStructure::named(name);
+  std::vector<double> rms;
+  for (const double one : rms_mdeg) {
+    MatchValue value;
+    value.found = true;
+    value.beam_rms = one * millidegree;
+    rms.push_back(value.beam_rms);
+    series.values.push_back(std::move(value));
+  }
+  series.best = least_of(rms);
+  series.best_at_end = series.best != 1U;
+  return series;
+}
+
+MatchSection section_of(std::vector<MatchSeries> series) {
+  MatchSection section;
+  section.wind_speed = 12.0;
+  section.points.resize(3);
+  section.points[1].disks = 1.0;
+  section.points[1].label = "as built";
+  section.points[2].disks = 3.0;
+  section.series = std::move(series);
+  RuleVerdict rule{.rule = "one to one", .motor_to_load_ratio = 1.0, .disks = 1.0, .cost = {}};
+  for (const auto& one : section.series) {
+    rule.cost.push_back(one.values[1].beam_rms / one.values[*one.best].beam_rms - 1.0);
+  }
+  section.rules.push_back(std::move(rule));
+  return section;
+}
+
+FrictionThreshold threshold_of(double at_nominal) {
+  FrictionThreshold threshold;
+  threshold.structure = "PI";
+  threshold.slope = 4.0;
+  threshold.spread_at_nominal = at_nominal;
+  return threshold;
+}
+
+TEST(MatchConclusions, GatherWhatTurningRoundDoesAndNameTheTrackingRate) {
+  MatchSection section =
+      section_of({series_of("PI", {0.4, 0.5, 0.6}), series_of("DPF", {0.4, 0.5, 0.6}),
+                  series_of("LL", {0.4, 0.5, 0.6})});
+  section.tracking_rate = 5.0 * millidegree;
+  section.friction = section.tracking_friction = 0.7;
+  section.thresholds = {threshold_of(0.002)};
+  for (auto& series : section.series) {
+    MatchTimeDomain run;
+    design::HuntingResult at_rest, tracking;
+    at_rest.limit_cycle = series.name != "LL";
+    tracking.rate = section.tracking_rate;
+    tracking.limit_cycle = series.name != "LL";
+    run.hunting = {at_rest, tracking};
+    run.reversal = design::ReversalResult{};
+    run.reversal->beam_error = 2.0 * millidegree;
+    series.values[0].time_domain = run;
+  }
+  const auto sentences = conclude(section);
+  const auto about = std::ranges::count_if(sentences, [](const std::string& sentence) {
+    return sentence.find("On the nonlinear antenna") != std::string::npos;
+  });
+  EXPECT_EQ(about, 1);
+  EXPECT_THAT(sentences,
+              Contains(AllOf(HasSubstr("tracking rate of 5 mdeg/s reverses"),
+                             HasSubstr("2.00 to 2.00 mdeg with DPF"),
+                             HasSubstr("0 disks at rest and at the tracking rate with PI, DPF"),
+                             HasSubstr("none seen with LL"))));
+  EXPECT_THAT(sentences, Not(Contains(HasSubstr("of the friction curve at the tracking rate"))))
+      << "it is the linear plant's";
+}
+
+TEST(MatchConclusions, GiveTheErrorOfTheBeamWhereTheRateReverses) {
+  MatchSection section = section_of({series_of("PI", {0.4, 0.5, 0.6})});
+  const auto reverse = [&](std::size_t point, double encoder_mdeg, double beam_mdeg) {
+    design::ReversalResult reversal;
+    reversal.encoder_error = encoder_mdeg * millidegree;
+    reversal.beam_error = beam_mdeg * millidegree;
+    section.series[0].values[point].time_domain = MatchTimeDomain{{}, reversal};
+  };
+  reverse(0, 2.84, 5.2);
+  reverse(2, 2.98, 3.2);
+  EXPECT_THAT(conclude(section),
+              Contains(AllOf(HasSubstr("the beam errs by up to so much"),
+                             HasSubstr("over the inertias simulated (2 from 0 to 3 disks): "
+                                       "3.20 to 5.20 mdeg with PI"))));
+}
+
+TEST(MatchDecision, OfOneFlatStructureIsToLeaveTheFlywheels) {
+  MatchSection section = section_of({series_of("PI", {0.5148, 0.5159, 0.5183})});
+  section.thresholds = {threshold_of(0.002)};
+  MatchVariants variants;
+  variants.structure = "PI";
+  variants.disks = {0.0};
+  variants.variants = {{"the case's plant", {0.5}, 0U, {}},
+                       {"wind model uniform", {0.95}, 0U, {}},
+                       {"leakage x 2", {0.503}, 0U, {}}};
+  section.variants = {variants};
+  EXPECT_THAT(decision(section),
+              ElementsAre(AllOf(HasSubstr("Leave the flywheels as they are: with PI loops"),
+                                HasSubstr("by more than 0.7 %"),
+                                HasSubstr("'wind model uniform' with PI (by 90 %)"),
+                                Not(HasSubstr("leakage")))));
+  const auto sentences = conclude(section);
+  EXPECT_THAT(sentences, Contains(HasSubstr("hardly matters here")));
+  EXPECT_THAT(sentences, Contains(HasSubstr("no rule for the motors' inertia is right or wrong")));
+  EXPECT_THAT(sentences, Each(AllOf(Not(HasSubstr("good rule")), Not(HasSubstr("matters more")),
+                                    Not(HasSubstr("PI against PI")))));
+}
+
+TEST(MatchDecision, SaysNothingOfStructuresThatWereNotStudied) {
+  const MatchSection section = section_of({series_of("PI", {0.4, 0.5, 0.6})});
+  EXPECT_THAT(decision(section),
+              ElementsAre(HasSubstr("comes with PI loops and 0 disks"),
+                          AllOf(HasSubstr("costs +25.0 % with those loops"),
+                                HasSubstr("whether other loops would do more was not looked at"))));
+  const auto sentences = conclude(section);
+  EXPECT_THAT(sentences, Contains(HasSubstr("is not known from this study")));
+  EXPECT_THAT(sentences,
+              Contains(HasSubstr("costs +25.0 % of rms with PI, against its own best: no "
+                                 "good rule here")));
+}
+
+TEST(MatchDecision, SetsStructuresAgainstFlywheels) {
+  const auto text = [](const std::vector<double>& second) {
+    return decision(section_of({series_of("PI", {0.4, 0.5, 0.6}), series_of("DPF", second)}))[1];
+  };
+  EXPECT_THAT(text({0.7, 0.8, 0.9}), HasSubstr("change the loops first"));
+  EXPECT_THAT(text({0.45, 0.51, 0.6}), HasSubstr("change the flywheels first"));
+  EXPECT_THAT(text({0.5, 0.62, 0.7}), HasSubstr("the two weigh the same"));
+}
+
+TEST(MatchDecision, AsksForTheFrictionSlopeOnlyWhereItDecides) {
+  MatchSection section = section_of({series_of("PI", {0.4, 0.5, 0.6})});
+  section.thresholds = {threshold_of(0.5)};
+  section.tracking_friction = 12.0;
+  EXPECT_THAT(decision(section), Contains(HasSubstr("Measure the friction slope")));
+  section.thresholds = {threshold_of(0.01)};
+  EXPECT_THAT(decision(section), Each(Not(HasSubstr("Measure the friction slope"))));
+  // A slope that no friction of the case comes near to is nothing to measure.
+  section.thresholds = {threshold_of(0.5)};
+  section.tracking_friction = 0.05;
+  EXPECT_THAT(decision(section), Each(Not(HasSubstr("Measure the friction slope"))));
+}
+
+// Runs every point on the nonlinear antenna: a limit cycle of that amplitude at rest.
+MatchSeries hunting(MatchSeries series, double amplitude_mdeg) {
+  design::HuntingResult rest;
+  rest.limit_cycle = amplitude_mdeg > 0.0;
+  rest.beam_amplitude = amplitude_mdeg * millidegree;
+  for (auto& value : series.values) value.time_domain = MatchTimeDomain{{rest}, {}};
+  return series;
+}
+
+TEST(MatchDecision, PutsNoStructureFirstThatHuntsBeyondTheBudget) {
+  const auto with = [](double amplitude_mdeg) {
+    MatchSection section =
+        section_of({hunting(series_of("PI", {0.4, 0.5, 0.6}), 0.1),
+                    hunting(series_of("DPF+C", {0.1, 0.11, 0.12}), amplitude_mdeg)});
+    section.tightest_budget = 0.5 * millidegree;
+    return decision(section);
+  };
+  EXPECT_THAT(with(0.7).front(), HasSubstr("comes with DPF+C loops"));
+  const auto barred = with(0.71);
+  EXPECT_THAT(barred.front(), HasSubstr("comes with PI loops"));
+  EXPECT_THAT(barred, Contains(HasSubstr("Not DPF+C, with 0.100 on the linear plant: on the "
+                                         "nonlinear antenna it hunts by +-0.71 mdeg")));
+  EXPECT_THAT(barred, Each(Not(HasSubstr("change the loops first"))));
+  MatchSection alone = section_of({hunting(series_of("PI", {0.4, 0.5, 0.6}), 3.0)});
+  alone.tightest_budget = 0.5 * millidegree;
+  EXPECT_THAT(
+      decision(alone),
+      ElementsAre(HasSubstr("was seen to hold still within the tightest budget on the nonlinear")));
+}
+
+// Still at every other point.
+MatchSeries hunting_as_built(MatchSeries series, double amplitude_mdeg) {
+  MatchSeries result = hunting(std::move(series), 0.0);
+  result.values[1] = hunting(result, amplitude_mdeg).values[1];
+  return result;
+}
+
+MatchSection within_half_a_millidegree(std::vector<MatchSeries> series) {
+  MatchSection section = section_of(std::move(series));
+  section.tightest_budget = 0.5 * millidegree;
+  return section;
+}
+
+TEST(MatchConclusions, WeighInertiaAndStructureByThoseThatDoNotHunt) {
+  for (const auto& third : {hunting(series_of("DPF+C", {0.1, 0.3, 0.4}), 3.0),
+                            hunting_as_built(series_of("DPF+C", {0.1, 0.3, 0.4}), 3.0)}) {
+    const auto sentences =
+        conclude(within_half_a_millidegree({hunting(series_of("PI", {0.4, 0.42, 0.44}), 0.1),
+                                            series_of("LL", {0.4, 0.5, 0.5}), third}));
+    EXPECT_THAT(sentences,
+                Contains(AllOf(HasSubstr("the rms changes most with LL, by 25 %"),
+                               HasSubstr("changes it by 19 % (PI against LL): the inertia"))));
+    EXPECT_THAT(sentences, Contains(HasSubstr("costs +5.0 % of rms with PI and +25.0 % with LL")));
+  }
+  EXPECT_THAT(
+      conclude(within_half_a_millidegree({series_of("PI", {0.5, 0.501, 0.502}),
+                                          hunting(series_of("DPF+C", {0.1, 0.3, 0.4}), 3.0)})),
+      Contains(HasSubstr("by more than 0.4 %: the motors' inertia hardly matters here")));
+}
+
+TEST(MatchConclusions, WeighNothingWhereAllHunt) {
+  const auto sentences =
+      conclude(within_half_a_millidegree({hunting(series_of("PI", {0.4, 0.5, 0.6}), 1.0),
+                                          hunting(series_of("DPF+C", {0.1, 0.3, 0.4}), 3.0)}));
+  EXPECT_THAT(sentences, Contains(HasSubstr("whether the inertia or the structure matters more is "
+                                            "not known")));
+  EXPECT_THAT(sentences, Each(AllOf(Not(HasSubstr("changes most with")),
+                                    Not(HasSubstr("good rule")), Not(HasSubstr("hardly")))));
+}
+
+MatchSeries lost_at(MatchSeries series, std::size_t point) {
+  design::HuntingResult run;
+  run.status = design::RunStatus::lost;
+  series.values[point].time_domain = MatchTimeDomain{{run}, {}};
+  return series;
+}
+
+TEST(MatchDecision, TellsNoHuntingThatWasNotSeen) {
+  const MatchSeries calm = hunting(series_of("PI", {0.4, 0.5, 0.6}), 0.1);
+  const MatchSeries still = hunting(series_of("DPF", {0.3, 0.31, 0.32}), 0.1);
+  EXPECT_THAT(decision(within_half_a_millidegree({calm, lost_at(still, 1)})),
+              Contains(HasSubstr("With the motors as built those loops were not seen to hold "
+                                 "still")));
+  EXPECT_THAT(decision(within_half_a_millidegree({lost_at(still, 0)})),
+              ElementsAre(HasSubstr("No structure that meets the goals was seen to hold still")));
+  EXPECT_THAT(decision(within_half_a_millidegree({calm, lost_at(still, 0)})),
+              Contains(HasSubstr("Not DPF, with 0.300 on the linear plant: on the nonlinear "
+                                 "antenna it was not seen to hold still, as a run did not "
+                                 "complete.")));
+}
+
+TEST(MatchDecision, MeasuresNoFrictionForStructuresThatHunt) {
+  const auto with = [](double amplitude_mdeg) {
+    MatchSection section =
+        within_half_a_millidegree({hunting(series_of("PI", {0.4, 0.5, 0.6}), amplitude_mdeg),
+                                   hunting(series_of("DPF", {0.3, 0.4, 0.5}), 0.1)});
+    section.tracking_friction = 4.0;
+    section.thresholds = {threshold_of(0.5)};
+    auto sentences = decision(section);
+    for (auto& sentence : conclude(section)) sentences.push_back(std::move(sentence));
+    return sentences;
+  };
+  EXPECT_THAT(with(0.1), AllOf(Contains(HasSubstr("Measure the friction slope")),
+                               Contains(HasSubstr("With PI, if the friction slope"))));
+  EXPECT_THAT(with(3.0), Each(AllOf(Not(HasSubstr("Measure the friction slope")),
+                                    Not(HasSubstr("With PI, if the friction slope")))));
+}
+
+TEST(MatchConclusions, NameTheStructuresThatHuntAndByHowMuch) {
+  const auto with = [](const MatchSeries& second) {
+    return conclude(
+        within_half_a_millidegree({hunting(series_of("PI", {0.4, 0.5, 0.6}), 0.1), second}));
+  };
+  const MatchSeries series = series_of("DPF+C", {0.1, 0.3, 0.4});
+  EXPECT_THAT(with(hunting(series, 3.0)),
+              Contains(AllOf(HasSubstr("hunt beyond the tightest budget of 0.500 mdeg rms"),
+                             HasSubstr(": as built DPF+C (+-3.00 mdeg); with its best motors DPF+C "
+                                       "(+-3.00 mdeg at 0 disks). Their rms is that of linear "
+                                       "loops only"))));
+  EXPECT_THAT(with(hunting_as_built(series, 3.0)),
+              Contains(HasSubstr(": as built DPF+C (+-3.00 mdeg). Their rms")));
+  EXPECT_THAT(with(hunting(series, 0.7)), Each(Not(HasSubstr("tightest budget"))));
+  EXPECT_THAT(
+      with(lost_at(series, 1)),
+      Contains(AllOf(HasSubstr("How far DPF+C would hunt is not known"), Not(HasSubstr("+-")))));
+  // Seen to hunt in one run, it is known enough.
+  MatchSeries seen = hunting(series, 3.0);
+  design::HuntingResult lost;
+  lost.status = design::RunStatus::lost;
+  for (auto& value : seen.values) value.time_domain->hunting.push_back(lost);
+  EXPECT_THAT(with(seen), AllOf(Contains(HasSubstr("as built DPF+C (+-3.00 mdeg)")),
+                                Each(Not(HasSubstr("would hunt is not known")))));
+}
+
+TEST(MatchDecision, WeighsNoLoopsThatHuntWithTheMotorsAsBuilt) {
+  const MatchSeries calm = hunting(series_of("PI", {0.4, 0.5, 0.6}), 0.1);
+  const auto text = [&](const std::vector<double>& rms) {
+    return decision(
+        within_half_a_millidegree({calm, hunting_as_built(series_of("DPF", rms), 3.0)}))[1];
+  };
+  EXPECT_THAT(text({0.7, 0.8, 0.9}), AllOf(HasSubstr("costs +25.0 % with those loops; no other "
+                                                     "loops looked at were seen to hold still"),
+                                           Not(HasSubstr("change the loops first"))));
+  EXPECT_THAT(text({0.3, 0.31, 0.32}),
+              HasSubstr("With the motors as built those loops hunt beyond the tightest budget"));
+}
+
+TEST(MatchConclusions, ConfirmNoRuleByALeastAtTheUpperEnd) {
+  const auto rule = [](const std::vector<double>& rms) {
+    return conclude(section_of({series_of("PI", rms)}));
+  };
+  EXPECT_THAT(rule({0.6, 0.505, 0.5}), Contains(HasSubstr("no rule is confirmed")));
+  EXPECT_THAT(rule({0.6, 0.5, 0.505}), Contains(HasSubstr("a good rule here")));
+}
+
+// Two proposals beside the antenna as it is, by cost and mean rms over the draws.
+EvaluateSection proposals_of(const std::vector<std::pair<double, double>>& costs_and_means) {
+  EvaluateSection section;
+  section.currency = "kEUR";
+  section.wind_speed = 12.0;
+  DecisionSection draws;
+  draws.draws = 2000;
+  for (std::size_t i = 0; i < costs_and_means.size(); ++i) {
+    Candidate candidate;
+    candidate.name = i == 0 ? "as it is" : "proposal " + std::to_string(i);
+    if (i > 0) candidate.path = "proposal.toml";
+    candidate.cost = costs_and_means[i].first;
+    CandidateLaw law;
+    law.goals_met = true;
+    law.design.tuning.status = design::TuningStatus::optimal;
+    law.design.verification.passed = true;
+    law.member_rms = costs_and_means[i].second * millidegree;
+    candidate.laws = {law};
+    candidate.chosen = 0U;
+    section.candidates.push_back(std::move(candidate));
+    draws.candidates.push_back({.candidate = i, .unstable = {}, .outside_goals = {}});
+    draws.statistics.options.emplace_back().mean = costs_and_means[i].second;
+    if (costs_and_means[i].second < costs_and_means[draws.best].second) draws.best = i;
+    section.front.push_back(i);
+  }
+  section.decision = std::move(draws);
+  return section;
+}
+
+TEST(EvaluateDecision, PaysForNothingNegligible) {
+  const auto section = proposals_of({{0.0, 0.5133}, {20.0, 0.5131}});
+  ASSERT_TRUE(section.decision);
+  EXPECT_EQ(worth_its_cost(section, *section.decision), 0U);
+  const auto decided = decision(section);
+  EXPECT_THAT(decided.front(), AllOf(HasSubstr("No proposal is worth its cost"),
+                                     HasSubstr("proposal 1 lowers that by 0.0 %")));
+  EXPECT_THAT(decided, Each(AllOf(Not(HasSubstr("Choose")), Not(HasSubstr("Worth looking at")))));
+  EXPECT_THAT(conclude(section), Contains(HasSubstr("no proposal is worth its cost")));
+}
+
+TEST(EvaluateDecision, ChoosesTheCheapestOfThoseAlike) {
+  const auto section = proposals_of({{0.0, 0.64}, {60.0, 0.426}, {420.0, 0.42}});
+  ASSERT_TRUE(section.decision);
+  EXPECT_EQ(worth_its_cost(section, *section.decision), 1U);
+  EXPECT_THAT(decision(section).front(),
+              AllOf(HasSubstr("Choose proposal 1"), HasSubstr("proposal 2 lowers that by 1.4 %")));
+  EXPECT_THAT(decision(section).back(),
+              AllOf(HasSubstr("proposal 1"), Not(HasSubstr("proposal 2"))));
+}
+
+TEST(EvaluateDecision, ChoosesWhatGainsEnough) {
+  const auto section = proposals_of({{0.0, 0.64}, {60.0, 0.5}, {420.0, 0.42}});
+  ASSERT_TRUE(section.decision);
+  EXPECT_EQ(worth_its_cost(section, *section.decision), 2U);
+  EXPECT_THAT(decision(section).front(), HasSubstr("Choose proposal 2"));
+}
+
+TEST(EvaluateDecision, ChoosesWithoutACostOnlyWhatNothingPricedComesNear) {
+  auto section = proposals_of({{0.0, 0.64}, {60.0, 0.423}, {0.0, 0.42}});
+  ASSERT_TRUE(section.decision);
+  section.candidates[2].cost.reset();
+  section.front = {0, 1};
+  EXPECT_EQ(worth_its_cost(section, *section.decision), 1U);
+  EXPECT_THAT(decision(section).front(), HasSubstr("proposal 2 lowers that by 0.7 %, too little to "
+                                                   "pay for"));
+  EXPECT_THAT(conclude(section), Contains(HasSubstr("and so not on the front: proposal 2.")));
+  section.decision->statistics.options[2].mean = 0.3;
+  EXPECT_EQ(worth_its_cost(section, *section.decision), 2U);
+  EXPECT_THAT(
+      decision(section).front(),
+      AllOf(HasSubstr("Choose proposal 2"), HasSubstr("at a cost that its file does not state")));
+}
+
+TEST(EvaluateDecision, HasNoFrontWithoutCosts) {
+  auto section = proposals_of({{0.0, 0.64}, {60.0, 0.5}});
+  section.currency.clear();
+  section.front.clear();
+  section.candidates[1].cost.reset();
+  EXPECT_THAT(conclude(section), Contains(HasSubstr("No proposal states a cost")));
+  EXPECT_THAT(conclude(section), Each(Not(HasSubstr("On the front"))));
+}
+
+TEST(EvaluateDecision, ChoosesNothingThatHunts) {
+  auto section = proposals_of({{0.0, 0.64}, {60.0, 0.5}, {420.0, 0.42}});
+  ASSERT_TRUE(section.decision);
+  const auto make_hunt = [&](std::size_t i) {
+    CandidateLaw& law = section.candidates[i].laws[0];
+    law.still = false;
+    design::HuntingResult rest;
+    rest.limit_cycle = true;
+    rest.beam_amplitude = 3.03 * millidegree;
+    law.time_domain.emplace().hunting = {rest};
+    law.time_domain->wind.beam_rms = law.time_domain->wind.continuous_rms = law.member_rms;
+  };
+  make_hunt(2);
+  EXPECT_EQ(worth_its_cost(section, *section.decision), 1U);
+  EXPECT_THAT(decision(section).front(),
+              AllOf(HasSubstr("Choose proposal 1"), Not(HasSubstr("proposal 2"))));
+  EXPECT_THAT(decision(section),
+              Contains("Left out, as they hunt beyond the tightest budget: proposal 2."));
+  EXPECT_THAT(conclude(section), Contains(HasSubstr("lowered 21.9 % by proposal 1. Left out, as "
+                                                    "they hunt beyond the tightest budget: "
+                                                    "proposal 2.")));
+  EXPECT_THAT(conclude(section), Contains(HasSubstr("these hunt beyond the tightest budget: "
+                                                    "proposal 2 with  (+-3.03 mdeg)")));
+  make_hunt(1);
+  EXPECT_THAT(decision(section).front(),
+              HasSubstr("All proposals hunt, the antenna as it is does not: none is chosen. The "
+                        "antenna as it is has 0.640 mdeg rms"));
+  make_hunt(0);
+  const std::string none = "All proposals hunt, as does the antenna as it is: none is chosen.";
+  const auto decided = decision(section);
+  EXPECT_THAT(decided.front(), AllOf(StartsWith(none + " proposal 2 comes nearest"),
+                                     HasSubstr("but hunts beyond the tightest budget")));
+  EXPECT_THAT(decided, Each(Not(HasSubstr("probability"))));
+  const auto sentences = conclude(section);
+  EXPECT_EQ(sentences.front(), none);
+  EXPECT_THAT(sentences,
+              Each(AllOf(Not(HasSubstr("nothing lowers it")), Not(HasSubstr("Least mean rms")))));
+}
+
+TEST(EvaluateDecision, NamesTheTestThatIsWorthItsTime) {
+  auto section = proposals_of({{0.0, 0.64}, {60.0, 0.5}});
+  section.decision->inputs = {"leakage rate", "oil stiffness"};
+  design::TestValue tests{
+      .choice = 1, .mean_loss = {0.64, 0.5}, .perfect = {.gain = 0.02}, .inputs = {}};
+  tests.inputs = {{.fitted = {.gain = 0.001}, .held_out_gain = 0.0, .held_out_error = 0.001},
+                  {.fitted = {.gain = 0.012}, .held_out_gain = 0.01, .held_out_error = 0.001}};
+  section.decision->tests = tests;
+  EXPECT_THAT(conclude(section),
+              Contains("Test first: oil stiffness. Known before the choice between the proposals, "
+                       "it lowers the expected rms by 0.0100 to 0.0120 mdeg (held out and fitted) "
+                       "of the 0.0200 mdeg that knowing everything would."));
+  // All that could be known is worth less than what decides nothing.
+  section.decision->tests->perfect.gain = 0.004;
+  section.decision->tests->inputs[1].held_out_gain = 0.003;
+  EXPECT_THAT(conclude(section),
+              Contains(HasSubstr("that knowing everything would, 0.80 % of the rms: no test is "
+                                 "worth its time for this choice.")));
+  section.decision->tests->inputs[1].held_out_error = 0.002;
+  EXPECT_THAT(conclude(section), Contains(HasSubstr("No test of one input would change")));
+}
+
+TEST(EvaluateDecision, GivesNoProbabilityToWhatIsNoDifference) {
+  const auto alike = proposals_of({{0.0, 0.5133}, {20.0, 0.5131}});
+  EXPECT_THAT(decision(alike), Contains(HasSubstr("which is no difference")));
+  EXPECT_THAT(decision(alike), Each(Not(HasSubstr("probability"))));
+  // One alone is like no other: nothing is said of all.
+  auto single = alike;
+  single.candidates[1].laws[0].goals_met = false;
+  EXPECT_THAT(decision(single), Each(Not(HasSubstr("which is no difference"))));
+  const auto apart = proposals_of({{0.0, 0.64}, {60.0, 0.5}});
+  EXPECT_THAT(decision(apart), Contains(HasSubstr("with probability")));
+}
+
+}  // namespace
+}  // namespace boresight::app

@@ -1,0 +1,57 @@
+// A law held where the guessed shares of wind and beam are elsewhere.
+#include <string>
+#include <vector>
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "app/edited_case.hpp"
+#include <boresight/app/redesign/antenna_model.hpp>
+#include <boresight/app/redesign/guessed_shares_held.hpp>
+#include <boresight/app/report/sky_units.hpp>
+#include <boresight/design/tuning/design_study.hpp>
+
+namespace boresight::app {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+const control::ControlLaw& law() {
+  static const control::ControlLaw tuned{control::LoopStructure::pi_with_lag(),
+                                         {0.15873, 0.42068, 2.6277, 10.257, 0.23532}};
+  return tuned;
+}
+
+std::vector<std::string> sentences_of(const io::Case& antenna) {
+  std::vector<std::string> sentences;
+  conclude_guessed_shares(antenna, law(), 10.0, sentences);
+  return sentences;
+}
+
+TEST(GuessedSharesHeld, AreWorthASentenceWhereTheyMoveTheRms) {
+  const io::Case antenna = io::read_case(case_path("dss14-70m"));
+  const auto rms_of = [&](GuessedShares place) {
+    auto problem = make_problem(antenna, {.guessed_shares = place});
+    problem.wind.mean_speed = 10.0;
+    return design::assess(problem, law(), make_goals(antenna)).beam_rms / millidegree;
+  };
+  EXPECT_THAT(
+      sentences_of(antenna),
+      ElementsAre(HasSubstr(fmt::format(
+          "with gains held, the linear {:.3f} mdeg of PI with lag on the case's plant would be "
+          "{:.3f} mdeg with wind and beam shares as inertia, {:.3f} mdeg with wind and beam shares "
+          "all at one.",
+          rms_of(GuessedShares::as_stated), rms_of(GuessedShares::as_inertia),
+          rms_of(GuessedShares::all_at_heaviest)))));
+  io::Case known = antenna;
+  for (auto& mode : known.structure.modes) {
+    mode.wind_fraction.basis = mode.beam_weight.basis = io::Basis::measured;
+  }
+  EXPECT_THAT(sentences_of(known), IsEmpty());
+}
+
+}  // namespace
+}  // namespace boresight::app

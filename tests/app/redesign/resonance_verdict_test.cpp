@@ -1,0 +1,247 @@
+// The measured hydraulic frequency against that of the flexible antenna.
+#include <algorithm>
+#include <string>
+#include <vector>
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "app/edited_case.hpp"
+#include <boresight/app/document/document_text.hpp>
+#include <boresight/app/page/decision.hpp>
+#include <boresight/app/redesign/antenna_model.hpp>
+#include <boresight/app/redesign/choices.hpp>
+#include <boresight/app/redesign/resonance_verdict.hpp>
+#include <boresight/app/redesign/resonating_mode.hpp>
+#include <boresight/app/redesign/sections.hpp>
+#include <boresight/app/report/text_report.hpp>
+#include <boresight/app/tune/plant_members.hpp>
+#include <boresight/plant/antenna/hydraulics.hpp>
+
+namespace boresight::app {
+namespace {
+
+using testing::AllOf;
+using testing::Contains;
+using testing::Each;
+using testing::ElementsAre;
+using testing::EndsWith;
+using testing::HasSubstr;
+using testing::IsEmpty;
+using testing::Not;
+using testing::StartsWith;
+
+// The 70-m antenna, its leakage by a flow, with a bulk modulus (Pa) and a measured frequency.
+io::Case with_oil(double bulk_modulus, const std::string& measured = "0.97 Hz") {
+  return io::parse_case(
+      EditedCase()
+          .replace("value = \"1229 MPa\"", fmt::format("value = \"{:.17g} Pa\"", bulk_modulus))
+          .replace("frequency = { value = \"0.97 Hz\"",
+                   fmt::format("frequency = {{ value = \"{}\"", measured))
+          .replace_line("leakage_rate = ",
+                        "leakage_flow = \"6 L/min\"\nleakage_pressure = \"10 MPa\"")
+          .text(),
+      "case.toml");
+}
+
+double hydraulic_frequency(const io::Case& antenna) {
+  return plant::hydraulic_mode(plant::plant_modes(make_plant(antenna))).frequency;
+}
+
+Report report_of(const io::Case& antenna) {
+  Report report;
+  report.command = "redesign";
+  report.identification = identify(antenna, {});
+  report.resonance = resonance_verdict(antenna);
+  return report;
+}
+
+TEST(BulkModulusFor, MakesTheFrequencyOfTheFlexibleAntenna) {
+  const io::Case antenna = with_oil(1.229e9);
+  for (const double frequency : {0.5, 0.97, 1.1}) {
+    const auto modulus = bulk_modulus_for(antenna, frequency);
+    ASSERT_TRUE(modulus);
+    // Read anew: with that modulus the leakage rate is another too.
+    EXPECT_NEAR(hydraulic_frequency(with_oil(*modulus)), frequency, 2e-6);
+  }
+}
+
+TEST(BulkModulusFor, IsNoneWhereTheStructureIsSofter) {
+  EXPECT_FALSE(bulk_modulus_for(with_oil(1.229e9), 20.0));
+}
+
+TEST(ResonanceVerdict, SaysWhatContradictsAndWhichOilWouldNot) {
+  const auto verdict = resonance_verdict(with_oil(1.229e9));
+  ASSERT_TRUE(verdict);
+  EXPECT_TRUE(verdict->contradicts());
+  EXPECT_EQ(resonance_sentence(*verdict),
+            fmt::format("The hydraulic frequency measured, 0.97 Hz, contradicts the {:.3g} Hz of "
+                        "the case's flexible antenna (more than 5 standard uncertainties apart): a "
+                        "bulk modulus of {:.3g} GPa in the place of 1.23 would make it, all else "
+                        "as the case has it.",
+                        verdict->expected, *verdict->bulk_modulus / 1e9));
+  const auto agreeing = resonance_verdict(with_oil(*verdict->bulk_modulus));
+  ASSERT_TRUE(agreeing);
+  EXPECT_LT(agreeing->deviation(), 0.01);
+  EXPECT_THAT(resonance_sentence(*agreeing), HasSubstr("does not contradict"));
+  const auto stiff = resonance_verdict(with_oil(1.229e9, "20 Hz"));
+  ASSERT_TRUE(stiff);
+  EXPECT_THAT(resonance_sentence(*stiff),
+              EndsWith("no bulk modulus within a factor of 30 of the case's 1.23 GPa makes it."));
+}
+
+TEST(ResonanceVerdict, StandsFirstAmongConclusionsAndInTheDecision) {
+  Report report = report_of(with_oil(1.229e9));
+  EXPECT_THAT(conclude(report).front(),
+              AllOf(StartsWith("The hydraulic frequency measured, 0.97 Hz, contradicts"),
+                    HasSubstr("Of a rigid antenna it leaves -0.0"),
+                    EndsWith("or the reading of the resonance must give way.")));
+  EXPECT_THAT(decision(report).front(), StartsWith("The hydraulic frequency measured"));
+  report.resonance = resonance_verdict(with_oil(*report.resonance->bulk_modulus));
+  EXPECT_THAT(conclude(report).front(), Not(HasSubstr("must give way")));
+  EXPECT_THAT(decision(report), Each(Not(HasSubstr("The hydraulic frequency measured"))));
+}
+
+TEST(ResonanceVerdict, WarnsWhereNoPlantHasTheOilThatWasMeasured) {
+  ResonanceVerdict verdict{.measured = 1.05,
+                           .expected = 1.73,
+                           .standard_uncertainty = 0.1,
+                           .stated_bulk_modulus = 1.24e9,
+                           .bulk_modulus = 0.361e9,
+                           .least_oil = 0.654,
+                           .most_oil = 1.346};
+  const auto none = EndsWith(
+      " The plants that laws are held on here have 0.654 to 1.35 times the case's oil stiffness, "
+      "and that would be 0.291 times: none of them is the antenna that was measured.");
+  EXPECT_THAT(resonance_warning(verdict), AllOf(StartsWith(resonance_sentence(verdict)), none));
+  // First among what `tune`, `evaluate` and `match` conclude, and below their decision.
+  Report report;
+  report.command = "tune";
+  report.resonance = verdict;
+  report.conclusions = {"Tuned."};
+  lead_with_resonance(report);
+  EXPECT_THAT(report.conclusions, ElementsAre(none, "Tuned."));
+  EXPECT_THAT(reservations(report), ElementsAre(none));
+  verdict.least_oil = 0.293;  // within rounding of what is wanted
+  EXPECT_EQ(resonance_warning(verdict), resonance_sentence(verdict));
+  verdict.expected = 1.1;
+  EXPECT_EQ(resonance_warning(verdict), "");
+  report.resonance = verdict;
+  lead_with_resonance(report);
+  EXPECT_EQ(report.conclusions.size(), 2U);
+  EXPECT_THAT(reservations(report), IsEmpty());
+  const auto read = resonance_verdict(with_oil(1.229e9));
+  ASSERT_TRUE(read);
+  EXPECT_EQ(read->least_oil, member_ranges(with_oil(1.229e9)).oil_stiffness.lower);
+}
+
+TEST(ResonanceVerdict, SaysThatTheMethodsFigureIsOfARigidAntenna) {
+  Report report = report_of(with_oil(1.229e9));
+  EXPECT_THAT(conclude(report), Each(Not(HasSubstr("figure is of a rigid antenna"))));
+  report.resonance = resonance_verdict(with_oil(*report.resonance->bulk_modulus));
+  EXPECT_THAT(conclude(report),
+              Contains(AllOf(StartsWith("The methods put the reflected inertia between"),
+                             HasSubstr("; the resonance's figure is of a rigid antenna, and the "
+                                       "flexible one does not contradict the masses."))));
+  // Neither end of the range is the resonance's.
+  std::erase_if(report.identification->inertia.methods, [](const auto& method) {
+    return method.kind == identification::MethodKind::resonance;
+  });
+  EXPECT_THAT(conclude(report), Each(Not(HasSubstr("figure is of a rigid antenna"))));
+}
+
+// A gear spring far softer than the oil.
+TEST(ResonanceVerdict, SaysWhereItsModeTellsLittleOfTheOil) {
+  io::Case antenna = with_oil(1.229e9);
+  EXPECT_EQ(which_was_measured(resonance_verdict(antenna).value()), "");
+  antenna.structure.locked_rotor_frequency.value = 0.2;
+  const auto verdict = resonance_verdict(antenna);
+  ASSERT_TRUE(verdict);
+  EXPECT_LT(verdict->mode.oil_share, 0.1);
+  EXPECT_GT(verdict->oil_mode.oil_share, 0.9);
+  EXPECT_THAT(
+      resonance_sentence(*verdict),
+      EndsWith(fmt::format("Only {:.0f} % of that mode's elastic energy is in the oil, {:.0f} % in "
+                           "the gearbox spring and the rest in the structure, so that it tells "
+                           "little of the oil and its leakage; of the mode at {:.3g} Hz, damping "
+                           "ratio {:.3g}, {:.0f} % is in the oil. Make sure which of them was "
+                           "measured; resonance.mode says it.",
+                           100.0 * verdict->mode.oil_share, 100.0 * verdict->mode.gear_share,
+                           verdict->oil_mode.frequency, verdict->oil_mode.damping_ratio,
+                           100.0 * verdict->oil_mode.oil_share)));
+  // Where the case says so it is compared with that mode, and with the oil that makes it.
+  antenna.resonance_of_oil = true;
+  const auto of_oil = resonance_verdict(antenna);
+  ASSERT_TRUE(of_oil);
+  EXPECT_EQ(of_oil->expected, verdict->oil_mode.frequency);
+  EXPECT_THAT(resonance_sentence(*of_oil),
+              AllOf(HasSubstr("Hz of the case's flexible antenna, in its mode of most oil ("),
+                    Not(HasSubstr("Make sure"))));
+  ASSERT_TRUE(of_oil->bulk_modulus);
+  io::Case other = with_oil(*of_oil->bulk_modulus);
+  other.structure.locked_rotor_frequency.value = 0.2;
+  other.resonance_of_oil = true;
+  EXPECT_NEAR(resonance_verdict(other)->expected, 0.97, 1e-5);
+  antenna.resonance_of_oil = false;
+  EXPECT_THAT(to_text(document_of(describe_plant(antenna))),
+              HasSubstr("of that mode's elastic energy"));
+  // Motors and gear train alone on the oil spring.
+  const auto drive = make_plant(antenna).drive;
+  EXPECT_NEAR(verdict->oil_mode.frequency,
+              plant::hydraulic_frequency(drive.oil_stiffness, drive.motor_inertia),
+              0.05 * verdict->oil_mode.frequency);
+}
+
+TEST(RingsAsRigid, NeedsTheOilInTheMode) {
+  io::Case antenna = with_oil(1.229e9);
+  EXPECT_TRUE(rings_as_rigid(antenna));
+  antenna.resonance_of_oil = true;  // the same mode
+  EXPECT_TRUE(rings_as_rigid(antenna));
+  const auto of_resonance = [](const io::Case& one) {
+    return std::ranges::count(identify(one, {}).inertia.methods,
+                              identification::MethodKind::resonance,
+                              &identification::InertiaMethod::kind);
+  };
+  EXPECT_EQ(of_resonance(antenna), 1);
+  antenna.structure.locked_rotor_frequency.value = 0.2;
+  for (const bool of_oil : {true, false}) {
+    antenna.resonance_of_oil = of_oil;
+    EXPECT_FALSE(rings_as_rigid(antenna));
+    EXPECT_EQ(of_resonance(antenna), 0);
+    for (const auto& choice : plant_choices(antenna)) {
+      EXPECT_THAT(choice.result.says, Not(HasSubstr("rigid masses")));
+    }
+  }
+}
+
+TEST(RingsAsRigid, IsToldWhereNoInertiaIsReadOffTheResonance) {
+  Report report = report_of(with_oil(1.229e9));
+  const auto unread = HasSubstr("No inertia is read off the 0.97 Hz measured");
+  EXPECT_THAT(conclude(report), Each(Not(unread)));
+  io::Case soft = with_oil(1.229e9);
+  soft.structure.locked_rotor_frequency.value = 0.2;
+  report = report_of(soft);
+  EXPECT_THAT(conclude(report), Contains(unread));
+  EXPECT_EQ(unread_resonance({}), "");
+}
+
+TEST(ResonatingMode, IsSaidByTheCase) {
+  const auto with_mode = [](const std::string& mode) {
+    return EditedCase().replace("[resonance]\n", "[resonance]\nmode = \"" + mode + "\"\n").text();
+  };
+  EXPECT_TRUE(io::parse_case(with_mode("oil"), "case.toml").resonance_of_oil);
+  EXPECT_FALSE(io::parse_case(with_mode("lowest"), "case.toml").resonance_of_oil);
+  EXPECT_THAT(refusal_of(with_mode("second")), HasSubstr("resonance.mode: expected one of"));
+}
+
+// Of 3 so many that both sides of the limit read "3" say nothing.
+TEST(ResonanceVerdict, TellsDeviationsAtTheLimitApart) {
+  const ResonanceVerdict below{.measured = 2.97, .expected = 0.0, .standard_uncertainty = 1.0};
+  const ResonanceVerdict above{.measured = 3.02, .expected = 0.0, .standard_uncertainty = 1.0};
+  EXPECT_THAT(resonance_sentence(below), HasSubstr("(2.97 standard uncertainties apart)"));
+  EXPECT_THAT(resonance_sentence(above), HasSubstr("(3.02 standard uncertainties apart)"));
+}
+
+}  // namespace
+}  // namespace boresight::app

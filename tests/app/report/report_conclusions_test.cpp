@@ -1,0 +1,495 @@
+#include <array>
+#include <limits>
+#include <numbers>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <boresight/app/document/document_text.hpp>
+#include <boresight/app/page/decision.hpp>
+#include <boresight/app/redesign/matching_verdict.hpp>
+#include <boresight/app/redesign/needed_budgets.hpp>
+#include <boresight/app/redesign/tuning_verdict.hpp>
+#include <boresight/app/report/sky_units.hpp>
+#include <boresight/app/report/text_report.hpp>
+#include <boresight/app/report/wind_mast.hpp>
+
+namespace boresight::app {
+namespace {
+
+using control::LoopStructure;
+using testing::AllOf;
+using testing::Contains;
+using testing::ContainsRegex;
+using testing::Each;
+using testing::ElementsAre;
+using testing::EndsWith;
+using testing::HasSubstr;
+using testing::IsEmpty;
+using testing::Not;
+using testing::StartsWith;
+
+design::Design design_of(double rms_mdeg) {
+  design::Design design;
+  design.tuning.status = design::TuningStatus::optimal;
+  design.verification.passed = true;
+  design.beam_rms = rms_mdeg * millidegree;
+  return design;
+}
+
+MatchingSeries series_of(const LoopStructure& structure, const std::string& friction, double slope,
+                         const std::vector<double>& rms) {
+  MatchingSeries series{friction, slope, structure, {}};
+  for (const double one : rms) series.designs.push_back(design_of(one));
+  return series;
+}
+
+// 0, 1 (as built) and 3 disks, ratio 1 between the last two.
+MatchingSection matching_of(std::vector<MatchingSeries> series) {
+  MatchingSection section;
+  section.rows = {{.disks = 0.0, .label = "0 disks", .motor_to_load_ratio = 0.02},
+                  {.disks = 1.0, .label = "1 disk", .as_built = true, .motor_to_load_ratio = 0.4},
+                  {.disks = 2.6, .label = "ratio 1", .motor_to_load_ratio = 1.0},
+                  {.disks = 3.0, .label = "3 disks", .motor_to_load_ratio = 1.1}};
+  section.series = std::move(series);
+  return section;
+}
+
+Report report_with(MatchingSection section) {
+  Report report;
+  report.command = "redesign";
+  report.matching = std::move(section);
+  return report;
+}
+
+std::vector<std::string> concluded(const Report& report) {
+  std::vector<std::string> sentences;
+  if (report.matching) conclude_matching(report, *report.matching, sentences);
+  return sentences;
+}
+
+TEST(MatchingVerdict, OfAFlatStudyAdvisesNoInertiaAndNoRule) {
+  const auto report = report_with(matching_of(
+      {series_of(LoopStructure::pi_with_lag(), "linear plant", 0.16,
+                 {0.5038, 0.5037, 0.503, 0.5028}),
+       series_of(LoopStructure::pi(), "linear plant", 0.16, {0.5208, 0.521, 0.521, 0.5211})}));
+  const auto sentences = concluded(report);
+  EXPECT_THAT(sentences, Contains(HasSubstr("no rule of matching does")));
+  EXPECT_THAT(sentences, Contains(HasSubstr("PI without lag instead of PI with lag (by 3 %)")));
+  EXPECT_THAT(sentences, Each(Not(HasSubstr("one-to-one rule"))));
+  const std::string decided = decide_matching(report, *report.matching);
+  EXPECT_THAT(decided, HasSubstr("Leave the motors' inertia as it is"));
+  EXPECT_THAT(decided, Not(HasSubstr("measure")));
+}
+
+TEST(MatchingVerdict, SaysWhereOnlyTheBoundsOfTheSearchHold) {
+  auto report = report_with(matching_of(
+      {series_of(LoopStructure::pi_with_lag(), "linear plant", 0.16, {0.45, 0.5, 0.58, 0.6})}));
+  EXPECT_THAT(concluded(report), Each(Not(HasSubstr("bound of the search"))));
+  auto& designs = report.matching->series.front().designs;
+  designs[0].tuning.gains_at_bound = designs[2].tuning.gains_at_bound = {"position gain"};
+  EXPECT_THAT(concluded(report),
+              Contains(HasSubstr("At 2 of the 4 points of the matching study a gain ends at its "
+                                 "bound of the search (position gain)")));
+}
+
+TEST(MatchingVerdict, GoesFromTheMotorsAsBuiltToBothEnds) {
+  const auto report = report_with(matching_of(
+      {series_of(LoopStructure::pi_with_lag(), "linear plant", 0.16, {0.45, 0.5, 0.58, 0.6})}));
+  const auto sentences = concluded(report);
+  EXPECT_THAT(sentences, Contains(AllOf(HasSubstr("Going from 1 disk to 0 disks"),
+                                        HasSubstr("-10.0 % (PI with lag, linear plant)"))));
+  EXPECT_THAT(sentences, Contains(AllOf(HasSubstr("Going from 1 disk to 3 disks"),
+                                        HasSubstr("+20.0 % (PI with lag, linear plant)"))));
+  EXPECT_THAT(sentences, Contains(HasSubstr("The one-to-one rule marks nothing special here.")));
+  EXPECT_EQ(decide_matching(report, *report.matching),
+            "Going from 1 disk as built to 0 disks, re-tuned for the case's plant alone, changes "
+            "the rms of linear loops by -10.0 % with PI with lag (linear plant).");
+}
+
+TEST(MatchingVerdict, TakesAnOptimumAtTheEndForNone) {
+  const auto at_end = report_with(matching_of(
+      {series_of(LoopStructure::pi_with_lag(), "linear plant", 0.16, {0.6, 0.55, 0.51, 0.5})}));
+  EXPECT_THAT(concluded(at_end), Contains(HasSubstr("marks an optimum is not known")));
+  const auto inside = report_with(matching_of(
+      {series_of(LoopStructure::pi_with_lag(), "linear plant", 0.16, {0.6, 0.55, 0.5, 0.51})}));
+  EXPECT_THAT(concluded(inside), Contains(HasSubstr("happens to fit here")));
+}
+
+TEST(MatchingVerdict, AsksForTheFrictionSlopeOnlyWhereItDecides) {
+  const auto with = [](const std::vector<double>& other) {
+    return report_with(matching_of(
+        {series_of(LoopStructure::pi_with_lag(), "linear plant", 0.9, {0.44, 0.5, 0.52, 0.53}),
+         series_of(LoopStructure::pi_with_lag(), "slope at tracking rate", 12.0, other)}));
+  };
+  const auto decides = with({0.406, 0.407, 0.408, 0.409});
+  EXPECT_THAT(decide_matching(decides, *decides.matching),
+              HasSubstr("-12.0 % with PI with lag (linear plant), but by -0.2 % with the slope at "
+                        "tracking rate: measure that slope before touching a flywheel."));
+  EXPECT_THAT(concluded(decides), Contains(HasSubstr("measure that slope")));
+  const auto alike = with({0.35, 0.4, 0.42, 0.43});
+  EXPECT_THAT(decide_matching(alike, *alike.matching),
+              AllOf(HasSubstr(", and by -12.5 % with the slope"), Not(HasSubstr("measure"))));
+  EXPECT_THAT(concluded(alike), Each(Not(HasSubstr("measure that slope"))));
+}
+
+TEST(MatchingVerdict, NamesOneFrictionByItsSlope) {
+  const auto report = report_with(
+      matching_of({series_of(LoopStructure::pi_with_lag(), "", 0.9, {0.45, 0.5, 0.58, 0.6})}));
+  EXPECT_THAT(concluded(report),
+              Contains(HasSubstr("-10.0 % (PI with lag, friction slope 0.9 N.m.s/rad).")));
+  EXPECT_THAT(to_text(document_of(*report.matching)),
+              HasSubstr("PI with lag; friction slope 0.9 N.m.s/rad\n"));
+}
+
+Report tuned_report() {
+  Report report;
+  report.command = "redesign";
+  TuningSection section;
+  section.structure = LoopStructure::pi_with_lag();
+  section.design = design_of(0.5);
+  section.design_speed = 12.0;
+  section.supply_wind_speed = 25.7;
+  section.static_bending = 1.5 * millidegree;
+  section.wind_alternatives = {{plant::WindModel::uniform, 1e-5}};
+  report.tuning = std::move(section);
+  return report;
+}
+
+BudgetResult budget(double rms_mdeg, double limit, std::optional<double> needed = std::nullopt) {
+  BudgetResult result;
+  result.budget.name = "need";
+  result.budget.band = "Ka";
+  result.budget.rms = rms_mdeg * millidegree;
+  result.budget.wind_speed = needed;
+  result.wind_speed_limit = limit;
+  return result;
+}
+
+std::vector<std::string> tuning_conclusions(const Report& report) {
+  std::vector<std::string> sentences;
+  if (report.tuning) conclude_tuning(report, *report.tuning, sentences);
+  return sentences;
+}
+
+TEST(TuningVerdict, EndsWhereTheSupplysTorqueEnds) {
+  Report report = tuned_report();
+  report.tuning->budgets = {budget(4.0, 29.9), budget(2.0, 20.0),
+                            budget(9.0, std::numeric_limits<double>::infinity())};
+  const auto& budgets = report.tuning->budgets;
+  EXPECT_EQ(met_text(*report.tuning, budgets[0]),
+            "would be met up to the 25.7 m/s at which the mean wind takes all that friction and "
+            "offset leave of the supply's torque");
+  EXPECT_EQ(met_text(*report.tuning, budgets[1]), "is met up to 20.0 m/s");
+  EXPECT_EQ(reached_wind_speed(*report.tuning, budgets[2]), 25.7);
+  report.tuning->supply_wind_speed = std::numeric_limits<double>::infinity();
+  EXPECT_EQ(met_text(*report.tuning, budgets[2]), "is met up to the 60 m/s looked at");
+  report.tuning->supply_wind_speed = 0.0;  // friction takes it all
+  EXPECT_EQ(met_text(*report.tuning, budgets[1]), "is met in no wind");
+}
+
+TEST(TuningVerdict, GivesTheShareOfTheClimatesTime) {
+  Report report = tuned_report();
+  TuningSection& section = *report.tuning;
+  section.wind_site.surface_drag = 0.005;
+  section.climate = {{5.0, 3.0}, {10.0, 1.0}};
+  section.budgets = {budget(1.0, 9.1), budget(2.0, 16.0), budget(9.0, 30.0)};
+  EXPECT_EQ(met_text(section, section.budgets[0]), "is met up to 9.1 m/s (75 % of the time)");
+  EXPECT_EQ(met_text(section, section.budgets[1]),
+            "is met up to 16.0 m/s, beyond the climate's highest speed of 10 m/s");
+  EXPECT_THAT(decision(report).front(), HasSubstr("9.1 m/s (75 % of the time)"));
+  // The supply ends before the law does.
+  section.supply_wind_speed = 7.0;
+  EXPECT_THAT(met_text(section, section.budgets[2]),
+              AllOf(HasSubstr("up to the 7.0 m/s"), HasSubstr("(75 % of the time)")));
+  EXPECT_THAT(to_text(document_of(section)),
+              HasSubstr("Of the time: share of the climate's time with winds up to that speed"));
+  section.climate.clear();
+  EXPECT_THAT(to_text(document_of(section)), Not(HasSubstr("of the time")));
+}
+
+TEST(TuningVerdict, SaysWhereTheWindModelDecides) {
+  Report report = tuned_report();
+  TuningSection& section = *report.tuning;
+  section.wind_model = plant::WindModel::coherence;
+  section.budgets = {budget(0.55, 12.8, 12.0)};
+  const auto with = [&](double uniform_rms, double uniform_limit) {
+    section.wind_alternatives = {
+        {plant::WindModel::uniform, uniform_rms * millidegree, {uniform_limit}},
+        {plant::WindModel::coherence, 0.5 * millidegree, {12.8}}};
+    return reservations(report);
+  };
+  EXPECT_THAT(with(0.53, 12.3), Each(Not(HasSubstr("wind model"))));
+  EXPECT_THAT(
+      with(0.61, 12.1),
+      Contains(HasSubstr("Much hangs on the wind model: the same gains have 0.500 mdeg by the "
+                         "case's, coherence, but 0.610 mdeg by uniform.")));
+  EXPECT_THAT(with(0.57, 11.7),
+              Contains(HasSubstr("need (Ka: 0.550 mdeg) is met up to where it is needed by "
+                                 "coherence, and not by uniform.")));
+}
+
+TEST(TuningVerdict, DecidesNothingOnStaticBendingUnsaid) {
+  Report report = tuned_report();
+  report.tuning->budgets = {budget(1.6, 20.0)};
+  EXPECT_THAT(reservations(report), Each(Not(HasSubstr("calibration"))));
+  report.tuning->budgets = {budget(1.4, 19.0)};
+  EXPECT_THAT(reservations(report), Contains(HasSubstr("bends the antenna by 1.500 mdeg")));
+}
+
+TEST(TuningVerdict, SaysOnHowManyPlantsANeedIsMet) {
+  Report report = tuned_report();
+  design::EnsembleResult ensemble;
+  ensemble.members.resize(30);
+  ensemble.stable = ensemble.within_goals = 30;
+  report.tuning->ensemble = ensemble;
+  report.tuning->budgets = {budget(1.0, 16.9, 12.0), budget(2.0, 30.0)};
+  report.tuning->budgets[0].plants_met = 24;
+  const auto sentence = HasSubstr(
+      "Of 30 plants that may be the true one it meets need (Ka: 1.000 mdeg) in 12 m/s on 24.");
+  EXPECT_THAT(tuning_conclusions(report), Contains(sentence));
+  EXPECT_THAT(reservations(report), Contains(sentence));
+  // Met on all of them it decides nothing.
+  report.tuning->budgets[0].plants_met = 30;
+  EXPECT_THAT(reservations(report),
+              Each(Not(HasSubstr("plants that may be the true one it meets"))));
+}
+
+TEST(TuningVerdict, SaysThatANeedIsNotMet) {
+  Report report = tuned_report();
+  report.tuning->budgets = {budget(0.1, 5.4, 12.0)};
+  EXPECT_THAT(
+      tuning_conclusions(report),
+      Contains(AllOf(HasSubstr("NOT MET: need (Ka: 0.100 mdeg) is needed up to 12 m/s; as "
+                               "built, with the best PI with lag law found, it is met up to "
+                               "5.4 m/s."),
+                     HasSubstr("`boresight tune` looks for"))));
+  design::Design unstable;
+  unstable.tuning.status = design::TuningStatus::unstable;
+  report.tuning->present = {{"PI without lag", unstable}};
+  const auto decided = decision(report);
+  EXPECT_THAT(decided.front(), StartsWith("NOT MET"));
+  EXPECT_THAT(decided, Each(Not(HasSubstr("Run the drive"))));
+  report.tuning->present.clear();
+  report.tuning->supply_wind_speed = 11.0;
+  EXPECT_THAT(decision(report).front(), HasSubstr("No loop structure changes that"));
+  report.tuning->supply_wind_speed = 25.7;
+  report.tuning->budgets = {budget(1.0, 16.9, 12.0)};
+  EXPECT_THAT(unmet_needs(*report.tuning, report.time_domain), IsEmpty());
+  EXPECT_THAT(decision(report).front(), HasSubstr("Run the drive as built on PI with lag"));
+}
+
+TEST(TuningVerdict, GivesSpeedsOfBudgetsAtTheMastToo) {
+  Report report = tuned_report();
+  report.tuning->budgets = {budget(0.1, 4.03, 8.08537)};
+  EXPECT_THAT(tuning_conclusions(report), Each(Not(HasSubstr("at the mast"))));
+  report.tuning->wind_mast = io::WindMast{10.0, 28.0, 0.14, 1.155053};
+  EXPECT_THAT(tuning_conclusions(report),
+              Contains(AllOf(HasSubstr("needed up to 8.09 m/s at the dish, 7 at the mast;"),
+                             HasSubstr("met up to 4.0 m/s at the dish, 3.49 at the mast."))));
+  EXPECT_THAT(conclude_mast(*report.tuning->wind_mast),
+              HasSubstr("divided by 1.155 they are those on the case's mast of 10 m"));
+  EXPECT_THAT(to_text(document_of(*report.tuning)),
+              AllOf(HasSubstr("met up to m/s (at the mast)"), HasSubstr("4.03 (3.49)"),
+                    HasSubstr("8.09 (7)")));
+}
+
+TEST(TuningVerdict, SaysOnHowManyPlantsTheLawHolds) {
+  Report report = tuned_report();
+  design::EnsembleResult ensemble;
+  ensemble.members.resize(30);
+  ensemble.stable = 29;
+  ensemble.within_goals = 6;
+  report.tuning->ensemble = ensemble;
+  EXPECT_THAT(tuning_conclusions(report),
+              Contains(HasSubstr("held on 30 that may be the true one, it keeps its goals on 6 and "
+                                 "is unstable on 1. `boresight tune`")));
+  EXPECT_THAT(reservations(report), Contains(HasSubstr("it keeps its goals on 6")));
+  EXPECT_THAT(decision(report), Each(Not(HasSubstr("Run the drive"))));
+  report.tuning->ensemble->stable = report.tuning->ensemble->within_goals = 30;
+  EXPECT_THAT(tuning_conclusions(report), Contains(HasSubstr("it keeps its goals on all.")));
+  EXPECT_THAT(reservations(report), Each(Not(HasSubstr("keeps its goals"))));
+  EXPECT_THAT(decision(report).front(), HasSubstr("Run the drive"));
+}
+
+TEST(TuningVerdict, HoldsABudgetAgainstTheSimulation) {
+  Report report = tuned_report();
+  report.tuning->budgets = {budget(0.5, 12.5)};
+  TimeDomainSection& section = report.time_domain.emplace();
+  section.options.settled_error = 0.5 * millidegree;
+  section.wind_speed = 12.0;
+  section.result.wind.beam_rms = 0.49 * millidegree;
+  EXPECT_THAT(decision(report).front(),
+              AllOf(HasSubstr("is met up to 12.5 m/s"), Not(HasSubstr("as simulated"))));
+  section.result.wind.beam_rms = 0.51 * millidegree;
+  EXPECT_THAT(
+      decision(report).front(),
+      HasSubstr("is met up to 12.5 m/s by the linear figure, but not as simulated in 12 m/s"));
+  // One that is needed in that wind is not met.
+  report.tuning->budgets = {budget(0.5, 12.5, 12.0)};
+  EXPECT_THAT(unmet_needs(*report.tuning, std::nullopt), IsEmpty());
+  EXPECT_THAT(unmet_needs(*report.tuning, report.time_domain),
+              ElementsAre(HasSubstr("it is met up to 12.5 m/s by the linear plant, but on the "
+                                    "nonlinear antenna the law has 0.510 mdeg in 12 m/s.")));
+  // No more than one whose run did not complete.
+  section.result.wind.beam_rms = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_THAT(unmet_needs(*report.tuning, report.time_domain),
+              ElementsAre(HasSubstr("the law was not seen to hold in 12 m/s.")));
+  report.tuning->budgets.clear();
+  EXPECT_THAT(decision(report).front(),
+              AllOf(HasSubstr("m/s of wind (not seen to hold on the nonlinear antenna)."),
+                    Not(HasSubstr("Run the drive"))));
+  section.result.wind.beam_rms = 0.51 * millidegree;
+  // Where the linear figure itself ends below, the simulation says nothing more.
+  report.tuning->budgets = {budget(0.5, 11.0)};
+  EXPECT_THAT(decision(report).front(), Not(HasSubstr("as simulated")));
+}
+
+TEST(TuningVerdict, RunsNoDriveThatHunts) {
+  Report report = tuned_report();
+  EXPECT_THAT(decision(report).front(), HasSubstr("Run the drive"));
+  TimeDomainSection& section = report.time_domain.emplace();
+  section.options.settled_error = 0.5 * millidegree;
+  design::HuntingResult rest;
+  rest.limit_cycle = true;
+  rest.beam_amplitude = 0.7 * millidegree;
+  section.result.hunting = {rest};
+  EXPECT_THAT(decision(report).front(), HasSubstr("Run the drive"));
+  section.result.hunting[0].beam_amplitude = 0.8 * millidegree;
+  EXPECT_THAT(reservations(report),
+              Contains(HasSubstr("it hunts by +-0.80 mdeg, beyond the tightest budget of 0.500")));
+  EXPECT_THAT(decision(report), Each(Not(HasSubstr("Run the drive"))));
+  section.result.hunting[0] = {};
+  section.result.hunting[0].status = design::RunStatus::lost;
+  EXPECT_THAT(reservations(report), Contains(HasSubstr("was not seen to hold still")));
+  EXPECT_THAT(decision(report), Each(Not(HasSubstr("Run the drive"))));
+}
+
+TEST(TuningVerdict, SaysWhereNoLoopHelps) {
+  Report report = tuned_report();
+  report.tuning->encoder_held_rms = 0.44 * millidegree;
+  EXPECT_THAT(tuning_conclusions(report), Each(Not(HasSubstr("that the encoder does not see"))));
+  report.tuning->encoder_held_rms = 0.46 * millidegree;
+  EXPECT_THAT(tuning_conclusions(report), Contains(HasSubstr("that the encoder does not see")));
+  EXPECT_THAT(reservations(report), Contains(HasSubstr("that the encoder does not see")));
+}
+
+TEST(TuningVerdict, WarnsOfPresentGainsThatThePlantCallsUnstable) {
+  Report report = tuned_report();
+  EXPECT_THAT(tuning_conclusions(report), Each(Not(HasSubstr("present gains"))));
+  design::Design unstable;
+  unstable.tuning.status = design::TuningStatus::unstable;
+  report.tuning->present = {{"PI without lag", unstable}};
+  EXPECT_THAT(tuning_conclusions(report).front(),
+              AllOf(HasSubstr("WARNING: the present gains of PI without lag are unstable"),
+                    HasSubstr("check leakage")));
+  EXPECT_THAT(decision(report).front(), HasSubstr("WARNING: the present gains"));
+  TuningSection section = *report.tuning;
+  section.design = unstable;
+  EXPECT_THAT(to_text(document_of(section)), HasSubstr("UNSTABLE"));
+  report.tuning->present = {{"PI without lag", design_of(0.8)}};
+  EXPECT_THAT(
+      tuning_conclusions(report).front(),
+      HasSubstr("The present gains of PI without lag point within 0.800 mdeg in 12 m/s; the "
+                "tuned PI with lag changes that by -37.5 %."));
+}
+
+TEST(TuningVerdict, SaysWhatItDoesNotKnow) {
+  Report report = tuned_report();
+  report.tuning->budgets = {budget(1.0, 16.9)};
+  report.tuning->design.tuning.gains_at_bound = {"rate integral corner"};
+  const auto sentences = tuning_conclusions(report);
+  EXPECT_THAT(sentences, Contains(HasSubstr("its bound for: rate integral corner")));
+  EXPECT_THAT(sentences, Contains(HasSubstr("Friction, hunting and slewing were not examined")));
+  EXPECT_THAT(sentences, Contains(HasSubstr("calibration has to take it away")));
+  EXPECT_THAT(reservations(report), Contains(HasSubstr("were not examined")));
+  EXPECT_THAT(decision(report), ElementsAre(EndsWith("is met up to 16.9 m/s.")));
+  report.time_domain.emplace();
+  EXPECT_THAT(tuning_conclusions(report), Each(Not(HasSubstr("not examined"))));
+  report.tuning->design.verification.passed = false;
+  EXPECT_THAT(decision(report).front(), HasSubstr("fails its verification"));
+  // Of a law on which nothing is decided there is nothing to reserve but what is assumed.
+  EXPECT_THAT(reservations(report), ElementsAre(HasSubstr("is assumed")));
+}
+
+TEST(TuningVerdict, SaysWhatHangsOnGuessesOfWindAndBeam) {
+  Report report = tuned_report();
+  report.tuning->budgets = {budget(0.55, 12.0, 12.0)};
+  report.choices.resize(3);
+  const std::array<double, 3> rms{0.5, 0.55, 0.45}, speeds{12.0, 10.9, 99.0};
+  for (std::size_t i = 0; i < rms.size(); ++i) {
+    report.choices[i].name = fmt::format("choice {}", i);
+    report.choices[i].design = design_of(rms.at(i));
+    report.choices[i].speed_limits = {speeds.at(i)};
+    report.choices[i].other_shares = i > 0;
+  }
+  EXPECT_THAT(
+      reservations(report),
+      Contains(AllOf(HasSubstr("has 0.500 mdeg with the case's own and 0.550 with 'choice 1', "
+                               "0.450 with 'choice 2'; need (Ka: 0.550 mdeg) is met up to where it "
+                               "is needed with the case's own, 'choice 2', and not with 'choice "
+                               "1'."))));
+  // Neither another verdict nor far apart.
+  report.tuning->budgets = {budget(0.55, 12.0, 10.0)};
+  EXPECT_THAT(reservations(report), Each(Not(HasSubstr("hares of wind and beam"))));
+  report.choices[2].design = design_of(0.39);
+  EXPECT_THAT(reservations(report),
+              Contains(AllOf(HasSubstr("Shares of wind and beam are guesses"),
+                             HasSubstr("0.390 with 'choice 2'. Modes from"))));
+  // Beyond the supply's torque none is met.
+  report.tuning->budgets = {budget(0.55, 99.0, 26.0)};
+  report.choices[2].design = design_of(0.45);
+  EXPECT_THAT(reservations(report), Each(Not(HasSubstr("hares of wind and beam"))));
+}
+
+TEST(TuningVerdict, SaysWhichOtherChoiceTurnsAVerdictRound) {
+  Report report = tuned_report();
+  report.tuning->budgets = {budget(0.55, 12.0, 12.0)};
+  report.choices.resize(2);
+  report.choices[0].design = design_of(0.5);
+  // The case's own plant, tuned once more by itself: no other choice, whatever its last digits.
+  report.choices[0].name = "reference";
+  report.choices[0].speed_limits = {11.999};
+  report.choices[1].name = "antenna of the drawings";
+  report.choices[1].design = design_of(0.6);
+  report.choices[1].speed_limits = {11.0};
+  const auto turned = Contains(HasSubstr(
+      "Tuned again for what else the case's numbers may mean, need (Ka: 0.550 mdeg) is not met up "
+      "to where it is needed with 'antenna of the drawings' (0.600 mdeg in 12 m/s); with the "
+      "case's own choice"));
+  EXPECT_THAT(reservations(report), turned);
+  EXPECT_THAT(tuning_conclusions(report), turned);
+  // What is there too is no other reading.
+  report.choices[1].other_attitude = true;
+  const auto attitude = Contains(
+      HasSubstr("Tuned again for the antenna's other attitudes, need (Ka: 0.550 mdeg) is not met"));
+  EXPECT_THAT(reservations(report), AllOf(attitude, Not(turned)));
+  EXPECT_THAT(tuning_conclusions(report), AllOf(attitude, Not(turned)));
+  report.choices[1].other_attitude = false;
+  report.choices[1].speed_limits = {12.1};
+  EXPECT_THAT(reservations(report), Each(Not(HasSubstr("other way round"))));
+  // No way out of a contradiction says nothing of budgets.
+  report.choices[1].speed_limits = {11.0};
+  report.choices[1].wanted_frequency = 1.0;
+  report.choices[1].resonance = 0.5;
+  EXPECT_THAT(reservations(report), Each(Not(HasSubstr("other way round"))));
+}
+
+TEST(TuningText, SaysWhereTheLoopsHaveAGainOfOne) {
+  Report report = tuned_report();
+  auto& margins = report.tuning->design.margins;
+  margins[0].gain_crossovers = {{.frequency = 2.0 * std::numbers::pi * 0.4}};
+  margins[2].gain_crossovers = {{.frequency = 2.0 * std::numbers::pi * 0.1},
+                                {.frequency = 2.0 * std::numbers::pi * 0.35}};
+  EXPECT_THAT(to_text(document_of(*report.tuning)),
+              AllOf(HasSubstr("crossover Hz"), ContainsRegex("rate loop alone .* 0\\.4 "),
+                    ContainsRegex("valve command .* none "),
+                    ContainsRegex("position loop .* 0\\.1, 0\\.35 ")));
+}
+
+}  // namespace
+}  // namespace boresight::app

@@ -1,0 +1,386 @@
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <regex>
+#include <string>
+#include <vector>
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "app/edited_case.hpp"
+#include <boresight/app/redesign/antenna_model.hpp>
+#include <boresight/app/report/json_time_domain.hpp>
+#include <boresight/app/simulate/time_domain.hpp>
+
+namespace boresight::app {
+namespace {
+
+using testing::AllOf;
+using testing::HasSubstr;
+using testing::Not;
+constexpr double degree = std::numbers::pi / 180.0;
+constexpr double mdeg = 1e-3 * degree;
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+
+TimeDomainSection section() {
+  TimeDomainSection section;
+  section.law = "PI, robust";
+  section.wind_speed = 10.0;
+  section.sample_time = 0.02;
+  section.encoder_resolution = 0.3464 * mdeg;
+  section.options.tracking_rate = 4.17 * mdeg;
+  section.options.limits = {0.25 * degree, 0.2 * degree};
+  section.options.settled_error = 0.527 * mdeg;
+  auto& wind = section.result.wind;
+  wind.predicted_rms = 0.5 * mdeg;
+  wind.chance = -0.01 * mdeg;
+  wind.sampling = 0.001 * mdeg;
+  wind.beam_rms = 0.6 * mdeg;
+  wind.encoder_rms = 0.4 * mdeg;
+  wind.influences = {
+      {design::Influence::friction, design::RunStatus::complete, 0.52 * mdeg, 0.08 * mdeg},
+      {design::Influence::gear, design::RunStatus::complete, 0.59 * mdeg, 0.01 * mdeg}};
+  wind.joint = 0.019 * mdeg;
+  design::HuntingResult rest;
+  rest.limit_cycle = true;
+  rest.encoder_amplitude = 0.29 * mdeg;
+  rest.beam_amplitude = 0.295 * mdeg;
+  rest.frequency = 0.0612;
+  rest.persistence = 0.97;
+  rest.starts = 3;
+  rest.starts_hunting = 2;
+  design::HuntingResult moving;
+  moving.rate = 4.17 * mdeg;
+  moving.encoder_amplitude = 0.007 * mdeg;
+  moving.starts = 3;
+  section.result.hunting = {rest, moving};
+  design::ReversalResult reversal;
+  reversal.encoder_error = 4.98 * mdeg;
+  reversal.beam_error = 5.04 * mdeg;
+  reversal.encoder_error_without_friction = 1.5 * mdeg;
+  reversal.time_of_largest = 1.34;
+  section.result.reversal = reversal;
+  design::SlewResult slew;
+  slew.distance = 1.0 * degree;
+  slew.limits = {0.1 * degree, 0.03 * degree};
+  slew.within_reach = false;
+  slew.command_time = 13.3;
+  slew.largest_error = 32.0 * mdeg;
+  slew.overshoot = 13.0 * mdeg;
+  slew.settling_time = 24.16;
+  section.result.slew = slew;
+  return section;
+}
+
+TEST(TimeDomain, TextSaysWhatTheNumbersAre) {
+  const std::string text = to_text(section());
+  EXPECT_THAT(text, HasSubstr("on the nonlinear antenna: PI, robust"));
+  EXPECT_THAT(text, HasSubstr("linear prediction"));
+  EXPECT_THAT(text, HasSubstr("-0.0100"));
+  EXPECT_THAT(text, HasSubstr("+0.0800      0.5200"));
+  EXPECT_THAT(text, HasSubstr("At rest, no wind: a limit cycle of +-0.2900 mdeg at the encoder"));
+  const std::string flat = std::regex_replace(text, std::regex("\\s+"), " ");
+  EXPECT_THAT(flat,
+              HasSubstr("0.0612 Hz, in 2 of 3 runs, each moved by another step at its start."));
+  EXPECT_THAT(flat, HasSubstr("no limit cycle above the encoder's resolution that lasts, in 3 runs "
+                              "(+-0.0070 mdeg left)"));
+  EXPECT_THAT(text, HasSubstr("error up to 4.9800 mdeg"));
+  EXPECT_THAT(text, HasSubstr("what the drive can do of 0.25 deg/s and 0.2 deg/s2"));
+  EXPECT_THAT(text, HasSubstr("24.16 s after the end of the command"));
+}
+
+TEST(TimeDomain, SaysInWordsThatASlewArrivesWithinItsBound) {
+  auto slew = section();
+  slew.result.slew->settling_time = 0.0;
+  slew.candidates = {{"PI, robust", slew.result}, {"DPF, robust", section().result}};
+  const std::string text = to_text(slew);
+  EXPECT_THAT(text, HasSubstr("0.5270 mdeg from the end of the command on;"));
+  EXPECT_THAT(text, Not(HasSubstr("0.00 s")));
+  EXPECT_THAT(text, HasSubstr("at once"));
+  EXPECT_THAT(text, HasSubstr("24.16"));
+}
+
+TEST(TimeDomain, DecidesForALawThatHoldsStill) {
+  auto chosen = section();
+  EXPECT_THAT(decide(chosen), HasSubstr("PI, robust comes first, with 0.600 mdeg: commission"));
+  EXPECT_THAT(decide(chosen), Not(HasSubstr("Not ")));
+  // One of less rms in wind that hunts beyond the budget of 0.527 mdeg, which is why it was passed
+  // over.
+  auto hunting = chosen.result;
+  hunting.wind.beam_rms = 0.1 * mdeg;
+  hunting.hunting[0].beam_amplitude = 8.73 * mdeg;
+  chosen.candidates = {{"PI, robust", chosen.result}, {"DPF+C, robust", hunting}};
+  EXPECT_THAT(decide(chosen), HasSubstr("commission that one. Not DPF+C, robust: it has 0.100 in "
+                                        "wind, but hunts by +-8.73 mdeg"));
+  // Where all do.
+  chosen.result = hunting;
+  EXPECT_THAT(decide(chosen), HasSubstr("no law holds still"));
+  EXPECT_THAT(decide(chosen), Not(HasSubstr("commission that one")));
+  // A run that did not end has no amplitude.
+  chosen.result.hunting[0] = {};
+  chosen.result.hunting[0].status = design::RunStatus::lost;
+  EXPECT_THAT(decide(chosen), HasSubstr("but was not seen to hold still (a run"));
+  auto lost = section();
+  lost.result.wind.beam_rms = nan;
+  EXPECT_THAT(decide(lost), HasSubstr("no law was seen to hold in 10 m/s of wind"));
+}
+
+TEST(TimeDomain, RecommendsByRmsAndLimitCycleTogether) {
+  const double error = 0.527 * mdeg;
+  const auto candidate = [&](double rms, double hunting) {
+    auto result = section().result;
+    result.wind.beam_rms = rms * mdeg;
+    result.hunting[0].beam_amplitude = hunting * mdeg;
+    result.hunting[0].limit_cycle = hunting > 0.0;
+    return assessment_of({"law", {}}, result, error);
+  };
+  const auto winner = [](const std::vector<design::Assessment>& candidates) {
+    return design::recommend(candidates, {.accepted = design::Fitness::unstable}).winner;
+  };
+  EXPECT_EQ(winner({candidate(1.0722, 0.542), candidate(1.075, 0.17)}), 1U);
+  EXPECT_EQ(winner({candidate(0.95, 0.542), candidate(1.075, 0.17)}), 0U);
+  EXPECT_EQ(winner({candidate(1.0, 0.2), candidate(1.0, 0.2)}), 0U);
+  EXPECT_EQ(winner({candidate(0.3, 5.0), candidate(1.0, 0.2)}), 1U);
+  // Beyond the budget the limit cycle counts in the rms too.
+  EXPECT_EQ(winner({candidate(0.3, 5.0), candidate(1.0, 4.0)}), 1U);
+  EXPECT_EQ(winner({candidate(nan, 0.1), candidate(1.0, 0.2)}), 1U);
+  EXPECT_EQ(winner({candidate(nan, 0.1), candidate(1.0, 4.0)}), 1U);
+}
+
+TEST(TimeDomain, SaysThatTheSlewRateIsOutOfReach) {
+  auto slow = section();
+  EXPECT_THAT(conclude(slow), HasSubstr("The slew rate of 0.25 deg/s is out of reach"));
+  slow.result.slew->within_reach = true;
+  EXPECT_THAT(conclude(slow), Not(HasSubstr("out of reach")));
+}
+
+TEST(TimeDomain, NamesAnAssumedStrokeThatDecides) {
+  auto assumed = section();
+  assumed.stroke_assumption = "a valve stroke of 150 rad/s that is assumed";
+  EXPECT_EQ(assumed_stroke(assumed), "");
+  assumed.slew_hangs_on_stroke = true;
+  EXPECT_THAT(conclude(assumed), HasSubstr("The slew rate within reach rests on a valve stroke of "
+                                           "150 rad/s that is assumed: state"));
+  design::InfluenceResult limits;
+  limits.influence = design::Influence::limits;
+  limits.difference = 0.1 * assumed.result.wind.beam_rms;
+  assumed.result.wind.influences = {limits};
+  EXPECT_THAT(decide(assumed), HasSubstr("The simulated rms and the slew rate rest on"));
+  assumed.stroke_assumption.clear();
+  EXPECT_EQ(assumed_stroke(assumed), "");
+}
+
+TEST(TimeDomain, TextSaysWhyThereAreNoNumbers) {
+  auto lost = section();
+  lost.result.wind.status = design::RunStatus::lost;
+  lost.result.wind.message = "the encoder is 1 rad off";
+  lost.result.hunting[0].status = design::RunStatus::failed;
+  lost.result.hunting[0].message = "no steady motion";
+  lost.result.reversal->status = design::RunStatus::lost;
+  lost.result.reversal->message = "gone";
+  lost.result.slew->largest_error = nan;
+  lost.result.slew->settling_time.reset();
+  lost.result.slew->status = design::RunStatus::failed;
+  lost.result.slew->message = "the supply cannot move it";
+  const std::string text = to_text(lost);
+  EXPECT_THAT(text, HasSubstr("In wind of 10 m/s no rms: lost: the encoder is 1 rad off."));
+  EXPECT_THAT(text, Not(HasSubstr("linear prediction")));
+  EXPECT_THAT(text, HasSubstr("At rest, no wind: failed: no steady motion."));
+  EXPECT_THAT(text, HasSubstr("Slow reversals: lost: gone."));
+  EXPECT_THAT(text, HasSubstr("the supply cannot move it."));
+  EXPECT_THAT(text, Not(HasSubstr("nan")));
+  auto slow = section();
+  slow.result.slew->settling_time.reset();
+  EXPECT_THAT(to_text(slow), HasSubstr("within 0.5270 mdeg 40 s after"));
+}
+
+TEST(TimeDomain, ConcludesWhatTheLinearFigureIsWorth) {
+  const std::string text = conclude(section());
+  EXPECT_THAT(text, HasSubstr("points within 0.600 mdeg in 10 m/s, where the linear plant says "
+                              "0.500; friction alone is worth 0.080."));
+  EXPECT_THAT(text, HasSubstr("with less than 20 % to spare is not met."));
+  EXPECT_THAT(text, HasSubstr("At rest it hunts by +-0.29 mdeg in 2 of 3 runs."));
+  EXPECT_THAT(text, Not(HasSubstr("At the tracking rate it hunts")));
+  EXPECT_THAT(text, HasSubstr("errs by up to 5.0 mdeg."));
+  auto throttled = section();
+  auto orifice = throttled.result.wind.influences.front();
+  orifice.influence = design::Influence::orifice;
+  orifice.difference = 0.3 * mdeg;
+  throttled.result.wind.influences.push_back(orifice);
+  EXPECT_THAT(conclude(throttled),
+              HasSubstr("; the flow through the valve's orifices alone is worth 0.300."));
+  auto twice = section();
+  twice.result.wind.beam_rms = 1.06 * mdeg;
+  EXPECT_THAT(conclude(twice),
+              AllOf(HasSubstr("The simulated rms is 2.12 times the linear one: a budget that the "
+                              "linear figure meets by less than that factor is not met."),
+                    Not(HasSubstr("to spare"))));
+  auto calm = section();
+  calm.result.wind.beam_rms = 0.49 * mdeg;
+  EXPECT_THAT(conclude(calm), Not(HasSubstr("to spare")));
+  auto lost = section();
+  lost.result.wind.status = design::RunStatus::lost;
+  EXPECT_THAT(conclude(lost), HasSubstr("was not seen to hold in 10 m/s of wind (lost)"));
+}
+
+TEST(TimeDomain, SaysWhyAnotherLawThanTheLinearlyBestIsChosen) {
+  auto chosen = section();
+  chosen.candidates = {{chosen.law, chosen.result}, {"quick", chosen.result}};
+  EXPECT_THAT(conclude(chosen), Not(HasSubstr("first")));
+  auto& quick = chosen.candidates[1].result;
+  quick.wind.predicted_rms = 0.3 * mdeg;
+  quick.wind.beam_rms = 0.7 * mdeg;
+  EXPECT_THAT(conclude(chosen),
+              HasSubstr("The linear plant puts quick first (0.300 mdeg); on the nonlinear antenna "
+                        "it points within 0.700 and hunts by +-0.29: " +
+                        chosen.law + " is better. "));
+  quick.wind.status = design::RunStatus::lost;
+  EXPECT_THAT(conclude(chosen), HasSubstr("it does not hold (lost)"));
+  EXPECT_THAT(to_text(chosen), HasSubstr("quick"));
+  const auto json = time_domain_json(chosen);
+  ASSERT_EQ(json.at("candidates").size(), 2U);
+  EXPECT_DOUBLE_EQ(json.at("candidates")[1].at("predicted_rms_mdeg").get<double>(), 0.3);
+}
+
+// Laws of so much rms by the linear plant, simulated, and hunting at rest, all in mdeg; the last is
+// the one chosen, by a budget of 0.527 mdeg rms, which is a limit cycle of +-0.745.
+struct LawInWind {
+  double linear, simulated, hunting;
+};
+
+TimeDomainSection chosen_of(const std::vector<LawInWind>& laws) {
+  auto chosen = section();
+  for (const auto& law : laws) {
+    auto result = section().result;
+    result.wind.predicted_rms = law.linear * mdeg;
+    result.wind.beam_rms = law.simulated * mdeg;
+    if (std::isnan(law.simulated)) result.wind.status = design::RunStatus::lost;
+    result.hunting[0].limit_cycle = law.hunting > 0.0;
+    result.hunting[0].beam_amplitude = law.hunting * mdeg;
+    chosen.candidates.push_back({fmt::format("law {}", chosen.candidates.size() + 1), result});
+  }
+  chosen.law = chosen.candidates.back().law;
+  chosen.result = chosen.candidates.back().result;
+  return chosen;
+}
+
+std::string on_one_line(std::string text) {
+  for (auto at = text.find("\n  "); at != std::string::npos; at = text.find("\n  ", at)) {
+    text.replace(at, 3, " ");
+  }
+  return text;
+}
+
+TEST(TimeDomain, SaysByWhatRuleALawWasChosen) {
+  const auto told = [](const std::vector<LawInWind>& laws) {
+    return on_one_line(to_text(chosen_of(laws)));
+  };
+  const std::string least =
+      "the one above meets most budgets and, of those, has the least simulated rms with its limit "
+      "cycle added in quadrature, or one within 2 % of it and fewer gains.";
+  const std::string limit = "hunt beyond the tightest budget (+-0.7453 mdeg)";
+  const std::string some = "Of the laws that do not " + limit + ", " + least;
+  for (const double hunting : {0.0, 0.3, 5.0}) {
+    EXPECT_THAT(told({{0.3, 0.4, hunting}, {0.5, 0.6, 0.3}}), HasSubstr(some));
+  }
+  EXPECT_THAT(told({{0.3, 2.2, 4.8}, {0.5, 1.8, 5.8}}), HasSubstr("All " + limit + "; " + least));
+  // One that holds still, but not in wind, is none to choose.
+  EXPECT_THAT(told({{0.3, nan, 0.0}, {0.5, 1.8, 5.8}}),
+              HasSubstr("None was seen both to hold in wind and not to " + limit +
+                        "; of those that hold in wind " + least));
+  EXPECT_THAT(told({{0.3, nan, 4.0}, {0.5, nan, 0.1}}),
+              HasSubstr("None was seen to hold in wind: the one above has the least linear rms."));
+}
+
+TEST(TimeDomain, CallsNoLawBetterThatHuntsToo) {
+  const auto told = [](const std::vector<LawInWind>& laws) { return conclude(chosen_of(laws)); };
+  const auto all = told({{0.3, 2.17, 4.8}, {0.5, 1.78, 5.8}});
+  EXPECT_THAT(all,
+              HasSubstr("The linear plant puts law 1 first (0.300 mdeg); on the nonlinear "
+                        "antenna it points within 2.170 and hunts by +-4.80 mdeg, beyond the "
+                        "tightest budget of 0.527: law 2 points within 1.780, but hunts beyond "
+                        "the budget too, by +-5.80 mdeg. "));
+  EXPECT_THAT(
+      all,
+      HasSubstr(
+          "At rest it hunts by +-5.80 mdeg in 2 of 3 runs, beyond the tightest budget of 0.527."));
+  EXPECT_THAT(all, Not(HasSubstr("is better")));
+  EXPECT_THAT(told({{0.3, 1.78, 5.8}, {0.5, 1.79, 4.8}}),
+              HasSubstr(": law 2 points as well within 2 % and hunts less, but hunts beyond the "
+                        "budget too, by +-4.80 mdeg. "));
+  // One that does not is chosen whatever its rms.
+  const auto some = told({{0.3, 0.4, 4.8}, {0.5, 0.6, 0.7}});
+  EXPECT_THAT(some,
+              HasSubstr("hunts by +-4.80 mdeg, beyond the tightest budget of 0.527: law 2 does "
+                        "not hunt beyond the budget. "));
+  EXPECT_THAT(some, HasSubstr("At rest it hunts by +-0.70 mdeg in 2 of 3 runs. "));
+  // Where none does, rms and limit cycle decide together.
+  EXPECT_THAT(told({{0.3, 0.7, 0.0}, {0.5, 0.6, 0.3}}),
+              HasSubstr("it points within 0.700: law 2 is better. "));
+  EXPECT_THAT(told({{0.3, 0.595, 0.6}, {0.5, 0.6, 0.3}}),
+              HasSubstr("hunts by +-0.60: law 2 points as well within 2 % and hunts less. "));
+  EXPECT_THAT(told({{0.3, nan, 0.0}, {0.5, 1.8, 5.8}}),
+              HasSubstr("it does not hold (lost): law 2 points within 1.800, but hunts by +-5.80 "
+                        "mdeg, beyond the tightest budget"));
+  EXPECT_THAT(told({{0.3, nan, 4.0}, {0.5, nan, 0.1}}),
+              HasSubstr(": law 2 does not hold in wind either. "));
+}
+
+TEST(TimeDomain, SaysOfALawAloneOnlyWhatItDoes) {
+  auto alone = chosen_of({{0.5, 1.78, 5.8}});
+  alone.candidates.clear();
+  EXPECT_THAT(decide(alone), HasSubstr("On the nonlinear antenna law 1 has 1.780 mdeg in wind, but "
+                                       "hunts by +-5.80 mdeg"));
+  EXPECT_THAT(decide(alone), Not(HasSubstr("no law")));
+  alone.result.hunting[0].status = design::RunStatus::failed;
+  EXPECT_THAT(conclude(alone), HasSubstr("At rest it was not seen to hold still (failed)."));
+}
+
+TEST(TimeDomain, ChoosesTheLeastSimulatedRms) {
+  const io::Case antenna = io::read_case(BORESIGHT_SOURCE_DIR "/cases/dss14-70m/case.toml");
+  const auto problem = make_problem(antenna);
+  const control::LoopStructure& pi = control::LoopStructure::pi_with_lag();
+  const std::vector<DescribedLaw> laws{{"slow", {pi, {0.1, 0.42, 2.6, 3.0, 0.2}}},
+                                       {"tuned", {pi, {0.15873, 0.42068, 2.6277, 10.257, 0.23532}}},
+                                       {"loses it", {pi, {5.0, 0.42, 2.6, 30.0, 0.2}}}};
+  const auto chosen = choose_in_time_domain(antenna, problem, laws, 1, 2);
+  ASSERT_TRUE(chosen);
+  EXPECT_EQ(chosen->law, "tuned");
+  ASSERT_EQ(chosen->candidates.size(), 3U);
+  EXPECT_LT(chosen->candidates[1].result.wind.beam_rms, chosen->candidates[0].result.wind.beam_rms);
+  EXPECT_EQ(chosen->candidates[1].result.wind.beam_rms, chosen->result.wind.beam_rms);
+  EXPECT_FALSE(chosen->result.wind.influences.empty());
+  EXPECT_THROW(choose_in_time_domain(antenna, problem, {}, 1, 1), InvalidInput);
+}
+
+TEST(TimeDomain, JsonAloneGivesTheDifferenceFromThePrediction) {
+  const auto json = time_domain_json(section());
+  const auto& wind = json.at("wind");
+  double sum = wind.at("predicted_rms_mdeg").get<double>() + wind.at("chance_mdeg").get<double>() +
+               wind.at("sampling_mdeg").get<double>() + wind.at("joint_mdeg").get<double>();
+  for (const auto& one : wind.at("influences")) sum += one.at("difference_mdeg").get<double>();
+  EXPECT_NEAR(sum, wind.at("beam_rms_mdeg").get<double>(), 1e-12);
+  EXPECT_NEAR(json.at("slew").at("rate_limit_deg_per_s").get<double>(), 0.1, 1e-12);
+  EXPECT_TRUE(json.at("hunting").at(1).at("frequency_Hz").is_null());
+  EXPECT_TRUE(wind.at("message").is_null());
+  auto bare = section();
+  bare.result.reversal.reset();
+  bare.result.slew.reset();
+  bare.result.wind.beam_rms = nan;
+  EXPECT_TRUE(time_domain_json(bare).at("slew").is_null());
+  EXPECT_TRUE(time_domain_json(bare).at("reversal").is_null());
+  EXPECT_TRUE(time_domain_json(bare).at("wind").at("beam_rms_mdeg").is_null());
+}
+
+TEST(TimeDomain, NoneOfACaseThatSaysNothingOfItsDrive) {
+  io::Case antenna = io::read_case(case_path("dss14-70m"));
+  antenna.simulation.reset();
+  const control::ControlLaw law{control::LoopStructure::pi_with_lag(), {0.2, 0.8, 6.0, 0.2, 0.02}};
+  EXPECT_FALSE(verify_in_time_domain(antenna, make_problem(antenna), law, "PI", 1, 1));
+}
+
+}  // namespace
+}  // namespace boresight::app

@@ -1,0 +1,49 @@
+// On how many plants a budget is met in the wind that it is needed up to.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "app/edited_case.hpp"
+#include <boresight/app/report/sky_units.hpp>
+#include <boresight/app/tune/budgets_on_plants.hpp>
+#include <boresight/app/tune/plant_members.hpp>
+
+namespace boresight::app {
+namespace {
+
+using testing::ElementsAre;
+using testing::Eq;
+using testing::Optional;
+
+TEST(BudgetsOnPlants, AreJudgedInTheirOwnWind) {
+  const io::Case antenna = io::read_case(case_path("dss14-70m"));
+  const auto problem = make_problem(antenna);
+  const auto members = plant_members(antenna, 1);
+  const auto all = static_cast<int>(members.size());
+  const control::ControlLaw law{control::LoopStructure::pi_with_lag(), {0.2, 0.8, 6.0, 0.2, 0.02}};
+  const auto judged = design::judge(problem, members, law, {}, 1);
+  ASSERT_EQ(judged.stable, all);
+  const double design_speed = problem.wind.mean_speed;
+  PointingBudget budget;
+  budget.rms = 1.0001 * judged.largest_rms;
+  PointingBudget stronger = budget;
+  budget.wind_speed = design_speed;
+  stronger.wind_speed = 2.0 * design_speed;
+  PointingBudget median = budget;
+  median.rms = judged.median_rms;
+  PointingBudget unneeded = budget;
+  unneeded.wind_speed.reset();
+  const std::vector<PointingBudget> budgets{budget, stronger, median, unneeded};
+  const auto met = plants_within_budgets(problem, members, law, {}, budgets, 1.0, 1);
+  ASSERT_EQ(met.size(), budgets.size());
+  EXPECT_THAT(met[0], Optional(all));
+  // Gusts grow with the wind: none is met in twice the design's.
+  EXPECT_THAT(met[1], Optional(0));
+  EXPECT_NEAR(met[2].value_or(0), all / 2, 1);
+  EXPECT_THAT(met[3], Eq(std::nullopt));
+  // What the nonlinear antenna adds counts.
+  EXPECT_THAT(plants_within_budgets(problem, members, law, {}, {median}, 100.0, 1),
+              ElementsAre(Optional(0)));
+}
+
+}  // namespace
+}  // namespace boresight::app

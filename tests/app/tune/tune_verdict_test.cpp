@@ -1,0 +1,436 @@
+// What is said of tuned laws against budgets, on the nonlinear antenna and at bounds of the search.
+#include <limits>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <boresight/app/document/document_text.hpp>
+#include <boresight/app/page/study_decision.hpp>
+#include <boresight/app/report/sky_units.hpp>
+#include <boresight/app/report/text_report.hpp>
+#include <boresight/app/tune/gains_at_bounds.hpp>
+#include <boresight/app/tune/tune_study.hpp>
+#include <boresight/app/tune/tune_verdict.hpp>
+
+namespace boresight::app {
+namespace {
+
+using testing::AllOf;
+using testing::Contains;
+using testing::Each;
+using testing::ElementsAre;
+using testing::EndsWith;
+using testing::HasSubstr;
+using testing::Not;
+using testing::StartsWith;
+
+// A study in 12 m/s with a budget of 1.2 mdeg that is needed up to there.
+TuneSection section_with_need() {
+  TuneSection section;
+  section.wind_speeds = {12.0};
+  PointingBudget budget;
+  budget.name = "need";
+  budget.band = "Ka";
+  budget.rms = 1.2 * millidegree;
+  budget.wind_speed = 12.0;
+  section.budgets = {budget};
+  return section;
+}
+
+// One of its laws, good in all by the linear plant.
+TunedLaw law_of(const std::string& structure, TunedFor purpose, double rms_mdeg) {
+  TunedLaw law;
+  law.structure = structure;
+  law.tuned_for = purpose;
+  law.wind_speed = 12.0;
+  law.goals_met = true;
+  law.design.tuning.status = design::TuningStatus::optimal;
+  law.design.verification.passed = true;
+  law.beam_rms = rms_mdeg * millidegree;
+  law.speed_limits = {12.0 * 1.2 / rms_mdeg};
+  return law;
+}
+
+// A robust one that ran on the nonlinear antenna, where it hunts; in mdeg.
+TunedLaw law_in_time(const std::string& structure, double rms, double hunting, double simulated) {
+  TunedLaw law = law_of(structure, TunedFor::robust, rms);
+  law.in_time = {hunting < 1.0, hunting * millidegree, simulated * millidegree};
+  return law;
+}
+
+// Of 30 plants that may be the true one, some within an rms of 2.1 mdeg and the others of 2.5.
+design::EnsembleResult ensemble_with(int within) {
+  design::EnsembleResult ensemble;
+  for (int i = 0; i < 30; ++i) {
+    design::MemberResult member;
+    member.stable = true;
+    member.beam_rms = (i < within ? 2.1 : 2.5) * millidegree;
+    ensemble.members.push_back(member);
+  }
+  return ensemble;
+}
+
+// On the nonlinear antenna the best law of the linear plant hunts; LL points a little better than
+// PI, and hunts a little more. The lead of LL does nothing in a controller of 0.02 s.
+TuneSection section_of_two_alike() {
+  TuneSection section = section_with_need();
+  section.budgets.front().rms = 2.444 * millidegree;
+  section.problem.delay = 0.03;
+  section.laws = {law_in_time("PI", 2.1276, 0.4246, 2.1552),
+                  law_in_time("LL", 2.1303, 0.4375, 2.1461),
+                  law_in_time("DPF+C", 0.8822, 12.03, 3.1527)};
+  section.laws[0].ensemble = ensemble_with(27);
+  section.laws[1].ensemble = ensemble_with(28);
+  section.laws[2].ensemble = ensemble_with(30);
+  auto& tuning = section.laws[1].design.tuning;
+  tuning.law.structure = control::LoopStructure::named("LL");
+  for (const auto& gain : tuning.law.structure.gains()) tuning.law.gains.push_back(gain.upper);
+  tuning.gains_at_bound = {"rate lead corner"};
+  return section;
+}
+
+TEST(TuneVerdict, HoldsABudgetAgainstALawThatIsGoodForAllPlants) {
+  TuneSection section = section_with_need();
+  section.laws = {law_of("PI", TunedFor::nominal, 1.1), law_of("PI", TunedFor::robust, 1.3)};
+  // The nominal law may be unstable on another plant: it meets nothing.
+  ASSERT_EQ(best_law(section, 12.0), &section.laws[1]);
+  EXPECT_EQ(best_law(section, 10.0), nullptr);
+  const auto shortfalls = find_shortfalls(section);
+  ASSERT_EQ(shortfalls.size(), 1U);
+  EXPECT_THAT(shortfalls[0].closest, HasSubstr("PI (robust) comes nearest with 1.3000 mdeg"));
+  EXPECT_THAT(shortfalls[0].closest, HasSubstr("met up to 11.1 m/s."));
+  section.climate = {{5.0, 9.0}, {15.0, 1.0}};
+  EXPECT_THAT(find_shortfalls(section)[0].closest, HasSubstr("11.1 m/s (90 % of the time)."));
+  section.laws[1].beam_rms = 1.15 * millidegree;
+  design::EnsembleResult ensemble;
+  for (const double rms : {1.15, 1.19, 1.23}) {
+    design::MemberResult member;
+    member.stable = true;
+    member.beam_rms = rms * millidegree;
+    ensemble.members.push_back(member);
+  }
+  section.laws[1].ensemble = ensemble;
+  EXPECT_TRUE(find_shortfalls(section).empty());
+  EXPECT_THAT(conclude(section),
+              Contains(AllOf(HasSubstr("The budget 'need' in band Ka (1.2000 mdeg) is met"),
+                             HasSubstr("meets it on 2 of 3 plants"))));
+}
+
+TEST(TuneConclusions, NameABoundOnceWithTheLawsThatEndThere) {
+  TuneSection section;
+  section.wind_speeds = {12.0};
+  for (const char* structure : {"PI+C", "DPF+C"}) {
+    for (const auto purpose : {TunedFor::nominal, TunedFor::robust}) {
+      TunedLaw law = law_of(structure, purpose, 1.0);
+      auto& tuning = law.design.tuning;
+      tuning.law.structure = control::LoopStructure::named(structure);
+      for (const auto& gain : tuning.law.structure.gains()) tuning.law.gains.push_back(gain.upper);
+      tuning.gains_at_bound = {"compliance"};
+      section.laws.push_back(std::move(law));
+    }
+  }
+  const auto count = [](const std::string& text, const std::string& part) {
+    int found = 0;
+    for (auto at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) ++found;
+    return found;
+  };
+  const auto sentences = conclude(section);
+  EXPECT_THAT(
+      sentences,
+      Contains(
+          "The search ended at the upper bound of the compliance, cs = 0.1 "
+          "rad/(N.m), with PI+C (nominal, 12 m/s), PI+C (robust, 12 m/s): no "
+          "optimum, as what lies beyond was not looked at (bounds of a [[tuning.bound]], or of "
+          "a [[loop]], do)."));
+  const std::string text = to_text(document_of(section));
+  EXPECT_EQ(count(text, "The search ended at"), 1);
+  // Without present gains there is no before.
+  EXPECT_EQ(count(text, "before and after"), 0);
+  section.laws[0].tuned_for = TunedFor::present;
+  EXPECT_EQ(count(to_text(document_of(section)), "Gains, before and after"), 1);
+}
+
+// Corners of the lags and leads at their upper bounds, 300 rad/s.
+TEST(GainsAtBounds, LeaveOutALagThatNoSampledControllerNeeds) {
+  const auto searched = [](const char* structure, const std::vector<std::string>& at_bound) {
+    design::TuningResult tuning;
+    tuning.status = design::TuningStatus::optimal;
+    tuning.law.structure = control::LoopStructure::named(structure);
+    for (const auto& gain : tuning.law.structure.gains()) tuning.law.gains.push_back(gain.upper);
+    tuning.gains_at_bound = at_bound;
+    return tuning;
+  };
+  const auto pi = searched("PI", {"rate lag corner"});
+  const auto feedback = searched("DPF+C", {"rate lag corner"});
+  const auto told = gains_at_bounds(
+      std::vector<SearchedLaw>{{"PI (robust)", &pi, 0.02}, {"DPF+C (robust)", &feedback, 0.02}});
+  ASSERT_EQ(told.size(), 1U);
+  EXPECT_EQ(told[0],
+            "The search ended at the upper bound of the rate lag corner, wp = 300 rad/s, with PI "
+            "(robust), DPF+C (robust): no optimum, as what lies beyond was not looked at "
+            "(bounds of a [[tuning.bound]], or of a [[loop]], do). A "
+            "controller that samples every 0.02 s does nothing above 157 rad/s, and so such a lag "
+            "does nothing in it: leave it out (structure PI-0 in the place of PI; a [[loop]] "
+            "without it in the place of DPF+C).");
+  // Two samples of 5 ms a turn are 628 rad/s: there it acts. Nothing is known without sampling.
+  EXPECT_TRUE(corners_beyond_sampling({"PI", &pi, 0.005}).empty());
+  EXPECT_TRUE(corners_beyond_sampling({"PI", &pi}).empty());
+  // A lead may go, its lag not before it.
+  const auto both = searched("FULL", {"rate lag corner", "rate lead corner"});
+  EXPECT_THAT(corners_beyond_sampling({"FULL", &both, 0.02}),
+              ElementsAre(EndsWith("such a lead does nothing in it: leave it out (structure DPF in "
+                                   "the place of FULL)."),
+                          EndsWith("such a lag does nothing in it.")));
+  // At its lower bound a lag does much; an integral at its upper one acts below it.
+  auto slow = searched("PI", {"rate lag corner", "rate integral corner"});
+  slow.law.gains[2] = slow.law.structure.gains()[2].lower;
+  EXPECT_TRUE(corners_beyond_sampling({"PI", &slow, 0.2}).empty());
+}
+
+TEST(TuneConclusions, SayThatABoundOnlyStopsAFlatDirection) {
+  TunedLaw law;
+  law.structure = "PI";
+  law.tuned_for = TunedFor::robust;
+  law.wind_speed = 12.7056;
+  law.beam_rms = 9.4551 * millidegree;
+  EXPECT_TRUE(gain_trades({&law}).empty());
+  law.trade = {"6 1/s", "0.254", 9.5 * millidegree, 20};
+  law.ensemble.emplace().members.resize(30);
+  const auto sentences = gain_trades({&law});
+  ASSERT_EQ(sentences.size(), 1U);
+  EXPECT_THAT(sentences[0],
+              AllOf(HasSubstr("PI (robust, 12.7 m/s) has kp at its bound because"),
+                    HasSubstr("kp = 6 1/s and kr = 0.254 have 9.5000 mdeg, +0.5 %, with every "
+                              "goal kept on 20 of 30 plants")));
+}
+
+TEST(Shortfalls, TrustNoBudgetToALawThatHunts) {
+  TuneSection section = section_with_need();
+  section.wind_mast = io::WindMast{10.0, 28.0, 0.14, 1.2};
+  section.laws = {law_in_time("DPF+C", 1.0, 7.4, 1.05), law_in_time("LL", 1.1, 0.2, 1.5),
+                  law_in_time("PI", 1.5, 0.2, 1.6)};
+  // The linear plant's best meets the budget, and hunts; the second misses it on the nonlinear one.
+  EXPECT_EQ(best_law(section, 12.0), &section.laws[0]);
+  EXPECT_EQ(nearest_to_budget(section, 12.0), &section.laws[1]);
+  auto shortfalls = find_shortfalls(section);
+  ASSERT_EQ(shortfalls.size(), 1U);
+  EXPECT_EQ(shortfalls[0].infeasible,
+            "The budget 'need' in band Ka (1.2000 mdeg) is kept up to 12 m/s at the dish, 10 at "
+            "the mast by no law that was tuned (DPF+C, LL, PI): those whose rms meets it hunt "
+            "beyond it.");
+  EXPECT_THAT(shortfalls[0].closest,
+              AllOf(HasSubstr("LL (robust) comes nearest with 1.5000 mdeg on the nonlinear antenna "
+                              "(1.1000 by the linear plant)"),
+                    HasSubstr("met up to 13.1 m/s at the dish, 10.9 at the mast by the linear"),
+                    HasSubstr("Left out for what they do on the nonlinear antenna: DPF+C (robust), "
+                              "1.0000 mdeg by the linear plant, hunts by +-7.40 mdeg.")));
+  EXPECT_THAT(conclude(section),
+              Contains(HasSubstr("but it hunts by +-7.40 mdeg on the nonlinear antenna")));
+  // A law that loses on the nonlinear antenna but meets the budget there all the same is good.
+  section.laws[1] = law_in_time("LL", 0.9, 0.2, 1.15);
+  EXPECT_TRUE(find_shortfalls(section).empty());
+  // Where none is left, the least simulated rms comes nearest, not the linear plant's best.
+  section.laws = {law_in_time("DPF+C", 1.19, 4.8, 2.17), law_in_time("FULL", 1.43, 5.8, 1.78),
+                  law_in_time("PI", 1.77, 1.6, 2.07), law_of("DPF+C", TunedFor::nominal, 1.07)};
+  EXPECT_EQ(best_law(section, 12.0), &section.laws[0]);
+  EXPECT_EQ(nearest_to_budget(section, 12.0), &section.laws[1]);
+  shortfalls = find_shortfalls(section);
+  ASSERT_EQ(shortfalls.size(), 1U);
+  EXPECT_THAT(
+      shortfalls[0].infeasible,
+      AllOf(HasSubstr("(1.2000 mdeg) cannot be met up to 12 m/s at the dish, 10 at the mast "
+                      "by what was tuned (DPF+C, FULL, PI)."),
+            Not(HasSubstr("hunt"))));
+  EXPECT_THAT(shortfalls[0].closest,
+              AllOf(HasSubstr("FULL (robust) comes nearest with 1.7800 mdeg on the nonlinear "
+                              "antenna (1.4300 by the linear plant)"),
+                    Not(HasSubstr("met up to")),
+                    HasSubstr("it hunts by +-5.80 mdeg, and no other robust law holds still")));
+  // A run in wind that did not complete has no simulated rms to be ranked by.
+  section.laws[1].in_time->beam_rms = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_EQ(nearest_to_budget(section, 12.0), &section.laws[2]);
+  section.laws = {section.laws[1]};
+  EXPECT_THAT(find_shortfalls(section)[0].closest,
+              HasSubstr("FULL (robust) comes nearest with 1.4300 mdeg by the linear plant, "));
+  // Where none is left, the linear best is named for what it is.
+  section.laws = {law_in_time("DPF+C", 1.3, 7.4, 1.35)};
+  shortfalls = find_shortfalls(section);
+  ASSERT_EQ(shortfalls.size(), 1U);
+  EXPECT_THAT(
+      shortfalls[0].closest,
+      AllOf(HasSubstr("DPF+C (robust) comes nearest with 1.3500 mdeg on the nonlinear"),
+            HasSubstr("On the nonlinear antenna it hunts by +-7.40 mdeg, and no other robust "
+                      "law holds still")));
+  // Its hunting breaks a budget that its rms in wind meets, of +-1.7 mdeg; not one of +-7.5.
+  section.laws = {law_in_time("DPF+C", 1.0, 7.4, 1.05)};
+  ASSERT_EQ(find_shortfalls(section).size(), 1U);
+  EXPECT_THAT(conclude(section), Each(Not(HasSubstr("is met at"))));
+  section.budgets.front().rms = 5.3 * millidegree;
+  EXPECT_TRUE(find_shortfalls(section).empty());
+  EXPECT_THAT(
+      conclude(section),
+      Contains(HasSubstr("simulated on the nonlinear antenna 1.0500 mdeg, where it hunts by "
+                         "+-7.40 mdeg")));
+  section.laws[0].in_time->hunting_seen = false;
+  shortfalls = find_shortfalls(section);
+  ASSERT_EQ(shortfalls.size(), 1U);
+  EXPECT_THAT(shortfalls[0].infeasible,
+              HasSubstr("hunt beyond it or were not seen to hold still."));
+  section.budgets.clear();
+  section.beam_rms_goal = 1.2 * millidegree;
+  section.laws[0].in_time->hunting_seen = true;
+  EXPECT_EQ(find_shortfalls(section).at(0).infeasible,
+            "A beam rms of 1.2000 mdeg is kept at 12 m/s by no law that was tuned: those whose rms "
+            "meets it hunt beyond it.");
+}
+
+TEST(RecommendedLaw, IsTheOneThatTheTimeDomainChooses) {
+  TuneSection section = section_of_two_alike();
+  // Held against a budget LL would be first, by less than decides anything.
+  ASSERT_EQ(nearest_to_budget(section, 12.0), &section.laws[1]);
+  EXPECT_EQ(recommended_law(section, 12.0), &section.laws[0]);
+  EXPECT_EQ(recommended_law(section), &section.laws[0]);
+  EXPECT_EQ(recommended_law(section, 10.0), nullptr);
+  std::swap(section.laws[0], section.laws[1]);
+  EXPECT_EQ(recommended_law(section, 12.0), &section.laws[1]);
+  // An rms that is better by more than a little outweighs the hunting.
+  section.laws[0].in_time->beam_rms = 2.0 * millidegree;
+  EXPECT_EQ(recommended_law(section, 12.0), &section.laws[0]);
+  EXPECT_EQ(why_not_recommended(section, section.laws[1], section.laws[0]),
+            "points within 2.1552 mdeg rather than 2.0000");
+  // Of amplitudes that are one as printed neither is a reason.
+  section.laws[1].in_time->hunting = (1.0 + 1e-4) * section.laws[0].in_time->hunting;
+  section.laws[1].in_time->beam_rms = 1.015 * section.laws[0].in_time->beam_rms;
+  EXPECT_EQ(why_not_recommended(section, section.laws[1], section.laws[0]),
+            "points within 2.0300 mdeg rather than 2.0000");
+  section.laws[1].in_time = law_in_time("PI", 2.1276, 0.4246, 2.1552).in_time;
+  // A run in wind that did not complete is no merit.
+  section.laws[0].in_time->beam_rms = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_EQ(recommended_law(section, 12.0), &section.laws[1]);
+  // Where all hunt, none is.
+  section.laws[1].in_time->still = false;
+  EXPECT_EQ(recommended_law(section, 12.0), nullptr);
+  EXPECT_THAT(conclude(section), Each(Not(HasSubstr("recommended"))));
+  EXPECT_THAT(decision(section, {}, {}).front(), Not(HasSubstr("meets need")));
+  // Where none ran, the linear plant's best is.
+  for (auto& law : section.laws) law.in_time.reset();
+  EXPECT_EQ(recommended_law(section, 12.0), &section.laws[2]);
+  EXPECT_THAT(conclude(section), Each(Not(HasSubstr("the law recommended"))));
+}
+
+TEST(RecommendedLaw, IsWhatFiguresAndExportedModelsAreOf) {
+  TuneSection section = section_of_two_alike();
+  TimeDomainSection in_time;
+  in_time.law = "LL, robust";
+  ASSERT_EQ(best_law(section), &section.laws[2]);
+  EXPECT_EQ(shown_law(section, in_time), &section.laws[0]);
+  // Where all hunt, that of the time domain's figures, and the linear plant's best without one.
+  for (auto& law : section.laws) law.in_time->still = false;
+  ASSERT_EQ(recommended_law(section), nullptr);
+  EXPECT_EQ(shown_law(section, in_time), &section.laws[1]);
+  EXPECT_EQ(shown_law(section, {}), &section.laws[2]);
+  section.laws.clear();
+  EXPECT_EQ(shown_law(section, in_time), nullptr);
+}
+
+TEST(RecommendedLaw, IsTheOneOfEveryConclusion) {
+  TuneSection section = section_of_two_alike();
+  EXPECT_THAT(conclude(section),
+              Contains("At 12 m/s the law recommended is PI (robust) with 2.1276 mdeg rms by the "
+                       "linear plant, and 2.1552 mdeg on the nonlinear antenna. Limited by no "
+                       "goal."));
+  EXPECT_THAT(
+      conclude(section),
+      Contains("The budget 'need' in band Ka (2.4440 mdeg) is met at the 12 m/s that it is needed "
+               "up to: PI (robust) has 2.1276 mdeg on the case's plant, simulated on the nonlinear "
+               "antenna 2.1552 mdeg, and meets it on 27 of 30 plants; LL (robust) meets it on 28, "
+               "but hunts by +-0.4375 mdeg rather than +-0.4246, and has a corner beyond half the "
+               "sampling rate, where it does nothing."));
+  EXPECT_THAT(decision(section, {}, {}).front(),
+              AllOf(StartsWith("On the linear plant DPF+C is best"),
+                    HasSubstr("; there PI (robust), the law recommended, meets need (Ka) up to")));
+  // Another law is worth a word only where it meets the budget on more plants.
+  section.laws[1].ensemble = ensemble_with(27);
+  EXPECT_THAT(conclude(section), Contains(EndsWith("and meets it on 27 of 30 plants.")));
+  // The linear plant's best is not the one recommended though it does not hunt.
+  section.laws[1].beam_rms = 2.12 * millidegree;
+  section.laws.pop_back();
+  EXPECT_THAT(decision(section, {}, {}).front(),
+              AllOf(StartsWith("On the linear plant LL is best"),
+                    HasSubstr("; there PI (robust), the law recommended, meets need")));
+  section.laws[1].beam_rms = 2.13 * millidegree;
+  EXPECT_THAT(decision(section, {}, {}).front(),
+              AllOf(StartsWith("On the linear plant PI is best"), HasSubstr("; it meets need")));
+}
+
+TEST(RecommendedLaw, IsNamedWhereAnotherComesNearerToABudget) {
+  TuneSection section = section_of_two_alike();
+  auto& budget = section.budgets.front();
+  budget.rms = 2.15 * millidegree;
+  // One controller meets it: nothing is out of reach, and that one is recommended, though another
+  // of nearly the same rms has a smaller limit cycle.
+  EXPECT_TRUE(find_shortfalls(section).empty());
+  EXPECT_THAT(conclude(section),
+              Contains(HasSubstr("needed up to: LL (robust) has 2.1303 mdeg on the case's plant, "
+                                 "simulated on the nonlinear antenna 2.1461 mdeg")));
+  budget.rms = 2.14 * millidegree;
+  const auto shortfalls = find_shortfalls(section);
+  ASSERT_EQ(shortfalls.size(), 1U);
+  EXPECT_THAT(
+      shortfalls[0].closest,
+      AllOf(StartsWith("PI (robust), the law recommended, has 2.1552 mdeg on the nonlinear antenna "
+                       "(2.1276 by the linear plant), "),
+            HasSubstr(". LL (robust) comes nearest with 2.1461 mdeg on the nonlinear antenna "
+                      "(2.1303 by the linear plant), but hunts by +-0.4375 mdeg rather than"),
+            HasSubstr("Left out for what they do on the nonlinear antenna: DPF+C (robust)")));
+}
+
+// Without a study in the time domain the rms of the linear plant decides.
+TEST(RecommendedLaw, PointsBetterThanOneThatIsGoodOnMorePlants) {
+  TuneSection section = section_with_need();
+  section.budgets.front().rms = 2.444 * millidegree;
+  section.laws = {law_of("PI", TunedFor::robust, 2.0), law_of("DPF", TunedFor::robust, 2.2),
+                  law_of("LL", TunedFor::nominal, 1.9)};
+  section.laws[0].ensemble = ensemble_with(20);
+  section.laws[1].ensemble = ensemble_with(25);
+  // What holds its goals on the nominal plant only is no alternative.
+  section.laws[2].ensemble = ensemble_with(30);
+  EXPECT_THAT(conclude(section),
+              Contains(HasSubstr("PI (robust) has 2.0000 mdeg on the case's plant, and meets it on "
+                                 "20 of 30 plants; DPF (robust) meets it on 25, but points within "
+                                 "2.2000 mdeg rather than 2.0000.")));
+}
+
+TEST(TuneTable, SaysWhichLawsAreVerifiedOnTheLinearPlantOnly) {
+  TuneSection section = section_with_need();
+  section.laws = {law_of("PI", TunedFor::nominal, 1.1), law_of("PI", TunedFor::robust, 1.3),
+                  law_of("LL", TunedFor::nominal, 1.1)};
+  const auto told = [&] {
+    std::string text = to_text(document_of(section));
+    for (auto at = text.find("\n  "); at != std::string::npos; at = text.find("\n  ", at)) {
+      text.replace(at, 3, " ");
+    }
+    return text;
+  };
+  // Without a study in the time domain there is nothing to tell apart.
+  EXPECT_THAT(told(), Not(HasSubstr("Not run on the nonlinear antenna")));
+  EXPECT_THAT(conclude(section), Each(Not(HasSubstr("by the linear plant"))));
+  section.laws[1].in_time = {false, 7.4 * millidegree, 1.35 * millidegree};
+  EXPECT_THAT(told(), HasSubstr("Not run on the nonlinear antenna: nominal laws. They are verified "
+                                "on the linear plant only, and may hunt. Speeds up to which"));
+  EXPECT_THAT(conclude(section),
+              Contains(HasSubstr("best nominal law is PI with 1.1000 mdeg rms by "
+                                 "the linear plant; it did not run")));
+  section.laws[0].goals_met = section.laws[2].goals_met = false;
+  EXPECT_THAT(told(), Not(HasSubstr("Not run on the nonlinear antenna")));
+  // At another wind speed the same purpose may not have run.
+  section.laws.push_back(law_of("PI", TunedFor::robust, 2.0));
+  section.laws.back().wind_speed = 15.0;
+  EXPECT_THAT(told(), HasSubstr("Not run on the nonlinear antenna: robust laws at 15 m/s."));
+}
+
+}  // namespace
+}  // namespace boresight::app

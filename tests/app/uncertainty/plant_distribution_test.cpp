@@ -1,0 +1,167 @@
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include <boresight/app/tune/plant_members.hpp>
+#include <boresight/app/uncertainty/plant_distribution.hpp>
+#include <boresight/numerics/error.hpp>
+#include <boresight/numerics/normal_numbers.hpp>
+
+namespace boresight::app {
+namespace {
+
+const io::Case& reference() {
+  static const io::Case antenna = io::read_case(BORESIGHT_SOURCE_DIR "/cases/dss14-70m/case.toml");
+  return antenna;
+}
+
+std::size_t place(UncertainInput input) {
+  return static_cast<std::size_t>(input);
+}
+
+TEST(PlantDistribution, OfRangesKeepsToThem) {
+  const auto distribution = PlantDistribution::of_ranges(reference());
+  const MemberRanges ranges = member_ranges(reference());
+  double mean = 0.0, log_square = 0.0;
+  constexpr std::uint64_t count = 20000;
+  for (std::uint64_t i = 0; i < count; ++i) {
+    const PlantDraw draw = distribution.draw(7, i);
+    const double oil = draw[UncertainInput::oil_stiffness];
+    ASSERT_GE(oil, ranges.oil_stiffness.lower);
+    ASSERT_LE(oil, ranges.oil_stiffness.upper);
+    mean += oil / count;
+    log_square += std::pow(std::log(draw[UncertainInput::antenna_inertia]), 2) / count;
+  }
+  const double width = ranges.oil_stiffness.upper - ranges.oil_stiffness.lower;
+  EXPECT_NEAR(mean, 0.5 * (ranges.oil_stiffness.lower + ranges.oil_stiffness.upper),
+              4.0 * width / std::sqrt(12.0 * count));
+  const auto& inertia = reference().antenna.inertia;
+  const double relative = inertia.standard_uncertainty / inertia.value;
+  EXPECT_NEAR(std::sqrt(log_square), relative, 4.0 * relative / std::sqrt(2.0 * count));
+}
+
+TEST(PlantDistribution, SharesAreThoseOfTheDraws) {
+  // A quarter of the draws lies below what stands at the share 0.25, of every input.
+  const auto distribution = PlantDistribution::of_ranges(reference());
+  const auto quarter =
+      distribution.at_shares(std::vector<double>(distribution.inputs().size(), 0.25));
+  constexpr std::uint64_t count = 20000;
+  for (const UncertainInput input : distribution.inputs()) {
+    double below = 0.0;
+    for (std::uint64_t i = 0; i < count; ++i) {
+      below += distribution.draw(3, i)[input] < quarter[input] ? 1.0 / count : 0.0;
+    }
+    EXPECT_NEAR(below, 0.25, 4.0 * std::sqrt(0.1875 / count)) << to_string(input);
+  }
+}
+
+// Draws of known lognormal law with a correlation come back from their fit.
+TEST(PlantDistribution, OfRecordsHasTheirCovariance) {
+  const numerics::NormalNumbers normals(11);
+  const double motors = motor_inertia(reference(), reference().motor.flywheel_disks);
+  const double rest = motors + gear_train_inertia(reference());
+  std::vector<identification::DriveEstimate> records;
+  constexpr double of_oil = 0.02, of_inertia = 0.03, correlation = 0.8;
+  for (std::uint64_t i = 0; i < 4000; ++i) {
+    const auto pair = normals.pair(i);
+    const double other =
+        correlation * pair.real() + std::sqrt(1.0 - correlation * correlation) * pair.imag();
+    identification::DriveEstimate draw;
+    draw.motor_inertia = motors;
+    draw.inertia = rest + antenna_inertia(reference()) * std::exp(of_inertia * other);
+    draw.oil_stiffness = oil_stiffness(reference()) * std::exp(of_oil * pair.real());
+    draw.leakage_rate = reference().drive.leakage_rate.value;
+    draw.lowest_frequency = reference().structure.locked_rotor_frequency.value;
+    records.push_back(draw);
+  }
+  const auto distribution = PlantDistribution::of_records(reference(), records);
+  EXPECT_EQ(distribution.inputs(),
+            (std::vector{UncertainInput::oil_stiffness, UncertainInput::friction_slope,
+                         UncertainInput::antenna_inertia}));
+  double oil = 0.0, inertia = 0.0, product = 0.0;
+  constexpr std::uint64_t count = 20000;
+  for (std::uint64_t i = 0; i < count; ++i) {
+    const PlantDraw draw = distribution.draw(5, i);
+    const double x = std::log(draw[UncertainInput::oil_stiffness]);
+    const double y = std::log(draw[UncertainInput::antenna_inertia]);
+    oil += x * x / count;
+    inertia += y * y / count;
+    product += x * y / count;
+  }
+  EXPECT_NEAR(std::sqrt(oil) / of_oil, 1.0, 0.05);
+  EXPECT_NEAR(std::sqrt(inertia) / of_inertia, 1.0, 0.05);
+  EXPECT_NEAR(product / std::sqrt(oil * inertia), correlation, 0.03);
+}
+
+TEST(PlantDistribution, AFactorOfOneIsTheCase) {
+  PlantDraw draw;
+  draw.values.at(place(UncertainInput::friction_slope)) = reference().drive.viscous_friction.value;
+  const auto own = make_plant(reference());
+  const auto drawn = make_plant(reference(), draw);
+  EXPECT_EQ(drawn.drive.oil_stiffness, own.drive.oil_stiffness);
+  EXPECT_EQ(drawn.drive.motor_inertia, own.drive.motor_inertia);
+  EXPECT_DOUBLE_EQ(plant::reflected_inertia(drawn), plant::reflected_inertia(own));
+  draw.values.at(place(UncertainInput::structure_frequency)) = 1.1;
+  EXPECT_NEAR(make_plant(reference(), draw).structure.gear_stiffness,
+              1.21 * own.structure.gear_stiffness, 1e-12 * own.structure.gear_stiffness);
+}
+
+// Two stated uncertainties together, and no other number of a draw moves.
+TEST(PlantDistribution, DrawsTheWindTorqueByItsStatedUncertainties) {
+  io::Case windy = reference();
+  windy.wind.torque_coefficient.uncertainty_given = true;
+  windy.wind.torque_coefficient.standard_uncertainty = 0.2 * windy.wind.torque_coefficient.value;
+  windy.wind.air_density.uncertainty_given = true;
+  windy.wind.air_density.standard_uncertainty = 0.05 * windy.wind.air_density.value;
+  const auto calm = PlantDistribution::of_ranges(reference());
+  const auto distribution = PlantDistribution::of_ranges(windy);
+  EXPECT_EQ(calm.inputs().size() + 1, distribution.inputs().size());
+  EXPECT_EQ(distribution.inputs().back(), UncertainInput::wind_torque);
+  double square = 0.0;
+  constexpr std::uint64_t count = 20000;
+  for (std::uint64_t i = 0; i < count; ++i) {
+    PlantDraw draw = distribution.draw(7, i);
+    square += std::pow(std::log(draw[UncertainInput::wind_torque]), 2) / count;
+    draw.values.at(place(UncertainInput::wind_torque)) = 1.0;
+    ASSERT_EQ(draw.values, calm.draw(7, i).values);
+  }
+  const double relative = std::hypot(0.2, 0.05);
+  EXPECT_NEAR(std::sqrt(square), relative, 4.0 * relative / std::sqrt(2.0 * count));
+}
+
+// The sequence of the six inputs of the plant, whatever else is drawn.
+TEST(PlantDistribution, KeepsTheSequenceOfItsDraws) {
+  const auto ranges = member_ranges(reference());
+  const auto distribution = PlantDistribution::of_ranges(reference());
+  const std::uint64_t stream = numerics::splitmix64(7, 0x5eed0001);
+  for (std::uint64_t i = 0; i < 5; ++i) {
+    const double share =
+        (static_cast<double>(numerics::splitmix64(stream, 6 * i + 1) >> 12U) + 0.5) * 0x1p-52;
+    EXPECT_DOUBLE_EQ(distribution.draw(7, i)[UncertainInput::oil_stiffness],
+                     ranges.oil_stiffness.lower +
+                         share * (ranges.oil_stiffness.upper - ranges.oil_stiffness.lower));
+  }
+}
+
+TEST(PlantDistribution, AWindTorqueIsThatOfThePlant) {
+  PlantDraw draw = PlantDistribution::of_ranges(reference()).median();
+  const auto calm = make_plant(reference(), draw).structure;
+  draw.values.at(place(UncertainInput::wind_torque)) = 1.2;
+  const auto windy = make_plant(reference(), draw).structure;
+  EXPECT_EQ(windy.bull_gear_wind_fraction, 1.2 * calm.bull_gear_wind_fraction);
+  for (std::size_t i = 0; i < calm.modes.size(); ++i) {
+    EXPECT_EQ(windy.modes[i].wind_fraction, 1.2 * calm.modes[i].wind_fraction);
+    EXPECT_EQ(windy.modes[i].stiffness, calm.modes[i].stiffness);
+  }
+}
+
+TEST(PlantDistribution, RefusesWhatIsNoShare) {
+  const auto distribution = PlantDistribution::of_ranges(reference());
+  EXPECT_THROW(distribution.at_shares({0.5}), InvalidInput);
+  EXPECT_THROW(distribution.at_shares(std::vector<double>(distribution.inputs().size(), 1.0)),
+               InvalidInput);
+  EXPECT_THROW(PlantDistribution::of_records(reference(), {}), InvalidInput);
+}
+
+}  // namespace
+}  // namespace boresight::app

@@ -1,6 +1,0 @@
-#include <vector>
-
-#include <toml++/toml.h>
-
-#include "neighbour.hpp"
-#include <boresight/plant/allowed.hpp>

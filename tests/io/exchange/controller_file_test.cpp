@@ -1,0 +1,227 @@
+#include <cstring>
+#include <random>
+#include <string>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <zlib.h>
+
+#include "app/edited_case.hpp"
+#include <boresight/control/loops/state_space_controller.hpp>
+#include <boresight/io/exchange/controller_file.hpp>
+#include <boresight/numerics/error.hpp>
+
+namespace boresight::app {
+namespace {
+
+using testing::HasSubstr;
+
+control::ControlLaw law() {
+  return {control::LoopStructure::pi_with_lag(), {0.2, 0.8, 6.0, 0.2, 0.02}};
+}
+
+plant::StateSpace system() {
+  return control::antenna_state_space_controller(control::to_state_space(law()));
+}
+
+std::string refusal(std::string_view content, const io::ControllerNames& names = {}) {
+  try {
+    io::parse_controller(content, "k.json", 1000.0, names);
+  } catch (const InvalidInput& error) {
+    return error.what();
+  }
+  return "";
+}
+
+void expect_same(const plant::StateSpace& one, const plant::StateSpace& other) {
+  EXPECT_EQ(one.inputs, other.inputs);
+  EXPECT_EQ(one.outputs, other.outputs);
+  EXPECT_EQ(one.sample_time, other.sample_time);
+  EXPECT_EQ(one.a, other.a);
+  EXPECT_EQ(one.b, other.b);
+  EXPECT_EQ(one.c, other.c);
+  EXPECT_EQ(one.d, other.d);
+}
+
+TEST(ControllerFile, ComesBackBitByBitFromMatAndJson) {
+  auto controller = system();
+  expect_same(io::parse_controller(io::controller_mat(controller), "k.mat", 1.0).system,
+              controller);
+  expect_same(io::parse_controller(io::controller_json(controller), "k.json", 1.0).system,
+              controller);
+  controller.sample_time = 0.02;
+  expect_same(io::parse_controller(io::controller_mat(controller), "k.mat", 1.0).system,
+              controller);
+  const ScratchFolder folder;
+  for (const char* name : {"k.mat", "k.json"}) {
+    io::write_controller(folder.file(name), controller);
+    expect_same(io::read_controller(folder.file(name), 1.0).system, controller);
+  }
+}
+
+TEST(ControllerFile, ReadsCompressedMat) {
+  const auto controller = system();
+  const std::string plain = io::controller_mat(controller);
+  // Each element behind the head of 128 bytes in a compressed one, type 15.
+  std::string packed = plain.substr(0, 128);
+  for (std::size_t at = 128; at < plain.size();) {
+    std::uint32_t size = 0;
+    std::memcpy(&size, plain.data() + at + 4, sizeof size);
+    const std::string element = plain.substr(at, 8 + size);
+    uLongf length = compressBound(static_cast<uLong>(element.size()));
+    std::string bytes(length, '\0');
+    ASSERT_EQ(compress(reinterpret_cast<Bytef*>(bytes.data()), &length,
+                       reinterpret_cast<const Bytef*>(element.data()),
+                       static_cast<uLong>(element.size())),
+              Z_OK);
+    const std::uint32_t type = 15, packed_size = static_cast<std::uint32_t>(length);
+    packed.append(reinterpret_cast<const char*>(&type), 4);
+    packed.append(reinterpret_cast<const char*>(&packed_size), 4);
+    packed.append(bytes, 0, length);
+    at += 8 + size;
+  }
+  expect_same(io::parse_controller(packed, "k.mat", 1.0).system, controller);
+}
+
+TEST(ControllerFile, TakesUnitsSignsAndTheSkysAngle) {
+  const auto file = io::parse_controller(
+      R"({"D": [[-2, 3, 0.5, 7]], "inputs": ["tachometer", "position_error", "motor_torque", "reference"],
+          "outputs": ["valve_command"], "input_units": ["deg/s", "deg", "kN.m", "deg"],
+          "output_units": ["rpm"], "angles": "sky"})",
+      "k.json", 1000.0);
+  const double degree = std::numbers::pi / 180.0, rpm = std::numbers::pi / 30.0;
+  const auto& k = file.system;
+  EXPECT_THAT(k.inputs, testing::ElementsAre("tachometer", "encoder", "motor_torque"));
+  EXPECT_THAT(k.outputs, testing::ElementsAre("valve_demand"));
+  // The tachometer is the motor's whatever the angles are of.
+  EXPECT_NEAR(k.d(0, 0), -2.0 / degree * rpm, 1e-12 * std::abs(k.d(0, 0)));
+  EXPECT_NEAR(k.d(0, 1), -3.0 / degree / 1000.0 * rpm, 1e-12 * std::abs(k.d(0, 1)));
+  EXPECT_NEAR(k.d(0, 2), 0.5 / 1000.0 * rpm, 1e-15);
+  EXPECT_EQ(k.a.rows(), 0);
+  EXPECT_EQ(file.remarks.size(), 3U);
+}
+
+TEST(ControllerFile, NamesMayComeFromTheCommandLine) {
+  const std::string bare = R"({"D": [[-0.1, -0.02]]})";
+  EXPECT_THAT(refusal(bare), HasSubstr("names of the inputs in the file or by --inputs"));
+  EXPECT_THAT(refusal(bare, {{"tachometer", "encoder"}, {}}), HasSubstr("--outputs"));
+  EXPECT_EQ(refusal(bare, {{"tachometer", "encoder"}, {"valve_demand"}}), "");
+}
+
+TEST(ControllerFile, SaysWhatIsWrong) {
+  const std::string names = R"("inputs": ["tachometer", "encoder"], "outputs": ["valve_demand"])";
+  const std::vector<std::pair<std::string, std::string>> cases{
+      {"", "expected a MAT file of version 5 or JSON"},
+      {"[1]", "expected an object with A, B, C, D"},
+      {"{" + names + "}", "D: expected a list of rows, found none"},
+      {R"({"D": [[1, 2, 3]], )" + names + "}",
+       "D: expected 1 x 2 for 0 states, 2 inputs and 1 outputs, found 1 x 3"},
+      {R"({"D": [[1, 2], [3]], )" + names + "}", "D: expected rows of 2 numbers, found one of 1"},
+      {R"({"D": [[1, "x"]], )" + names + "}", "D: expected numbers"},
+      {R"({"D": [[1, null]], )" + names + "}", "D: expected numbers"},
+      {R"({"A": [[1, 2]], "B": [[1, 1]], "C": [[1, 1]], "D": [[1, 2]], )" + names + "}",
+       "A: expected 1 x 1"},
+      {R"({"A": [[1]], "B": [[1]], "C": [[1]], "D": [[1, 2]], )" + names + "}",
+       "B: expected 1 x 2"},
+      {R"({"A": [[1]], "B": [[1, 1]], "C": [[1], [1]], "D": [[1, 2]], )" + names + "}",
+       "C: expected 1 x 1"},
+      {R"({"D": [[1, 2]], "sample_time": -1, )" + names + "}", "sample time: expected 0"},
+      {R"({"D": [[1, 2]], "sample_time": "1", )" + names + "}", "sample_time: expected numbers"},
+      {R"({"D": [[1, 2]], "angles": "moon", )" + names + "}", "angles: expected motor or sky"},
+      {R"({"D": [[1, 2]], "input_units": ["rad/s"], )" + names + "}",
+       "input_units: expected 2 units or none, found 1"},
+      {R"({"D": [[1, 2]], "input_units": ["rad/s", "m"], )" + names + "}",
+       "unit of encoder: expected an angle"},
+      {R"({"D": [[1, 2]], "input_units": ["rad/s", "degg"], )" + names + "}", "unit of encoder"},
+      {R"({"D": [[1, 2]], "gain": 1, )" + names + "}", "found 'gain'"},
+      {R"({"D": [[1, 2]], "inputs": ["tachometer", "encodr"], "outputs": ["valve_demand"]})",
+       "found 'encodr' (did you mean 'encoder'?)"},
+      {R"({"D": [[1, 2]], "inputs": ["tachometer", "tachometer"], "outputs": ["valve_demand"]})",
+       "tachometer"},
+      {R"({"D": [[1, 2]], "inputs": ["tachometer", "encoder"], "outputs": ["current"]})",
+       "outputs: expected one of valve_demand, valve_command, rate_command, found 'current'"},
+      {R"({"D": [[1e999, 2]], )" + names + "}", "k.json: "},
+  };
+  for (const auto& [content, expected] : cases) {
+    EXPECT_THAT(refusal(content), HasSubstr(expected)) << content;
+  }
+  std::string mat = io::controller_mat(system());
+  EXPECT_THAT(refusal(mat.substr(0, mat.size() - 40)), HasSubstr("expected a whole MAT file"));
+  EXPECT_THAT(refusal("MATLAB 7.3 MAT-file"), HasSubstr("version 7.3"));
+  auto broken = system();
+  broken.d(0, 0) = std::nan("");
+  EXPECT_THAT(refusal(io::controller_mat(broken)),
+              HasSubstr("D: expected finite elements, found NaN"));
+}
+
+TEST(ControllerFile, SurvivesRandomBytes) {
+  std::mt19937_64 random(3);
+  const std::array<std::string, 2> good{io::controller_mat(system()),
+                                        io::controller_json(system())};
+  int read = 0;
+  for (int i = 0; i < 4000; ++i) {
+    std::string bytes = good.at(static_cast<std::size_t>(i % 2));
+    const auto changes = 1 + random() % 4;
+    for (std::uint64_t k = 0; k < changes; ++k) {
+      bytes[random() % bytes.size()] = static_cast<char>(random() % 256);
+    }
+    if (random() % 4 == 0) bytes.resize(random() % bytes.size());
+    try {
+      io::parse_controller(bytes, "k", 100.0);
+      ++read;
+    } catch (const InvalidInput&) {
+    }
+  }
+  EXPECT_GT(read, 0);
+}
+
+TEST(GainsFile, ReadsTomlInOrOutOfItsTable) {
+  const io::Case antenna = io::parse_case(EditedCase().text(), "case.toml");
+  const ScratchFolder folder;
+  const std::string gains =
+      "structure = \"PI\"\nkr = \"0.2\"\nwi = \"0.127 Hz\"\nwp = \"6 rad/s\"\nkp = \"0.2 1/s\"\n"
+      "wip = \"0.02 rad/s\"\n";
+  for (const std::string& text : {gains, "[gains]\n" + gains}) {
+    const auto file = io::read_gains_file(folder.write("gains.toml", text), antenna);
+    EXPECT_EQ(file.law.structure, control::LoopStructure::named("PI"));
+    ASSERT_EQ(file.law.gains.size(), 5U);
+    EXPECT_NEAR(file.law.gains[1], 2.0 * std::numbers::pi * 0.127, 1e-12);
+  }
+  const auto message = [&](const std::string& text) {
+    try {
+      io::read_gains_file(folder.write("gains.toml", text), antenna);
+    } catch (const InvalidInput& error) {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  EXPECT_THAT(message(gains + "kx = \"1\"\n"), HasSubstr("kx"));
+  EXPECT_THAT(message("structure = \"PJ\"\n"), HasSubstr("found 'PJ'"));
+  EXPECT_THAT(message("{\"tuned\": 1}"), HasSubstr("a report of `boresight tune`"));
+  EXPECT_THAT(message("{\"tuned\": {\"laws\": []}}"),
+              HasSubstr("a tuned law that meets its goals, found none"));
+}
+
+TEST(GainsFile, TakesTheBestLawOfATuneReport) {
+  const io::Case antenna = io::parse_case(EditedCase().text(), "case.toml");
+  const ScratchFolder folder;
+  const auto row = [](const char* purpose, const char* rms, const char* met, const char* kr) {
+    return std::string(R"({"structure": "PI-0", "tuned_for": ")") + purpose +
+           R"(", "design_wind_speed_m_per_s": 10, "goals_met": )" + met + R"(, "beam_rms_mdeg": )" +
+           rms + R"(, "gains_as_written": [{"symbol": "kr", "value": ")" + kr +
+           R"("}, {"symbol": "wi", "value": "0.8 rad/s"}, {"symbol": "kp", "value": "0.2 1/s"},
+               {"symbol": "wip", "value": "0.02 rad/s"}]})";
+  };
+  const std::string path =
+      folder.write("report.json", R"({"tuned": {"laws": [)" + row("nominal", "0.1", "true", "0.1") +
+                                      "," + row("robust", "0.3", "true", "0.3") + "," +
+                                      row("robust", "0.2", "false", "0.4") + "," +
+                                      row("robust", "0.25", "true", "0.5") + "]}}");
+  const auto file = io::read_gains_file(path, antenna);
+  EXPECT_DOUBLE_EQ(file.law.gains[0], 0.5);
+  EXPECT_THAT(file.description, HasSubstr("PI-0, robust"));
+  EXPECT_THROW(io::read_gains_file(path, antenna, "DPF"), InvalidInput);
+}
+
+}  // namespace
+}  // namespace boresight::app

@@ -54,6 +54,8 @@ QUALIFIED = re.compile(r"(?:\.|->|::)\s*([A-Za-z_]\w*)")
 # Includes of the head of a file; what stands between #if and #endif is left to the file.
 INCLUDE = re.compile(r'^#include (<[^>]+>|"[^"]+")', re.M)
 CONDITION = re.compile(r"^#\s*if.*?^#\s*endif", re.M | re.S)
+# What is set for the headers that follow must not be set for those of other files, nor come behind them.
+SETS_FOR_HEADERS = re.compile(r"^#\s*(?:define|undef)\b[\s\S]*^#\s*include\b.*", re.M)
 # fmt/ranges.h does not do behind nlohmann/json.hpp what it does before it.
 FIRST = "<fmt/ranges.h>"
 
@@ -87,10 +89,10 @@ class Batch:
     """Files that can be read one behind the other."""
 
     def __init__(self):
-        self.members, self.taken, self.used = [], set(), set()
+        self.members, self.taken, self.used, self.closed = [], set(), set(), False
 
     def admits(self, names, words):
-        return not names & self.used and not words & self.taken
+        return not self.closed and not names & self.used and not words & self.taken
 
     def add(self, source, names, words):
         self.members.append(source)
@@ -109,20 +111,23 @@ def batches(sources, largest, kept=None, of_headers=None):
         if of_headers is not None:
             free = renamed(text, of_headers)
             names, words = names - free, words - free
+        alone = SETS_FOR_HEADERS.search(text) is not None
         first = made[kept[source]:kept[source] + 1] if source in kept else []
         for batch in [*first, *made]:
-            if len(batch.members) < largest and batch.admits(names, words):
+            if len(batch.members) < (1 if alone else largest) and batch.admits(names, words):
                 break
         else:
             made.append(batch := Batch())
         batch.add(source, names, words)
+        batch.closed = alone
     return [batch.members for batch in made]
 
 
 def batch_text(members, of_headers):
     """The source of a batch: what all its files include, then the files."""
     texts = [pathlib.Path(member).read_text(encoding="utf-8") for member in members]
-    included = {name for text in texts for name in INCLUDE.findall(CONDITION.sub("", text))}
+    heads = [SETS_FOR_HEADERS.sub("", text) for text in texts]
+    included = {name for head in heads for name in INCLUDE.findall(CONDITION.sub("", head))}
     lines = [f"#include {FIRST}"] if FIRST in included else []
     lines += [f"#include {name}" for name in sorted(included - {FIRST}, key=lambda name: (name[0] == '"', name))]
     for member, text in zip(members, texts):

@@ -64,3 +64,9 @@ with tempfile.TemporaryDirectory() as name:
     head = write("head.cpp", "int three() { return 3; }\n")
     pathlib.Path(head).write_text("#include <vector>\n#ifdef X\n#include <none>\n#endif\n", encoding="utf-8")
     assert batch_text([head], set()) == f'#include <vector>\n#include "{head}"\n'
+    # What a file sets for the headers that follow is read by them, and by those of no other file.
+    sets = write("sets.cpp", "int four() { return 4; }\n")
+    pathlib.Path(sets).write_text("#include <map>\n#define X 1\n#include <vector>\n", encoding="utf-8")
+    assert batches([first, sets, head], 10) == [[first, head], [sets]]
+    assert batches([sets, first, head], 10) == [[sets], [first, head]]
+    assert batch_text([sets], set()) == f'#include <map>\n#include "{sets}"\n'

@@ -9,7 +9,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "app/edited_case.hpp"
+#include "io/edited_case.hpp"
 #include <boresight/app/audit/case_graph.hpp>
 #include <boresight/app/audit/plausibility_checks.hpp>
 #include <boresight/app/redesign/antenna_model.hpp>

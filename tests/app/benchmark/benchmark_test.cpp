@@ -5,7 +5,8 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "app/edited_case.hpp"
+#include "app/program_run.hpp"
+#include "io/edited_case.hpp"
 #include <boresight/app/commands/benchmark_command.hpp>
 #include <boresight/app/redesign/antenna_model.hpp>
 #include <boresight/app/tune/engineer_units.hpp>

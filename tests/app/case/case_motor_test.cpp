@@ -8,7 +8,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "app/edited_case.hpp"
+#include "io/edited_case.hpp"
 #include <boresight/app/audit/audit_report.hpp>
 #include <boresight/app/redesign/assumed_inputs.hpp>
 #include <boresight/io/case/case_file.hpp>

@@ -4,7 +4,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "app/edited_case.hpp"
+#include "io/edited_case.hpp"
+#include "scratch_folder.hpp"
 #include <boresight/app/redesign/antenna_model.hpp>
 #include <boresight/design/tuning/structure_parts.hpp>
 #include <boresight/io/case/case_file.hpp>

@@ -8,7 +8,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "app/edited_case.hpp"
+#include "io/edited_case.hpp"
+#include "scratch_folder.hpp"
 #include <boresight/app/redesign/antenna_model.hpp>
 #include <boresight/app/report/wind_mast.hpp>
 #include <boresight/app/simulate/nonlinear_model.hpp>

@@ -8,7 +8,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "app/edited_case.hpp"
+#include "app/program_run.hpp"
+#include "io/edited_case.hpp"
 #include <boresight/io/case/case_file.hpp>
 
 namespace boresight::app {

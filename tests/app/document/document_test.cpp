@@ -8,7 +8,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "app/edited_case.hpp"
+#include "io/edited_case.hpp"
 #include <boresight/app/document/document_html.hpp>
 #include <boresight/app/document/document_text.hpp>
 #include <boresight/app/redesign/assumed_inputs.hpp>

@@ -5,7 +5,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "app/edited_case.hpp"
+#include "io/edited_case.hpp"
 #include <boresight/app/evaluate/evaluate_study.hpp>
 #include <boresight/app/evaluate/pairs_by_structure.hpp>
 #include <boresight/app/uncertainty/designed_antenna.hpp>

@@ -6,7 +6,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "app/edited_case.hpp"
+#include "io/edited_case.hpp"
 #include <boresight/app/evaluate/evaluate_study.hpp>
 #include <boresight/app/evaluate/proposed_case.hpp>
 #include <boresight/app/tune/plant_members.hpp>

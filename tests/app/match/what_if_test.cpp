@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "app/edited_case.hpp"
+#include "io/edited_case.hpp"
 #include <boresight/app/match/what_if.hpp>
 #include <boresight/design/ensembles/monte_carlo.hpp>
 #include <boresight/design/tuning/design_study.hpp>

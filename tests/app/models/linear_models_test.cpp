@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "app/edited_case.hpp"
+#include "io/edited_case.hpp"
 #include <boresight/app/benchmark/benchmark_report.hpp>
 #include <boresight/app/models/linear_models.hpp>
 #include <boresight/app/redesign/antenna_model.hpp>

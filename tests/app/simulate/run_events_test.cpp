@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "app/edited_case.hpp"
+#include "io/edited_case.hpp"
 #include <boresight/app/simulate/nonlinear_model.hpp>
 #include <boresight/app/simulate/recorder_filter.hpp>
 #include <boresight/app/simulate/run_events.hpp>

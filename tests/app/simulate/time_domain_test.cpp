@@ -10,7 +10,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "app/edited_case.hpp"
+#include "io/edited_case.hpp"
 #include <boresight/app/redesign/antenna_model.hpp>
 #include <boresight/app/report/json_time_domain.hpp>
 #include <boresight/app/simulate/time_domain.hpp>

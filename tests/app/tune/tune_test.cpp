@@ -10,7 +10,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "app/edited_case.hpp"
+#include "app/program_run.hpp"
+#include "io/edited_case.hpp"
 #include <boresight/app/redesign/antenna_model.hpp>
 #include <boresight/app/tune/engineer_units.hpp>
 #include <boresight/app/tune/plant_members.hpp>

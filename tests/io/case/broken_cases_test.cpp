@@ -7,9 +7,10 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
-#include "app/edited_case.hpp"
+#include "app/program_run.hpp"
+#include "io/edited_case.hpp"
 
-namespace boresight::app {
+namespace boresight::io {
 namespace {
 
 using testing::EndsWith;
@@ -259,4 +260,4 @@ TEST(BrokenFile, BinaryDoesNotReachTheTerminal) {
 }
 
 }  // namespace
-}  // namespace boresight::app
+}  // namespace boresight::io

@@ -3,9 +3,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "app/edited_case.hpp"
+#include "io/edited_case.hpp"
+#include "scratch_folder.hpp"
 
-namespace boresight::app {
+namespace boresight::io {
 namespace {
 
 using testing::HasSubstr;
@@ -85,4 +86,4 @@ TEST(CaseCampaign, RefusesPredictionsThatDoNotRise) {
 }
 
 }  // namespace
-}  // namespace boresight::app
+}  // namespace boresight::io

@@ -7,11 +7,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "app/edited_case.hpp"
+#include "io/edited_case.hpp"
 #include <boresight/design/problem/wind_climate.hpp>
 #include <boresight/io/case/case_file.hpp>
 
-namespace boresight::app {
+namespace boresight::io {
 namespace {
 
 using testing::HasSubstr;
@@ -98,4 +98,4 @@ TEST(CaseClimate, RefusesKeysOfTwoWaysAndLawsThatAreNone) {
 }
 
 }  // namespace
-}  // namespace boresight::app
+}  // namespace boresight::io

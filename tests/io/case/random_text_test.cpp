@@ -9,11 +9,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "app/every_kind.hpp"
+#include "io/every_kind.hpp"
 #include <boresight/io/case/table_reader.hpp>
 #include <boresight/io/units/units.hpp>
 
-namespace boresight::app {
+namespace boresight::io {
 namespace {
 
 using testing::HasSubstr;
@@ -184,4 +184,4 @@ TEST(TableReader, SurvivesRandomFiles) {
 }
 
 }  // namespace
-}  // namespace boresight::app
+}  // namespace boresight::io

@@ -12,7 +12,7 @@
 
 #include <boresight/io/case/table_reader.hpp>
 
-namespace boresight::app {
+namespace boresight::io {
 namespace {
 
 using testing::ElementsAre;
@@ -386,4 +386,4 @@ TEST(TableReader, OpensFiles) {
 }
 
 }  // namespace
-}  // namespace boresight::app
+}  // namespace boresight::io

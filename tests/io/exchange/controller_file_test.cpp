@@ -6,12 +6,13 @@
 #include <gtest/gtest.h>
 #include <zlib.h>
 
-#include "app/edited_case.hpp"
+#include "io/edited_case.hpp"
+#include "scratch_folder.hpp"
 #include <boresight/control/loops/state_space_controller.hpp>
 #include <boresight/io/exchange/controller_file.hpp>
 #include <boresight/numerics/error.hpp>
 
-namespace boresight::app {
+namespace boresight::io {
 namespace {
 
 using testing::HasSubstr;
@@ -224,4 +225,4 @@ TEST(GainsFile, TakesTheBestLawOfATuneReport) {
 }
 
 }  // namespace
-}  // namespace boresight::app
+}  // namespace boresight::io

@@ -5,7 +5,7 @@
 #include <boresight/io/case/case_file.hpp>
 #include <boresight/io/files/input_files.hpp>
 
-namespace boresight::app {
+namespace boresight::io {
 namespace {
 
 // FIPS 180-4's own examples.
@@ -29,4 +29,4 @@ TEST(InputFiles, ACaseAndWhatItNamesAreNotedOnce) {
 }
 
 }  // namespace
-}  // namespace boresight::app
+}  // namespace boresight::io

@@ -14,7 +14,7 @@
 #include <boresight/io/records/record_mat_writer.hpp>
 #include <boresight/numerics/error.hpp>
 
-namespace boresight::app {
+namespace boresight::io {
 namespace {
 
 using testing::HasSubstr;
@@ -110,4 +110,4 @@ TEST(MatWriter, WritesTextBeyondAsciiAsUtf16) {
 }
 
 }  // namespace
-}  // namespace boresight::app
+}  // namespace boresight::io

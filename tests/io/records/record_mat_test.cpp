@@ -12,7 +12,7 @@
 #include <boresight/io/records/record_mat.hpp>
 #include <boresight/numerics/error.hpp>
 
-namespace boresight::app {
+namespace boresight::io {
 namespace {
 
 using testing::ElementsAre;
@@ -193,4 +193,4 @@ TEST(ReadRecordMat, RefusesEveryCutFileOrTakesAPart) {
 }
 
 }  // namespace
-}  // namespace boresight::app
+}  // namespace boresight::io

@@ -8,7 +8,7 @@
 #include <boresight/io/records/record_text.hpp>
 #include <boresight/numerics/error.hpp>
 
-namespace boresight::app {
+namespace boresight::io {
 namespace {
 
 using testing::ElementsAre;
@@ -223,4 +223,4 @@ TEST(ReadRecord, RefusesWhatIsNoRecorderFile) {
 }
 
 }  // namespace
-}  // namespace boresight::app
+}  // namespace boresight::io

@@ -14,11 +14,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "app/every_kind.hpp"
-#include "app/unit_refusal.hpp"
+#include "io/every_kind.hpp"
+#include "io/unit_refusal.hpp"
 #include <boresight/io/units/units.hpp>
 
-namespace boresight::app {
+namespace boresight::io {
 namespace {
 
 using testing::HasSubstr;
@@ -204,4 +204,4 @@ TEST(ParseQuantity, ReadsBackEveryNumberItIsGiven) {
 }
 
 }  // namespace
-}  // namespace boresight::app
+}  // namespace boresight::io

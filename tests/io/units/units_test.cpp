@@ -12,10 +12,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "app/unit_refusal.hpp"
+#include "io/unit_refusal.hpp"
 #include <boresight/io/units/units.hpp>
 
-namespace boresight::app {
+namespace boresight::io {
 namespace {
 
 using testing::HasSubstr;
@@ -201,4 +201,4 @@ TEST(ParseUnit, DoesNotDependOnTheOrderOfAProduct) {
 }
 
 }  // namespace
-}  // namespace boresight::app
+}  // namespace boresight::io

@@ -4,7 +4,7 @@
 
 #include <boresight/io/units/units.hpp>
 
-namespace boresight::app {
+namespace boresight {
 
 inline std::vector<io::Kind> every_kind() {
   std::vector<io::Kind> kinds;
@@ -14,4 +14,4 @@ inline std::vector<io::Kind> every_kind() {
   return kinds;
 }
 
-}  // namespace boresight::app
+}  // namespace boresight

@@ -5,11 +5,11 @@
 #include <string>
 #include <string_view>
 
-#include "app/program_run.hpp"
+#include "scratch_folder.hpp"
 #include <boresight/io/case/case_file.hpp>
 #include <boresight/numerics/error.hpp>
 
-namespace boresight::app {
+namespace boresight {
 
 inline std::string case_path(const std::string& antenna) {
   std::string path = BORESIGHT_SOURCE_DIR "/cases/";
@@ -81,4 +81,4 @@ inline std::string refusal_of(const std::string& text) {
   return "taken";
 }
 
-}  // namespace boresight::app
+}  // namespace boresight

@@ -4,7 +4,7 @@
 
 #include <boresight/io/units/units.hpp>
 
-namespace boresight::app {
+namespace boresight {
 
 /// What a unit text was refused with, and where.
 struct Refusal {
@@ -22,4 +22,4 @@ Refusal refusal_of(Read read) {
   return {"accepted", 0};
 }
 
-}  // namespace boresight::app
+}  // namespace boresight

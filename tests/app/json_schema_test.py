@@ -1,7 +1,7 @@
 """Holds the JSON reports of every command against docs/report.schema.json and against what they
 must mean.
 
-usage: json_schema_test.py PROGRAM SOURCE_FOLDER
+Run by reports_test.py.
 """
 
 import functools
@@ -494,7 +494,3 @@ class Redesign(unittest.TestCase):
                 load = point["reflected_inertia_kg_m2"] - point["motor_inertia_kg_m2"]
                 self.assertAlmostEqual(point["motor_inertia_kg_m2"] / load,
                                        point["motor_to_load_ratio_1"])
-
-
-if __name__ == "__main__":
-    unittest.main(argv=sys.argv[:1])

@@ -1,13 +1,12 @@
 """Holds the figures of the JSON reports against the reports' own numbers, computed apart from them,
 and against what a figure must be.
 
-usage: report_figures_test.py PROGRAM SOURCE_FOLDER
+Run by reports_test.py.
 """
 
 import bisect
 import math
 import re
-import sys
 import unittest
 
 from json_schema_test import BIG, TUNED, every_report, report, run
@@ -171,7 +170,3 @@ class Studies(Near):
         self.assertAlmostEqual(sum(shares["x"]), 1.0, 4)
         for x, low, high in zip(shares["x"], shares["x_lower"], shares["x_upper"]):
             self.assertTrue(low <= x <= high)
-
-
-if __name__ == "__main__":
-    unittest.main(argv=sys.argv[:1])

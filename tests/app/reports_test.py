@@ -1,0 +1,10 @@
+"""Numbers and figures of every command's report: in one run, since both look at the same reports.
+
+usage: reports_test.py PROGRAM SOURCE_FOLDER
+"""
+
+import sys
+import unittest
+
+if __name__ == "__main__":
+    unittest.main(module=None, argv=sys.argv[:1], defaultTest=("json_schema_test", "report_figures_test"))

@@ -10,7 +10,7 @@
 #include "app/program_run.hpp"
 #include "io/edited_case.hpp"
 
-namespace boresight::io {
+namespace boresight::app {
 namespace {
 
 using testing::EndsWith;
@@ -260,4 +260,4 @@ TEST(BrokenFile, BinaryDoesNotReachTheTerminal) {
 }
 
 }  // namespace
-}  // namespace boresight::io
+}  // namespace boresight::app

@@ -5,7 +5,6 @@
 #include <boresight/control/equations/lyapunov.hpp>
 #include <boresight/control/equations/riccati.hpp>
 #include <boresight/control/reduction/balanced_truncation.hpp>
-#include <boresight/control/reduction/controllability.hpp>
 #include <boresight/control/reduction/gramians.hpp>
 #include <boresight/control/reduction/modal_truncation.hpp>
 #include <boresight/plant/linear/sampling.hpp>
@@ -80,11 +79,5 @@ void truncate_modes(benchmark::State& state) {
   }
 }
 BENCHMARK(truncate_modes)->Arg(5)->Arg(20)->Arg(50);
-
-void controllability(benchmark::State& state) {
-  const auto system = noise_to_pointing(state);
-  for (auto _ : state) benchmark::DoNotOptimize(control::controllability(system));
-}
-BENCHMARK(controllability)->Arg(5)->Arg(20)->Arg(50);
 
 }  // namespace

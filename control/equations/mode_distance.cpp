@@ -62,10 +62,6 @@ bool ModeDistance::stable(Complex eigenvalue) const {
   return std::abs(eigenvalue) < 1.0 - rounding;
 }
 
-Eigen::VectorXd ModeDistance::by_port(const VectorXcd& combination) const {
-  return (b_.adjoint() * (schur_.u.adjoint() * combination)).cwiseAbs() / norm_;
-}
-
 // Rotates B away with a reflection of one column of T - s and all of B for each row, from the last:
 // what is left of T - s is upper triangular still and has the singular values of [T - s, B].
 void ModeDistance::triangularise(Complex s) {
@@ -105,7 +101,6 @@ ModeDistance::Mode ModeDistance::test(Complex s) {
   VectorXcd w = VectorXcd::Constant(n, 1.0 / std::sqrt(static_cast<double>(n)));
   VectorXcd image(n);
   double distance = std::numeric_limits<double>::infinity();
-  VectorXcd best = w;
   constexpr int most_steps = 8;
   for (int step = 0; step < most_steps; ++step) {
     substitute(triangle_, w);
@@ -115,13 +110,10 @@ ModeDistance::Mode ModeDistance::test(Complex s) {
     image.noalias() = triangle_.adjoint().triangularView<Eigen::Lower>() * w;
     const double length = image.stableNorm();
     const bool settled = length > 0.99 * distance;
-    if (length < distance) {
-      distance = length;
-      best = w;
-    }
+    distance = std::min(distance, length);
     if (settled) break;
   }
-  return {s, distance / norm_, schur_.u * best};
+  return {s, distance / norm_};
 }
 
 ModeDistance::Mode ModeDistance::test_with_neighbours(Complex s, double tolerance) {
@@ -142,20 +134,6 @@ ModeDistance::Mode ModeDistance::test_with_neighbours(Complex s, double toleranc
     if (mean.distance <= tolerance) return mean;
   }
   return mode;
-}
-
-std::vector<ModeDistance::Mode> ModeDistance::modes(double tolerance) {
-  std::vector<Mode> found;
-  for (const Complex eigenvalue : schur_.t.diagonal()) {
-    if (eigenvalue.imag() < 0.0) continue;
-    Mode mode = test_with_neighbours(eigenvalue, tolerance);
-    mode.eigenvalue.imag(std::abs(mode.eigenvalue.imag()));
-    const bool known = std::any_of(found.begin(), found.end(), [&](const Mode& other) {
-      return std::abs(other.eigenvalue - mode.eigenvalue) <= 1e-10 * norm_;
-    });
-    if (!known) found.push_back(std::move(mode));
-  }
-  return found;
 }
 
 std::vector<ModeDistance::Mode> ModeDistance::unreached_unstable(double tolerance) {

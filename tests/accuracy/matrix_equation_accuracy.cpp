@@ -3,7 +3,6 @@
 
 #include "accuracy_table.hpp"
 #include <boresight/control/equations/riccati.hpp>
-#include <boresight/control/reduction/pole_placement.hpp>
 #include <boresight/numerics/error.hpp>
 #include <boresight/plant/linear/dense_response.hpp>
 
@@ -59,16 +58,6 @@ void riccati_rows(AccuracySection& section, const nlohmann::json& cases) {
   }
 }
 
-void placement_rows(AccuracySection& section, const nlohmann::json& cases) {
-  for (const auto& entry : cases) {
-    const Eigen::MatrixXd a = matrix(entry.at("A")), b = matrix(entry.at("B"));
-    const auto system = state_space(a, b, Eigen::MatrixXd::Identity(a.rows(), a.rows()),
-                                    Eigen::MatrixXd::Zero(a.rows(), b.cols()));
-    const auto placed = control::place_poles(system, complex_numbers(entry.at("poles")));
-    section.matrix("place", "K", placed.gain, matrix(entry.at("K")), 2, 1e-9);
-  }
-}
-
 void response_rows(AccuracySection& section, const nlohmann::json& file) {
   const auto& scaled = file.at("badly_scaled_frequency_response");
   plant::DenseResponse response(matrices_of(scaled));
@@ -93,13 +82,12 @@ void response_rows(AccuracySection& section, const nlohmann::json& file) {
 
 AccuracySection matrix_equation_accuracy() {
   AccuracySection section(
-      "Riccati equations, pole placement, scaling",
-      "`values/riccati_place_scaling.json`: equations on which Drake, wpimath and others failed, "
+      "Riccati equations, scaling",
+      "`values/riccati_scaling.json`: equations on which Drake, wpimath and others failed, "
       "with the solutions of Octave (4 decimals) or in closed form; a badly scaled system whose "
       "response is known from rational arithmetic.");
-  const auto file = reference_values("riccati_place_scaling");
+  const auto file = reference_values("riccati_scaling");
   riccati_rows(section, file.at("care_dare"));
-  placement_rows(section, file.at("place"));
   response_rows(section, file);
   return section;
 }

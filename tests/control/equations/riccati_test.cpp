@@ -32,7 +32,7 @@ MatrixXd inverse(const MatrixXd& matrix) {
 }
 
 TEST(Riccati, OfTheReferenceCases) {
-  const auto file = reference::reference_values("riccati_place_scaling");
+  const auto file = reference::reference_values("riccati_scaling");
   int solved = 0, refused = 0;
   for (const auto& entry : file.at("care_dare")) {
     const std::string id = entry.at("id");

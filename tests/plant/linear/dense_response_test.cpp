@@ -79,7 +79,7 @@ TEST(DenseResponse, OfManyFrequenciesIsBitForBitThatOfOne) {
 
 TEST(DenseResponse, OfABadlyScaledSystemKeepsItsDigits) {
   const auto file =
-      reference::reference_values("riccati_place_scaling").at("badly_scaled_frequency_response");
+      reference::reference_values("riccati_scaling").at("badly_scaled_frequency_response");
   DenseResponse response(reference::matrices_of(file));
   for (const auto& row : file.at("exact").at("values")) {
     EXPECT_LT(relative_error(response.channel(row.at(0)),
@@ -92,7 +92,7 @@ TEST(DenseResponse, OfABadlyScaledSystemKeepsItsDigits) {
 TEST(DenseResponse, IsNotMisledByABalancingPermutation) {
   // Slycot issue 11: 1/(s + 1/2)^2 beside states that the input does not reach.
   const auto file =
-      reference::reference_values("riccati_place_scaling").at("slycot11_tb05ad_balancing_bug");
+      reference::reference_values("riccati_scaling").at("slycot11_tb05ad_balancing_bug");
   DenseResponse response(reference::matrices_of(file));
   const Complex s{file.at("s").at(0), file.at("s").at(1)};
   const Complex found = response.at(s)(0, 0);

@@ -8,6 +8,7 @@
 #include <boresight/app/figures/figure_parts.hpp>
 #include <boresight/app/figures/inertia_figures.hpp>
 #include <boresight/numerics/error.hpp>
+#include <boresight/numerics/statistics/order_statistics.hpp>
 
 namespace boresight::app {
 namespace {
@@ -44,8 +45,7 @@ Figure forest(const std::vector<Row>& rows, const FigureAxis& axis,
     const double value = shown(row).interval.value;
     if (std::isfinite(value) && value > 0.0) values.push_back(value);
   }
-  std::ranges::sort(values);
-  const double most = values.empty() ? 1.0 : 4.0 * values[values.size() / 2];
+  const double most = values.empty() ? 1.0 : 4.0 * numerics::median(std::move(values));
   double largest = 0.0;
   for (const auto& row : rows) {
     const auto [interval, printed] = shown(row);

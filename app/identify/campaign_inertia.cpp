@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include <boresight/app/identify/campaign_comparison.hpp>
+#include <boresight/numerics/statistics/distribution_quantiles.hpp>
 
 namespace boresight::app {
 namespace {
@@ -233,13 +234,12 @@ Interval motor_to_load_ratio(const identification::DriveKnowledge& knowledge,
                              const Interval& inertia) {
   const double motors = knowledge.motor_count * knowledge.motor_inertia.value;
   const double error = knowledge.motor_count * knowledge.motor_inertia.standard_uncertainty;
-  constexpr double z = 1.959963984540054;
   const auto ratio = [&](double total) {
     return total > motors ? motors / (total - motors) : std::numeric_limits<double>::infinity();
   };
   // The motors' own uncertainty beside the inertia's, in the load.
   const auto end = [&](double bound) {
-    const double half = std::hypot(bound - inertia.value, z * error);
+    const double half = std::hypot(bound - inertia.value, numerics::normal_975 * error);
     return inertia.value + (bound > inertia.value ? half : -half);
   };
   const double value = ratio(inertia.value);

@@ -6,6 +6,7 @@
 
 #include <boresight/control/measured/measured_loop.hpp>
 #include <boresight/numerics/error.hpp>
+#include <boresight/numerics/statistics/order_statistics.hpp>
 
 namespace boresight::control {
 namespace {
@@ -85,9 +86,7 @@ double median_step(const std::vector<Point>& points, std::size_t i) {
     if (k != i) steps.push_back(points[k + 1].x - points[k].x);
   }
   if (steps.empty()) return points[i + 1].x - points[i].x;
-  const auto middle = steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2);
-  std::nth_element(steps.begin(), middle, steps.end());
-  return *middle;
+  return numerics::median(std::move(steps));
 }
 
 // Whether the line from one gain to the other meets the negative real axis.

@@ -6,6 +6,7 @@
 
 #include <boresight/control/measured/measured_points.hpp>
 #include <boresight/numerics/error.hpp>
+#include <boresight/numerics/statistics/order_statistics.hpp>
 
 namespace boresight::control {
 namespace {
@@ -43,9 +44,7 @@ double median_step(const std::vector<double>& x, std::size_t i) {
   for (std::size_t k = i > reach ? i - reach : 0; k <= i + reach && k + 1 < x.size(); ++k) {
     if (k != i) steps.push_back(x[k + 1] - x[k]);
   }
-  const auto middle = steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2);
-  std::nth_element(steps.begin(), middle, steps.end());
-  return *middle;
+  return numerics::median(std::move(steps));
 }
 
 }  // namespace

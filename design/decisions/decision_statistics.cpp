@@ -8,6 +8,7 @@
 #include <boresight/design/decisions/decision_statistics.hpp>
 #include <boresight/numerics/error.hpp>
 #include <boresight/numerics/statistics/distribution_quantiles.hpp>
+#include <boresight/numerics/statistics/order_statistics.hpp>
 
 namespace boresight::design {
 namespace {
@@ -74,34 +75,11 @@ std::vector<double> sorted(const Eigen::ArrayXd& values) {
   return result;
 }
 
-// Rank (from 0) of the highest order statistic that lies above the quantile with a probability of
-// at most `chance`, that is of no more than `rank` draws below the quantile; -1 for none.
-std::ptrdiff_t lower_rank(std::size_t count, double share, double chance) {
-  const auto n = static_cast<double>(count);
-  double below = 0.0;  // probability of at most k draws below the quantile
-  double log_probability = n * std::log1p(-share);  // of exactly k
-  std::ptrdiff_t rank = -1;
-  for (std::size_t k = 0; k < count; ++k) {
-    below += std::exp(log_probability);
-    if (below > chance) break;
-    rank = static_cast<std::ptrdiff_t>(k);
-    const auto draws = static_cast<double>(k);
-    log_probability += std::log((n - draws) / (draws + 1.0) * share / (1.0 - share));
-  }
-  return rank;
-}
-
 Quantile quantile_of(const std::vector<double>& values, double share, double confidence) {
-  const double place = share * static_cast<double>(values.size() - 1);
-  const auto before = static_cast<std::size_t>(place);
-  const double part = place - static_cast<double>(before);
-  Quantile result{share, values[before], -infinity, infinity};
-  if (part > 0.0 && values[before + 1] > values[before]) {
-    result.value += part * (values[before + 1] - values[before]);
-  }
+  Quantile result{share, numerics::quantile(values, share), -infinity, infinity};
   const double chance = 0.5 * (1.0 - confidence);
-  const std::ptrdiff_t low = lower_rank(values.size(), share, chance);
-  const std::ptrdiff_t high = lower_rank(values.size(), 1.0 - share, chance);
+  const auto low = numerics::rank_below_quantile(values.size(), share, chance);
+  const auto high = numerics::rank_below_quantile(values.size(), 1.0 - share, chance);
   if (low >= 0) result.lower = values[static_cast<std::size_t>(low)];
   if (high >= 0) result.upper = values[values.size() - 1 - static_cast<std::size_t>(high)];
   return result;

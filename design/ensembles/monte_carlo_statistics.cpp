@@ -3,52 +3,33 @@
 #include <limits>
 #include <numeric>
 
-#include <boost/math/distributions/binomial.hpp>
 #include <boost/math/special_functions/beta.hpp>
 #include <fmt/format.h>
 
 #include <boresight/design/ensembles/monte_carlo_statistics.hpp>
 #include <boresight/numerics/error.hpp>
+#include <boresight/numerics/statistics/distribution_quantiles.hpp>
+#include <boresight/numerics/statistics/order_statistics.hpp>
 
 namespace boresight::design {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-constexpr double normal_975 = 1.959963984540054;
+using numerics::normal_975;
 constexpr double tail = 0.025;
 
 EstimatedNumber about(double value, double standard_error) {
   return {value, value - normal_975 * standard_error, value + normal_975 * standard_error};
 }
 
-// The largest count that so many draws stay at or below with a probability of no more than `tail`;
-// -1 where even none is likelier.
-std::int64_t rare_count(const boost::math::binomial_distribution<double>& law, std::int64_t draws) {
-  std::int64_t low = -1, high = draws;  // P(count <= low) <= tail < P(count <= high)
-  while (high - low > 1) {
-    const std::int64_t middle = low + (high - low) / 2;
-    (boost::math::cdf(law, static_cast<double>(middle)) <= tail ? low : high) = middle;
-  }
-  return low;
-}
-
 // The interval of a quantile between order statistics of sorted values.
 EstimatedNumber quantile(const std::vector<double>& sorted, double share) {
-  const auto draws = static_cast<std::int64_t>(sorted.size());
-  const double place = share * static_cast<double>(draws - 1);
-  const auto below = static_cast<std::size_t>(place);
-  const auto above = std::min(below + 1, sorted.size() - 1);
-  EstimatedNumber number;
-  number.value =
-      sorted[below] + (place - static_cast<double>(below)) * (sorted[above] - sorted[below]);
-  // The k-th smallest lies above the quantile where fewer than k draws lie below it, which are
-  // binomial.
-  const auto n = static_cast<double>(draws);
-  const std::int64_t lower = rare_count({n, share}, draws);
-  const std::int64_t upper = draws - 1 - rare_count({n, 1.0 - share}, draws);
-  number.lower = lower >= 0 ? sorted[static_cast<std::size_t>(lower)] : -infinity;
-  number.upper = upper < draws ? sorted[static_cast<std::size_t>(upper)] : infinity;
+  EstimatedNumber number{numerics::quantile(sorted, share), -infinity, infinity};
+  const auto lower = numerics::rank_below_quantile(sorted.size(), share, tail);
+  const auto upper = numerics::rank_below_quantile(sorted.size(), 1.0 - share, tail);
+  if (lower >= 0) number.lower = sorted[static_cast<std::size_t>(lower)];
+  if (upper >= 0) number.upper = sorted[sorted.size() - 1 - static_cast<std::size_t>(upper)];
   return number;
 }
 

@@ -10,6 +10,7 @@
 #include <boresight/identification/friction/friction_rows.hpp>
 #include <boresight/numerics/error.hpp>
 #include <boresight/numerics/semidefinite_factor.hpp>
+#include <boresight/numerics/statistics/order_statistics.hpp>
 
 namespace boresight::identification {
 namespace {
@@ -123,15 +124,12 @@ Eigen::VectorXd scatter_by_row(const FrictionRows& rows, const Eigen::VectorXd& 
                                     rows.record[static_cast<std::size_t>(begin)]) {
       size.push_back(std::abs(residual(end++)));
     }
-    const auto middle = size.begin() + static_cast<std::ptrdiff_t>(size.size() / 2);
-    std::nth_element(size.begin(), middle, size.end());
-    records.emplace_back(size.size(), *middle / 0.6745);
-    sizes.push_back(*middle / 0.6745);
+    sizes.push_back(numerics::median(size) / 0.6745);
+    records.emplace_back(size.size(), sizes.back());
     begin = end;
   }
-  const auto middle = sizes.begin() + static_cast<std::ptrdiff_t>(sizes.size() / 2);
-  std::nth_element(sizes.begin(), middle, sizes.end());
-  const double least = std::max(0.5 * *middle, 1e-9 * rows.torque.cwiseAbs().maxCoeff());
+  const double least =
+      std::max(0.5 * numerics::median(sizes), 1e-9 * rows.torque.cwiseAbs().maxCoeff());
   Eigen::VectorXd scatter(rows.size());
   Eigen::Index at = 0;
   for (const auto& [length, value] : records) {

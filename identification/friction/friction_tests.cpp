@@ -9,6 +9,7 @@
 #include <boresight/identification/records/integrated_motion.hpp>
 #include <boresight/numerics/error.hpp>
 #include <boresight/numerics/normal_numbers.hpp>
+#include <boresight/numerics/statistics/order_statistics.hpp>
 
 namespace boresight::identification {
 namespace {
@@ -65,11 +66,10 @@ SteadyTail measure(const DriveRecord& record, std::size_t index, const Eigen::Ve
 // middle value over the second half.
 HalfPeriod before_reversal(const Eigen::VectorXd& rate, const HalfPeriod& half) {
   const Eigen::Index middle = (half.first + half.last) / 2;
-  std::vector<double> second(rate.begin() + middle, rate.begin() + half.last + 1);
-  const auto median = second.begin() + std::ssize(second) / 2;
-  std::nth_element(second.begin(), median, second.end());
+  const double usual =
+      numerics::median(std::vector<double>(rate.begin() + middle, rate.begin() + half.last + 1));
   HalfPeriod result = half;
-  while (result.last > middle && std::abs(rate(result.last) - *median) > 0.05 * std::abs(*median)) {
+  while (result.last > middle && std::abs(rate(result.last) - usual) > 0.05 * std::abs(usual)) {
     --result.last;
   }
   return result;

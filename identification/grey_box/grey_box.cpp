@@ -9,6 +9,7 @@
 #include <boresight/identification/grey_box/grey_box_search.hpp>
 #include <boresight/numerics/error.hpp>
 #include <boresight/numerics/singular_values.hpp>
+#include <boresight/numerics/statistics/order_statistics.hpp>
 
 namespace boresight::identification {
 namespace {
@@ -36,13 +37,6 @@ double sample_rate(const DriveKnowledge& knowledge, const GreyBoxOptions& option
   double highest = 0.0;
   for (const auto& f : knowledge.locked_rotor_frequencies) highest = std::max(highest, f.value);
   return std::max(50.0, 8.0 * highest);
-}
-
-double median(std::vector<double> numbers) {
-  if (numbers.empty()) return 0.0;
-  const auto middle = numbers.begin() + static_cast<std::ptrdiff_t>(numbers.size() / 2);
-  std::nth_element(numbers.begin(), middle, numbers.end());
-  return *middle;
 }
 
 // Share of the flow that an error of the flow balance would make of the leakage's.
@@ -306,9 +300,9 @@ GreyBoxResult fit_grey_box(const Campaign& campaign,
   std::vector<double> times, rates, pressures;
   for (const auto& record : records) times.push_back(record.sample_time);
   for (const auto& r : result.residuals) (r.pressures ? pressures : rates).push_back(r.rms);
-  result.sample_time = median(times);
-  result.rate_scale = median(rates);
-  result.pressure_scale = median(pressures);
+  result.sample_time = numerics::median(times);
+  result.rate_scale = rates.empty() ? 0.0 : numerics::median(rates);
+  result.pressure_scale = pressures.empty() ? 0.0 : numerics::median(pressures);
   result.model.push_back(parameters);
   add_notes(result);
   progress("done", 1.0);

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include <boresight/identification/records/channel_defects.hpp>
+#include <boresight/numerics/statistics/order_statistics.hpp>
 
 namespace boresight::identification {
 namespace {
@@ -85,15 +86,12 @@ double spread(const Eigen::VectorXd& values) {
   return std::max(0.0, extremes.largest - extremes.smallest);
 }
 
-double median(const Eigen::VectorXd& values) {
+double finite_median(const Eigen::VectorXd& values) {
   std::vector<double> finite;
   for (const double value : values) {
     if (std::isfinite(value)) finite.push_back(value);
   }
-  if (finite.empty()) return 0.0;
-  const auto middle = finite.begin() + static_cast<std::ptrdiff_t>(finite.size() / 2);
-  std::nth_element(finite.begin(), middle, finite.end());
-  return *middle;
+  return finite.empty() ? 0.0 : numerics::median(std::move(finite));
 }
 
 double correlation(const Eigen::VectorXd& one, const Eigen::VectorXd& other) {
@@ -195,10 +193,7 @@ std::vector<RecordDefect> mask_spikes(RawChannel& channel, const Eigen::VectorXd
     if (step > 0.0) quantum = std::min(quantum, step);
   }
   if (values.size() < 2 * window || !std::isfinite(quantum)) return {};
-  std::vector<double> sorted = steps;
-  std::nth_element(sorted.begin(), sorted.begin() + static_cast<Index>(sorted.size() / 2),
-                   sorted.end());
-  const double usual = sorted[sorted.size() / 2];
+  const double usual = numerics::median(steps);
   const double floor = std::max(6.0 * quantum, 0.005 * spread(values));
   std::vector<Index> spikes;
   for (Index i = near; i + near < values.size(); ++i) {

@@ -23,7 +23,7 @@ std::vector<RecordDefect> missing_samples(const RawChannel& channel, const Eigen
 /// Largest less smallest finite value; 0 if there is none.
 double spread(const Eigen::VectorXd& values);
 /// Median of the finite values; 0 if there is none.
-double median(const Eigen::VectorXd& values);
+double finite_median(const Eigen::VectorXd& values);
 /// Correlation coefficient over the samples at which both are finite; 0 if one is constant.
 double correlation(const Eigen::VectorXd& one, const Eigen::VectorXd& other);
 

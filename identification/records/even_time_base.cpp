@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <boresight/identification/records/even_time_base.hpp>
+#include <boresight/numerics/statistics/order_statistics.hpp>
 
 namespace boresight::identification {
 namespace {
@@ -13,12 +14,6 @@ using Index = Eigen::Index;
 
 // Steps over which the sample rate is told.
 constexpr std::size_t step_block = 32;
-
-double median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
 
 // Indices of the longest rising subsequence.
 std::vector<std::size_t> longest_rise(const std::vector<double>& values) {
@@ -227,7 +222,7 @@ class TimeBaseMaker {
     double other = usual;
     for (std::size_t begin = 0; begin + block <= steps.size(); begin += block) {
       const auto from = steps.begin() + static_cast<std::ptrdiff_t>(begin);
-      const double here = median({from, from + block});
+      const double here = numerics::median(std::vector<double>(from, from + block));
       const std::size_t end = begin + 2 * block > steps.size() ? steps.size() : begin + block;
       std::fill(local.begin() + static_cast<std::ptrdiff_t>(begin),
                 local.begin() + static_cast<std::ptrdiff_t>(end), here);
@@ -253,7 +248,7 @@ class TimeBaseMaker {
     for (std::size_t i = 1; i < base_.times.size(); ++i) {
       steps.push_back(base_.times[i] - base_.times[i - 1]);
     }
-    const double usual = median(steps);
+    const double usual = numerics::median(steps);
     const std::vector<double> local = local_steps(steps, usual);
     const double span = base_.times.back() - base_.times.front();
     const auto rows = static_cast<double>(base_.rows.size());

@@ -6,6 +6,7 @@
 
 #include <boresight/identification/records/integrated_motion.hpp>
 #include <boresight/numerics/error.hpp>
+#include <boresight/numerics/statistics/order_statistics.hpp>
 
 namespace boresight::identification {
 namespace {
@@ -174,10 +175,8 @@ double noise_level(const Eigen::VectorXd& signal) {
   for (Eigen::Index i = 0; i < count; ++i) {
     size[static_cast<std::size_t>(i)] = std::abs(signal(i) - 2.0 * signal(i + 1) + signal(i + 2));
   }
-  const auto middle = size.begin() + count / 2;
-  std::nth_element(size.begin(), middle, size.end());
   // The median size of a standard normal number is 0.6745; a second difference has variance 6.
-  return *middle / (0.6745 * std::sqrt(6.0));
+  return numerics::median(std::move(size)) / (0.6745 * std::sqrt(6.0));
 }
 
 numerics::Uncertain structural_jerk_inertia(const DriveKnowledge& knowledge) {

@@ -9,6 +9,7 @@
 #include <boresight/identification/records/even_time_base.hpp>
 #include <boresight/identification/records/record_defects.hpp>
 #include <boresight/numerics/error.hpp>
+#include <boresight/numerics/statistics/order_statistics.hpp>
 
 namespace boresight::identification {
 namespace {
@@ -109,8 +110,7 @@ class Cleaner {
     for (const auto* side : {&raw_.inlet, &raw_.outlet}) {
       for (const auto& channel : *side) spreads.push_back(spread(channel.values));
     }
-    std::sort(spreads.begin(), spreads.end());
-    return spreads[spreads.size() / 2];
+    return numerics::median(std::move(spreads));
   }
 
   void leave_out_commands() {
@@ -130,9 +130,10 @@ class Cleaner {
   bool is_reversed(const RawChannel& channel) const {
     double largest = 0.0;
     for (const auto* side : {&raw_.inlet, &raw_.outlet}) {
-      for (const auto& other : *side) largest = std::max(largest, std::abs(median(other.values)));
+      for (const auto& other : *side)
+        largest = std::max(largest, std::abs(finite_median(other.values)));
     }
-    return median(channel.values) < -0.1 * largest;
+    return finite_median(channel.values) < -0.1 * largest;
   }
 
   void find_dead_pressures() {

@@ -9,6 +9,7 @@
 #include <boresight/identification/resonance/hydraulic_resonance.hpp>
 #include <boresight/identification/resonance/ring_inertia.hpp>
 #include <boresight/numerics/error.hpp>
+#include <boresight/numerics/statistics/distribution_quantiles.hpp>
 
 namespace boresight::identification {
 namespace {
@@ -28,7 +29,7 @@ numerics::Interval single_mass_inertia(const numerics::Interval& stiffness, doub
                                        double uncertainty) {
   const double value = plant::inertia_from_resonance(stiffness.value, frequency);
   const double spread = std::hypot(relative(stiffness), 2.0 * uncertainty / frequency);
-  const double factor = std::exp(1.959963984540054 * spread);
+  const double factor = std::exp(numerics::normal_975 * spread);
   return {value, value * spread, value / factor, value * factor};
 }
 

@@ -8,6 +8,7 @@
 #include <boresight/identification/resonance/drive_response.hpp>
 #include <boresight/identification/resonance/hydraulic_ring.hpp>
 #include <boresight/numerics/error.hpp>
+#include <boresight/numerics/statistics/order_statistics.hpp>
 #include <boresight/numerics/statistics/pooled_mean.hpp>
 
 namespace boresight::identification {
@@ -29,12 +30,6 @@ VectorXd mean_change(const VectorXd& signal, Index span) {
         (running(i + span) - 2.0 * running(i) + running(i - span)) / static_cast<double>(span);
   }
   return change;
-}
-
-double median(VectorXd values) {
-  auto* const middle = values.data() + values.size() / 2;
-  std::nth_element(values.data(), middle, values.data() + values.size());
-  return *middle;
 }
 
 // K w + dT/dt: the valve's flow times K but for the loss, which changes slowly.
@@ -135,8 +130,8 @@ void drop_strangers(StepRings& result) {
   for (std::size_t k = 0; k < result.rings.size(); ++k) {
     frequencies(static_cast<Index>(k)) = result.rings[k].frequency.value;
   }
-  const double usual = median(frequencies);
-  const double spread = 1.4826 * median((frequencies.array() - usual).abs());
+  const double usual = numerics::median(frequencies);
+  const double spread = 1.4826 * numerics::median(VectorXd((frequencies.array() - usual).abs()));
   const double most = std::max(5.0 * spread, 0.03 * usual);
   std::erase_if(result.rings, [&](const StepRing& ring) {
     const bool strange = std::abs(ring.frequency.value - usual) > most;
@@ -161,7 +156,8 @@ std::vector<double> valve_step_times(const DriveRecord& record, const DriveKnowl
   if (signal.size() < 4 * span) return times;
   const VectorXd change = mean_change(signal, span).cwiseAbs();
   // 1.4826 times the median of |x| is a normal's standard deviation.
-  const double least = threshold * std::max(1.4826 * median(change), 1e-9 * change.maxCoeff());
+  const double least =
+      threshold * std::max(1.4826 * numerics::median(change), 1e-9 * change.maxCoeff());
   const Index apart = 6 * span;
   for (Index i = span; i + span < change.size(); ++i) {
     const Index from = std::max<Index>(i - apart, 0);

@@ -6,6 +6,7 @@
 #include <boresight/identification/signals/spectral_peaks.hpp>
 #include <boresight/numerics/error.hpp>
 #include <boresight/numerics/fourier_transform.hpp>
+#include <boresight/numerics/statistics/order_statistics.hpp>
 
 namespace boresight::identification {
 namespace {
@@ -15,10 +16,8 @@ using Eigen::VectorXd;
 
 double background(const VectorXd& power, Index at, Index bins) {
   const Index from = std::max<Index>(at - bins, 0);
-  VectorXd about = power.segment(from, std::min<Index>(at + bins, power.size() - 1) - from + 1);
-  auto* const middle = about.data() + about.size() / 2;
-  std::nth_element(about.data(), middle, about.data() + about.size());
-  return *middle;
+  const Index to = std::min<Index>(at + bins, power.size() - 1);
+  return numerics::median(VectorXd(power.segment(from, to - from + 1)));
 }
 
 // Offset (bins) of the maximum of a parabola through three ordinates, and its height.

@@ -5,6 +5,9 @@ namespace boresight::numerics {
 // Quantiles of the usual distributions, by Boost.Math, to 1e-12. `share` within (0, 1).
 // @throws InvalidInput for a share outside, or parameters that are not positive and finite.
 
+/// 97.5 % quantile of the standard normal distribution: within it to both sides lie 95 %.
+constexpr double normal_975 = 1.959963984540054;
+
 /// Student's t of `freedom` degrees.
 double student_quantile(double share, double freedom);
 /// Beta(a, b): within (0, 1).

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include <boresight/numerics/error.hpp>
+#include <boresight/numerics/statistics/order_statistics.hpp>
 #include <boresight/numerics/statistics/propagation.hpp>
 
 namespace boresight::numerics {
@@ -25,14 +26,6 @@ class StandardNormals {
   double uniform() { return (static_cast<double>(generator_() >> 11) + 0.5) * 0x1p-53; }
   std::mt19937_64 generator_;
 };
-
-double quantile(const std::vector<double>& sorted, double share) {
-  const double place = share * static_cast<double>(sorted.size() - 1);
-  const auto below = static_cast<std::size_t>(place);
-  const double rest = place - static_cast<double>(below);
-  if (below + 1 >= sorted.size()) return sorted.back();
-  return sorted[below] + rest * (sorted[below + 1] - sorted[below]);
-}
 
 void first_order(const std::vector<UncertainInput>& inputs, const PropagationTarget& target,
                  PropagatedResult& result) {

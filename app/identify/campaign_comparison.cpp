@@ -93,7 +93,9 @@ void average_methods(CampaignSection& section) {
     add("impulse", section.impulse->estimates[*section.impulse->best].inertia);
   }
   names += " kg m2";
-  std::erase_if(estimates, [](const Uncertain& one) { return !(one.standard_uncertainty > 0.0); });
+  std::erase_if(estimates, [](const Uncertain& one) {
+    return !(one.standard_uncertainty > 0.0) || !std::isfinite(one.standard_uncertainty);
+  });
   if (estimates.size() < 2) return;
   const auto mean = identification::reconcile(estimates, motors);
   if (mean.contradictory()) {

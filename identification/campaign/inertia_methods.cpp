@@ -1,4 +1,4 @@
-#include <array>
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -6,7 +6,9 @@
 
 #include <boresight/identification/campaign/inertia_methods.hpp>
 #include <boresight/numerics/error.hpp>
-#include <boresight/numerics/statistics/chi_squared.hpp>
+#include <boresight/numerics/statistics/distribution_quantiles.hpp>
+#include <boresight/numerics/statistics/interval.hpp>
+#include <boresight/numerics/statistics/pooled_mean.hpp>
 
 namespace boresight::identification {
 namespace {
@@ -194,7 +196,7 @@ InertiaIdentification identify_inertia(const DriveEvidence& evidence,
 }
 
 bool ReconciledInertia::contradictory() const {
-  return heterogeneity > numerics::chi_squared_999(degrees_of_freedom);
+  return heterogeneity > numerics::chi_squared_quantile(0.999, degrees_of_freedom);
 }
 
 ReconciledInertia reconcile(const std::vector<numerics::Uncertain>& estimates,
@@ -203,49 +205,26 @@ ReconciledInertia reconcile(const std::vector<numerics::Uncertain>& estimates,
     throw InvalidInput(
         fmt::format("reconcile: expected at least 2 estimates, found {}", estimates.size()));
   }
-  double weights = 0.0, squares = 0.0, weighted = 0.0;
-  for (const auto& estimate : estimates) {
-    if (!(estimate.standard_uncertainty > 0.0)) {
-      throw InvalidInput(fmt::format("reconcile: expected positive uncertainties, found {}",
-                                     estimate.standard_uncertainty));
-    }
-    const double weight = std::pow(estimate.standard_uncertainty, -2);
-    weights += weight;
-    squares += weight * weight;
-    weighted += weight * estimate.value;
-  }
+  const auto pooled = numerics::pooled_mean(estimates);
   ReconciledInertia result;
-  result.degrees_of_freedom = static_cast<int>(estimates.size()) - 1;
-  for (const auto& estimate : estimates) {
-    result.heterogeneity +=
-        std::pow((estimate.value - weighted / weights) / estimate.standard_uncertainty, 2);
-  }
-  const double between = std::max(
-      0.0, (result.heterogeneity - result.degrees_of_freedom) / (weights - squares / weights));
-  result.between_methods = std::sqrt(between);
-  weights = weighted = 0.0;
-  for (const auto& estimate : estimates) {
-    const double weight = 1.0 / (std::pow(estimate.standard_uncertainty, 2) + between);
-    weights += weight;
-    weighted += weight * estimate.value;
-  }
-  result.value = weighted / weights;
-  result.standard_uncertainty = 1.0 / std::sqrt(weights);
+  result.value = pooled.mean.value;
+  result.standard_uncertainty = pooled.mean.standard_uncertainty;
+  result.between_methods = pooled.between;
+  result.heterogeneity = pooled.heterogeneity;
+  result.degrees_of_freedom = pooled.degrees_of_freedom;
   if (estimates.size() == 2) {
     // Two methods say nothing useful of the scatter between methods: the hull of their own.
-    result.lower = std::numeric_limits<double>::infinity();
-    result.upper = -result.lower;
-    for (const auto& estimate : estimates) {
-      result.lower = std::min(result.lower, estimate.value - 1.96 * estimate.standard_uncertainty);
-      result.upper = std::max(result.upper, estimate.value + 1.96 * estimate.standard_uncertainty);
-    }
+    const auto own = [](const numerics::Uncertain& estimate) {
+      return numerics::normal_interval(estimate.value, estimate.standard_uncertainty);
+    };
+    const numerics::Interval first = own(estimates[0]), second = own(estimates[1]);
+    result.lower = std::min(first.lower, second.lower);
+    result.upper = std::max(first.upper, second.upper);
   } else {
-    // Student's t, 97.5 %, for 2 to 10 degrees of freedom; the normal's beyond.
-    constexpr std::array student{4.303, 3.182, 2.776, 2.571, 2.447, 2.365, 2.306, 2.262, 2.228};
-    const auto index = static_cast<std::size_t>(result.degrees_of_freedom - 2);
-    const double factor = index < student.size() ? student[index] : 1.96;
-    result.lower = result.value - factor * result.standard_uncertainty;
-    result.upper = result.value + factor * result.standard_uncertainty;
+    const double reach =
+        numerics::student_quantile(0.975, result.degrees_of_freedom) * result.standard_uncertainty;
+    result.lower = result.value - reach;
+    result.upper = result.value + reach;
   }
   const auto ratio = [&](double inertia) {
     return inertia > motor_inertia ? plant::motor_to_load_ratio(motor_inertia, inertia)

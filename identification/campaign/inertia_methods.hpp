@@ -103,8 +103,8 @@ struct ReconciledInertia {
   double ratio_lower = 0.0;
   double ratio_upper = 0.0;  // infinity where the inertia's interval reaches the motors' own
 
-  /// Whether Cochran's Q is no chance (chi_squared_999): then the mean stands for none of the
-  /// methods, and there is no reconciled inertia.
+  /// Whether chance exceeds Cochran's Q less than once in a thousand times: then the mean stands
+  /// for none of the methods, and there is no reconciled inertia.
   bool contradictory() const;
 };
 

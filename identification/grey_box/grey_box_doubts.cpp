@@ -3,7 +3,7 @@
 #include <limits>
 
 #include <boresight/identification/grey_box/grey_box_doubts.hpp>
-#include <boresight/numerics/statistics/chi_squared.hpp>
+#include <boresight/numerics/statistics/distribution_quantiles.hpp>
 
 namespace boresight::identification {
 namespace {
@@ -40,8 +40,9 @@ GreyBoxConflict grey_box_conflict(const GreyBoxParameters& parameters, const Vec
     entering += square;
     ++of_entering;
   }
-  if (conflict.count > 0) conflict.limit = numerics::chi_squared_999(conflict.count);
-  if (of_entering > 0 && entering > numerics::chi_squared_999(of_entering)) {
+  constexpr double chance = 0.999;
+  if (conflict.count > 0) conflict.limit = numerics::chi_squared_quantile(chance, conflict.count);
+  if (of_entering > 0 && entering > numerics::chi_squared_quantile(chance, of_entering)) {
     conflict.widening = entering / of_entering;
   }
   return conflict;

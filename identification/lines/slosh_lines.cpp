@@ -105,11 +105,11 @@ numerics::Uncertain pooled_square_of_wave_speed(const std::vector<LineRinging>& 
     of_motors.push_back(motor);
   }
   const auto pooled = numerics::pooled_mean(of_motors);
-  if (of_motors.size() > 1 && pooled.reduced_chi_squared > 3.0) {
+  if (of_motors.size() > 1 && pooled.reduced_chi_squared() > 3.0) {
     notes.push_back(fmt::format(
         "the lines' bulk moduli scatter by {:.2f} % beyond their own uncertainties (chi squared "
         "{:.1f} a degree of freedom): a length or a port may be wrong; the interval holds it",
-        100.0 * pooled.between / pooled.mean.value, pooled.reduced_chi_squared));
+        100.0 * pooled.between / pooled.mean.value, pooled.reduced_chi_squared()));
   }
   numerics::Uncertain result = pooled.mean;
   if (common_length) {

@@ -8,6 +8,7 @@
 
 #include <boresight/identification/resonance/ring_inertia.hpp>
 #include <boresight/numerics/error.hpp>
+#include <boresight/numerics/statistics/distribution_quantiles.hpp>
 
 namespace boresight::identification {
 namespace {
@@ -67,8 +68,7 @@ double scatter_of_mean(const std::vector<StepRing>& rings, double mean,
   double square = 0.0;
   for (const auto& ring : rings) square += std::pow(of(ring) - mean, 2);
   const double freedom = count - 1.0;
-  // Student's 97.5 % quantile over the normal's, to 2 % from 2 degrees of freedom on.
-  const double few = freedom < 2.0 ? 6.5 : 1.0 + 1.55 / (freedom - 0.75 + 0.15 / freedom);
+  const double few = numerics::student_quantile(0.975, freedom) / numerics::normal_975;
   return std::max(own, few * std::sqrt(square / freedom / count));
 }
 

@@ -8,6 +8,10 @@
 
 namespace boresight::numerics {
 
+double PooledMean::reduced_chi_squared() const {
+  return degrees_of_freedom > 0 ? heterogeneity / degrees_of_freedom : 0.0;
+}
+
 PooledMean pooled_mean(const std::vector<Uncertain>& estimates) {
   if (estimates.empty()) {
     throw InvalidInput("pooled_mean: expected at least one estimate, found none");
@@ -26,15 +30,15 @@ PooledMean pooled_mean(const std::vector<Uncertain>& estimates) {
     squares += own * own;
   }
   const double fixed_mean = weighted / weight;
-  double q = 0.0;
-  for (const auto& estimate : estimates) {
-    q += std::pow((estimate.value - fixed_mean) / estimate.standard_uncertainty, 2);
-  }
-  const double freedom = static_cast<double>(estimates.size()) - 1.0;
   PooledMean pooled;
-  pooled.reduced_chi_squared = freedom > 0.0 ? q / freedom : 0.0;
+  for (const auto& estimate : estimates) {
+    pooled.heterogeneity +=
+        std::pow((estimate.value - fixed_mean) / estimate.standard_uncertainty, 2);
+  }
+  pooled.degrees_of_freedom = static_cast<int>(estimates.size()) - 1;
+  const double excess = pooled.heterogeneity - pooled.degrees_of_freedom;
   const double variance =
-      freedom > 0.0 ? std::max(0.0, (q - freedom) / (weight - squares / weight)) : 0.0;
+      pooled.degrees_of_freedom > 0 ? std::max(0.0, excess / (weight - squares / weight)) : 0.0;
   pooled.between = std::sqrt(variance);
   double total = 0.0;
   pooled.mean.value = 0.0;

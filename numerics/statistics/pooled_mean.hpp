@@ -11,8 +11,14 @@ struct PooledMean {
   Uncertain mean;
   /// Standard deviation between the estimates beyond their own uncertainties.
   double between = 0.0;
-  /// Cochran's Q over its degrees of freedom; 0 for one estimate.
-  double reduced_chi_squared = 0.0;
+  /// Cochran's Q, the sum of the squared departures from the mean by the estimates' own
+  /// uncertainties, and its degrees of freedom: Q far above them says that the estimates contradict
+  /// one another.
+  double heterogeneity = 0.0;
+  int degrees_of_freedom = 0;
+
+  /// Q over its degrees of freedom; 0 for one estimate.
+  double reduced_chi_squared() const;
 };
 
 /// Random-effects mean (DerSimonian and Laird, Controlled Clinical Trials 7, 1986) of independent

@@ -180,7 +180,9 @@ TEST(Reconcile, OfEqualUncertaintiesIsTheMeanWithTheScatterOfTheMethods) {
   EXPECT_EQ(result.degrees_of_freedom, 2);
   EXPECT_NEAR(result.between_methods, std::sqrt(scatter - 9e-4), 1e-12);
   EXPECT_NEAR(result.standard_uncertainty, std::sqrt(scatter / 3.0), 1e-12);
-  EXPECT_NEAR(result.upper - result.value, 4.303 * result.standard_uncertainty, 1e-12);
+  // Student's t of two degrees of freedom that 95 % lie within: 0.95 sqrt(2/(1 - 0.95^2)).
+  EXPECT_NEAR(result.upper - result.value,
+              0.95 * std::sqrt(2.0 / (1.0 - 0.95 * 0.95)) * result.standard_uncertainty, 1e-12);
   EXPECT_NEAR(result.lower + result.upper, 2.0 * result.value, 1e-12);
   EXPECT_NEAR(result.motor_to_load_ratio, 1.2028 / (mean - 1.2028), 1e-12);
 }

@@ -6,7 +6,6 @@
 #include "identification/synthetic_drive.hpp"
 #include <boresight/identification/grey_box/grey_box.hpp>
 #include <boresight/numerics/error.hpp>
-#include <boresight/numerics/statistics/chi_squared.hpp>
 
 namespace boresight::identification {
 namespace {
@@ -22,15 +21,6 @@ using testing::ThrowsMessage;
 
 bool covers(const numerics::Interval& interval, double truth) {
   return interval.lower <= truth && truth <= interval.upper;
-}
-
-TEST(ChiSquared, IsThatOfTables) {
-  const std::pair<int, double> table[] = {{1, 10.83}, {2, 13.82}, {10, 29.59}, {30, 59.70}};
-  for (const auto& [freedom, limit] : table) {
-    EXPECT_NEAR(numerics::chi_squared_999(freedom), limit, 0.031 * limit) << freedom;
-  }
-  EXPECT_THAT([] { numerics::chi_squared_999(0); },
-              ThrowsMessage<InvalidInput>(HasSubstr("found 0")));
 }
 
 TEST(GreyBoxConflict, CountsWhatIsStatedAndWidensForWhatInertiaRestsOn) {

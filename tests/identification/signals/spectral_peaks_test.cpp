@@ -8,7 +8,6 @@
 #include <boresight/identification/signals/spectrum.hpp>
 #include <boresight/numerics/error.hpp>
 #include <boresight/numerics/normal_numbers.hpp>
-#include <boresight/numerics/statistics/pooled_mean.hpp>
 
 namespace boresight::identification {
 namespace {
@@ -136,34 +135,6 @@ TEST(SpectralPeaks, RefuseWhatIsNoSpectrum) {
               ThrowsMessage<InvalidInput>(HasSubstr("positive period and tolerance, found 0 s")));
   EXPECT_THAT([] { repetition_period(VectorXd::Ones(3), 0.1); },
               ThrowsMessage<InvalidInput>(HasSubstr("at least 16 finite samples")));
-}
-
-TEST(PooledMean, OfEstimatesThatAgreeIsTheWeightedMean) {
-  const auto pooled = numerics::pooled_mean({{10.0, 1.0}, {10.5, 2.0}});
-  EXPECT_NEAR(pooled.mean.value, (10.0 + 10.5 / 4.0) / 1.25, 1e-12);
-  EXPECT_NEAR(pooled.mean.standard_uncertainty, 1.0 / std::sqrt(1.25), 1e-12);
-  EXPECT_EQ(pooled.between, 0.0);
-  EXPECT_NEAR(pooled.reduced_chi_squared, 0.25 / 5.0, 1e-12);
-}
-
-TEST(PooledMean, OfEstimatesThatDoNotAgreeRestsOnTheirScatter) {
-  const auto pooled =
-      numerics::pooled_mean({{9.0, 1e-3}, {11.0, 1e-3}, {10.0, 1e-3}, {10.0, 1e-3}});
-  EXPECT_NEAR(pooled.mean.value, 10.0, 1e-9);
-  // Sample variance 2/3 of four.
-  EXPECT_NEAR(pooled.between, std::sqrt(2.0 / 3.0), 1e-3);
-  EXPECT_NEAR(pooled.mean.standard_uncertainty, std::sqrt(2.0 / 3.0 / 4.0), 1e-3);
-  EXPECT_NEAR(numerics::pooled_mean({{3.0, 0.2}}).mean.standard_uncertainty, 0.2, 1e-15);
-}
-
-TEST(PooledMean, RefusesNoneAndTheUncertaintyOfCertainty) {
-  EXPECT_THAT([] { numerics::pooled_mean({}); },
-              ThrowsMessage<InvalidInput>(HasSubstr("expected at least one estimate")));
-  EXPECT_THAT(
-      [] {
-        numerics::pooled_mean({{1.0, 0.0}});
-      },
-      ThrowsMessage<InvalidInput>(HasSubstr("positive uncertainties, found 1 +- 0")));
 }
 
 }  // namespace

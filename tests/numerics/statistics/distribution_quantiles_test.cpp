@@ -32,6 +32,13 @@ TEST(DistributionQuantiles, AgreeWithClosedForms) {
   // Tables: t of 10 degrees at 97.5 %, F of 5 and 10 at 95 %.
   EXPECT_NEAR(numerics::student_quantile(0.975, 10.0), 2.228139, 1e-6);
   EXPECT_NEAR(numerics::f_quantile(0.95, 5.0, 10.0), 3.325835, 1e-6);
+  // Chi-squared at 99.9 %; the normal distribution is Student's of no end of degrees.
+  const std::pair<double, double> table[] = {
+      {1.0, 10.828}, {2.0, 13.816}, {10.0, 29.588}, {30.0, 59.703}};
+  for (const auto& [freedom, limit] : table) {
+    EXPECT_NEAR(numerics::chi_squared_quantile(0.999, freedom), limit, 5e-4) << freedom;
+  }
+  EXPECT_NEAR(numerics::student_quantile(0.975, 1e9), numerics::normal_975, 1e-7);
 }
 
 TEST(DistributionQuantiles, MirrorWhereTheDistributionsDo) {

@@ -6,8 +6,12 @@
 
 namespace boresight::numerics {
 
+/// `asked` threads, or as many as the machine has where that is 0.
+unsigned thread_count(unsigned asked);
+
 /// Calls `work` once for each index below `count`, on up to `threads` threads (at least one, this
-/// one included). The first exception stops the loop and comes out of here.
+/// one included), indices taken as they rise. An exception stops the loop and comes out of here: of
+/// several that of the lowest index, so that it is the same for any number of threads.
 void for_each_index(std::size_t count, unsigned threads,
                     const std::function<void(std::size_t)>& work);
 

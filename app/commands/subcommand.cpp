@@ -3,7 +3,6 @@
 #include <cstdio>
 #include <filesystem>
 #include <system_error>
-#include <thread>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -12,6 +11,7 @@
 #include <boresight/app/figures/figure_csv.hpp>
 #include <boresight/io/files/write_atomically.hpp>
 #include <boresight/numerics/error.hpp>
+#include <boresight/numerics/parallel_loop.hpp>
 
 namespace boresight::app {
 namespace {
@@ -74,7 +74,7 @@ void add_threads(CLI::App& command, unsigned& threads) {
 }
 
 unsigned all_or(unsigned threads) {
-  return threads != 0 ? threads : std::max(1U, std::thread::hardware_concurrency());
+  return numerics::thread_count(threads);
 }
 
 const std::vector<std::pair<ExitCode, std::string>>& exit_code_meanings() {

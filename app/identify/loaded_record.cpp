@@ -1,10 +1,7 @@
 #include <algorithm>
-#include <atomic>
 #include <cstddef>
-#include <exception>
 #include <filesystem>
 #include <set>
-#include <thread>
 
 #include <fmt/format.h>
 
@@ -16,6 +13,7 @@
 #include <boresight/io/records/record_columns.hpp>
 #include <boresight/io/records/record_file.hpp>
 #include <boresight/io/units/wording.hpp>
+#include <boresight/numerics/parallel_loop.hpp>
 
 namespace boresight::app {
 namespace {
@@ -110,27 +108,8 @@ std::string to_string(TestKind test) {
 std::vector<LoadedRecord> load_records(const io::Case& antenna, unsigned threads) {
   const auto& entries = antenna.campaign.records;
   std::vector<LoadedRecord> works(entries.size());
-  std::vector<std::exception_ptr> failures(entries.size());
-  std::atomic<std::size_t> next{0};
-  const auto take = [&] {
-    for (std::size_t i = next++; i < works.size(); i = next++) {
-      try {
-        load(antenna, entries[i], works[i]);
-      } catch (...) {
-        failures[i] = std::current_exception();
-      }
-    }
-  };
-  {
-    std::vector<std::jthread> helpers;
-    const std::size_t most =
-        threads > 0 ? threads : std::max(1U, std::thread::hardware_concurrency());
-    for (std::size_t i = 1; i < std::min(most, works.size()); ++i) helpers.emplace_back(take);
-    take();
-  }
-  for (const auto& failure : failures) {
-    if (failure) std::rethrow_exception(failure);
-  }
+  numerics::for_each_index(works.size(), numerics::thread_count(threads),
+                           [&](std::size_t i) { load(antenna, entries[i], works[i]); });
   check_names(antenna, works);
   return works;
 }

@@ -1,18 +1,16 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <condition_variable>
-#include <exception>
+#include <future>
 #include <limits>
-#include <mutex>
 #include <optional>
-#include <thread>
 
 #include <fmt/format.h>
 
 #include <boresight/design/ensembles/monte_carlo.hpp>
 #include <boresight/design/tuning/tuner.hpp>
 #include <boresight/numerics/error.hpp>
+#include <boresight/numerics/parallel_loop.hpp>
 
 namespace boresight::design {
 namespace {
@@ -232,54 +230,31 @@ void MonteCarloRun::put(std::size_t block, std::span<const PlantOutcome> outcome
 
 void MonteCarloRun::work_on(const std::vector<std::size_t>& blocks, const Options& options) {
   constexpr auto watch_every = std::chrono::milliseconds(200);
-  const std::size_t threads =
-      std::min<std::size_t>(std::max(options.threads, 1U), std::max<std::size_t>(blocks.size(), 1));
-  std::atomic<std::size_t> next{0};
-  std::mutex mutex;
-  std::condition_variable finished;
-  std::size_t working = threads;
-  std::exception_ptr failure;
-  const auto take_turns = [&] {
-    try {
-      // Worked on where no other thread writes, and put in place when whole.
-      MonteCarloJudge judge = judge_;
-      std::vector<PlantOutcome> block_outcomes;
-      bool stopped = false;
-      for (std::size_t i = next++; i < blocks.size() && !stopped; i = next++) {
-        const std::uint64_t first = static_cast<std::uint64_t>(blocks[i]) * block_size;
-        const std::uint64_t size = size_of(blocks[i]);
-        block_outcomes.clear();
-        for (std::uint64_t k = 0; k < size && !stopped; ++k) {
-          stopped = options.stop && options.stop();
-          if (!stopped) block_outcomes.push_back(judge.judge(first + k));
-        }
-        if (!stopped) put(blocks[i], block_outcomes);
-      }
-    } catch (...) {
-      const std::lock_guard lock(mutex);
-      if (!failure) failure = std::current_exception();
-      next = blocks.size();
+  std::atomic<bool> stopped{false};
+  const auto work_on_block = [&](std::size_t i) {
+    // Worked on where no other thread writes, and put in place when whole.
+    MonteCarloJudge judge = judge_;
+    std::vector<PlantOutcome> outcomes;
+    const std::uint64_t first = static_cast<std::uint64_t>(blocks[i]) * block_size;
+    for (std::uint64_t k = 0; k < size_of(blocks[i]); ++k) {
+      if (options.stop && options.stop()) stopped = true;
+      if (stopped) return;
+      outcomes.push_back(judge.judge(first + k));
     }
-    const std::lock_guard lock(mutex);
-    if (--working == 0) finished.notify_one();
+    put(blocks[i], outcomes);
   };
-  std::vector<std::jthread> workers;
-  for (std::size_t t = 0; t < threads; ++t) workers.emplace_back(take_turns);
-  std::unique_lock lock(mutex);
+  auto working = std::async(std::launch::async, [&] {
+    numerics::for_each_index(blocks.size(), options.threads, work_on_block);
+  });
   try {
-    while (!finished.wait_for(lock, watch_every, [&] { return working == 0; })) {
-      if (!options.watch) continue;
-      lock.unlock();
-      options.watch();
-      lock.lock();
+    while (working.wait_for(watch_every) != std::future_status::ready) {
+      if (options.watch) options.watch();
     }
   } catch (...) {
-    // Of the watch, called without the lock.
-    next = blocks.size();
+    stopped = true;
     throw;
   }
-  lock.unlock();
-  if (failure) std::rethrow_exception(failure);
+  working.get();
   if (options.watch) options.watch();
 }
 

@@ -102,7 +102,7 @@ class MonteCarloRun {
     std::function<void()> watch = {};
   };
   /// Works on blocks, each taken by the next free thread. Outcomes do not depend on order, threads
-  /// or what was done before. The first exception of a plant ends the work and comes out of here;
+  /// or what was done before. An exception of a plant ends the work and comes out of here;
   /// blocks that are whole are kept.
   void work_on(const std::vector<std::size_t>& blocks, const Options& options);
 

@@ -1,13 +1,13 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <thread>
 
 #include <fmt/format.h>
 
 #include <boresight/identification/grey_box/grey_box.hpp>
 #include <boresight/identification/grey_box/grey_box_search.hpp>
 #include <boresight/numerics/error.hpp>
+#include <boresight/numerics/parallel_loop.hpp>
 #include <boresight/numerics/singular_values.hpp>
 #include <boresight/numerics/statistics/order_statistics.hpp>
 
@@ -200,8 +200,7 @@ GreyBoxResult fit_grey_box(const Campaign& campaign,
                            const GreyBoxOptions& options) {
   check(options);
   const Progress progress(options);
-  const unsigned threads =
-      options.threads > 0 ? options.threads : std::max(1U, std::thread::hardware_concurrency());
+  const unsigned threads = numerics::thread_count(options.threads);
   GreyBoxRecordOptions record_options;
   record_options.sample_rate = sample_rate(campaign.knowledge, options);
   const auto records = prepare_records(campaign, record_options);

@@ -1,9 +1,6 @@
 #include <algorithm>
-#include <atomic>
 #include <cmath>
-#include <exception>
 #include <limits>
-#include <thread>
 
 #include <fmt/format.h>
 
@@ -11,6 +8,7 @@
 #include <boresight/identification/grey_box/grey_box_mechanics.hpp>
 #include <boresight/identification/grey_box/grey_box_objective.hpp>
 #include <boresight/numerics/error.hpp>
+#include <boresight/numerics/parallel_loop.hpp>
 
 namespace boresight::identification {
 namespace {
@@ -25,7 +23,7 @@ constexpr double outlier = 8.0;  // in rms
 
 GreyBoxObjective::GreyBoxObjective(const std::vector<GreyBoxRecord>& records,
                                    const GreyBoxParameters& parameters, unsigned threads)
-    : records_(records), parameters_(parameters), threads_(std::max(1U, threads)) {
+    : records_(records), parameters_(parameters), threads_(threads) {
   for (std::size_t i = 0; i < records.size(); ++i) {
     const auto& record = records[i];
     GreyBoxChannel channel;
@@ -43,30 +41,6 @@ GreyBoxObjective::GreyBoxObjective(const std::vector<GreyBoxRecord>& records,
   std::erase_if(channels_, [](const GreyBoxChannel& c) {
     return std::find(c.counts.begin(), c.counts.end(), true) == c.counts.end();
   });
-}
-
-// Each channel's result stands by itself, so threads may take them in any order.
-template <typename Function>
-void GreyBoxObjective::for_each_channel(const Function& function) const {
-  std::atomic<std::size_t> next{0};
-  std::vector<std::exception_ptr> failures(channels_.size());
-  const auto work = [&] {
-    for (std::size_t i = next++; i < channels_.size(); i = next++) {
-      try {
-        function(i);
-      } catch (...) {
-        failures[i] = std::current_exception();
-      }
-    }
-  };
-  {
-    std::vector<std::jthread> helpers;
-    for (unsigned t = 1; t < threads_; ++t) helpers.emplace_back(work);
-    work();
-  }
-  for (const auto& failure : failures) {
-    if (failure) std::rethrow_exception(failure);
-  }
 }
 
 GreyBoxObjective::Derivatives GreyBoxObjective::predict(const VectorXd& point,
@@ -89,7 +63,7 @@ GreyBoxObjective::Derivatives GreyBoxObjective::predict(const VectorXd& point,
 
 double GreyBoxObjective::reweigh(const VectorXd& point) {
   std::vector<GreyBoxChannel> found = channels_;
-  for_each_channel([&](std::size_t i) {
+  numerics::for_each_index(channels_.size(), threads_, [&](std::size_t i) {
     auto& channel = found[i];
     const auto& record = records_[channel.record];
     const VectorXd errors = predict(point, channel, false).errors;
@@ -141,7 +115,8 @@ VectorXd GreyBoxObjective::errors(const VectorXd& point, std::size_t index) cons
 
 double GreyBoxObjective::sum_of_squares(const VectorXd& point) const {
   std::vector<double> sums(channels_.size());
-  for_each_channel([&](std::size_t i) { sums[i] = errors(point, i).squaredNorm(); });
+  numerics::for_each_index(channels_.size(), threads_,
+                           [&](std::size_t i) { sums[i] = errors(point, i).squaredNorm(); });
   double sum = 0.0;
   for (const double part : sums) sum += part;
   return std::isfinite(sum) ? sum : std::numeric_limits<double>::infinity();
@@ -182,7 +157,8 @@ MatrixXd GreyBoxObjective::products(const VectorXd& point, std::size_t index) co
 
 MatrixXd GreyBoxObjective::products(const VectorXd& point) const {
   std::vector<MatrixXd> parts(channels_.size());
-  for_each_channel([&](std::size_t i) { parts[i] = products(point, i); });
+  numerics::for_each_index(channels_.size(), threads_,
+                           [&](std::size_t i) { parts[i] = products(point, i); });
   MatrixXd sum = MatrixXd::Zero(point.size() + 1, point.size() + 1);
   for (const auto& part : parts) sum += part;
   return sum;
@@ -190,7 +166,7 @@ MatrixXd GreyBoxObjective::products(const VectorXd& point) const {
 
 MatrixXd GreyBoxObjective::scores(const VectorXd& point, double length) const {
   std::vector<MatrixXd> parts(channels_.size());
-  for_each_channel([&](std::size_t i) {
+  numerics::for_each_index(channels_.size(), threads_, [&](std::size_t i) {
     const auto& channel = channels_[i];
     const Derivatives d = predict(point, channel, true);
     const Index per_sample = channel.pressures ? 2 : 1;

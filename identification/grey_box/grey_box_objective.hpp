@@ -57,8 +57,6 @@ class GreyBoxObjective {
   };
   Derivatives predict(const Eigen::VectorXd& point, const GreyBoxChannel& channel,
                       bool derivatives) const;
-  template <typename Function>
-  void for_each_channel(const Function& function) const;
 
   const std::vector<GreyBoxRecord>& records_;
   const GreyBoxParameters& parameters_;

@@ -1,7 +1,9 @@
 #include <atomic>
 #include <stdexcept>
+#include <thread>
 #include <vector>
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <boresight/numerics/parallel_loop.hpp>
@@ -28,6 +30,30 @@ TEST(ForEachIndex, StopsAtTheFirstExceptionAndLetsItOut) {
   EXPECT_EQ(calls, 4);
   // How far another thread gets before it learns of that is chance.
   EXPECT_THROW(numerics::for_each_index(100000, 2, work), std::runtime_error);
+}
+
+TEST(ForEachIndex, LetsOutTheExceptionOfTheLowestIndex) {
+  for (int trial = 0; trial < 20; ++trial) {
+    std::atomic<bool> later{false};
+    // The third waits until a later one has failed.
+    const auto work = [&](std::size_t i) {
+      if (i == 2) {
+        while (!later) std::this_thread::yield();
+        throw std::runtime_error("two");
+      }
+      if (i == 5) {
+        later = true;
+        throw std::runtime_error("five");
+      }
+    };
+    EXPECT_THAT([&] { numerics::for_each_index(1000, 4, work); },
+                testing::ThrowsMessage<std::runtime_error>("two"));
+  }
+}
+
+TEST(ThreadCount, IsWhatWasAskedForOrTheMachines) {
+  EXPECT_EQ(numerics::thread_count(3), 3U);
+  EXPECT_GE(numerics::thread_count(0), 1U);
 }
 
 TEST(StepCounter, ReportsEveryStepOnceWhicheverThreadTakesIt) {

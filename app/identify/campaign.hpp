@@ -1,6 +1,5 @@
 #pragma once
 
-#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -27,10 +26,10 @@ struct RecordNotes {
   std::string description;
   std::string format;
   std::size_t bytes = 0;
-  std::uint32_t checksum = 0;  // CRC-32
-  std::size_t rows = 0;        // samples of the file
-  double sample_time = 0.0;    // s, of the record as used
-  double duration = 0.0;       // s
+  std::string sha256;        // of the file's bytes, hexadecimal
+  std::size_t rows = 0;      // samples of the file
+  double sample_time = 0.0;  // s, of the record as used
+  double duration = 0.0;     // s
   identification::TestKind test = identification::TestKind::other;
   bool test_guessed = false;
   bool rate_loop_closed = false;

@@ -44,7 +44,7 @@ void load(const io::Case& antenna, const io::RecordEntry& entry, LoadedRecord& w
   const io::RecordTable table = io::read_record(notes.path);
   notes.format = table.format;
   notes.bytes = table.bytes;
-  notes.checksum = io::record_checksum(notes.path);
+  notes.sha256 = table.sha256;
   notes.remarks = table.remarks;
   for (const auto& column : table.columns) work.columns.push_back({column.name, column.unit, {}});
   work.raw = raw_record(antenna, table, notes);

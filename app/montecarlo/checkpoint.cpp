@@ -1,5 +1,4 @@
 #include <array>
-#include <bit>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
@@ -9,6 +8,7 @@
 #include <fmt/format.h>
 
 #include <boresight/app/montecarlo/checkpoint.hpp>
+#include <boresight/io/files/input_files.hpp>
 #include <boresight/io/files/write_atomically.hpp>
 #include <boresight/numerics/error.hpp>
 
@@ -18,14 +18,15 @@ namespace {
 using design::MonteCarloRun;
 using design::PlantOutcome;
 
-constexpr std::string_view first_line = "boresight montecarlo checkpoint 1\n";
+constexpr std::string_view first_line = "boresight montecarlo checkpoint 2\n";
 
 // A block's number, its outcomes (the last block filled up with empty ones), the digest of both.
 constexpr std::size_t number_size = sizeof(std::uint64_t);
 constexpr std::size_t outcomes_size = MonteCarloRun::block_size * sizeof(PlantOutcome);
-constexpr std::size_t record_size = 2 * number_size + outcomes_size;
+constexpr std::size_t digest_size = 64;  // io::sha256_hex
+constexpr std::size_t record_size = number_size + outcomes_size + digest_size;
 // First line, digest of the run, its plants, digest of these.
-constexpr std::size_t header_size = first_line.size() + 3 * number_size;
+constexpr std::size_t header_size = first_line.size() + digest_size + number_size + digest_size;
 
 void append(std::string& bytes, std::uint64_t number) {
   std::array<char, number_size> raw{};
@@ -49,24 +50,6 @@ std::vector<std::size_t> whole_blocks(const MonteCarloRun& run) {
 
 }  // namespace
 
-Digest& Digest::add(std::string_view bytes) {
-  constexpr std::uint64_t prime = 0x100000001b3U;
-  for (const char byte : bytes) {
-    value_ = (value_ ^ static_cast<unsigned char>(byte)) * prime;
-  }
-  return *this;
-}
-
-Digest& Digest::add(std::uint64_t number) {
-  std::string bytes;
-  append(bytes, number);
-  return add(bytes);
-}
-
-Digest& Digest::add(double number) {
-  return add(std::bit_cast<std::uint64_t>(number));
-}
-
 std::string to_bytes(const MonteCarloRun& run, const std::vector<std::size_t>& blocks) {
   std::string bytes;
   bytes.reserve(blocks.size() * record_size);
@@ -80,8 +63,7 @@ std::string to_bytes(const MonteCarloRun& run, const std::vector<std::size_t>& b
     const std::size_t start = record.size();
     record.resize(start + outcomes_size);
     std::memcpy(record.data() + start, all.data(), outcomes_size);
-    append(record, Digest().add(record).value());
-    bytes += record;
+    bytes += record + io::sha256_hex(record);
   }
   return bytes;
 }
@@ -89,11 +71,10 @@ std::string to_bytes(const MonteCarloRun& run, const std::vector<std::size_t>& b
 std::size_t put_blocks(std::string_view bytes, MonteCarloRun& run) {
   std::size_t put = 0;
   for (; bytes.size() >= record_size; bytes.remove_prefix(record_size)) {
-    const std::string_view record = bytes.substr(0, record_size - number_size);
+    const std::string_view record = bytes.substr(0, record_size - digest_size);
     const std::uint64_t block = number_at(record, 0);
-    if (Digest().add(record).value() != number_at(bytes, record.size()) || block >= run.blocks()) {
-      continue;
-    }
+    const std::string_view digest = bytes.substr(record.size(), digest_size);
+    if (io::sha256_hex(record) != digest || block >= run.blocks()) continue;
     std::array<PlantOutcome, MonteCarloRun::block_size> all{};
     std::memcpy(all.data(), record.data() + number_size, outcomes_size);
     const auto place = static_cast<std::size_t>(block);
@@ -103,30 +84,30 @@ std::size_t put_blocks(std::string_view bytes, MonteCarloRun& run) {
   return put;
 }
 
-void write_checkpoint(const std::string& path, std::uint64_t digest, const MonteCarloRun& run) {
+void write_checkpoint(const std::string& path, std::string_view digest, const MonteCarloRun& run) {
   std::string bytes(first_line);
-  append(bytes, digest);
+  bytes += digest;
   append(bytes, run.study().plants);
-  append(bytes, Digest().add(bytes).value());
+  bytes += io::sha256_hex(bytes);
   io::write_atomically(path, bytes + to_bytes(run, whole_blocks(run)));
 }
 
-std::size_t read_checkpoint(const std::string& path, std::uint64_t digest, MonteCarloRun& run) {
+std::size_t read_checkpoint(const std::string& path, std::string_view digest, MonteCarloRun& run) {
   std::error_code none;
   if (!std::filesystem::exists(path, none)) return 0;
   std::ifstream file(path, std::ios::binary);
   const std::string bytes{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
   const std::string_view all = bytes;
-  const std::size_t checked = header_size - number_size;
+  const std::size_t checked = header_size - digest_size;
   if (!file || all.size() < header_size || !all.starts_with(first_line) ||
-      Digest().add(all.substr(0, checked)).value() != number_at(all, checked)) {
+      io::sha256_hex(all.substr(0, checked)) != all.substr(checked, digest_size)) {
     throw InvalidInput(
         fmt::format("{}: expected a checkpoint of boresight montecarlo, found another file or one "
                     "whose beginning is damaged; remove it to begin anew",
                     path));
   }
-  if (number_at(all, first_line.size()) != digest ||
-      number_at(all, first_line.size() + number_size) != run.study().plants) {
+  if (all.substr(first_line.size(), digest_size) != digest ||
+      number_at(all, first_line.size() + digest_size) != run.study().plants) {
     throw InvalidInput(
         fmt::format("{}: is the checkpoint of another run: case, records, options, law or program "
                     "differ; remove it to begin anew, or name another with --checkpoint",

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <cstdint>
+#include <cstddef>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -9,19 +9,6 @@
 
 namespace boresight::app {
 
-/// A digest of bytes by the FNV-1a hash of 64 bits (G. Fowler, L. C. Noll, K.-P. Vo,
-/// draft-eastlake-fnv): tells runs apart, proves nothing against forgers.
-class Digest {
- public:
-  Digest& add(std::string_view bytes);
-  Digest& add(std::uint64_t number);
-  Digest& add(double number);
-  std::uint64_t value() const { return value_; }
-
- private:
-  std::uint64_t value_ = 0xcbf29ce484222325U;
-};
-
 /// The whole blocks of a run, as bytes: for a checkpoint or another rank.
 std::string to_bytes(const design::MonteCarloRun& run, const std::vector<std::size_t>& blocks);
 
@@ -29,15 +16,15 @@ std::string to_bytes(const design::MonteCarloRun& run, const std::vector<std::si
 /// is left out.
 std::size_t put_blocks(std::string_view bytes, design::MonteCarloRun& run);
 
-/// Writes a run's whole blocks with the digest of what was run: the file is whole at any time, the
-/// one before or this one. @throws InvalidInput if it cannot be written.
-void write_checkpoint(const std::string& path, std::uint64_t digest,
+/// Writes a run's whole blocks with the digest of what was run (io::sha256_hex): the file is whole
+/// at any time, the one before or this one. @throws InvalidInput if it cannot be written.
+void write_checkpoint(const std::string& path, std::string_view digest,
                       const design::MonteCarloRun& run);
 
 /// Takes up a run where its checkpoint left it; how many blocks that gave, 0 without a file. Blocks
 /// that are cut off or altered are left out and worked on again.
 /// @throws InvalidInput for a file that is none, or one of another run.
-std::size_t read_checkpoint(const std::string& path, std::uint64_t digest,
+std::size_t read_checkpoint(const std::string& path, std::string_view digest,
                             design::MonteCarloRun& run);
 
 }  // namespace boresight::app

@@ -15,6 +15,7 @@
 #include <boresight/app/redesign/sections.hpp>
 #include <boresight/app/tune/engineer_units.hpp>
 #include <boresight/app/uncertainty/designed_antenna.hpp>
+#include <boresight/io/files/input_files.hpp>
 #include <boresight/io/files/write_atomically.hpp>
 #include <boresight/numerics/error.hpp>
 
@@ -84,21 +85,22 @@ std::string content_of(const std::string& path) {
 
 // What makes a run this one and no other. Its first plants hold what the case's other files say,
 // and the outcome of one what this program makes of it.
-std::uint64_t digest_of(const MonteCarloArguments& arguments, const PlantDistribution& distribution,
-                        const design::MonteCarlo& study) {
-  Digest digest;
-  digest.add(std::string_view(BORESIGHT_VERSION)).add(content_of(arguments.case_path));
-  digest.add(arguments.seed).add(arguments.plants);
-  digest.add(std::uint64_t{arguments.retune ? 1U : 0U}).add(study.confirm_every);
-  digest.add(study.law.structure.name());
-  for (const double gain : study.law.gains) digest.add(gain);
+std::string digest_of(const MonteCarloArguments& arguments, const PlantDistribution& distribution,
+                      const design::MonteCarlo& study) {
+  std::string all = fmt::format("{}\n{}\n{} {} {} {}\n{}", BORESIGHT_VERSION,
+                                content_of(arguments.case_path), arguments.seed, arguments.plants,
+                                arguments.retune, study.confirm_every, study.law.structure.name());
+  const auto add = [&](double number) { fmt::format_to(std::back_inserter(all), " {}", number); };
+  for (const double gain : study.law.gains) add(gain);
   for (std::uint64_t index = 0; index < 8; ++index) {
-    for (const double value : distribution.draw(arguments.seed, index).values) digest.add(value);
+    for (const double value : distribution.draw(arguments.seed, index).values) add(value);
   }
   const auto outcome = design::MonteCarloJudge(study).judge(0);
-  digest.add(outcome.beam_rms).add(outcome.valve_effort).add(outcome.worst_goal_ratio);
-  for (const double peak : outcome.sensitivity_peaks) digest.add(peak);
-  return digest.value();
+  add(outcome.beam_rms);
+  add(outcome.valve_effort);
+  add(outcome.worst_goal_ratio);
+  for (const double peak : outcome.sensitivity_peaks) add(peak);
+  return io::sha256_hex(all);
 }
 
 // Gains as bytes, so that every rank holds the same law to the last bit.
@@ -143,7 +145,7 @@ HeldLaw make_law(const MonteCarloArguments& arguments, const Population& populat
 class Work {
  public:
   Work(const MonteCarloArguments& arguments, Ranks& ranks, design::MonteCarloRun& run,
-       std::uint64_t digest, const std::function<bool()>& interrupted)
+       std::string_view digest, const std::function<bool()>& interrupted)
       : arguments_(arguments),
         ranks_(ranks),
         run_(run),
@@ -219,7 +221,7 @@ class Work {
   const MonteCarloArguments& arguments_;
   Ranks& ranks_;
   design::MonteCarloRun& run_;
-  std::uint64_t digest_;
+  std::string_view digest_;
   std::function<bool()> interrupted_;
   ProgressLine progress_;
   // The first after a second: what is lost then is least missed, and least work to keep.
@@ -299,7 +301,7 @@ MonteCarloOutcome run_montecarlo(const MonteCarloArguments& arguments, Ranks& ra
     }
   });
   law_text = ranks.broadcast(law_text);
-  std::uint64_t digest = 0;
+  std::string digest;
   on_all(ranks, [&] {
     if (!ranks.first()) held = law_from(law_text, population->antenna);
     study = make_study(arguments, population, held.law);

@@ -50,7 +50,7 @@ Json record_json(const RecordNotes& record) {
           {"description", record.description},
           {"format", record.format},
           {"bytes", record.bytes},
-          {"crc32", fmt::format("{:08x}", record.checksum)},
+          {"sha256", record.sha256},
           {"rows", record.rows},
           {"sample_time_s", number(record.sample_time)},
           {"duration_s", number(record.duration)},

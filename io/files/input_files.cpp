@@ -54,10 +54,11 @@ std::string sha256_base64(std::string_view bytes) {
   return text;
 }
 
-void note_input(const std::string& path, std::string_view content) {
-  std::pair<std::string, std::string> key(path, sha256_hex(content));
+std::string note_input(const std::string& path, std::string_view content) {
+  std::string digest = sha256_hex(content);
   const std::lock_guard lock(log().mutex);
-  log().sizes.emplace(std::move(key), content.size());
+  log().sizes.try_emplace({path, digest}, content.size());
+  return digest;
 }
 
 std::vector<InputFile> inputs_read() {

@@ -1,17 +1,14 @@
-#include <algorithm>
 #include <cerrno>
 #include <filesystem>
 #include <memory>
 #include <string_view>
 #include <system_error>
 #include <utility>
-#include <vector>
 
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <sys/mman.h>
 #include <unistd.h>
-#include <zlib.h>
 
 #include <boresight/io/files/input_files.hpp>
 #include <boresight/io/records/record_file.hpp>
@@ -84,7 +81,7 @@ RecordTable read_record(const std::string& path) {
   const auto bytes = large_block(file.size());
   file.read_bytes(bytes.get(), file.size());
   const std::string_view content(bytes.get(), file.size());
-  note_input(path, content);
+  std::string digest = note_input(path, content);
   for (const auto& [magic, kind] :
        {std::pair{"\x1F\x8B", "a gzip file"}, std::pair{"PK\x03\x04", "a zip or spreadsheet file"},
         std::pair{"\xD0\xCF\x11\xE0", "a spreadsheet file"}}) {
@@ -92,20 +89,10 @@ RecordTable read_record(const std::string& path) {
       refuse(path, fmt::format("{} (unpack it, or save it as CSV)", kind));
     }
   }
-  return is_mat(content) ? read_record_mat(content, path) : read_record_text(content, path);
-}
-
-std::uint32_t record_checksum(const std::string& path) {
-  RecordFile file(path);
-  std::vector<char> block(std::min(file.size(), std::size_t{1} << 18U));
-  uLong checksum = crc32_z(0, nullptr, 0);
-  for (std::size_t left = file.size(); left > 0;) {
-    const std::size_t count = std::min(left, block.size());
-    file.read_bytes(block.data(), count);
-    checksum = crc32_z(checksum, reinterpret_cast<const Bytef*>(block.data()), count);
-    left -= count;
-  }
-  return static_cast<std::uint32_t>(checksum);
+  RecordTable table =
+      is_mat(content) ? read_record_mat(content, path) : read_record_text(content, path);
+  table.sha256 = std::move(digest);
+  return table;
 }
 
 }  // namespace boresight::io

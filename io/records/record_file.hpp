@@ -1,6 +1,5 @@
 #pragma once
 
-#include <cstdint>
 #include <string>
 
 #include <boresight/io/records/record_table.hpp>
@@ -11,8 +10,5 @@ namespace boresight::io {
 /// @throws InvalidInput if it cannot be read, is empty, compressed as a whole or becomes shorter
 /// meanwhile, and as read_record_text and read_record_mat do.
 RecordTable read_record(const std::string& path);
-
-/// CRC-32 of a file's bytes, as gzip and zip compute it. @throws InvalidInput as read_record
-std::uint32_t record_checksum(const std::string& path);
 
 }  // namespace boresight::io

@@ -19,6 +19,8 @@ struct RecordColumn {
 struct RecordTable {
   std::string path;
   std::size_t bytes = 0;
+  /// Of the file's bytes, 64 hexadecimal digits; empty for a table that is of no file.
+  std::string sha256;
   /// "comma-separated text", "MAT 5".
   std::string format;
   std::vector<RecordColumn> columns;

@@ -1,15 +1,14 @@
 #pragma once
 
 #include <cmath>
-#include <numbers>
 
 #include <boresight/design/problem/tracking_problem.hpp>
+#include <boresight/numerics/angles.hpp>
 
 namespace boresight {
 
 /// The 70-m reference drive with `modes` structural modes spread evenly in ln f over 2.4..40 Hz.
 inline design::TrackingProblem plant_family(int modes) {
-  constexpr double two_pi = 2.0 * std::numbers::pi;
   plant::StructureSpecification specification;
   specification.antenna_inertia = 0.39714;
   specification.bull_gear_beam_weight = 0.05;

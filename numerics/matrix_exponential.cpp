@@ -49,23 +49,23 @@ int extra_squarings(const Eigen::MatrixXd& a, const Approximant& approximant) {
 
 // The approximant of exp(A) from the even powers A^2, A^4, ... (as many as its degree needs).
 Eigen::MatrixXd pade(const Eigen::MatrixXd& a, const std::array<Eigen::MatrixXd, 4>& even,
-                     int degree) {
+                     int order) {
   const Eigen::Index n = a.rows();
   // Coefficients of the numerator, 1 for the highest power.
   std::array<double, 14> b{};
-  b[static_cast<std::size_t>(degree)] = 1.0;
-  for (int i = degree; i > 0; --i) {
+  b[static_cast<std::size_t>(order)] = 1.0;
+  for (int i = order; i > 0; --i) {
     b[static_cast<std::size_t>(i - 1)] =
-        b[static_cast<std::size_t>(i)] * i * (2.0 * degree - i + 1.0) / (degree - i + 1.0);
+        b[static_cast<std::size_t>(i)] * i * (2.0 * order - i + 1.0) / (order - i + 1.0);
   }
   Eigen::MatrixXd odd_part = b[1] * Eigen::MatrixXd::Identity(n, n);
   Eigen::MatrixXd even_part = b[0] * Eigen::MatrixXd::Identity(n, n);
-  const std::size_t low = degree == 13 ? 3 : static_cast<std::size_t>((degree - 1) / 2);
+  const std::size_t low = order == 13 ? 3 : static_cast<std::size_t>((order - 1) / 2);
   for (std::size_t i = 0; i < low; ++i) {
     odd_part += b[2 * i + 3] * even[i];
     even_part += b[2 * i + 2] * even[i];
   }
-  if (degree == 13) {
+  if (order == 13) {
     odd_part += even[2] * (b[13] * even[2] + b[11] * even[1] + b[9] * even[0]);
     even_part += even[2] * (b[12] * even[2] + b[10] * even[1] + b[8] * even[0]);
   }

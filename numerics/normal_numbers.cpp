@@ -1,6 +1,6 @@
 #include <cmath>
-#include <numbers>
 
+#include <boresight/numerics/angles.hpp>
 #include <boresight/numerics/normal_numbers.hpp>
 
 namespace boresight::numerics {
@@ -26,7 +26,7 @@ NormalNumbers::NormalNumbers(std::uint64_t seed, std::uint64_t stream)
 
 std::complex<double> NormalNumbers::pair(std::uint64_t index) const {
   const double radius = std::sqrt(-2.0 * std::log(uniform(splitmix64(state_, 2U * index))));
-  const double phase = 2.0 * std::numbers::pi * uniform(splitmix64(state_, 2U * index + 1U));
+  const double phase = two_pi * uniform(splitmix64(state_, 2U * index + 1U));
   return {radius * std::cos(phase), radius * std::sin(phase)};
 }
 

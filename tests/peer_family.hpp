@@ -2,12 +2,12 @@
 
 #include <cmath>
 #include <cstdint>
-#include <numbers>
 #include <string>
 #include <string_view>
 
 #include <Eigen/Core>
 
+#include <boresight/numerics/angles.hpp>
 #include <boresight/plant/linear/state_space.hpp>
 #include <boresight/plant/modal/modal_system.hpp>
 
@@ -26,7 +26,6 @@ struct PeerGains {
 
 /// What does not depend on the number of modes; SI, motor side.
 struct PeerDrive {
-  static constexpr double two_pi = 2.0 * std::numbers::pi;
   double inertia = 1.45;
   double hydraulic_frequency = two_pi * 0.97;
   double stiffness = inertia * hydraulic_frequency * hydraulic_frequency;
@@ -62,7 +61,7 @@ inline PeerModes peer_modes(Eigen::Index modes) {
     const double hertz = 1.75 * std::pow(50.0 / 1.75, place);
     const double size =
         mass * std::sqrt(5.0 / static_cast<double>(modes)) * std::sqrt(1.75 / hertz);
-    result.frequency[i] = PeerDrive::two_pi * hertz;
+    result.frequency[i] = two_pi * hertz;
     result.damping_ratio[i] = 0.005 * (1.0 + place);
     result.motor[i] = 0.35 * size * (1.0 + 0.5 * std::cos(1.7 * k));
     result.beam[i] = 0.50 * size * (1.0 + 0.5 * std::sin(2.3 * k)) * (i % 2 == 0 ? -1.0 : 1.0);
@@ -243,7 +242,7 @@ inline plant::StateSpace peer_open_loop(Eigen::Index modes, const PeerGains& gai
 /// 2 pi logspace(-3, 2, 1000), rad/s: where the peers' frequency responses are taken.
 inline Eigen::ArrayXd peer_frequencies() {
   return Eigen::ArrayXd::NullaryExpr(1000, [](Eigen::Index i) {
-    return PeerDrive::two_pi * std::pow(10.0, -3.0 + 5.0 * static_cast<double>(i) / 999.0);
+    return two_pi * std::pow(10.0, -3.0 + 5.0 * static_cast<double>(i) / 999.0);
   });
 }
 

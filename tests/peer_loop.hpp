@@ -5,6 +5,7 @@
 
 #include "peer_family.hpp"
 #include <boresight/control/loops/loop_evaluator.hpp>
+#include <boresight/numerics/angles.hpp>
 #include <boresight/numerics/complex_packs.hpp>
 #include <boresight/numerics/vector_clones.hpp>
 
@@ -85,7 +86,7 @@ class PeerChannels {
 /// One-sided spectrum of the peers' wind torque, (N m)^2/Hz, at a frequency in Hz.
 inline double peer_wind_spectrum(double hertz) {
   const PeerDrive d;
-  const double w = PeerDrive::two_pi * hertz;
+  const double w = two_pi * hertz;
   const double slow = d.slow_wind_corner, fast = d.fast_wind_corner;
   return 2.0 * d.wind_amplitude * d.wind_amplitude * (slow * slow / (w * w + slow * slow)) *
          (fast * fast / (w * w + fast * fast));

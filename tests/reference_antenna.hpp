@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "random_numbers.hpp"
+#include <boresight/numerics/angles.hpp>
 #include <boresight/plant/antenna/antenna_plant.hpp>
 #include <boresight/plant/antenna/gear_train.hpp>
 #include <boresight/plant/antenna/hydraulics.hpp>
@@ -13,7 +14,6 @@
 /// scale of physics elsewhere.
 namespace boresight::reference {
 
-inline constexpr double two_pi = 2.0 * std::numbers::pi;
 inline constexpr double lbf_ft_s2 = 1.3558179483314004;  // kg m2
 inline constexpr double mdeg = std::numbers::pi / 180.0 * 1e-3;
 inline constexpr double rpm = two_pi / 60.0;

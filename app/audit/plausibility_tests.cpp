@@ -1,10 +1,10 @@
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include <fmt/format.h>
 
 #include <boresight/app/audit/plausibility_checks.hpp>
+#include <boresight/numerics/angles.hpp>
 #include <boresight/plant/antenna/hydraulics.hpp>
 
 namespace boresight::app {
@@ -12,8 +12,7 @@ namespace {
 
 constexpr double speed_of_light = 299792458.0;  // m/s, exact
 constexpr double widest_beam_deg = 5.0;
-constexpr double rpm = 2.0 * std::numbers::pi / 60.0;
-constexpr double degree = std::numbers::pi / 180.0;
+constexpr double rpm = two_pi / 60.0;
 
 double motor_rate_per_volt(const io::TachometerEntry& tachometer) {
   return tachometer.shaft_speed.value / tachometer.voltage.value * tachometer.motor_teeth.value /

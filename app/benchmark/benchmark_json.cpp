@@ -1,7 +1,6 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <numbers>
 
 #include <fmt/format.h>
 
@@ -9,12 +8,12 @@
 #include <boresight/app/figures/figure_json.hpp>
 #include <boresight/app/report/json_design.hpp>
 #include <boresight/app/report/sky_units.hpp>
+#include <boresight/numerics/angles.hpp>
 #include <boresight/numerics/error.hpp>
 
 namespace boresight::app {
 namespace {
 
-constexpr double two_pi = 2.0 * std::numbers::pi;
 constexpr double per_meganewton = 1e6 / millidegree;  // rad/(N m) to mdeg/(MN m)
 
 Json optional_number(const std::optional<double>& value, double unit = 1.0) {

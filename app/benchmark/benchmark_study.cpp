@@ -1,7 +1,6 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <numbers>
 #include <system_error>
 
 #include <fmt/format.h>
@@ -15,12 +14,11 @@
 #include <boresight/app/tune/engineer_units.hpp>
 #include <boresight/control/controllers/sampled_law.hpp>
 #include <boresight/control/loops/state_space_controller.hpp>
+#include <boresight/numerics/angles.hpp>
 #include <boresight/numerics/error.hpp>
 
 namespace boresight::app {
 namespace {
-
-constexpr double degree = std::numbers::pi / 180.0;
 
 // Attitudes of the protocol that the table covers: every 45 degrees of yaw at every 20 of elevation
 // from 10.

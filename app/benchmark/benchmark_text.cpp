@@ -1,5 +1,4 @@
 #include <cmath>
-#include <numbers>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -9,11 +8,11 @@
 #include <boresight/app/report/present_gains.hpp>
 #include <boresight/app/report/sky_units.hpp>
 #include <boresight/app/report/text_report.hpp>
+#include <boresight/numerics/angles.hpp>
 
 namespace boresight::app {
 namespace {
 
-constexpr double two_pi = 2.0 * std::numbers::pi;
 constexpr double per_meganewton = 1e6 / millidegree;
 
 std::string value(double number, const char* format = "{:.4g}") {

@@ -1,4 +1,3 @@
-#include <numbers>
 
 #include <nlohmann/json.hpp>
 
@@ -6,6 +5,7 @@
 #include <boresight/app/figures/figure_json.hpp>
 #include <boresight/app/report/json_number.hpp>
 #include <boresight/app/report/sky_units.hpp>
+#include <boresight/numerics/angles.hpp>
 
 namespace boresight::app {
 namespace {
@@ -19,7 +19,7 @@ Json band(const design::PlantBand& band, double unit = 1.0) {
 }
 
 Json expected_json(const design::StageExpectation& expected, double sky) {
-  const double turn = 2.0 * std::numbers::pi;
+  const double turn = two_pi;
   return {{"plants", expected.plants},
           {"stable_plants", expected.stable},
           {"sensitivity_peak_1", band(expected.peak)},

@@ -1,7 +1,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -16,6 +15,7 @@
 #include <boresight/app/tune/gains_at_bounds.hpp>
 #include <boresight/app/tune/tuned_assessment.hpp>
 #include <boresight/io/units/wording.hpp>
+#include <boresight/numerics/angles.hpp>
 #include <boresight/numerics/error.hpp>
 
 namespace boresight::app {
@@ -160,8 +160,7 @@ void describe_check(const io::Case& antenna, StageSheet& sheet) {
         range(expected.rise_time, 1.0, 3), percent(expected.overshoot),
         settling(expected.settling_time));
   }
-  sheet.check +=
-      fmt::format("Crossover {} Hz. ", range(expected.crossover, 2.0 * std::numbers::pi, 3));
+  sheet.check += fmt::format("Crossover {} Hz. ", range(expected.crossover, two_pi, 3));
   sheet.check +=
       "In still air, rms of the valve command " + range(expected.still_valve, 1.0, 3) + " rad/s";
   sheet.check += open

@@ -7,6 +7,7 @@
 #include <boresight/app/document/document_text.hpp>
 #include <boresight/app/report/sky_units.hpp>
 #include <boresight/app/report/text_report.hpp>
+#include <boresight/numerics/angles.hpp>
 
 namespace boresight::app {
 namespace {
@@ -33,7 +34,7 @@ Document overview(const CommissionReport& report) {
     rows.push_back({fmt::format("{}", i + 1), stage_name(stage),
                     stage.law.position_open ? "open" : "closed",
                     number(expected.peak.largest, "{:.2f}"),
-                    number(expected.crossover.nominal / (2.0 * std::numbers::pi), "{:.4f}"),
+                    number(expected.crossover.nominal / two_pi, "{:.4f}"),
                     number(expected.rise_time.nominal, "{:.2f}"),
                     number(100.0 * expected.overshoot.nominal, "{:.0f}"),
                     number(expected.still_valve.nominal, "{:.4f}"),

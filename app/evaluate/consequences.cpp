@@ -1,19 +1,16 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 
 #include <boresight/app/evaluate/proposed_case.hpp>
 #include <boresight/app/redesign/antenna_model.hpp>
 #include <boresight/app/report/sky_units.hpp>
 #include <boresight/io/case/structure_numbers.hpp>
+#include <boresight/numerics/angles.hpp>
 #include <boresight/plant/wind/wind.hpp>
 
 namespace boresight::app {
 namespace {
-
-constexpr double two_pi = 2.0 * std::numbers::pi;
-constexpr double degree = std::numbers::pi / 180.0;
 
 double all_motors(const io::Case& antenna) {
   return motor_inertia(antenna, antenna.motor.flywheel_disks);

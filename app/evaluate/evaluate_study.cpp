@@ -1,7 +1,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 
 #include <fmt/format.h>
 
@@ -15,13 +14,13 @@
 #include <boresight/design/problem/drive_reach.hpp>
 #include <boresight/io/case/field.hpp>
 #include <boresight/io/units/wording.hpp>
+#include <boresight/numerics/angles.hpp>
 #include <boresight/numerics/error.hpp>
 #include <boresight/numerics/parallel_loop.hpp>
 
 namespace boresight::app {
 namespace {
 
-constexpr double degree = std::numbers::pi / 180.0;
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 constexpr std::string_view as_it_is = "as it is";
 

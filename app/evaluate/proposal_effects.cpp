@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <optional>
 #include <vector>
 
@@ -10,11 +9,10 @@
 #include <boresight/app/evaluate/proposal_effects.hpp>
 #include <boresight/app/report/sky_units.hpp>
 #include <boresight/app/report/wind_mast.hpp>
+#include <boresight/numerics/angles.hpp>
 
 namespace boresight::app {
 namespace {
-
-constexpr double degree = std::numbers::pi / 180.0;
 
 // Of what the antenna as it is has.
 bool worth_a_sentence(double change) {

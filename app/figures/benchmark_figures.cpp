@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include <fmt/format.h>
 
@@ -9,6 +8,7 @@
 #include <boresight/app/figures/thinned_series.hpp>
 #include <boresight/app/figures/time_domain_figures.hpp>
 #include <boresight/app/report/sky_units.hpp>
+#include <boresight/numerics/angles.hpp>
 
 namespace boresight::app {
 namespace {
@@ -36,10 +36,9 @@ Figure compliance(const BenchmarkReport& report) {
     panel.series.push_back(
         make_series("compared sheet", SeriesStyle::dashed, other.frequency, other.compliance));
   }
-  panel.marks.push_back(
-      {report.score.worst.frequency / (2.0 * std::numbers::pi),
-       report.score.worst.lower * per_meganewton,
-       fmt::format("worst, {:.3g} Hz", report.score.worst.frequency / (2.0 * std::numbers::pi))});
+  panel.marks.push_back({report.score.worst.frequency / two_pi,
+                         report.score.worst.lower * per_meganewton,
+                         fmt::format("worst, {:.3g} Hz", report.score.worst.frequency / two_pi)});
   panel.lines.push_back(horizontal_line(report.score.encoder_held_compliance * per_meganewton,
                                         "bending with the encoder held"));
   Figure figure =

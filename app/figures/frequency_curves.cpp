@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include <boresight/app/figures/frequency_curves.hpp>
+#include <boresight/numerics/angles.hpp>
 
 namespace boresight::app {
 
@@ -13,7 +14,7 @@ std::vector<double> numbers(const Eigen::ArrayXd& values) {
 }
 
 std::vector<double> in_hertz(const Eigen::ArrayXd& angular_frequency) {
-  return numbers(angular_frequency / (2.0 * std::numbers::pi));
+  return numbers(angular_frequency / two_pi);
 }
 
 std::vector<double> in_decibels(const Eigen::ArrayXcd& values) {

@@ -2,7 +2,6 @@
 #include <array>
 #include <cmath>
 #include <complex>
-#include <numbers>
 
 #include <fmt/format.h>
 
@@ -10,13 +9,12 @@
 #include <boresight/app/figures/law_figures.hpp>
 #include <boresight/app/report/sky_units.hpp>
 #include <boresight/control/loops/closed_loop.hpp>
+#include <boresight/numerics/angles.hpp>
 #include <boresight/plant/antenna/plant_response.hpp>
 #include <boresight/plant/linear/response_grid.hpp>
 
 namespace boresight::app {
 namespace {
-
-constexpr double two_pi = 2.0 * std::numbers::pi;
 
 // The law on its grid: rad/s, responses, loop gains by break.
 struct Responses {

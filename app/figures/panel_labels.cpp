@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <vector>
 
 #include <fmt/format.h>
@@ -10,6 +9,7 @@
 #include <boresight/app/figures/plot_axis.hpp>
 #include <boresight/app/figures/series_look.hpp>
 #include <boresight/app/figures/svg_text.hpp>
+#include <boresight/numerics/angles.hpp>
 
 namespace boresight::app {
 namespace {
@@ -164,7 +164,7 @@ std::string circle_label(const FigureCircle& circle, const PlacedPanel& placed,
   const double ry = std::abs(placed.y.at(circle.y + circle.radius) - placed.y.at(circle.y));
   std::vector<LabelPlace> places;
   for (int step = 0; step < 16; ++step) {
-    const double angle = 2.0 * std::numbers::pi * step / 16.0;
+    const double angle = two_pi * step / 16.0;
     const double x = placed.x.at(circle.x) - (rx + 4.0) * std::cos(angle);
     const double y = placed.y.at(circle.y) - (ry + 4.0) * std::sin(angle);
     const double left = x - 0.5 * width * (1.0 + std::cos(angle));

@@ -1,19 +1,18 @@
 #include <algorithm>
 #include <cmath>
 #include <complex>
-#include <numbers>
 
 #include <fmt/format.h>
 
 #include <boresight/app/figures/frequency_curves.hpp>
 #include <boresight/app/figures/plant_figures.hpp>
 #include <boresight/app/report/sky_units.hpp>
+#include <boresight/numerics/angles.hpp>
 #include <boresight/plant/antenna/plant_response.hpp>
 
 namespace boresight::app {
 namespace {
 
-constexpr double two_pi = 2.0 * std::numbers::pi;
 constexpr const char* section_title = "Plant, at the motor shaft, all motors lumped";
 
 bool oscillates(const plant::PlantMode& mode) {

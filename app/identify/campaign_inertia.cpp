@@ -1,11 +1,11 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 
 #include <fmt/format.h>
 
 #include <boresight/app/identify/campaign_comparison.hpp>
+#include <boresight/numerics/angles.hpp>
 #include <boresight/numerics/statistics/distribution_quantiles.hpp>
 
 namespace boresight::app {
@@ -121,7 +121,7 @@ std::string why_spectrum(const CampaignSection& section,
         percent(all), percent(flexible), percent(oil), frequency,
         resonance.coupled_over_rigid *
             std::sqrt((stiffness ? stiffness->value : resonance.stiffness.value) / inertia->value) /
-            (2.0 * std::numbers::pi),
+            two_pi,
         percent(all / (flexible * oil)));
   }
   const auto& knowledge = section.knowledge;

@@ -1,7 +1,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 
 #include <fmt/format.h>
 
@@ -9,6 +8,7 @@
 #include <boresight/app/simulate/nonlinear_model.hpp>
 #include <boresight/app/tune/asked_structures.hpp>
 #include <boresight/design/problem/drive_reach.hpp>
+#include <boresight/numerics/angles.hpp>
 #include <boresight/numerics/error.hpp>
 #include <boresight/numerics/parallel_loop.hpp>
 #include <boresight/plant/nonlinear/antenna_parameters.hpp>
@@ -16,8 +16,6 @@
 namespace boresight::app {
 namespace {
 
-constexpr double two_pi = 2.0 * std::numbers::pi;
-constexpr double degree = std::numbers::pi / 180.0;
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
 // Evenly spaced disks, and between them ratio 1 and as built.

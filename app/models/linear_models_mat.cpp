@@ -1,15 +1,13 @@
-#include <numbers>
 
 #include <boresight/app/models/linear_models.hpp>
 #include <boresight/control/loops/loop_evaluator.hpp>
 #include <boresight/io/exchange/state_space_formats.hpp>
+#include <boresight/numerics/angles.hpp>
 #include <boresight/plant/antenna/plant_response.hpp>
 #include <boresight/plant/antenna/point_response.hpp>
 
 namespace boresight::app {
 namespace {
-
-constexpr double two_pi = 2.0 * std::numbers::pi;
 
 // Hz and points a decade of the responses written.
 constexpr double lowest_frequency = 1e-3, highest_frequency = 25.0;

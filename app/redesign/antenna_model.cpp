@@ -7,11 +7,10 @@
 #include <boresight/app/redesign/antenna_model.hpp>
 #include <boresight/app/redesign/resonating_mode.hpp>
 #include <boresight/io/case/structure_numbers.hpp>
+#include <boresight/numerics/angles.hpp>
 
 namespace boresight::app {
 namespace {
-
-constexpr double two_pi = 2.0 * std::numbers::pi;
 
 numerics::Uncertain uncertain(const io::Quantity& quantity) {
   return {quantity.value, quantity.standard_uncertainty};

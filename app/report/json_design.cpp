@@ -1,15 +1,13 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <numbers>
 
 #include <boresight/app/report/json_design.hpp>
 #include <boresight/app/report/sky_units.hpp>
+#include <boresight/numerics/angles.hpp>
 
 namespace boresight::app {
 namespace {
-
-constexpr double two_pi = 2.0 * std::numbers::pi;
 
 Json margins_json(const control::Margins& margins) {
   const auto decibel = [](double factor) {

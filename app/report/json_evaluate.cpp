@@ -1,14 +1,12 @@
-#include <numbers>
 
 #include <boresight/app/report/evaluate_report.hpp>
 #include <boresight/app/report/json_time_domain.hpp>
 #include <boresight/app/report/sky_units.hpp>
 #include <boresight/app/report/wind_mast.hpp>
+#include <boresight/numerics/angles.hpp>
 
 namespace boresight::app {
 namespace {
-
-constexpr double degree = std::numbers::pi / 180.0;
 
 template <typename Number>
 Json optional_number(const std::optional<Number>& value, double unit = 1.0) {

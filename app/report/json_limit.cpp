@@ -1,9 +1,9 @@
-#include <numbers>
 #include <optional>
 
 #include <boresight/app/report/json_limit.hpp>
 #include <boresight/app/report/json_number.hpp>
 #include <boresight/app/report/sky_units.hpp>
+#include <boresight/numerics/angles.hpp>
 
 namespace boresight::app {
 namespace {
@@ -13,16 +13,15 @@ Json mdeg(double angle) {
 }
 
 Json result_json(const design::SampledResult& result) {
-  return {
-      {"plant", result.plant},
-      {"stable", result.stable()},
-      {"spectral_radius_1", number(result.spectral_radius)},
-      {"beam_rms_mdeg", mdeg(result.beam_rms)},
-      {"wind_rms_mdeg", mdeg(result.wind_rms)},
-      {"noise_rms_mdeg", mdeg(result.noise_rms)},
-      {"valve_effort_rad_per_s", number(result.valve_effort)},
-      {"sensitivity_peak_1", number(result.peak.magnitude)},
-      {"sensitivity_peak_frequency_Hz", number(result.peak.frequency / (2.0 * std::numbers::pi))}};
+  return {{"plant", result.plant},
+          {"stable", result.stable()},
+          {"spectral_radius_1", number(result.spectral_radius)},
+          {"beam_rms_mdeg", mdeg(result.beam_rms)},
+          {"wind_rms_mdeg", mdeg(result.wind_rms)},
+          {"noise_rms_mdeg", mdeg(result.noise_rms)},
+          {"valve_effort_rad_per_s", number(result.valve_effort)},
+          {"sensitivity_peak_1", number(result.peak.magnitude)},
+          {"sensitivity_peak_frequency_Hz", number(result.peak.frequency / two_pi)}};
 }
 
 Json design_json(const design::SampledDesign& design) {

@@ -1,15 +1,13 @@
-#include <numbers>
 
 #include <nlohmann/json.hpp>
 
 #include <boresight/app/report/json_number.hpp>
 #include <boresight/app/report/measured_report.hpp>
 #include <boresight/app/report/sky_units.hpp>
+#include <boresight/numerics/angles.hpp>
 
 namespace boresight::app {
 namespace {
-
-constexpr double two_pi = 2.0 * std::numbers::pi;
 
 const char* basis_name(control::ResponseBasis basis) {
   switch (basis) {

@@ -1,5 +1,4 @@
 #include <cmath>
-#include <numbers>
 
 #include <boresight/app/figures/figure_json.hpp>
 #include <boresight/app/redesign/matching_verdict.hpp>
@@ -19,11 +18,10 @@
 #include <boresight/app/report/measured_report.hpp>
 #include <boresight/app/report/sky_units.hpp>
 #include <boresight/app/report/wind_mast.hpp>
+#include <boresight/numerics/angles.hpp>
 
 namespace boresight::app {
 namespace {
-
-constexpr double two_pi = 2.0 * std::numbers::pi;
 
 Json propagated(const numerics::PropagatedResult& result, const std::string& unit) {
   Json json{{"name", result.name},

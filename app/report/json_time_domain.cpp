@@ -1,15 +1,13 @@
-#include <numbers>
 
 #include <nlohmann/json.hpp>
 
 #include <boresight/app/report/json_number.hpp>
 #include <boresight/app/report/json_time_domain.hpp>
 #include <boresight/app/report/sky_units.hpp>
+#include <boresight/numerics/angles.hpp>
 
 namespace boresight::app {
 namespace {
-
-constexpr double degree = std::numbers::pi / 180.0;
 
 Json mdeg(double angle) {
   return number(angle / millidegree);

@@ -1,17 +1,14 @@
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include <boresight/app/report/json_tune.hpp>
 #include <boresight/app/report/sky_units.hpp>
 #include <boresight/app/report/wind_mast.hpp>
 #include <boresight/app/tune/tune_verdict.hpp>
+#include <boresight/numerics/angles.hpp>
 
 namespace boresight::app {
 namespace {
-
-constexpr double degree = std::numbers::pi / 180.0;
-constexpr double two_pi = 2.0 * std::numbers::pi;
 
 template <typename Number>
 Json optional_number(const std::optional<Number>& value, double unit = 1.0) {

@@ -1,7 +1,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -15,12 +14,12 @@
 #include <boresight/app/report/sky_units.hpp>
 #include <boresight/app/report/text_report.hpp>
 #include <boresight/app/report/wind_mast.hpp>
+#include <boresight/numerics/angles.hpp>
 
 namespace boresight::app {
 namespace {
 
 using design::Design;
-constexpr double two_pi = 2.0 * std::numbers::pi;
 constexpr std::size_t valve = 1;  // of control::loop_breaks
 constexpr std::size_t position = 2;
 

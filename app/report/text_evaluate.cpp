@@ -1,5 +1,4 @@
 #include <cmath>
-#include <numbers>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -12,13 +11,12 @@
 #include <boresight/app/report/sky_units.hpp>
 #include <boresight/app/report/wind_mast.hpp>
 #include <boresight/io/units/wording.hpp>
+#include <boresight/numerics/angles.hpp>
 
 namespace boresight::app {
 namespace {
 
 using Rows = std::vector<std::vector<std::string>>;
-
-constexpr double degree = std::numbers::pi / 180.0;
 
 std::string mdeg(double angle) {
   return std::isfinite(angle) ? fmt::format("{:.4f}", angle / millidegree) : "-";

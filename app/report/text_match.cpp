@@ -8,11 +8,11 @@
 #include <boresight/app/report/hunting_wording.hpp>
 #include <boresight/app/report/match_report.hpp>
 #include <boresight/app/report/sky_units.hpp>
+#include <boresight/numerics/angles.hpp>
 
 namespace boresight::app {
 namespace {
 
-constexpr double degree = 1e3 * millidegree;
 using Rows = std::vector<std::vector<std::string>>;
 
 std::string mdeg(double angle) {

@@ -1,5 +1,4 @@
 #include <cmath>
-#include <numbers>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -7,13 +6,13 @@
 #include <boresight/app/document/document.hpp>
 #include <boresight/app/report/measured_report.hpp>
 #include <boresight/app/report/sky_units.hpp>
+#include <boresight/numerics/angles.hpp>
 
 namespace boresight::app {
 namespace {
 
 using design::MeasuredTuningStatus;
 using Rows = std::vector<std::vector<std::string>>;
-constexpr double two_pi = 2.0 * std::numbers::pi;
 
 std::string mdeg(const MeasuredTuneSection& section, double motor_angle) {
   return fmt::format("{:.4f}", motor_angle / section.gear_ratio / millidegree);

@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -10,6 +9,7 @@
 #include <boresight/app/report/sky_units.hpp>
 #include <boresight/app/report/text_report.hpp>
 #include <boresight/io/case/friction_leeway.hpp>
+#include <boresight/numerics/angles.hpp>
 #include <boresight/plant/antenna/motors_held_modes.hpp>
 
 namespace boresight::app {
@@ -80,10 +80,9 @@ Document structure_part(const plant::Structure& structure) {
       {"bull gear", "-", fmt::format("{:.4f}", structure.bull_gear_inertia / inertia)}};
   for (std::size_t i = 0; i < structure.modes.size(); ++i) {
     const auto& mode = structure.modes[i];
-    rows.push_back(
-        {fmt::format("structure.mode[{}]", i),
-         fmt::format("{:.4f}", std::sqrt(mode.stiffness / mode.inertia) / (2.0 * std::numbers::pi)),
-         fmt::format("{:.4f}", mode.inertia / inertia)});
+    rows.push_back({fmt::format("structure.mode[{}]", i),
+                    fmt::format("{:.4f}", std::sqrt(mode.stiffness / mode.inertia) / two_pi),
+                    fmt::format("{:.4f}", mode.inertia / inertia)});
   }
   std::vector<std::vector<std::string>> held{
       {"structure, the motors held", "frequency Hz", "effective fraction", "gear"}};
@@ -108,7 +107,6 @@ Document structure_part(const plant::Structure& structure) {
 }  // namespace
 
 Document document_of(const PlantSection& section) {
-  constexpr double two_pi = 2.0 * std::numbers::pi;
   const auto& drive = section.plant.drive;
   const auto& structure = section.plant.structure;
   Document text = heading("Plant, at the motor shaft, all motors lumped");

@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include <fmt/format.h>
 
@@ -9,13 +8,13 @@
 #include <boresight/app/report/influences.hpp>
 #include <boresight/app/report/sky_units.hpp>
 #include <boresight/app/report/text_report.hpp>
+#include <boresight/numerics/angles.hpp>
 
 namespace boresight::app {
 namespace {
 
 using design::RunStatus;
 using Rows = std::vector<std::vector<std::string>>;
-constexpr double degree = std::numbers::pi / 180.0;
 
 std::string mdeg(double angle) {
   return std::isfinite(angle) ? fmt::format("{:.4f}", angle / millidegree) : "-";

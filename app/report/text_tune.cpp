@@ -12,6 +12,7 @@
 #include <boresight/app/report/text_report.hpp>
 #include <boresight/app/report/wind_mast.hpp>
 #include <boresight/app/tune/gains_at_bounds.hpp>
+#include <boresight/numerics/angles.hpp>
 
 namespace boresight::app {
 namespace {
@@ -288,7 +289,7 @@ Document goals_part(const TuneSection& section) {
     text += fmt::format("; phase margin {:.4g} deg", *phase_margin * 180.0 / std::numbers::pi);
   }
   if (goals.bandwidth) {
-    text += fmt::format("; bandwidth {:.4g} Hz", *goals.bandwidth / (2.0 * std::numbers::pi));
+    text += fmt::format("; bandwidth {:.4g} Hz", *goals.bandwidth / two_pi);
   }
   if (goals.gust_torque && goals.gust_demand) {
     text += fmt::format("; {:g} times rms in gusts within {:.4g} N.m and {:.4g} rad/s",

@@ -2,13 +2,13 @@
 #include <array>
 #include <cmath>
 #include <functional>
-#include <numbers>
 
 #include <fmt/format.h>
 
 #include <boresight/app/redesign/antenna_model.hpp>
 #include <boresight/app/simulate/antenna_tests.hpp>
 #include <boresight/app/simulate/nonlinear_model.hpp>
+#include <boresight/numerics/angles.hpp>
 #include <boresight/numerics/error.hpp>
 
 namespace boresight::app {
@@ -118,7 +118,7 @@ AntennaTest valve_chirp(double stroke, double sample_time) {
             const double octaves = std::log(highest / lowest);
             const double cycles = lowest * length / octaves * std::expm1(octaves * into / length);
             const bool on = t >= settle && t < settle + length;
-            return stroke * (0.1 + (on ? 0.02 * std::sin(2.0 * std::numbers::pi * cycles) : 0.0));
+            return stroke * (0.1 + (on ? 0.02 * std::sin(two_pi * cycles) : 0.0));
           })};
 }
 

@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include <fmt/format.h>
 
@@ -9,6 +8,7 @@
 #include <boresight/app/simulate/drive_run.hpp>
 #include <boresight/app/simulate/nonlinear_model.hpp>
 #include <boresight/app/simulate/recorder_filter.hpp>
+#include <boresight/numerics/angles.hpp>
 #include <boresight/numerics/error.hpp>
 #include <boresight/plant/integration/feedback_interconnection.hpp>
 #include <boresight/plant/nonlinear/operating_point.hpp>
@@ -125,11 +125,10 @@ DriveRecord run_drive_test(const io::Case& antenna, const AntennaTest& test, std
   const RecorderSensors sensors = make_sensors(antenna, motors, seed);
   const auto drive = plant::to_feedback_system(model);
   const io::SimulationEntry& entry = simulation_of(antenna);
-  const auto system =
-      test.rate_loop_closed
-          ? plant::closed(drive, rate_loop(entry.rate_loop_gain.value,
-                                           2.0 * std::numbers::pi * entry.rate_loop_corner.value))
-          : drive;
+  const auto system = test.rate_loop_closed
+                          ? plant::closed(drive, rate_loop(entry.rate_loop_gain.value,
+                                                           two_pi * entry.rate_loop_corner.value))
+                          : drive;
   plant::SimulationPlan plan;
   double fastest_line = 0.0;
   for (const auto& line : model.oil.lines) {

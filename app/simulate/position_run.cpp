@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include <fmt/format.h>
 
@@ -11,6 +10,7 @@
 #include <boresight/design/tuning/design_study.hpp>
 #include <boresight/design/tuning/tuner.hpp>
 #include <boresight/design/verification/simulated_loop.hpp>
+#include <boresight/numerics/angles.hpp>
 #include <boresight/numerics/error.hpp>
 #include <boresight/plant/nonlinear/simulation.hpp>
 #include <boresight/plant/wind/wind_time_series.hpp>
@@ -21,7 +21,6 @@ namespace {
 using Eigen::Index;
 using Eigen::VectorXd;
 
-constexpr double degree = std::numbers::pi / 180.0;
 constexpr double millidegree_at_sky = 1e-3 * degree;
 constexpr Index intervals_per_sample = 4;
 constexpr double largest_acceleration = 0.2 * degree;  // rad/s2, of a command

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <boresight/app/simulate/recorder_filter.hpp>
+#include <boresight/numerics/angles.hpp>
 #include <boresight/numerics/error.hpp>
 #include <boresight/plant/linear/time_response.hpp>
 
@@ -15,7 +16,7 @@ using Eigen::Index;
 
 // Sections of second order, one behind the other, and one of first order if the order is odd.
 plant::StateSpace butterworth(const LowPass& filter) {
-  const double corner = 2.0 * std::numbers::pi * filter.corner;
+  const double corner = two_pi * filter.corner;
   plant::StateSpace system;
   system.a = Eigen::MatrixXd::Zero(filter.order, filter.order);
   system.b = Eigen::MatrixXd::Zero(filter.order, 1);

@@ -1,18 +1,16 @@
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include <boresight/app/redesign/antenna_model.hpp>
 #include <boresight/app/simulate/nonlinear_model.hpp>
 #include <boresight/app/simulate/time_domain.hpp>
 #include <boresight/design/problem/drive_reach.hpp>
 #include <boresight/io/case/friction_leeway.hpp>
+#include <boresight/numerics/angles.hpp>
 #include <boresight/numerics/error.hpp>
 
 namespace boresight::app {
 namespace {
-
-constexpr double degree = std::numbers::pi / 180.0;
 
 // All but the result.
 TimeDomainSection plan(const io::Case& antenna, const design::TrackingProblem& problem,

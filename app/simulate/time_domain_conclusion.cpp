@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <string_view>
 
 #include <fmt/format.h>
@@ -8,6 +7,7 @@
 #include <boresight/app/report/influences.hpp>
 #include <boresight/app/report/sky_units.hpp>
 #include <boresight/app/simulate/time_domain.hpp>
+#include <boresight/numerics/angles.hpp>
 
 namespace boresight::app {
 namespace {
@@ -169,7 +169,6 @@ std::string hunting_text(const design::HuntingResult& hunting, double error) {
 std::string slew_out_of_reach(const TimeDomainSection& section) {
   const auto& slew = section.result.slew;
   if (!slew || slew->within_reach) return "";
-  constexpr double degree = std::numbers::pi / 180.0;
   const auto& asked = section.options.limits;
   if (!(slew->limits.rate < asked.rate)) return "";
   return fmt::format(

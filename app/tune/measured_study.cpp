@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -15,6 +14,7 @@
 #include <boresight/io/records/record_file.hpp>
 #include <boresight/io/units/kinds.hpp>
 #include <boresight/io/units/wording.hpp>
+#include <boresight/numerics/angles.hpp>
 #include <boresight/numerics/error.hpp>
 #include <boresight/numerics/fourier_transform.hpp>
 
@@ -22,8 +22,6 @@ namespace boresight::app {
 namespace {
 
 using Eigen::Index;
-
-constexpr double two_pi = 2.0 * std::numbers::pi;
 
 const identification::DriveRecord& record_named(const identification::Campaign& campaign,
                                                 const CampaignNotes& notes,

@@ -16,6 +16,7 @@
 #include <boresight/app/tune/tune_study.hpp>
 #include <boresight/app/tune/tune_verdict.hpp>
 #include <boresight/app/tune/tuned_assessment.hpp>
+#include <boresight/numerics/angles.hpp>
 
 namespace boresight::app {
 namespace {
@@ -61,7 +62,7 @@ std::string found_and_limit(const GoalRatio& goal, const design::HardGoals& goal
       return least(limit, limit / goal.ratio, " deg");
     }
     case GoalKind::bandwidth: {
-      const double limit = goals.bandwidth.value_or(0.0) / (2.0 * std::numbers::pi);
+      const double limit = goals.bandwidth.value_or(0.0) / two_pi;
       return least(limit, limit / goal.ratio, " Hz");
     }
     case GoalKind::gust_demand:

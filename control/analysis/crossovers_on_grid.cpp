@@ -4,14 +4,13 @@
 #include <numbers>
 
 #include <boresight/control/analysis/crossovers_on_grid.hpp>
+#include <boresight/numerics/angles.hpp>
 #include <boresight/numerics/bracketed_search.hpp>
 
 namespace boresight::control {
 namespace {
 
 using Complex = std::complex<double>;
-
-constexpr double two_pi = 2.0 * std::numbers::pi;
 
 // Zero where L crosses, its sign the side: ln|L|, or the sine of the angle to the real axis.
 double offset(CrossoverKind kind, Complex gain) {

@@ -39,7 +39,7 @@ plant::StateSpace delay_approximant(double delay, int order, const std::string& 
 
 PadeCoefficients pade_coefficients(double delay, int numerator_degree, int denominator_degree) {
   constexpr int highest = 16;
-  const auto unusable = [](int degree) { return degree < 0 || degree > highest; };
+  const auto unusable = [](int order) { return order < 0 || order > highest; };
   if (!(delay > 0.0) || !std::isfinite(delay) || unusable(numerator_degree) ||
       unusable(denominator_degree) || numerator_degree + denominator_degree == 0) {
     throw InvalidInput(
@@ -48,10 +48,10 @@ PadeCoefficients pade_coefficients(double delay, int numerator_degree, int denom
                     highest, delay, numerator_degree, denominator_degree));
   }
   const int sum = numerator_degree + denominator_degree;
-  const auto polynomial = [&](int degree, double step) {
+  const auto polynomial = [&](int order, double step) {
     std::vector<double> ascending{1.0};
-    for (int k = 0; k < degree; ++k) {
-      ascending.push_back(ascending.back() * step * (degree - k) /
+    for (int k = 0; k < order; ++k) {
+      ascending.push_back(ascending.back() * step * (order - k) /
                           (static_cast<double>(sum - k) * (k + 1)));
     }
     return ascending;

@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <numeric>
 
 #include <fmt/format.h>
@@ -8,13 +7,13 @@
 #include <boresight/control/loops/loop_evaluator.hpp>
 #include <boresight/control/loops/loop_point.hpp>
 #include <boresight/control/loops/loop_winding.hpp>
+#include <boresight/numerics/angles.hpp>
 #include <boresight/numerics/error.hpp>
 
 namespace boresight::control {
 namespace {
 
 using Complex = std::complex<double>;
-constexpr double two_pi = 2.0 * std::numbers::pi;
 
 // Trapezoid weights in ln f, per Hz, of the intervals that lie within the band.
 Eigen::ArrayXd integration_weights(const Eigen::ArrayXd& frequency, const FrequencyBand& band) {

@@ -1,11 +1,11 @@
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include <fmt/format.h>
 
 #include <boresight/control/loops/loop_evaluator.hpp>
 #include <boresight/control/loops/panel_rule.hpp>
+#include <boresight/numerics/angles.hpp>
 #include <boresight/numerics/error.hpp>
 
 namespace boresight::control {
@@ -13,7 +13,6 @@ namespace {
 
 using Complex = std::complex<double>;
 using ChannelValues = std::array<Complex, numerics::pack_size>;
-constexpr double two_pi = 2.0 * std::numbers::pi;
 // In ln w: what turns within less is taken for an undamped pole, which nothing would resolve.
 constexpr double narrowest_panel = 1e-7;
 // In ln w: of the panel that carries what lies below it.

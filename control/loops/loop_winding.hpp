@@ -4,6 +4,7 @@
 #include <complex>
 #include <numbers>
 
+#include <boresight/numerics/angles.hpp>
 #include <boresight/numerics/complex_packs.hpp>
 
 namespace boresight::control {
@@ -34,7 +35,6 @@ class Winding {
     for (std::size_t i = left ? 0 : count - 1; i < count; ++i) add({values.re[i], values.im[i]});
   }
   int unstable() const {
-    constexpr double two_pi = 2.0 * std::numbers::pi;
     const double from_start = std::remainder(std::arg(first_value_) - start_, two_pi);
     const double along = std::arg(last_) - std::arg(first_value_) + two_pi * turns_;
     const double to_end = -std::arg(last_);

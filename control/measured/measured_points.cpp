@@ -1,10 +1,10 @@
-#include <numbers>
 #include <numeric>
 #include <optional>
 
 #include <fmt/format.h>
 
 #include <boresight/control/measured/measured_points.hpp>
+#include <boresight/numerics/angles.hpp>
 #include <boresight/numerics/error.hpp>
 #include <boresight/numerics/statistics/order_statistics.hpp>
 
@@ -14,7 +14,6 @@ namespace {
 using Complex = std::complex<double>;
 using Eigen::Index;
 
-constexpr double two_pi = 2.0 * std::numbers::pi;
 constexpr std::size_t fewest_points = 12;
 
 // Least squares, each value weighted by the inverse of its relative variance.

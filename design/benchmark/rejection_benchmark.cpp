@@ -1,13 +1,13 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 
 #include <fmt/format.h>
 
 #include <boresight/design/benchmark/rejection_benchmark.hpp>
 #include <boresight/design/benchmark/rejection_response.hpp>
 #include <boresight/design/limits/pointing_limit.hpp>
+#include <boresight/numerics/angles.hpp>
 #include <boresight/numerics/error.hpp>
 #include <boresight/numerics/parallel_loop.hpp>
 #include <boresight/plant/linear/response_grid.hpp>
@@ -15,7 +15,6 @@
 namespace boresight::design {
 namespace {
 
-constexpr double two_pi = 2.0 * std::numbers::pi;
 constexpr std::array wind_models{plant::WindModel::coherence, plant::WindModel::vickery,
                                  plant::WindModel::uniform};
 // An eigenvalue of 1 to rounding: the free angle of an antenna whose position loop is open.

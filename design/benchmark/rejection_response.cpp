@@ -1,12 +1,12 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 
 #include <boresight/control/controllers/delay.hpp>
 #include <boresight/control/equations/lyapunov.hpp>
 #include <boresight/control/loops/antenna_in_wind.hpp>
 #include <boresight/design/benchmark/rejection_response.hpp>
+#include <boresight/numerics/angles.hpp>
 #include <boresight/numerics/eigenvalues.hpp>
 #include <boresight/numerics/gauss_rule.hpp>
 #include <boresight/plant/linear/interconnection.hpp>
@@ -15,7 +15,6 @@
 namespace boresight::design {
 namespace {
 
-constexpr double two_pi = 2.0 * std::numbers::pi;
 constexpr int order_of_delay = 8;
 
 std::vector<std::string> measured_by(const plant::StateSpace& controller) {

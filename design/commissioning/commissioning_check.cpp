@@ -2,7 +2,6 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <numbers>
 
 #include <fmt/format.h>
 
@@ -10,6 +9,7 @@
 #include <boresight/control/controllers/delay.hpp>
 #include <boresight/control/loops/closed_loop.hpp>
 #include <boresight/design/commissioning/commissioning_check.hpp>
+#include <boresight/numerics/angles.hpp>
 #include <boresight/numerics/eigenvalues.hpp>
 #include <boresight/numerics/error.hpp>
 #include <boresight/plant/antenna/point_response.hpp>
@@ -86,7 +86,7 @@ double settling_time(const Eigen::VectorXd& values, double step) {
 Eigen::ArrayXd weights(const Eigen::ArrayXd& frequency, double highest) {
   Eigen::ArrayXd weight = Eigen::ArrayXd::Zero(frequency.size());
   for (Eigen::Index i = 1; i < frequency.size(); ++i) {
-    const double turn = 2.0 * std::numbers::pi;
+    const double turn = two_pi;
     const double from = std::min(frequency[i - 1] / turn, highest);
     const double to = std::min(frequency[i] / turn, highest);
     weight[i - 1] += 0.5 * (to - from);

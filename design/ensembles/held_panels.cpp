@@ -1,9 +1,9 @@
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include <boresight/control/loops/loop_winding.hpp>
 #include <boresight/design/ensembles/held_panels.hpp>
+#include <boresight/numerics/angles.hpp>
 #include <boresight/numerics/error.hpp>
 #include <boresight/numerics/vector_clones.hpp>
 
@@ -14,7 +14,6 @@ using control::panel_rule;
 using numerics::ComplexPack;
 using numerics::pack_size;
 using numerics::RealPack;
-constexpr double two_pi = 2.0 * std::numbers::pi;
 
 // In ln w: the panels that every plant starts from, and the narrowest.
 constexpr double widest_panel = 0.6;

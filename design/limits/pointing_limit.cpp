@@ -1,13 +1,13 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 
 #include <fmt/format.h>
 
 #include <boresight/control/controllers/sampled_law.hpp>
 #include <boresight/control/lqg/noise_effort_lqg.hpp>
 #include <boresight/design/limits/pointing_limit.hpp>
+#include <boresight/numerics/angles.hpp>
 #include <boresight/numerics/error.hpp>
 #include <boresight/numerics/parallel_loop.hpp>
 
@@ -30,7 +30,7 @@ Eigen::ArrayXd peak_frequencies(const TrackingProblem& problem,
   std::ranges::sort(all);
   std::vector<double> kept;
   for (const double w : all) {
-    if (w >= 2.0 * std::numbers::pi * nyquist) break;
+    if (w >= two_pi * nyquist) break;
     if (kept.empty() || w > kept.back() * (1.0 + 1e-5)) kept.push_back(w);
   }
   return Eigen::Map<Eigen::ArrayXd>(kept.data(), static_cast<Eigen::Index>(kept.size()));

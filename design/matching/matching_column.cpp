@@ -1,11 +1,11 @@
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <numeric>
 
 #include <boresight/control/loops/closed_loop.hpp>
 #include <boresight/design/matching/matching_column.hpp>
 #include <boresight/design/tuning/structure_parts.hpp>
+#include <boresight/numerics/angles.hpp>
 #include <boresight/numerics/normal_numbers.hpp>
 
 namespace boresight::design {
@@ -145,7 +145,7 @@ ControlLaw MatchingColumn::law_of(std::size_t structure) const {
 // from where it begins are enough.
 bool MatchingColumn::stable_by_eigenvalues(const ControlLaw& law) const {
   const auto band = analysis_band(task_.problem);
-  const double highest = 2.0 * std::numbers::pi * band.highest;
+  const double highest = two_pi * band.highest;
   const double lowest = std::min(0.1 / std::max(task_.problem.delay, 1e-3), 0.1 * highest);
   const Eigen::ArrayXd frequency =
       Eigen::ArrayXd::LinSpaced(60, std::log(lowest), std::log(highest)).exp();

@@ -6,6 +6,7 @@
 
 #include <boresight/control/loops/loop_goals.hpp>
 #include <boresight/design/problem/goals.hpp>
+#include <boresight/numerics/angles.hpp>
 #include <boresight/numerics/error.hpp>
 
 namespace boresight::design {
@@ -97,7 +98,7 @@ std::string describe(const GoalRatio& goal) {
   std::string text(to_string(goal.kind));
   if (goal.loop_break) text += fmt::format(" at {}", control::to_string(*goal.loop_break));
   if (goal.frequency > 0.0) {
-    text += fmt::format(", {:.2f} Hz", goal.frequency / (2.0 * std::numbers::pi));
+    text += fmt::format(", {:.2f} Hz", goal.frequency / two_pi);
   }
   return text;
 }

@@ -6,14 +6,11 @@
 #include <fmt/format.h>
 
 #include <boresight/design/problem/tracking_problem.hpp>
+#include <boresight/numerics/angles.hpp>
 #include <boresight/numerics/error.hpp>
 #include <boresight/plant/antenna/point_response.hpp>
 
 namespace boresight::design {
-namespace {
-constexpr double two_pi = 2.0 * std::numbers::pi;
-}
-
 Eigen::ArrayXd motor_wind_spectrum(const WindCondition& wind, double gear_ratio,
                                    const Eigen::ArrayXd& frequency) {
   return frequency.unaryExpr([&](double w) {

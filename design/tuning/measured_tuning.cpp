@@ -1,13 +1,13 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 
 #include <fmt/format.h>
 
 #include <boresight/control/measured/measured_confidence.hpp>
 #include <boresight/design/tuning/measured_search.hpp>
 #include <boresight/design/tuning/measured_tuning.hpp>
+#include <boresight/numerics/angles.hpp>
 #include <boresight/numerics/error.hpp>
 
 namespace boresight::design {
@@ -16,7 +16,6 @@ namespace {
 using control::LoopEvaluation;
 using Eigen::Index;
 
-constexpr double two_pi = 2.0 * std::numbers::pi;
 constexpr std::size_t breaks = control::loop_breaks.size();
 // Radius times relative error of the least favourable responses, at most: in the first round, and
 // how much more in each round.

@@ -10,6 +10,7 @@
 
 #include <boresight/design/problem/drive_reach.hpp>
 #include <boresight/design/verification/nonlinear_verification.hpp>
+#include <boresight/numerics/angles.hpp>
 #include <boresight/numerics/error.hpp>
 #include <boresight/numerics/parallel_loop.hpp>
 #include <boresight/plant/wind/wind_time_series.hpp>
@@ -22,7 +23,6 @@ using Eigen::VectorXd;
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 constexpr int continuous = 16;  // times as many samples stand for a continuous loop
-constexpr double millidegree = 1e-3 * std::numbers::pi / 180.0;
 
 Index whole_samples(double duration, double sample_time) {
   return static_cast<Index>(std::llround(duration / sample_time));

@@ -1,12 +1,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
 
 #include <fmt/format.h>
 
 #include <boresight/identification/grey_box/grey_box_mechanics.hpp>
 #include <boresight/identification/grey_box/grey_box_parameters.hpp>
+#include <boresight/numerics/angles.hpp>
 #include <boresight/numerics/error.hpp>
 #include <boresight/numerics/linear_solve.hpp>
 
@@ -347,7 +347,7 @@ GreyBoxParameters::Coefficients GreyBoxParameters::mechanical(const VectorXd& po
   for (Index i = 0; i < mode_count(); ++i) {
     inertia(Mechanical::inertia(i), 0.0, v(share(i)) / sum, i);
     const Index row = Mechanical::frequency(i);
-    c.values(row) = 2.0 * std::numbers::pi * v(frequency(i));
+    c.values(row) = two_pi * v(frequency(i));
     c.by_point(row, frequency(i)) = c.values(row) * spread(frequency(i));
   }
   return c;

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <boresight/identification/grey_box/grey_box_record.hpp>
+#include <boresight/numerics/angles.hpp>
 #include <boresight/numerics/error.hpp>
 
 namespace boresight::identification {
@@ -54,7 +55,7 @@ VectorXd low_pass(Index factor) {
   VectorXd weights(2 * half + 1);
   const double corner = 0.375 / static_cast<double>(factor);
   for (Index k = -half; k <= half; ++k) {
-    const double t = 2.0 * std::numbers::pi * corner * static_cast<double>(k);
+    const double t = two_pi * corner * static_cast<double>(k);
     const double sinc = k == 0 ? 1.0 : std::sin(t) / t;
     const double window = 0.54 + 0.46 * std::cos(std::numbers::pi * static_cast<double>(k) /
                                                  static_cast<double>(half));

@@ -6,6 +6,7 @@
 #include <boresight/identification/grey_box/grey_box_hydraulics.hpp>
 #include <boresight/identification/grey_box/grey_box_mechanics.hpp>
 #include <boresight/identification/grey_box/grey_box_test_gain.hpp>
+#include <boresight/numerics/angles.hpp>
 #include <boresight/numerics/normal_numbers.hpp>
 #include <boresight/numerics/semidefinite_factor.hpp>
 
@@ -114,7 +115,7 @@ std::vector<GreyBoxManoeuvre> campaign_tests(const GreyBoxResult& result, double
   }));
   tests.push_back(manoeuvre("valve sweep", TestKind::valve_chirp, h, 100.0, false, [=](double t) {
     const double growth = std::log(80.0) / 100.0;  // 0.1 to 8 Hz
-    const double phase = 2.0 * std::numbers::pi * 0.1 / growth * (std::exp(growth * t) - 1.0);
+    const double phase = two_pi * 0.1 / growth * (std::exp(growth * t) - 1.0);
     return w * (0.2 + 0.1 * std::sin(phase));
   }));
   return tests;

@@ -1,10 +1,10 @@
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include <fmt/format.h>
 
 #include <boresight/identification/records/integrated_motion.hpp>
+#include <boresight/numerics/angles.hpp>
 #include <boresight/numerics/error.hpp>
 #include <boresight/numerics/statistics/order_statistics.hpp>
 
@@ -181,7 +181,7 @@ double noise_level(const Eigen::VectorXd& signal) {
 
 numerics::Uncertain structural_jerk_inertia(const DriveKnowledge& knowledge) {
   if (knowledge.locked_rotor_frequencies.empty()) return {};
-  const double lowest = 2.0 * std::numbers::pi * knowledge.locked_rotor_frequencies.front().value;
+  const double lowest = two_pi * knowledge.locked_rotor_frequencies.front().value;
   if (!(lowest > 0.0)) return {};
   const double largest = knowledge.antenna_inertia.value / (lowest * lowest);
   return {0.8 * largest, 0.4 * largest / std::sqrt(12.0)};

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include <boresight/identification/resonance/drive_response_fit.hpp>
+#include <boresight/numerics/angles.hpp>
 #include <boresight/numerics/error.hpp>
 #include <boresight/numerics/fourier_transform.hpp>
 #include <boresight/numerics/semidefinite_factor.hpp>
@@ -18,8 +19,6 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXcd;
 using Eigen::VectorXd;
-
-constexpr double two_pi = 2.0 * std::numbers::pi;
 
 VectorXcd windowed_transform(VectorXd part) {
   const auto samples = static_cast<double>(part.size());

@@ -2,19 +2,17 @@
 #include <cmath>
 #include <complex>
 #include <limits>
-#include <numbers>
 
 #include <fmt/format.h>
 
 #include <boresight/identification/resonance/hydraulic_resonance.hpp>
 #include <boresight/identification/resonance/ring_inertia.hpp>
+#include <boresight/numerics/angles.hpp>
 #include <boresight/numerics/error.hpp>
 #include <boresight/numerics/statistics/distribution_quantiles.hpp>
 
 namespace boresight::identification {
 namespace {
-
-constexpr double two_pi = 2.0 * std::numbers::pi;
 
 double relative(const numerics::Uncertain& number) {
   return number.standard_uncertainty / number.value;

@@ -1,12 +1,12 @@
 #include <algorithm>
 #include <cmath>
 #include <complex>
-#include <numbers>
 
 #include <fmt/format.h>
 
 #include <boresight/identification/resonance/drive_response.hpp>
 #include <boresight/identification/resonance/hydraulic_ring.hpp>
+#include <boresight/numerics/angles.hpp>
 #include <boresight/numerics/error.hpp>
 #include <boresight/numerics/statistics/order_statistics.hpp>
 #include <boresight/numerics/statistics/pooled_mean.hpp>
@@ -16,8 +16,6 @@ namespace {
 
 using Eigen::Index;
 using Eigen::VectorXd;
-
-constexpr double two_pi = 2.0 * std::numbers::pi;
 
 // Mean over `span` samples from each sample on, less that of the span before it.
 VectorXd mean_change(const VectorXd& signal, Index span) {

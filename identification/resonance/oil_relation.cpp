@@ -2,11 +2,11 @@
 #include <cmath>
 #include <complex>
 #include <limits>
-#include <numbers>
 
 #include <fmt/format.h>
 
 #include <boresight/identification/resonance/drive_response_fit.hpp>
+#include <boresight/numerics/angles.hpp>
 
 namespace boresight::identification {
 namespace {
@@ -15,7 +15,6 @@ using Complex = std::complex<double>;
 using Eigen::Index;
 using Eigen::VectorXd;
 
-constexpr double two_pi = 2.0 * std::numbers::pi;
 constexpr Index relation_numbers = 5;
 // The inner part of a band, to see what the choice of the band does.
 constexpr double inner_lowest = 1.4;

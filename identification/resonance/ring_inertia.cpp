@@ -2,11 +2,11 @@
 #include <cmath>
 #include <complex>
 #include <functional>
-#include <numbers>
 
 #include <fmt/format.h>
 
 #include <boresight/identification/resonance/ring_inertia.hpp>
+#include <boresight/numerics/angles.hpp>
 #include <boresight/numerics/error.hpp>
 #include <boresight/numerics/statistics/distribution_quantiles.hpp>
 
@@ -14,8 +14,6 @@ namespace boresight::identification {
 namespace {
 
 using Complex = std::complex<double>;
-
-constexpr double two_pi = 2.0 * std::numbers::pi;
 
 // What all rings have in common.
 struct Common {

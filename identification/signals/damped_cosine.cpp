@@ -1,19 +1,17 @@
 #include <algorithm>
 #include <cmath>
 #include <complex>
-#include <numbers>
 
 #include <fmt/format.h>
 
 #include <boresight/identification/signals/damped_cosine_projection.hpp>
+#include <boresight/numerics/angles.hpp>
 #include <boresight/numerics/error.hpp>
 #include <boresight/numerics/fourier_transform.hpp>
 #include <boresight/numerics/semidefinite_factor.hpp>
 
 namespace boresight::identification {
 namespace {
-
-constexpr double two_pi = 2.0 * std::numbers::pi;
 
 using Eigen::Index;
 using Eigen::MatrixXd;

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include <boresight/identification/signals/damped_cosine_projection.hpp>
+#include <boresight/numerics/angles.hpp>
 #include <boresight/numerics/error.hpp>
 #include <boresight/numerics/semidefinite_factor.hpp>
 
@@ -16,8 +17,6 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 namespace {
-
-constexpr double two_pi = 2.0 * std::numbers::pi;
 
 void write_pole(const RingPole& pole, double sample_time, MatrixXd& columns, Index first) {
   const std::complex<double> step = std::exp(

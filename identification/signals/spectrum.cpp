@@ -1,10 +1,10 @@
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include <fmt/format.h>
 
 #include <boresight/identification/signals/spectrum.hpp>
+#include <boresight/numerics/angles.hpp>
 #include <boresight/numerics/error.hpp>
 #include <boresight/numerics/fourier_transform.hpp>
 
@@ -48,7 +48,7 @@ double effective_number(const VectorXd& window, Index step, Index segments) {
 VectorXd window_samples(SpectralWindow window, Index samples) {
   VectorXd result(samples);
   for (Index i = 0; i < samples; ++i) {
-    const double x = 2.0 * std::numbers::pi * static_cast<double>(i) / static_cast<double>(samples);
+    const double x = two_pi * static_cast<double>(i) / static_cast<double>(samples);
     switch (window) {
       case SpectralWindow::rectangular:
         result(i) = 1.0;

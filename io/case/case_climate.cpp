@@ -2,7 +2,6 @@
 #include <array>
 #include <cmath>
 #include <iterator>
-#include <numbers>
 #include <string>
 #include <utility>
 #include <vector>
@@ -12,6 +11,7 @@
 
 #include <boresight/io/case/case_sections.hpp>
 #include <boresight/io/units/wording.hpp>
+#include <boresight/numerics/angles.hpp>
 
 namespace boresight::io {
 namespace {
@@ -119,7 +119,7 @@ std::vector<design::WeightedSpeed> speeds_of(const design::ClimatePart& part) {
 
 // The torque coefficient in one attitude.
 double read_coefficient(TableReader& entry, const Case& antenna, double direction) {
-  constexpr double turn = 2.0 * std::numbers::pi;
+  constexpr double turn = two_pi;
   const auto azimuth = entry.optional_quantity("azimuth", Kind::angle, Range::between(-turn, turn));
   const auto elevation =
       entry.optional_quantity("elevation", Kind::angle, Range::between(0.0, 0.5 * turn));

@@ -1,11 +1,11 @@
 #include <cmath>
-#include <numbers>
 #include <set>
 
 #include <fmt/format.h>
 
 #include <boresight/io/case/case_sections.hpp>
 #include <boresight/io/case/drive_numbers.hpp>
+#include <boresight/numerics/angles.hpp>
 
 namespace boresight::io {
 namespace {
@@ -31,7 +31,7 @@ void read_encoder(TableReader& table, SensorsEntry& sensors) {
   }
   if (noise) sensors.encoder_noise = *noise;
   if (bits) {
-    const double step = 2.0 * std::numbers::pi * std::ldexp(1.0, -static_cast<int>(*bits));
+    const double step = two_pi * std::ldexp(1.0, -static_cast<int>(*bits));
     sensors.encoder_noise =
         table.assume("encoder_bits", Kind::angle, step / std::sqrt(12.0),
                      fmt::format("rounding to steps of 1/2^{} of a turn, no other noise", *bits));

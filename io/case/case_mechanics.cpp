@@ -1,5 +1,4 @@
 #include <cmath>
-#include <numbers>
 #include <optional>
 #include <set>
 
@@ -11,6 +10,7 @@
 #include <boresight/io/case/structure_numbers.hpp>
 #include <boresight/io/units/unit_table.hpp>
 #include <boresight/io/units/wording.hpp>
+#include <boresight/numerics/angles.hpp>
 
 namespace boresight::io {
 namespace {
@@ -295,7 +295,7 @@ void read_antenna(TableReader& file, Case& antenna) {
   antenna.antenna.dish_diameter =
       table.quantity("dish_diameter", Kind::length, Range::between(0.5, 1000.0));
   antenna.antenna.inertia = table.quantity("inertia", Kind::inertia, Range::positive());
-  constexpr double turn = 2.0 * std::numbers::pi;
+  constexpr double turn = two_pi;
   antenna.antenna.azimuth =
       table.optional_quantity("azimuth", Kind::angle, Range::between(-turn, turn));
   antenna.antenna.elevation =

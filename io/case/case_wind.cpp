@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <set>
 
 #include <fmt/format.h>
@@ -8,11 +7,10 @@
 #include <boresight/io/case/case_sections.hpp>
 #include <boresight/io/units/unit_table.hpp>
 #include <boresight/io/units/wording.hpp>
+#include <boresight/numerics/angles.hpp>
 
 namespace boresight::io {
 namespace {
-
-constexpr double degree = std::numbers::pi / 180.0;
 
 /// What the keys of a spectrum say, and the height of the dish's centre if it is stated.
 struct Gusts {
@@ -174,7 +172,7 @@ void read_torque_coefficient(TableReader& table, Case& antenna) {
                  "expected either torque_coefficient or torque_table, found both");
   }
   table.optional_text("torque_coefficient");
-  constexpr double turn = 2.0 * std::numbers::pi;
+  constexpr double turn = two_pi;
   const double direction =
       table.quantity("direction", Kind::angle, Range::between(-turn, turn)).value;
   if (!antenna.antenna.azimuth || !antenna.antenna.elevation) {

@@ -1,9 +1,9 @@
-#include <numbers>
 
 #include <fmt/format.h>
 
 #include <boresight/io/case/modes_file.hpp>
 #include <boresight/io/units/unit_table.hpp>
+#include <boresight/numerics/angles.hpp>
 #include <boresight/plant/antenna/held_modes.hpp>
 
 namespace boresight::io {
@@ -26,7 +26,7 @@ plant::StructureSpecification read_modes_file(const std::string& path) {
     return column.cwiseQuotient(inertia.cwiseSqrt());
   };
   plant::VibrationModes modes;
-  modes.frequency = 2.0 * std::numbers::pi * columns.at("frequency");
+  modes.frequency = two_pi * columns.at("frequency");
   modes.damping_ratio = columns.at("damping_ratio");
   modes.displacements = {"bull_gear_angle", "encoder", "beam"};
   modes.rates = {"bull_gear_rate", "", ""};

@@ -1,11 +1,11 @@
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <numeric>
 
 #include <fmt/format.h>
 
 #include <boresight/io/case/structure_numbers.hpp>
+#include <boresight/numerics/angles.hpp>
 #include <boresight/numerics/error.hpp>
 #include <boresight/plant/antenna/motors_held_modes.hpp>
 
@@ -44,7 +44,7 @@ double locked_rotor_frequency_for(plant::StructureSpecification antenna, double 
   // The stiffness rises with the frequency, without bound towards the lowest mode, and is no less
   // than that of a rigid antenna.
   double lower = 0.0;
-  double upper = std::sqrt(gear_stiffness / antenna.antenna_inertia) / (2.0 * std::numbers::pi);
+  double upper = std::sqrt(gear_stiffness / antenna.antenna_inertia) / two_pi;
   for (const auto& mode : antenna.modes) upper = std::min(upper, mode.frequency);
   double middle = std::midpoint(lower, upper);
   while (lower < middle && middle < upper) {

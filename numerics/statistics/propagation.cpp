@@ -1,11 +1,11 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 #include <random>
 
 #include <fmt/format.h>
 
+#include <boresight/numerics/angles.hpp>
 #include <boresight/numerics/error.hpp>
 #include <boresight/numerics/statistics/order_statistics.hpp>
 #include <boresight/numerics/statistics/propagation.hpp>
@@ -19,7 +19,7 @@ class StandardNormals {
   explicit StandardNormals(std::uint64_t seed) : generator_(seed) {}
   double next() {
     const double radius = std::sqrt(-2.0 * std::log(uniform()));
-    return radius * std::cos(2.0 * std::numbers::pi * uniform());
+    return radius * std::cos(two_pi * uniform());
   }
 
  private:

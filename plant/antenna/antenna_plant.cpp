@@ -1,15 +1,13 @@
 #include <cmath>
-#include <numbers>
 
 #include <fmt/format.h>
 
+#include <boresight/numerics/angles.hpp>
 #include <boresight/numerics/error.hpp>
 #include <boresight/plant/antenna/antenna_plant.hpp>
 
 namespace boresight::plant {
 namespace {
-
-constexpr double two_pi = 2.0 * std::numbers::pi;
 
 void require(bool satisfied, const char* function, const char* what, double found) {
   if (!satisfied || !std::isfinite(found)) {

@@ -1,8 +1,8 @@
 #include <cmath>
-#include <numbers>
 
 #include <fmt/format.h>
 
+#include <boresight/numerics/angles.hpp>
 #include <boresight/numerics/error.hpp>
 #include <boresight/plant/antenna/hydraulics.hpp>
 
@@ -60,13 +60,13 @@ double torque_per_pressure(const HydraulicDrive& drive) {
 double hydraulic_frequency(double oil_stiffness, double reflected_inertia) {
   require_positive("hydraulic_frequency", "oil stiffness", oil_stiffness);
   require_positive("hydraulic_frequency", "reflected inertia", reflected_inertia);
-  return std::sqrt(oil_stiffness / reflected_inertia) / (2.0 * std::numbers::pi);
+  return std::sqrt(oil_stiffness / reflected_inertia) / two_pi;
 }
 
 double inertia_from_resonance(double oil_stiffness, double frequency) {
   require_positive("inertia_from_resonance", "oil stiffness", oil_stiffness);
   require_positive("inertia_from_resonance", "frequency", frequency);
-  const double angular = 2.0 * std::numbers::pi * frequency;
+  const double angular = two_pi * frequency;
   return oil_stiffness / (angular * angular);
 }
 

@@ -4,12 +4,12 @@
 #include <complex>
 #include <functional>
 #include <limits>
-#include <numbers>
 #include <optional>
 
 #include <Eigen/LU>
 #include <fmt/format.h>
 
+#include <boresight/numerics/angles.hpp>
 #include <boresight/numerics/error.hpp>
 #include <boresight/numerics/hermitian_eigen.hpp>
 #include <boresight/plant/antenna/motors_held_modes.hpp>
@@ -21,7 +21,6 @@ namespace {
 using Eigen::Index;
 using Eigen::VectorXd;
 
-constexpr double two_pi = 2.0 * std::numbers::pi;
 constexpr std::size_t most_modes = 8;  // starts go with two to the power of their number
 
 [[noreturn]] void refuse(const std::string& message) {

@@ -1,9 +1,9 @@
 #include <cmath>
 #include <map>
-#include <numbers>
 
 #include <fmt/format.h>
 
+#include <boresight/numerics/angles.hpp>
 #include <boresight/numerics/eigenvalues.hpp>
 #include <boresight/numerics/error.hpp>
 #include <boresight/plant/antenna/antenna_plant.hpp>
@@ -28,7 +28,7 @@ std::vector<Part> parts_of(const AntennaPlant& plant) {
   Eigen::Index state = 8;
   for (std::size_t i = 0; i < plant.structure.modes.size(); ++i, state += 2) {
     const auto& mode = plant.structure.modes[i];
-    const double locked = std::sqrt(mode.stiffness / mode.inertia) / (2.0 * std::numbers::pi);
+    const double locked = std::sqrt(mode.stiffness / mode.inertia) / two_pi;
     parts.push_back(
         {fmt::format("structure: mode {} ({:.3g} Hz with the bull gear locked)", i + 1, locked),
          {state, state + 1}});
@@ -88,7 +88,7 @@ std::vector<PlantMode> plant_modes(const AntennaPlant& plant) {
     PlantMode mode;
     gear_participation.push_back(0.0);
     mode.pole = pole;
-    mode.frequency = magnitude / (2.0 * std::numbers::pi);
+    mode.frequency = magnitude / two_pi;
     if (magnitude < 1e-12 * scale) {
       mode.description = "free rotation of the antenna";
       mode.participation = 1.0;
@@ -151,7 +151,7 @@ PlantMode hydraulic_mode(const std::vector<PlantMode>& modes) {
   const PlantMode& fast = modes[poles[1]];
   const double first = -slow.pole.real(), second = -fast.pole.real();
   PlantMode both = slow.oil_participation > fast.oil_participation ? slow : fast;
-  both.frequency = std::sqrt(first * second) / (2.0 * std::numbers::pi);
+  both.frequency = std::sqrt(first * second) / two_pi;
   both.damping_ratio = (first + second) / (2.0 * std::sqrt(first * second));
   both.oil_share = 0.5 * (slow.oil_share + fast.oil_share);
   both.gear_share = 0.5 * (slow.gear_share + fast.gear_share);

@@ -1,9 +1,9 @@
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include <fmt/format.h>
 
+#include <boresight/numerics/angles.hpp>
 #include <boresight/numerics/eigenvalues.hpp>
 #include <boresight/numerics/error.hpp>
 #include <boresight/plant/antenna/plant_response.hpp>
@@ -100,7 +100,6 @@ Eigen::ArrayXd frequency_grid(const AntennaPlant& plant, double lowest, double h
                     "found {} Hz, {} Hz, {}",
                     lowest, highest, points_per_decade));
   }
-  constexpr double two_pi = 2.0 * std::numbers::pi;
   const double decades = std::log10(highest / lowest);
   const int intervals = static_cast<int>(std::ceil(decades * points_per_decade));
   std::vector<double> points;

@@ -1,8 +1,8 @@
 #include <cmath>
-#include <numbers>
 
 #include <fmt/format.h>
 
+#include <boresight/numerics/angles.hpp>
 #include <boresight/numerics/error.hpp>
 #include <boresight/plant/nonlinear/antenna_channels.hpp>
 #include <boresight/plant/nonlinear/nonlinear_antenna.hpp>
@@ -53,7 +53,7 @@ std::vector<LineMode> line_modes(const OilCircuit& oil, Index first) {
       const double stiffness = side == 1 ? oil.stiffness_1 : oil.stiffness_2;
       for (int k = 1; k <= oil.modes_per_line; ++k) {
         modes.push_back({first, motor, side, k % 2 == 0 ? 1.0 : -1.0, 2.0 * stiffness * mean_to_own,
-                         2.0 * std::numbers::pi * line.half_wave * k, line.damping_ratio});
+                         two_pi * line.half_wave * k, line.damping_ratio});
         first += 2;
       }
     }

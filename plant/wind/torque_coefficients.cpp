@@ -1,17 +1,17 @@
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <utility>
 
 #include <fmt/format.h>
 
+#include <boresight/numerics/angles.hpp>
 #include <boresight/numerics/error.hpp>
 #include <boresight/plant/wind/torque_coefficients.hpp>
 
 namespace boresight::plant {
 namespace {
 
-constexpr double full_turn = 2.0 * std::numbers::pi;
+constexpr double full_turn = two_pi;
 constexpr double tolerance = 1e-9;
 
 void check_axis(const char* name, const Eigen::VectorXd& axis) {

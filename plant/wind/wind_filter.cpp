@@ -5,14 +5,13 @@
 
 #include <fmt/format.h>
 
+#include <boresight/numerics/angles.hpp>
 #include <boresight/numerics/error.hpp>
 #include <boresight/numerics/linear_solve.hpp>
 #include <boresight/plant/wind/wind_filter.hpp>
 
 namespace boresight::plant {
 namespace {
-
-constexpr double two_pi = 2.0 * std::numbers::pi;
 
 // Unknowns: ln gain, ln zeros, ln poles. Model: ln 2 + 2 ln g + sum ln(1 + w^2/z^2) - sum ln(1 +
 // w^2/p^2).

@@ -12,10 +12,10 @@ namespace {
 
 class GaussRules : public testing::TestWithParam<int> {};
 
-double integral(const numerics::GaussRule& rule, int degree) {
+double integral(const numerics::GaussRule& rule, int order) {
   double sum = 0.0;
   for (std::size_t i = 0; i < rule.node.size(); ++i) {
-    sum += rule.weight[i] * std::pow(rule.node[i], degree);
+    sum += rule.weight[i] * std::pow(rule.node[i], order);
   }
   return sum;
 }
@@ -23,9 +23,8 @@ double integral(const numerics::GaussRule& rule, int degree) {
 TEST_P(GaussRules, IntegratePolynomialsUpToTwiceTheirPoints) {
   const int n = GetParam();
   const auto rule = numerics::gauss_rule(n);
-  for (int degree = 0; degree < 2 * n; ++degree) {
-    EXPECT_NEAR(integral(rule, degree), degree % 2 == 0 ? 2.0 / (degree + 1.0) : 0.0, 4e-15)
-        << degree;
+  for (int order = 0; order < 2 * n; ++order) {
+    EXPECT_NEAR(integral(rule, order), order % 2 == 0 ? 2.0 / (order + 1.0) : 0.0, 4e-15) << order;
   }
 }
 

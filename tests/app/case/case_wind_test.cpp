@@ -17,6 +17,7 @@
 #include <boresight/design/tuning/tuner.hpp>
 #include <boresight/io/case/case_file.hpp>
 #include <boresight/io/units/unit_table.hpp>
+#include <boresight/numerics/angles.hpp>
 #include <boresight/numerics/error.hpp>
 #include <boresight/plant/wind/wind.hpp>
 
@@ -25,7 +26,6 @@ namespace {
 
 using testing::HasSubstr;
 
-constexpr double degree = std::numbers::pi / 180.0;
 const std::string drag =
     R"(surface_drag = { value = "0.005", basis = "assumed", source = "open country, Davenport" })";
 const std::string coefficient =

@@ -13,6 +13,7 @@
 #include <boresight/app/evaluate/unfit_candidates.hpp>
 #include <boresight/app/report/evaluate_report.hpp>
 #include <boresight/app/report/sky_units.hpp>
+#include <boresight/numerics/angles.hpp>
 
 namespace boresight::app {
 namespace {
@@ -22,8 +23,6 @@ using testing::Contains;
 using testing::EndsWith;
 using testing::HasSubstr;
 using testing::Not;
-
-constexpr double degree = 1e3 * millidegree;
 
 Candidate candidate_of(const std::string& name, double slew_margin) {
   Candidate candidate;

@@ -1,6 +1,5 @@
 #include <cmath>
 #include <limits>
-#include <numbers>
 #include <regex>
 #include <string>
 #include <vector>
@@ -14,6 +13,7 @@
 #include <boresight/app/redesign/antenna_model.hpp>
 #include <boresight/app/report/json_time_domain.hpp>
 #include <boresight/app/simulate/time_domain.hpp>
+#include <boresight/numerics/angles.hpp>
 
 namespace boresight::app {
 namespace {
@@ -21,7 +21,6 @@ namespace {
 using testing::AllOf;
 using testing::HasSubstr;
 using testing::Not;
-constexpr double degree = std::numbers::pi / 180.0;
 constexpr double mdeg = 1e-3 * degree;
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 

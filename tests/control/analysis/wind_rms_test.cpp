@@ -6,6 +6,7 @@
 #include "reference_antenna.hpp"
 #include <boresight/control/analysis/spectral_rms.hpp>
 #include <boresight/control/equations/lyapunov.hpp>
+#include <boresight/numerics/angles.hpp>
 #include <boresight/plant/linear/interconnection.hpp>
 #include <boresight/plant/linear/time_response.hpp>
 #include <boresight/plant/wind/wind_filter.hpp>
@@ -13,8 +14,6 @@
 
 namespace boresight::control {
 namespace {
-
-using reference::two_pi;
 
 constexpr double speed = 10.0;
 

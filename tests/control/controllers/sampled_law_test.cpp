@@ -6,6 +6,7 @@
 #include "control/reference_loop.hpp"
 #include <boresight/control/controllers/sampled_law.hpp>
 #include <boresight/control/loops/closed_loop.hpp>
+#include <boresight/numerics/angles.hpp>
 #include <boresight/numerics/eigenvalues.hpp>
 #include <boresight/numerics/error.hpp>
 #include <boresight/plant/linear/interconnection.hpp>
@@ -13,7 +14,6 @@
 namespace boresight::control {
 namespace {
 
-using reference::two_pi;
 using Complex = std::complex<double>;
 using testing::ElementsAre;
 using testing::HasSubstr;

@@ -13,7 +13,6 @@
 namespace boresight::control {
 namespace {
 
-using reference::two_pi;
 using Complex = std::complex<double>;
 
 const std::vector<LoopStructure> structures = reference::loop_structures();

@@ -7,13 +7,13 @@
 #include "control/reference_loop.hpp"
 #include <boresight/control/loops/closed_loop.hpp>
 #include <boresight/control/loops/loop_evaluator.hpp>
+#include <boresight/numerics/angles.hpp>
 #include <boresight/numerics/error.hpp>
 
 namespace boresight::control {
 namespace {
 
 using reference::relative_error;
-using reference::two_pi;
 using testing::HasSubstr;
 using testing::ThrowsMessage;
 using Complex = std::complex<double>;
@@ -112,7 +112,7 @@ TEST(LoopEvaluation, IntegratesOverItsBandOnlyAndBandsAdd) {
   const Eigen::ArrayXd w = plant::frequency_grid(plant, 1e-3, 25.0, 60);
   const Eigen::ArrayXd wind = 1.0 / w;
   const ControlLaw law{LoopStructure::pi(), {0.25, 1.0, 0.4, 0.06}};
-  const double middle = w[w.size() / 2] / reference::two_pi;
+  const double middle = w[w.size() / 2] / two_pi;
   const auto over = [&](FrequencyBand band) {
     LoopEvaluator evaluator(plant, w, reference::delay, reference::sensor_noise(), wind, band);
     return evaluator.evaluate(law, false);

@@ -12,6 +12,7 @@
 #include <boresight/control/analysis/spectral_rms.hpp>
 #include <boresight/control/equations/lyapunov.hpp>
 #include <boresight/control/loops/loop_evaluator.hpp>
+#include <boresight/numerics/angles.hpp>
 #include <boresight/numerics/eigenvalues.hpp>
 #include <boresight/numerics/error.hpp>
 
@@ -229,10 +230,9 @@ TEST(LoopPanels, OfTheReferenceAntennaAgreeWithMuchFinerOnes) {
 TEST(LoopPanels, AgreeWithTheTrapezoidRuleOnAGridOfThousands) {
   const auto plant = reference::antenna();
   const Eigen::ArrayXd w = plant::frequency_grid(plant, 1e-4, 25.0, 6000);
-  LoopEvaluator trapezoid(plant, w, reference::delay, reference::sensor_noise(),
-                          (w / reference::two_pi).unaryExpr([](double f) {
-                            return reference::motor_wind_spectrum(f);
-                          }));
+  LoopEvaluator trapezoid(
+      plant, w, reference::delay, reference::sensor_noise(),
+      (w / two_pi).unaryExpr([](double f) { return reference::motor_wind_spectrum(f); }));
   LoopEvaluator panels = antenna_evaluator(reference_quadrature());
   reference::RandomNumbers random(217);
   for (const auto& structure : reference::loop_structures()) {
@@ -299,7 +299,7 @@ TEST(LoopPanels, StateTheirFrequenciesAndWeights) {
   reference::RandomNumbers random(219);
   const ControlLaw law = reference::sound_law(random, evaluator, LoopStructure::pi_with_lag(), 2.0);
   const double variance = (evaluator.integration_weight() * evaluator.wind_transmission(law) *
-                           (w / reference::two_pi).unaryExpr([](double f) {
+                           (w / two_pi).unaryExpr([](double f) {
                              return reference::motor_wind_spectrum(f);
                            })).sum();
   EXPECT_LT(relative_error(variance, evaluator.evaluate(law, false).wind_variance), 1e-3);

@@ -4,13 +4,13 @@
 
 #include "control/reference_loop.hpp"
 #include <boresight/control/loops/sensitivity_bounds.hpp>
+#include <boresight/numerics/angles.hpp>
 #include <boresight/numerics/golden_section.hpp>
 
 namespace boresight::control {
 namespace {
 
 using reference::relative_error;
-using reference::two_pi;
 
 const std::vector<LoopStructure> structures = reference::loop_structures();
 

@@ -3,13 +3,13 @@
 
 #include "measured_reference.hpp"
 #include <boresight/control/measured/measured_confidence.hpp>
+#include <boresight/numerics/angles.hpp>
 #include <boresight/numerics/error.hpp>
 
 namespace boresight::control {
 namespace {
 
 using reference::bins;
-using reference::two_pi;
 using ::testing::HasSubstr;
 
 const plant::AntennaPlant& antenna() {

@@ -6,12 +6,12 @@
 
 #include "random_numbers.hpp"
 #include <boresight/design/problem/pointing.hpp>
+#include <boresight/numerics/angles.hpp>
 #include <boresight/numerics/error.hpp>
 
 namespace boresight::design {
 namespace {
 
-constexpr double degree = std::numbers::pi / 180.0;
 constexpr double mdeg = 1e-3 * degree;
 constexpr LossConvention conventions[] = {LossConvention::mean_loss_two_axes,
                                           LossConvention::mean_loss_one_axis,

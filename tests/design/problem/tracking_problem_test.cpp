@@ -6,12 +6,12 @@
 #include "design/reference_problem.hpp"
 #include <boresight/control/loops/closed_loop.hpp>
 #include <boresight/design/problem/tracking_problem.hpp>
+#include <boresight/numerics/angles.hpp>
 
 namespace boresight::design {
 namespace {
 
 using reference::relative_error;
-using reference::two_pi;
 
 TEST(MotorWindSpectrum, IsTheAxisTorqueThroughTheGears) {
   const TrackingProblem problem = reference::tracking_problem();

@@ -8,6 +8,7 @@
 #include <boresight/design/tuning/feasible_search.hpp>
 #include <boresight/design/tuning/measured_tuning.hpp>
 #include <boresight/identification/signals/local_polynomial_response.hpp>
+#include <boresight/numerics/angles.hpp>
 #include <boresight/numerics/error.hpp>
 #include <boresight/numerics/linear_solve.hpp>
 #include <boresight/plant/nonlinear/operating_point.hpp>
@@ -18,7 +19,6 @@ namespace {
 
 using control::LoopStructure;
 using reference::bins;
-using reference::two_pi;
 using ::testing::HasSubstr;
 
 MeasuredProblem problem_of(control::MeasuredChannels channels) {

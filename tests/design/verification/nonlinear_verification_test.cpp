@@ -5,6 +5,7 @@
 #include "reference_nonlinear_antenna.hpp"
 #include <boresight/design/problem/drive_reach.hpp>
 #include <boresight/design/verification/nonlinear_verification.hpp>
+#include <boresight/numerics/angles.hpp>
 #include <boresight/numerics/error.hpp>
 #include <boresight/plant/nonlinear/operating_point.hpp>
 
@@ -102,7 +103,7 @@ TEST(NonlinearVerification, WithoutFrictionNothingHunts) {
   EXPECT_NEAR(result.reversal->encoder_error, result.reversal->encoder_error_without_friction,
               1e-3 * mdeg);
   // A step of the rate by 2 x 4.17 mdeg/s rings at the hydraulic resonance of 0.85 Hz.
-  EXPECT_LT(result.reversal->encoder_error, 2.0 * 4.1667 * mdeg / (reference::two_pi * 0.85) * 1.2);
+  EXPECT_LT(result.reversal->encoder_error, 2.0 * 4.1667 * mdeg / (two_pi * 0.85) * 1.2);
 }
 
 TEST(NonlinearVerification, EveryDifferenceFromThePredictionHasAName) {

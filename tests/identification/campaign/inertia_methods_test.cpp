@@ -7,6 +7,7 @@
 
 #include "reference_antenna.hpp"
 #include <boresight/identification/campaign/inertia_methods.hpp>
+#include <boresight/numerics/angles.hpp>
 #include <boresight/numerics/error.hpp>
 
 namespace boresight::identification {
@@ -29,7 +30,7 @@ DriveEvidence evidence() {
                       {"section II", {reference::antenna_inertia(), 0.04}}};
   evidence.motor_count = 4.0;
   evidence.motor_inertia = {0.3007, 0.003};
-  evidence.displacement = {38.329e-6 / reference::two_pi, 1.2e-8};
+  evidence.displacement = {38.329e-6 / two_pi, 1.2e-8};
   evidence.torque_efficiency = {0.938, 0.003};
   evidence.volumetric_efficiency = {0.9412, 0.005};
   evidence.oil_density = {850.0, 1.7};
@@ -124,9 +125,8 @@ TEST(IdentifyInertia, GivesTheRowsOfTable3AndTheBulkModuli) {
   EXPECT_NEAR(result.line_bulk_modulus.at(1).value, 1212.5e6, 2e-3 * 1212.5e6);
   EXPECT_EQ(result.bulk_modulus.value, 1229e6);
   // f = sqrt(K/J)/2 pi of the first antenna inertia.
-  EXPECT_NEAR(
-      result.oil_stiffness.value / std::pow(reference::two_pi * result.expected_frequency.value, 2),
-      result.methods[0].reflected_inertia.value, 1e-9);
+  EXPECT_NEAR(result.oil_stiffness.value / std::pow(two_pi * result.expected_frequency.value, 2),
+              result.methods[0].reflected_inertia.value, 1e-9);
 }
 
 TEST(IdentifyInertia, WithoutABulkModulusTakesTheMeanOfTheLines) {

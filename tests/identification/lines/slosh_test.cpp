@@ -1,10 +1,10 @@
 #include <cmath>
-#include <numbers>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <boresight/identification/lines/slosh.hpp>
+#include <boresight/numerics/angles.hpp>
 #include <boresight/numerics/error.hpp>
 #include <boresight/numerics/normal_numbers.hpp>
 
@@ -15,8 +15,6 @@ using Eigen::Index;
 using Eigen::VectorXd;
 using testing::HasSubstr;
 using testing::ThrowsMessage;
-
-constexpr double two_pi = 2.0 * std::numbers::pi;
 
 // Lines of given true lengths: both half-wave modes of each after each event, a tenth of the other
 // lines' as cross-talk, a slow swing of the drive, noise.

@@ -1,13 +1,13 @@
 #include <cmath>
 #include <complex>
 #include <functional>
-#include <numbers>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <boresight/identification/resonance/hydraulic_resonance.hpp>
 #include <boresight/identification/resonance/ring_inertia.hpp>
+#include <boresight/numerics/angles.hpp>
 #include <boresight/numerics/eigenvalues.hpp>
 #include <boresight/numerics/error.hpp>
 #include <boresight/numerics/normal_numbers.hpp>
@@ -21,8 +21,6 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 using testing::HasSubstr;
 using testing::ThrowsMessage;
-
-constexpr double two_pi = 2.0 * std::numbers::pi;
 
 // A linear drive: oil spring and loss, motors, a load of one mode behind a spring.
 //   dT/dt = K (q - w) - lambda T,  Jm dw/dt = T - B w - c (w - v) - k x,  dx/dt = w - v,

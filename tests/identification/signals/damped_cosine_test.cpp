@@ -1,11 +1,11 @@
 #include <cmath>
 #include <complex>
-#include <numbers>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <boresight/identification/signals/damped_cosine.hpp>
+#include <boresight/numerics/angles.hpp>
 #include <boresight/numerics/error.hpp>
 #include <boresight/numerics/normal_numbers.hpp>
 
@@ -19,7 +19,6 @@ using Eigen::VectorXd;
 using testing::HasSubstr;
 using testing::ThrowsMessage;
 
-constexpr double two_pi = 2.0 * std::numbers::pi;
 constexpr double dt = 0.005;
 
 VectorXd ring(Index samples, const RingPole& pole, Complex amplitude) {

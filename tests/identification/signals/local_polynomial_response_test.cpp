@@ -1,9 +1,9 @@
-#include <numbers>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <boresight/identification/signals/local_polynomial_response.hpp>
+#include <boresight/numerics/angles.hpp>
 #include <boresight/numerics/error.hpp>
 #include <boresight/numerics/normal_numbers.hpp>
 
@@ -12,7 +12,6 @@ namespace {
 
 using Eigen::Index;
 
-constexpr double two_pi = 2.0 * std::numbers::pi;
 constexpr double dt = 0.01;
 
 // y[n] = 2 r cos(turn) y[n-1] - r^2 y[n-2] + u[n], ringing already at the begin.

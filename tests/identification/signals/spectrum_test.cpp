@@ -1,12 +1,12 @@
 #include <cmath>
 #include <complex>
-#include <numbers>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <boresight/identification/signals/frequency_response_estimate.hpp>
 #include <boresight/identification/signals/spectrum.hpp>
+#include <boresight/numerics/angles.hpp>
 #include <boresight/numerics/error.hpp>
 #include <boresight/numerics/normal_numbers.hpp>
 
@@ -19,7 +19,6 @@ using Eigen::VectorXd;
 using testing::HasSubstr;
 using testing::ThrowsMessage;
 
-constexpr double two_pi = 2.0 * std::numbers::pi;
 constexpr double dt = 0.01;
 
 VectorXd noise(Index samples, std::uint64_t stream) {

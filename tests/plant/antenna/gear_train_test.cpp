@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "reference_antenna.hpp"
+#include <boresight/numerics/angles.hpp>
 #include <boresight/numerics/error.hpp>
 #include <boresight/plant/antenna/gear_train.hpp>
 
@@ -19,7 +20,7 @@ constexpr double steel = 7832.0;  // kg/m3
 TEST(DiskInertia, IsTheIntegralOfMassTimesSquaredRadius) {
   const double radius = 0.37, length = 0.21;
   // 2 pi rho H r^3 is a cubic: Simpson's rule is exact.
-  const auto ring = [&](double r) { return reference::two_pi * steel * length * r * r * r; };
+  const auto ring = [&](double r) { return two_pi * steel * length * r * r * r; };
   const double integral = radius / 6.0 * (ring(0.0) + 4.0 * ring(0.5 * radius) + ring(radius));
   EXPECT_NEAR(disk_inertia(radius, length, steel), integral, 1e-12 * integral);
 }

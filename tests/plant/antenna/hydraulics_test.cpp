@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "reference_antenna.hpp"
+#include <boresight/numerics/angles.hpp>
 #include <boresight/numerics/error.hpp>
 #include <boresight/plant/antenna/hydraulics.hpp>
 
@@ -69,7 +70,7 @@ TEST(HydraulicFrequency, InvertsToTheInertia) {
   const double stiffness = oil_stiffness(reference::hydraulic_drive());
   for (const double inertia : {0.1, 1.45, 1.776, 40.0}) {
     const double frequency = hydraulic_frequency(stiffness, inertia);
-    EXPECT_NEAR(std::pow(reference::two_pi * frequency, 2) * inertia, stiffness, 1e-12 * stiffness);
+    EXPECT_NEAR(std::pow(two_pi * frequency, 2) * inertia, stiffness, 1e-12 * stiffness);
     EXPECT_NEAR(inertia_from_resonance(stiffness, frequency), inertia, 1e-13 * inertia);
   }
 }
@@ -99,7 +100,7 @@ TEST(HydraulicDamping, MovesOppositelyToFrequencyWithLeakageAlone) {
   for (const double inertia : {0.5, 1.0, 2.0}) {
     const double product =
         2.0 * hydraulic_damping(k, inertia, leakage, 0.0) * hydraulic_frequency(k, inertia);
-    EXPECT_NEAR(product * reference::two_pi, leakage, 1e-12);
+    EXPECT_NEAR(product * two_pi, leakage, 1e-12);
   }
 }
 

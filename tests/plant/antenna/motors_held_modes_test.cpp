@@ -8,6 +8,7 @@
 
 #include "random_numbers.hpp"
 #include "reference_antenna.hpp"
+#include <boresight/numerics/angles.hpp>
 #include <boresight/numerics/error.hpp>
 #include <boresight/plant/antenna/motors_held_modes.hpp>
 
@@ -90,7 +91,7 @@ TEST(MotorsHeldModes, AreTheRootsOfTheSecularEquation) {
     }
     double gear_shares = 0.0;
     for (const auto& vibration : held) {
-      const double s = std::pow(reference::two_pi * vibration.frequency, 2);
+      const double s = std::pow(two_pi * vibration.frequency, 2);
       gear_shares += vibration.gear_share;
       EXPECT_NEAR(
           vibration.gear_share,
@@ -124,7 +125,7 @@ TEST(MotorsHeldModes, ShareInertiaAndStiffnessOfTheWholeAntenna) {
     double stiffness = 0.0;
     double compliance = 0.0;
     for (const auto& vibration : motors_held_modes(structure)) {
-      const double s = std::pow(reference::two_pi * vibration.frequency, 2);
+      const double s = std::pow(two_pi * vibration.frequency, 2);
       EXPECT_GT(vibration.inertia_fraction, 0.0);
       fractions += vibration.inertia_fraction;
       stiffness += vibration.inertia_fraction * inertia * s;
@@ -149,7 +150,7 @@ TEST(MotorsHeldModes, DetermineTheModesWithTheBullGearHeld) {
       double response = 0.0;
       double largest = 0.0;
       for (const auto& vibration : held) {
-        const double s = std::pow(reference::two_pi * vibration.frequency, 2);
+        const double s = std::pow(two_pi * vibration.frequency, 2);
         const double term = vibration.inertia_fraction * s * s / (s - x);
         response += term;
         largest = std::max(largest, std::abs(term));
@@ -273,12 +274,11 @@ TEST(EffectiveFractions, AreThoseOfTheAntennaFound) {
     const auto structure = make_structure(antenna_of_effective_fractions(stated));
     const auto held = motors_held_modes(structure);
     EXPECT_LT(relative_error(held[0].frequency, stated.locked_rotor_frequency), 1e-8);
-    double spring = left * std::pow(reference::two_pi * stated.locked_rotor_frequency, 2);
+    double spring = left * std::pow(two_pi * stated.locked_rotor_frequency, 2);
     for (std::size_t i = 0; i < stated.modes.size(); ++i) {
       EXPECT_LT(relative_error(held[i + 1].frequency, stated.modes[i].frequency), 1e-8);
       EXPECT_NEAR(held[i + 1].inertia_fraction, stated.modes[i].inertia_fraction, 1e-8);
-      spring += stated.modes[i].inertia_fraction *
-                std::pow(reference::two_pi * stated.modes[i].frequency, 2);
+      spring += stated.modes[i].inertia_fraction * std::pow(two_pi * stated.modes[i].frequency, 2);
     }
     EXPECT_LT(relative_error(structure.gear_stiffness, stated.antenna_inertia * spring), 1e-8)
         << "trial " << trial;

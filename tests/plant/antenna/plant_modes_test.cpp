@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "reference_antenna.hpp"
+#include <boresight/numerics/angles.hpp>
 #include <boresight/numerics/eigenvalues.hpp>
 #include <boresight/numerics/error.hpp>
 #include <boresight/plant/antenna/antenna_plant.hpp>
@@ -125,7 +126,7 @@ TEST(HydraulicMode, OfARigidAntennaIsTheClosedForm) {
     const double natural =
         std::sqrt((plant.drive.oil_stiffness + friction * plant.drive.leakage_rate) / j);
     EXPECT_NEAR(mode.damping_ratio, zeta, 1e-4 * zeta);
-    EXPECT_NEAR(mode.frequency * reference::two_pi, natural, 1e-4 * natural);
+    EXPECT_NEAR(mode.frequency * two_pi, natural, 1e-4 * natural);
     EXPECT_EQ(zeta > 1.0, mode.description.ends_with("overdamped"));
   }
 }
@@ -173,7 +174,7 @@ TEST(OilShare, IsTheOilSpringsShareOfTheElasticEnergy) {
       ++modes;
       // Motor and bull gear swing as (kg - J w^2) and kg.
       const double motor =
-          kg - plant.structure.bull_gear_inertia * std::pow(reference::two_pi * mode.frequency, 2);
+          kg - plant.structure.bull_gear_inertia * std::pow(two_pi * mode.frequency, 2);
       const double oil = k * motor * motor, gear = kg * std::pow(motor - kg, 2);
       EXPECT_NEAR(mode.oil_share, oil / (oil + gear), 1e-8) << stiffer;
       EXPECT_NEAR(mode.gear_share, gear / (oil + gear), 1e-8) << stiffer;

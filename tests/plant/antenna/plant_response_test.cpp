@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "reference_antenna.hpp"
+#include <boresight/numerics/angles.hpp>
 #include <boresight/numerics/eigenvalues.hpp>
 #include <boresight/numerics/error.hpp>
 #include <boresight/plant/antenna/plant_response.hpp>
@@ -13,7 +14,6 @@ namespace boresight::plant {
 namespace {
 
 using reference::relative_error;
-using reference::two_pi;
 using Complex = std::complex<double>;
 
 // Rows as the outputs, columns as the inputs of the state space.

@@ -40,15 +40,15 @@ Complex polynomial(const std::vector<double>& ascending, Complex s) {
 
 TEST(Rational, HasTheResponseOfItsPolynomials) {
   reference::RandomNumbers random(41);
-  for (int degree = 0; degree <= 6; ++degree) {
+  for (int order = 0; order <= 6; ++order) {
     std::vector<double> numerator, denominator;
-    for (int i = 0; i <= degree; ++i) {
+    for (int i = 0; i <= order; ++i) {
       numerator.push_back(random.uniform(-2.0, 2.0));
       denominator.push_back(random.uniform(0.5, 2.0));
     }
-    if (degree % 2 == 1) numerator.pop_back();  // strictly proper
+    if (order % 2 == 1) numerator.pop_back();  // strictly proper
     const auto system = rational(numerator, denominator, "in", "out", "filter");
-    EXPECT_EQ(system.a.rows(), degree);
+    EXPECT_EQ(system.a.rows(), order);
     for (const double w : {0.0, 0.1, 1.3, 25.0}) {
       const Complex s{0.0, w};
       const Complex expected = polynomial(numerator, s) / polynomial(denominator, s);

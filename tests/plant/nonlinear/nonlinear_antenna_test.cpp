@@ -3,6 +3,7 @@
 
 #include "random_numbers.hpp"
 #include "reference_nonlinear_antenna.hpp"
+#include <boresight/numerics/angles.hpp>
 #include <boresight/numerics/error.hpp>
 #include <boresight/plant/linear/interconnection.hpp>
 #include <boresight/plant/linear/state_space.hpp>
@@ -37,7 +38,7 @@ TEST(NonlinearAntenna, IsTheLinearPlantInSmallMotionAboutRest) {
                                {"valve_command", "wind_torque"}, linear_outputs);
   const auto linear = to_state_space(reference::antenna());
   for (const double hertz : {1e-3, 0.1, 0.8, 1.0, 2.26, 3.3, 6.0, 12.0, 40.0}) {
-    const double w = reference::two_pi * hertz;
+    const double w = two_pi * hertz;
     const Eigen::MatrixXcd expected = frequency_response(linear, w);
     const Eigen::MatrixXcd found = frequency_response(small, w);
     EXPECT_LT(((found - expected).array() / expected.array()).abs().maxCoeff(), 1e-9) << hertz;
@@ -57,7 +58,7 @@ TEST(NonlinearAntenna, LinesChangeTheSlowMotionLittleAndRingAtTheirSlosh) {
   const auto slow = subsystem(ringing, {"valve_command"}, linear_outputs);
   const auto plain = subsystem(small(without), {"valve_command"}, linear_outputs);
   for (const double hertz : {0.01, 0.3, 0.85}) {
-    const double w = reference::two_pi * hertz;
+    const double w = two_pi * hertz;
     EXPECT_LT((frequency_response(slow, w) - frequency_response(plain, w)).norm(),
               1e-2 * frequency_response(plain, w).norm())
         << hertz;
@@ -67,7 +68,7 @@ TEST(NonlinearAntenna, LinesChangeTheSlowMotionLittleAndRingAtTheirSlosh) {
   const auto port = subsystem(ringing, {"valve_command"}, {"inlet_pressure_1"});
   const double slosh = antenna.oil.lines[0].half_wave;
   const auto magnitude = [&](double hertz) {
-    return std::abs(frequency_response(port, reference::two_pi * hertz)(0, 0));
+    return std::abs(frequency_response(port, two_pi * hertz)(0, 0));
   };
   EXPECT_GT(magnitude(slosh), 2.5 * magnitude(0.97 * slosh));
   EXPECT_GT(magnitude(slosh), magnitude(0.999 * slosh));
@@ -185,7 +186,7 @@ TEST(NonlinearAntenna, SlopeOfFrictionAtTrackingSpeedDampsTheSmallMotion) {
       0.5 * linear.drive.oil_stiffness * point.state[AntennaStates::spool] *
       std::sqrt(1.0 / (antenna.oil.supply_torque * (antenna.oil.supply_torque - torque)));
   const auto expected = to_state_space(linear);
-  const double w = reference::two_pi * 0.01;
+  const double w = two_pi * 0.01;
   const auto gain = [&](const StateSpace& system) {
     return frequency_response(subsystem(system, {"valve_command"}, {"motor_torque"}), w)(0, 0);
   };

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "reference_nonlinear_antenna.hpp"
+#include <boresight/numerics/angles.hpp>
 #include <boresight/numerics/error.hpp>
 #include <boresight/plant/antenna/hydraulics.hpp>
 #include <boresight/plant/integration/feedback_interconnection.hpp>
@@ -143,8 +144,8 @@ double strongest_frequency(const VectorXd& record, double interval, double lowes
     const auto n = static_cast<double>(signal.size());
     for (Index k = 0; k < signal.size(); ++k) {
       const auto i = static_cast<double>(k);
-      const double window = 0.5 - 0.5 * std::cos(reference::two_pi * i / n);
-      sum += window * signal[k] * std::polar(1.0, -reference::two_pi * hertz * interval * i);
+      const double window = 0.5 - 0.5 * std::cos(two_pi * i / n);
+      sum += window * signal[k] * std::polar(1.0, -two_pi * hertz * interval * i);
     }
     return std::abs(sum);
   };

@@ -7,6 +7,7 @@
 
 #include "random_numbers.hpp"
 #include "reference_antenna.hpp"
+#include <boresight/numerics/angles.hpp>
 #include <boresight/numerics/error.hpp>
 #include <boresight/plant/wind/torque_coefficients.hpp>
 
@@ -15,8 +16,6 @@ namespace {
 
 using testing::HasSubstr;
 using testing::ThrowsMessage;
-
-constexpr double degree = std::numbers::pi / 180.0;
 
 Eigen::VectorXd degrees(std::initializer_list<double> values) {
   Eigen::VectorXd axis(static_cast<Eigen::Index>(values.size()));

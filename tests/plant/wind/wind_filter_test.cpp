@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "reference_antenna.hpp"
+#include <boresight/numerics/angles.hpp>
 #include <boresight/numerics/error.hpp>
 #include <boresight/plant/wind/wind.hpp>
 #include <boresight/plant/wind/wind_filter.hpp>
@@ -12,7 +13,6 @@
 namespace boresight::plant {
 namespace {
 
-using reference::two_pi;
 using testing::HasSubstr;
 using testing::ThrowsMessage;
 

@@ -7,6 +7,7 @@
 
 #include "band_power.hpp"
 #include "reference_antenna.hpp"
+#include <boresight/numerics/angles.hpp>
 #include <boresight/numerics/error.hpp>
 #include <boresight/plant/wind/wind_record.hpp>
 #include <boresight/plant/wind/wind_time_series.hpp>
@@ -14,7 +15,6 @@
 namespace boresight::plant {
 namespace {
 
-using reference::two_pi;
 using testing::HasSubstr;
 using testing::ThrowsMessage;
 
@@ -130,7 +130,6 @@ TEST(WindRecord, OfASteadyWindIsTheMeanTorque) {
 }
 
 TEST(WindRecord, WithDirectionsFollowsTheTable) {
-  const double degree = std::numbers::pi / 180.0;
   Eigen::VectorXd yaw(3), elevation(2);
   yaw << -180.0 * degree, 0.0, 180.0 * degree;
   elevation << 0.0, 90.0 * degree;

@@ -6,13 +6,13 @@
 #include <gtest/gtest.h>
 
 #include "reference_antenna.hpp"
+#include <boresight/numerics/angles.hpp>
 #include <boresight/numerics/error.hpp>
 #include <boresight/plant/wind/wind.hpp>
 
 namespace boresight::plant {
 namespace {
 
-using reference::two_pi;
 using testing::HasSubstr;
 using testing::ThrowsMessage;
 

@@ -6,6 +6,7 @@
 
 #include "band_power.hpp"
 #include "reference_antenna.hpp"
+#include <boresight/numerics/angles.hpp>
 #include <boresight/numerics/error.hpp>
 #include <boresight/plant/linear/time_response.hpp>
 #include <boresight/plant/wind/wind_time_series.hpp>
@@ -14,7 +15,6 @@ namespace boresight::plant {
 namespace {
 
 using reference::Band;
-using reference::two_pi;
 using testing::HasSubstr;
 using testing::ThrowsMessage;
 

@@ -130,9 +130,9 @@ BenchmarkReport benchmark(const DesignedAntenna& designed, const BenchmarkedCont
   } else if (!antenna.simulation) {
     report.no_time_domain = "the case has no [simulation]";
   } else {
-    report.time_domain =
-        verify_in_time_domain(antenna, problem, *report.controller.law,
-                              report.controller.description, options.seed, options.threads);
+    report.time_domain = verify_in_time_domain(antenna, problem, *report.controller.law,
+                                               report.controller.description, options.seed,
+                                               options.threads, SecondIntegrator::none);
   }
   report.assumed = assumed_inputs(antenna, {.time_runs = report.time_domain.has_value()});
   return report;

@@ -93,8 +93,9 @@ void fill_redesign(const io::Case& antenna, const StudyOptions& options, Report&
   redesign(designed, options, report);
   if (report.tuning && report.tuning->design.tuning.status == design::TuningStatus::optimal) {
     const auto& law = report.tuning->design.tuning.law;
-    report.time_domain = verify_in_time_domain(designed, make_problem(designed), law,
-                                               law.structure.name(), options.seed, options.threads);
+    report.time_domain =
+        verify_in_time_domain(designed, make_problem(designed), law, law.structure.name(),
+                              options.seed, options.threads, SecondIntegrator::cvodes);
     report.assumed = assumed_inputs(designed, {.time_runs = report.time_domain.has_value()});
   }
   if (report.tuning) {

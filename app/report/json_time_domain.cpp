@@ -36,6 +36,24 @@ Json wind_json(const TimeDomainSection& section) {
           {"at_command_limit_1", wind.at_command_limit}};
 }
 
+Json integrators_json(const std::optional<design::IntegratorAgreement>& agreement) {
+  if (!agreement) return nullptr;
+  const design::IntegratorAgreement& both = *agreement;
+  return {{"status", design::to_string(both.status)},
+          {"message", text_or_null(both.message)},
+          {"agree", design::agree(both)},
+          {"duration_s", both.duration},
+          {"beam_rms_mdeg", mdeg(both.collocation_rms)},
+          {"cvodes_beam_rms_mdeg", mdeg(both.cvodes_rms)},
+          {"difference_rms_mdeg", mdeg(both.difference_rms)},
+          {"ratio_1", number(both.ratio())},
+          {"limit_1", design::integrator_agreement_limit},
+          {"cvodes_relative_tolerance_1", both.cvodes_relative_tolerance},
+          {"cvodes_absolute_tolerance_si", both.cvodes_absolute_tolerance},
+          {"steps", both.collocation_steps},
+          {"cvodes_steps", both.cvodes_steps}};
+}
+
 Json hunting_json(const design::HuntingResult& hunting) {
   return {{"rate_mdeg_per_s", mdeg(hunting.rate)},
           {"status", design::to_string(hunting.status)},
@@ -113,6 +131,7 @@ nlohmann::ordered_json time_domain_json(const TimeDomainSection& section) {
           {"sample_time_s", section.sample_time},
           {"encoder_resolution_mdeg", mdeg(section.encoder_resolution)},
           {"wind", wind_json(section)},
+          {"integrators", integrators_json(result.integrators)},
           {"hunting", std::move(hunting)},
           {"reversal", result.reversal ? reversal_json(*result.reversal) : Json(nullptr)},
           {"slew",

@@ -78,6 +78,20 @@ Document wind_part(const TimeDomainSection& section) {
   return text;
 }
 
+Document integrators_part(const TimeDomainSection& section) {
+  if (!section.result.integrators) return {};
+  const design::IntegratorAgreement& both = *section.result.integrators;
+  const std::string verdict =
+      both.status == RunStatus::complete
+          ? fmt::format(
+                "{} mdeg in this wind, differs by {:.0e} of the rms (limit {:.0e}); the "
+                "integration is {}confirmed",
+                mdeg(both.cvodes_rms), both.ratio(), design::integrator_agreement_limit,
+                design::agree(both) ? "" : "NOT ")
+          : "no check, " + ended(both.status, both.message);
+  return wrapped(fmt::format("Second integrator, CVODES: {}.", verdict), "  ", "  ");
+}
+
 Document hunting_part(const TimeDomainSection& section) {
   Document text;
   for (const auto& hunting : section.result.hunting) {
@@ -217,7 +231,8 @@ Document candidates_part(const TimeDomainSection& section) {
 
 Document document_of(const TimeDomainSection& section) {
   return heading("In the time domain, on the nonlinear antenna: " + section.law) +
-         wind_part(section) + hunting_part(section) + reversal_part(section) + slew_part(section) +
+         wind_part(section) + integrators_part(section) + hunting_part(section) +
+         reversal_part(section) + slew_part(section) +
          wrapped(
              fmt::format("The controller: sampled every {:g} s with one sample of computing, "
                          "feedforward of rate and acceleration, commands shaped to the limits "

@@ -87,13 +87,12 @@ design::Assessment assessment_of(const DescribedLaw& controller,
   return assessment;
 }
 
-std::optional<TimeDomainSection> verify_in_time_domain(const io::Case& antenna,
-                                                       const design::TrackingProblem& problem,
-                                                       const control::ControlLaw& law,
-                                                       std::string_view description,
-                                                       std::uint64_t seed, unsigned threads) {
+std::optional<TimeDomainSection> verify_in_time_domain(
+    const io::Case& antenna, const design::TrackingProblem& problem, const control::ControlLaw& law,
+    std::string_view description, std::uint64_t seed, unsigned threads, SecondIntegrator second) {
   if (!antenna.simulation) return std::nullopt;
   TimeDomainSection section = plan(antenna, problem, description, seed, threads);
+  section.options.second_integrator = second == SecondIntegrator::cvodes;
   simulate(antenna, problem, law, section);
   return section;
 }
@@ -118,7 +117,7 @@ std::optional<TimeDomainSection> choose_in_time_domain(const io::Case& antenna,
   const std::size_t best =
       design::recommend(assessments, {.accepted = design::Fitness::unstable}).winner.value_or(0);
   auto chosen = verify_in_time_domain(antenna, problem, laws[best].law, laws[best].description,
-                                      seed, threads);
+                                      seed, threads, SecondIntegrator::cvodes);
   if (chosen && candidates.size() > 1) chosen->candidates = std::move(candidates);
   return chosen;
 }

@@ -36,16 +36,19 @@ struct TimeDomainSection {
   std::vector<Candidate> candidates;
 };
 
+/// Whether CVODES repeats the run in wind (design::integrator_agreement), which takes about as long
+/// as all other runs together.
+enum class SecondIntegrator { none, cvodes };
+
 /// Simulates the law of a problem made from the case (make_problem): 300 s of wind with every
 /// influence switched off in turn, hunting, slow reversals and a slew of one degree at the case's
 /// rate and 0.2 deg/s2, settled within the tightest pointing budget (1 mdeg without one). Some 2 s
-/// of computing on the 70-m antenna, over `threads`. None for a case without a [simulation] table.
-/// The same for any number of threads. @throws as design::verify_in_time.
-std::optional<TimeDomainSection> verify_in_time_domain(const io::Case& antenna,
-                                                       const design::TrackingProblem& problem,
-                                                       const control::ControlLaw& law,
-                                                       std::string_view description,
-                                                       std::uint64_t seed, unsigned threads);
+/// of computing on the 70-m antenna, over `threads`, and as much for a second integrator. None for
+/// a case without a [simulation] table. The same for any number of threads. @throws as
+/// design::verify_in_time.
+std::optional<TimeDomainSection> verify_in_time_domain(
+    const io::Case& antenna, const design::TrackingProblem& problem, const control::ControlLaw& law,
+    std::string_view description, std::uint64_t seed, unsigned threads, SecondIntegrator second);
 
 /// A tuned law and what it is called.
 struct DescribedLaw {

@@ -147,6 +147,19 @@ std::string conclude_choice(const TimeDomainSection& section) {
   return text + ". ";
 }
 
+// Warns of a simulated rms that the second integrator contradicts; empty if it does not, or had no
+// result.
+std::string integration_text(const TimeDomainSection& section) {
+  const auto& both = section.result.integrators;
+  if (!both || section.result.wind.status != RunStatus::complete || design::agree(*both)) return "";
+  constexpr const char* warning =
+      " Do not rely on the simulated rms: CVODES, a second integrator, ";
+  if (both->status == RunStatus::complete) {
+    return fmt::format("{}differs from it by {:.1g} %.", warning, 100.0 * both->ratio());
+  }
+  return both->status == RunStatus::lost ? fmt::format("{}loses the target.", warning) : "";
+}
+
 // What it does by itself at a steady rate; empty where it holds still.
 std::string hunting_text(const design::HuntingResult& hunting, double error) {
   const char* where = hunting.rate == 0.0 ? "At rest" : "At the tracking rate";
@@ -243,7 +256,7 @@ std::string decide(const TimeDomainSection& section) {
 }
 
 std::string conclude(const TimeDomainSection& section) {
-  std::string text = conclude_choice(section) + conclude_wind(section);
+  std::string text = conclude_choice(section) + conclude_wind(section) + integration_text(section);
   for (const auto& hunting : section.result.hunting) {
     text += hunting_text(hunting, section.options.settled_error);
   }

@@ -136,6 +136,11 @@ class WindStudy {
     runs_[job] = keep(loop_, run, whole_samples(options_.settling, loop_.sample_time));
   }
 
+  IntegratorAgreement compare_integrators() const {
+    return integrator_agreement(loop_, courses_.front(),
+                                {.settling = options_.settling, .seed = options_.seeds.front()});
+  }
+
   WindResult result() const {
     const auto kind = [&](std::size_t number) {
       return pool(&runs_[number * options_.seeds.size()], options_.seeds.size());
@@ -424,11 +429,16 @@ NonlinearVerification verify_in_time(const TrackingProblem& problem, const Simul
   }
   std::vector<HuntingResult> hunting(rates.size() * nudges.size());
   if (options.slew_distance != 0.0) result.slew.emplace();
-  // Others first: the runs in wind are many and even.
-  const std::size_t reversal = hunting.size(), slewing = reversal + 1, first_wind = slewing + 1;
+  if (options.second_integrator) result.integrators.emplace();
+  // The longest first; the runs in wind are many and even.
+  const std::size_t comparing = 0, first_hunting = 1, reversal = first_hunting + hunting.size(),
+                    slewing = reversal + 1, first_wind = slewing + 1;
   numerics::for_each_index(first_wind + wind.jobs(), options.threads, [&](std::size_t job) {
-    if (job < hunting.size()) {
-      hunting[job] = hunt(loop, options, rates[job / nudges.size()], nudges[job % nudges.size()]);
+    if (job == comparing) {
+      if (result.integrators) *result.integrators = wind.compare_integrators();
+    } else if (job < reversal) {
+      const std::size_t run = job - first_hunting;
+      hunting[run] = hunt(loop, options, rates[run / nudges.size()], nudges[run % nudges.size()]);
     } else if (job == reversal) {
       if (result.reversal) *result.reversal = reverse(loop, options);
     } else if (job == slewing) {

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include <boresight/design/problem/tracking_problem.hpp>
+#include <boresight/design/verification/integrator_agreement.hpp>
 #include <boresight/design/verification/simulated_loop.hpp>
 
 namespace boresight::design {
@@ -18,6 +19,7 @@ struct NonlinearVerificationOptions {
   double settling = 20.0;               // s left out at the start of every run
   double tracking_rate = 0.0;           // rad/s, in wind and for limit cycles: sidereal
   bool explain = true;                  // repeat the runs in wind with each influence off
+  bool second_integrator = false;       // repeat the first run in wind by CVODES
   double hunting_duration = 200.0;      // s, after settling; hunting_confirmation
   double reversal_leg = 20.0;           // s of each way of the slow triangle
   double slew_distance = 0.0;           // rad; 0: no slew
@@ -120,6 +122,7 @@ struct SlewResult {
 
 struct NonlinearVerification {
   WindResult wind;
+  std::optional<IntegratorAgreement> integrators;  // none without second_integrator
   std::vector<HuntingResult> hunting;      // at rest, then at the tracking rate if that is not 0
   std::optional<ReversalResult> reversal;  // none without a tracking rate
   std::optional<SlewResult> slew;

@@ -303,6 +303,7 @@ LoopRun run_loop(const SimulatedLoop& loop, const LoopCourse& course,
   plan.sensors = sensors(loop, feeds_torque_back(loop.law), loop.sample_time, options,
                          !is_off(options, Influence::quantisation));
   plan.seed = options.seed;
+  plan.integrator = options.integrator;
   plan.relative_tolerance = options.relative_tolerance;
   plan.absolute_tolerance = VectorXd::Constant(1, options.absolute_tolerance);
   plan.progress = options.progress;
@@ -347,6 +348,7 @@ LoopRun run_linear_loop(const SimulatedLoop& loop, const LoopCourse& course, int
   plan.computation_delay = delay;
   plan.sensors = sensors(loop, feeds_torque_back(loop.law), sample_time, options, false);
   plan.seed = options.seed;
+  plan.integrator = options.integrator;
   plan.relative_tolerance = options.relative_tolerance;
   plan.absolute_tolerance = VectorXd::Constant(1, options.absolute_tolerance);
   plan.progress = options.progress;

@@ -77,6 +77,7 @@ struct LoopRunOptions {
   std::vector<Influence> without = {};
   bool noise = true;
   std::uint64_t seed = 1;
+  plant::Integrator integrator = plant::Integrator::exponential_collocation;
   /// As in SimulationPlan: an rms to 1e-5 of itself on the reference antenna.
   double relative_tolerance = 1e-5;
   double absolute_tolerance = 1e-7;

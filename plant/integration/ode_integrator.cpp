@@ -9,6 +9,7 @@
 #include <sundials/sundials_context.hpp>
 #include <sunlinsol/sunlinsol_dense.h>
 #include <sunmatrix/sunmatrix_dense.h>
+#include <sunnonlinsol/sunnonlinsol_fixedpoint.h>
 
 #include <boresight/numerics/error.hpp>
 #include <boresight/plant/integration/guarded_ode.hpp>
@@ -22,6 +23,7 @@ struct Destroy {
   void operator()(N_Vector vector) const { N_VDestroy(vector); }
   void operator()(SUNMatrix matrix) const { SUNMatDestroy(matrix); }
   void operator()(SUNLinearSolver solver) const { SUNLinSolFree(solver); }
+  void operator()(SUNNonlinearSolver solver) const { SUNNonlinSolFree(solver); }
   void operator()(void* memory) const { CVodeFree(&memory); }
 };
 template <class Handle>
@@ -41,7 +43,8 @@ Vector writable(N_Vector vector) {
 const char* remedy(int flag) {
   switch (flag) {
     case CV_TOO_MUCH_WORK:
-      return "raise most_steps or the tolerances, or make a jump of the rate an event";
+      return "raise most_steps or the tolerances, solve a stiff system by Newton's iteration, or "
+             "make a jump of the rate an event";
     case CV_TOO_MUCH_ACC:
       return "raise relative_tolerance or absolute_tolerance: rounding is above them";
     case CV_ERR_FAILURE:
@@ -115,6 +118,7 @@ struct OdeIntegrator::Solver {
   std::vector<N_Vector> sensitivity_handles;
   Owned<SUNMatrix> matrix;
   Owned<SUNLinearSolver> linear_solver;
+  Owned<SUNNonlinearSolver> nonlinear_solver;  // none: Newton's, which CVODES makes itself
   Owned<void*> memory;
 };
 
@@ -153,6 +157,12 @@ void OdeIntegrator::Solver::configure(const OdeOptions& options) {
   }
   if (const auto events = static_cast<int>(ode.system().events()); events > 0) {
     expect(CVodeRootInit(memory.get(), events, event_values));
+  }
+  if (options.iteration == OdeIteration::fixed_point) {
+    constexpr int accelerated = 0;  // iterates remembered by Anderson's acceleration
+    nonlinear_solver.reset(SUNNonlinSol_FixedPoint(vector.get(), accelerated, context));
+    expect(CVodeSetNonlinearSolver(memory.get(), nonlinear_solver.get()));
+    return;
   }
   matrix.reset(SUNDenseMatrix(state.size(), state.size(), context));
   linear_solver.reset(SUNLinSol_Dense(vector.get(), matrix.get(), context));

@@ -15,6 +15,9 @@ namespace {
 
 void validate_sensitivities(const OdeOptions& options, const OdeSystem& system) {
   const Eigen::Index n = system.states(), count = system.parameters();
+  if (options.iteration == OdeIteration::fixed_point) {
+    refuse("OdeIteration::newton where sensitivities are asked for, found fixed_point");
+  }
   if (count <= 0) refuse("a system with parameters where sensitivities are asked for, found none");
   const Eigen::MatrixXd& initial = options.initial_sensitivities;
   if (initial.size() != 0 && (initial.rows() != n || initial.cols() != count)) {

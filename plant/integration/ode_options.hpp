@@ -9,9 +9,14 @@
 namespace boresight::plant {
 
 /// bdf: backward differentiation of order 1 to 5, for stiff systems. adams: Adams-Moulton of order
-/// 1 to 12, for smooth ones whose fastest time constants are all of interest. Both are implicit and
-/// solved by Newton's method with the system's Jacobian.
+/// 1 to 12, for smooth ones whose fastest time constants are all of interest. Both are implicit.
 enum class OdeMethod { bdf, adams };
+
+/// How the implicit equation of a step is solved. newton: with the system's Jacobian, whatever the
+/// stiffness. fixed_point: from the rate alone, without Jacobian or linear equations; several times
+/// as fast where the steps are no longer than the shortest time constant, far slower where they
+/// could be.
+enum class OdeIteration { newton, fixed_point };
 
 struct OdeOptions {
   /// The local error of each step is held below relative_tolerance |x_i| + absolute_tolerance_i in
@@ -21,6 +26,7 @@ struct OdeOptions {
   /// One for each state, in its unit, or a single one for all.
   Eigen::VectorXd absolute_tolerance = Eigen::VectorXd::Constant(1, 1e-9);
   OdeMethod method = OdeMethod::bdf;
+  OdeIteration iteration = OdeIteration::newton;  // fixed_point: without sensitivities only
   /// The method's own limit also holds. Only bdf up to order 2 is stable however long its steps
   /// against a mode that hardly decays: 2 takes fewer steps where such modes are not excited and
   /// the tolerances loose (1e-4: up to seven times fewer), more where they are tight.
@@ -41,8 +47,8 @@ struct OdeOptions {
 
 /// @throws InvalidInput for a relative tolerance outside [0, 1), absolute tolerances not above 0 or
 /// neither 1 nor system.states() in number, a highest_order, longest_step or most_steps not above
-/// 0, and if sensitivities are asked for: of a system without parameters, initial sensitivities or
-/// parameter scales of a wrong shape or not finite, a scale not above 0.
+/// 0, and if sensitivities are asked for: by fixed-point iteration, of a system without parameters,
+/// initial sensitivities or parameter scales of a wrong shape or not finite, a scale not above 0.
 void validate(const OdeOptions& options, const OdeSystem& system);
 
 }  // namespace boresight::plant

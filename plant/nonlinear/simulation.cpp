@@ -6,6 +6,8 @@
 
 #include <boresight/numerics/error.hpp>
 #include <boresight/numerics/normal_numbers.hpp>
+#include <boresight/plant/integration/feedback_ode.hpp>
+#include <boresight/plant/integration/ode_integrator.hpp>
 #include <boresight/plant/nonlinear/operating_point.hpp>
 #include <boresight/plant/nonlinear/simulation.hpp>
 
@@ -15,6 +17,8 @@ namespace {
 using Eigen::Index;
 
 constexpr Index progress_every = 1024;
+// Of CVODES within an interval: beyond that the system is too stiff for its fixed-point iteration.
+constexpr long most_steps = 2000;
 // Other streams of the seed are the wind's.
 constexpr std::uint64_t first_sensor_stream = 100;
 
@@ -129,6 +133,53 @@ class ControllerClock {
   Eigen::VectorXd acting_;
 };
 
+// CVODES with the calls of FastIntegrator. An input jumps or bends at every sample, so that each
+// interval starts anew; kinks of the channels are left to the control of its error.
+class CvodesIntegrator {
+ public:
+  CvodesIntegrator(const FeedbackSystem& system, const SimulationPlan& plan)
+      : interval_(plan.interval),
+        ode_(system),
+        integrator_(ode_, 0.0, plan.state.size() != 0 ? plan.state : zero(ode_), options(plan)) {}
+
+  void advance(const Eigen::VectorXd& u_start, const Eigen::VectorXd& u_end) {
+    const double start = integrator_.time();
+    const double end = interval_ * static_cast<double>(++intervals_);
+    ode_.drive(start, u_start, end, u_end);
+    integrator_.restart();
+    integrator_.advance(end, Approach::stop_exactly);
+    outputs_ = ode_.outputs(end, integrator_.state());
+  }
+
+  const Eigen::VectorXd& state() const { return integrator_.state(); }
+  const Eigen::VectorXd& outputs() const { return outputs_; }
+  FastIntegratorStatistics statistics() const {
+    FastIntegratorStatistics statistics;
+    statistics.steps = integrator_.statistics().steps;
+    return statistics;
+  }
+
+ private:
+  static Eigen::VectorXd zero(const FeedbackOde& ode) {
+    return Eigen::VectorXd::Zero(ode.states());
+  }
+  static OdeOptions options(const SimulationPlan& plan) {
+    OdeOptions options;
+    options.method = OdeMethod::adams;
+    options.iteration = OdeIteration::fixed_point;
+    options.most_steps = most_steps;
+    options.relative_tolerance = plan.relative_tolerance;
+    options.absolute_tolerance = plan.absolute_tolerance;
+    return options;
+  }
+
+  double interval_;
+  FeedbackOde ode_;
+  OdeIntegrator integrator_;
+  Eigen::VectorXd outputs_;
+  Index intervals_ = 0;
+};
+
 void check_signals(const SimulationPlan& plan, const std::vector<std::string>& inputs,
                    const std::vector<std::string>& observed) {
   if (plan.values.cols() != static_cast<Index>(plan.signals.size()) || plan.values.rows() < 2) {
@@ -156,24 +207,10 @@ void check_signals(const SimulationPlan& plan, const std::vector<std::string>& i
   }
 }
 
-}  // namespace
-
-Eigen::VectorXd column(const SimulationResult& run, std::string_view name) {
-  const auto found = std::ranges::find(run.names, name);
-  if (found == run.names.end()) {
-    throw InvalidInput(
-        fmt::format("column: expected an output or command of the run out of {}, "
-                    "found '{}'",
-                    fmt::join(run.names, ", "), name));
-  }
-  return run.values.col(found - run.names.begin());
-}
-
-SimulationResult simulate(const FeedbackSystem& system, const SimulationPlan& plan) {
+template <class Stepper>
+SimulationResult run(const FeedbackSystem& system, const SimulationPlan& plan,
+                     Stepper& integrator) {
   const auto& linear = system.linear;
-  FastIntegrator integrator(system, {.interval = plan.interval,
-                                     .relative_tolerance = plan.relative_tolerance,
-                                     .absolute_tolerance = plan.absolute_tolerance});
   const std::vector<std::string> inputs(linear.inputs.begin(),
                                         linear.inputs.end() - system.channel_outputs);
   const std::vector<std::string> output_names(linear.outputs.begin() + system.channel_inputs,
@@ -181,7 +218,6 @@ SimulationResult simulate(const FeedbackSystem& system, const SimulationPlan& pl
   check_signals(plan, inputs, output_names);
   std::optional<ControllerClock> clock;
   if (plan.controller != nullptr) clock.emplace(plan, inputs, output_names);
-  if (plan.state.size() != 0) integrator.start_from(plan.state);
 
   const Index intervals = plan.values.rows() - 1;
   const auto outputs = static_cast<Index>(output_names.size());
@@ -230,6 +266,31 @@ SimulationResult simulate(const FeedbackSystem& system, const SimulationPlan& pl
   result.final_state = integrator.state();
   result.statistics = integrator.statistics();
   return result;
+}
+
+}  // namespace
+
+Eigen::VectorXd column(const SimulationResult& run, std::string_view name) {
+  const auto found = std::ranges::find(run.names, name);
+  if (found == run.names.end()) {
+    throw InvalidInput(
+        fmt::format("column: expected an output or command of the run out of {}, "
+                    "found '{}'",
+                    fmt::join(run.names, ", "), name));
+  }
+  return run.values.col(found - run.names.begin());
+}
+
+SimulationResult simulate(const FeedbackSystem& system, const SimulationPlan& plan) {
+  if (plan.integrator == Integrator::cvodes) {
+    CvodesIntegrator integrator(system, plan);
+    return run(system, plan, integrator);
+  }
+  FastIntegrator integrator(system, {.interval = plan.interval,
+                                     .relative_tolerance = plan.relative_tolerance,
+                                     .absolute_tolerance = plan.absolute_tolerance});
+  if (plan.state.size() != 0) integrator.start_from(plan.state);
+  return run(system, plan, integrator);
 }
 
 }  // namespace boresight::plant

@@ -38,8 +38,8 @@ TUNED = "tuned"
 UNITS = ("1", "kg_m2", "Pa", "N_m", "N_m_per_rad", "N_m_s_per_rad", "Hz", "s", "per_s", "rad_per_s",
          "rad_per_s_V", "rad_per_s_N_m", "rad_per_N_m", "m_per_s", "deg", "mdeg", "dB", "si")
 COUNTS = {"seed", "draws", "degrees_of_freedom", "starts", "starts_at_optimum", "starts_hunting", "evaluations",
-          "seeds_within_1_percent", "checked_numbers", "bytes", "rows", "first_sample", "samples",
-          "events", "counted", "outliers", "iterations", "rank", "varied", "motor", "harmonic",
+          "seeds_within_1_percent", "checked_numbers", "bytes", "rows", "first_sample", "samples", "steps",
+          "events", "cvodes_steps", "counted", "outliers", "iterations", "rank", "varied", "motor", "harmonic",
           "ensemble_members", "rounds", "warm_starts", "even_stretches", "after_grid_point", "stable", "stable_members", "within_goals"}
 
 # Of a state space, whose signals' units stand beside it (docs/benchmark-protocol.md).
@@ -455,6 +455,10 @@ class Redesign(unittest.TestCase):
                 self.assertAlmostEqual(
                     math.hypot(design["wind_rms_mdeg"], design["noise_rms_mdeg"]),
                     design["beam_rms_mdeg"], delta=1e-9)
+
+    def test_is_confirmed_by_a_second_integrator(self):
+        for found in (report("redesign")["time_domain"], report("tune", TUNED)["time_domain"]):
+            self.assertLess(found["integrators"]["ratio_1"], 1e-4)
 
     def test_takes_the_best_seed(self):
         tuning = report("redesign")["tuning"]

@@ -7,4 +7,5 @@ import sys
 import unittest
 
 if __name__ == "__main__":
-    unittest.main(module=None, argv=sys.argv[:1], defaultTest=("json_schema_test", "report_figures_test"))
+    # Without names among its arguments unittest would look for files called test*.
+    unittest.main(module=None, argv=[sys.argv[0], "json_schema_test", "report_figures_test"])

@@ -196,6 +196,39 @@ TEST(TimeDomain, TextSaysWhyThereAreNoNumbers) {
   EXPECT_THAT(to_text(slow), HasSubstr("within 0.5270 mdeg 40 s after"));
 }
 
+TEST(TimeDomain, StatesWhetherASecondIntegratorConfirmsTheRun) {
+  const auto told = [](const TimeDomainSection& section) {
+    return std::regex_replace(to_text(section), std::regex("\\s+"), " ");
+  };
+  auto checked = section();
+  EXPECT_THAT(told(checked), Not(HasSubstr("CVODES")));
+  EXPECT_TRUE(time_domain_json(checked).at("integrators").is_null());
+  auto& both = checked.result.integrators.emplace();
+  both.collocation_rms = 0.6 * mdeg;
+  both.cvodes_rms = 0.6 * mdeg;
+  both.difference_rms = 3e-7 * mdeg;
+  both.duration = 300.0;
+  EXPECT_THAT(told(checked), HasSubstr("CVODES: 0.6000 mdeg in this wind, differs by 5e-07 of the "
+                                       "rms (limit 1e-04); the integration is confirmed."));
+  EXPECT_THAT(conclude(checked), Not(HasSubstr("CVODES")));
+  const auto json = time_domain_json(checked).at("integrators");
+  EXPECT_DOUBLE_EQ(json.at("ratio_1").get<double>(), 5e-7);
+  EXPECT_TRUE(json.at("agree").get<bool>());
+
+  both.difference_rms = 0.012 * mdeg;
+  EXPECT_THAT(told(checked), HasSubstr("the integration is NOT confirmed."));
+  EXPECT_THAT(conclude(checked), HasSubstr("Do not rely on the simulated rms: CVODES, a second "
+                                           "integrator, differs from it by 2 %."));
+  both.status = design::RunStatus::lost;
+  EXPECT_THAT(conclude(checked), HasSubstr("a second integrator, loses the target."));
+  both.status = design::RunStatus::failed;
+  both.message = "too stiff";
+  both.cvodes_rms = both.difference_rms = nan;
+  EXPECT_THAT(told(checked), HasSubstr("CVODES: no check, failed: too stiff."));
+  EXPECT_THAT(conclude(checked), Not(HasSubstr("CVODES")));
+  EXPECT_TRUE(time_domain_json(checked).at("integrators").at("ratio_1").is_null());
+}
+
 TEST(TimeDomain, ConcludesWhatTheLinearFigureIsWorth) {
   const std::string text = conclude(section());
   EXPECT_THAT(text, HasSubstr("points within 0.600 mdeg in 10 m/s, where the linear plant says "
@@ -378,7 +411,8 @@ TEST(TimeDomain, NoneOfACaseThatSaysNothingOfItsDrive) {
   io::Case antenna = io::read_case(case_path("dss14-70m"));
   antenna.simulation.reset();
   const control::ControlLaw law{control::LoopStructure::pi_with_lag(), {0.2, 0.8, 6.0, 0.2, 0.02}};
-  EXPECT_FALSE(verify_in_time_domain(antenna, make_problem(antenna), law, "PI", 1, 1));
+  EXPECT_FALSE(verify_in_time_domain(antenna, make_problem(antenna), law, "PI", 1, 1,
+                                     SecondIntegrator::none));
 }
 
 }  // namespace

@@ -163,6 +163,21 @@ TEST(NonlinearVerification, ASlewThatHuntsThroughItsBoundHasNotSettled) {
   EXPECT_TRUE(settling(60.0 * mdeg).has_value());
 }
 
+TEST(NonlinearVerification, SecondIntegratorRepeatsTheFirstRunInWind) {
+  auto wanted = options();
+  wanted.explain = false;
+  wanted.wind_duration = wanted.hunting_duration = 10.0;
+  wanted.settling = 2.0;
+  const auto problem = reference::tracking_problem();
+  EXPECT_FALSE(verify_in_time(problem, reference_loop(), wanted).integrators);
+  wanted.second_integrator = true;
+  const auto result = verify_in_time(problem, reference_loop(), wanted);
+  ASSERT_TRUE(result.integrators);
+  EXPECT_TRUE(agree(*result.integrators));
+  EXPECT_DOUBLE_EQ(result.integrators->collocation_rms, result.wind.beam_rms);
+  EXPECT_NEAR(result.integrators->duration, 10.0, 1e-9);
+}
+
 TEST(NonlinearVerification, SameBytesWhateverTheThreads) {
   const auto loop = reference_loop();
   const auto problem = reference::tracking_problem();
@@ -171,6 +186,7 @@ TEST(NonlinearVerification, SameBytesWhateverTheThreads) {
   wanted.settling = 2.0;
   wanted.reversal_leg = 3.0;
   wanted.seeds = {1, 7};
+  wanted.second_integrator = true;
   const auto numbers = [&](unsigned threads) {
     wanted.threads = threads;
     const auto result = verify_in_time(problem, loop, wanted);
@@ -186,11 +202,12 @@ TEST(NonlinearVerification, SameBytesWhateverTheThreads) {
     }
     if (result.reversal) all.push_back(result.reversal->encoder_error);
     if (result.slew) all.push_back(result.slew->largest_error);
+    if (result.integrators) all.push_back(result.integrators->difference_rms);
     return all;
   };
   const auto one = numbers(1);
   EXPECT_EQ(one, numbers(3));
-  EXPECT_EQ(one.size(), 14U);
+  EXPECT_EQ(one.size(), 15U);
   wanted.seeds = {2, 8};
   EXPECT_NE(one, numbers(1)) << "seeds draw nothing";
 }

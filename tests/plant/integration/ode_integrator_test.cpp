@@ -41,6 +41,33 @@ TEST(OdeIntegrator, KeepsThePhaseOfAnOscillatorToItsTolerance) {
   }
 }
 
+// An oscillator without the derivatives that Newton's method would ask for.
+class WithoutJacobian final : public Linear {
+ public:
+  using Linear::Linear;
+  void jacobian(double, const StateRef&, MatrixRef) const override {
+    ADD_FAILURE() << "asked for a Jacobian";
+  }
+};
+
+TEST(OdeIntegrator, IteratesToFixedPointsByTheRateAlone) {
+  Eigen::MatrixXd a(2, 2);
+  a << 0.0, 1.0, -9.0, 0.0;
+  const WithoutJacobian system(a, Eigen::VectorXd::Zero(2));
+  for (const OdeMethod method : {OdeMethod::bdf, OdeMethod::adams}) {
+    OdeOptions options = tolerances(1e-9, 1e-11);
+    options.method = method;
+    options.iteration = OdeIteration::fixed_point;
+    OdeIntegrator integrator(system, 0.0, vector({1.0, 0.0}), options);
+    for (int k = 1; k <= 20; ++k) {
+      integrator.restart();
+      integrator.advance(0.1 * k, Approach::stop_exactly);
+      EXPECT_NEAR(integrator.state()(0), std::cos(0.3 * k), 2e-7);
+    }
+    EXPECT_EQ(integrator.statistics().jacobians, 0);
+  }
+}
+
 TEST(OdeIntegrator, IsTheClosedFormOfAStiffSystemWithItsSensitivities) {
   const LagOfDecay system;
   OdeOptions options = tolerances(1e-8, 1e-10);

@@ -49,20 +49,43 @@ TEST(Simulation, SampledLoopFollowsItsRecursion) {
   plan.values = MatrixXd::Ones(101, 1);
   plan.controller = &controller;
   plan.computation_delay = sample_time;
-  const auto result = simulate(lag(), plan);
-  ASSERT_TRUE(result.complete);
-  const Index y = column_index(result, "y");
-  const Index u = column_index(result, "u");
-  const double decay = std::exp(-sample_time);
-  double x = 0.0;
-  double acting = 0.0;
-  for (Index k = 0; k < 20; ++k) {
-    EXPECT_NEAR(result.values(5 * k, y), x, 1e-12);
-    const double asked = 3.0 * (1.0 - x);
-    EXPECT_NEAR(result.values(5 * k + 2, u), acting, 1e-12);
-    x = decay * x + (1.0 - decay) * acting;
-    acting = asked;
+  for (const auto integrator : {Integrator::exponential_collocation, Integrator::cvodes}) {
+    const double error = integrator == Integrator::cvodes ? 1e-8 : 1e-12;
+    plan.integrator = integrator;
+    plan.relative_tolerance = 1e-10;
+    plan.absolute_tolerance.setConstant(1e-12);
+    const auto result = simulate(lag(), plan);
+    ASSERT_TRUE(result.complete);
+    EXPECT_GE(result.statistics.steps, 100);
+    const Index y = column_index(result, "y");
+    const Index u = column_index(result, "u");
+    const double decay = std::exp(-sample_time);
+    double x = 0.0;
+    double acting = 0.0;
+    for (Index k = 0; k < 20; ++k) {
+      EXPECT_NEAR(result.values(5 * k, y), x, error);
+      const double asked = 3.0 * (1.0 - x);
+      EXPECT_NEAR(result.values(5 * k + 2, u), acting, error);
+      x = decay * x + (1.0 - decay) * acting;
+      acting = asked;
+    }
+    EXPECT_NEAR(result.final_state[0], x, error);
   }
+}
+
+TEST(Simulation, CvodesGivesUpOnASystemTooStiffForItsFixedPoints) {
+  // Samples a hundred thousand times as long as the time constant.
+  FeedbackSystem stiff = lag();
+  stiff.linear.a *= 1e6;
+  SimulationPlan plan;
+  plan.interval = 0.1;
+  plan.signals = {"u"};
+  plan.values = MatrixXd::Ones(3, 1);
+  EXPECT_NO_THROW(simulate(stiff, plan));
+  plan.integrator = Integrator::cvodes;
+  EXPECT_THAT([&] { simulate(stiff, plan); },
+              testing::ThrowsMessage<NumericalFailure>(
+                  testing::HasSubstr("solve a stiff system by Newton's")));
 }
 
 TEST(Simulation, DelayOfPartOfASampleShiftsTheCommand) {

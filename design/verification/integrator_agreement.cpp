@@ -1,0 +1,72 @@
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include <boresight/design/verification/integrator_agreement.hpp>
+#include <boresight/numerics/error.hpp>
+
+namespace boresight::design {
+namespace {
+
+using Eigen::Index;
+using Eigen::VectorXd;
+
+double rms(const VectorXd& values) {
+  return std::sqrt(values.squaredNorm() / static_cast<double>(values.size()));
+}
+
+double rms_about_mean(const VectorXd& values) {
+  return rms((values.array() - values.mean()).matrix());
+}
+
+// How many steps of the course are left out.
+Index settled_steps(const LoopCourse& course, double settling) {
+  const double steps = std::round(settling / course.interval);
+  if (!(steps >= 0.0) || !(steps < static_cast<double>(course.reference.size() - 1))) {
+    throw InvalidInput(fmt::format(
+        "integrator_agreement: expected a settling time of at least 0 s and shorter than the "
+        "course's {} steps of {} s, found {} s",
+        course.reference.size() - 1, course.interval, settling));
+  }
+  return static_cast<Index>(steps);
+}
+
+}  // namespace
+
+bool agree(const IntegratorAgreement& agreement) {
+  return agreement.status == RunStatus::complete && agreement.ratio() <= integrator_agreement_limit;
+}
+
+IntegratorAgreement integrator_agreement(const SimulatedLoop& loop, const LoopCourse& course,
+                                         const IntegratorAgreementOptions& options) {
+  const Index settled = settled_steps(course, options.settling);
+  const Index compared = course.reference.size() - settled;
+  LoopRunOptions how;
+  how.seed = options.seed;
+  how.relative_tolerance = options.relative_tolerance;
+  how.absolute_tolerance = options.absolute_tolerance;
+  IntegratorAgreement agreement;
+  agreement.duration = course.interval * static_cast<double>(compared - 1);
+  agreement.cvodes_relative_tolerance = options.cvodes_relative_tolerance;
+  agreement.cvodes_absolute_tolerance = options.cvodes_absolute_tolerance;
+  const auto has_completed = [&](const LoopRun& run) {
+    agreement.status = run.status;
+    agreement.message = run.message;
+    return run.status == RunStatus::complete;
+  };
+  const LoopRun collocation = run_loop(loop, course, how);
+  agreement.collocation_steps = collocation.result.statistics.steps;
+  if (!has_completed(collocation)) return agreement;
+  agreement.collocation_rms = rms_about_mean(collocation.beam_error.tail(compared));
+  how.integrator = plant::Integrator::cvodes;
+  how.relative_tolerance = options.cvodes_relative_tolerance;
+  how.absolute_tolerance = options.cvodes_absolute_tolerance;
+  const LoopRun cvodes = run_loop(loop, course, how);
+  agreement.cvodes_steps = cvodes.result.statistics.steps;
+  if (!has_completed(cvodes)) return agreement;
+  agreement.cvodes_rms = rms_about_mean(cvodes.beam_error.tail(compared));
+  agreement.difference_rms = rms((collocation.beam_error - cvodes.beam_error).tail(compared));
+  return agreement;
+}
+
+}  // namespace boresight::design

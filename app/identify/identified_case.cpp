@@ -4,7 +4,9 @@
 #include <fmt/format.h>
 
 #include <boresight/app/identify/identified_case.hpp>
-#include <boresight/app/redesign/antenna_model.hpp>
+#include <boresight/io/case/antenna_of.hpp>
+#include <boresight/io/case/drive_numbers.hpp>
+#include <boresight/io/case/plant_numbers.hpp>
 #include <boresight/numerics/error.hpp>
 
 namespace boresight::app {

@@ -2,11 +2,12 @@
 #include <cmath>
 #include <numbers>
 
-#include <boresight/app/redesign/antenna_model.hpp>
 #include <boresight/app/simulate/nonlinear_model.hpp>
 #include <boresight/app/simulate/time_domain.hpp>
 #include <boresight/design/problem/drive_reach.hpp>
+#include <boresight/io/case/drive_numbers.hpp>
 #include <boresight/io/case/friction_leeway.hpp>
+#include <boresight/io/case/mission_of.hpp>
 #include <boresight/numerics/error.hpp>
 
 namespace boresight::app {

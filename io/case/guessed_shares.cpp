@@ -35,23 +35,6 @@ void place(std::vector<Body> bodies, GuessedShares where) {
   }
 }
 
-}  // namespace
-
-std::string_view to_string(GuessedShares place) {
-  static constexpr std::array names{"wind and beam shares as stated",
-                                    "wind and beam shares as inertia",
-                                    "wind and beam shares all at one"};
-  return names.at(static_cast<std::size_t>(place));
-}
-
-bool is_unbounded_guess(const Quantity& quantity) {
-  return quantity.basis == Basis::assumed && !quantity.uncertainty_given;
-}
-
-bool is_guessed_share(const Quantity& share) {
-  return is_unbounded_guess(share) && share.value >= 0.0;
-}
-
 void place_guessed_shares(const StructureEntry& structure, GuessedShares where,
                           plant::StructureSpecification& specification) {
   if (where == GuessedShares::as_stated) return;
@@ -71,6 +54,23 @@ void place_guessed_shares(const StructureEntry& structure, GuessedShares where,
   }
   place(std::move(wind), where);
   place(std::move(beam), where);
+}
+
+}  // namespace
+
+std::string_view to_string(GuessedShares place) {
+  static constexpr std::array names{"wind and beam shares as stated",
+                                    "wind and beam shares as inertia",
+                                    "wind and beam shares all at one"};
+  return names.at(static_cast<std::size_t>(place));
+}
+
+bool is_unbounded_guess(const Quantity& quantity) {
+  return quantity.basis == Basis::assumed && !quantity.uncertainty_given;
+}
+
+bool is_guessed_share(const Quantity& share) {
+  return is_unbounded_guess(share) && share.value >= 0.0;
 }
 
 std::vector<plant::AntennaChange> guessed_share_changes(const StructureEntry& structure,

@@ -27,12 +27,8 @@ inline constexpr std::array other_guesses{GuessedShares::as_inertia,
 /// "wind and beam shares as inertia".
 std::string_view to_string(GuessedShares place);
 
-/// Moves the guessed shares of a specification that is the structure's own
-/// (structure_specifications); each set of shares sums to what it did.
-void place_guessed_shares(const StructureEntry& structure, GuessedShares place,
-                          plant::StructureSpecification& specification);
-
-/// The same as changes of the case's antenna (antenna_of).
+/// The changes that place the guessed shares of the case's antenna (antenna_of) so; each set of
+/// shares sums to what it did.
 std::vector<plant::AntennaChange> guessed_share_changes(const StructureEntry& structure,
                                                         GuessedShares place);
 

@@ -4,8 +4,9 @@
 #include <pybind11/stl.h>
 
 #include <boresight/app/audit/audit_report.hpp>
-#include <boresight/app/redesign/antenna_model.hpp>
 #include <boresight/io/case/case_file.hpp>
+#include <boresight/io/case/drive_numbers.hpp>
+#include <boresight/io/case/plant_numbers.hpp>
 #include <boresight/numerics/error.hpp>
 #include <boresight/python/bindings.hpp>
 #include <boresight/python/results.hpp>
@@ -64,7 +65,7 @@ void add_case(py::module_& module) {
       .def_property_readonly(
           "motor_inertia",
           [](const Case& antenna) {
-            return app::motor_inertia(antenna, antenna.motor.flywheel_disks);
+            return io::motor_inertia(antenna, antenna.motor.flywheel_disks);
           },
           "All motors with their flywheels, kg m2")
       .def_property_readonly(

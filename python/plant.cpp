@@ -6,6 +6,9 @@
 #include <pybind11/stl.h>
 
 #include <boresight/app/redesign/sections.hpp>
+#include <boresight/io/case/antenna_of.hpp>
+#include <boresight/io/case/plant_numbers.hpp>
+#include <boresight/plant/antenna/antenna_change.hpp>
 #include <boresight/plant/antenna/gear_train.hpp>
 #include <boresight/plant/antenna/hydraulics.hpp>
 #include <boresight/python/bindings.hpp>
@@ -17,20 +20,23 @@ namespace {
 Plant make_plant(const io::Case& antenna, std::optional<double> flywheel_disks,
                  std::optional<double> antenna_inertia, std::optional<double> oil_stiffness,
                  std::optional<double> leakage_rate, std::optional<double> viscous_friction) {
-  app::PlantVariant variant;
-  variant.flywheel_disks = flywheel_disks;
-  variant.antenna_inertia = antenna_inertia;
-  variant.oil_stiffness = oil_stiffness;
-  variant.leakage_rate = leakage_rate;
-  variant.viscous_friction = viscous_friction;
+  std::vector<plant::AntennaChange> changes;
+  const auto set = [&](const char* path, const std::optional<double>& number) {
+    if (number) changes.push_back(plant::set_to(path, *number));
+  };
+  set("motor.flywheel_disks", flywheel_disks);
+  set("at_shaft.antenna_inertia", antenna_inertia);
+  set("at_shaft.oil_stiffness", oil_stiffness);
+  set("drive.leakage_rate", leakage_rate);
+  set("drive.viscous_friction", viscous_friction);
 
   Plant result{{report_of(antenna, "model", 1)}, app::describe_plant(antenna), {}};
   auto& section = result.section;
-  section.plant = app::make_plant(antenna, variant);
+  section.plant = io::make_plant(antenna, changes);
   result.state_space = plant::to_state_space(section.plant);
   section.reflected_inertia = plant::reflected_inertia(section.plant);
   section.motor_to_load_ratio = plant::motor_to_load_ratio(
-      app::motor_inertia(antenna, flywheel_disks.value_or(antenna.motor.flywheel_disks)),
+      io::motor_inertia(antenna, flywheel_disks.value_or(antenna.motor.flywheel_disks)),
       section.reflected_inertia);
   section.rigid_frequency =
       plant::hydraulic_frequency(section.plant.drive.oil_stiffness, section.reflected_inertia);

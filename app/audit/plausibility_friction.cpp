@@ -8,7 +8,6 @@
 #include <fmt/format.h>
 
 #include <boresight/app/audit/plausibility_checks.hpp>
-#include <boresight/app/redesign/antenna_model.hpp>
 #include <boresight/io/case/drive_numbers.hpp>
 
 namespace boresight::app {

@@ -4,8 +4,7 @@
 #include <fmt/format.h>
 
 #include <boresight/app/audit/plausibility_checks.hpp>
-#include <boresight/app/redesign/antenna_model.hpp>
-#include <boresight/app/redesign/resonating_mode.hpp>
+#include <boresight/io/case/resonating_mode.hpp>
 #include <boresight/plant/antenna/hydraulics.hpp>
 
 namespace boresight::app {

@@ -4,16 +4,19 @@
 #include <fmt/format.h>
 
 #include <boresight/app/audit/plausibility_checks.hpp>
-#include <boresight/app/redesign/antenna_model.hpp>
 #include <boresight/app/redesign/resonance_verdict.hpp>
-#include <boresight/app/redesign/resonating_mode.hpp>
+#include <boresight/io/case/antenna_of.hpp>
+#include <boresight/io/case/plant_numbers.hpp>
+#include <boresight/io/case/resonating_mode.hpp>
+#include <boresight/plant/antenna/antenna_change.hpp>
 #include <boresight/plant/antenna/hydraulics.hpp>
 
 namespace boresight::app {
 namespace {
 
-plant::PlantMode flexible_mode(const io::Case& antenna, const PlantVariant& variant = {}) {
-  return resonating_mode(antenna, make_plant(antenna, variant));
+plant::PlantMode flexible_mode(const io::Case& antenna,
+                               const std::vector<plant::AntennaChange>& changes = {}) {
+  return resonating_mode(antenna, make_plant(antenna, changes));
 }
 
 }  // namespace
@@ -36,7 +39,7 @@ void check_expected_resonance(const CaseNumbers& numbers, Implausibilities& foun
   std::string others;
   for (const io::AntennaAlternative& alternative : numbers.antenna.antenna.alternatives) {
     const double frequency =
-        flexible_mode(numbers.antenna, variant_of(numbers.antenna, alternative)).frequency;
+        flexible_mode(numbers.antenna, changes_of(numbers.antenna, alternative)).frequency;
     others += fmt::format("; the flexible antenna has {:.3f} Hz with the inertia of {}", frequency,
                           alternative.name);
     implausible.numbers.push_back({alternative.name, frequency, "Hz"});

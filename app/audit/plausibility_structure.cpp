@@ -10,8 +10,9 @@
 #include <fmt/ranges.h>
 
 #include <boresight/app/audit/plausibility_checks.hpp>
-#include <boresight/app/redesign/antenna_model.hpp>
 #include <boresight/app/report/sky_units.hpp>
+#include <boresight/design/problem/static_bending.hpp>
+#include <boresight/io/case/mission_of.hpp>
 #include <boresight/io/case/structure_numbers.hpp>
 #include <boresight/plant/antenna/motors_held_modes.hpp>
 

@@ -8,10 +8,10 @@
 
 #include <boresight/app/document/document.hpp>
 #include <boresight/app/figures/figure.hpp>
-#include <boresight/app/redesign/antenna_model.hpp>
 #include <boresight/app/simulate/time_domain.hpp>
 #include <boresight/app/uncertainty/designed_antenna.hpp>
 #include <boresight/design/benchmark/rejection_benchmark.hpp>
+#include <boresight/design/problem/pointing_budget.hpp>
 #include <boresight/io/case/case_file.hpp>
 
 namespace boresight::app {
@@ -54,7 +54,7 @@ struct BenchmarkReport {
   bool from_records = false;
   std::string attitudes;  // which were judged, in words
   std::string ensemble_source;
-  std::vector<PointingBudget> budgets;
+  std::vector<design::PointingBudget> budgets;
   design::RejectionScore score;
   /// Of the beam after 1 N m, 1 N m s at the motor shaft (rad of motor): at most 120 s for plots.
   std::vector<control::CoursePoint> step_course, impulse_course;

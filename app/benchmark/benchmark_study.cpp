@@ -6,7 +6,6 @@
 #include <fmt/format.h>
 
 #include <boresight/app/benchmark/benchmark_report.hpp>
-#include <boresight/app/redesign/antenna_model.hpp>
 #include <boresight/app/redesign/assumed_inputs.hpp>
 #include <boresight/app/redesign/sections.hpp>
 #include <boresight/app/report/json_report.hpp>
@@ -14,7 +13,8 @@
 #include <boresight/app/tune/engineer_units.hpp>
 #include <boresight/control/controllers/sampled_law.hpp>
 #include <boresight/control/loops/state_space_controller.hpp>
-#include <boresight/numerics/angles.hpp>
+#include <boresight/io/case/drive_numbers.hpp>
+#include <boresight/io/case/mission_of.hpp>
 #include <boresight/numerics/error.hpp>
 
 namespace boresight::app {

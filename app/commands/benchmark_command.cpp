@@ -8,9 +8,9 @@
 #include <boresight/app/commands/progress_line.hpp>
 #include <boresight/app/figures/benchmark_figures.hpp>
 #include <boresight/app/page/report_page.hpp>
-#include <boresight/app/redesign/antenna_model.hpp>
 #include <boresight/app/report/json_report.hpp>
 #include <boresight/app/tune/engineer_units.hpp>
+#include <boresight/io/case/drive_numbers.hpp>
 #include <boresight/io/exchange/controller_file.hpp>
 #include <boresight/io/files/input_files.hpp>
 #include <boresight/io/files/write_atomically.hpp>

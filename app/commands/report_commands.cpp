@@ -21,6 +21,8 @@
 #include <boresight/app/tune/budgets_on_plants.hpp>
 #include <boresight/app/tune/plant_members.hpp>
 #include <boresight/design/ensembles/plant_ensemble.hpp>
+#include <boresight/design/problem/pointing_budget.hpp>
+#include <boresight/io/case/mission_of.hpp>
 #include <boresight/io/files/write_atomically.hpp>
 
 namespace boresight::app {
@@ -67,7 +69,7 @@ void judge_on_ensemble(const io::Case& antenna, const io::Case& designed,
   section.ensemble = design::judge(section.problem, members, law, section.goals, options.threads);
   section.ensemble_source =
       recorded ? "drawn from what the records leave open" : "of the case's ensemble";
-  std::vector<PointingBudget> budgets;
+  std::vector<design::PointingBudget> budgets;
   for (const auto& result : section.budgets) budgets.push_back(result.budget);
   const auto met = plants_within_budgets(section.problem, members, law, section.goals, budgets, 1.0,
                                          options.threads);

@@ -19,11 +19,11 @@
 #include <boresight/app/figures/simulation_figures.hpp>
 #include <boresight/app/montecarlo/held_law.hpp>
 #include <boresight/app/page/report_page.hpp>
-#include <boresight/app/redesign/antenna_model.hpp>
 #include <boresight/app/redesign/assumed_inputs.hpp>
 #include <boresight/app/redesign/sections.hpp>
 #include <boresight/app/report/json_report.hpp>
 #include <boresight/app/simulate/antenna_tests.hpp>
+#include <boresight/io/case/drive_numbers.hpp>
 #include <boresight/io/case/field.hpp>
 #include <boresight/io/files/write_atomically.hpp>
 #include <boresight/io/records/record_mat_writer.hpp>

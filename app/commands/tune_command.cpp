@@ -20,6 +20,7 @@
 #include <boresight/app/tune/tune_study.hpp>
 #include <boresight/app/tune/tune_verdict.hpp>
 #include <boresight/app/uncertainty/designed_antenna.hpp>
+#include <boresight/io/case/mission_of.hpp>
 #include <boresight/io/files/write_atomically.hpp>
 #include <boresight/io/units/wording.hpp>
 #include <boresight/numerics/error.hpp>

@@ -14,6 +14,8 @@
 #include <boresight/app/tune/engineer_units.hpp>
 #include <boresight/app/tune/gains_at_bounds.hpp>
 #include <boresight/app/tune/tuned_assessment.hpp>
+#include <boresight/io/case/drive_numbers.hpp>
+#include <boresight/io/case/mission_of.hpp>
 #include <boresight/io/units/wording.hpp>
 #include <boresight/numerics/angles.hpp>
 #include <boresight/numerics/error.hpp>

@@ -10,7 +10,6 @@
 
 #include <boresight/app/document/document.hpp>
 #include <boresight/app/figures/figure.hpp>
-#include <boresight/app/redesign/antenna_model.hpp>
 #include <boresight/app/tune/tune_study.hpp>
 #include <boresight/design/commissioning/commissioning.hpp>
 #include <boresight/design/commissioning/commissioning_records.hpp>

@@ -10,6 +10,8 @@
 #include <boresight/app/tune/engineer_units.hpp>
 #include <boresight/app/tune/plant_members.hpp>
 #include <boresight/design/tuning/structure_parts.hpp>
+#include <boresight/io/case/antenna_of.hpp>
+#include <boresight/io/case/mission_of.hpp>
 #include <boresight/numerics/parallel_loop.hpp>
 
 namespace boresight::app {

@@ -3,8 +3,11 @@
 #include <limits>
 
 #include <boresight/app/evaluate/proposed_case.hpp>
-#include <boresight/app/redesign/antenna_model.hpp>
 #include <boresight/app/report/sky_units.hpp>
+#include <boresight/io/case/antenna_of.hpp>
+#include <boresight/io/case/drive_numbers.hpp>
+#include <boresight/io/case/mission_of.hpp>
+#include <boresight/io/case/plant_numbers.hpp>
 #include <boresight/io/case/structure_numbers.hpp>
 #include <boresight/numerics/angles.hpp>
 #include <boresight/plant/wind/wind.hpp>
@@ -62,7 +65,7 @@ struct Derived {
 constexpr Derived derived[] = {
     {"gear ratio", "1", io::gear_ratio, "product of driven over driving teeth"},
     {"inertia of all motors", "kg.m2", all_motors, "count x (rotor + disks x disk inertia)"},
-    {"gear train at the motors", "kg.m2", gear_train_inertia,
+    {"gear train at the motors", "kg.m2", io::gear_train_inertia,
      "each body over the square of the ratio before it"},
     {"antenna at the motors", "kg.m2", [](const io::Case& c) { return antenna_inertia(c); },
      "over the square of the gear ratio"},

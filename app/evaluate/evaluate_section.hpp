@@ -7,12 +7,13 @@
 #include <vector>
 
 #include <boresight/app/evaluate/proposed_case.hpp>
-#include <boresight/app/redesign/antenna_model.hpp>
 #include <boresight/app/uncertainty/plant_distribution.hpp>
 #include <boresight/design/decisions/decision_statistics.hpp>
 #include <boresight/design/decisions/test_value.hpp>
 #include <boresight/design/decisions/tornado.hpp>
 #include <boresight/design/ensembles/plant_ensemble.hpp>
+#include <boresight/design/problem/pointing_budget.hpp>
+#include <boresight/design/tuning/design_study.hpp>
 #include <boresight/design/verification/nonlinear_verification.hpp>
 #include <boresight/numerics/statistics/sobol_indices.hpp>
 
@@ -72,7 +73,7 @@ struct CandidateFigures {
   /// What friction and offset leave of the supply's torque, over the largest in gusts.
   double supply_margin = 0.0;
   double demand_margin = 0.0;              // valve stroke over the largest demand in gusts
-  std::optional<double> slew_rate_margin;  // app::slew_rate_margin
+  std::optional<double> slew_rate_margin;  // io::slew_rate_margin
   std::optional<SlewFigures> slew;         // of cases with a [simulation]
 };
 
@@ -166,8 +167,8 @@ struct EvaluateSection {
   std::string ensemble_source;
   std::size_t ensemble_size = 0;
   int starts = 0;
-  std::vector<PointingBand> bands;
-  std::vector<PointingBudget> budgets;
+  std::vector<design::PointingBand> bands;
+  std::vector<design::PointingBudget> budgets;
   /// How laws ran on the nonlinear antenna; none if they did not.
   std::optional<design::NonlinearVerificationOptions> time_domain;
   std::vector<Candidate> candidates;  // the antenna as it is first

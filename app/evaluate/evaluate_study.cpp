@@ -6,13 +6,18 @@
 
 #include <boresight/app/evaluate/candidate_laws.hpp>
 #include <boresight/app/evaluate/evaluate_study.hpp>
-#include <boresight/app/redesign/loaded_drive.hpp>
 #include <boresight/app/simulate/nonlinear_model.hpp>
 #include <boresight/app/simulate/time_domain.hpp>
 #include <boresight/design/decisions/pareto_front.hpp>
 #include <boresight/design/decisions/recommend.hpp>
 #include <boresight/design/problem/drive_reach.hpp>
+#include <boresight/design/problem/pointing.hpp>
+#include <boresight/io/case/antenna_of.hpp>
+#include <boresight/io/case/drive_numbers.hpp>
 #include <boresight/io/case/field.hpp>
+#include <boresight/io/case/loaded_drive.hpp>
+#include <boresight/io/case/mission_of.hpp>
+#include <boresight/io/case/plant_numbers.hpp>
 #include <boresight/io/units/wording.hpp>
 #include <boresight/numerics/angles.hpp>
 #include <boresight/numerics/error.hpp>
@@ -234,7 +239,7 @@ plant::AntennaPlant proposed_plant(const io::Case& as_is, const io::Case& propos
     own.values.at(static_cast<std::size_t>(UncertainInput::friction_slope)) *=
         io::tracking_friction(proposed) / slope;
   }
-  return make_plant(proposed, own);
+  return make_plant(proposed, changes_of(own));
 }
 
 void check_proposals(const io::Case& antenna, const std::vector<Proposal>& proposals) {

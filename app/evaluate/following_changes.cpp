@@ -4,8 +4,9 @@
 #include <fmt/format.h>
 
 #include <boresight/app/evaluate/following_changes.hpp>
-#include <boresight/app/redesign/antenna_model.hpp>
+#include <boresight/io/case/drive_numbers.hpp>
 #include <boresight/io/case/field.hpp>
+#include <boresight/io/case/plant_numbers.hpp>
 #include <boresight/io/case/structure_numbers.hpp>
 
 namespace boresight::app {

@@ -4,6 +4,7 @@
 
 #include <boresight/app/evaluate/held_candidate.hpp>
 #include <boresight/app/report/sky_units.hpp>
+#include <boresight/io/case/mission_of.hpp>
 #include <boresight/numerics/parallel_loop.hpp>
 
 namespace boresight::app {

@@ -9,7 +9,7 @@
 #include <boresight/app/evaluate/proposal_effects.hpp>
 #include <boresight/app/report/sky_units.hpp>
 #include <boresight/app/report/wind_mast.hpp>
-#include <boresight/numerics/angles.hpp>
+#include <boresight/design/problem/pointing_budget.hpp>
 
 namespace boresight::app {
 namespace {
@@ -120,7 +120,7 @@ std::string changed_motion(const EvaluateSection& section) {
 std::string plants_within_needs(const EvaluateSection& section) {
   std::vector<std::string> needs;
   for (std::size_t i = 0; i < section.budgets.size(); ++i) {
-    const PointingBudget& budget = section.budgets[i];
+    const design::PointingBudget& budget = section.budgets[i];
     if (!budget.wind_speed) continue;
     std::vector<std::string> counts;
     for (const auto& candidate : section.candidates) {

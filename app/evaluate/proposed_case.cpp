@@ -6,8 +6,10 @@
 #include <boresight/app/evaluate/changeable_numbers.hpp>
 #include <boresight/app/evaluate/following_changes.hpp>
 #include <boresight/app/evaluate/proposed_case.hpp>
-#include <boresight/app/redesign/antenna_model.hpp>
+#include <boresight/io/case/antenna_of.hpp>
+#include <boresight/io/case/drive_numbers.hpp>
 #include <boresight/io/case/field.hpp>
+#include <boresight/io/case/plant_numbers.hpp>
 #include <boresight/io/case/structure_numbers.hpp>
 #include <boresight/io/units/wording.hpp>
 #include <boresight/numerics/error.hpp>

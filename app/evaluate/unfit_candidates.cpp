@@ -9,6 +9,7 @@
 #include <boresight/app/report/influences.hpp>
 #include <boresight/app/report/sky_units.hpp>
 #include <boresight/app/report/wind_mast.hpp>
+#include <boresight/design/problem/pointing_budget.hpp>
 
 namespace boresight::app {
 namespace {
@@ -100,7 +101,7 @@ std::string as_near_text(const EvaluateSection& section, std::size_t budget,
 std::vector<std::string> unmet_needs(const EvaluateSection& section) {
   std::vector<std::string> sentences;
   for (std::size_t i = 0; i < section.budgets.size(); ++i) {
-    const PointingBudget& budget = section.budgets[i];
+    const design::PointingBudget& budget = section.budgets[i];
     if (!budget.wind_speed) continue;
     const double needed = *budget.wind_speed * (1.0 - 1e-6);
     const Candidate* nearest = nullptr;

@@ -9,7 +9,8 @@
 #include <boresight/app/figures/law_figures.hpp>
 #include <boresight/app/report/sky_units.hpp>
 #include <boresight/control/loops/closed_loop.hpp>
-#include <boresight/numerics/angles.hpp>
+#include <boresight/design/problem/pointing_budget.hpp>
+#include <boresight/design/tuning/design_study.hpp>
 #include <boresight/plant/antenna/plant_response.hpp>
 #include <boresight/plant/linear/response_grid.hpp>
 
@@ -275,7 +276,7 @@ std::vector<Figure> law_figures(const DrawnLaw& drawn) {
 Figure rms_against_wind(const std::string& id, const std::string& section,
                         const design::TrackingProblem& problem,
                         const std::vector<ComparedLaw>& laws,
-                        const std::vector<PointingBudget>& budgets) {
+                        const std::vector<design::PointingBudget>& budgets) {
   Figure figure;
   figure.id = id;
   figure.section = section;

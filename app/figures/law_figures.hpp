@@ -5,10 +5,10 @@
 #include <vector>
 
 #include <boresight/app/figures/figure.hpp>
-#include <boresight/app/redesign/antenna_model.hpp>
 #include <boresight/control/analysis/margins.hpp>
 #include <boresight/control/controllers/control_law.hpp>
 #include <boresight/design/problem/goals.hpp>
+#include <boresight/design/problem/pointing_budget.hpp>
 #include <boresight/design/problem/tracking_problem.hpp>
 
 namespace boresight::app {
@@ -43,7 +43,7 @@ struct ComparedLaw {
 Figure rms_against_wind(const std::string& id, const std::string& section,
                         const design::TrackingProblem& problem,
                         const std::vector<ComparedLaw>& laws,
-                        const std::vector<PointingBudget>& budgets);
+                        const std::vector<design::PointingBudget>& budgets);
 
 /// Magnitudes of the sensitivity of laws at one break, with its goal.
 Figure compared_sensitivities(const std::string& id, const std::string& section,

@@ -8,6 +8,7 @@
 #include <boresight/app/figures/tuning_figures.hpp>
 #include <boresight/app/redesign/matching_verdict.hpp>
 #include <boresight/app/report/sky_units.hpp>
+#include <boresight/design/problem/pointing_budget.hpp>
 
 namespace boresight::app {
 namespace {
@@ -35,7 +36,7 @@ std::vector<Figure> tuning_figures(const TuningSection& section) {
                               .margins = design.margins,
                               .goals = section.goals,
                               .noise_variance = noise});
-  std::vector<PointingBudget> budgets;
+  std::vector<design::PointingBudget> budgets;
   for (const auto& result : section.budgets) budgets.push_back(result.budget);
   figures.push_back(rms_against_wind("tuned-rms-against-wind", title, section.problem,
                                      {{name, design.tuning.law, noise}}, budgets));

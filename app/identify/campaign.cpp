@@ -5,7 +5,8 @@
 
 #include <boresight/app/identify/campaign.hpp>
 #include <boresight/app/identify/loaded_record.hpp>
-#include <boresight/app/redesign/antenna_model.hpp>
+#include <boresight/io/case/drive_evidence.hpp>
+#include <boresight/io/case/drive_numbers.hpp>
 #include <boresight/io/case/field.hpp>
 #include <boresight/plant/antenna/gear_train.hpp>
 

@@ -4,7 +4,8 @@
 #include <fmt/format.h>
 
 #include <boresight/app/identify/campaign_comparison.hpp>
-#include <boresight/app/redesign/antenna_model.hpp>
+#include <boresight/io/case/drive_numbers.hpp>
+#include <boresight/io/case/plant_numbers.hpp>
 #include <boresight/plant/antenna/friction.hpp>
 
 namespace boresight::app {

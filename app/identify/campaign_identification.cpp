@@ -8,8 +8,8 @@
 
 #include <boresight/app/identify/campaign_comparison.hpp>
 #include <boresight/app/identify/campaign_identification.hpp>
-#include <boresight/app/redesign/antenna_model.hpp>
 #include <boresight/identification/resonance/drive_response.hpp>
+#include <boresight/io/case/plant_numbers.hpp>
 #include <boresight/numerics/parallel_loop.hpp>
 
 namespace boresight::app {

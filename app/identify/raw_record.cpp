@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 
 #include <boresight/app/identify/raw_record.hpp>
-#include <boresight/app/redesign/antenna_model.hpp>
+#include <boresight/io/case/drive_numbers.hpp>
 #include <boresight/io/case/field.hpp>
 #include <boresight/io/records/record_columns.hpp>
 #include <boresight/io/units/kinds.hpp>

@@ -7,10 +7,11 @@
 #include <vector>
 
 #include <boresight/app/match/what_if_table.hpp>
-#include <boresight/app/redesign/antenna_model.hpp>
 #include <boresight/design/matching/matching_curves.hpp>
 #include <boresight/design/matching/matching_smoothness.hpp>
+#include <boresight/design/tuning/design_study.hpp>
 #include <boresight/design/verification/nonlinear_verification.hpp>
+#include <boresight/io/case/case_file.hpp>
 
 namespace boresight::app {
 

@@ -8,9 +8,13 @@
 #include <boresight/app/simulate/nonlinear_model.hpp>
 #include <boresight/app/tune/asked_structures.hpp>
 #include <boresight/design/problem/drive_reach.hpp>
-#include <boresight/numerics/angles.hpp>
+#include <boresight/io/case/antenna_of.hpp>
+#include <boresight/io/case/drive_numbers.hpp>
+#include <boresight/io/case/mission_of.hpp>
+#include <boresight/io/case/plant_numbers.hpp>
 #include <boresight/numerics/error.hpp>
 #include <boresight/numerics/parallel_loop.hpp>
+#include <boresight/plant/antenna/antenna_change.hpp>
 #include <boresight/plant/nonlinear/antenna_parameters.hpp>
 
 namespace boresight::app {
@@ -81,7 +85,7 @@ double rate_within_reach(const io::Case& antenna) {
 }
 
 void describe(const io::Case& antenna, const MatchSection& section, MatchPoint& point) {
-  const auto plant = make_plant(antenna, {.flywheel_disks = point.disks});
+  const auto plant = make_plant(antenna, {plant::set_to("motor.flywheel_disks", point.disks)});
   point.motor_inertia = motor_inertia(antenna, point.disks);
   point.reflected_inertia = plant::reflected_inertia(plant);
   point.motor_to_load_ratio =
@@ -143,7 +147,7 @@ MatchValue look_at(const io::Case& antenna, const MatchSection& section, const M
   value.beam_rms = value.wind_rms = value.noise_rms = value.valve_effort = nan;
   value.found = law.status == design::TuningStatus::optimal;
   if (law.status == design::TuningStatus::unstable) return value;
-  auto problem = make_problem(antenna, {.flywheel_disks = point.disks});
+  auto problem = make_problem(antenna, {plant::set_to("motor.flywheel_disks", point.disks)});
   problem.points_per_decade = 100;
   auto evaluator = design::make_adaptive_evaluator(problem, wind);
   evaluator.look_at_gusts(true);
@@ -177,7 +181,7 @@ MatchValue look_at(const io::Case& antenna, const MatchSection& section, const M
 // In still air: the linear figures say what wind does.
 MatchTimeDomain run_in_time(const io::Case& antenna, const MatchPoint& point,
                             const control::ControlLaw& law) {
-  const auto problem = make_problem(antenna, {.flywheel_disks = point.disks});
+  const auto problem = make_problem(antenna, {plant::set_to("motor.flywheel_disks", point.disks)});
   const auto nonlinear =
       plant::with_parameter(make_nonlinear_antenna(antenna), plant::AntennaParameter::motor_inertia,
                             problem.plant.drive.motor_inertia);
@@ -276,7 +280,8 @@ MatchSection match_motors(const io::Case& antenna,
   task.soft_goal = section.soft_goal;
   for (const auto& point : section.points) {
     task.motor_inertia.push_back(
-        make_plant(antenna, {.flywheel_disks = point.disks}).drive.motor_inertia);
+        make_plant(antenna, {plant::set_to("motor.flywheel_disks", point.disks)})
+            .drive.motor_inertia);
   }
   for (const auto& name : names) task.structures.push_back(io::loop_structure(antenna, name));
   design::MatchingOptions how;

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include <boresight/app/match/match_section.hpp>
+#include <boresight/io/case/case_file.hpp>
 
 namespace boresight::app {
 

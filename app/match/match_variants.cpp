@@ -8,6 +8,11 @@
 
 #include <boresight/app/match/match_study.hpp>
 #include <boresight/app/match/match_verdict.hpp>
+#include <boresight/io/case/antenna_of.hpp>
+#include <boresight/io/case/guessed_shares.hpp>
+#include <boresight/io/case/mission_of.hpp>
+#include <boresight/io/case/plant_numbers.hpp>
+#include <boresight/plant/antenna/antenna_change.hpp>
 
 namespace boresight::app {
 namespace {
@@ -17,38 +22,39 @@ constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 // One thing that is not as the case has it.
 struct Change {
   std::string name;
-  PlantVariant variant = {};
+  std::vector<plant::AntennaChange> antenna = {};
   std::optional<plant::WindModel> wind = std::nullopt;
 };
 
 std::vector<Change> changes_of(const io::Case& antenna, const MatchSection& section) {
-  const double leakage = antenna.drive.leakage_rate.value;
   std::vector<Change> changes{{"the case's plant", {}, {}},
-                              {"leakage x 0.3", {.leakage_rate = 0.3 * leakage}, {}},
-                              {"leakage x 2", {.leakage_rate = 2.0 * leakage}, {}}};
+                              {"leakage x 0.3", {plant::scaled_by("drive.leakage_rate", 0.3)}, {}},
+                              {"leakage x 2", {plant::scaled_by("drive.leakage_rate", 2.0)}, {}}};
   if (!one_friction(section)) {
     changes.push_back({fmt::format("friction slope {:.3g} N.m.s/rad (at tracking rate)",
                                    section.tracking_friction),
-                       {.viscous_friction = section.tracking_friction},
+                       {plant::set_to("drive.viscous_friction", section.tracking_friction)},
                        {}});
   }
   changes.insert(
       changes.end(),
-      {{"structure frequencies x 0.9", {.structure_frequency_scale = 0.9}, {}},
-       {"structure frequencies x 1.1", {.structure_frequency_scale = 1.1}, {}},
+      {{"structure frequencies x 0.9", {plant::scaled_by("structure.frequencies", 0.9)}, {}},
+       {"structure frequencies x 1.1", {plant::scaled_by("structure.frequencies", 1.1)}, {}},
        {antenna.oil.efficiency_in_stiffness ? "oil stiffness without efficiencies"
                                             : "oil stiffness with efficiencies",
-        {.oil_stiffness = oil_stiffness(antenna, antenna.oil.efficiency_in_stiffness
-                                                     ? plant::EfficiencyInStiffness::none
-                                                     : plant::EfficiencyInStiffness::both)},
+        {plant::set_to("at_shaft.oil_stiffness",
+                       oil_stiffness(antenna, antenna.oil.efficiency_in_stiffness
+                                                  ? plant::EfficiencyInStiffness::none
+                                                  : plant::EfficiencyInStiffness::both))},
         {}}});
   for (const auto& alternative : antenna.antenna.alternatives) {
     changes.push_back(
-        {"antenna inertia of " + alternative.name, variant_of(antenna, alternative), {}});
+        {"antenna inertia of " + alternative.name, changes_of(antenna, alternative), {}});
   }
-  for (const auto place : other_guesses) {
+  for (const auto place : io::other_guesses) {
     if (!moves_guessed_shares(antenna.structure, place)) continue;
-    changes.push_back({std::string(to_string(place)), {.guessed_shares = place}, {}});
+    changes.push_back(
+        {std::string(to_string(place)), guessed_share_changes(antenna.structure, place), {}});
   }
   for (const auto model :
        {plant::WindModel::uniform, plant::WindModel::vickery, plant::WindModel::coherence}) {
@@ -63,14 +69,14 @@ std::vector<double> curve_of(const io::Case& antenna, const MatchSection& sectio
                              const MatchOptions& options, const control::LoopStructure& structure,
                              const std::vector<double>& disks, const Change& change) {
   design::MatchingTask task;
-  task.problem = make_problem(antenna, change.variant);
+  task.problem = make_problem(antenna, change.antenna);
   if (change.wind) task.problem.wind.model = *change.wind;
   task.structures = {structure};
   task.goals = section.goals;
   for (const double count : disks) {
-    PlantVariant variant = change.variant;
-    variant.flywheel_disks = count;
-    task.motor_inertia.push_back(make_plant(antenna, variant).drive.motor_inertia);
+    auto changes = change.antenna;
+    changes.push_back(plant::set_to("motor.flywheel_disks", count));
+    task.motor_inertia.push_back(make_plant(antenna, changes).drive.motor_inertia);
   }
   design::MatchingOptions how;
   how.starts = options.starts;
@@ -176,7 +182,7 @@ void vary(const io::Case& antenna, const MatchOptions& options, MatchSection& se
     const std::vector<double> few{0.0, most / 4.0, most / 2.0, most};
     auto threshold = find_threshold(section, *series, [&](double slope) {
       return spread_of(curve_of(antenna, section, options, series->curve.structure, few,
-                                {"", {.viscous_friction = slope}, {}}));
+                                {"", {plant::set_to("drive.viscous_friction", slope)}, {}}));
     });
     if (stopped()) return;
     section.variants.push_back(std::move(variants));

@@ -3,7 +3,9 @@
 
 #include <boresight/app/match/what_if.hpp>
 #include <boresight/design/ensembles/monte_carlo.hpp>
+#include <boresight/io/case/mission_of.hpp>
 #include <boresight/numerics/parallel_loop.hpp>
+#include <boresight/plant/antenna/antenna_change.hpp>
 
 namespace boresight::app {
 namespace {
@@ -77,7 +79,8 @@ WhatIfTable what_if(const io::Case& antenna, const MatchSection& section,
 
   std::vector<design::TrackingProblem> problems;
   for (const std::size_t p : points) {
-    problems.push_back(make_problem(antenna, {.flywheel_disks = section.points[p].disks}));
+    problems.push_back(
+        make_problem(antenna, {plant::set_to("motor.flywheel_disks", section.points[p].disks)}));
     // The sliders name one speed; a climate has no say in it.
     problems.back().climate.clear();
   }

@@ -3,6 +3,7 @@
 #include <functional>
 
 #include <boresight/app/match/match_section.hpp>
+#include <boresight/io/case/case_file.hpp>
 
 namespace boresight::app {
 

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include <boresight/app/redesign/antenna_model.hpp>
+#include <boresight/design/problem/pointing_budget.hpp>
 
 namespace boresight::app {
 
@@ -22,8 +22,8 @@ struct WhatIfTable {
   // Where the sliders start: the case's own.
   double leakage_rate = 0.0, friction_slope = 0.0, wind_speed = 0.0, disks_as_built = 0.0;
   double tracking_friction = 0.0;  // N m s/rad, slope of the friction curve at the tracking rate
-  std::vector<PointingBand> bands;
-  std::vector<PointingBudget> budgets;
+  std::vector<design::PointingBand> bands;
+  std::vector<design::PointingBudget> budgets;
   /// By structure, disks, leakage, friction and wind speed, the last fastest: rms of the beam at
   /// the sky (rad, one axis), NaN where unstable, and what becomes of stability and hard goals.
   std::vector<double> beam_rms;

@@ -2,10 +2,10 @@
 
 #include <boresight/app/benchmark/benchmark_report.hpp>
 #include <boresight/app/models/linear_models.hpp>
-#include <boresight/app/redesign/antenna_model.hpp>
 #include <boresight/app/tune/laws_in_time.hpp>
 #include <boresight/app/tune/tune_verdict.hpp>
 #include <boresight/control/loops/closed_loop.hpp>
+#include <boresight/io/case/drive_numbers.hpp>
 
 namespace boresight::app {
 

@@ -7,10 +7,11 @@
 #include <vector>
 
 #include <boresight/app/figures/figure.hpp>
-#include <boresight/app/redesign/antenna_model.hpp>
 #include <boresight/app/uncertainty/plant_distribution.hpp>
 #include <boresight/design/ensembles/monte_carlo.hpp>
 #include <boresight/design/ensembles/monte_carlo_statistics.hpp>
+#include <boresight/design/problem/pointing_budget.hpp>
+#include <boresight/io/case/case_file.hpp>
 
 namespace boresight::app {
 
@@ -52,14 +53,14 @@ struct MonteCarloSection {
   design::DistributionSummary beam_rms;
   std::optional<design::DistributionSummary> climate_rms;
   struct BandLoss {
-    PointingBand band;
+    design::PointingBand band;
     design::DistributionSummary loss;  // dB, mean over two equal axes, at the design's wind speed
     /// The same, expected over the site's wind climate.
     std::optional<design::DistributionSummary> climate_loss;
   };
   std::vector<BandLoss> losses;
   struct BudgetChance {
-    PointingBudget budget;
+    design::PointingBudget budget;
     design::EstimatedNumber met;  // at the design's wind speed; no unstable plant meets one
   };
   std::vector<BudgetChance> budgets;

@@ -15,7 +15,8 @@
 #include <boresight/app/redesign/sections.hpp>
 #include <boresight/app/tune/engineer_units.hpp>
 #include <boresight/app/uncertainty/designed_antenna.hpp>
-#include <boresight/io/files/input_files.hpp>
+#include <boresight/io/case/antenna_of.hpp>
+#include <boresight/io/case/mission_of.hpp>
 #include <boresight/io/files/write_atomically.hpp>
 #include <boresight/numerics/error.hpp>
 
@@ -240,8 +241,9 @@ design::MonteCarlo make_study(const MonteCarloArguments& arguments, const Popula
   study.plants = arguments.plants;
   study.retune = arguments.retune;
   study.retune_over_climate = antenna.goals.over_climate;
-  study.plant = [population, seed = arguments.seed](std::uint64_t index) {
-    return make_plant(population->antenna, population->distribution.draw(seed, index));
+  study.plant = [population, own = antenna_of(population->antenna),
+                 seed = arguments.seed](std::uint64_t index) {
+    return linear_plant(changed(own, changes_of(population->distribution.draw(seed, index))));
   };
   return study;
 }

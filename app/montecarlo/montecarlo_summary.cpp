@@ -8,6 +8,7 @@
 #include <boresight/app/montecarlo/montecarlo_study.hpp>
 #include <boresight/app/report/sky_units.hpp>
 #include <boresight/design/problem/pointing.hpp>
+#include <boresight/design/problem/pointing_budget.hpp>
 #include <boresight/numerics/error.hpp>
 
 namespace boresight::app {
@@ -27,7 +28,7 @@ std::vector<double> mapped(const std::vector<double>& values,
   return result;
 }
 
-double mean_loss(double rms, const PointingBand& band) {
+double mean_loss(double rms, const design::PointingBand& band) {
   return design::pointing_loss_db(rms, band.beamwidth, design::LossConvention::mean_loss_two_axes);
 }
 

@@ -12,6 +12,7 @@
 #include <boresight/app/redesign/needed_budgets.hpp>
 #include <boresight/app/report/influences.hpp>
 #include <boresight/app/report/sky_units.hpp>
+#include <boresight/design/problem/pointing_budget.hpp>
 
 namespace boresight::app {
 namespace {
@@ -34,7 +35,7 @@ std::string turned_verdicts(const Report& report, const TuningSection& section,
                             const Counts& counts) {
   std::vector<std::string> verdicts;
   for (std::size_t i = 0; i < section.budgets.size(); ++i) {
-    const PointingBudget& budget = section.budgets[i].budget;
+    const design::PointingBudget& budget = section.budgets[i].budget;
     const bool met = meets_need(budget, reached_wind_speed(section, section.budgets[i]));
     std::vector<std::string> names;
     // The first is the case's own.
@@ -95,7 +96,7 @@ std::string guessed_shares_text(const Report& report, const TuningSection& secti
   }
   std::string verdicts;
   for (std::size_t i = 0; i < section.budgets.size(); ++i) {
-    const PointingBudget& budget = section.budgets[i].budget;
+    const design::PointingBudget& budget = section.budgets[i].budget;
     std::vector<std::string> meeting, missing;
     for (const Guess& guess : guesses) {
       (meets_need(budget, guess.reached.at(i)) ? meeting : missing).push_back(guess.name);

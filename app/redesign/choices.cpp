@@ -7,46 +7,61 @@
 
 #include <boresight/app/redesign/choices.hpp>
 #include <boresight/app/redesign/resonance_verdict.hpp>
-#include <boresight/app/redesign/resonating_mode.hpp>
+#include <boresight/io/case/antenna_of.hpp>
+#include <boresight/io/case/guessed_shares.hpp>
+#include <boresight/io/case/plant_numbers.hpp>
+#include <boresight/io/case/resonating_mode.hpp>
 #include <boresight/io/case/structure_numbers.hpp>
+#include <boresight/plant/antenna/antenna_change.hpp>
 
 namespace boresight::app {
 namespace {
 
+using Changes = std::vector<plant::AntennaChange>;
+
 class Choices {
  public:
   explicit Choices(const io::Case& antenna)
-      : antenna_(antenna), motors_(motor_inertia(antenna, antenna.motor.flywheel_disks)) {}
+      : antenna_(antenna), own_(antenna_of(antenna)), motors_(plant::motor_inertia(own_)) {}
 
+  double motor_inertia() const { return motors_; }
   // Motors and gear train.
-  double fixed_inertia() const { return motors_ + gear_train_inertia(antenna_); }
+  double fixed_inertia() const { return motors_ + gear_train_inertia(own_); }
 
   // Of the numbers that the case states, or a convention or solution of the reckoning.
-  void add(std::string name, std::string says, const PlantVariant& variant) {
-    const auto plant = make_plant(antenna_, variant);
+  void add(std::string name, std::string says, const plant::Antenna& other) {
+    const auto plant = linear_plant(other);
     const double inertia = plant::reflected_inertia(plant);
     choices_.push_back({{std::move(name),
                          std::move(says),
                          plant.drive.oil_stiffness,
                          inertia,
-                         plant::motor_to_load_ratio(variant.inertia_scale * motors_, inertia),
+                         plant::motor_to_load_ratio(plant::motor_inertia(other), inertia),
                          std::nullopt,
                          {}},
-                        variant});
+                        other});
     ChoiceResult& added = choices_.back().result;
-    added.other_shares = variant.guessed_shares != GuessedShares::as_stated;
     if (antenna_.resonance_frequency) added.resonance = resonating_mode(antenna_, plant).frequency;
   }
 
+  void add(std::string name, std::string says, const Changes& changes) {
+    add(std::move(name), std::move(says), changed(own_, changes));
+  }
+
   // Of another source or a test.
-  void add_contradiction(std::string name, std::string says, const PlantVariant& variant) {
-    add(std::move(name), std::move(says), variant);
+  void add_contradiction(std::string name, std::string says, const Changes& changes) {
+    add(std::move(name), std::move(says), changes);
     choices_.back().result.contradicts = true;
   }
 
-  void add_attitude(std::string name, std::string says, const PlantVariant& variant) {
-    add(std::move(name), std::move(says), variant);
+  void add_attitude(std::string name, std::string says, const Changes& changes) {
+    add(std::move(name), std::move(says), changes);
     choices_.back().result.other_attitude = true;
+  }
+
+  void add_shares(std::string name, std::string says, const Changes& changes) {
+    add(std::move(name), std::move(says), changes);
+    choices_.back().result.other_shares = true;
   }
 
   // The inertia a test found, with motors and gear train kept and the antenna taking the rest;
@@ -59,7 +74,8 @@ class Choices {
         model, found - fixed, stated);
     if (found - fixed > 0.05 * stated) {
       add_contradiction(std::move(name), std::move(says),
-                        {.antenna_inertia = found - fixed, .oil_stiffness = stiffness});
+                        {plant::set_to("at_shaft.antenna_inertia", found - fixed),
+                         plant::set_to("at_shaft.oil_stiffness", stiffness)});
       return;
     }
     ChoiceResult impossible;
@@ -87,6 +103,7 @@ class Choices {
 
  private:
   const io::Case& antenna_;
+  plant::Antenna own_;
   double motors_ = 0.0;
   std::vector<PlantChoice> choices_;
 };
@@ -105,8 +122,7 @@ void add_flexible_resonance(const io::Case& antenna, double frequency, const std
       fmt::format("bulk modulus of {:.3g} GPa{} by which the flexible antenna has the measured "
                   "{:g} Hz",
                   *modulus / gigapascal, leakage.empty() ? "," : leakage, frequency),
-      {.oil_stiffness = factor * oil_stiffness(antenna),
-       .leakage_rate = leakage_rate_at(antenna, factor)});
+      bulk_modulus_times(antenna, factor));
 }
 
 // By a resonance at that frequency (Hz); `other`: the oil spring by the other convention.
@@ -125,30 +141,35 @@ void add_resonance(const io::Case& antenna, double frequency, double other, Choi
       fmt::format("oil spring {} by a factor of {:.3g}{} so that the rigid masses ring at {:g} Hz",
                   factor < 1.0 ? "lowered" : "raised", std::max(factor, 1.0 / factor), leakage,
                   frequency),
-      {.oil_stiffness = factor * own, .leakage_rate = leakage_rate_at(antenna, factor)});
+      bulk_modulus_times(antenna, factor));
   const std::string rigid = "by the resonance of rigid masses, ";
   choices.add_test("stiffness right, inertia from resonance", rigid, found, own);
   choices.add_test(antenna.oil.efficiency_in_stiffness
                        ? "inertia from resonance, no efficiencies"
                        : "inertia from resonance, with efficiencies",
                    rigid, plant::inertia_from_resonance(other, frequency), other);
+  const double scale = found / inertia, motors = choices.motor_inertia();
+  // The gear train takes what the scaled sum leaves beside the motors, so that it is that sum.
   choices.add_contradiction("stiffness right, all masses scaled",
-                            fmt::format("{}every inertia times {:.3f}", rigid, found / inertia),
-                            {.inertia_scale = found / inertia});
+                            fmt::format("{}every inertia times {:.3f}", rigid, scale),
+                            {plant::scaled_by("at_shaft.antenna_inertia", scale),
+                             plant::scaled_by("at_shaft.motor_inertia", scale),
+                             plant::set_to("at_shaft.gear_train_inertia",
+                                           scale * choices.fixed_inertia() - scale * motors)});
 }
 
 }  // namespace
 
 std::vector<PlantChoice> plant_choices(const io::Case& antenna) {
   Choices choices(antenna);
-  choices.add("reference", "masses and oil stiffness of the plant above", {});
+  choices.add("reference", "masses and oil stiffness of the plant above", Changes{});
   for (const auto& alternative : antenna.antenna.alternatives) {
     const std::string name = "antenna of " + alternative.name;
-    const PlantVariant variant = variant_of(antenna, alternative);
+    const Changes changes = changes_of(antenna, alternative);
     if (alternative.keeps_springs) {
-      choices.add_attitude(name, "another antenna inertia on the same springs", variant);
+      choices.add_attitude(name, "another antenna inertia on the same springs", changes);
     } else {
-      choices.add_contradiction(name, "another antenna inertia", variant);
+      choices.add_contradiction(name, "another antenna inertia", changes);
     }
   }
   const bool efficient = antenna.oil.efficiency_in_stiffness;
@@ -156,25 +177,25 @@ std::vector<PlantChoice> plant_choices(const io::Case& antenna) {
       antenna, efficient ? plant::EfficiencyInStiffness::none : plant::EfficiencyInStiffness::both);
   // A convention changes no oil, and so no leakage rate.
   choices.add(efficient ? "stiffness without efficiencies" : "stiffness with efficiencies",
-              "the other convention for the oil spring", {.oil_stiffness = other});
-  const std::size_t antennas = io::structure_specifications(antenna.structure).size();
-  for (std::size_t i = 1; i < antennas; ++i) {
-    const PlantVariant variant{.structure = i};
-    const double spring = make_plant(antenna, variant).structure.gear_stiffness;
+              "the other convention for the oil spring",
+              Changes{plant::set_to("at_shaft.oil_stiffness", other)});
+  const auto antennas = antennas_of(antenna);
+  for (std::size_t i = 1; i < antennas.size(); ++i) {
+    const double spring = linear_plant(antennas[i]).structure.gear_stiffness;
     choices.add(fmt::format("antenna of gear spring {:.3g} N.m/rad", spring),
                 "another antenna of the frequencies that the case states with the motors held",
-                variant);
+                antennas[i]);
   }
-  for (const auto place : other_guesses) {
+  for (const auto place : io::other_guesses) {
     if (!moves_guessed_shares(antenna.structure, place)) continue;
-    choices.add(
+    choices.add_shares(
         std::string(to_string(place)),
         fmt::format("guessed shares of wind and beam, of what stated and negative ones leave, {}",
-                    place == GuessedShares::as_inertia
+                    place == io::GuessedShares::as_inertia
                         ? "in proportion to the inertia fractions"
                         : "all at the heaviest of bull gear and modes, as of a dish on its "
                           "support"),
-        {.guessed_shares = place});
+        guessed_share_changes(antenna.structure, place));
   }
   if (antenna.resonance_frequency) {
     const std::size_t first = choices.count();

@@ -4,8 +4,13 @@
 
 #include <fmt/format.h>
 
-#include <boresight/app/redesign/loaded_drive.hpp>
 #include <boresight/app/redesign/sections.hpp>
+#include <boresight/io/case/antenna_of.hpp>
+#include <boresight/io/case/drive_evidence.hpp>
+#include <boresight/io/case/drive_numbers.hpp>
+#include <boresight/io/case/loaded_drive.hpp>
+#include <boresight/io/case/mission_of.hpp>
+#include <boresight/io/case/plant_numbers.hpp>
 #include <boresight/plant/antenna/plant_response.hpp>
 
 namespace boresight::app {

@@ -4,19 +4,21 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <boresight/app/redesign/antenna_model.hpp>
 #include <boresight/app/redesign/guessed_shares_held.hpp>
 #include <boresight/app/report/influences.hpp>
 #include <boresight/app/report/sky_units.hpp>
 #include <boresight/design/ensembles/plant_ensemble.hpp>
+#include <boresight/io/case/guessed_shares.hpp>
+#include <boresight/io/case/mission_of.hpp>
 
 namespace boresight::app {
 namespace {
 
 // Beam rms (rad); NaN where the loop is unstable.
 double held_rms(const io::Case& antenna, const control::ControlLaw& law, double wind_speed,
-                GuessedShares place) {
-  design::TrackingProblem problem = make_problem(antenna, {.guessed_shares = place});
+                io::GuessedShares place) {
+  design::TrackingProblem problem =
+      make_problem(antenna, guessed_share_changes(antenna.structure, place));
   problem.wind.mean_speed = wind_speed;
   return design::judge(problem, {{"the case's", problem.plant}}, law, {}, 1)
       .members.front()
@@ -27,12 +29,12 @@ double held_rms(const io::Case& antenna, const control::ControlLaw& law, double 
 
 void conclude_guessed_shares(const io::Case& antenna, const control::ControlLaw& law,
                              double wind_speed, std::vector<std::string>& sentences) {
-  const double own = held_rms(antenna, law, wind_speed, GuessedShares::as_stated);
+  const double own = held_rms(antenna, law, wind_speed, io::GuessedShares::as_stated);
   // The shares stand in no loop: what is stable with one guess is so with all.
   if (!std::isfinite(own)) return;
   std::vector<std::string> others;
   bool apart = false;
-  for (const auto place : other_guesses) {
+  for (const auto place : io::other_guesses) {
     if (!moves_guessed_shares(antenna.structure, place)) continue;
     const double rms = held_rms(antenna, law, wind_speed, place);
     apart = apart || std::abs(rms / own - 1.0) > telling_change;

@@ -9,11 +9,13 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <boresight/app/redesign/antenna_model.hpp>
 #include <boresight/app/redesign/input_effects.hpp>
 #include <boresight/app/report/influences.hpp>
 #include <boresight/app/report/sky_units.hpp>
 #include <boresight/design/ensembles/plant_ensemble.hpp>
+#include <boresight/io/case/guessed_shares.hpp>
+#include <boresight/io/case/mission_of.hpp>
+#include <boresight/io/case/plant_numbers.hpp>
 #include <boresight/io/case/structure_numbers.hpp>
 #include <boresight/numerics/error.hpp>
 #include <boresight/numerics/parallel_loop.hpp>

@@ -4,14 +4,15 @@
 
 #include <boresight/app/redesign/needed_budgets.hpp>
 #include <boresight/app/report/sky_units.hpp>
+#include <boresight/design/problem/pointing_budget.hpp>
 
 namespace boresight::app {
 
-bool meets_need(const PointingBudget& budget, double reached) {
+bool meets_need(const design::PointingBudget& budget, double reached) {
   return !budget.wind_speed || reached >= *budget.wind_speed * (1.0 - 1e-6);
 }
 
-std::string budget_text(const PointingBudget& budget) {
+std::string budget_text(const design::PointingBudget& budget) {
   return fmt::format("{} ({}: {:.3f} mdeg)", budget.name, budget.band, budget.rms / millidegree);
 }
 

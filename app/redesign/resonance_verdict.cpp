@@ -5,24 +5,22 @@
 
 #include <fmt/format.h>
 
-#include <boresight/app/redesign/antenna_model.hpp>
+#include <boresight/app/redesign/oil_remark.hpp>
 #include <boresight/app/redesign/resonance_verdict.hpp>
-#include <boresight/app/redesign/resonating_mode.hpp>
 #include <boresight/app/tune/plant_members.hpp>
+#include <boresight/io/case/antenna_of.hpp>
+#include <boresight/io/case/drive_evidence.hpp>
+#include <boresight/io/case/plant_numbers.hpp>
+#include <boresight/io/case/resonating_mode.hpp>
+#include <boresight/plant/antenna/antenna_change.hpp>
 
 namespace boresight::app {
 namespace {
 
 constexpr double gigapascal = 1e9;  // Pa
 
-double resonance(const io::Case& antenna, const PlantVariant& variant) {
-  return resonating_mode(antenna, make_plant(antenna, variant)).frequency;
-}
-
-// With a bulk modulus so many times the case's.
-PlantVariant with_modulus(const io::Case& antenna, double factor) {
-  return {.oil_stiffness = factor * oil_stiffness(antenna),
-          .leakage_rate = leakage_rate_at(antenna, factor)};
+double resonance(const io::Case& antenna, const std::vector<plant::AntennaChange>& changes) {
+  return resonating_mode(antenna, make_plant(antenna, changes)).frequency;
 }
 
 // Where the frequency passes through the wanted one between two factors; nothing where it jumps
@@ -30,7 +28,7 @@ PlantVariant with_modulus(const io::Case& antenna, double factor) {
 std::optional<double> crossing(const io::Case& antenna, double frequency, double lower,
                                double upper) {
   const auto above = [&](double factor) {
-    return resonance(antenna, with_modulus(antenna, factor)) > frequency;
+    return resonance(antenna, bulk_modulus_times(antenna, factor)) > frequency;
   };
   const bool above_lower = above(lower);
   if (above(upper) == above_lower) return std::nullopt;
@@ -39,7 +37,7 @@ std::optional<double> crossing(const io::Case& antenna, double frequency, double
     const double middle = std::sqrt(lower * upper);
     (above(middle) == above_lower ? lower : upper) = middle;
   }
-  const double found = resonance(antenna, with_modulus(antenna, lower));
+  const double found = resonance(antenna, bulk_modulus_times(antenna, lower));
   constexpr double same = 1e-6;
   return std::abs(found / frequency - 1.0) < same ? std::optional(lower) : std::nullopt;
 }
@@ -51,14 +49,14 @@ double expected_uncertainty(const io::Case& antenna, double expected) {
   const auto upward = [](const io::Quantity& quantity) {
     return 1.0 + io::relative_uncertainty(quantity);
   };
-  PlantVariant heavier;
-  heavier.antenna_inertia = upward(antenna.antenna.inertia) * antenna_inertia(antenna);
   double variance = 0.0;
-  for (const PlantVariant& moved :
-       {with_modulus(antenna, 1.0 + oil), heavier,
-        PlantVariant{.motor_inertia_scale = upward(antenna.motor.inertia)},
-        PlantVariant{.structure_frequency_scale =
-                         upward(antenna.structure.locked_rotor_frequency)}}) {
+  const std::vector<std::vector<plant::AntennaChange>> all{
+      bulk_modulus_times(antenna, 1.0 + oil),
+      {plant::scaled_by("at_shaft.antenna_inertia", upward(antenna.antenna.inertia))},
+      {plant::scaled_by("at_shaft.motor_inertia", upward(antenna.motor.inertia))},
+      {plant::scaled_by("structure.frequencies",
+                        upward(antenna.structure.locked_rotor_frequency))}};
+  for (const auto& moved : all) {
     variance += std::pow(resonance(antenna, moved) - expected, 2);
   }
   return std::sqrt(variance);

@@ -9,7 +9,14 @@
 #include <boresight/app/tune/engineer_units.hpp>
 #include <boresight/app/tune/position_gain_trade.hpp>
 #include <boresight/design/decisions/recommend.hpp>
+#include <boresight/design/problem/pointing.hpp>
+#include <boresight/design/problem/static_bending.hpp>
+#include <boresight/io/case/antenna_of.hpp>
+#include <boresight/io/case/drive_numbers.hpp>
+#include <boresight/io/case/mission_of.hpp>
+#include <boresight/io/case/plant_numbers.hpp>
 #include <boresight/numerics/parallel_loop.hpp>
+#include <boresight/plant/antenna/antenna_change.hpp>
 #include <boresight/plant/antenna/plant_response.hpp>
 
 namespace boresight::app {
@@ -19,7 +26,7 @@ using control::LoopStructure;
 constexpr int seed_count = 8;
 
 design::DesignTask make_task(const io::Case& antenna, const StudyOptions& options, std::string name,
-                             const PlantVariant& variant, LoopStructure structure) {
+                             const plant::Antenna& variant, LoopStructure structure) {
   design::DesignTask task;
   task.name = std::move(name);
   task.problem = make_problem(antenna, variant);
@@ -37,7 +44,8 @@ double ratio_of(const io::Case& antenna, const design::TrackingProblem& problem,
 std::vector<design::DesignTask> tuning_tasks(const io::Case& antenna, const StudyOptions& options) {
   std::vector<design::DesignTask> tasks;
   for (int i = 0; i < seed_count; ++i) {
-    tasks.push_back(make_task(antenna, options, "as built", {}, io::loop_structure(antenna, "PI")));
+    tasks.push_back(make_task(antenna, options, "as built", io::antenna_of(antenna),
+                              io::loop_structure(antenna, "PI")));
     tasks.back().options.seed = options.seed + static_cast<std::uint64_t>(i);
   }
   return tasks;
@@ -168,7 +176,7 @@ MatchingPlan plan_matching(const io::Case& antenna, const StudyOptions& options)
     row.label = label;
     row.as_built = count == as_built && !label.starts_with("ratio");
     row.motor_inertia = motor_inertia(antenna, count);
-    const auto problem = make_problem(antenna, {.flywheel_disks = count});
+    const auto problem = make_problem(antenna, {plant::set_to("motor.flywheel_disks", count)});
     row.reflected_inertia = plant::reflected_inertia(problem.plant);
     row.motor_to_load_ratio = ratio_of(antenna, problem, count);
     plan.section.rows.push_back(std::move(row));
@@ -186,9 +194,11 @@ MatchingPlan plan_matching(const io::Case& antenna, const StudyOptions& options)
          {io::loop_structure(antenna, "PI"), io::loop_structure(antenna, "PI-0")}) {
       plan.section.series.push_back({name, friction, structure, {}});
       for (const auto& row : plan.section.rows) {
-        plan.tasks.push_back(make_task(antenna, options, row.label,
-                                       {.flywheel_disks = row.disks, .viscous_friction = friction},
-                                       structure));
+        plan.tasks.push_back(make_task(
+            antenna, options, row.label,
+            changed(io::antenna_of(antenna), {plant::set_to("motor.flywheel_disks", row.disks),
+                                              plant::set_to("drive.viscous_friction", friction)}),
+            structure));
       }
     }
   }
@@ -229,8 +239,8 @@ std::vector<design::DesignTask> choice_tasks(const io::Case& antenna, const Stud
                                              const std::vector<PlantChoice>& choices) {
   std::vector<design::DesignTask> tasks;
   for (const auto& choice : choices) {
-    if (!choice.variant) continue;
-    tasks.push_back(make_task(antenna, options, choice.result.name, *choice.variant,
+    if (!choice.antenna) continue;
+    tasks.push_back(make_task(antenna, options, choice.result.name, *choice.antenna,
                               io::loop_structure(antenna, "PI")));
   }
   return tasks;
@@ -256,10 +266,10 @@ void redesign(const io::Case& antenna, const StudyOptions& options, Report& repo
   design::improve_along(chosen_tasks, chosen);
   auto design = chosen.begin();
   for (auto& choice : choices) {
-    if (choice.variant) {
+    if (choice.antenna) {
       choice.result.design = std::move(*design++);
       choice.result.speed_limits =
-          speed_limits(antenna, make_problem(antenna, *choice.variant), *choice.result.design);
+          speed_limits(antenna, make_problem(antenna, *choice.antenna), *choice.result.design);
     }
     report.choices.push_back(std::move(choice.result));
   }

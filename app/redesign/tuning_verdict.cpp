@@ -14,6 +14,8 @@
 #include <boresight/app/report/sky_units.hpp>
 #include <boresight/app/report/wind_mast.hpp>
 #include <boresight/app/tune/gains_at_bounds.hpp>
+#include <boresight/design/problem/pointing_budget.hpp>
+#include <boresight/io/case/drive_numbers.hpp>
 
 namespace boresight::app {
 namespace {
@@ -70,7 +72,7 @@ std::string needs_on_plants(const TuningSection& section, bool short_of_all) {
   const auto plants = static_cast<int>(section.ensemble->members.size());
   std::vector<std::string> needs;
   for (const auto& result : section.budgets) {
-    const PointingBudget& budget = result.budget;
+    const design::PointingBudget& budget = result.budget;
     if (!budget.wind_speed || !result.plants_met) continue;
     const bool nominal = meets_need(budget, reached_wind_speed(section, result));
     if (short_of_all && (!nominal || *result.plants_met == plants)) continue;
@@ -184,7 +186,7 @@ std::vector<std::string> unmet_needs(const TuningSection& section,
   std::vector<std::string> sentences;
   if (!section.design.usable()) return sentences;
   for (const auto& result : section.budgets) {
-    const PointingBudget& budget = result.budget;
+    const design::PointingBudget& budget = result.budget;
     if (!budget.wind_speed) continue;
     const bool linear = meets_need(budget, reached_wind_speed(section, result));
     const bool simulated = !time_domain || *budget.wind_speed < time_domain->wind_speed ||

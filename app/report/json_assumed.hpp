@@ -4,6 +4,7 @@
 
 #include <nlohmann/json_fwd.hpp>
 
+#include <boresight/io/case/case_file.hpp>
 #include <boresight/io/units/quantity.hpp>
 
 namespace boresight::app {

@@ -5,7 +5,8 @@
 #include <boresight/app/report/sky_units.hpp>
 #include <boresight/app/report/wind_mast.hpp>
 #include <boresight/app/tune/tune_verdict.hpp>
-#include <boresight/numerics/angles.hpp>
+#include <boresight/design/problem/pointing.hpp>
+#include <boresight/design/problem/pointing_budget.hpp>
 
 namespace boresight::app {
 namespace {
@@ -72,7 +73,7 @@ Json law_json(const TuneSection& section, const TunedLaw& row) {
                      {"name", descriptions[i].name},
                      {"value", row.gains[i]}});
   }
-  const auto loss = [&](std::optional<double> rms, const PointingBand& band) {
+  const auto loss = [&](std::optional<double> rms, const design::PointingBand& band) {
     return rms ? number(design::pointing_loss_db(*rms, band.beamwidth,
                                                  design::LossConvention::mean_loss_two_axes))
                : Json(nullptr);

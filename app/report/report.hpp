@@ -11,7 +11,6 @@
 #include <boresight/app/figures/figure.hpp>
 #include <boresight/app/identify/campaign_section.hpp>
 #include <boresight/app/match/match_section.hpp>
-#include <boresight/app/redesign/antenna_model.hpp>
 #include <boresight/app/redesign/input_effects.hpp>
 #include <boresight/app/redesign/resonance_verdict.hpp>
 #include <boresight/app/simulate/time_domain.hpp>
@@ -20,6 +19,7 @@
 #include <boresight/app/tune/tune_section.hpp>
 #include <boresight/design/ensembles/plant_ensemble.hpp>
 #include <boresight/design/limits/pointing_limit.hpp>
+#include <boresight/design/problem/pointing_budget.hpp>
 
 namespace boresight::app {
 
@@ -56,14 +56,14 @@ struct PlantSection {
   double supply_torque = 0.0;     // N m
   double torque_for_wind = 0.0;   // N m, what friction and offset leave of it
   double mean_wind_torque = 0.0;  // N m at the motor, design speed
-  std::optional<double> slew_rate_margin = std::nullopt;  // app::slew_rate_margin
+  std::optional<double> slew_rate_margin = std::nullopt;  // io::slew_rate_margin
   /// Records whose reconciled estimate the plant is; 0: as the case states it.
   std::size_t records = 0;
 };
 
 /// Wind speed up to which a budget is met with the gains held.
 struct BudgetResult {
-  PointingBudget budget;
+  design::PointingBudget budget;
   double wind_speed_limit = 0.0;  // m/s
   /// Plants of the ensemble on which it is met in the wind that it is needed up to; none for a
   /// budget that states no such wind and without an ensemble.
@@ -106,7 +106,7 @@ struct TuningSection {
   double supply_wind_speed = std::numeric_limits<double>::infinity();
   double static_bending = 0.0;  // rad under the mean wind: calibration's job, not the servo's
   struct BandLoss {
-    PointingBand band;
+    design::PointingBand band;
     double mean_loss_db = 0.0;       // two equal axes, static bending left out
     double static_bending_db = 0.0;  // what that would add on this axis
   };

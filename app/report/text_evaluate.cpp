@@ -4,12 +4,12 @@
 #include <fmt/ranges.h>
 
 #include <boresight/app/document/document.hpp>
-#include <boresight/app/redesign/resonating_mode.hpp>
 #include <boresight/app/report/evaluate_report.hpp>
 #include <boresight/app/report/hunting_wording.hpp>
 #include <boresight/app/report/loss_wording.hpp>
 #include <boresight/app/report/sky_units.hpp>
 #include <boresight/app/report/wind_mast.hpp>
+#include <boresight/io/case/resonating_mode.hpp>
 #include <boresight/io/units/wording.hpp>
 #include <boresight/numerics/angles.hpp>
 
@@ -105,7 +105,7 @@ Document oil_modes_part(const EvaluateSection& section) {
   for (const auto& candidate : section.candidates) {
     const CandidateLaw* law = candidate.chosen_law();
     const plant::PlantMode& most = candidate.oil_mode;
-    if (law == nullptr || !little_of_oil(law->design.hydraulic_mode, most)) continue;
+    if (law == nullptr || !io::little_of_oil(law->design.hydraulic_mode, most)) continue;
     modes.push_back(fmt::format(
         "{:.3g} Hz (zeta {:.3f}) {}", most.frequency, most.damping_ratio,
         candidate.path.empty() ? candidate.name : "with " + io::in_quotes(candidate.name)));

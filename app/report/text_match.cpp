@@ -4,11 +4,10 @@
 #include <fmt/format.h>
 
 #include <boresight/app/document/document.hpp>
-#include <boresight/app/redesign/resonating_mode.hpp>
 #include <boresight/app/report/hunting_wording.hpp>
 #include <boresight/app/report/match_report.hpp>
 #include <boresight/app/report/sky_units.hpp>
-#include <boresight/numerics/angles.hpp>
+#include <boresight/io/case/resonating_mode.hpp>
 
 namespace boresight::app {
 namespace {
@@ -27,7 +26,7 @@ std::string decibel(double gain) {
 Document oil_modes_part(const MatchSection& section) {
   std::vector<const MatchPoint*> points;
   for (const auto& point : section.points) {
-    if (little_of_oil(point.hydraulic, point.oil_mode)) points.push_back(&point);
+    if (io::little_of_oil(point.hydraulic, point.oil_mode)) points.push_back(&point);
   }
   if (points.empty()) return {};
   const auto described = [](const MatchPoint& point) {

@@ -5,7 +5,7 @@
 #include <fmt/ranges.h>
 
 #include <boresight/app/document/document.hpp>
-#include <boresight/app/redesign/resonating_mode.hpp>
+#include <boresight/app/redesign/oil_remark.hpp>
 #include <boresight/app/report/sky_units.hpp>
 #include <boresight/app/report/text_report.hpp>
 #include <boresight/io/case/friction_leeway.hpp>

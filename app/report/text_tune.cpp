@@ -12,7 +12,10 @@
 #include <boresight/app/report/text_report.hpp>
 #include <boresight/app/report/wind_mast.hpp>
 #include <boresight/app/tune/gains_at_bounds.hpp>
-#include <boresight/numerics/angles.hpp>
+#include <boresight/design/problem/pointing.hpp>
+#include <boresight/design/problem/pointing_budget.hpp>
+#include <boresight/design/problem/static_bending.hpp>
+#include <boresight/io/case/drive_numbers.hpp>
 
 namespace boresight::app {
 namespace {
@@ -41,7 +44,7 @@ std::string speed(const TuneSection& section, double limit) {
                      percent_of_time(section.climate, std::min(limit, section.supply_wind_speed)));
 }
 
-double loss(double rms, const PointingBand& band) {
+double loss(double rms, const design::PointingBand& band) {
   return design::pointing_loss_db(rms, band.beamwidth, design::LossConvention::mean_loss_two_axes);
 }
 
@@ -49,7 +52,7 @@ double loss(double rms, const PointingBand& band) {
 bool far_out(const TuneSection& section) {
   return std::ranges::any_of(section.laws, [&](const TunedLaw& row) {
     const double rms = std::max(row.beam_rms, row.climate_rms.value_or(0.0));
-    return std::ranges::any_of(section.bands, [&](const PointingBand& band) {
+    return std::ranges::any_of(section.bands, [&](const design::PointingBand& band) {
       return loss(rms, band) > largest_parabola_loss;
     });
   });

@@ -5,7 +5,6 @@
 
 #include <fmt/format.h>
 
-#include <boresight/app/redesign/antenna_model.hpp>
 #include <boresight/app/simulate/antenna_tests.hpp>
 #include <boresight/app/simulate/nonlinear_model.hpp>
 #include <boresight/numerics/angles.hpp>

@@ -3,12 +3,11 @@
 
 #include <fmt/format.h>
 
-#include <boresight/app/redesign/antenna_model.hpp>
 #include <boresight/app/report/sky_units.hpp>
 #include <boresight/app/simulate/drive_run.hpp>
 #include <boresight/app/simulate/nonlinear_model.hpp>
 #include <boresight/app/simulate/recorder_filter.hpp>
-#include <boresight/numerics/angles.hpp>
+#include <boresight/io/case/drive_numbers.hpp>
 #include <boresight/numerics/error.hpp>
 #include <boresight/plant/integration/feedback_interconnection.hpp>
 #include <boresight/plant/nonlinear/operating_point.hpp>

@@ -3,10 +3,12 @@
 
 #include <fmt/format.h>
 
-#include <boresight/app/redesign/antenna_model.hpp>
 #include <boresight/app/simulate/nonlinear_model.hpp>
+#include <boresight/io/case/antenna_of.hpp>
+#include <boresight/io/case/drive_numbers.hpp>
 #include <boresight/numerics/error.hpp>
 #include <boresight/numerics/normal_numbers.hpp>
+#include <boresight/plant/nonlinear/nonlinear_drive.hpp>
 
 namespace boresight::app {
 namespace {
@@ -18,22 +20,6 @@ constexpr const char* recorded_only = "; tracking and slew need none";
   throw InvalidInput(fmt::format(
       "{}: expected a table [{}] with {}, found none (see docs/case-file.md{})", antenna.path,
       table, purpose, std::string_view(table) == "simulation" ? "" : recorded_only));
-}
-
-std::vector<double> line_lengths(const io::Case& antenna) {
-  std::vector<double> given;
-  for (const auto& line : antenna.campaign.lines) given.push_back(line.length.value);
-  if (given.empty()) return {};
-  const auto motors = static_cast<std::size_t>(antenna.motor.count);
-  std::ranges::sort(given);
-  if (given.size() >= motors) return {given.begin(), given.begin() + antenna.motor.count};
-  if (motors == 1) return {given.front()};
-  std::vector<double> lengths;
-  for (std::size_t i = 0; i < motors; ++i) {
-    const double share = static_cast<double>(i) / static_cast<double>(motors - 1);
-    lengths.push_back(given.front() + share * (given.back() - given.front()));
-  }
-  return lengths;
 }
 
 }  // namespace
@@ -74,28 +60,8 @@ RecorderTachometer tachometer_of(const io::Case& antenna) {
 }
 
 plant::NonlinearAntenna make_nonlinear_antenna(const io::Case& antenna) {
-  const io::SimulationEntry& entry = simulation_of(antenna);
-  plant::DriveDetails details;
-  details.supply_pressure = antenna.drive.supply_pressure.value;
-  details.return_pressure = entry.return_pressure.value;
-  details.null_leakage_share = entry.null_leakage_share.value;
-  details.case_leakage_share = entry.case_leakage_share.value;
-  details.stroke_limit = entry.valve_stroke.value;
-  details.slew_limit = entry.valve_stroke.value / entry.valve_stroke_time.value;
-  details.overlap = entry.valve_overlap.value * entry.valve_stroke.value;
-  details.makeup_pressure = entry.makeup_pressure.value;
-  details.air_fraction = entry.air_fraction.value;
-  if (antenna.oil.density) details.oil_density = antenna.oil.density->value;
-  details.line_lengths = line_lengths(antenna);
-  details.line_damping_ratio = entry.line_damping_ratio.value;
-  details.friction = {io::friction_curve(antenna), entry.bristle_stiffness.value,
-                      entry.bristle_damping.value, 0.0};
-  details.offset = io::offset_torque(antenna);
-  if (entry.backlash) {
-    details.backlash = entry.backlash->value;
-    details.preload_torque = entry.preload_torque.value;
-  }
-  return plant::make_nonlinear_antenna(make_plant(antenna), io::hydraulic_drive(antenna), details);
+  simulation_of(antenna);  // refuses a case without
+  return plant::nonlinear_antenna(antenna_of(antenna));
 }
 
 plant::NonlinearAntenna make_recorded_antenna(const io::Case& antenna) {

@@ -3,14 +3,15 @@
 
 #include <fmt/format.h>
 
-#include <boresight/app/redesign/antenna_model.hpp>
 #include <boresight/app/simulate/nonlinear_model.hpp>
 #include <boresight/app/simulate/position_run.hpp>
 #include <boresight/design/problem/drive_reach.hpp>
 #include <boresight/design/tuning/design_study.hpp>
 #include <boresight/design/tuning/tuner.hpp>
 #include <boresight/design/verification/simulated_loop.hpp>
-#include <boresight/numerics/angles.hpp>
+#include <boresight/io/case/antenna_of.hpp>
+#include <boresight/io/case/drive_numbers.hpp>
+#include <boresight/io/case/mission_of.hpp>
 #include <boresight/numerics/error.hpp>
 #include <boresight/plant/nonlinear/simulation.hpp>
 #include <boresight/plant/wind/wind_time_series.hpp>

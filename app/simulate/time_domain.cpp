@@ -1,12 +1,12 @@
 #include <algorithm>
 #include <cmath>
 
-#include <boresight/app/redesign/antenna_model.hpp>
 #include <boresight/app/simulate/nonlinear_model.hpp>
 #include <boresight/app/simulate/time_domain.hpp>
 #include <boresight/design/problem/drive_reach.hpp>
+#include <boresight/io/case/drive_numbers.hpp>
 #include <boresight/io/case/friction_leeway.hpp>
-#include <boresight/numerics/angles.hpp>
+#include <boresight/io/case/mission_of.hpp>
 #include <boresight/numerics/error.hpp>
 
 namespace boresight::app {

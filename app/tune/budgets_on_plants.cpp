@@ -2,13 +2,14 @@
 #include <map>
 
 #include <boresight/app/tune/budgets_on_plants.hpp>
+#include <boresight/design/problem/pointing_budget.hpp>
 
 namespace boresight::app {
 
 std::vector<std::optional<int>> plants_within_budgets(
     const design::TrackingProblem& problem, const std::vector<design::EnsembleMember>& members,
     const control::ControlLaw& law, const design::HardGoals& goals,
-    const std::vector<PointingBudget>& budgets, double factor, unsigned threads) {
+    const std::vector<design::PointingBudget>& budgets, double factor, unsigned threads) {
   std::map<double, design::EnsembleResult> by_speed;
   std::vector<std::optional<int>> met;
   for (const auto& budget : budgets) {

@@ -3,8 +3,8 @@
 #include <optional>
 #include <vector>
 
-#include <boresight/app/redesign/antenna_model.hpp>
 #include <boresight/design/ensembles/plant_ensemble.hpp>
+#include <boresight/design/problem/pointing_budget.hpp>
 
 namespace boresight::app {
 
@@ -16,6 +16,6 @@ namespace boresight::app {
 std::vector<std::optional<int>> plants_within_budgets(
     const design::TrackingProblem& problem, const std::vector<design::EnsembleMember>& members,
     const control::ControlLaw& law, const design::HardGoals& goals,
-    const std::vector<PointingBudget>& budgets, double factor, unsigned threads);
+    const std::vector<design::PointingBudget>& budgets, double factor, unsigned threads);
 
 }  // namespace boresight::app

@@ -8,6 +8,7 @@
 #include <fmt/ranges.h>
 
 #include <boresight/app/tune/gains_at_bounds.hpp>
+#include <boresight/io/case/drive_numbers.hpp>
 #include <boresight/io/case/usual_structures.hpp>
 
 namespace boresight::app {

@@ -6,6 +6,8 @@
 #include <boresight/app/report/sky_units.hpp>
 #include <boresight/app/tune/laws_in_time.hpp>
 #include <boresight/app/tune/tune_study.hpp>
+#include <boresight/design/problem/pointing_budget.hpp>
+#include <boresight/io/case/mission_of.hpp>
 #include <boresight/numerics/parallel_loop.hpp>
 
 namespace boresight::app {
@@ -27,8 +29,9 @@ const design::NonlinearVerification* found(const TimeDomainSection& section, con
 }
 
 bool needed(const TuneSection& section, double speed) {
-  return std::ranges::any_of(
-      section.budgets, [&](const PointingBudget& budget) { return budget.wind_speed == speed; });
+  return std::ranges::any_of(section.budgets, [&](const design::PointingBudget& budget) {
+    return budget.wind_speed == speed;
+  });
 }
 
 }  // namespace

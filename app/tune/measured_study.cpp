@@ -5,11 +5,13 @@
 #include <fmt/ranges.h>
 
 #include <boresight/app/identify/campaign.hpp>
-#include <boresight/app/redesign/antenna_model.hpp>
 #include <boresight/app/tune/measured_study.hpp>
 #include <boresight/control/loops/closed_loop.hpp>
 #include <boresight/identification/resonance/drive_response.hpp>
 #include <boresight/identification/signals/local_polynomial_response.hpp>
+#include <boresight/io/case/drive_numbers.hpp>
+#include <boresight/io/case/mission_of.hpp>
+#include <boresight/io/case/plant_numbers.hpp>
 #include <boresight/io/records/record_columns.hpp>
 #include <boresight/io/records/record_file.hpp>
 #include <boresight/io/units/kinds.hpp>

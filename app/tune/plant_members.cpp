@@ -5,9 +5,11 @@
 
 #include <fmt/format.h>
 
-#include <boresight/app/redesign/antenna_model.hpp>
 #include <boresight/app/tune/plant_members.hpp>
+#include <boresight/io/case/antenna_of.hpp>
+#include <boresight/io/case/plant_numbers.hpp>
 #include <boresight/numerics/normal_numbers.hpp>
+#include <boresight/plant/antenna/antenna_change.hpp>
 
 namespace boresight::app {
 namespace {
@@ -19,11 +21,12 @@ struct Draw {
   double structure_frequency = 1.0, oil_stiffness = 1.0, leakage_rate = 0.0, viscous_friction = 0.0;
 };
 
-plant::AntennaPlant plant_of(const io::Case& antenna, const Draw& draw) {
-  return make_plant(antenna, {.viscous_friction = draw.viscous_friction,
-                              .oil_stiffness = draw.oil_stiffness * oil_stiffness(antenna),
-                              .leakage_rate = draw.leakage_rate,
-                              .structure_frequency_scale = draw.structure_frequency});
+plant::AntennaPlant plant_of(const plant::Antenna& antenna, const Draw& draw) {
+  return linear_plant(
+      changed(antenna, {plant::set_to("drive.viscous_friction", draw.viscous_friction),
+                        plant::scaled_by("at_shaft.oil_stiffness", draw.oil_stiffness),
+                        plant::set_to("drive.leakage_rate", draw.leakage_rate),
+                        plant::scaled_by("structure.frequencies", draw.structure_frequency)}));
 }
 
 // Uniform within [0, 1), number `index` of a stream.
@@ -95,9 +98,10 @@ MemberRanges spread_of_stated(const io::Case& antenna) {
 std::vector<design::EnsembleMember> plant_members(const io::Case& antenna, std::uint64_t seed) {
   const MemberRanges ranges = member_ranges(antenna);
   const Draw own{1.0, 1.0, antenna.drive.leakage_rate.value, antenna.drive.viscous_friction.value};
+  const plant::Antenna stated = antenna_of(antenna);
   std::vector<design::EnsembleMember> members;
   const auto add = [&](std::string name, const Draw& draw) {
-    members.push_back({std::move(name), plant_of(antenna, draw)});
+    members.push_back({std::move(name), plant_of(stated, draw)});
   };
   add("nominal", own);
   Draw corner = own;

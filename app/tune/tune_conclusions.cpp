@@ -13,6 +13,7 @@
 #include <boresight/app/tune/laws_in_time.hpp>
 #include <boresight/app/tune/tune_study.hpp>
 #include <boresight/app/tune/tune_verdict.hpp>
+#include <boresight/design/problem/pointing_budget.hpp>
 
 namespace boresight::app {
 namespace {
@@ -134,7 +135,7 @@ std::string plants_text(const TunedLaw& law, double rms) {
 
 // The law like the one recommended that meets a budget on the most plants, if on more than that
 // one does.
-std::string alternative_text(const TuneSection& section, const PointingBudget& budget,
+std::string alternative_text(const TuneSection& section, const design::PointingBudget& budget,
                              const TunedLaw& recommended) {
   if (!recommended.ensemble) return "";
   const TunedLaw* most = nullptr;

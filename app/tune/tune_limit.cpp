@@ -1,7 +1,8 @@
 #include <fmt/format.h>
 
-#include <boresight/app/redesign/antenna_model.hpp>
 #include <boresight/app/tune/tune_limit.hpp>
+#include <boresight/io/case/drive_numbers.hpp>
+#include <boresight/io/case/mission_of.hpp>
 
 namespace boresight::app {
 

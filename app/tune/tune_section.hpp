@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
-#include <boresight/app/redesign/antenna_model.hpp>
 #include <boresight/app/tune/position_gain_trade.hpp>
 #include <boresight/design/ensembles/plant_ensemble.hpp>
+#include <boresight/design/problem/pointing_budget.hpp>
 #include <boresight/design/tuning/design_study.hpp>
 #include <boresight/design/verification/nonlinear_verification.hpp>
 
@@ -86,8 +86,8 @@ struct TuneSection {
   design::SoftGoal soft_goal;
   std::optional<double> beam_rms_goal;  // rad
   bool minimises_climate = false;       // the climate's mean square in the place of one speed's
-  std::vector<PointingBand> bands;
-  std::vector<PointingBudget> budgets;
+  std::vector<design::PointingBand> bands;
+  std::vector<design::PointingBudget> budgets;
   std::vector<design::ClimatePart> climate;  // of the site; empty if the case states none
   /// What goals on the valve's demand in gusts rest on where no number of it is stated.
   std::string demand_assumption;

@@ -11,6 +11,8 @@
 #include <boresight/app/tune/tune_study.hpp>
 #include <boresight/app/tune/tuned_assessment.hpp>
 #include <boresight/design/tuning/structure_parts.hpp>
+#include <boresight/io/case/drive_numbers.hpp>
+#include <boresight/io/case/mission_of.hpp>
 #include <boresight/numerics/error.hpp>
 #include <boresight/numerics/parallel_loop.hpp>
 #include <boresight/plant/antenna/point_response.hpp>

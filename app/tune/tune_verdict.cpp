@@ -16,7 +16,9 @@
 #include <boresight/app/tune/tune_study.hpp>
 #include <boresight/app/tune/tune_verdict.hpp>
 #include <boresight/app/tune/tuned_assessment.hpp>
-#include <boresight/numerics/angles.hpp>
+#include <boresight/design/problem/pointing.hpp>
+#include <boresight/design/problem/pointing_budget.hpp>
+#include <boresight/io/case/drive_numbers.hpp>
 
 namespace boresight::app {
 namespace {
@@ -216,7 +218,7 @@ std::string barred_by_hunting(const TuneSection& section, const TunedLaw& best, 
 
 void find_unreached_rms(const TuneSection& section, std::vector<Shortfall>& shortfalls) {
   for (std::size_t i = 0; i < section.budgets.size(); ++i) {
-    const PointingBudget& budget = section.budgets[i];
+    const design::PointingBudget& budget = section.budgets[i];
     if (!budget.wind_speed) continue;
     if (section.supply_wind_speed < *budget.wind_speed) {
       shortfalls.push_back(

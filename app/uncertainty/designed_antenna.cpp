@@ -4,6 +4,7 @@
 #include <boresight/app/identify/identified_case.hpp>
 #include <boresight/app/tune/plant_members.hpp>
 #include <boresight/app/uncertainty/designed_antenna.hpp>
+#include <boresight/io/case/antenna_of.hpp>
 #include <boresight/numerics/error.hpp>
 
 namespace boresight::app {
@@ -26,7 +27,8 @@ DesignedAntenna designed_antenna(const io::Case& stated, std::uint64_t seed, uns
       PlantEnsemble ensemble{"drawn from what the records leave open", {}};
       for (std::size_t i = 0; i < members; ++i) {
         ensemble.members.push_back(
-            {fmt::format("draw {}", i + 1), make_plant(identified, distribution.draw(seed, i))});
+            {fmt::format("draw {}", i + 1),
+             make_plant(identified, changes_of(distribution.draw(seed, i)))});
       }
       return {identified, std::move(ensemble), distribution, true};
     }

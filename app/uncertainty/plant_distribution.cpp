@@ -9,8 +9,10 @@
 
 #include <boresight/app/tune/plant_members.hpp>
 #include <boresight/app/uncertainty/plant_distribution.hpp>
+#include <boresight/io/case/plant_numbers.hpp>
 #include <boresight/numerics/error.hpp>
 #include <boresight/numerics/normal_numbers.hpp>
+#include <boresight/plant/antenna/antenna_change.hpp>
 
 namespace boresight::app {
 namespace {
@@ -49,11 +51,11 @@ std::optional<Eigen::VectorXd> log_factors(const io::Case& identified,
   };
   set(structure_frequency, draw.lowest_frequency,
       identified.structure.locked_rotor_frequency.value);
-  set(oil_stiffness, draw.oil_stiffness, app::oil_stiffness(identified));
+  set(oil_stiffness, draw.oil_stiffness, io::oil_stiffness(identified));
   set(leakage_rate, draw.leakage_rate, identified.drive.leakage_rate.value);
-  set(antenna_inertia, antenna, app::antenna_inertia(identified));
+  set(antenna_inertia, antenna, io::antenna_inertia(identified));
   set(motor_inertia, draw.motor_inertia,
-      app::motor_inertia(identified, identified.motor.flywheel_disks));
+      io::motor_inertia(identified, identified.motor.flywheel_disks));
   return logs;
 }
 
@@ -66,19 +68,15 @@ std::string_view to_string(UncertainInput input) {
   return names.at(place(input));
 }
 
-PlantVariant variant_of(const io::Case& antenna, const PlantDraw& draw) {
+std::vector<plant::AntennaChange> changes_of(const PlantDraw& draw) {
   using enum UncertainInput;
-  return {.viscous_friction = draw[friction_slope],
-          .antenna_inertia = draw[antenna_inertia] * app::antenna_inertia(antenna),
-          .oil_stiffness = draw[oil_stiffness] * app::oil_stiffness(antenna),
-          .leakage_rate = draw[leakage_rate] * antenna.drive.leakage_rate.value,
-          .motor_inertia_scale = draw[motor_inertia],
-          .structure_frequency_scale = draw[structure_frequency],
-          .wind_torque_scale = draw[wind_torque]};
-}
-
-plant::AntennaPlant make_plant(const io::Case& antenna, const PlantDraw& draw) {
-  return make_plant(antenna, variant_of(antenna, draw));
+  return {plant::set_to("drive.viscous_friction", draw[friction_slope]),
+          plant::scaled_by("at_shaft.antenna_inertia", draw[antenna_inertia]),
+          plant::scaled_by("at_shaft.oil_stiffness", draw[oil_stiffness]),
+          plant::scaled_by("drive.leakage_rate", draw[leakage_rate]),
+          plant::scaled_by("at_shaft.motor_inertia", draw[motor_inertia]),
+          plant::scaled_by("structure.frequencies", draw[structure_frequency]),
+          plant::scaled_by("structure.wind_torque_factor", draw[wind_torque])};
 }
 
 double PlantDistribution::Marginal::at(double share) const {

@@ -8,8 +8,9 @@
 
 #include <Eigen/Core>
 
-#include <boresight/app/redesign/antenna_model.hpp>
 #include <boresight/identification/grey_box/grey_box.hpp>
+#include <boresight/io/case/case_file.hpp>
+#include <boresight/plant/antenna/antenna_change.hpp>
 
 namespace boresight::app {
 
@@ -37,8 +38,7 @@ struct PlantDraw {
   }
 };
 
-PlantVariant variant_of(const io::Case& antenna, const PlantDraw& draw);
-plant::AntennaPlant make_plant(const io::Case& antenna, const PlantDraw& draw);
+std::vector<plant::AntennaChange> changes_of(const PlantDraw& draw);
 
 /// How the plants that may be the true one are distributed.
 class PlantDistribution {

@@ -4,7 +4,7 @@
 #include "io/edited_case.hpp"
 #include <boresight/app/audit/case_graph.hpp>
 #include <boresight/app/audit/plausibility.hpp>
-#include <boresight/app/redesign/antenna_model.hpp>
+#include <boresight/io/case/antenna_of.hpp>
 
 namespace boresight::app {
 namespace {

@@ -12,10 +12,12 @@
 #include "io/edited_case.hpp"
 #include <boresight/app/audit/case_graph.hpp>
 #include <boresight/app/audit/plausibility_checks.hpp>
-#include <boresight/app/redesign/antenna_model.hpp>
 #include <boresight/app/simulate/nonlinear_model.hpp>
 #include <boresight/design/problem/drive_reach.hpp>
+#include <boresight/design/problem/static_bending.hpp>
+#include <boresight/io/case/antenna_of.hpp>
 #include <boresight/io/case/drive_numbers.hpp>
+#include <boresight/io/case/mission_of.hpp>
 
 namespace boresight::app {
 namespace {
@@ -265,15 +267,15 @@ TEST(StructuralShares, SayWhatASoftPartUnderTheWindMeans) {
 }
 
 // N m/rad at the antenna's axis.
-double gear_train_of(const io::Case& antenna, const PlantVariant& variant = {}) {
-  return make_plant(antenna, variant).structure.gear_stiffness *
+double gear_train_of(const io::Case& antenna, std::size_t solution = 0) {
+  return linear_plant(antennas_of(antenna).at(solution)).structure.gear_stiffness *
          std::pow(io::gear_ratio(antenna), 2);
 }
 
 // A case with the stiffness of its gear train beside its frequencies, so many times its own.
 io::Case with_gear_train(EditedCase edited, double times, const std::string& uncertainty = "",
-                         const PlantVariant& variant = {}) {
-  const double own = gear_train_of(io::parse_case(edited.text(), "case.toml"), variant);
+                         std::size_t solution = 0) {
+  const double own = gear_train_of(io::parse_case(edited.text(), "case.toml"), solution);
   edited.replace("\ngear_damping_ratio =",
                  fmt::format("\ngear_stiffness = {{ value = \"{:.17g} N.m/rad\"{} }}"
                              "\ngear_damping_ratio =",
@@ -348,7 +350,7 @@ TEST(GearStiffness, TellsWhichAntennaHasTheFrequenciesWithTheMotorsHeld) {
   edited.replace("lowest_predicted_axis = \"azimuth\"",
                  "lowest_predicted_axis = \"azimuth\"\nmode_frequencies = \"motors_held\"");
   EXPECT_THAT(found_in(with_gear_train(edited, 1.0), "gear stiffness"), IsEmpty());
-  const auto found = found_in(with_gear_train(edited, 1.0, "", {.structure = 1}), "gear stiffness");
+  const auto found = found_in(with_gear_train(edited, 1.0, "", 1), "gear stiffness");
   ASSERT_EQ(found.size(), 1U);
   EXPECT_THAT(found[0].reasoning,
               AllOf(HasSubstr("Another antenna of these frequencies with the motors held"),

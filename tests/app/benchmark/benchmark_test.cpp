@@ -8,8 +8,8 @@
 #include "app/program_run.hpp"
 #include "io/edited_case.hpp"
 #include <boresight/app/commands/benchmark_command.hpp>
-#include <boresight/app/redesign/antenna_model.hpp>
 #include <boresight/app/tune/engineer_units.hpp>
+#include <boresight/io/case/antenna_of.hpp>
 
 namespace boresight::app {
 namespace {

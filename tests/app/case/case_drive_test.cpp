@@ -7,11 +7,12 @@
 #include <gtest/gtest.h>
 
 #include "io/edited_case.hpp"
-#include <boresight/app/redesign/antenna_model.hpp>
 #include <boresight/app/redesign/assumed_inputs.hpp>
 #include <boresight/identification/campaign/inertia_methods.hpp>
 #include <boresight/io/case/case_file.hpp>
+#include <boresight/io/case/drive_evidence.hpp>
 #include <boresight/io/case/drive_numbers.hpp>
+#include <boresight/io/case/plant_numbers.hpp>
 #include <boresight/numerics/error.hpp>
 
 namespace boresight::app {

@@ -8,8 +8,12 @@
 
 #include "io/edited_case.hpp"
 #include "scratch_folder.hpp"
-#include <boresight/app/redesign/antenna_model.hpp>
+#include <boresight/io/case/antenna_of.hpp>
 #include <boresight/io/case/case_file.hpp>
+#include <boresight/io/case/drive_numbers.hpp>
+#include <boresight/io/case/mission_of.hpp>
+#include <boresight/io/case/plant_numbers.hpp>
+#include <boresight/plant/antenna/antenna_change.hpp>
 #include <boresight/plant/antenna/motors_held_modes.hpp>
 
 namespace boresight::app {
@@ -156,7 +160,8 @@ TEST(AntennaModel, BuildsItsPlantFromTheCase) {
   EXPECT_DOUBLE_EQ(plant.drive.leakage_rate, 1.219);
   EXPECT_DOUBLE_EQ(plant.drive.valve_corner, 2 * std::numbers::pi * 12.0);
   // A choice changes what it names and keeps the structure's frequencies.
-  const auto lighter = make_plant(antenna, {.antenna_inertia = 0.2, .oil_stiffness = 60.0});
+  const auto lighter = make_plant(antenna, {plant::set_to("at_shaft.antenna_inertia", 0.2),
+                                            plant::set_to("at_shaft.oil_stiffness", 60.0)});
   EXPECT_NEAR(plant::antenna_inertia(lighter.structure), 0.2, 1e-12);
   EXPECT_DOUBLE_EQ(lighter.drive.oil_stiffness, 60.0);
   EXPECT_DOUBLE_EQ(lighter.drive.motor_inertia, plant.drive.motor_inertia);

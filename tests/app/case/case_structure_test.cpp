@@ -13,12 +13,14 @@
 #include <boresight/app/audit/case_graph.hpp>
 #include <boresight/app/audit/plausibility.hpp>
 #include <boresight/app/document/document_text.hpp>
-#include <boresight/app/redesign/antenna_model.hpp>
 #include <boresight/app/redesign/assumed_inputs.hpp>
 #include <boresight/app/redesign/choices.hpp>
 #include <boresight/app/redesign/sections.hpp>
 #include <boresight/app/report/text_report.hpp>
+#include <boresight/io/case/antenna_of.hpp>
+#include <boresight/io/case/drive_numbers.hpp>
 #include <boresight/io/case/structure_numbers.hpp>
+#include <boresight/plant/antenna/antenna_change.hpp>
 #include <boresight/plant/antenna/motors_held_modes.hpp>
 
 namespace boresight::app {
@@ -105,8 +107,8 @@ TEST(MotorsHeldCase, MovesWithAStatedFrequency) {
   antenna.structure.modes[1].frequency.value *= 1.01;
   expected[2].frequency *= 1.01;
   const auto moved = plant::motors_held_modes(make_plant(antenna).structure);
-  const auto scaled =
-      plant::motors_held_modes(make_plant(antenna, {.structure_frequency_scale = 0.9}).structure);
+  const auto scaled = plant::motors_held_modes(
+      make_plant(antenna, {plant::scaled_by("structure.frequencies", 0.9)}).structure);
   for (std::size_t i = 0; i < moved.size(); ++i) {
     EXPECT_NEAR(moved[i].frequency / expected[i].frequency, 1.0, 1e-9);
     EXPECT_NEAR(scaled[i].frequency / moved[i].frequency, 0.9, 1e-9);
@@ -155,7 +157,7 @@ TEST(MotorsHeldCase, LetsTheOtherAntennaBeAChoiceOfTheRedesign) {
     return choice.result.name.starts_with("antenna of gear spring ");
   });
   ASSERT_NE(other, choices.end());
-  const auto structure = make_plant(antenna, other->variant.value()).structure;
+  const auto structure = linear_plant(other->antenna.value()).structure;
   EXPECT_GT(structure.gear_stiffness, 1.5 * make_plant(antenna).structure.gear_stiffness);
   EXPECT_EQ(other->result.name,
             fmt::format("antenna of gear spring {:.3g} N.m/rad", structure.gear_stiffness));

@@ -6,7 +6,6 @@
 
 #include "io/edited_case.hpp"
 #include "scratch_folder.hpp"
-#include <boresight/app/redesign/antenna_model.hpp>
 #include <boresight/design/tuning/structure_parts.hpp>
 #include <boresight/io/case/case_file.hpp>
 

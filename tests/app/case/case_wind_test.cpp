@@ -10,12 +10,13 @@
 
 #include "io/edited_case.hpp"
 #include "scratch_folder.hpp"
-#include <boresight/app/redesign/antenna_model.hpp>
 #include <boresight/app/report/wind_mast.hpp>
 #include <boresight/app/simulate/nonlinear_model.hpp>
 #include <boresight/app/simulate/position_run.hpp>
 #include <boresight/design/tuning/tuner.hpp>
 #include <boresight/io/case/case_file.hpp>
+#include <boresight/io/case/drive_numbers.hpp>
+#include <boresight/io/case/mission_of.hpp>
 #include <boresight/io/units/unit_table.hpp>
 #include <boresight/numerics/angles.hpp>
 #include <boresight/numerics/error.hpp>

@@ -7,8 +7,9 @@
 
 #include "io/edited_case.hpp"
 #include "scratch_folder.hpp"
-#include <boresight/app/redesign/antenna_model.hpp>
+#include <boresight/io/case/antenna_of.hpp>
 #include <boresight/io/case/case_file.hpp>
+#include <boresight/io/case/drive_numbers.hpp>
 #include <boresight/numerics/error.hpp>
 #include <boresight/plant/antenna/structure_dynamics.hpp>
 

@@ -8,7 +8,7 @@
 #include "app/program_run.hpp"
 #include "io/edited_case.hpp"
 #include <boresight/app/commission/commission_study.hpp>
-#include <boresight/app/redesign/antenna_model.hpp>
+#include <boresight/io/case/antenna_of.hpp>
 #include <boresight/numerics/error.hpp>
 
 namespace boresight::app {

@@ -13,7 +13,7 @@
 #include <boresight/app/evaluate/unfit_candidates.hpp>
 #include <boresight/app/report/evaluate_report.hpp>
 #include <boresight/app/report/sky_units.hpp>
-#include <boresight/numerics/angles.hpp>
+#include <boresight/design/problem/pointing_budget.hpp>
 
 namespace boresight::app {
 namespace {
@@ -171,7 +171,7 @@ TEST(EvaluateConclusions, SayOnHowManyPlantsANeededBudgetIsMet) {
 TEST(EvaluateConclusions, SayThatNoCandidateMeetsANeededBudget) {
   const auto told = [](double proposal_speed, bool still, double as_it_is = 8.0) {
     EvaluateSection section;
-    PointingBudget& budget = section.budgets.emplace_back();
+    design::PointingBudget& budget = section.budgets.emplace_back();
     budget.name = "tracking";
     budget.band = "Ka";
     budget.rms = 0.5 * millidegree;

@@ -10,6 +10,7 @@
 #include <boresight/app/commands/evaluate_command.hpp>
 #include <boresight/app/report/json_report.hpp>
 #include <boresight/app/report/text_report.hpp>
+#include <boresight/design/problem/pointing.hpp>
 #include <boresight/numerics/error.hpp>
 
 namespace boresight::app {

@@ -10,8 +10,13 @@
 #include <boresight/app/evaluate/evaluate_study.hpp>
 #include <boresight/app/evaluate/proposed_case.hpp>
 #include <boresight/app/tune/plant_members.hpp>
+#include <boresight/io/case/antenna_of.hpp>
+#include <boresight/io/case/drive_numbers.hpp>
+#include <boresight/io/case/mission_of.hpp>
+#include <boresight/io/case/plant_numbers.hpp>
 #include <boresight/io/case/structure_numbers.hpp>
 #include <boresight/numerics/error.hpp>
+#include <boresight/plant/antenna/antenna_change.hpp>
 #include <boresight/plant/antenna/motors_held_modes.hpp>
 
 namespace boresight::app {
@@ -180,7 +185,8 @@ TEST(ProposedCase, FlywheelsChangeTheMotorsInertiaOnly) {
   EXPECT_NEAR(bare.motor.inertia.value, motor.inertia.value - 24.0 * motor.disk_inertia.value,
               1e-12);
   EXPECT_DOUBLE_EQ(oil_stiffness(bare), oil_stiffness(as_is()));
-  const auto plant = make_plant(bare), own = make_plant(as_is(), {.flywheel_disks = 0.0});
+  const auto plant = make_plant(bare),
+             own = make_plant(as_is(), {plant::set_to("motor.flywheel_disks", 0.0)});
   EXPECT_NEAR(plant.drive.motor_inertia, own.drive.motor_inertia, 1e-12);
 }
 

@@ -4,8 +4,10 @@
 #include <gtest/gtest.h>
 
 #include <boresight/app/identify/identified_case.hpp>
-#include <boresight/app/redesign/antenna_model.hpp>
 #include <boresight/app/redesign/assumed_inputs.hpp>
+#include <boresight/io/case/antenna_of.hpp>
+#include <boresight/io/case/drive_numbers.hpp>
+#include <boresight/io/case/plant_numbers.hpp>
 #include <boresight/numerics/error.hpp>
 
 namespace boresight::app {

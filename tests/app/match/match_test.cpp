@@ -9,7 +9,11 @@
 #include <boresight/app/match/match_study.hpp>
 #include <boresight/app/report/match_report.hpp>
 #include <boresight/app/simulate/nonlinear_model.hpp>
+#include <boresight/io/case/antenna_of.hpp>
+#include <boresight/io/case/drive_numbers.hpp>
+#include <boresight/io/case/plant_numbers.hpp>
 #include <boresight/numerics/error.hpp>
+#include <boresight/plant/antenna/antenna_change.hpp>
 
 namespace boresight::app {
 namespace {
@@ -151,9 +155,10 @@ TEST(Match, JudgesTheClassicRules) {
   ASSERT_EQ(rules.size(), 4U);
   for (const auto& rule : rules) {
     if (!rule.disks) continue;
-    EXPECT_NEAR(plant::motor_to_load_ratio(motor_inertia(big_antenna(), *rule.disks),
-                                           plant::reflected_inertia(make_plant(
-                                               big_antenna(), {.flywheel_disks = *rule.disks}))),
+    EXPECT_NEAR(plant::motor_to_load_ratio(
+                    motor_inertia(big_antenna(), *rule.disks),
+                    plant::reflected_inertia(make_plant(
+                        big_antenna(), {plant::set_to("motor.flywheel_disks", *rule.disks)}))),
                 rule.motor_to_load_ratio, 1e-9);
     for (const double cost : rule.cost) EXPECT_GT(cost, -1e-9);
   }

@@ -8,6 +8,8 @@
 #include <boresight/design/ensembles/monte_carlo.hpp>
 #include <boresight/design/tuning/design_study.hpp>
 #include <boresight/io/case/case_file.hpp>
+#include <boresight/io/case/drive_numbers.hpp>
+#include <boresight/io/case/mission_of.hpp>
 
 namespace boresight::app {
 namespace {

@@ -8,8 +8,9 @@
 #include "io/edited_case.hpp"
 #include <boresight/app/benchmark/benchmark_report.hpp>
 #include <boresight/app/models/linear_models.hpp>
-#include <boresight/app/redesign/antenna_model.hpp>
 #include <boresight/app/report/json_linear_models.hpp>
+#include <boresight/io/case/drive_numbers.hpp>
+#include <boresight/io/case/mission_of.hpp>
 #include <boresight/io/exchange/controller_file.hpp>
 #include <boresight/numerics/error.hpp>
 

@@ -8,7 +8,6 @@
 #include "io/edited_case.hpp"
 #include "scratch_folder.hpp"
 #include <boresight/app/commands/simulate_command.hpp>
-#include <boresight/app/redesign/antenna_model.hpp>
 #include <boresight/app/redesign/assumed_inputs.hpp>
 #include <boresight/app/simulate/nonlinear_model.hpp>
 #include <boresight/app/simulate/time_domain.hpp>

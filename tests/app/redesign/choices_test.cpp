@@ -9,6 +9,8 @@
 
 #include "io/edited_case.hpp"
 #include <boresight/app/redesign/choices.hpp>
+#include <boresight/io/case/antenna_of.hpp>
+#include <boresight/io/case/drive_evidence.hpp>
 
 namespace boresight::app {
 namespace {
@@ -39,15 +41,15 @@ PlantChoice choice_of(const io::Case& antenna, const std::string& name) {
   return *found;
 }
 
-plant::Drive drive_of(const io::Case& antenna, const PlantChoice& choice) {
-  return make_plant(antenna, choice.variant.value()).drive;
+plant::Drive drive_of(const PlantChoice& choice) {
+  return linear_plant(choice.antenna.value()).drive;
 }
 
 TEST(PlantChoices, SoftenTheOilWithTheLeakageThatItsFlowGives) {
   const io::Case flow = io::parse_case(leaking_by_flow(measured_at("0.3 Hz")).text(), "case.toml");
   const io::Case rate = io::parse_case(measured_at("0.3 Hz").text(), "case.toml");
   const auto softer = choice_of(flow, "masses right, stiffness from resonance");
-  const auto own = make_plant(flow).drive, drive = drive_of(flow, softer);
+  const auto own = make_plant(flow).drive, drive = drive_of(softer);
   EXPECT_LT(drive.oil_stiffness, 0.2 * own.oil_stiffness);
   // One conductance of leakage.
   EXPECT_NEAR(drive.leakage_rate / drive.oil_stiffness, own.leakage_rate / own.oil_stiffness,
@@ -57,26 +59,26 @@ TEST(PlantChoices, SoftenTheOilWithTheLeakageThatItsFlowGives) {
                     HasSubstr(", and the leakage rate with it, so that"), HasSubstr("0.3 Hz")));
   // A decay that was measured stays.
   const auto measured = choice_of(rate, "masses right, stiffness from resonance");
-  EXPECT_EQ(drive_of(rate, measured).leakage_rate, make_plant(rate).drive.leakage_rate);
+  EXPECT_EQ(drive_of(measured).leakage_rate, make_plant(rate).drive.leakage_rate);
   EXPECT_THAT(measured.result.says, Not(HasSubstr("leakage")));
 }
 
 TEST(PlantChoices, HaveOilByWhichTheFlexibleAntennaHasTheMeasuredFrequency) {
   const std::string name = "oil for the resonance of the flexible antenna";
-  const auto frequency = [](const io::Case& antenna, const PlantVariant& variant) {
-    return plant::hydraulic_mode(plant::plant_modes(make_plant(antenna, variant))).frequency;
+  const auto frequency = [](const plant::Antenna& antenna) {
+    return plant::hydraulic_mode(plant::plant_modes(linear_plant(antenna))).frequency;
   };
   for (const auto& edited : {measured_at("0.97 Hz"), leaking_by_flow(measured_at("0.97 Hz"))}) {
     const io::Case antenna = io::parse_case(edited.text(), "case.toml");
     const auto flexible = choice_of(antenna, name);
-    EXPECT_NEAR(frequency(antenna, flexible.variant.value()), 0.97, 1e-6);
+    EXPECT_NEAR(frequency(flexible.antenna.value()), 0.97, 1e-6);
     EXPECT_TRUE(flexible.result.contradicts);
     EXPECT_THAT(flexible.result.says, EndsWith("by which the flexible antenna has the measured "
                                                "0.97 Hz"));
   }
   // Neither the case's own oil nor any.
   const io::Case reference = io::read_case(case_path("dss14-70m"));
-  const auto own = measured_at(fmt::format("{:.9f} Hz", frequency(reference, {})));
+  const auto own = measured_at(fmt::format("{:.9f} Hz", frequency(antenna_of(reference))));
   for (const auto& edited : {own, measured_at("20 Hz")}) {
     EXPECT_THROW(choice_of(io::parse_case(edited.text(), "case.toml"), name), std::runtime_error);
   }
@@ -107,7 +109,7 @@ TEST(PlantChoices, KeepSpringsWhereTheAlternativeDoes) {
   };
   const auto structure_of = [](const io::Case& antenna) {
     const auto& name = antenna.antenna.alternatives.front().name;
-    return make_plant(antenna, choice_of(antenna, "antenna of " + name).variant.value()).structure;
+    return linear_plant(choice_of(antenna, "antenna of " + name).antenna.value()).structure;
   };
   const io::Case springs = with_alternative("springs"),
                  frequencies = with_alternative("frequencies");
@@ -134,7 +136,7 @@ TEST(PlantChoices, SayWhatContradictsBecauseItLeavesNoAntenna) {
   antenna.impulse_results.front().reflected_inertia.value = 0.01;
   const auto none = choice_of(
       antenna, "inertia from impulse, " + antenna.impulse_results.front().name + " friction");
-  EXPECT_FALSE(none.variant);
+  EXPECT_FALSE(none.antenna);
   EXPECT_THAT(none.result.impossible, HasSubstr("for an antenna of"));
   EXPECT_TRUE(none.result.contradicts);
   EXPECT_FALSE(none.result.other_shares || none.result.other_attitude);
@@ -143,7 +145,7 @@ TEST(PlantChoices, SayWhatContradictsBecauseItLeavesNoAntenna) {
 TEST(PlantChoices, KeepTheLeakageOfTheOtherConvention) {
   const io::Case antenna = io::parse_case(leaking_by_flow(EditedCase()).text(), "case.toml");
   const auto other = choice_of(antenna, "stiffness without efficiencies");
-  EXPECT_EQ(drive_of(antenna, other).leakage_rate, make_plant(antenna).drive.leakage_rate);
+  EXPECT_EQ(drive_of(other).leakage_rate, make_plant(antenna).drive.leakage_rate);
   EXPECT_FALSE(other.result.contradicts);
   EXPECT_TRUE(choice_of(antenna, "inertia from resonance, no efficiencies").result.contradicts);
 }

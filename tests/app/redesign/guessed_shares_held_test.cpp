@@ -7,10 +7,11 @@
 #include <gtest/gtest.h>
 
 #include "io/edited_case.hpp"
-#include <boresight/app/redesign/antenna_model.hpp>
 #include <boresight/app/redesign/guessed_shares_held.hpp>
 #include <boresight/app/report/sky_units.hpp>
 #include <boresight/design/tuning/design_study.hpp>
+#include <boresight/io/case/guessed_shares.hpp>
+#include <boresight/io/case/mission_of.hpp>
 
 namespace boresight::app {
 namespace {
@@ -33,8 +34,8 @@ std::vector<std::string> sentences_of(const io::Case& antenna) {
 
 TEST(GuessedSharesHeld, AreWorthASentenceWhereTheyMoveTheRms) {
   const io::Case antenna = io::read_case(case_path("dss14-70m"));
-  const auto rms_of = [&](GuessedShares place) {
-    auto problem = make_problem(antenna, {.guessed_shares = place});
+  const auto rms_of = [&](io::GuessedShares place) {
+    auto problem = make_problem(antenna, guessed_share_changes(antenna.structure, place));
     problem.wind.mean_speed = 10.0;
     return design::assess(problem, law(), make_goals(antenna)).beam_rms / millidegree;
   };
@@ -44,8 +45,8 @@ TEST(GuessedSharesHeld, AreWorthASentenceWhereTheyMoveTheRms) {
           "with gains held, the linear {:.3f} mdeg of PI with lag on the case's plant would be "
           "{:.3f} mdeg with wind and beam shares as inertia, {:.3f} mdeg with wind and beam shares "
           "all at one.",
-          rms_of(GuessedShares::as_stated), rms_of(GuessedShares::as_inertia),
-          rms_of(GuessedShares::all_at_heaviest)))));
+          rms_of(io::GuessedShares::as_stated), rms_of(io::GuessedShares::as_inertia),
+          rms_of(io::GuessedShares::all_at_heaviest)))));
   io::Case known = antenna;
   for (auto& mode : known.structure.modes) {
     mode.wind_fraction.basis = mode.beam_weight.basis = io::Basis::measured;

@@ -11,10 +11,12 @@
 #include <gtest/gtest.h>
 
 #include "io/edited_case.hpp"
-#include <boresight/app/redesign/antenna_model.hpp>
 #include <boresight/app/redesign/input_effects.hpp>
 #include <boresight/app/report/sky_units.hpp>
 #include <boresight/design/tuning/design_study.hpp>
+#include <boresight/io/case/antenna_of.hpp>
+#include <boresight/io/case/drive_numbers.hpp>
+#include <boresight/io/case/mission_of.hpp>
 
 namespace boresight::app {
 namespace {

@@ -10,13 +10,13 @@
 #include "io/edited_case.hpp"
 #include <boresight/app/document/document_text.hpp>
 #include <boresight/app/page/decision.hpp>
-#include <boresight/app/redesign/antenna_model.hpp>
 #include <boresight/app/redesign/choices.hpp>
 #include <boresight/app/redesign/resonance_verdict.hpp>
-#include <boresight/app/redesign/resonating_mode.hpp>
 #include <boresight/app/redesign/sections.hpp>
 #include <boresight/app/report/text_report.hpp>
 #include <boresight/app/tune/plant_members.hpp>
+#include <boresight/io/case/antenna_of.hpp>
+#include <boresight/io/case/resonating_mode.hpp>
 #include <boresight/plant/antenna/hydraulics.hpp>
 
 namespace boresight::app {

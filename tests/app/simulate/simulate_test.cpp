@@ -11,11 +11,11 @@
 
 #include "app/program_run.hpp"
 #include "io/edited_case.hpp"
-#include <boresight/app/redesign/antenna_model.hpp>
 #include <boresight/app/simulate/drive_run.hpp>
 #include <boresight/app/simulate/nonlinear_model.hpp>
 #include <boresight/app/simulate/position_run.hpp>
 #include <boresight/design/tuning/tuner.hpp>
+#include <boresight/io/case/mission_of.hpp>
 #include <boresight/io/records/csv_table.hpp>
 #include <boresight/numerics/error.hpp>
 

@@ -10,10 +10,9 @@
 #include <nlohmann/json.hpp>
 
 #include "io/edited_case.hpp"
-#include <boresight/app/redesign/antenna_model.hpp>
 #include <boresight/app/report/json_time_domain.hpp>
 #include <boresight/app/simulate/time_domain.hpp>
-#include <boresight/numerics/angles.hpp>
+#include <boresight/io/case/mission_of.hpp>
 
 namespace boresight::app {
 namespace {

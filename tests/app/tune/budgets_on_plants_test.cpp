@@ -6,6 +6,8 @@
 #include <boresight/app/report/sky_units.hpp>
 #include <boresight/app/tune/budgets_on_plants.hpp>
 #include <boresight/app/tune/plant_members.hpp>
+#include <boresight/design/problem/pointing_budget.hpp>
+#include <boresight/io/case/mission_of.hpp>
 
 namespace boresight::app {
 namespace {
@@ -23,16 +25,16 @@ TEST(BudgetsOnPlants, AreJudgedInTheirOwnWind) {
   const auto judged = design::judge(problem, members, law, {}, 1);
   ASSERT_EQ(judged.stable, all);
   const double design_speed = problem.wind.mean_speed;
-  PointingBudget budget;
+  design::PointingBudget budget;
   budget.rms = 1.0001 * judged.largest_rms;
-  PointingBudget stronger = budget;
+  design::PointingBudget stronger = budget;
   budget.wind_speed = design_speed;
   stronger.wind_speed = 2.0 * design_speed;
-  PointingBudget median = budget;
+  design::PointingBudget median = budget;
   median.rms = judged.median_rms;
-  PointingBudget unneeded = budget;
+  design::PointingBudget unneeded = budget;
   unneeded.wind_speed.reset();
-  const std::vector<PointingBudget> budgets{budget, stronger, median, unneeded};
+  const std::vector<design::PointingBudget> budgets{budget, stronger, median, unneeded};
   const auto met = plants_within_budgets(problem, members, law, {}, budgets, 1.0, 1);
   ASSERT_EQ(met.size(), budgets.size());
   EXPECT_THAT(met[0], Optional(all));

@@ -8,10 +8,11 @@
 #include <nlohmann/json.hpp>
 
 #include <boresight/app/document/document_text.hpp>
-#include <boresight/app/redesign/antenna_model.hpp>
 #include <boresight/app/report/measured_report.hpp>
 #include <boresight/app/tune/measured_study.hpp>
 #include <boresight/control/loops/closed_loop.hpp>
+#include <boresight/io/case/drive_numbers.hpp>
+#include <boresight/io/case/mission_of.hpp>
 #include <boresight/numerics/error.hpp>
 
 namespace boresight::app {

@@ -5,9 +5,9 @@
 #include <gtest/gtest.h>
 
 #include "io/edited_case.hpp"
-#include <boresight/app/redesign/antenna_model.hpp>
 #include <boresight/app/report/sky_units.hpp>
 #include <boresight/app/tune/position_gain_trade.hpp>
+#include <boresight/io/case/mission_of.hpp>
 
 namespace boresight::app {
 namespace {

@@ -12,11 +12,14 @@
 
 #include "app/program_run.hpp"
 #include "io/edited_case.hpp"
-#include <boresight/app/redesign/antenna_model.hpp>
 #include <boresight/app/tune/engineer_units.hpp>
 #include <boresight/app/tune/plant_members.hpp>
 #include <boresight/app/tune/tune_limit.hpp>
 #include <boresight/app/tune/tune_study.hpp>
+#include <boresight/design/problem/pointing_budget.hpp>
+#include <boresight/io/case/antenna_of.hpp>
+#include <boresight/io/case/drive_numbers.hpp>
+#include <boresight/io/case/mission_of.hpp>
 
 namespace boresight::app {
 namespace {
@@ -70,7 +73,7 @@ TEST(Shortfalls, NoLawHoldsWhatTheSupplyCannot) {
                       io::gear_ratio(antenna) +
                   friction + 5.65,
               io::supply_torque(antenna), 1e-9 * supply_torque(antenna));
-  PointingBudget budget;
+  design::PointingBudget budget;
   budget.name = "need";
   budget.band = "Ka";
   budget.rms = 1e-5;

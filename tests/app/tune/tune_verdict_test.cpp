@@ -14,6 +14,7 @@
 #include <boresight/app/tune/gains_at_bounds.hpp>
 #include <boresight/app/tune/tune_study.hpp>
 #include <boresight/app/tune/tune_verdict.hpp>
+#include <boresight/design/problem/pointing_budget.hpp>
 
 namespace boresight::app {
 namespace {
@@ -31,7 +32,7 @@ using testing::StartsWith;
 TuneSection section_with_need() {
   TuneSection section;
   section.wind_speeds = {12.0};
-  PointingBudget budget;
+  design::PointingBudget budget;
   budget.name = "need";
   budget.band = "Ka";
   budget.rms = 1.2 * millidegree;

@@ -4,6 +4,8 @@
 
 #include <boresight/app/tune/plant_members.hpp>
 #include <boresight/app/uncertainty/plant_distribution.hpp>
+#include <boresight/io/case/antenna_of.hpp>
+#include <boresight/io/case/plant_numbers.hpp>
 #include <boresight/numerics/error.hpp>
 #include <boresight/numerics/normal_numbers.hpp>
 
@@ -97,12 +99,12 @@ TEST(PlantDistribution, AFactorOfOneIsTheCase) {
   PlantDraw draw;
   draw.values.at(place(UncertainInput::friction_slope)) = reference().drive.viscous_friction.value;
   const auto own = make_plant(reference());
-  const auto drawn = make_plant(reference(), draw);
+  const auto drawn = make_plant(reference(), changes_of(draw));
   EXPECT_EQ(drawn.drive.oil_stiffness, own.drive.oil_stiffness);
   EXPECT_EQ(drawn.drive.motor_inertia, own.drive.motor_inertia);
   EXPECT_DOUBLE_EQ(plant::reflected_inertia(drawn), plant::reflected_inertia(own));
   draw.values.at(place(UncertainInput::structure_frequency)) = 1.1;
-  EXPECT_NEAR(make_plant(reference(), draw).structure.gear_stiffness,
+  EXPECT_NEAR(make_plant(reference(), changes_of(draw)).structure.gear_stiffness,
               1.21 * own.structure.gear_stiffness, 1e-12 * own.structure.gear_stiffness);
 }
 
@@ -145,9 +147,9 @@ TEST(PlantDistribution, KeepsTheSequenceOfItsDraws) {
 
 TEST(PlantDistribution, AWindTorqueIsThatOfThePlant) {
   PlantDraw draw = PlantDistribution::of_ranges(reference()).median();
-  const auto calm = make_plant(reference(), draw).structure;
+  const auto calm = make_plant(reference(), changes_of(draw)).structure;
   draw.values.at(place(UncertainInput::wind_torque)) = 1.2;
-  const auto windy = make_plant(reference(), draw).structure;
+  const auto windy = make_plant(reference(), changes_of(draw)).structure;
   EXPECT_EQ(windy.bull_gear_wind_fraction, 1.2 * calm.bull_gear_wind_fraction);
   for (std::size_t i = 0; i < calm.modes.size(); ++i) {
     EXPECT_EQ(windy.modes[i].wind_fraction, 1.2 * calm.modes[i].wind_fraction);

@@ -1,14 +1,14 @@
 #include <cmath>
 
-#include <boresight/app/redesign/antenna_model.hpp>
-#include <boresight/app/redesign/loaded_drive.hpp>
 #include <boresight/io/case/drive_numbers.hpp>
+#include <boresight/io/case/loaded_drive.hpp>
+#include <boresight/io/case/plant_numbers.hpp>
 
-namespace boresight::app {
+namespace boresight::io {
 
-LoadedDrive::LoadedDrive(const io::Case& antenna, double oil_stiffness, double supply_torque)
-    : curve_(io::friction_curve(antenna)),
-      offset_(std::abs(plant::offset_torque(io::offset_torque(antenna), 0.0).value)),
+LoadedDrive::LoadedDrive(const Case& antenna, double oil_stiffness, double supply_torque)
+    : curve_(friction_curve(antenna)),
+      offset_(std::abs(plant::offset_torque(offset_torque(antenna), 0.0).value)),
       leakage_(antenna.drive.leakage_rate.value / oil_stiffness) {
   const auto& back =
       antenna.simulation ? antenna.simulation->return_pressure : antenna.campaign.return_pressure;
@@ -35,11 +35,11 @@ double LoadedDrive::attainable_rate(double stroke) const {
   return lowest;
 }
 
-std::optional<double> slew_rate_margin(const io::Case& antenna) {
-  if (!antenna.simulation && !io::rated_stroke(antenna)) return std::nullopt;
-  const LoadedDrive drive(antenna, oil_stiffness(antenna), io::supply_torque(antenna));
-  return drive.attainable_rate(io::largest_demand(antenna)) /
+std::optional<double> slew_rate_margin(const Case& antenna) {
+  if (!antenna.simulation && !rated_stroke(antenna)) return std::nullopt;
+  const LoadedDrive drive(antenna, oil_stiffness(antenna), supply_torque(antenna));
+  return drive.attainable_rate(largest_demand(antenna)) /
          (antenna.drive.slew_rate.value * gear_ratio(antenna));
 }
 
-}  // namespace boresight::app
+}  // namespace boresight::io

@@ -1,12 +1,15 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <string>
 #include <vector>
 
-#include <boresight/app/redesign/guessed_shares.hpp>
+#include <fmt/format.h>
+
+#include <boresight/io/case/guessed_shares.hpp>
 #include <boresight/io/case/structure_numbers.hpp>
 
-namespace boresight::app {
+namespace boresight::io {
 namespace {
 
 // Bull gear or mode, of one set of shares.
@@ -32,24 +35,7 @@ void place(std::vector<Body> bodies, GuessedShares where) {
   }
 }
 
-}  // namespace
-
-std::string_view to_string(GuessedShares place) {
-  static constexpr std::array names{"wind and beam shares as stated",
-                                    "wind and beam shares as inertia",
-                                    "wind and beam shares all at one"};
-  return names.at(static_cast<std::size_t>(place));
-}
-
-bool is_unbounded_guess(const io::Quantity& quantity) {
-  return quantity.basis == io::Basis::assumed && !quantity.uncertainty_given;
-}
-
-bool is_guessed_share(const io::Quantity& share) {
-  return is_unbounded_guess(share) && share.value >= 0.0;
-}
-
-void place_guessed_shares(const io::StructureEntry& structure, GuessedShares where,
+void place_guessed_shares(const StructureEntry& structure, GuessedShares where,
                           plant::StructureSpecification& specification) {
   if (where == GuessedShares::as_stated) return;
   double bull_gear = 1.0;
@@ -70,9 +56,42 @@ void place_guessed_shares(const io::StructureEntry& structure, GuessedShares whe
   place(std::move(beam), where);
 }
 
-bool moves_guessed_shares(const io::StructureEntry& structure, GuessedShares where) {
+}  // namespace
+
+std::string_view to_string(GuessedShares place) {
+  static constexpr std::array names{"wind and beam shares as stated",
+                                    "wind and beam shares as inertia",
+                                    "wind and beam shares all at one"};
+  return names.at(static_cast<std::size_t>(place));
+}
+
+bool is_unbounded_guess(const Quantity& quantity) {
+  return quantity.basis == Basis::assumed && !quantity.uncertainty_given;
+}
+
+bool is_guessed_share(const Quantity& share) {
+  return is_unbounded_guess(share) && share.value >= 0.0;
+}
+
+std::vector<plant::AntennaChange> guessed_share_changes(const StructureEntry& structure,
+                                                        GuessedShares where) {
+  if (where == GuessedShares::as_stated) return {};
+  plant::StructureSpecification placed = structure_specification(structure);
+  place_guessed_shares(structure, where, placed);
+  std::vector changes{
+      plant::set_to("structure.bull_gear_wind_fraction", placed.bull_gear_wind_fraction),
+      plant::set_to("structure.bull_gear_beam_weight", placed.bull_gear_beam_weight)};
+  for (std::size_t i = 0; i < placed.modes.size(); ++i) {
+    const std::string mode = fmt::format("structure.mode[{}].", i);
+    changes.push_back(plant::set_to(mode + "wind_fraction", placed.modes[i].wind_fraction));
+    changes.push_back(plant::set_to(mode + "beam_weight", placed.modes[i].beam_weight));
+  }
+  return changes;
+}
+
+bool moves_guessed_shares(const StructureEntry& structure, GuessedShares where) {
   constexpr double same = 0.02;
-  const plant::StructureSpecification stated = io::structure_specification(structure);
+  const plant::StructureSpecification stated = structure_specification(structure);
   plant::StructureSpecification placed = stated;
   place_guessed_shares(structure, where, placed);
   const auto apart = [](double x, double y) { return std::abs(x - y) > same; };
@@ -85,4 +104,4 @@ bool moves_guessed_shares(const io::StructureEntry& structure, GuessedShares whe
   return moved;
 }
 
-}  // namespace boresight::app
+}  // namespace boresight::io

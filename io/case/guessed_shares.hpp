@@ -2,18 +2,20 @@
 
 #include <array>
 #include <string_view>
+#include <vector>
 
 #include <boresight/io/case/case_file.hpp>
+#include <boresight/plant/antenna/antenna_change.hpp>
 #include <boresight/plant/antenna/antenna_plant.hpp>
 
-namespace boresight::app {
+namespace boresight::io {
 
 /// Whether a number is assumed without saying how far it may be off.
-bool is_unbounded_guess(const io::Quantity& quantity);
+bool is_unbounded_guess(const Quantity& quantity);
 
 /// Whether a share of wind or beam is such a guess. One below 0 is none: a part that turns the beam
 /// against itself is known to. One above 1 is: it has what balances such parts.
-bool is_guessed_share(const io::Quantity& share);
+bool is_guessed_share(const Quantity& share);
 
 /// Where the guessed shares of wind and of beam are, of what the stated ones leave of 1: as the
 /// case says; in proportion to the inertia fractions, as if both belonged to all masses alike; all
@@ -25,12 +27,12 @@ inline constexpr std::array other_guesses{GuessedShares::as_inertia,
 /// "wind and beam shares as inertia".
 std::string_view to_string(GuessedShares place);
 
-/// Moves the guessed shares of a specification that is the structure's own
-/// (structure_specifications); each set of shares sums to what it did.
-void place_guessed_shares(const io::StructureEntry& structure, GuessedShares place,
-                          plant::StructureSpecification& specification);
+/// The changes that place the guessed shares of the case's antenna (antenna_of) so; each set of
+/// shares sums to what it did.
+std::vector<plant::AntennaChange> guessed_share_changes(const StructureEntry& structure,
+                                                        GuessedShares place);
 
 /// Whether that changes a share by more than 0.02.
-bool moves_guessed_shares(const io::StructureEntry& structure, GuessedShares place);
+bool moves_guessed_shares(const StructureEntry& structure, GuessedShares place);
 
-}  // namespace boresight::app
+}  // namespace boresight::io

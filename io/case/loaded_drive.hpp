@@ -5,7 +5,7 @@
 #include <boresight/io/case/case_file.hpp>
 #include <boresight/plant/antenna/friction.hpp>
 
-namespace boresight::app {
+namespace boresight::io {
 
 /// What the motors must hold while they turn steadily, and what the supply has for it and for the
 /// drop of the valve, fully open. At the motor shaft, all motors: N m and rad/s.
@@ -13,7 +13,7 @@ class LoadedDrive {
  public:
   /// `oil_stiffness` (N m/rad), with the leakage rate, says what leaks past the motors;
   /// `supply_torque` is at the supply pressure, the return pressure not taken off.
-  LoadedDrive(const io::Case& antenna, double oil_stiffness, double supply_torque);
+  LoadedDrive(const Case& antenna, double oil_stiffness, double supply_torque);
 
   /// The supply's torque above the return's.
   double available() const { return available_; }
@@ -35,6 +35,6 @@ class LoadedDrive {
 
 /// The highest rate that the drive holds against its load over what slewing takes; none where the
 /// case states nothing of its valve's stroke (largest_demand).
-std::optional<double> slew_rate_margin(const io::Case& antenna);
+std::optional<double> slew_rate_margin(const Case& antenna);
 
-}  // namespace boresight::app
+}  // namespace boresight::io

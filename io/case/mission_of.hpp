@@ -1,0 +1,40 @@
+#pragma once
+
+#include <vector>
+
+#include <boresight/design/problem/goals.hpp>
+#include <boresight/design/problem/pointing_budget.hpp>
+#include <boresight/design/problem/tracking_problem.hpp>
+#include <boresight/io/case/case_file.hpp>
+#include <boresight/plant/antenna/antenna_change.hpp>
+
+/// What a case asks of its antenna, as the design takes it.
+namespace boresight::io {
+
+/// The antenna of a case (antenna_of), so changed, in the case's wind.
+/// @throws InvalidInput as antenna_of, plant::changed and plant::linear_plant.
+design::TrackingProblem make_problem(const Case& antenna,
+                                     const std::vector<plant::AntennaChange>& changes = {});
+/// Another antenna in the case's wind.
+design::TrackingProblem make_problem(const Case& antenna, const plant::Antenna& other);
+
+/// Mean wind speed (m/s) at which the mean wind torque takes all that friction at the tracking rate
+/// and the offset torque leave of the supply's (torque_for_wind); 0 where they leave nothing,
+/// infinite without mean torque.
+double supply_wind_speed(const Case& antenna, const design::TrackingProblem& problem);
+
+/// Goals against saturation: valve demand within the valve's stroke (largest_demand) and torque
+/// within what friction and offset leave of the supply's (torque_for_wind).
+/// @throws InvalidInput for a crest_factor where they leave nothing.
+design::HardGoals make_goals(const Case& antenna);
+design::SoftGoal make_soft_goal(const Case& antenna);
+
+/// The winds of the site by their share of the time; empty if the case does not state them.
+std::vector<design::WeightedWind> make_climate(const Case& antenna);
+
+std::vector<design::PointingBand> make_bands(const Case& antenna);
+std::vector<design::PointingBudget> make_budgets(const Case& antenna);
+/// Rms error an axis (rad) of the tightest of them; 1 mdeg where the case states none.
+double tightest_budget(const Case& antenna);
+
+}  // namespace boresight::io

@@ -1,0 +1,29 @@
+#include <boresight/io/case/antenna_of.hpp>
+#include <boresight/io/case/resonating_mode.hpp>
+
+namespace boresight::io {
+namespace {
+
+constexpr double half = 0.5;
+
+}  // namespace
+
+plant::PlantMode resonating_mode(const Case& antenna, const plant::AntennaPlant& plant) {
+  const auto modes = plant::plant_modes(plant);
+  return antenna.resonance_of_oil ? plant::mode_of_oil(modes) : plant::hydraulic_mode(modes);
+}
+
+bool rings_as_rigid(const Case& antenna) {
+  const auto modes = plant::plant_modes(make_plant(antenna));
+  const plant::PlantMode hydraulic = plant::hydraulic_mode(modes);
+  const bool of_it =
+      !antenna.resonance_of_oil || plant::mode_of_oil(modes).frequency == hydraulic.frequency;
+  return of_it && hydraulic.oil_share >= half;
+}
+
+bool little_of_oil(const plant::PlantMode& mode, const plant::PlantMode& mode_of_oil) {
+  if (mode.damping_ratio >= 1.0 || mode.oil_share < 0.0 || mode.gear_share < 0.0) return false;
+  return mode.oil_share < half && mode_of_oil.oil_share > mode.oil_share;
+}
+
+}  // namespace boresight::io

@@ -1,0 +1,88 @@
+#include <cmath>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "io/edited_case.hpp"
+#include <boresight/design/problem/pointing.hpp>
+#include <boresight/io/case/antenna_of.hpp>
+#include <boresight/io/case/drive_numbers.hpp>
+#include <boresight/io/case/mission_of.hpp>
+
+namespace boresight::io {
+namespace {
+
+Case reference() {
+  return read_case(case_path("dss14-70m"));
+}
+
+TEST(MissionOf, ProblemIsOfTheCasesAntennaAndOfAnyOther) {
+  const Case stated = reference();
+  const plant::Antenna antenna = antenna_of(stated);
+  const auto own = make_problem(stated);
+  EXPECT_EQ(own.gear_ratio, gear_ratio(stated));
+  EXPECT_EQ(own.plant.drive.oil_stiffness, linear_plant(antenna).drive.oil_stiffness);
+  EXPECT_EQ(own.delay, stated.controller_delay.value);
+  EXPECT_EQ(own.noise.encoder_rms, stated.sensors.encoder_noise.value * gear_ratio(stated));
+  const auto bare = plant::set_to("motor.flywheel_disks", 0.0);
+  EXPECT_EQ(make_problem(stated, {bare}).plant.drive.motor_inertia,
+            make_problem(stated, changed(antenna, {bare})).plant.drive.motor_inertia);
+  EXPECT_LT(make_problem(stated, {bare}).plant.drive.motor_inertia, own.plant.drive.motor_inertia);
+}
+
+TEST(MissionOf, AnotherGearRatioTakesTheNoiseWithIt) {
+  const Case stated = reference();
+  const auto own = make_problem(stated);
+  const auto other =
+      make_problem(stated, {plant::scaled_by("gear_train.stage[0].driven_teeth", 2.0)});
+  EXPECT_NEAR(other.gear_ratio / own.gear_ratio, 2.0, 1e-12);
+  EXPECT_NEAR(other.noise.encoder_rms / own.noise.encoder_rms, 2.0, 1e-12);
+  EXPECT_NEAR(
+      plant::antenna_inertia(other.plant.structure) / plant::antenna_inertia(own.plant.structure),
+      0.25, 1e-12);
+}
+
+TEST(MissionOf, SupplyHoldsTheMeanTorqueOfItsWindSpeed) {
+  const Case stated = reference();
+  const auto problem = make_problem(stated);
+  const double speed = supply_wind_speed(stated, problem);
+  EXPECT_NEAR(std::abs(plant::mean_wind_torque(problem.wind.site, speed)) / problem.gear_ratio,
+              torque_for_wind(stated), 1e-9 * torque_for_wind(stated));
+}
+
+TEST(MissionOf, BudgetsAreTheRmsOfTheirLosses) {
+  const Case stated = reference();
+  const auto budgets = make_budgets(stated);
+  ASSERT_EQ(budgets.size(), stated.budgets.size());
+  EXPECT_NEAR(design::pointing_loss_db(budgets[0].rms, budgets[0].beamwidth,
+                                       design::LossConvention::mean_loss_two_axes),
+              stated.budgets[0].loss->value, 1e-12);
+  for (const auto& budget : budgets) EXPECT_GE(budget.rms, tightest_budget(stated));
+  Case free = stated;
+  free.budgets.clear();
+  EXPECT_NEAR(tightest_budget(free), 1e-3 * std::numbers::pi / 180.0, 1e-18);
+}
+
+TEST(MissionOf, CrestFactorAsksForTorqueThatTheSupplyHas) {
+  Case stated = reference();
+  stated.goals.crest_factor = stated.goals.sensitivity_peak;
+  const auto goals = make_goals(stated);
+  EXPECT_EQ(goals.gust_torque, torque_for_wind(stated));
+  EXPECT_EQ(goals.gust_demand, largest_demand(stated));
+  stated.drive.supply_pressure.value = 1e3;
+  EXPECT_THROW(make_goals(stated), InvalidInput);
+}
+
+TEST(MissionOf, ClimateWeighsTheCasesWind) {
+  Case stated = reference();
+  EXPECT_TRUE(make_climate(stated).empty());
+  stated.wind.climate = {{5.0, 0.75}, {12.0, 0.25}};
+  const auto winds = make_climate(stated);
+  ASSERT_EQ(winds.size(), 2U);
+  EXPECT_EQ(winds[1].wind.mean_speed, 12.0);
+  EXPECT_EQ(winds[1].weight, 0.25);
+  EXPECT_EQ(winds[0].wind.site.dish_diameter, stated.antenna.dish_diameter.value);
+}
+
+}  // namespace
+}  // namespace boresight::io

@@ -112,7 +112,8 @@ inline control::LoopQuadrature peer_quadrature() {
 }
 
 inline control::LoopEvaluator peer_evaluator(Eigen::Index modes) {
-  return {PeerChannels(modes), 0.0, {}, peer_wind_spectrum, peer_quadrature()};
+  return {PeerChannels(modes),
+          {.wind_spectrum = peer_wind_spectrum, .quadrature = peer_quadrature()}};
 }
 
 }  // namespace boresight::reference

@@ -4,7 +4,7 @@
 
 #include <fmt/format.h>
 
-#include <boresight/control/loops/loop_evaluator.hpp>
+#include <boresight/control/loops/loop_evaluator_state.hpp>
 #include <boresight/control/loops/panel_rule.hpp>
 #include <boresight/numerics/error.hpp>
 
@@ -62,21 +62,20 @@ bool polynomial(const ChannelValues& values, double tolerance) {
 
 }  // namespace
 
-LoopEvaluator::LoopEvaluator(std::function<plant::ResponsePoint(double)> channels, double delay,
-                             SensorNoise noise, std::function<double(double)> wind_spectrum,
-                             const LoopQuadrature& quadrature)
+LoopEvaluator::State::State(std::function<plant::ResponsePoint(double)> channels,
+                            PanelConditions conditions)
     : channels_{{}, std::move(channels)},
-      delay_(delay),
-      noise_(noise),
-      wind_spectrum_(std::move(wind_spectrum)),
-      band_(quadrature.band),
-      tolerance_(quadrature.tolerance) {
-  check(quadrature, noise);
-  make_panels(quadrature);
+      delay_(conditions.delay),
+      noise_(conditions.noise),
+      wind_spectrum_(std::move(conditions.wind_spectrum)),
+      band_(conditions.quadrature.band),
+      tolerance_(conditions.quadrature.tolerance) {
+  check(conditions.quadrature, noise_);
+  make_panels(conditions.quadrature);
 }
 
 // Hz. The lowest panel stands for all below it, with the density of its own frequencies.
-double LoopEvaluator::panel_weight(const Panel& panel, std::size_t lane) const {
+double LoopEvaluator::State::panel_weight(const Panel& panel, std::size_t lane) const {
   const PanelRule& rule = panel_rule();
   if (panel.from == lowest_place_) return 0.5 * rule.weight[lane] * std::exp(panel.to) / two_pi;
   const double w = std::exp(panel.centre() + panel.half_width() * rule.node[lane]);
@@ -84,7 +83,7 @@ double LoopEvaluator::panel_weight(const Panel& panel, std::size_t lane) const {
 }
 
 // Adds the panel; its values come from the plant.
-std::uint32_t LoopEvaluator::add_panel(double from, double to) {
+std::uint32_t LoopEvaluator::State::add_panel(double from, double to) {
   const double half_width = 0.5 * (to - from), centre = 0.5 * (from + to);
   const PanelRule& rule = panel_rule();
   GridPack pack;
@@ -111,7 +110,7 @@ std::uint32_t LoopEvaluator::add_panel(double from, double to) {
   return static_cast<std::uint32_t>(packs_.size() - 1);
 }
 
-void LoopEvaluator::add_resolved(double from, double to, const LoopQuadrature& quadrature) {
+void LoopEvaluator::State::add_resolved(double from, double to, const LoopQuadrature& quadrature) {
   const double half_width = 0.5 * (to - from), centre = 0.5 * (from + to);
   const std::uint32_t i = add_panel(from, to);
   const GridPack& pack = packs_[i];
@@ -138,7 +137,7 @@ void LoopEvaluator::add_resolved(double from, double to, const LoopQuadrature& q
   add_resolved(centre, to, quadrature);
 }
 
-void LoopEvaluator::make_panels(const LoopQuadrature& quadrature) {
+void LoopEvaluator::State::make_panels(const LoopQuadrature& quadrature) {
   std::vector<double> edges;
   const auto& [lowest, highest] = quadrature.analysis;
   for (const double edge : {lowest, highest, band_.lowest, band_.highest, noise_.bandwidth}) {
@@ -161,7 +160,7 @@ void LoopEvaluator::make_panels(const LoopQuadrature& quadrature) {
   use_first_panels();
 }
 
-struct LoopEvaluator::Limits {
+struct LoopEvaluator::State::Limits {
   double beam = 0.0, effort = 0.0, demand = 0.0, torque = 0.0;  // squares of errors allowed
 };
 
@@ -182,7 +181,7 @@ bool any_negative(const numerics::RealPack& x) {
 
 }  // namespace
 
-bool LoopEvaluator::close_enough(std::uint32_t i, const Limits& limits) const {
+bool LoopEvaluator::State::close_enough(std::uint32_t i, const Limits& limits) const {
   const Panel& panel = panels_[i];
   const double half_width = panel.half_width();
   if (half_width < narrowest_panel) return true;
@@ -204,7 +203,7 @@ bool LoopEvaluator::close_enough(std::uint32_t i, const Limits& limits) const {
   return !any_negative(values.turn);
 }
 
-void LoopEvaluator::choose_leaves(const Sweep& sweep) {
+void LoopEvaluator::State::choose_leaves(const Sweep& sweep) {
   if (packs_.size() > most_panels) keep_first_panels();
   sweep_values(sweep, first_panels_.data(), first_panels_.size());
   numerics::RealPack beam{}, effort{}, demand{}, torque{};
@@ -252,7 +251,7 @@ void LoopEvaluator::choose_leaves(const Sweep& sweep) {
 }
 
 // Forgets what evaluations added.
-void LoopEvaluator::keep_first_panels() {
+void LoopEvaluator::State::keep_first_panels() {
   packs_.resize(first_panels_.size());
   panels_.resize(first_panels_.size());
   values_.resize(first_panels_.size());
@@ -260,7 +259,7 @@ void LoopEvaluator::keep_first_panels() {
 }
 
 // What others read of the grid.
-void LoopEvaluator::use_first_panels() {
+void LoopEvaluator::State::use_first_panels() {
   const auto count = static_cast<Eigen::Index>(packs_.size() * numerics::pack_size);
   weight_.resize(count);
   channels_.response = plant::unset_response(Eigen::ArrayXd(count));

@@ -1,4 +1,4 @@
-#include <boresight/control/loops/loop_evaluator.hpp>
+#include <boresight/control/loops/loop_evaluator_state.hpp>
 #include <boresight/control/loops/panel_rule.hpp>
 #include <boresight/numerics/vector_clones.hpp>
 
@@ -96,7 +96,7 @@ using Adjoint = std::array<ComplexPack, 4>;
 //   beam by wind  z = beam_wind + a m,   dz = a (dm - m dD2/D2)
 //   likewise the demand by wind with a = -1/D2 and the motor torque with its own response for b
 //   noise         y = n/D2,              dy = (dn - y dD2)/D2
-struct LoopEvaluator::LoopPack {
+struct LoopEvaluator::State::LoopPack {
   ComplexPack rate_part, pressure_part, bending_part, rp, position_part;
   ComplexPack rate_return, both_return, inverse, act;
   RealPack inverse_square;
@@ -150,7 +150,7 @@ struct LoopEvaluator::LoopPack {
   }
 };
 
-LoopEvaluator::Sweep LoopEvaluator::prepare(const ControlLaw& law) const {
+LoopEvaluator::State::Sweep LoopEvaluator::State::prepare(const ControlLaw& law) const {
   Sweep sweep;
   sweep.law = &law;
   const double per_band = 1.0 / noise_.bandwidth;
@@ -175,8 +175,8 @@ LoopEvaluator::Sweep LoopEvaluator::prepare(const ControlLaw& law) const {
 }
 
 BORESIGHT_VECTOR_CLONES
-void LoopEvaluator::sweep_values(const Sweep& sweep, const std::uint32_t* packs,
-                                 std::size_t count) {
+void LoopEvaluator::State::sweep_values(const Sweep& sweep, const std::uint32_t* packs,
+                                        std::size_t count) {
   const PanelRule& rule = panel_rule();
   for (std::size_t n = 0; n < count; ++n) {
     const std::size_t i = packs[n];
@@ -236,12 +236,12 @@ void LoopEvaluator::sweep_values(const Sweep& sweep, const std::uint32_t* packs,
   }
 }
 
-struct LoopEvaluator::GradientSums {
+struct LoopEvaluator::State::GradientSums {
   std::array<RealPack, most_gains> wind{}, noise{}, effort{}, wind_demand{}, wind_torque{};
 };
 
 BORESIGHT_VECTOR_CLONES
-void LoopEvaluator::sweep_gradients(const Sweep& sweep, LoopEvaluation& result) const {
+void LoopEvaluator::State::sweep_gradients(const Sweep& sweep, LoopEvaluation& result) const {
   const std::size_t gains = sweep.law->gains.size();
   const auto& path_of_gain = sweep.path_of_gain;
   GradientSums sums;

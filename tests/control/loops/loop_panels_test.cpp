@@ -54,11 +54,9 @@ double exact_rms(const PeerGains& gains, bool light) {
 LoopEvaluator evaluator_of(bool light) {
   auto shape = reference::peer_modes(modes);
   if (light) shape.damping_ratio[light_mode] = light_damping;
-  return {reference::PeerChannels(shape),
-          0.0,
-          {},
-          reference::peer_wind_spectrum,
-          reference::peer_quadrature()};
+  return {
+      reference::PeerChannels(shape),
+      {.wind_spectrum = reference::peer_wind_spectrum, .quadrature = reference::peer_quadrature()}};
 }
 
 TEST(LoopPanels, HaveTheRmsOfFortyStableLawsToAMillionth) {
@@ -180,8 +178,11 @@ LoopQuadrature reference_quadrature() {
 }
 
 LoopEvaluator antenna_evaluator(const LoopQuadrature& quadrature) {
-  return {plant::PointResponse(reference::antenna()), reference::delay, reference::sensor_noise(),
-          reference::motor_wind_spectrum, quadrature};
+  return {plant::PointResponse(reference::antenna()),
+          {.delay = reference::delay,
+           .noise = reference::sensor_noise(),
+           .wind_spectrum = reference::motor_wind_spectrum,
+           .quadrature = quadrature}};
 }
 
 TEST(LoopPanels, OfTheReferenceAntennaAgreeWithMuchFinerOnes) {
@@ -229,10 +230,12 @@ TEST(LoopPanels, OfTheReferenceAntennaAgreeWithMuchFinerOnes) {
 TEST(LoopPanels, AgreeWithTheTrapezoidRuleOnAGridOfThousands) {
   const auto plant = reference::antenna();
   const Eigen::ArrayXd w = plant::frequency_grid(plant, 1e-4, 25.0, 6000);
-  LoopEvaluator trapezoid(plant, w, reference::delay, reference::sensor_noise(),
-                          (w / reference::two_pi).unaryExpr([](double f) {
-                            return reference::motor_wind_spectrum(f);
-                          }));
+  LoopEvaluator trapezoid(plant, w,
+                          {.delay = reference::delay,
+                           .noise = reference::sensor_noise(),
+                           .wind_spectrum = (w / reference::two_pi).unaryExpr([](double f) {
+                             return reference::motor_wind_spectrum(f);
+                           })});
   LoopEvaluator panels = antenna_evaluator(reference_quadrature());
   reference::RandomNumbers random(217);
   for (const auto& structure : reference::loop_structures()) {
@@ -323,8 +326,9 @@ TEST(LoopPanels, TakeTheDensityBelowTheirBandForConstant) {
   const auto from = [&](double lowest) {
     LoopQuadrature quadrature = reference::peer_quadrature();
     quadrature.analysis.lowest = lowest;
-    LoopEvaluator evaluator(reference::PeerChannels(modes), 0.0, {}, reference::peer_wind_spectrum,
-                            quadrature);
+    LoopEvaluator evaluator(
+        reference::PeerChannels(modes),
+        {.wind_spectrum = reference::peer_wind_spectrum, .quadrature = quadrature});
     const auto found = evaluator.evaluate(reference::peer_law(gains), true);
     EXPECT_LT(relative_error(evaluator.integration_weight().sum(), quadrature.analysis.highest),
               1e-6);
@@ -358,9 +362,10 @@ TEST(LoopPanels, RefuseBandsAndTolerancesThatMakeNoSense) {
   EXPECT_THAT([&] { made_with([](auto& q) { q.widest_panel = -1.0; }); },
               ThrowsMessage<InvalidInput>(HasSubstr("positive tolerances")));
   const auto in_no_wind = [] {
-    return LoopEvaluator(
-        plant::PointResponse(reference::antenna()), reference::delay, {},
-        [](double) { return std::nan(""); }, reference_quadrature());
+    return LoopEvaluator(plant::PointResponse(reference::antenna()),
+                         {.delay = reference::delay,
+                          .wind_spectrum = [](double) { return std::nan(""); },
+                          .quadrature = reference_quadrature()});
   };
   EXPECT_THAT([&] { in_no_wind(); }, ThrowsMessage<NumericalFailure>(HasSubstr("not finite at")));
 }

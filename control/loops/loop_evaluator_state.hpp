@@ -7,6 +7,7 @@
 #include <vector>
 
 #include <boresight/control/loops/loop_evaluator.hpp>
+#include <boresight/control/loops/panel_rule.hpp>
 #include <boresight/numerics/complex_packs.hpp>
 
 namespace boresight::control {
@@ -39,12 +40,12 @@ class LoopEvaluator::State {
              double delay);
     void set_weights(std::size_t lane, double wind, double noise);
   };
-  // What a law makes of eight frequencies: weighted integrands, and their tails (panel_rule.hpp) of
-  // beam and effort, of demand and torque by wind.
+  // What a law makes of eight frequencies: weighted integrands, and their tails (panel_rule.hpp).
   struct LoopValues {
     numerics::ComplexPack rate_return, both_return;  // 1 + L, position loop open, closed
     std::array<numerics::RealPack, 3> sensitivity_square;
-    numerics::RealPack wind, noise, effort, wind_demand, wind_torque, tail, gust_tail;
+    numerics::RealPack wind, noise, effort, wind_demand, wind_torque;
+    TailCoefficients beam_tail, effort_tail, demand_tail, torque_tail;
     // Below 0 where a return turns by more than a right angle to the next point.
     numerics::RealPack turn;
   };
@@ -70,8 +71,11 @@ class LoopEvaluator::State {
     double tachometer_density = 0.0, encoder_density = 0.0, torque_density = 0.0;
     bool noisy = false;
   };
-  struct LoopPack;
+  template <std::size_t width>
+  struct LoopLanes;
+  struct ValueSweep;
   struct GradientSums;
+  struct GradientSweep;
   struct Limits;
   struct PointOnAxis {
     double place = 0.0, value = 0.0;  // ln w, ln|S|^2

@@ -53,8 +53,8 @@ bool polynomial(const ChannelValues& values, double tolerance) {
   Complex six = 0.0, seven = 0.0;
   double largest = 0.0;
   for (std::size_t j = 0; j < numerics::pack_size; ++j) {
-    six += rule.weight[j] * rule.first_tail[j][2] * values[j];
-    seven += rule.weight[j] * rule.first_tail[j][3] * values[j];
+    six += rule.weight[j] * rule.tail[j][2] * values[j];
+    seven += rule.weight[j] * rule.tail[j][3] * values[j];
     largest = std::max(largest, std::norm(values[j]));
   }
   return std::norm(six) + std::norm(seven) <= tolerance * tolerance * largest;
@@ -164,23 +164,6 @@ struct LoopEvaluator::State::Limits {
   double beam = 0.0, effort = 0.0, demand = 0.0, torque = 0.0;  // squares of errors allowed
 };
 
-namespace {
-
-PanelTail tail(const numerics::RealPack& coefficients, std::size_t first) {
-  const auto square = [&](std::size_t k) {
-    return coefficients[first + k] * coefficients[first + k];
-  };
-  return {square(0) + square(1), square(2) + square(3)};
-}
-
-bool any_negative(const numerics::RealPack& x) {
-  bool any = false;
-  for (std::size_t j = 0; j < numerics::pack_size; ++j) any |= x[j] < 0.0;
-  return any;
-}
-
-}  // namespace
-
 bool LoopEvaluator::State::close_enough(std::uint32_t i, const Limits& limits) const {
   const Panel& panel = panels_[i];
   const double half_width = panel.half_width();
@@ -191,12 +174,12 @@ bool LoopEvaluator::State::close_enough(std::uint32_t i, const Limits& limits) c
     // The narrower the panel, the further in it a gain moves a pole: the gradient's error against
     // the variance's grows.
     const double allowed = half_width;
-    if (tail(values.tail, 0).error_square() > allowed * limits.beam ||
-        tail(values.tail, 4).error_square() > allowed * limits.effort) {
+    if (PanelTail(values.beam_tail).error_square() > allowed * limits.beam ||
+        PanelTail(values.effort_tail).error_square() > allowed * limits.effort) {
       return false;
     }
-    if (gusts_ && (tail(values.gust_tail, 0).error_square() > allowed * limits.demand ||
-                   tail(values.gust_tail, 4).error_square() > allowed * limits.torque)) {
+    if (gusts_ && (PanelTail(values.demand_tail).error_square() > allowed * limits.demand ||
+                   PanelTail(values.torque_tail).error_square() > allowed * limits.torque)) {
       return false;
     }
   }

@@ -48,12 +48,14 @@ class HeldPanels {
     numerics::ComplexPack rate_return, both_return;  // 1 + L, position loop open, closed
     std::array<numerics::RealPack, 3> sensitivity_square;
     numerics::RealPack wind, climate, noise, effort, demand, torque;
-    numerics::RealPack tail, climate_tail,
-        gust_tail;                            // of beam and effort; climate; demand and torque
-    numerics::RealPack rate_tail, both_tail;  // of the returns, real and imaginary part
-    bool turns = false;  // a return by more than a right angle from point to point
+    // The last coefficients (panel_rule.hpp) of the variances' densities, of the returns' parts.
+    control::TailCoefficients beam_tail, effort_tail, climate_tail, demand_tail, torque_tail;
+    control::TailCoefficients rate_tail_re, rate_tail_im, both_tail_re, both_tail_im;
+    // Below 0 where a return turns by more than a right angle to the next point.
+    numerics::RealPack turn;
   };
   std::uint32_t add_panel(double from, double to);
+  struct Evaluation;
   void evaluate(const plant::AntennaPlant& plant, const std::uint32_t* panels, std::size_t count);
   struct Limits;
   bool close_enough(std::uint32_t i, const Limits& limits) const;

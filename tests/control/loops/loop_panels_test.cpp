@@ -14,6 +14,7 @@
 #include <boresight/control/loops/loop_evaluator.hpp>
 #include <boresight/numerics/eigenvalues.hpp>
 #include <boresight/numerics/error.hpp>
+#include <boresight/numerics/vector_clones.hpp>
 
 namespace boresight::control {
 namespace {
@@ -223,6 +224,47 @@ TEST(LoopPanels, OfTheReferenceAntennaAgreeWithMuchFinerOnes) {
         EXPECT_LT(relative_error(found.highest_peak(loop_break), expected.highest_peak(loop_break)),
                   1e-6);
       }
+    }
+  }
+}
+
+std::vector<double> numbers(const LoopEvaluation& evaluation) {
+  std::vector<double> all{evaluation.wind_variance,
+                          evaluation.noise_variance,
+                          evaluation.effort_variance,
+                          evaluation.wind_demand_variance,
+                          evaluation.wind_torque_variance,
+                          static_cast<double>(evaluation.unstable_rate_loop),
+                          static_cast<double>(evaluation.unstable_closed_loop)};
+  for (const auto* gradient :
+       {&evaluation.wind_log_gradient, &evaluation.noise_log_gradient,
+        &evaluation.effort_log_gradient, &evaluation.wind_demand_log_gradient,
+        &evaluation.wind_torque_log_gradient}) {
+    all.insert(all.end(), gradient->begin(), gradient->end());
+  }
+  for (const PeakList& peaks : evaluation.peaks) {
+    for (const SensitivityPeak& peak : peaks) {
+      all.insert(all.end(), {peak.frequency, peak.magnitude});
+      all.insert(all.end(), peak.log_gradient.begin(), peak.log_gradient.end());
+    }
+  }
+  return all;
+}
+
+TEST(LoopPanels, HaveTheSameBitsInRegistersOfEveryWidth) {
+  reference::RandomNumbers random(223);
+  for (const auto& structure : reference::loop_structures()) {
+    for (int i = 0; i < 5; ++i) {
+      const ControlLaw law = reference::random_law(random, structure);
+      std::vector<std::vector<double>> found;
+      for (const std::size_t lanes : {2U, 4U, 8U}) {
+        const numerics::NarrowRegisters narrow(lanes);
+        LoopEvaluator evaluator = antenna_evaluator(reference_quadrature());
+        evaluator.look_at_gusts(true);
+        found.push_back(numbers(evaluator.evaluate(law, true)));
+      }
+      EXPECT_EQ(found[1], found[0]) << structure.name();
+      EXPECT_EQ(found[2], found[0]) << structure.name();
     }
   }
 }

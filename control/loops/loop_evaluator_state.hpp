@@ -6,6 +6,7 @@
 #include <limits>
 #include <vector>
 
+#include <boresight/control/loops/adaptive_panels.hpp>
 #include <boresight/control/loops/loop_evaluator.hpp>
 #include <boresight/control/loops/panel_rule.hpp>
 #include <boresight/numerics/complex_packs.hpp>
@@ -49,14 +50,6 @@ class LoopEvaluator::State {
     // Below 0 where a return turns by more than a right angle to the next point.
     numerics::RealPack turn;
   };
-  // A stretch of ln w; its halves once an evaluation asked for them.
-  struct Panel {
-    double from = 0.0, to = 0.0;
-    std::uint32_t first_half = 0;  // 0: not made
-
-    double centre() const { return 0.5 * (from + to); }
-    double half_width() const { return 0.5 * (to - from); }
-  };
   struct PlacedBlock {
     BlockKind kind = BlockKind::gain;
     std::size_t first_gain = 0;
@@ -90,9 +83,8 @@ class LoopEvaluator::State {
   void use_first_panels();
   void make_panels(const LoopQuadrature& quadrature);
   void add_resolved(double from, double to, const LoopQuadrature& quadrature);
-  double panel_weight(const Panel& panel, std::size_t lane) const;
-  std::uint32_t add_panel(double from, double to);
-  void keep_first_panels();
+  double panel_weight(const FrequencyPanel& panel, std::size_t lane) const;
+  void add_panel(double from, double to);
   void choose_leaves(const Sweep& sweep);
   bool close_enough(std::uint32_t i, const Limits& limits) const;
   Sweep prepare(const ControlLaw& law) const;
@@ -118,8 +110,7 @@ class LoopEvaluator::State {
   std::vector<LoopValues> values_;     // by pack
   std::vector<std::uint32_t> leaves_;  // packs of the last evaluation, rising in frequency
   // Empty where the frequencies were given.
-  std::vector<Panel> panels_;                // by pack
-  std::vector<std::uint32_t> first_panels_;  // those every evaluation starts from, rising
+  AdaptivePanels panels_;  // by pack
   std::function<double(double)> wind_spectrum_;
   FrequencyBand band_;
   double tolerance_ = 0.0;

@@ -14,13 +14,8 @@ namespace {
 using Complex = std::complex<double>;
 using ChannelValues = std::array<Complex, numerics::pack_size>;
 constexpr double two_pi = 2.0 * std::numbers::pi;
-// In ln w: what turns within less is taken for an undamped pole, which nothing would resolve.
-constexpr double narrowest_panel = 1e-7;
 // In ln w: of the panel that carries what lies below it.
 constexpr double lowest_panel = 1e-3;
-// Panels kept between evaluations, some 2.5 kB each, and those of one evaluation.
-constexpr std::size_t most_panels = 4000;
-constexpr std::size_t most_leaves = 4000;
 
 void check(const LoopQuadrature& quadrature, const SensorNoise& noise) {
   const auto& [lowest, highest] = quadrature.analysis;
@@ -75,7 +70,7 @@ LoopEvaluator::State::State(std::function<plant::ResponsePoint(double)> channels
 }
 
 // Hz. The lowest panel stands for all below it, with the density of its own frequencies.
-double LoopEvaluator::State::panel_weight(const Panel& panel, std::size_t lane) const {
+double LoopEvaluator::State::panel_weight(const FrequencyPanel& panel, std::size_t lane) const {
   const PanelRule& rule = panel_rule();
   if (panel.from == lowest_place_) return 0.5 * rule.weight[lane] * std::exp(panel.to) / two_pi;
   const double w = std::exp(panel.centre() + panel.half_width() * rule.node[lane]);
@@ -83,7 +78,7 @@ double LoopEvaluator::State::panel_weight(const Panel& panel, std::size_t lane) 
 }
 
 // Adds the panel; its values come from the plant.
-std::uint32_t LoopEvaluator::State::add_panel(double from, double to) {
+void LoopEvaluator::State::add_panel(double from, double to) {
   const double half_width = 0.5 * (to - from), centre = 0.5 * (from + to);
   const PanelRule& rule = panel_rule();
   GridPack pack;
@@ -106,14 +101,14 @@ std::uint32_t LoopEvaluator::State::add_panel(double from, double to) {
     }
   }
   packs_.push_back(pack);
-  panels_.push_back({from, to, 0});
-  return static_cast<std::uint32_t>(packs_.size() - 1);
+  values_.emplace_back();
+  panels_.add(from, to);
 }
 
 void LoopEvaluator::State::add_resolved(double from, double to, const LoopQuadrature& quadrature) {
   const double half_width = 0.5 * (to - from), centre = 0.5 * (from + to);
-  const std::uint32_t i = add_panel(from, to);
-  const GridPack& pack = packs_[i];
+  add_panel(from, to);
+  const GridPack& pack = packs_.back();
   const auto resolved = [&](const numerics::ComplexPack& channel) {
     ChannelValues values;
     for (std::size_t j = 0; j < numerics::pack_size; ++j) {
@@ -122,41 +117,33 @@ void LoopEvaluator::State::add_resolved(double from, double to, const LoopQuadra
     return polynomial(values, quadrature.channel_tolerance);
   };
   const bool fine =
-      half_width < narrowest_panel ||
+      half_width < AdaptivePanels::narrowest ||
       (half_width <= 0.5 * quadrature.widest_panel && resolved(pack.tachometer_command) &&
        resolved(pack.torque_command) && resolved(pack.encoder_command) &&
        resolved(pack.beam_command) && resolved(pack.tachometer_wind) &&
        resolved(pack.torque_wind) && resolved(pack.encoder_wind) && resolved(pack.beam_wind));
   if (fine) {
-    first_panels_.push_back(i);
+    panels_.start_from_last();
     return;
   }
   packs_.pop_back();
-  panels_.pop_back();
+  values_.pop_back();
+  panels_.drop_last();
   add_resolved(from, centre, quadrature);
   add_resolved(centre, to, quadrature);
 }
 
 void LoopEvaluator::State::make_panels(const LoopQuadrature& quadrature) {
-  std::vector<double> edges;
   const auto& [lowest, highest] = quadrature.analysis;
-  for (const double edge : {lowest, highest, band_.lowest, band_.highest, noise_.bandwidth}) {
-    if (edge >= lowest && edge <= highest) edges.push_back(std::log(two_pi * edge));
-  }
+  std::vector<double> edges = places_within(
+      lowest, highest, {lowest, highest, band_.lowest, band_.highest, noise_.bandwidth});
   if (band_.lowest < lowest) {
     lowest_place_ = std::log(two_pi * lowest);
     edges.push_back(lowest_place_ + lowest_panel);
   }
-  std::sort(edges.begin(), edges.end());
-  for (std::size_t e = 0; e + 1 < edges.size(); ++e) {
-    const double width = edges[e + 1] - edges[e];
-    if (width < narrowest_panel) continue;
-    const double parts = std::ceil(width / quadrature.widest_panel);
-    for (double k = 0.0; k < parts; ++k) {
-      add_resolved(edges[e] + width * k / parts, edges[e] + width * (k + 1.0) / parts, quadrature);
-    }
+  for (const FrequencyPanel& panel : panels_between(std::move(edges), quadrature.widest_panel)) {
+    add_resolved(panel.from, panel.to, quadrature);
   }
-  values_.resize(packs_.size());
   use_first_panels();
 }
 
@@ -165,9 +152,9 @@ struct LoopEvaluator::State::Limits {
 };
 
 bool LoopEvaluator::State::close_enough(std::uint32_t i, const Limits& limits) const {
-  const Panel& panel = panels_[i];
+  const FrequencyPanel& panel = panels_[i];
   const double half_width = panel.half_width();
-  if (half_width < narrowest_panel) return true;
+  if (half_width < AdaptivePanels::narrowest) return true;
   const LoopValues& values = values_[i];
   // The lowest panel is smooth: it is narrow.
   if (packs_[i].weighted && panel.from != lowest_place_) {
@@ -187,10 +174,14 @@ bool LoopEvaluator::State::close_enough(std::uint32_t i, const Limits& limits) c
 }
 
 void LoopEvaluator::State::choose_leaves(const Sweep& sweep) {
-  if (packs_.size() > most_panels) keep_first_panels();
-  sweep_values(sweep, first_panels_.data(), first_panels_.size());
+  const std::vector<std::uint32_t>& first = panels_.first();
+  if (panels_.drop_halves_if_too_many()) {
+    packs_.resize(first.size());
+    values_.resize(first.size());
+  }
+  sweep_values(sweep, first.data(), first.size());
   numerics::RealPack beam{}, effort{}, demand{}, torque{};
-  for (const std::uint32_t i : first_panels_) {
+  for (const std::uint32_t i : first) {
     const LoopValues& values = values_[i];
     beam += values.wind + values.noise;
     effort += values.effort;
@@ -204,41 +195,10 @@ void LoopEvaluator::State::choose_leaves(const Sweep& sweep) {
     return error * error;
   };
   const Limits limits{limit(beam), limit(effort), limit(demand), limit(torque)};
-  leaves_.clear();
-  // Each halving leaves one more to come back to.
-  std::array<std::uint32_t, 64> waiting{};
-  for (const std::uint32_t first : first_panels_) {
-    std::size_t count = 1;
-    waiting[0] = first;
-    while (count > 0) {
-      const std::uint32_t i = waiting[--count];
-      if (count + 2 > waiting.size() || leaves_.size() > most_leaves || close_enough(i, limits)) {
-        leaves_.push_back(i);
-        continue;
-      }
-      if (panels_[i].first_half == 0) {
-        const auto [from, to, none] = panels_[i];
-        const double middle = 0.5 * (from + to);
-        const std::uint32_t half = add_panel(from, middle);
-        add_panel(middle, to);
-        panels_[i].first_half = half;
-        values_.resize(packs_.size());
-      }
-      const std::uint32_t half = panels_[i].first_half;
-      const std::array<std::uint32_t, 2> halves{half, half + 1};
-      sweep_values(sweep, halves.data(), 2);
-      waiting[count++] = half + 1;
-      waiting[count++] = half;
-    }
-  }
-}
-
-// Forgets what evaluations added.
-void LoopEvaluator::State::keep_first_panels() {
-  packs_.resize(first_panels_.size());
-  panels_.resize(first_panels_.size());
-  values_.resize(first_panels_.size());
-  for (Panel& panel : panels_) panel.first_half = 0;
+  panels_.choose(
+      leaves_, [&](double from, double to) { add_panel(from, to); },
+      [&](const std::uint32_t* packs, std::size_t count) { sweep_values(sweep, packs, count); },
+      [&](std::uint32_t i) { return close_enough(i, limits); });
 }
 
 // What others read of the grid.

@@ -121,7 +121,7 @@ LoopEvaluator::State::Interpolation LoopEvaluator::State::interpolate(LoopBreak 
                                                                       double place) const {
   std::size_t leaf = near / numerics::pack_size;
   const auto offset = [&] {
-    const Panel& panel = panels_[leaves_[leaf]];
+    const FrequencyPanel& panel = panels_[leaves_[leaf]];
     return (place - panel.centre()) / panel.half_width();
   };
   if (offset() > 1.0 && leaf + 1 < leaves_.size()) {

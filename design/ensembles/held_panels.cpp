@@ -16,14 +16,10 @@ using numerics::pack_size;
 using numerics::RealPack;
 constexpr double two_pi = 2.0 * std::numbers::pi;
 
-// In ln w: the panels that every plant starts from, and the narrowest.
+// In ln w: the widest panels that plants start from.
 constexpr double widest_panel = 0.6;
-constexpr double narrowest_panel = 1e-7;
 // Of the largest value in a panel: how far a return may be from a polynomial of its points.
 constexpr double return_tolerance = 0.1;
-// Panels kept from plant to plant, some 3 kB each, and those of one plant.
-constexpr std::size_t most_panels = 4000;
-constexpr std::size_t most_leaves = 4000;
 
 // As the rule's, for functions without the rule's weights in them.
 using TailRule = std::array<control::TailCoefficients, pack_size>;
@@ -78,29 +74,19 @@ HeldPanels::HeldPanels(const TrackingProblem& problem, const control::ControlLaw
   winds_.emplace_back(at_speed);
   if (climate_) winds_.emplace_back(problem);
   const auto [lowest, highest] = analysis_band(problem);
-  std::vector<double> edges;
-  for (const double edge : {lowest, highest, band_.lowest, band_.highest, noise_.bandwidth}) {
-    if (edge >= lowest && edge <= highest) edges.push_back(std::log(two_pi * edge));
-  }
-  std::sort(edges.begin(), edges.end());
-  for (std::size_t e = 0; e + 1 < edges.size(); ++e) {
-    const double width = edges[e + 1] - edges[e];
-    if (width < narrowest_panel) continue;
-    const double parts = std::ceil(width / widest_panel);
-    for (double k = 0.0; k < parts; ++k) {
-      first_.push_back(
-          add_panel(edges[e] + width * k / parts, edges[e] + width * (k + 1.0) / parts));
-    }
+  const std::vector<double> edges = control::places_within(
+      lowest, highest, {lowest, highest, band_.lowest, band_.highest, noise_.bandwidth});
+  for (const auto& panel : control::panels_between(edges, widest_panel)) {
+    add_panel(panel.from, panel.to);
+    places_.start_from_last();
   }
 }
 
-std::uint32_t HeldPanels::add_panel(double from, double to) {
+void HeldPanels::add_panel(double from, double to) {
   const auto& rule = panel_rule();
   const double half_width = 0.5 * (to - from), centre = 0.5 * (from + to);
   const double per_band = 1.0 / noise_.bandwidth;
   Panel panel;
-  panel.from = from;
-  panel.to = to;
   const auto put = [](ComplexPack& place, std::size_t lane, std::complex<double> value) {
     place.re.set(lane, value.real());
     place.im.set(lane, value.imag());
@@ -132,7 +118,7 @@ std::uint32_t HeldPanels::add_panel(double from, double to) {
   }
   panels_.push_back(panel);
   values_.emplace_back();
-  return static_cast<std::uint32_t>(panels_.size() - 1);
+  places_.add(from, to);
 }
 
 // The plant as plant::PointResponse and drive_on_structure have it at one frequency, then the loop
@@ -264,8 +250,8 @@ void HeldPanels::evaluate(const plant::AntennaPlant& plant, const std::uint32_t*
 
 bool HeldPanels::close_enough(std::uint32_t i, const Limits& limits) const {
   const Panel& panel = panels_[i];
-  const double half_width = 0.5 * (panel.to - panel.from);
-  if (half_width < narrowest_panel) return true;
+  const double half_width = places_[i].half_width();
+  if (half_width < control::AdaptivePanels::narrowest) return true;
   const Values& values = values_[i];
   const auto within = [&](const control::TailCoefficients& tail, double limit) {
     return control::PanelTail(tail).error_square() <= half_width * limit;
@@ -289,12 +275,12 @@ bool HeldPanels::close_enough(std::uint32_t i, const Limits& limits) const {
 }
 
 void HeldPanels::sweep(const plant::AntennaPlant& plant, double tolerance) {
-  if (panels_.size() > most_panels) {
-    panels_.resize(first_.size());
-    values_.resize(first_.size());
-    for (Panel& panel : panels_) panel.first_half = 0;
+  const std::vector<std::uint32_t>& first = places_.first();
+  if (places_.drop_halves_if_too_many()) {
+    panels_.resize(first.size());
+    values_.resize(first.size());
   }
-  evaluate(plant, first_.data(), first_.size());
+  evaluate(plant, first.data(), first.size());
   const auto add = [&](Sums& sums, std::uint32_t i) {
     const Values& values = values_[i];
     if (!panels_[i].weighted) return;
@@ -308,37 +294,16 @@ void HeldPanels::sweep(const plant::AntennaPlant& plant, double tolerance) {
     }
   };
   Sums rough;
-  for (const std::uint32_t i : first_) add(rough, i);
+  for (const std::uint32_t i : first) add(rough, i);
   const auto limit = [&](double total) { return (tolerance * total) * (tolerance * total); };
   const Limits limits{limit(rough.wind + rough.noise), limit(rough.effort), limit(rough.climate),
                       limit(rough.demand), limit(rough.torque)};
-  leaves_.clear();
+  places_.choose(
+      leaves_, [&](double from, double to) { add_panel(from, to); },
+      [&](const std::uint32_t* panels, std::size_t count) { evaluate(plant, panels, count); },
+      [&](std::uint32_t i) { return close_enough(i, limits); });
   sums_ = {};
-  // Each halving leaves one more to come back to.
-  std::array<std::uint32_t, 64> waiting{};
-  for (const std::uint32_t first : first_) {
-    std::size_t count = 1;
-    waiting[0] = first;
-    while (count > 0) {
-      const std::uint32_t i = waiting[--count];
-      if (count + 2 > waiting.size() || leaves_.size() > most_leaves || close_enough(i, limits)) {
-        leaves_.push_back(i);
-        add(sums_, i);
-        continue;
-      }
-      if (panels_[i].first_half == 0) {
-        const double from = panels_[i].from, to = panels_[i].to, middle = 0.5 * (from + to);
-        const std::uint32_t half = add_panel(from, middle);
-        add_panel(middle, to);
-        panels_[i].first_half = half;
-      }
-      const std::uint32_t half = panels_[i].first_half;
-      const std::array<std::uint32_t, 2> halves{half, half + 1};
-      evaluate(plant, halves.data(), halves.size());
-      waiting[count++] = half + 1;
-      waiting[count++] = half;
-    }
-  }
+  for (const std::uint32_t i : leaves_) add(sums_, i);
   if (!std::isfinite(sums_.wind + sums_.noise + sums_.effort + sums_.climate)) {
     throw NumericalFailure("HeldGainsEvaluator: the plant's response is not finite");
   }

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <vector>
 
+#include <boresight/control/loops/adaptive_panels.hpp>
 #include <boresight/control/loops/panel_rule.hpp>
 #include <boresight/design/ensembles/held_gains_evaluator.hpp>
 #include <boresight/numerics/complex_packs.hpp>
@@ -35,8 +36,6 @@ class HeldPanels {
 
  private:
   struct Panel {
-    double from = 0.0, to = 0.0;   // ln w
-    std::uint32_t first_half = 0;  // 0: not made
     bool weighted = false, noisy = false;
     numerics::RealPack frequency;
     numerics::RealPack wind, climate;      // (N m)^2 a point
@@ -54,7 +53,7 @@ class HeldPanels {
     // Below 0 where a return turns by more than a right angle to the next point.
     numerics::RealPack turn;
   };
-  std::uint32_t add_panel(double from, double to);
+  void add_panel(double from, double to);
   struct Evaluation;
   void evaluate(const plant::AntennaPlant& plant, const std::uint32_t* panels, std::size_t count);
   struct Limits;
@@ -68,10 +67,10 @@ class HeldPanels {
   int rate_integrators_ = 0, position_integrators_ = 0;
   std::vector<WindTable> winds_;  // at the design's speed; of the climate where there is one
   bool climate_ = false;
-  std::vector<Panel> panels_;
-  std::vector<Values> values_;        // by panel
-  std::vector<std::uint32_t> first_;  // that every plant starts from, rising
-  std::vector<std::uint32_t> leaves_;
+  control::AdaptivePanels places_;
+  std::vector<Panel> panels_;          // by place
+  std::vector<Values> values_;         // likewise
+  std::vector<std::uint32_t> leaves_;  // of the last plant, rising
   Sums sums_;
 };
 

@@ -16,11 +16,11 @@ using namespace boresight;
 constexpr std::array structures{"PI-0", "PI", "DPF", "LL", "FULL", "PI+C", "DPF+C", "FULL+C"};
 
 control::LoopEvaluator antenna_evaluator() {
-  control::LoopQuadrature quadrature;
-  quadrature.analysis = {1e-4, 100.0};
-  quadrature.band = {1e-4, 25.0};
-  return {plant::PointResponse(reference::antenna()), reference::delay, reference::sensor_noise(),
-          reference::motor_wind_spectrum, quadrature};
+  return {plant::PointResponse(reference::antenna()),
+          {.delay = reference::delay,
+           .noise = reference::sensor_noise(),
+           .wind_spectrum = reference::motor_wind_spectrum,
+           .quadrature = {.analysis = {1e-4, 100.0}, .band = {1e-4, 25.0}}}};
 }
 
 void antenna_evaluator_set_up(benchmark::State& state) {

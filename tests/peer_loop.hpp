@@ -34,20 +34,10 @@ class PeerChannels {
   }
   explicit PeerChannels(Eigen::Index modes) : PeerChannels(peer_modes(modes)) {}
 
-  BORESIGHT_VECTOR_CLONES
   plant::ResponsePoint operator()(double frequency) const {
     using Complex = std::complex<double>;
-    numerics::ComplexPack motor_motor{}, motor_wind{}, beam_motor{}, beam_wind{};
-    const numerics::RealPack w = frequency, square = frequency * frequency;
-    for (const ModePack& mode : modes_) {
-      const numerics::RealPack real = mode.stiffness - square, imaginary = mode.damping * w;
-      const numerics::RealPack scale = 1.0 / (real * real + imaginary * imaginary);
-      const numerics::ComplexPack inverse{real * scale, -imaginary * scale};
-      motor_motor = motor_motor + inverse * mode.motor_motor;
-      motor_wind = motor_wind + inverse * mode.motor_wind;
-      beam_motor = beam_motor + inverse * mode.beam_motor;
-      beam_wind = beam_wind + inverse * mode.beam_wind;
-    }
+    ModeSum sum;
+    numerics::run_on_widest_lanes<ModeSum>(modes_, frequency, sum);
     const PeerDrive& d = drive_;
     const Complex s{0.0, frequency};
     const double rigid = -1.0 / (d.inertia * frequency * frequency);
@@ -58,7 +48,7 @@ class PeerChannels {
     const Complex valve = wv * wv / (s * s + 2.0 * d.valve_damping * wv * s + wv * wv);
     const Complex oil = d.stiffness / (s + d.leakage);
     const Complex drag = (oil + d.friction) * s;
-    const Complex a = total(motor_motor), b = total(motor_wind);
+    const Complex a = total(sum.motor_motor), b = total(sum.motor_wind);
     const Complex inverse = 1.0 / (1.0 + a * drag);
     const Complex lag = s * d.tachometer_corner / (s + d.tachometer_corner);
     plant::ResponsePoint point;
@@ -70,14 +60,44 @@ class PeerChannels {
     point.tachometer_wind = lag * point.encoder_wind;
     point.torque_command = oil * (valve - s * point.encoder_command);
     point.torque_wind = -oil * s * point.encoder_wind;
-    point.beam_command = total(beam_motor) * force_command;
-    point.beam_wind = total(beam_motor) * force_wind + total(beam_wind);
+    point.beam_command = total(sum.beam_motor) * force_command;
+    point.beam_wind = total(sum.beam_motor) * force_wind + total(sum.beam_wind);
     return point;
   }
 
  private:
   struct ModePack {
     numerics::RealPack stiffness, damping, motor_motor, motor_wind, beam_motor, beam_wind;
+  };
+  // What the modes of each lane add up to.
+  struct ModeSum {
+    numerics::ComplexPack motor_motor, motor_wind, beam_motor, beam_wind;
+
+    template <std::size_t width>
+    [[gnu::always_inline]] static inline void run(const std::vector<ModePack>& modes,
+                                                  const double& frequency, ModeSum& sum) {
+      using Complex = numerics::ComplexLanes<width>;
+      using Real = numerics::RealLanes<width>;
+      using numerics::part;
+      const Real w = frequency, square = frequency * frequency;
+      for (std::size_t k = 0; k < numerics::pack_size / width; ++k) {
+        Complex motor_motor{}, motor_wind{}, beam_motor{}, beam_wind{};
+        for (const ModePack& mode : modes) {
+          const Real real = part<width>(mode.stiffness, k) - square;
+          const Real imaginary = part<width>(mode.damping, k) * w;
+          const Real scale = 1.0 / (real * real + imaginary * imaginary);
+          const Complex inverse{real * scale, -imaginary * scale};
+          motor_motor = motor_motor + inverse * part<width>(mode.motor_motor, k);
+          motor_wind = motor_wind + inverse * part<width>(mode.motor_wind, k);
+          beam_motor = beam_motor + inverse * part<width>(mode.beam_motor, k);
+          beam_wind = beam_wind + inverse * part<width>(mode.beam_wind, k);
+        }
+        numerics::set_part(sum.motor_motor, k, motor_motor);
+        numerics::set_part(sum.motor_wind, k, motor_wind);
+        numerics::set_part(sum.beam_motor, k, beam_motor);
+        numerics::set_part(sum.beam_wind, k, beam_wind);
+      }
+    }
   };
   PeerDrive drive_;
   std::vector<ModePack> modes_;
@@ -113,7 +133,8 @@ inline control::LoopQuadrature peer_quadrature() {
 }
 
 inline control::LoopEvaluator peer_evaluator(Eigen::Index modes) {
-  return {PeerChannels(modes), 0.0, {}, peer_wind_spectrum, peer_quadrature()};
+  return {PeerChannels(modes),
+          {.wind_spectrum = peer_wind_spectrum, .quadrature = peer_quadrature()}};
 }
 
 }  // namespace boresight::reference

@@ -264,9 +264,11 @@ Figure error_figure(const DrawnLaw& drawn, const Responses& on_grid,
 
 std::vector<Figure> law_figures(const DrawnLaw& drawn) {
   const Responses on_grid = responses(drawn);
-  const control::LoopEvaluator evaluator(drawn.problem.plant, on_grid.frequency,
-                                         drawn.problem.delay, drawn.problem.noise,
-                                         Eigen::ArrayXd::Zero(on_grid.frequency.size()));
+  const control::LoopEvaluator evaluator(
+      drawn.problem.plant, on_grid.frequency,
+      {.delay = drawn.problem.delay,
+       .noise = drawn.problem.noise,
+       .wind_spectrum = Eigen::ArrayXd::Zero(on_grid.frequency.size())});
   const Eigen::ArrayXd transmission = evaluator.wind_transmission(drawn.law);
   return {open_loop_figure(drawn, on_grid), nyquist_figure(drawn, on_grid),
           sensitivity_figure(drawn, on_grid), rejection_figure(drawn, on_grid, transmission),

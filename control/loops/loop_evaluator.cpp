@@ -4,7 +4,7 @@
 
 #include <fmt/format.h>
 
-#include <boresight/control/loops/loop_evaluator.hpp>
+#include <boresight/control/loops/loop_evaluator_state.hpp>
 #include <boresight/control/loops/loop_point.hpp>
 #include <boresight/control/loops/loop_winding.hpp>
 #include <boresight/numerics/angles.hpp>
@@ -92,30 +92,73 @@ LoopChannels make_channels(const plant::AntennaPlant& plant, const Eigen::ArrayX
   return {plant::plant_response(plant, frequency), plant::PointResponse(plant)};
 }
 
-LoopEvaluator::LoopEvaluator(const LoopChannels& channels, double delay, SensorNoise noise,
-                             const Eigen::ArrayXd& wind_spectrum, FrequencyBand band)
-    : LoopEvaluator(channels, delay, noise, wind_spectrum,
-                    integration_weights(channels.response.frequency, band),
-                    integration_weights(channels.response.frequency,
-                                        {band.lowest, std::min(band.highest, noise.bandwidth)})) {}
+LoopEvaluator::LoopEvaluator(LoopChannels channels, const GridConditions& conditions)
+    : state_(std::make_unique<State>(std::move(channels), conditions)) {}
 
 LoopEvaluator::LoopEvaluator(const plant::AntennaPlant& plant, const Eigen::ArrayXd& frequency,
-                             double delay, SensorNoise noise, const Eigen::ArrayXd& wind_spectrum,
-                             FrequencyBand band)
-    : LoopEvaluator(make_channels(plant, frequency), delay, noise, wind_spectrum, band) {}
+                             const GridConditions& conditions)
+    : LoopEvaluator(make_channels(plant, frequency), conditions) {}
 
-LoopEvaluator::LoopEvaluator(LoopChannels channels, double delay, SensorNoise noise,
-                             const Eigen::ArrayXd& wind_spectrum, const Eigen::ArrayXd& weight,
-                             const Eigen::ArrayXd& noise_weight)
-    : channels_(std::move(channels)), delay_(delay), noise_(noise), weight_(weight) {
+LoopEvaluator::LoopEvaluator(std::function<plant::ResponsePoint(double)> channels,
+                             PanelConditions conditions)
+    : state_(std::make_unique<State>(std::move(channels), std::move(conditions))) {}
+
+LoopEvaluator::LoopEvaluator(const LoopEvaluator& other)
+    : state_(std::make_unique<State>(*other.state_)) {}
+
+LoopEvaluator& LoopEvaluator::operator=(const LoopEvaluator& other) {
+  return *this = LoopEvaluator(other);
+}
+
+LoopEvaluator::LoopEvaluator(LoopEvaluator&& other) noexcept = default;
+LoopEvaluator& LoopEvaluator::operator=(LoopEvaluator&& other) noexcept = default;
+LoopEvaluator::~LoopEvaluator() = default;
+
+void LoopEvaluator::look_at(std::array<bool, 3> breaks) {
+  state_->look_at(breaks);
+}
+
+void LoopEvaluator::look_at_gusts(bool look) {
+  state_->look_at_gusts(look);
+}
+
+LoopEvaluation LoopEvaluator::evaluate(const ControlLaw& law, bool with_gradients) {
+  return state_->evaluate(law, with_gradients);
+}
+
+std::size_t LoopEvaluator::frequencies_used() const {
+  return state_->frequencies_used();
+}
+
+Eigen::ArrayXd LoopEvaluator::wind_transmission(const ControlLaw& law) const {
+  return state_->wind_transmission(law);
+}
+
+const plant::PlantResponse& LoopEvaluator::response() const {
+  return state_->response();
+}
+
+double LoopEvaluator::delay() const {
+  return state_->delay();
+}
+
+const Eigen::ArrayXd& LoopEvaluator::integration_weight() const {
+  return state_->integration_weight();
+}
+
+LoopEvaluator::State::State(LoopChannels channels, const GridConditions& conditions)
+    : channels_(std::move(channels)), delay_(conditions.delay), noise_(conditions.noise) {
   const plant::PlantResponse& response = channels_.response;
+  const auto& [lowest, highest] = conditions.band;
+  weight_ = integration_weights(response.frequency, conditions.band);
+  const Eigen::ArrayXd noise_weight =
+      integration_weights(response.frequency, {lowest, std::min(highest, noise_.bandwidth)});
+  const Eigen::ArrayXd& wind_spectrum = conditions.wind_spectrum;
   const Eigen::Index count = response.frequency.size();
-  for (const auto* numbers : {&wind_spectrum, &weight, &noise_weight}) {
-    if (numbers->size() != count) {
-      throw InvalidInput(fmt::format(
-          "LoopEvaluator: expected as many wind values and weights as frequencies, found {} and {}",
-          numbers->size(), count));
-    }
+  if (wind_spectrum.size() != count) {
+    throw InvalidInput(
+        fmt::format("LoopEvaluator: expected as many wind values as frequencies, found {} and {}",
+                    wind_spectrum.size(), count));
   }
   packs_.resize(numerics::pack_count(static_cast<std::size_t>(count)));
   values_.resize(packs_.size());
@@ -133,8 +176,8 @@ LoopEvaluator::LoopEvaluator(LoopChannels channels, double delay, SensorNoise no
   }
 }
 
-void LoopEvaluator::GridPack::set(std::size_t lane, double w, const plant::ResponsePoint& response,
-                                  double delay) {
+void LoopEvaluator::State::GridPack::set(std::size_t lane, double w,
+                                         const plant::ResponsePoint& response, double delay) {
   const Complex dead_time = std::polar(1.0, -w * delay);
   frequency.set(lane, w);
   period.set(lane, 1.0 / w);
@@ -152,14 +195,14 @@ void LoopEvaluator::GridPack::set(std::size_t lane, double w, const plant::Respo
   put(beam_wind, response.beam_wind);
 }
 
-void LoopEvaluator::GridPack::set_weights(std::size_t lane, double wind, double noise) {
+void LoopEvaluator::State::GridPack::set_weights(std::size_t lane, double wind, double noise) {
   wind_weight.set(lane, wind);
   noise_weight.set(lane, noise);
   noisy = noisy || noise > 0.0;
   weighted = weighted || noisy || wind > 0.0;
 }
 
-void LoopEvaluator::count_unstable(const ControlLaw& law, LoopEvaluation& result) const {
+void LoopEvaluator::State::count_unstable(const ControlLaw& law, LoopEvaluation& result) const {
   int rate_integrators = 0, position_integrators = 0;
   for (const LoopBlock& block : law.structure.blocks()) {
     if (block.kind != BlockKind::integral) continue;
@@ -180,7 +223,7 @@ void LoopEvaluator::count_unstable(const ControlLaw& law, LoopEvaluation& result
   result.unstable_closed_loop = both_winding.unstable();
 }
 
-LoopEvaluation LoopEvaluator::evaluate(const ControlLaw& law, bool with_gradients) {
+LoopEvaluation LoopEvaluator::State::evaluate(const ControlLaw& law, bool with_gradients) {
   validate(law);
   LoopEvaluation result;
   const Sweep sweep = prepare(law);
@@ -213,7 +256,7 @@ LoopEvaluation LoopEvaluator::evaluate(const ControlLaw& law, bool with_gradient
   return result;
 }
 
-Eigen::ArrayXd LoopEvaluator::wind_transmission(const ControlLaw& law) const {
+Eigen::ArrayXd LoopEvaluator::State::wind_transmission(const ControlLaw& law) const {
   validate(law);
   const plant::PlantResponse& plant = response();
   Eigen::ArrayXd square(plant.frequency.size());

@@ -1,10 +1,11 @@
 #pragma once
 
 #include <array>
-#include <cstdint>
+#include <complex>
 #include <functional>
 #include <limits>
-#include <vector>
+#include <memory>
+#include <string_view>
 
 #include <Eigen/Core>
 
@@ -115,7 +116,7 @@ struct LoopQuadrature {
   FrequencyBand analysis{1e-4, 100.0};  // Hz: peaks and stability
   /// Hz: variances. Where it begins below the analysis band, the density below that is taken for
   /// constant.
-  FrequencyBand band;
+  FrequencyBand band{};
   /// Of the whole variance of beam, effort, demand or torque: the estimated error of one panel,
   /// over the root of its half width in ln f.
   double tolerance = 3e-11;
@@ -123,150 +124,75 @@ struct LoopQuadrature {
   double widest_panel = 2.0;  // in ln f
 };
 
+/// What an evaluator on given frequencies is told beside the plant.
+struct GridConditions {
+  double delay = 0.0;  // s, of the command
+  SensorNoise noise{};
+  /// One-sided spectrum of the wind torque at the motor shaft, (N m)^2/Hz, at the grid's
+  /// frequencies.
+  Eigen::ArrayXd wind_spectrum{};
+  FrequencyBand band{};  // of the variances; noise: within its bandwidth too
+};
+
+/// The same of an evaluator that chooses its frequencies.
+struct PanelConditions {
+  double delay = 0.0;  // s, of the command
+  SensorNoise noise{};
+  /// As above, at a frequency in Hz; smooth: what has kinks is better served on a grid.
+  std::function<double(double hertz)> wind_spectrum{};
+  LoopQuadrature quadrature{};
+};
+
 /// Evaluates control laws on one plant. The plant enters through its frequency response only,
 /// computed once; an evaluation costs some hundred operations a frequency, and ten more a gain for
 /// all gradients (by the adjoint of the closed loop), whatever the number of structural modes; dead
-/// time is exact. Not to be shared between threads: it keeps its work arrays, and the frequencies
-/// that laws asked for.
+/// time is exact. A copy is an evaluator of its own. Not to be shared between threads: it keeps its
+/// work arrays, and the frequencies that laws asked for.
 class LoopEvaluator {
  public:
-  /// `wind_spectrum`: one-sided spectrum of the wind torque at the motor shaft, (N m)^2/Hz, at the
-  /// response's frequencies. Integrals run over the part of the grid within `band` (noise: within
-  /// its bandwidth too) by the trapezoid rule in ln f; put the edges among the frequencies. Peaks
-  /// and stability are taken over the whole grid.
-  /// @throws InvalidInput for sizes that differ or a grid that does not rise.
-  LoopEvaluator(const LoopChannels& channels, double delay, SensorNoise noise,
-                const Eigen::ArrayXd& wind_spectrum, FrequencyBand band = {});
-  LoopEvaluator(const plant::AntennaPlant& plant, const Eigen::ArrayXd& frequency, double delay,
-                SensorNoise noise, const Eigen::ArrayXd& wind_spectrum, FrequencyBand band = {});
-  /// With weights of another quadrature in place of the trapezoid rule's: `weight` turns a sum over
-  /// the grid into an integral over Hz.
-  LoopEvaluator(LoopChannels channels, double delay, SensorNoise noise,
-                const Eigen::ArrayXd& wind_spectrum, const Eigen::ArrayXd& weight,
-                const Eigen::ArrayXd& noise_weight);
+  /// On a grid (rad/s): integrals run over the part of it within the band by the trapezoid rule in
+  /// ln f; put the edges among the frequencies. Peaks and stability are taken over the whole grid.
+  /// @throws InvalidInput for sizes that differ, less than three frequencies or a grid that does
+  /// not rise.
+  LoopEvaluator(LoopChannels channels, const GridConditions& conditions);
+  LoopEvaluator(const plant::AntennaPlant& plant, const Eigen::ArrayXd& frequency,
+                const GridConditions& conditions);
   /// On frequencies of its own choice (LoopQuadrature): every law's integrals to the stated
   /// tolerance, however lightly its closed loop is damped. Frequencies that one law asked for are
   /// at hand for the next; no value depends on what was evaluated before. `channels`: the response
-  /// at a frequency in rad/s; `wind_spectrum`: one-sided, (N m)^2/Hz at the motor shaft, at a
-  /// frequency in Hz; both smooth: what has kinks is better served on a grid.
+  /// at a frequency in rad/s, smooth.
   /// @throws InvalidInput for bands that are not in order or do not meet, or a tolerance or panel
   /// width that is not positive; NumericalFailure for a response or spectrum that is not finite.
-  LoopEvaluator(std::function<plant::ResponsePoint(double frequency)> channels, double delay,
-                SensorNoise noise, std::function<double(double hertz)> wind_spectrum,
-                const LoopQuadrature& quadrature);
+  LoopEvaluator(std::function<plant::ResponsePoint(double frequency)> channels,
+                PanelConditions conditions);
+  LoopEvaluator(const LoopEvaluator& other);
+  LoopEvaluator(LoopEvaluator&& other) noexcept;
+  LoopEvaluator& operator=(const LoopEvaluator& other);
+  LoopEvaluator& operator=(LoopEvaluator&& other) noexcept;
+  ~LoopEvaluator();
 
   /// Breaks whose peaks are looked for; all by default.
-  void look_at(std::array<bool, 3> breaks) { breaks_ = breaks; }
+  void look_at(std::array<bool, 3> breaks);
   /// Whether the variances of valve demand and motor torque by wind are taken; not by default.
-  void look_at_gusts(bool look) { gusts_ = look; }
+  void look_at_gusts(bool look);
 
   /// @throws InvalidInput as validate(law).
   LoopEvaluation evaluate(const ControlLaw& law, bool with_gradients);
   /// How many frequencies the last evaluation took.
-  std::size_t frequencies_used() const { return leaves_.size() * numerics::pack_size; }
+  std::size_t frequencies_used() const;
 
   /// |beam / wind torque|^2 of the closed loop at each frequency of the grid, rad^2/(N m)^2.
   Eigen::ArrayXd wind_transmission(const ControlLaw& law) const;
 
   /// On the grid, or on the panels that every evaluation starts from.
-  const plant::PlantResponse& response() const { return channels_.response; }
-  double delay() const { return delay_; }
+  const plant::PlantResponse& response() const;
+  double delay() const;
   /// Weights that turn a sum over the response's frequencies into an integral over Hz.
-  const Eigen::ArrayXd& integration_weight() const { return weight_; }
+  const Eigen::ArrayXd& integration_weight() const;
 
  private:
-  // Eight frequencies: responses to the command with the dead time in them.
-  struct GridPack {
-    numerics::RealPack frequency, period, wind_weight, noise_weight;  // period: 1/frequency
-    numerics::ComplexPack tachometer_command, torque_command, encoder_command, beam_command;
-    numerics::ComplexPack tachometer_wind, torque_wind, encoder_wind, beam_wind;
-    bool weighted = false, noisy = false;  // whether any weight is above 0
-
-    void set(std::size_t lane, double frequency, const plant::ResponsePoint& response,
-             double delay);
-    void set_weights(std::size_t lane, double wind, double noise);
-  };
-  // What a law makes of eight frequencies: weighted integrands, and their tails (panel_rule.hpp) of
-  // beam and effort, of demand and torque by wind.
-  struct LoopValues {
-    numerics::ComplexPack rate_return, both_return;  // 1 + L, position loop open, closed
-    std::array<numerics::RealPack, 3> sensitivity_square;
-    numerics::RealPack wind, noise, effort, wind_demand, wind_torque, tail, gust_tail;
-    // Below 0 where a return turns by more than a right angle to the next point.
-    numerics::RealPack turn;
-  };
-  // A stretch of ln w; its halves once an evaluation asked for them.
-  struct Panel {
-    double from = 0.0, to = 0.0;
-    std::uint32_t first_half = 0;  // 0: not made
-
-    double centre() const { return 0.5 * (from + to); }
-    double half_width() const { return 0.5 * (to - from); }
-  };
-  struct PlacedBlock {
-    BlockKind kind = BlockKind::gain;
-    std::size_t first_gain = 0;
-  };
-  // What a sweep needs of a law.
-  struct Sweep {
-    const ControlLaw* law = nullptr;
-    std::array<PlacedBlock, most_gains> blocks{};  // path by path
-    std::array<std::size_t, 4> path_end{};
-    std::array<std::size_t, most_gains> path_of_gain{};
-    std::array<bool, 4> present{};
-    double tachometer_density = 0.0, encoder_density = 0.0, torque_density = 0.0;
-    bool noisy = false;
-  };
-  struct LoopPack;
-  struct GradientSums;
-  struct Limits;
-  struct PointOnAxis {
-    double place = 0.0, value = 0.0;  // ln w, ln|S|^2
-  };
-
-  // ln|S|^2 between points, the product of the distances from them, the leaf they are in.
-  struct Interpolation {
-    double value = 0.0, product = 0.0;
-    std::size_t leaf = 0;
-  };
-
-  void use_first_panels();
-  void make_panels(const LoopQuadrature& quadrature);
-  void add_resolved(double from, double to, const LoopQuadrature& quadrature);
-  double panel_weight(const Panel& panel, std::size_t lane) const;
-  std::uint32_t add_panel(double from, double to);
-  void keep_first_panels();
-  void choose_leaves(const Sweep& sweep);
-  bool close_enough(std::uint32_t i, const Limits& limits) const;
-  Sweep prepare(const ControlLaw& law) const;
-  void sweep_values(const Sweep& sweep, const std::uint32_t* packs, std::size_t count);
-  void sweep_gradients(const Sweep& sweep, LoopEvaluation& result) const;
-  void count_unstable(const ControlLaw& law, LoopEvaluation& result) const;
-
-  std::size_t points() const;
-  double sensitivity_square(std::size_t loop_break, std::size_t i) const;
-  PointOnAxis point_on_axis(LoopBreak loop_break, std::size_t i) const;
-  Interpolation interpolate(LoopBreak loop_break, std::size_t near, double place) const;
-  SensitivityPeak peak_at(const ControlLaw& law, LoopBreak loop_break, double frequency) const;
-  SensitivityPeak polish(const ControlLaw& law, LoopBreak loop_break, std::size_t i) const;
-  void find_peaks(const ControlLaw& law, LoopBreak loop_break, PeakList& peaks) const;
-
-  LoopChannels channels_;
-  double delay_;
-  SensorNoise noise_;
-  std::array<bool, 3> breaks_{true, true, true};
-  bool gusts_ = false;
-  Eigen::ArrayXd weight_;
-  std::vector<GridPack> packs_;
-  std::vector<LoopValues> values_;     // by pack
-  std::vector<std::uint32_t> leaves_;  // packs of the last evaluation, rising in frequency
-  // Empty where the frequencies were given.
-  std::vector<Panel> panels_;                // by pack
-  std::vector<std::uint32_t> first_panels_;  // those every evaluation starts from, rising
-  std::function<double(double)> wind_spectrum_;
-  FrequencyBand band_;
-  double tolerance_ = 0.0;
-  double lowest_place_ = -std::numeric_limits<double>::infinity();
+  class State;  // loop_evaluator_state.hpp
+  std::unique_ptr<State> state_;
 };
 
 }  // namespace boresight::control

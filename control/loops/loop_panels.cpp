@@ -3,7 +3,7 @@
 
 #include <fmt/format.h>
 
-#include <boresight/control/loops/loop_evaluator.hpp>
+#include <boresight/control/loops/loop_evaluator_state.hpp>
 #include <boresight/control/loops/panel_rule.hpp>
 #include <boresight/numerics/angles.hpp>
 #include <boresight/numerics/error.hpp>
@@ -13,13 +13,9 @@ namespace {
 
 using Complex = std::complex<double>;
 using ChannelValues = std::array<Complex, numerics::pack_size>;
-// In ln w: what turns within less is taken for an undamped pole, which nothing would resolve.
-constexpr double narrowest_panel = 1e-7;
+constexpr double two_pi = 2.0 * std::numbers::pi;
 // In ln w: of the panel that carries what lies below it.
 constexpr double lowest_panel = 1e-3;
-// Panels kept between evaluations, some 2.5 kB each, and those of one evaluation.
-constexpr std::size_t most_panels = 4000;
-constexpr std::size_t most_leaves = 4000;
 
 void check(const LoopQuadrature& quadrature, const SensorNoise& noise) {
   const auto& [lowest, highest] = quadrature.analysis;
@@ -52,8 +48,8 @@ bool polynomial(const ChannelValues& values, double tolerance) {
   Complex six = 0.0, seven = 0.0;
   double largest = 0.0;
   for (std::size_t j = 0; j < numerics::pack_size; ++j) {
-    six += rule.weight[j] * rule.first_tail[j][2] * values[j];
-    seven += rule.weight[j] * rule.first_tail[j][3] * values[j];
+    six += rule.weight[j] * rule.tail[j][2] * values[j];
+    seven += rule.weight[j] * rule.tail[j][3] * values[j];
     largest = std::max(largest, std::norm(values[j]));
   }
   return std::norm(six) + std::norm(seven) <= tolerance * tolerance * largest;
@@ -61,21 +57,20 @@ bool polynomial(const ChannelValues& values, double tolerance) {
 
 }  // namespace
 
-LoopEvaluator::LoopEvaluator(std::function<plant::ResponsePoint(double)> channels, double delay,
-                             SensorNoise noise, std::function<double(double)> wind_spectrum,
-                             const LoopQuadrature& quadrature)
+LoopEvaluator::State::State(std::function<plant::ResponsePoint(double)> channels,
+                            PanelConditions conditions)
     : channels_{{}, std::move(channels)},
-      delay_(delay),
-      noise_(noise),
-      wind_spectrum_(std::move(wind_spectrum)),
-      band_(quadrature.band),
-      tolerance_(quadrature.tolerance) {
-  check(quadrature, noise);
-  make_panels(quadrature);
+      delay_(conditions.delay),
+      noise_(conditions.noise),
+      wind_spectrum_(std::move(conditions.wind_spectrum)),
+      band_(conditions.quadrature.band),
+      tolerance_(conditions.quadrature.tolerance) {
+  check(conditions.quadrature, noise_);
+  make_panels(conditions.quadrature);
 }
 
 // Hz. The lowest panel stands for all below it, with the density of its own frequencies.
-double LoopEvaluator::panel_weight(const Panel& panel, std::size_t lane) const {
+double LoopEvaluator::State::panel_weight(const FrequencyPanel& panel, std::size_t lane) const {
   const PanelRule& rule = panel_rule();
   if (panel.from == lowest_place_) return 0.5 * rule.weight[lane] * std::exp(panel.to) / two_pi;
   const double w = std::exp(panel.centre() + panel.half_width() * rule.node[lane]);
@@ -83,7 +78,7 @@ double LoopEvaluator::panel_weight(const Panel& panel, std::size_t lane) const {
 }
 
 // Adds the panel; its values come from the plant.
-std::uint32_t LoopEvaluator::add_panel(double from, double to) {
+void LoopEvaluator::State::add_panel(double from, double to) {
   const double half_width = 0.5 * (to - from), centre = 0.5 * (from + to);
   const PanelRule& rule = panel_rule();
   GridPack pack;
@@ -106,14 +101,14 @@ std::uint32_t LoopEvaluator::add_panel(double from, double to) {
     }
   }
   packs_.push_back(pack);
-  panels_.push_back({from, to, 0});
-  return static_cast<std::uint32_t>(packs_.size() - 1);
+  values_.emplace_back();
+  panels_.add(from, to);
 }
 
-void LoopEvaluator::add_resolved(double from, double to, const LoopQuadrature& quadrature) {
+void LoopEvaluator::State::add_resolved(double from, double to, const LoopQuadrature& quadrature) {
   const double half_width = 0.5 * (to - from), centre = 0.5 * (from + to);
-  const std::uint32_t i = add_panel(from, to);
-  const GridPack& pack = packs_[i];
+  add_panel(from, to);
+  const GridPack& pack = packs_.back();
   const auto resolved = [&](const numerics::ComplexPack& channel) {
     ChannelValues values;
     for (std::size_t j = 0; j < numerics::pack_size; ++j) {
@@ -122,92 +117,71 @@ void LoopEvaluator::add_resolved(double from, double to, const LoopQuadrature& q
     return polynomial(values, quadrature.channel_tolerance);
   };
   const bool fine =
-      half_width < narrowest_panel ||
+      half_width < AdaptivePanels::narrowest ||
       (half_width <= 0.5 * quadrature.widest_panel && resolved(pack.tachometer_command) &&
        resolved(pack.torque_command) && resolved(pack.encoder_command) &&
        resolved(pack.beam_command) && resolved(pack.tachometer_wind) &&
        resolved(pack.torque_wind) && resolved(pack.encoder_wind) && resolved(pack.beam_wind));
   if (fine) {
-    first_panels_.push_back(i);
+    panels_.start_from_last();
     return;
   }
   packs_.pop_back();
-  panels_.pop_back();
+  values_.pop_back();
+  panels_.drop_last();
   add_resolved(from, centre, quadrature);
   add_resolved(centre, to, quadrature);
 }
 
-void LoopEvaluator::make_panels(const LoopQuadrature& quadrature) {
-  std::vector<double> edges;
+void LoopEvaluator::State::make_panels(const LoopQuadrature& quadrature) {
   const auto& [lowest, highest] = quadrature.analysis;
-  for (const double edge : {lowest, highest, band_.lowest, band_.highest, noise_.bandwidth}) {
-    if (edge >= lowest && edge <= highest) edges.push_back(std::log(two_pi * edge));
-  }
+  std::vector<double> edges = places_within(
+      lowest, highest, {lowest, highest, band_.lowest, band_.highest, noise_.bandwidth});
   if (band_.lowest < lowest) {
     lowest_place_ = std::log(two_pi * lowest);
     edges.push_back(lowest_place_ + lowest_panel);
   }
-  std::sort(edges.begin(), edges.end());
-  for (std::size_t e = 0; e + 1 < edges.size(); ++e) {
-    const double width = edges[e + 1] - edges[e];
-    if (width < narrowest_panel) continue;
-    const double parts = std::ceil(width / quadrature.widest_panel);
-    for (double k = 0.0; k < parts; ++k) {
-      add_resolved(edges[e] + width * k / parts, edges[e] + width * (k + 1.0) / parts, quadrature);
-    }
+  for (const FrequencyPanel& panel : panels_between(std::move(edges), quadrature.widest_panel)) {
+    add_resolved(panel.from, panel.to, quadrature);
   }
-  values_.resize(packs_.size());
   use_first_panels();
 }
 
-struct LoopEvaluator::Limits {
+struct LoopEvaluator::State::Limits {
   double beam = 0.0, effort = 0.0, demand = 0.0, torque = 0.0;  // squares of errors allowed
 };
 
-namespace {
-
-PanelTail tail(const numerics::RealPack& coefficients, std::size_t first) {
-  const auto square = [&](std::size_t k) {
-    return coefficients[first + k] * coefficients[first + k];
-  };
-  return {square(0) + square(1), square(2) + square(3)};
-}
-
-bool any_negative(const numerics::RealPack& x) {
-  bool any = false;
-  for (std::size_t j = 0; j < numerics::pack_size; ++j) any |= x[j] < 0.0;
-  return any;
-}
-
-}  // namespace
-
-bool LoopEvaluator::close_enough(std::uint32_t i, const Limits& limits) const {
-  const Panel& panel = panels_[i];
+bool LoopEvaluator::State::close_enough(std::uint32_t i, const Limits& limits) const {
+  const FrequencyPanel& panel = panels_[i];
   const double half_width = panel.half_width();
-  if (half_width < narrowest_panel) return true;
+  if (half_width < AdaptivePanels::narrowest) return true;
   const LoopValues& values = values_[i];
   // The lowest panel is smooth: it is narrow.
   if (packs_[i].weighted && panel.from != lowest_place_) {
     // The narrower the panel, the further in it a gain moves a pole: the gradient's error against
     // the variance's grows.
     const double allowed = half_width;
-    if (tail(values.tail, 0).error_square() > allowed * limits.beam ||
-        tail(values.tail, 4).error_square() > allowed * limits.effort) {
+    if (PanelTail(values.beam_tail).error_square() > allowed * limits.beam ||
+        PanelTail(values.effort_tail).error_square() > allowed * limits.effort) {
       return false;
     }
-    if (gusts_ && (tail(values.gust_tail, 0).error_square() > allowed * limits.demand ||
-                   tail(values.gust_tail, 4).error_square() > allowed * limits.torque)) {
+    if (gusts_ && (PanelTail(values.demand_tail).error_square() > allowed * limits.demand ||
+                   PanelTail(values.torque_tail).error_square() > allowed * limits.torque)) {
       return false;
     }
   }
   return !any_negative(values.turn);
 }
 
-void LoopEvaluator::choose_leaves(const Sweep& sweep) {
-  if (packs_.size() > most_panels) keep_first_panels();
-  sweep_values(sweep, first_panels_.data(), first_panels_.size());
+void LoopEvaluator::State::choose_leaves(const Sweep& sweep) {
+  const std::vector<std::uint32_t>& first = panels_.first();
+  if (panels_.drop_halves_if_too_many()) {
+    packs_.resize(first.size());
+    values_.resize(first.size());
+  }
+  sweep_values(sweep, first.data(), first.size());
   numerics::RealPack beam{}, effort{}, demand{}, torque{};
-  for (const std::uint32_t i : first_panels_) {
+  for (const std::uint32_t i : first) {
     const LoopValues& values = values_[i];
     beam += values.wind + values.noise;
     effort += values.effort;
@@ -221,45 +195,14 @@ void LoopEvaluator::choose_leaves(const Sweep& sweep) {
     return error * error;
   };
   const Limits limits{limit(beam), limit(effort), limit(demand), limit(torque)};
-  leaves_.clear();
-  // Each halving leaves one more to come back to.
-  std::array<std::uint32_t, 64> waiting{};
-  for (const std::uint32_t first : first_panels_) {
-    std::size_t count = 1;
-    waiting[0] = first;
-    while (count > 0) {
-      const std::uint32_t i = waiting[--count];
-      if (count + 2 > waiting.size() || leaves_.size() > most_leaves || close_enough(i, limits)) {
-        leaves_.push_back(i);
-        continue;
-      }
-      if (panels_[i].first_half == 0) {
-        const auto [from, to, none] = panels_[i];
-        const double middle = 0.5 * (from + to);
-        const std::uint32_t half = add_panel(from, middle);
-        add_panel(middle, to);
-        panels_[i].first_half = half;
-        values_.resize(packs_.size());
-      }
-      const std::uint32_t half = panels_[i].first_half;
-      const std::array<std::uint32_t, 2> halves{half, half + 1};
-      sweep_values(sweep, halves.data(), 2);
-      waiting[count++] = half + 1;
-      waiting[count++] = half;
-    }
-  }
-}
-
-// Forgets what evaluations added.
-void LoopEvaluator::keep_first_panels() {
-  packs_.resize(first_panels_.size());
-  panels_.resize(first_panels_.size());
-  values_.resize(first_panels_.size());
-  for (Panel& panel : panels_) panel.first_half = 0;
+  panels_.choose(
+      leaves_, [&](double from, double to) { add_panel(from, to); },
+      [&](const std::uint32_t* packs, std::size_t count) { sweep_values(sweep, packs, count); },
+      [&](std::uint32_t i) { return close_enough(i, limits); });
 }
 
 // What others read of the grid.
-void LoopEvaluator::use_first_panels() {
+void LoopEvaluator::State::use_first_panels() {
   const auto count = static_cast<Eigen::Index>(packs_.size() * numerics::pack_size);
   weight_.resize(count);
   channels_.response = plant::unset_response(Eigen::ArrayXd(count));

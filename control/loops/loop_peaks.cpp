@@ -2,7 +2,7 @@
 #include <cmath>
 #include <limits>
 
-#include <boresight/control/loops/loop_evaluator.hpp>
+#include <boresight/control/loops/loop_evaluator_state.hpp>
 #include <boresight/control/loops/loop_point.hpp>
 #include <boresight/control/loops/panel_rule.hpp>
 #include <boresight/numerics/error.hpp>
@@ -98,28 +98,30 @@ LogPoint climb(LogPoint left, LogPoint middle, LogPoint right, Value value) {
 
 }  // namespace
 
-std::size_t LoopEvaluator::points() const {
+std::size_t LoopEvaluator::State::points() const {
   return panels_.empty() ? static_cast<std::size_t>(response().frequency.size())
                          : leaves_.size() * numerics::pack_size;
 }
 
-double LoopEvaluator::sensitivity_square(std::size_t loop_break, std::size_t i) const {
+double LoopEvaluator::State::sensitivity_square(std::size_t loop_break, std::size_t i) const {
   return values_[leaves_[i / numerics::pack_size]]
       .sensitivity_square[loop_break][i % numerics::pack_size];
 }
 
-LoopEvaluator::PointOnAxis LoopEvaluator::point_on_axis(LoopBreak loop_break, std::size_t i) const {
+LoopEvaluator::State::PointOnAxis LoopEvaluator::State::point_on_axis(LoopBreak loop_break,
+                                                                      std::size_t i) const {
   const GridPack& pack = packs_[leaves_[i / numerics::pack_size]];
   return {std::log(pack.frequency[i % numerics::pack_size]),
           std::log(sensitivity_square(static_cast<std::size_t>(loop_break), i))};
 }
 
 // ln|S|^2 from the polynomials through the returns in the panel around `place`.
-LoopEvaluator::Interpolation LoopEvaluator::interpolate(LoopBreak loop_break, std::size_t near,
-                                                        double place) const {
+LoopEvaluator::State::Interpolation LoopEvaluator::State::interpolate(LoopBreak loop_break,
+                                                                      std::size_t near,
+                                                                      double place) const {
   std::size_t leaf = near / numerics::pack_size;
   const auto offset = [&] {
-    const Panel& panel = panels_[leaves_[leaf]];
+    const FrequencyPanel& panel = panels_[leaves_[leaf]];
     return (place - panel.centre()) / panel.half_width();
   };
   if (offset() > 1.0 && leaf + 1 < leaves_.size()) {
@@ -160,8 +162,8 @@ LoopEvaluator::Interpolation LoopEvaluator::interpolate(LoopBreak loop_break, st
   throw InvalidInput("loop evaluator: not a loop break");
 }
 
-SensitivityPeak LoopEvaluator::peak_at(const ControlLaw& law, LoopBreak loop_break,
-                                       double frequency) const {
+SensitivityPeak LoopEvaluator::State::peak_at(const ControlLaw& law, LoopBreak loop_break,
+                                              double frequency) const {
   const plant::ResponsePoint response = channels_.at(frequency);
   const LoopPoint point = loop_point(response, law, frequency, delay_);
   SensitivityPeak peak;
@@ -186,8 +188,8 @@ SensitivityPeak LoopEvaluator::peak_at(const ControlLaw& law, LoopBreak loop_bre
 // Between the points of panels the returns are polynomials, and the plant is asked at the top only.
 // What it says there corrects the polynomial: its error is nearly the product of the distances from
 // the points times a constant.
-SensitivityPeak LoopEvaluator::polish(const ControlLaw& law, LoopBreak loop_break,
-                                      std::size_t i) const {
+SensitivityPeak LoopEvaluator::State::polish(const ControlLaw& law, LoopBreak loop_break,
+                                             std::size_t i) const {
   const auto on_grid = [&](std::size_t k) {
     const PointOnAxis point = point_on_axis(loop_break, k);
     return LogPoint{point.place, point.value};
@@ -238,7 +240,8 @@ SensitivityPeak LoopEvaluator::polish(const ControlLaw& law, LoopBreak loop_brea
   return peak_at(law, loop_break, std::exp(top.place));
 }
 
-void LoopEvaluator::find_peaks(const ControlLaw& law, LoopBreak loop_break, PeakList& peaks) const {
+void LoopEvaluator::State::find_peaks(const ControlLaw& law, LoopBreak loop_break,
+                                      PeakList& peaks) const {
   // The highest few, in falling order.
   struct Maximum {
     std::size_t place = 0;

@@ -1,4 +1,4 @@
-#include <boresight/control/loops/loop_evaluator.hpp>
+#include <boresight/control/loops/loop_evaluator_state.hpp>
 #include <boresight/control/loops/panel_rule.hpp>
 #include <boresight/numerics/vector_clones.hpp>
 
@@ -6,49 +6,53 @@ namespace boresight::control {
 
 namespace {
 
-using numerics::ComplexPack;
+using numerics::ComplexLanes;
+using numerics::part;
+using numerics::RealLanes;
 using numerics::RealPack;
+using numerics::set_part;
 
-// The four compensators at eight frequencies, by LoopPath.
-using Compensators = std::array<ComplexPack, 4>;
-
-template <bool with_gradients>
-[[gnu::always_inline]] inline void multiply(BlockKind kind, const double* gains, const RealPack& w,
-                                            const RealPack& period, ComplexPack& compensator,
-                                            ComplexPack* by_gain) {
+template <bool with_gradients, std::size_t width>
+[[gnu::always_inline]] inline void multiply(BlockKind kind, const double* gains,
+                                            const RealLanes<width>& w,
+                                            const RealLanes<width>& period,
+                                            ComplexLanes<width>& compensator,
+                                            ComplexLanes<width>* by_gain) {
+  using RealPart = RealLanes<width>;
+  using ComplexPart = ComplexLanes<width>;
   const double g = *gains;
   if (kind == BlockKind::gain) {
-    compensator = compensator * RealPack(g);
+    compensator = compensator * RealPart(g);
     if (with_gradients) by_gain[0] = {1.0, 0.0};
     return;
   }
   if (kind == BlockKind::notch) {
-    const RealPack square = g * g - w * w;
-    const ComplexPack above{square, 2.0 * gains[1] * g * w};
-    const ComplexPack below{square, 2.0 * gains[2] * g * w};
-    const ComplexPack below_inverse =
-        numerics::conjugate(below) * RealPack(1.0 / numerics::square(below));
+    const RealPart square = g * g - w * w;
+    const ComplexPart above{square, 2.0 * gains[1] * g * w};
+    const ComplexPart below{square, 2.0 * gains[2] * g * w};
+    const ComplexPart below_inverse =
+        numerics::conjugate(below) * RealPart(1.0 / numerics::square(below));
     compensator = compensator * (above * below_inverse);
     if (with_gradients) {
-      const ComplexPack above_inverse =
-          numerics::conjugate(above) * RealPack(1.0 / numerics::square(above));
-      const RealPack twice = 2.0 * g * g;
-      by_gain[0] = ComplexPack{twice, above.im} * above_inverse -
-                   ComplexPack{twice, below.im} * below_inverse;
-      by_gain[1] = ComplexPack{0.0, above.im} * above_inverse;
-      by_gain[2] = ComplexPack{0.0, -below.im} * below_inverse;
+      const ComplexPart above_inverse =
+          numerics::conjugate(above) * RealPart(1.0 / numerics::square(above));
+      const RealPart twice = 2.0 * g * g;
+      by_gain[0] = ComplexPart{twice, above.im} * above_inverse -
+                   ComplexPart{twice, below.im} * below_inverse;
+      by_gain[1] = ComplexPart{0.0, above.im} * above_inverse;
+      by_gain[2] = ComplexPart{0.0, -below.im} * below_inverse;
     }
     return;
   }
   if (kind == BlockKind::integral || kind == BlockKind::lead) {
-    compensator = compensator * (kind == BlockKind::integral ? ComplexPack{1.0, -g * period}
-                                                             : ComplexPack{1.0, w * (1.0 / g)});
+    compensator = compensator * (kind == BlockKind::integral ? ComplexPart{1.0, -g * period}
+                                                             : ComplexPart{1.0, w * (1.0 / g)});
     if (!with_gradients) return;
   }
   // g/(s + g) and s/(s + g) at s = j w
-  const RealPack scale = 1.0 / (g * g + w * w);
-  const ComplexPack low{g * g * scale, -g * w * scale};
-  const ComplexPack high{w * w * scale, g * w * scale};
+  const RealPart scale = 1.0 / (g * g + w * w);
+  const ComplexPart low{g * g * scale, -g * w * scale};
+  const ComplexPart high{w * w * scale, g * w * scale};
   switch (kind) {
     case BlockKind::integral:
       by_gain[0] = low;
@@ -67,70 +71,61 @@ template <bool with_gradients>
   }
 }
 
-// The cosine, times the magnitudes, of each value's angle to the next; the last has none.
-[[gnu::always_inline]] inline RealPack onward(const ComplexPack& x) {
-  const RealPack::Lanes re =
-      __builtin_shufflevector(x.re.lanes, x.re.lanes, 1, 2, 3, 4, 5, 6, 7, 7);
-  const RealPack::Lanes im =
-      __builtin_shufflevector(x.im.lanes, x.im.lanes, 1, 2, 3, 4, 5, 6, 7, 7);
-  RealPack product;
-  product.lanes = x.re.lanes * re + x.im.lanes * im;
-  return product;
-}
-
-[[gnu::always_inline]] inline RealPack smaller(const RealPack& x, const RealPack& y) {
-  RealPack result;
-  result.lanes = x.lanes < y.lanes ? x.lanes : y.lanes;
-  return result;
-}
-
-// Derivatives by R, Q, P and C of a sum of weighted squares, each times its compensator: Re of the
-// product with d ln X/d ln g is the derivative by ln g.
-using Adjoint = std::array<ComplexPack, 4>;
-
 }  // namespace
 
-// The loop at eight frequencies. With D1 and D2 the returns 1 + L of the rate loop and of both
-// loops, a = -b/D2 what a demand of one does to the beam, m what the law makes of the wind, and y
-// its answer to each sensor's noise:
+// The loop at as many frequencies as the registers are wide. With D1 and D2 the returns 1 + L of
+// the rate loop and of both loops, a = -b/D2 what a demand of one does to the beam, m what the law
+// makes of the wind, and y its answer to each sensor's noise:
 //   beam by wind  z = beam_wind + a m,   dz = a (dm - m dD2/D2)
 //   likewise the demand by wind with a = -1/D2 and the motor torque with its own response for b
 //   noise         y = n/D2,              dy = (dn - y dD2)/D2
-struct LoopEvaluator::LoopPack {
-  ComplexPack rate_part, pressure_part, bending_part, rp, position_part;
-  ComplexPack rate_return, both_return, inverse, act;
-  RealPack inverse_square;
-  ComplexPack bent_wind, position_wind, pressure_wind, rate_wind, measured, wind;
-  ComplexPack demand_by_wind, torque_by_wind;
+template <std::size_t width>
+struct LoopEvaluator::State::LoopLanes {
+  using RealPart = RealLanes<width>;
+  using ComplexPart = ComplexLanes<width>;
+  // The four compensators, by LoopPath.
+  using Compensators = std::array<ComplexPart, 4>;
+  // Derivatives by R, Q, P and C of a sum of weighted squares, each times its compensator: Re of
+  // the product with d ln X/d ln g is the derivative by ln g.
+  using Adjoint = std::array<ComplexPart, 4>;
 
+  ComplexPart rate_part, pressure_part, bending_part, rp, position_part;
+  ComplexPart rate_return, both_return, inverse, act;
+  RealPart inverse_square;
+  ComplexPart bent_wind, position_wind, pressure_wind, rate_wind, measured, wind;
+  ComplexPart demand_by_wind, torque_by_wind;
+
+  // At the k-th part of eight frequencies.
   template <bool with_gradients>
-  [[gnu::always_inline]] inline void fill(const Sweep& sweep, const GridPack& grid, bool gusts,
-                                          Compensators& law, ComplexPack* by_gain) {
+  [[gnu::always_inline]] inline void fill(const Sweep& sweep, const GridPack& grid, std::size_t k,
+                                          bool gusts, Compensators& law, ComplexPart* by_gain) {
     for (std::size_t path = 0, b = 0; path < 4; ++path) {
-      ComplexPack compensator{sweep.present[path] ? 1.0 : 0.0, 0.0};
+      ComplexPart compensator{sweep.present[path] ? 1.0 : 0.0, 0.0};
       for (; b < sweep.path_end[path]; ++b) {
         const PlacedBlock& block = sweep.blocks[b];
         multiply<with_gradients>(block.kind, sweep.law->gains.data() + block.first_gain,
-                                 grid.frequency, grid.period, compensator,
+                                 part<width>(grid.frequency, k), part<width>(grid.period, k),
+                                 compensator,
                                  with_gradients ? by_gain + block.first_gain : nullptr);
       }
       law[path] = compensator;
     }
     const auto [r, q, p, c] = law;
     const bool pressure = sweep.present[1], compliance = sweep.present[3];
-    rate_part = r * grid.tachometer_command;
+    rate_part = r * part<width>(grid.tachometer_command, k);
     rp = r * p;
-    ComplexPack angle = grid.encoder_command, wind_angle = grid.encoder_wind;
-    rate_return = ComplexPack{1.0, 0.0} + rate_part;
+    ComplexPart angle = part<width>(grid.encoder_command, k);
+    ComplexPart wind_angle = part<width>(grid.encoder_wind, k);
+    rate_return = ComplexPart{1.0, 0.0} + rate_part;
     pressure_part = pressure_wind = bending_part = bent_wind = {};
     if (pressure) {
-      pressure_part = q * grid.torque_command;
-      pressure_wind = q * grid.torque_wind;
+      pressure_part = q * part<width>(grid.torque_command, k);
+      pressure_wind = q * part<width>(grid.torque_wind, k);
       rate_return = rate_return + pressure_part;
     }
     if (compliance) {
-      bending_part = c * grid.torque_command;
-      bent_wind = c * grid.torque_wind;
+      bending_part = c * part<width>(grid.torque_command, k);
+      bent_wind = c * part<width>(grid.torque_wind, k);
       angle = angle - bending_part;
       wind_angle = wind_angle - bent_wind;
     }
@@ -138,19 +133,20 @@ struct LoopEvaluator::LoopPack {
     both_return = rate_return + position_part;
     inverse_square = 1.0 / numerics::square(both_return);
     inverse = numerics::conjugate(both_return) * inverse_square;
-    act = -grid.beam_command * inverse;
+    act = -part<width>(grid.beam_command, k) * inverse;
     position_wind = rp * wind_angle;
-    rate_wind = r * grid.tachometer_wind + position_wind;
+    rate_wind = r * part<width>(grid.tachometer_wind, k) + position_wind;
     measured = rate_wind + pressure_wind;
-    wind = grid.beam_wind + act * measured;
+    wind = part<width>(grid.beam_wind, k) + act * measured;
     if (gusts) {
       demand_by_wind = -measured * inverse;
-      torque_by_wind = grid.torque_wind + grid.torque_command * demand_by_wind;
+      torque_by_wind =
+          part<width>(grid.torque_wind, k) + part<width>(grid.torque_command, k) * demand_by_wind;
     }
   }
 };
 
-LoopEvaluator::Sweep LoopEvaluator::prepare(const ControlLaw& law) const {
+LoopEvaluator::State::Sweep LoopEvaluator::State::prepare(const ControlLaw& law) const {
   Sweep sweep;
   sweep.law = &law;
   const double per_band = 1.0 / noise_.bandwidth;
@@ -174,140 +170,178 @@ LoopEvaluator::Sweep LoopEvaluator::prepare(const ControlLaw& law) const {
   return sweep;
 }
 
-BORESIGHT_VECTOR_CLONES
-void LoopEvaluator::sweep_values(const Sweep& sweep, const std::uint32_t* packs,
-                                 std::size_t count) {
-  const PanelRule& rule = panel_rule();
-  for (std::size_t n = 0; n < count; ++n) {
-    const std::size_t i = packs[n];
-    const GridPack& grid = packs_[i];
-    LoopPack loop;
-    Compensators law;
-    loop.fill<false>(sweep, grid, gusts_, law, nullptr);
-    LoopValues& values = values_[i];
-    values.rate_return = loop.rate_return;
-    values.both_return = loop.both_return;
-    values.turn = smaller(onward(loop.rate_return), onward(loop.both_return));
-    values.sensitivity_square[1] = loop.inverse_square;
-    if (breaks_[0] || breaks_[2]) {
-      const RealPack rate_square = numerics::square(loop.rate_return);
-      if (breaks_[0]) values.sensitivity_square[0] = 1.0 / rate_square;
-      values.sensitivity_square[2] = rate_square * loop.inverse_square;
-    }
-    values.wind = grid.wind_weight * numerics::square(loop.wind);
-    RealPack beam = values.wind, effort{};
-    if (gusts_) {
-      values.wind_demand = grid.wind_weight * numerics::square(loop.demand_by_wind);
-      values.wind_torque = grid.wind_weight * numerics::square(loop.torque_by_wind);
-    }
-    if (sweep.noisy && grid.noisy) {
-      const auto& [r, q, p, c] = law;
-      const RealPack demand = (sweep.tachometer_density * numerics::square(r) +
-                               sweep.encoder_density * numerics::square(loop.rp) +
-                               sweep.torque_density * numerics::square(q - loop.rp * c)) *
-                              loop.inverse_square;
-      effort = grid.noise_weight * demand;
-      values.noise = numerics::square(grid.beam_command) * effort;
-      beam += values.noise;
-    } else {
-      values.noise = RealPack{};
-    }
-    values.effort = effort;
-    if (!panels_.empty()) {
-      RealPack tail{}, gust_tail{};
-#pragma GCC unroll 8
-      for (std::size_t lane = 0; lane < numerics::pack_size; ++lane) {
-        tail += rule.first_tail[lane] * beam[lane];
+struct LoopEvaluator::State::ValueSweep {
+  template <std::size_t width>
+  [[gnu::always_inline]] static inline void run(State& state, const Sweep& sweep,
+                                                const std::uint32_t* packs, std::size_t count) {
+    constexpr std::size_t parts = numerics::pack_size / width;
+    const PanelRule& rule = panel_rule();
+    for (std::size_t n = 0; n < count; ++n) {
+      const GridPack& grid = state.packs_[packs[n]];
+      LoopValues& values = state.values_[packs[n]];
+      const bool noisy = sweep.noisy && grid.noisy;
+      RealPack beam;
+      for (std::size_t k = 0; k < parts; ++k)
+        set_values<width>(state, sweep, grid, k, values, beam);
+      set_turn<width>(values.turn, values.rate_return, values.both_return);
+      if (state.panels_.empty()) continue;
+      set_tail<width>(values.beam_tail, rule.tail, beam);
+      if (noisy) {
+        set_tail<width>(values.effort_tail, rule.tail, values.effort);
+      } else {
+        values.effort_tail = {};
       }
-      if (sweep.noisy && grid.noisy) {
-        for (std::size_t lane = 0; lane < numerics::pack_size; ++lane) {
-          tail += rule.second_tail[lane] * effort[lane];
-        }
-      }
-      values.tail = tail;
-      if (gusts_) {
-        for (std::size_t lane = 0; lane < numerics::pack_size; ++lane) {
-          gust_tail += rule.first_tail[lane] * values.wind_demand[lane] +
-                       rule.second_tail[lane] * values.wind_torque[lane];
-        }
-        values.gust_tail = gust_tail;
+      if (state.gusts_) {
+        set_tail<width>(values.demand_tail, rule.tail, values.wind_demand);
+        set_tail<width>(values.torque_tail, rule.tail, values.wind_torque);
       }
     }
   }
+
+  template <std::size_t width>
+  [[gnu::always_inline]] static inline void set_values(const State& state, const Sweep& sweep,
+                                                       const GridPack& grid, std::size_t k,
+                                                       LoopValues& values, RealPack& beam) {
+    using RealPart = RealLanes<width>;
+    LoopLanes<width> loop;
+    typename LoopLanes<width>::Compensators law;
+    loop.template fill<false>(sweep, grid, k, state.gusts_, law, nullptr);
+    set_part(values.rate_return, k, loop.rate_return);
+    set_part(values.both_return, k, loop.both_return);
+    set_part(values.sensitivity_square[1], k, loop.inverse_square);
+    if (state.breaks_[0] || state.breaks_[2]) {
+      const RealPart rate_square = numerics::square(loop.rate_return);
+      if (state.breaks_[0]) set_part(values.sensitivity_square[0], k, 1.0 / rate_square);
+      set_part(values.sensitivity_square[2], k, rate_square * loop.inverse_square);
+    }
+    const RealPart wind_weight = part<width>(grid.wind_weight, k);
+    const RealPart wind = wind_weight * numerics::square(loop.wind);
+    set_part(values.wind, k, wind);
+    if (state.gusts_) {
+      set_part(values.wind_demand, k, wind_weight * numerics::square(loop.demand_by_wind));
+      set_part(values.wind_torque, k, wind_weight * numerics::square(loop.torque_by_wind));
+    }
+    RealPart noise{}, effort{};
+    if (sweep.noisy && grid.noisy) {
+      const auto& [r, q, p, c] = law;
+      const RealPart demand = (sweep.tachometer_density * numerics::square(r) +
+                               sweep.encoder_density * numerics::square(loop.rp) +
+                               sweep.torque_density * numerics::square(q - loop.rp * c)) *
+                              loop.inverse_square;
+      effort = part<width>(grid.noise_weight, k) * demand;
+      noise = numerics::square(part<width>(grid.beam_command, k)) * effort;
+    }
+    set_part(values.noise, k, noise);
+    set_part(values.effort, k, effort);
+    set_part(beam, k, wind + noise);
+  }
+};
+
+void LoopEvaluator::State::sweep_values(const Sweep& sweep, const std::uint32_t* packs,
+                                        std::size_t count) {
+  numerics::run_on_widest_lanes<ValueSweep>(*this, sweep, packs, count);
 }
 
-struct LoopEvaluator::GradientSums {
+struct LoopEvaluator::State::GradientSums {
   std::array<RealPack, most_gains> wind{}, noise{}, effort{}, wind_demand{}, wind_torque{};
 };
 
-BORESIGHT_VECTOR_CLONES
-void LoopEvaluator::sweep_gradients(const Sweep& sweep, LoopEvaluation& result) const {
-  const std::size_t gains = sweep.law->gains.size();
-  const auto& path_of_gain = sweep.path_of_gain;
-  GradientSums sums;
-  std::array<ComplexPack, most_gains> by_gain;  // d ln X/d ln g of its own compensator X
-  for (const std::uint32_t i : leaves_) {
-    const GridPack& grid = packs_[i];
-    if (!grid.weighted) continue;
-    LoopPack loop;
-    Compensators law;
-    loop.fill<true>(sweep, grid, gusts_, law, by_gain.data());
+struct LoopEvaluator::State::GradientSweep {
+  template <std::size_t width>
+  [[gnu::always_inline]] static inline void run(const State& state, const Sweep& sweep,
+                                                GradientSums& sums) {
+    std::array<ComplexLanes<width>, most_gains> by_gain;  // d ln X/d ln g of its own compensator X
+    for (const std::uint32_t i : state.leaves_) {
+      const GridPack& grid = state.packs_[i];
+      if (!grid.weighted) continue;
+      for (std::size_t k = 0; k < numerics::pack_size / width; ++k) {
+        add<width>(state, sweep, grid, k, by_gain, sums);
+      }
+    }
+  }
+
+  template <std::size_t width>
+  [[gnu::always_inline]] static inline void add_to(RealPack& sum, std::size_t k,
+                                                   const RealLanes<width>& x) {
+    set_part(sum, k, part<width>(sum, k) + x);
+  }
+
+  template <std::size_t width>
+  [[gnu::always_inline]] static inline void add(
+      const State& state, const Sweep& sweep, const GridPack& grid, std::size_t k,
+      std::array<ComplexLanes<width>, most_gains>& by_gain, GradientSums& sums) {
+    using Loop = LoopLanes<width>;
+    using RealPart = RealLanes<width>;
+    using ComplexPart = ComplexLanes<width>;
+    const std::size_t gains = sweep.law->gains.size();
+    const auto& path_of_gain = sweep.path_of_gain;
+    Loop loop;
+    typename Loop::Compensators law;
+    loop.template fill<true>(sweep, grid, k, state.gusts_, law, by_gain.data());
     const auto& [r, q, p, c] = law;
     // Derivatives of D2 by each compensator, times the compensator.
-    const Adjoint return_by{loop.rate_part + loop.position_part, loop.pressure_part,
-                            loop.position_part, -loop.rp * loop.bending_part};
-    const Adjoint measured_by{loop.rate_wind, loop.pressure_wind, loop.position_wind,
-                              -loop.rp * loop.bent_wind};
-    const ComplexPack turned = loop.measured * loop.inverse;
-    Adjoint change;
+    const typename Loop::Adjoint return_by{loop.rate_part + loop.position_part, loop.pressure_part,
+                                           loop.position_part, -loop.rp * loop.bending_part};
+    const typename Loop::Adjoint measured_by{loop.rate_wind, loop.pressure_wind, loop.position_wind,
+                                             -loop.rp * loop.bent_wind};
+    const ComplexPart turned = loop.measured * loop.inverse;
+    typename Loop::Adjoint change;
     for (std::size_t path = 0; path < 4; ++path) {
       if (sweep.present[path]) change[path] = measured_by[path] - turned * return_by[path];
     }
-    const auto add = [&](const ComplexPack& factor, std::array<RealPack, most_gains>& gradient) {
-      Adjoint adjoint;
+    const auto add_square = [&](const ComplexPart& factor,
+                                std::array<RealPack, most_gains>& gradient) {
+      typename Loop::Adjoint adjoint;
       for (std::size_t path = 0; path < 4; ++path) {
         if (sweep.present[path]) adjoint[path] = factor * change[path];
       }
       for (std::size_t g = 0; g < gains; ++g) {
-        gradient[g] += numerics::real_product(adjoint[path_of_gain[g]], by_gain[g]);
+        add_to(gradient[g], k, numerics::real_product(adjoint[path_of_gain[g]], by_gain[g]));
       }
     };
-    const RealPack twice = 2.0 * grid.wind_weight;
-    add((numerics::conjugate(loop.wind) * loop.act) * twice, sums.wind);
-    if (gusts_) {
-      const ComplexPack by_demand = -loop.inverse * twice;
-      add(numerics::conjugate(loop.demand_by_wind) * by_demand, sums.wind_demand);
-      add(numerics::conjugate(loop.torque_by_wind) * grid.torque_command * by_demand,
-          sums.wind_torque);
+    const RealPart twice = 2.0 * part<width>(grid.wind_weight, k);
+    add_square((numerics::conjugate(loop.wind) * loop.act) * twice, sums.wind);
+    if (state.gusts_) {
+      const ComplexPart by_demand = -loop.inverse * twice;
+      add_square(numerics::conjugate(loop.demand_by_wind) * by_demand, sums.wind_demand);
+      add_square(numerics::conjugate(loop.torque_by_wind) * part<width>(grid.torque_command, k) *
+                     by_demand,
+                 sums.wind_torque);
     }
-    if (!sweep.noisy || !grid.noisy) continue;
+    if (!sweep.noisy || !grid.noisy) return;
 
-    const ComplexPack torque = (q - loop.rp * c) * loop.inverse;
-    const RealPack tachometer_square =
+    const ComplexPart torque = (q - loop.rp * c) * loop.inverse;
+    const RealPart tachometer_square =
         sweep.tachometer_density * numerics::square(r) * loop.inverse_square;
-    const RealPack encoder_square =
+    const RealPart encoder_square =
         sweep.encoder_density * numerics::square(loop.rp) * loop.inverse_square;
-    const RealPack demand =
+    const RealPart demand =
         tachometer_square + encoder_square + sweep.torque_density * numerics::square(torque);
-    const RealPack to_beam = numerics::square(grid.beam_command) * grid.noise_weight;
-    const ComplexPack torque_left =
-        (numerics::conjugate(torque) * loop.inverse) * RealPack(2.0 * sweep.torque_density);
-    const RealPack own_rate = 2.0 * (tachometer_square + encoder_square);
-    const RealPack own_position = 2.0 * encoder_square;
-    const ComplexPack by_return = loop.inverse * RealPack(2.0 * demand);
-    const ComplexPack compensated = torque_left * (loop.rp * c);
-    Adjoint adjoint{ComplexPack{own_rate, 0.0} - compensated, torque_left * q,
-                    ComplexPack{own_position, 0.0} - compensated, -compensated};
+    const RealPart noise_weight = part<width>(grid.noise_weight, k);
+    const RealPart to_beam = numerics::square(part<width>(grid.beam_command, k)) * noise_weight;
+    const ComplexPart torque_left =
+        (numerics::conjugate(torque) * loop.inverse) * RealPart(2.0 * sweep.torque_density);
+    const RealPart own_rate = 2.0 * (tachometer_square + encoder_square);
+    const RealPart own_position = 2.0 * encoder_square;
+    const ComplexPart by_return = loop.inverse * RealPart(2.0 * demand);
+    const ComplexPart compensated = torque_left * (loop.rp * c);
+    typename Loop::Adjoint adjoint{ComplexPart{own_rate, 0.0} - compensated, torque_left * q,
+                                   ComplexPart{own_position, 0.0} - compensated, -compensated};
     for (std::size_t path = 0; path < 4; ++path) {
       adjoint[path] = adjoint[path] - by_return * return_by[path];
     }
     for (std::size_t g = 0; g < gains; ++g) {
-      const RealPack slope = numerics::real_product(adjoint[path_of_gain[g]], by_gain[g]);
-      sums.noise[g] += to_beam * slope;
-      sums.effort[g] += grid.noise_weight * slope;
+      const RealPart slope = numerics::real_product(adjoint[path_of_gain[g]], by_gain[g]);
+      add_to(sums.noise[g], k, to_beam * slope);
+      add_to(sums.effort[g], k, noise_weight * slope);
     }
   }
-  for (std::size_t g = 0; g < gains; ++g) {
+};
+
+void LoopEvaluator::State::sweep_gradients(const Sweep& sweep, LoopEvaluation& result) const {
+  GradientSums sums;
+  numerics::run_on_widest_lanes<GradientSweep>(*this, sweep, sums);
+  for (std::size_t g = 0; g < sweep.law->gains.size(); ++g) {
     result.wind_log_gradient[g] = numerics::sum(sums.wind[g]);
     result.noise_log_gradient[g] = numerics::sum(sums.noise[g]);
     result.effort_log_gradient[g] = numerics::sum(sums.effort[g]);

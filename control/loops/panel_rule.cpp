@@ -18,10 +18,9 @@ PanelRule make_rule() {
   std::ranges::copy(gauss.barycentric, rule.barycentric.begin());
   for (std::size_t i = 0; i < size; ++i) {
     for (std::size_t k = 0; k < 4; ++k) {
-      const auto order = static_cast<int>(k) + 4;
-      const double value = 0.5 * (2.0 * order + 1.0) * boost::math::legendre_p(order, rule.node[i]);
-      rule.first_tail[i].set(k, value);
-      rule.second_tail[i].set(k + 4, value);
+      const auto degree = static_cast<int>(k) + 4;
+      rule.tail[i].set(k,
+                       0.5 * (2.0 * degree + 1.0) * boost::math::legendre_p(degree, rule.node[i]));
     }
   }
   return rule;

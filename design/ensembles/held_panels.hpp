@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <vector>
 
+#include <boresight/control/loops/adaptive_panels.hpp>
 #include <boresight/control/loops/panel_rule.hpp>
 #include <boresight/design/ensembles/held_gains_evaluator.hpp>
 #include <boresight/numerics/complex_packs.hpp>
@@ -35,8 +36,6 @@ class HeldPanels {
 
  private:
   struct Panel {
-    double from = 0.0, to = 0.0;   // ln w
-    std::uint32_t first_half = 0;  // 0: not made
     bool weighted = false, noisy = false;
     numerics::RealPack frequency;
     numerics::RealPack wind, climate;      // (N m)^2 a point
@@ -48,12 +47,14 @@ class HeldPanels {
     numerics::ComplexPack rate_return, both_return;  // 1 + L, position loop open, closed
     std::array<numerics::RealPack, 3> sensitivity_square;
     numerics::RealPack wind, climate, noise, effort, demand, torque;
-    numerics::RealPack tail, climate_tail,
-        gust_tail;                            // of beam and effort; climate; demand and torque
-    numerics::RealPack rate_tail, both_tail;  // of the returns, real and imaginary part
-    bool turns = false;  // a return by more than a right angle from point to point
+    // The last coefficients (panel_rule.hpp) of the variances' densities, of the returns' parts.
+    control::TailCoefficients beam_tail, effort_tail, climate_tail, demand_tail, torque_tail;
+    control::TailCoefficients rate_tail_re, rate_tail_im, both_tail_re, both_tail_im;
+    // Below 0 where a return turns by more than a right angle to the next point.
+    numerics::RealPack turn;
   };
-  std::uint32_t add_panel(double from, double to);
+  void add_panel(double from, double to);
+  struct Evaluation;
   void evaluate(const plant::AntennaPlant& plant, const std::uint32_t* panels, std::size_t count);
   struct Limits;
   bool close_enough(std::uint32_t i, const Limits& limits) const;
@@ -66,10 +67,10 @@ class HeldPanels {
   int rate_integrators_ = 0, position_integrators_ = 0;
   std::vector<WindTable> winds_;  // at the design's speed; of the climate where there is one
   bool climate_ = false;
-  std::vector<Panel> panels_;
-  std::vector<Values> values_;        // by panel
-  std::vector<std::uint32_t> first_;  // that every plant starts from, rising
-  std::vector<std::uint32_t> leaves_;
+  control::AdaptivePanels places_;
+  std::vector<Panel> panels_;          // by place
+  std::vector<Values> values_;         // likewise
+  std::vector<std::uint32_t> leaves_;  // of the last plant, rising
   Sums sums_;
 };
 

@@ -94,20 +94,21 @@ control::LoopEvaluator make_evaluator(const TrackingProblem& problem) {
   const Eigen::ArrayXd frequency = analysis_grid(problem);
   return {problem.plant,
           frequency,
-          problem.delay,
-          problem.noise,
-          motor_wind_spectrum(problem, frequency),
-          problem.rms_band};
+          {.delay = problem.delay,
+           .noise = problem.noise,
+           .wind_spectrum = motor_wind_spectrum(problem, frequency),
+           .band = problem.rms_band}};
 }
 
 control::LoopEvaluator make_adaptive_evaluator(const TrackingProblem& problem,
                                                const WindTable& wind, double tolerance) {
-  control::LoopQuadrature quadrature;
-  quadrature.tolerance = tolerance;
-  quadrature.analysis = analysis_band(problem);
-  quadrature.band = problem.rms_band;
-  return {plant::PointResponse(problem.plant), problem.delay, problem.noise,
-          [wind](double hertz) { return wind.spectrum(two_pi * hertz); }, quadrature};
+  return {
+      plant::PointResponse(problem.plant),
+      {.delay = problem.delay,
+       .noise = problem.noise,
+       .wind_spectrum = [wind](double hertz) { return wind.spectrum(two_pi * hertz); },
+       .quadrature = {
+           .analysis = analysis_band(problem), .band = problem.rms_band, .tolerance = tolerance}}};
 }
 
 plant::ShapingFilter fit_wind_filter(const WindCondition& wind, double gear_ratio) {

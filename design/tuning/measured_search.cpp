@@ -80,9 +80,12 @@ void count(const FeasibleSearch& search, MeasuredTuningResult& result) {
 control::LoopEvaluator measured_evaluator(const MeasuredProblem& problem,
                                           const control::LoopChannels& channels,
                                           control::FrequencyBand band) {
-  const Eigen::ArrayXd spectrum =
-      motor_wind_spectrum(problem.wind, problem.gear_ratio, channels.response.frequency);
-  return {channels, problem.delay, problem.noise, spectrum, band};
+  return {channels,
+          {.delay = problem.delay,
+           .noise = problem.noise,
+           .wind_spectrum =
+               motor_wind_spectrum(problem.wind, problem.gear_ratio, channels.response.frequency),
+           .band = band}};
 }
 
 MeasuredSearch::MeasuredSearch(const MeasuredProblem& problem,

@@ -51,31 +51,54 @@ PointResponse::PointResponse(const AntennaPlant& plant)
   }
 }
 
-BORESIGHT_VECTOR_CLONES
+// What the modes of each lane add up to.
+struct PointResponse::ModeSum {
+  numerics::ComplexPack inertial, wind, beam, bending;
+
+  template <std::size_t width>
+  [[gnu::always_inline]] static inline void run(const std::vector<ModePack>& modes, const double& w,
+                                                ModeSum& sum) {
+    using RealPart = numerics::RealLanes<width>;
+    using ComplexPart = numerics::ComplexLanes<width>;
+    using numerics::part;
+    for (std::size_t k = 0; k < numerics::pack_size / width; ++k) {
+      ComplexPart inertial{}, wind{}, beam{}, bending{};
+      for (const ModePack& mode : modes) {
+        const RealPart stiffness = part<width>(mode.stiffness, k);
+        const RealPart wind_fraction = part<width>(mode.wind_fraction, k);
+        const RealPart beam_weight = part<width>(mode.beam_weight, k);
+        const RealPart damping = part<width>(mode.damping, k) * w;
+        const RealPart inertia = part<width>(mode.inertia, k) * (w * w);
+        const RealPart real = stiffness - inertia;
+        const RealPart scale = 1.0 / (real * real + damping * damping);
+        const ComplexPart inverse{real * scale, -damping * scale};
+        const ComplexPart follow = ComplexPart{stiffness, damping} * inverse;
+        inertial = inertial - follow * inertia;
+        wind = wind + follow * wind_fraction;
+        beam = beam + follow * beam_weight;
+        bending = bending + inverse * (wind_fraction * beam_weight);
+      }
+      numerics::set_part(sum.inertial, k, inertial);
+      numerics::set_part(sum.wind, k, wind);
+      numerics::set_part(sum.beam, k, beam);
+      numerics::set_part(sum.bending, k, bending);
+    }
+  }
+};
+
 ResponsePoint PointResponse::operator()(double frequency) const {
   const double w = frequency;
-  numerics::ComplexPack inertial{}, wind{}, beam{}, bending{};
-  for (const ModePack& mode : modes_) {
-    const numerics::RealPack damping = mode.damping * w;
-    const numerics::RealPack inertia = mode.inertia * (w * w);
-    const numerics::RealPack real = mode.stiffness - inertia;
-    const numerics::RealPack scale = 1.0 / (real * real + damping * damping);
-    const numerics::ComplexPack inverse{real * scale, -damping * scale};
-    const numerics::ComplexPack follow = numerics::ComplexPack{mode.stiffness, damping} * inverse;
-    inertial = inertial - follow * inertia;
-    wind = wind + follow * mode.wind_fraction;
-    beam = beam + follow * mode.beam_weight;
-    bending = bending + inverse * (mode.wind_fraction * mode.beam_weight);
-  }
+  ModeSum sum;
+  numerics::run_on_widest_lanes<ModeSum>(modes_, w, sum);
   const auto total = [](const numerics::ComplexPack& x) {
     return std::complex<double>(numerics::sum(x.re), numerics::sum(x.im));
   };
   return drive_on_structure(drive_,
-                            {total(inertial) - structure_.bull_gear_inertia * w * w,
+                            {total(sum.inertial) - structure_.bull_gear_inertia * w * w,
                              {structure_.gear_stiffness, structure_.gear_damping * w},
-                             total(wind) + structure_.bull_gear_wind_fraction,
-                             total(beam) + structure_.bull_gear_beam_weight,
-                             total(bending)},
+                             total(sum.wind) + structure_.bull_gear_wind_fraction,
+                             total(sum.beam) + structure_.bull_gear_beam_weight,
+                             total(sum.bending)},
                             w);
 }
 

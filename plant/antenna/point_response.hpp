@@ -43,6 +43,7 @@ class PointResponse {
   struct ModePack {
     numerics::RealPack inertia, stiffness, damping, wind_fraction, beam_weight;
   };
+  struct ModeSum;
   Drive drive_;
   Structure structure_;  // without modes
   std::vector<ModePack> modes_;

@@ -4,11 +4,11 @@
 #include <cstring>
 #include <limits>
 #include <numbers>
-#include <type_traits>
 #include <utility>
 
 #include <fmt/format.h>
 
+#include <boresight/numerics/complex_packs.hpp>
 #include <boresight/numerics/error.hpp>
 #include <boresight/numerics/linear_solve.hpp>
 #include <boresight/numerics/vector_clones.hpp>
@@ -23,15 +23,13 @@ using Complex = std::complex<double>;
 constexpr double epsilon = std::numeric_limits<double>::epsilon();
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-// As many frequencies as are worked on at a time.
+// As many frequencies as are handed over at a time.
 constexpr int lane_count = 8;
-// NOLINTNEXTLINE(modernize-use-using): the attribute does not stand on an alias.
-typedef double Lanes __attribute__((vector_size(lane_count * sizeof(double))));
 
 // Numbers in the work arrays, one Lane after the other, of any alignment.
 template <typename Lane>
 struct Work {
-  static constexpr Eigen::Index width = std::is_same_v<Lane, double> ? 1 : lane_count;
+  static constexpr Eigen::Index width = sizeof(Lane) / sizeof(double);
 
   [[gnu::always_inline]] static inline void load(Lane& lane, const double* work, Eigen::Index i) {
     std::memcpy(&lane, work + i * width, sizeof(Lane));
@@ -53,9 +51,10 @@ constexpr double growth_scale = 0x1p-400;
 [[gnu::always_inline]] inline bool any_above(double magnitude, double limit) {
   return magnitude > limit;
 }
+template <typename Lanes>
 [[gnu::always_inline]] inline bool any_above(const Lanes& magnitude, double limit) {
   double largest = magnitude[0];
-  for (int l = 1; l < lane_count; ++l) largest = std::max(largest, magnitude[l]);
+  for (Eigen::Index l = 1; l < Work<Lanes>::width; ++l) largest = std::max(largest, magnitude[l]);
   return largest > limit;
 }
 
@@ -197,16 +196,26 @@ struct HymanSubstitution {
     result.output_im = im;
   }
 
-  // `s`: real parts of lane_count points, then the imaginary ones; `result`: a Substitution.
-  BORESIGHT_VECTOR_CLONES static void lanes(const DenseResponse::Reach& reach, const double* s,
-                                            Eigen::Index row, double* work, double* result) {
-    Lanes s_re, s_im;
-    Work<Lanes>::load(s_re, s, 0);
-    Work<Lanes>::load(s_im, s, 1);
-    Substitution<Lanes> sums{};
-    states(reach, s_re, s_im, work, sums);
-    output(reach, row, work, sums);
-    std::memcpy(result, &sums, sizeof(sums));
+  // `s`: real parts of lane_count points, then the imaginary ones; `result`: likewise the numbers
+  // of a Substitution.
+  template <std::size_t width>
+  [[gnu::always_inline]] static inline void run(const DenseResponse::Reach& reach, const double* s,
+                                                Eigen::Index row, double* work, double* result) {
+    using Lanes = typename numerics::RealLanes<width>::Lanes;
+    for (Eigen::Index first = 0; first < lane_count; first += width) {
+      Lanes s_re, s_im;
+      Work<Lanes>::load(s_re, s + first, 0);
+      Work<Lanes>::load(s_im, s + lane_count + first, 0);
+      Substitution<Lanes> sums{};
+      states(reach, s_re, s_im, work, sums);
+      output(reach, row, work, sums);
+      double* place = result + first;
+      for (const Lanes& sum :
+           {sums.pivot_re, sums.pivot_im, sums.size, sums.output_re, sums.output_im}) {
+        Work<Lanes>::store(sum, place, 0);
+        place += lane_count;
+      }
+    }
   }
 };
 
@@ -377,7 +386,7 @@ void DenseResponse::evaluate(const Eigen::ArrayXd& angular_frequency, Eigen::Arr
   const Eigen::Index row = start_ == Start::outputs ? input : output;
   constexpr auto width = static_cast<std::size_t>(lane_count);
   std::array<double, 2 * width> s{};
-  std::array<double, sizeof(Substitution<Lanes>) / sizeof(double)> sums{};
+  std::array<double, sizeof(Substitution<double>) / sizeof(double) * width> sums{};
   for (Eigen::Index first = 0; first < count; first += lane_count) {
     const Eigen::Index filled = std::min<Eigen::Index>(lane_count, count - first);
     for (std::size_t l = 0; l < width; ++l) {
@@ -386,7 +395,8 @@ void DenseResponse::evaluate(const Eigen::ArrayXd& angular_frequency, Eigen::Arr
       s[l] = at.real();
       s[width + l] = at.imag();
     }
-    HymanSubstitution::lanes(reach, s.data(), row, work_.data(), sums.data());
+    numerics::run_on_widest_lanes<HymanSubstitution>(reach, s.data(), row, work_.data(),
+                                                     sums.data());
     for (Eigen::Index l = 0; l < filled; ++l) {
       const double* sum = sums.data() + l;
       response[first + l] =

@@ -41,8 +41,12 @@ inline control::LoopEvaluator loop_evaluator(const plant::AntennaPlant& plant,
   const Eigen::ArrayXd high = plant::frequency_grid(plant, 25.0, 100.0, points_per_decade);
   Eigen::ArrayXd w(low.size() + high.size() - 1);
   w << low, high.tail(high.size() - 1);
-  return {plant, w, delay, sensor_noise(),
-          (w / two_pi).unaryExpr([](double f) { return motor_wind_spectrum(f); })};
+  return {
+      plant,
+      w,
+      {.delay = delay,
+       .noise = sensor_noise(),
+       .wind_spectrum = (w / two_pi).unaryExpr([](double f) { return motor_wind_spectrum(f); })}};
 }
 
 inline plant::ShapingFilter wind_filter(int order) {

@@ -114,7 +114,11 @@ TEST(LoopEvaluation, IntegratesOverItsBandOnlyAndBandsAdd) {
   const ControlLaw law{LoopStructure::pi(), {0.25, 1.0, 0.4, 0.06}};
   const double middle = w[w.size() / 2] / two_pi;
   const auto over = [&](FrequencyBand band) {
-    LoopEvaluator evaluator(plant, w, reference::delay, reference::sensor_noise(), wind, band);
+    LoopEvaluator evaluator(plant, w,
+                            {.delay = reference::delay,
+                             .noise = reference::sensor_noise(),
+                             .wind_spectrum = wind,
+                             .band = band});
     return evaluator.evaluate(law, false);
   };
   const auto all = over({}), low = over({0.0, middle}), high = over({middle, 25.0});
@@ -135,18 +139,21 @@ TEST(LoopEvaluation, ScalesWithNoiseAndWind) {
   const Eigen::ArrayXd wind = 1.0 / w;
   const ControlLaw law{LoopStructure::pi(), {0.25, 1.0, 0.4, 0.06}};
   const auto noise = reference::sensor_noise();
-  LoopEvaluator one(plant, w, reference::delay, noise, wind);
-  LoopEvaluator other(plant, w, reference::delay,
-                      {3.0 * noise.encoder_rms, 3.0 * noise.tachometer_rms, noise.bandwidth,
-                       3.0 * noise.torque_rms},
-                      4.0 * wind);
+  const auto with = [&](const SensorNoise& sensors, const Eigen::ArrayXd& spectrum) {
+    return LoopEvaluator(plant, w,
+                         {.delay = reference::delay, .noise = sensors, .wind_spectrum = spectrum});
+  };
+  LoopEvaluator one = with(noise, wind);
+  LoopEvaluator other = with({3.0 * noise.encoder_rms, 3.0 * noise.tachometer_rms, noise.bandwidth,
+                              3.0 * noise.torque_rms},
+                             4.0 * wind);
   const auto a = one.evaluate(law, false), b = other.evaluate(law, false);
   EXPECT_LT(relative_error(b.wind_variance, 4.0 * a.wind_variance), 1e-13);
   EXPECT_LT(relative_error(b.noise_variance, 9.0 * a.noise_variance), 1e-13);
   EXPECT_LT(relative_error(b.effort_variance, 9.0 * a.effort_variance), 1e-13);
   // Independent noises add.
-  LoopEvaluator encoder(plant, w, reference::delay, {noise.encoder_rms, 0.0, 25.0}, wind);
-  LoopEvaluator tachometer(plant, w, reference::delay, {0.0, noise.tachometer_rms, 25.0}, wind);
+  LoopEvaluator encoder = with({noise.encoder_rms, 0.0, 25.0}, wind);
+  LoopEvaluator tachometer = with({0.0, noise.tachometer_rms, 25.0}, wind);
   EXPECT_LT(relative_error(encoder.evaluate(law, false).noise_variance +
                                tachometer.evaluate(law, false).noise_variance,
                            a.noise_variance),
@@ -282,15 +289,31 @@ TEST(LoopEvaluation, ListsThePeaksHighestFirst) {
   EXPECT_EQ(LoopEvaluation{}.highest_peak(LoopBreak::valve_command), 1.0);
 }
 
+TEST(LoopEvaluator, CopiesEvaluateOnTheirOwn) {
+  reference::RandomNumbers random(131);
+  LoopEvaluator evaluator = reference::loop_evaluator(reference::antenna(), 60);
+  const ControlLaw law = reference::sound_law(random, evaluator, LoopStructure::pi(), 2.5);
+  const auto expected = evaluator.evaluate(law, true);
+  LoopEvaluator copy = evaluator;
+  copy.look_at_gusts(true);
+  const auto found = copy.evaluate(law, true);
+  EXPECT_EQ(found.beam_variance(), expected.beam_variance());
+  EXPECT_GT(found.wind_demand_variance, 0.0);
+  EXPECT_EQ(evaluator.evaluate(law, true).wind_demand_variance, 0.0);
+  evaluator = copy;
+  EXPECT_EQ(evaluator.evaluate(law, true).wind_demand_variance, found.wind_demand_variance);
+}
+
 TEST(LoopEvaluator, RefusesGridsThatDoNotFit) {
   const auto plant = reference::antenna();
   const Eigen::ArrayXd w = Eigen::ArrayXd::LinSpaced(5, 1.0, 5.0);
   const auto make = [&](const Eigen::ArrayXd& frequency, const Eigen::ArrayXd& spectrum) {
-    return LoopEvaluator(plant, frequency, 0.03, reference::sensor_noise(), spectrum);
+    return LoopEvaluator(
+        plant, frequency,
+        {.delay = 0.03, .noise = reference::sensor_noise(), .wind_spectrum = spectrum});
   };
-  EXPECT_THAT(
-      [&] { make(w, w.head(4)); },
-      ThrowsMessage<InvalidInput>(HasSubstr("as many wind values and weights as frequencies")));
+  EXPECT_THAT([&] { make(w, w.head(4)); },
+              ThrowsMessage<InvalidInput>(HasSubstr("as many wind values as frequencies")));
   EXPECT_THROW(make(w.head(2), w.head(2)), InvalidInput);
   EXPECT_THAT([&] { make(w.reverse(), w); },
               ThrowsMessage<InvalidInput>(HasSubstr("rising frequencies")));

@@ -15,6 +15,7 @@
 #include <boresight/numerics/angles.hpp>
 #include <boresight/numerics/eigenvalues.hpp>
 #include <boresight/numerics/error.hpp>
+#include <boresight/numerics/vector_clones.hpp>
 
 namespace boresight::control {
 namespace {
@@ -55,11 +56,9 @@ double exact_rms(const PeerGains& gains, bool light) {
 LoopEvaluator evaluator_of(bool light) {
   auto shape = reference::peer_modes(modes);
   if (light) shape.damping_ratio[light_mode] = light_damping;
-  return {reference::PeerChannels(shape),
-          0.0,
-          {},
-          reference::peer_wind_spectrum,
-          reference::peer_quadrature()};
+  return {
+      reference::PeerChannels(shape),
+      {.wind_spectrum = reference::peer_wind_spectrum, .quadrature = reference::peer_quadrature()}};
 }
 
 TEST(LoopPanels, HaveTheRmsOfFortyStableLawsToAMillionth) {
@@ -181,8 +180,11 @@ LoopQuadrature reference_quadrature() {
 }
 
 LoopEvaluator antenna_evaluator(const LoopQuadrature& quadrature) {
-  return {plant::PointResponse(reference::antenna()), reference::delay, reference::sensor_noise(),
-          reference::motor_wind_spectrum, quadrature};
+  return {plant::PointResponse(reference::antenna()),
+          {.delay = reference::delay,
+           .noise = reference::sensor_noise(),
+           .wind_spectrum = reference::motor_wind_spectrum,
+           .quadrature = quadrature}};
 }
 
 TEST(LoopPanels, OfTheReferenceAntennaAgreeWithMuchFinerOnes) {
@@ -227,12 +229,56 @@ TEST(LoopPanels, OfTheReferenceAntennaAgreeWithMuchFinerOnes) {
   }
 }
 
+std::vector<double> numbers(const LoopEvaluation& evaluation) {
+  std::vector<double> all{evaluation.wind_variance,
+                          evaluation.noise_variance,
+                          evaluation.effort_variance,
+                          evaluation.wind_demand_variance,
+                          evaluation.wind_torque_variance,
+                          static_cast<double>(evaluation.unstable_rate_loop),
+                          static_cast<double>(evaluation.unstable_closed_loop)};
+  for (const auto* gradient :
+       {&evaluation.wind_log_gradient, &evaluation.noise_log_gradient,
+        &evaluation.effort_log_gradient, &evaluation.wind_demand_log_gradient,
+        &evaluation.wind_torque_log_gradient}) {
+    all.insert(all.end(), gradient->begin(), gradient->end());
+  }
+  for (const PeakList& peaks : evaluation.peaks) {
+    for (const SensitivityPeak& peak : peaks) {
+      all.insert(all.end(), {peak.frequency, peak.magnitude});
+      all.insert(all.end(), peak.log_gradient.begin(), peak.log_gradient.end());
+    }
+  }
+  return all;
+}
+
+TEST(LoopPanels, HaveTheSameBitsInRegistersOfEveryWidth) {
+  reference::RandomNumbers random(223);
+  for (const auto& structure : reference::loop_structures()) {
+    for (int i = 0; i < 5; ++i) {
+      const ControlLaw law = reference::random_law(random, structure);
+      std::vector<std::vector<double>> found;
+      for (const std::size_t lanes : {2U, 4U, 8U}) {
+        const numerics::NarrowRegisters narrow(lanes);
+        LoopEvaluator evaluator = antenna_evaluator(reference_quadrature());
+        evaluator.look_at_gusts(true);
+        found.push_back(numbers(evaluator.evaluate(law, true)));
+      }
+      EXPECT_EQ(found[1], found[0]) << structure.name();
+      EXPECT_EQ(found[2], found[0]) << structure.name();
+    }
+  }
+}
+
 TEST(LoopPanels, AgreeWithTheTrapezoidRuleOnAGridOfThousands) {
   const auto plant = reference::antenna();
   const Eigen::ArrayXd w = plant::frequency_grid(plant, 1e-4, 25.0, 6000);
-  LoopEvaluator trapezoid(
-      plant, w, reference::delay, reference::sensor_noise(),
-      (w / two_pi).unaryExpr([](double f) { return reference::motor_wind_spectrum(f); }));
+  LoopEvaluator trapezoid(plant, w,
+                          {.delay = reference::delay,
+                           .noise = reference::sensor_noise(),
+                           .wind_spectrum = (w / reference::two_pi).unaryExpr([](double f) {
+                             return reference::motor_wind_spectrum(f);
+                           })});
   LoopEvaluator panels = antenna_evaluator(reference_quadrature());
   reference::RandomNumbers random(217);
   for (const auto& structure : reference::loop_structures()) {
@@ -323,8 +369,9 @@ TEST(LoopPanels, TakeTheDensityBelowTheirBandForConstant) {
   const auto from = [&](double lowest) {
     LoopQuadrature quadrature = reference::peer_quadrature();
     quadrature.analysis.lowest = lowest;
-    LoopEvaluator evaluator(reference::PeerChannels(modes), 0.0, {}, reference::peer_wind_spectrum,
-                            quadrature);
+    LoopEvaluator evaluator(
+        reference::PeerChannels(modes),
+        {.wind_spectrum = reference::peer_wind_spectrum, .quadrature = quadrature});
     const auto found = evaluator.evaluate(reference::peer_law(gains), true);
     EXPECT_LT(relative_error(evaluator.integration_weight().sum(), quadrature.analysis.highest),
               1e-6);
@@ -358,9 +405,10 @@ TEST(LoopPanels, RefuseBandsAndTolerancesThatMakeNoSense) {
   EXPECT_THAT([&] { made_with([](auto& q) { q.widest_panel = -1.0; }); },
               ThrowsMessage<InvalidInput>(HasSubstr("positive tolerances")));
   const auto in_no_wind = [] {
-    return LoopEvaluator(
-        plant::PointResponse(reference::antenna()), reference::delay, {},
-        [](double) { return std::nan(""); }, reference_quadrature());
+    return LoopEvaluator(plant::PointResponse(reference::antenna()),
+                         {.delay = reference::delay,
+                          .wind_spectrum = [](double) { return std::nan(""); },
+                          .quadrature = reference_quadrature()});
   };
   EXPECT_THAT([&] { in_no_wind(); }, ThrowsMessage<NumericalFailure>(HasSubstr("not finite at")));
 }

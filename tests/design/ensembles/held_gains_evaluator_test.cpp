@@ -7,6 +7,7 @@
 #include <boresight/control/loops/closed_loop.hpp>
 #include <boresight/design/ensembles/held_gains_evaluator.hpp>
 #include <boresight/numerics/error.hpp>
+#include <boresight/numerics/vector_clones.hpp>
 
 namespace boresight {
 namespace {
@@ -46,6 +47,22 @@ control::ControlLaw full_law() {
     law.gains.push_back(std::sqrt(gain.lower * gain.upper));
   }
   return law;
+}
+
+TEST(HeldGainsEvaluator, HasTheSameBitsInRegistersOfEveryWidth) {
+  const auto problem = reference::tracking_problem();
+  design::HardGoals goals;
+  goals.gust_demand = 100.0;
+  reference::RandomNumbers random(6);
+  for (int i = 0; i < 10; ++i) {
+    const auto plant = uncertain_antenna(random);
+    const auto values = [&](std::size_t lanes) {
+      const numerics::NarrowRegisters narrow(lanes);
+      return HeldGainsEvaluator(problem, full_law(), goals).evaluate(plant);
+    };
+    expect_same(values(4), values(2));
+    expect_same(values(8), values(2));
+  }
 }
 
 TEST(HeldGainsEvaluator, AgreesWithTheTunersEvaluator) {

@@ -46,8 +46,10 @@ control::LoopEvaluator model_evaluator(const MeasuredProblem& problem) {
   const Eigen::ArrayXd grid = measured_grid(problem, 300, false);
   return {control::sampled_on(
               grid, [plant](double w) { return reference::with_wind_at_motor(plant, w); }),
-          problem.delay, problem.noise, motor_wind_spectrum(problem.wind, problem.gear_ratio, grid),
-          problem.rms_band};
+          {.delay = problem.delay,
+           .noise = problem.noise,
+           .wind_spectrum = motor_wind_spectrum(problem.wind, problem.gear_ratio, grid),
+           .band = problem.rms_band}};
 }
 
 // The same goals on the model, by nothing of the measured tuner's but FeasibleSearch.
@@ -244,9 +246,11 @@ TEST(MeasuredTuning, TunesFromAChirpOfTheNonlinearAntenna) {
     const auto result = tune(problem, *structure, {}, options);
     EXPECT_EQ(result.status, MeasuredTuningStatus::confident) << result.verification.failure;
     // Peaks and winding on the truth, from far below to far above what was measured.
-    control::LoopEvaluator exact(control::sampled_on(measured_grid(problem, 100, false), response),
-                                 problem.delay, problem.noise,
-                                 Eigen::ArrayXd::Zero(measured_grid(problem, 100, false).size()));
+    const Eigen::ArrayXd grid = measured_grid(problem, 100, false);
+    control::LoopEvaluator exact(control::sampled_on(grid, response),
+                                 {.delay = problem.delay,
+                                  .noise = problem.noise,
+                                  .wind_spectrum = Eigen::ArrayXd::Zero(grid.size())});
     const auto evaluation = exact.evaluate(result.law, false);
     EXPECT_TRUE(evaluation.stable());
     for (const auto loop_break : control::loop_breaks) {

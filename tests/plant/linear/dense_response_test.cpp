@@ -11,6 +11,7 @@
 #include "reference_values.hpp"
 #include <boresight/numerics/error.hpp>
 #include <boresight/numerics/linear_solve.hpp>
+#include <boresight/numerics/vector_clones.hpp>
 #include <boresight/plant/linear/dense_response.hpp>
 
 namespace boresight::plant {
@@ -35,6 +36,19 @@ StateSpace random_system(RandomNumbers& random, Eigen::Index n, Eigen::Index inp
   return reference::state_space(random.matrix(n, n), random.matrix(n, inputs),
                                 random.matrix(outputs, n), random.matrix(outputs, inputs),
                                 sample_time);
+}
+
+TEST(DenseResponse, HasTheSameBitsInRegistersOfEveryWidth) {
+  RandomNumbers random(40);
+  DenseResponse response(random_system(random, 23, 1, 1, 0.0));
+  const Eigen::ArrayXd w = Eigen::ArrayXd::LinSpaced(21, 0.01, 20.0);
+  Eigen::ArrayXcd expected(w.size()), found(w.size());
+  response.evaluate(w, expected, 0, 0);
+  for (const std::size_t lanes : {2U, 4U}) {
+    const numerics::NarrowRegisters narrow(lanes);
+    response.evaluate(w, found, 0, 0);
+    EXPECT_TRUE((found == expected).all()) << lanes;
+  }
 }
 
 TEST(DenseResponse, IsThatOfLinearSolvesAtAnyPoint) {

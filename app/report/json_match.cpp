@@ -1,19 +1,17 @@
 #include <cmath>
 
 #include <boresight/app/report/json_what_if.hpp>
+#include <boresight/app/report/json_writer.hpp>
 #include <boresight/app/report/match_report.hpp>
 #include <boresight/app/report/sky_units.hpp>
 #include <boresight/app/report/wind_mast.hpp>
+#include <boresight/io/description/loop_results.hpp>
 
 namespace boresight::app {
 namespace {
 
 Json mdeg(double angle) {
   return number(angle / millidegree);
-}
-
-Json decibel(double gain) {
-  return gain > 0.0 ? number(20.0 * std::log10(gain)) : Json(nullptr);
 }
 
 Json range_json(const FlatRange& range) {
@@ -38,13 +36,7 @@ Json point_json(const MatchPoint& point) {
 Json margins_json(const MatchValue& value) {
   Json margins = Json::array();
   for (std::size_t b = 0; b < control::loop_breaks.size(); ++b) {
-    const auto& one = value.margins.at(b);
-    margins.push_back({{"break", control::to_string(control::loop_breaks.at(b))},
-                       {"increasing_gain_margin_dB", decibel(one.increasing_gain_margin)},
-                       {"decreasing_gain_margin_dB", decibel(one.decreasing_gain_margin)},
-                       {"phase_margin_deg", number(one.phase_margin_deg)},
-                       {"delay_margin_s", number(one.delay_margin)},
-                       {"sensitivity_peak_1", number(one.sensitivity.magnitude)}});
+    margins.push_back(json_of(MatchMargins{control::loop_breaks.at(b), value.margins.at(b)}));
   }
   return margins;
 }
@@ -53,14 +45,8 @@ Json time_json(const std::optional<MatchTimeDomain>& run) {
   if (!run) return nullptr;
   Json hunting = Json::array();
   for (const auto& one : run->hunting) {
-    hunting.push_back({{"rate_mdeg_per_s", mdeg(one.rate)},
-                       {"status", design::to_string(one.status)},
-                       {"limit_cycle", one.limit_cycle},
-                       {"starts", one.starts},
-                       {"starts_hunting", one.starts_hunting},
-                       {"encoder_amplitude_mdeg", mdeg(one.encoder_amplitude)},
-                       {"beam_amplitude_mdeg", mdeg(one.beam_amplitude)},
-                       {"frequency_Hz", one.frequency ? number(*one.frequency) : Json(nullptr)}});
+    hunting.push_back(
+        json_by([&](io::Visitor& v) { describe(v, one, io::LimitCycleDetail::study); }));
   }
   Json reversal = nullptr;
   if (run->reversal) {
@@ -165,6 +151,14 @@ Json variants_json(const MatchVariants& variants) {
 }
 
 }  // namespace
+
+void describe(io::Visitor& v, const MatchMargins& cut) {
+  v.defined_as("match_margins", "Margins of a law on the case's plant, the loop cut at one place.");
+  io::describe_break(v, "break", cut.loop_break);
+  describe(v, cut.margins);
+  v.number("sensitivity_peak", cut.margins.sensitivity.magnitude, io::key_units::ratio,
+           "Largest |S|.", {.least = 0.0});
+}
 
 Json match_json(const MatchSection& section) {
   Json points = Json::array(), series = Json::array(), variants = Json::array();

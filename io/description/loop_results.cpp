@@ -18,6 +18,9 @@ void describe(Visitor& v, const control::Margins& margins) {
   v.number("decreasing_gain_margin", margins.decreasing_gain_margin, unit::decibel,
            "Largest fall of the gain that makes the loop unstable, if any does.",
            {.column = {"gain down dB", 1}});
+  v.number("modulus_margin", margins.distance_to_minus_one(), unit::ratio,
+           "Smallest |1 + L|, the loop's distance from -1: the inverse of the largest |S|.",
+           {.least = 0.0, .column = {"modulus", 3}});
   v.number("phase_margin", margins.phase_margin_deg, unit::degree_as_kept,
            "Smallest over the gain crossovers; 180 without any.", {.column = {"phase deg", 1}});
   v.number("delay_margin", margins.delay_margin, unit::second,

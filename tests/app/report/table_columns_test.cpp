@@ -17,9 +17,11 @@ TEST(TableColumns, ShowNumbersThatHaveAHeading) {
   margins.decreasing_gain_margin = 0.0;
   margins.phase_margin_deg = 45.04;
   margins.delay_margin = 0.1234;
+  margins.sensitivity.magnitude = 1.6;
   const TableColumns columns = columns_of(margins);
-  EXPECT_THAT(columns.headings, ElementsAre("gain up dB", "gain down dB", "phase deg", "delay ms"));
-  EXPECT_THAT(columns.cells, ElementsAre("20.0", "none", "45.0", "123.4"));
+  EXPECT_THAT(columns.headings,
+              ElementsAre("gain up dB", "gain down dB", "modulus", "phase deg", "delay ms"));
+  EXPECT_THAT(columns.cells, ElementsAre("20.0", "none", "0.625", "45.0", "123.4"));
 }
 
 }  // namespace

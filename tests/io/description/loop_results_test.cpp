@@ -30,6 +30,14 @@ TEST(LoopResults, MarginsAreInDecibelsDegreesAndSeconds) {
   EXPECT_EQ(v.numbers_found.at("delay_margin_s"), 0.1);
 }
 
+TEST(LoopResults, ModulusMarginIsTheInverseOfTheLargestSensitivity) {
+  RecordingVisitor v;
+  describe(v, some_margins());
+  describe_sensitivity(v, some_margins());
+  EXPECT_DOUBLE_EQ(
+      *v.numbers_found.at("modulus_margin_1") * *v.numbers_found.at("sensitivity_peak_1"), 1.0);
+}
+
 TEST(LoopResults, SensitivityIsAFactorAtAFrequencyInHertz) {
   RecordingVisitor v;
   describe_sensitivity(v, some_margins());

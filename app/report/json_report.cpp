@@ -5,20 +5,21 @@
 #include <boresight/app/redesign/matching_verdict.hpp>
 #include <boresight/app/redesign/needed_budgets.hpp>
 #include <boresight/app/redesign/tuning_verdict.hpp>
+#include <boresight/app/report/audit_description.hpp>
+#include <boresight/app/report/campaign_description.hpp>
 #include <boresight/app/report/evaluate_report.hpp>
 #include <boresight/app/report/json_assumed.hpp>
-#include <boresight/app/report/json_audit.hpp>
-#include <boresight/app/report/json_campaign.hpp>
 #include <boresight/app/report/json_design.hpp>
-#include <boresight/app/report/json_limit.hpp>
 #include <boresight/app/report/json_linear_models.hpp>
 #include <boresight/app/report/json_report.hpp>
 #include <boresight/app/report/json_time_domain.hpp>
 #include <boresight/app/report/json_tune.hpp>
+#include <boresight/app/report/json_writer.hpp>
 #include <boresight/app/report/match_report.hpp>
 #include <boresight/app/report/measured_report.hpp>
 #include <boresight/app/report/sky_units.hpp>
 #include <boresight/app/report/wind_mast.hpp>
+#include <boresight/io/description/pointing_limit_results.hpp>
 
 namespace boresight::app {
 namespace {
@@ -265,18 +266,18 @@ std::string to_json(const Report& report) {
             {"case", {{"path", report.case_path}, {"title", report.title}, {"axis", report.axis}}},
             {"seed", report.seed},
             {"interrupted", report.interrupted}};
-  if (report.campaign) json["campaign"] = campaign_json(*report.campaign);
+  if (report.campaign) json["campaign"] = json_of(*report.campaign);
   if (report.identification) json["identification"] = identification_json(*report.identification);
-  if (report.audit) json["audit"] = audit_json(*report.audit);
+  if (report.audit) json["audit"] = json_of(*report.audit);
   if (report.plant) json["plant"] = plant_json(*report.plant);
   if (report.tuning) json["tuning"] = tuning_json(*report.tuning);
   if (report.measured) json["measured_tuning"] = measured_tuning_json(*report.measured);
   if (report.tuned) json["tuned"] = tune_json(*report.tuned);
   if (report.time_domain) json["time_domain"] = time_domain_json(*report.time_domain);
-  if (report.limit) json["limit"] = limit_json(*report.limit);
+  if (report.limit) json["limit"] = json_of(*report.limit);
   if (!report.choices.empty()) json["choices"] = choices_json(report.choices);
   if (report.matching) json["matching"] = matching_json(*report.matching);
-  if (report.matched) json["matched"] = match_json(*report.matched);
+  if (report.matched) json["matched"] = json_of(*report.matched);
   if (report.evaluated) json["evaluated"] = evaluate_json(*report.evaluated);
   if (const auto models = linear_models(report)) {
     json["linear_models"] = linear_models_json(*models);

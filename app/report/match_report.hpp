@@ -4,7 +4,6 @@
 
 #include <boresight/app/document/document.hpp>
 #include <boresight/app/match/match_section.hpp>
-#include <boresight/app/report/json_design.hpp>
 
 namespace boresight::io {
 class Visitor;
@@ -22,6 +21,6 @@ struct MatchMargins {
 void describe(io::Visitor& v, const MatchMargins& cut);
 
 /// "matched" of docs/report.schema.json.
-Json match_json(const MatchSection& section);
+void describe(io::Visitor& v, const MatchSection& section);
 
 }  // namespace boresight::app

@@ -4,6 +4,8 @@
 #include <boresight/app/commission/commission_study.hpp>
 #include <boresight/app/figures/figure_description.hpp>
 #include <boresight/app/montecarlo/montecarlo_study.hpp>
+#include <boresight/app/report/audit_description.hpp>
+#include <boresight/app/report/campaign_description.hpp>
 #include <boresight/app/report/common_description.hpp>
 #include <boresight/app/report/match_report.hpp>
 #include <boresight/app/report/report_schemas.hpp>
@@ -12,6 +14,7 @@
 #include <boresight/io/case/field.hpp>
 #include <boresight/io/description/design_results.hpp>
 #include <boresight/io/description/loop_results.hpp>
+#include <boresight/io/description/pointing_limit_results.hpp>
 #include <boresight/io/units/wording.hpp>
 #include <boresight/numerics/error.hpp>
 #include <boresight/report_schema_base.hpp>
@@ -45,9 +48,11 @@ void describe_limit_cycle(io::Visitor& v, std::string_view name, io::LimitCycleD
 void describe(io::Visitor& v, const DescribedParts& /*parts*/) {
   v.object("design", design::Design{}, "");
   v.object("ensemble", design::EnsembleResult{}, "");
-  v.object("match_margins", MatchMargins{}, "");
+  v.object("audit", AuditReport{}, "");
+  v.object("campaign", CampaignSection{}, "");
+  v.object("limit", design::PointingLimit{}, "");
+  v.object("matched", MatchSection{}, "");
   describe_limit_cycle(v, "limit_cycle", io::LimitCycleDetail::full);
-  describe_limit_cycle(v, "limit_cycle_study", io::LimitCycleDetail::study);
   describe_figures(v, {});
 }
 

@@ -86,6 +86,7 @@ void SchemaWriter::on_count(const io::Member& member, const std::optional<std::u
   } else {
     schema["type"] = type_of("integer", form.nullable);
     schema["minimum"] = form.least;
+    if (form.most) schema["maximum"] = *form.most;
   }
   put(member.key, std::move(schema));
 }

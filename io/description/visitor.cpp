@@ -30,6 +30,17 @@ void Visitor::number(std::string_view key, const std::optional<double>& value, c
   on_number({key, meaning}, value, unit, form);
 }
 
+void Visitor::counts(std::string_view key, std::span<const std::uint64_t> values,
+                     std::string_view meaning, const CountForm& form) {
+  on_list({key, meaning}, {});
+  if (by_example()) {
+    on_count({}, 0, form);
+  } else {
+    for (const auto value : values) on_count({}, value, form);
+  }
+  on_list_end();
+}
+
 void Visitor::constant(std::string_view key, std::uint64_t value, std::string_view meaning) {
   on_count({key, meaning}, value, {.constant = true});
 }
@@ -86,6 +97,18 @@ void Visitor::numbers(std::string_view key, std::span<const double> values, cons
     on_number({}, 0.0, unnamed, form);
   } else {
     for (const double value : values) on_number({}, value, unnamed, form);
+  }
+  on_list_end();
+}
+
+void Visitor::number_rows(std::string_view key, std::span<const std::vector<double>> rows,
+                          const KeyUnit& unit, std::string_view meaning) {
+  const KeyUnit unnamed = without_suffix(unit);
+  on_list({key_with_unit(key, unit), meaning}, {});
+  if (by_example()) {
+    numbers({}, {}, unnamed, {});
+  } else {
+    for (const auto& row : rows) numbers({}, row, unnamed, {});
   }
   on_list_end();
 }

@@ -40,6 +40,7 @@ struct NumberForm {
 
 struct CountForm {
   std::uint64_t least = 0;
+  std::optional<std::uint64_t> most = std::nullopt;
   bool nullable = false;
   bool constant = false;  // the only count that it is
 };
@@ -93,6 +94,8 @@ class Visitor {
              value ? std::optional(static_cast<std::uint64_t>(*value)) : std::nullopt,
              {.nullable = true});
   }
+  void counts(std::string_view key, std::span<const std::uint64_t> values, std::string_view meaning,
+              const CountForm& form = {});
   void constant(std::string_view key, std::uint64_t value, std::string_view meaning);
   void flag(std::string_view key, bool value, std::string_view meaning);
   void flag(std::string_view key, const std::optional<bool>& value, std::string_view meaning);
@@ -109,6 +112,9 @@ class Visitor {
   void texts(std::string_view key, std::span<const std::string> values, std::string_view meaning);
   void numbers(std::string_view key, std::span<const double> values, const KeyUnit& unit,
                std::string_view meaning, const NumberForm& form = {}, const ListSize& size = {});
+  /// A list of rows of numbers.
+  void number_rows(std::string_view key, std::span<const std::vector<double>> rows,
+                   const KeyUnit& unit, std::string_view meaning);
 
   /// An object described by its own function.
   template <typename Object>
@@ -169,7 +175,7 @@ class Visitor {
   }
 
   /// Finite numbers above 0 whose keys match a regular expression: `describe_them()` describes
-  /// those there are, by example those that are always there.
+  /// those there are, by example those that are known by name.
   template <std::invocable Describe>
   void numbers_by_name(std::string_view pattern, std::string_view meaning, Describe describe_them) {
     on_pattern(pattern, meaning);

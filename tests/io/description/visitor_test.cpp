@@ -55,5 +55,16 @@ TEST(Visitor, ShowsTheWholeFormByExample) {
   EXPECT_THAT(v.places, ElementsAre("parts[0].angle_deg", "best.angle_deg", "remark"));
 }
 
+TEST(Visitor, ListsHaveOneElementEach) {
+  RecordingVisitor v;
+  v.number_rows("correlation", std::vector<std::vector<double>>{{1.0, 0.5}, {0.5, 1.0}},
+                key_units::ratio, "Of two.");
+  v.counts("states_1", std::vector<std::uint64_t>{0, 2}, "In order.");
+  EXPECT_THAT(v.places,
+              ElementsAre("correlation_1[0][0]", "correlation_1[0][1]", "correlation_1[1][0]",
+                          "correlation_1[1][1]", "states_1[0]", "states_1[1]"));
+  EXPECT_EQ(v.numbers_found["correlation_1[0][1]"], 0.5);
+}
+
 }  // namespace
 }  // namespace boresight::io

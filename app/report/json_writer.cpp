@@ -59,8 +59,9 @@ void JsonWriter::on_object_end() {
   close();
 }
 
-void JsonWriter::on_list(const io::Member& member, const io::ListSize& /*size*/) {
-  open_.push_back({std::string(member.key), Json::array()});
+void JsonWriter::on_list(const io::Member& member, const io::ListSize& /*size*/, bool present,
+                         bool /*nullable*/) {
+  open_.push_back({std::string(member.key), present ? Json::array() : Json(nullptr)});
 }
 
 void JsonWriter::on_list_end() {

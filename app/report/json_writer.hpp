@@ -31,7 +31,8 @@ class JsonWriter final : public io::Visitor {
                const io::TextForm& form, bool nullable) override;
   void on_object(const io::Member& member, bool present, bool nullable) override;
   void on_object_end() override;
-  void on_list(const io::Member& member, const io::ListSize& size) override;
+  void on_list(const io::Member& member, const io::ListSize& size, bool present,
+               bool nullable) override;
   void on_list_end() override;
 
  private:

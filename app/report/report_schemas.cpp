@@ -7,7 +7,9 @@
 #include <boresight/app/report/audit_description.hpp>
 #include <boresight/app/report/campaign_description.hpp>
 #include <boresight/app/report/common_description.hpp>
+#include <boresight/app/report/identification_description.hpp>
 #include <boresight/app/report/match_report.hpp>
+#include <boresight/app/report/measured_report.hpp>
 #include <boresight/app/report/report_schemas.hpp>
 #include <boresight/app/report/schema_writer.hpp>
 #include <boresight/app/simulate/simulation_report.hpp>
@@ -50,6 +52,9 @@ void describe(io::Visitor& v, const DescribedParts& /*parts*/) {
   v.object("ensemble", design::EnsembleResult{}, "");
   v.object("audit", AuditReport{}, "");
   v.object("campaign", CampaignSection{}, "");
+  v.object("identification", IdentificationSection{}, "");
+  v.object("plant", PlantSection{}, "");
+  v.object("measured_tuning", MeasuredTuneSection{}, "");
   v.object("limit", design::PointingLimit{}, "");
   v.object("matched", MatchSection{}, "");
   describe_limit_cycle(v, "limit_cycle", io::LimitCycleDetail::full);

@@ -159,12 +159,13 @@ void SchemaWriter::on_object_end() {
   put(key, std::move(reference));
 }
 
-void SchemaWriter::on_list(const io::Member& member, const io::ListSize& size) {
+void SchemaWriter::on_list(const io::Member& member, const io::ListSize& size, bool /*present*/,
+                           bool nullable) {
   Open list;
   list.key = member.key;
   list.is_list = true;
   list.value = described(member.meaning);
-  list.value["type"] = "array";
+  list.value["type"] = type_of("array", nullable);
   if (size.least > 0) list.value["minItems"] = size.least;
   if (size.most) list.value["maxItems"] = *size.most;
   open_.push_back(std::move(list));

@@ -34,7 +34,8 @@ class SchemaWriter final : public io::Visitor {
   void on_pattern(std::string_view pattern, std::string_view meaning) override;
   void on_object(const io::Member& member, bool present, bool nullable) override;
   void on_object_end() override;
-  void on_list(const io::Member& member, const io::ListSize& size) override;
+  void on_list(const io::Member& member, const io::ListSize& size, bool present,
+               bool nullable) override;
   void on_list_end() override;
   void on_optional() override { ++optional_; }
   void on_optional_end() override { --optional_; }

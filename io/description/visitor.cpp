@@ -14,7 +14,8 @@ void Visitor::on_text(const Member& /*member*/, const std::optional<std::string_
 void Visitor::on_pattern(std::string_view /*pattern*/, std::string_view /*meaning*/) {}
 void Visitor::on_object(const Member& /*member*/, bool /*present*/, bool /*nullable*/) {}
 void Visitor::on_object_end() {}
-void Visitor::on_list(const Member& /*member*/, const ListSize& /*size*/) {}
+void Visitor::on_list(const Member& /*member*/, const ListSize& /*size*/, bool /*present*/,
+                      bool /*nullable*/) {}
 void Visitor::on_list_end() {}
 void Visitor::on_optional() {}
 void Visitor::on_optional_end() {}
@@ -32,7 +33,7 @@ void Visitor::number(std::string_view key, const std::optional<double>& value, c
 
 void Visitor::counts(std::string_view key, std::span<const std::uint64_t> values,
                      std::string_view meaning, const CountForm& form) {
-  on_list({key, meaning}, {});
+  on_list({key, meaning}, {}, true, false);
   if (by_example()) {
     on_count({}, 0, form);
   } else {
@@ -79,7 +80,7 @@ void Visitor::constant(std::string_view key, std::string_view value, std::string
 
 void Visitor::texts(std::string_view key, std::span<const std::string> values,
                     std::string_view meaning) {
-  on_list({key, meaning}, {});
+  on_list({key, meaning}, {}, true, false);
   if (by_example()) {
     on_text({}, {}, {}, false);
   } else {
@@ -90,7 +91,20 @@ void Visitor::texts(std::string_view key, std::span<const std::string> values,
 
 void Visitor::numbers(std::string_view key, std::span<const double> values, const KeyUnit& unit,
                       std::string_view meaning, const NumberForm& form, const ListSize& size) {
-  on_list({key_with_unit(key, unit), meaning}, size);
+  on_list({key_with_unit(key, unit), meaning}, size, true, false);
+  number_elements(values, unit, form);
+  on_list_end();
+}
+
+void Visitor::numbers_if(std::string_view key, bool present, std::span<const double> values,
+                         const KeyUnit& unit, std::string_view meaning, const NumberForm& form) {
+  on_list({key_with_unit(key, unit), meaning}, {}, present, true);
+  if (present || by_example()) number_elements(values, unit, form);
+  on_list_end();
+}
+
+void Visitor::number_elements(std::span<const double> values, const KeyUnit& unit,
+                              const NumberForm& form) {
   // Elements have no key that could name their unit.
   const KeyUnit unnamed = without_suffix(unit);
   if (by_example()) {
@@ -98,13 +112,12 @@ void Visitor::numbers(std::string_view key, std::span<const double> values, cons
   } else {
     for (const double value : values) on_number({}, value, unnamed, form);
   }
-  on_list_end();
 }
 
 void Visitor::number_rows(std::string_view key, std::span<const std::vector<double>> rows,
                           const KeyUnit& unit, std::string_view meaning) {
   const KeyUnit unnamed = without_suffix(unit);
-  on_list({key_with_unit(key, unit), meaning}, {});
+  on_list({key_with_unit(key, unit), meaning}, {}, true, false);
   if (by_example()) {
     numbers({}, {}, unnamed, {});
   } else {

@@ -112,6 +112,9 @@ class Visitor {
   void texts(std::string_view key, std::span<const std::string> values, std::string_view meaning);
   void numbers(std::string_view key, std::span<const double> values, const KeyUnit& unit,
                std::string_view meaning, const NumberForm& form = {}, const ListSize& size = {});
+  /// null unless `present`.
+  void numbers_if(std::string_view key, bool present, std::span<const double> values,
+                  const KeyUnit& unit, std::string_view meaning, const NumberForm& form = {});
   /// A list of rows of numbers.
   void number_rows(std::string_view key, std::span<const std::vector<double>> rows,
                    const KeyUnit& unit, std::string_view meaning);
@@ -194,7 +197,7 @@ class Visitor {
   template <typename Objects, std::invocable<const typename Objects::value_type&> Describe>
   void list(std::string_view key, const Objects& objects, std::string_view meaning,
             Describe describe_members, const ListSize& size = {}) {
-    on_list({key, meaning}, size);
+    on_list({key, meaning}, size, true, false);
     const auto one = [&](const typename Objects::value_type& object) {
       on_object({}, true, false);
       describe_members(object);
@@ -210,7 +213,7 @@ class Visitor {
 
  protected:
   // What is described, in order; nothing is made of it here. Of no value: null, or of an object
-  // that is not `present`.
+  // or a list that is not `present`.
   virtual void on_number(const Member& member, const std::optional<double>& value,
                          const KeyUnit& unit, const NumberForm& form);
   virtual void on_count(const Member& member, const std::optional<std::uint64_t>& value,
@@ -221,11 +224,14 @@ class Visitor {
   virtual void on_pattern(std::string_view pattern, std::string_view meaning);
   virtual void on_object(const Member& member, bool present, bool nullable);
   virtual void on_object_end();
-  virtual void on_list(const Member& member, const ListSize& size);
+  virtual void on_list(const Member& member, const ListSize& size, bool present, bool nullable);
   virtual void on_list_end();
   /// Members up to the end are there or not, together.
   virtual void on_optional();
   virtual void on_optional_end();
+
+ private:
+  void number_elements(std::span<const double> values, const KeyUnit& unit, const NumberForm& form);
 };
 
 }  // namespace boresight::io

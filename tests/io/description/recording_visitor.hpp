@@ -42,7 +42,10 @@ class RecordingVisitor final : public Visitor {
     open(member.key, false);
   }
   void on_object_end() override { open_.pop_back(); }
-  void on_list(const Member& member, const ListSize& /*size*/) override { open(member.key, true); }
+  void on_list(const Member& member, const ListSize& /*size*/, bool /*present*/,
+               bool /*nullable*/) override {
+    open(member.key, true);
+  }
   void on_list_end() override { open_.pop_back(); }
 
  private:

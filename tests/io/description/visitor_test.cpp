@@ -66,5 +66,16 @@ TEST(Visitor, ListsHaveOneElementEach) {
   EXPECT_EQ(v.numbers_found["correlation_1[0][1]"], 0.5);
 }
 
+TEST(Visitor, ListsThatAreNotPresentHaveNoElements) {
+  RecordingVisitor v, example(true);
+  const std::vector<double> peaks{1.0, 2.0};
+  v.numbers_if("peaks", false, peaks, key_units::ratio, "Null without.");
+  EXPECT_TRUE(v.places.empty());
+  v.numbers_if("peaks", true, peaks, key_units::ratio, "Null without.");
+  EXPECT_THAT(v.places, ElementsAre("peaks_1[0]", "peaks_1[1]"));
+  example.numbers_if("peaks", false, {}, key_units::ratio, "Null without.");
+  EXPECT_THAT(example.places, ElementsAre("peaks_1[0]"));
+}
+
 }  // namespace
 }  // namespace boresight::io

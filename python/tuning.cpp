@@ -12,7 +12,9 @@
 #include <boresight/app/tune/asked_structures.hpp>
 #include <boresight/app/tune/tune_study.hpp>
 #include <boresight/app/uncertainty/designed_antenna.hpp>
+#include <boresight/io/description/loop_results.hpp>
 #include <boresight/python/bindings.hpp>
+#include <boresight/python/described_class.hpp>
 #include <boresight/python/interruptible.hpp>
 #include <boresight/python/results.hpp>
 
@@ -64,19 +66,19 @@ std::map<std::string, Margins> margins_of(const TunedLaw& law) {
 }
 
 void add_margins(py::module_& module) {
-  py::class_<Margins>(module, "Margins", "Of one loop, cut at one place.")
-      .def_property_readonly(
+  py::class_<Margins> type(module, "Margins",
+                           "Of one loop, cut at one place. SI; gains as factors, phase in degrees; "
+                           "infinite or 0 where no change makes the loop unstable.");
+  add_described_numbers(type, {{"increasing_gain_margin", "increasing_gain"},
+                               {"decreasing_gain_margin", "decreasing_gain"},
+                               {"phase_margin", "phase_deg"},
+                               {"delay_margin", "delay"}});
+  type.def_property_readonly(
           "sensitivity_peak", [](const Margins& margins) { return margins.sensitivity.magnitude; },
           "Largest |S|, S = 1/(1 + L)")
       .def_property_readonly(
           "sensitivity_frequency",
           [](const Margins& margins) { return margins.sensitivity.frequency; }, "Where, rad/s")
-      .def_readonly("increasing_gain", &Margins::increasing_gain_margin,
-                    "Factor above 1 that makes the loop unstable; infinite where none does")
-      .def_readonly("decreasing_gain", &Margins::decreasing_gain_margin,
-                    "Factor below 1 that makes the loop unstable; 0 where none does")
-      .def_readonly("phase_deg", &Margins::phase_margin_deg, "Degrees")
-      .def_readonly("delay", &Margins::delay_margin, "s of dead time beside the loop's own")
       .def_property_readonly(
           "disk", [](const Margins& margins) { return margins.disk.alpha; },
           "Disk margin alpha (skew 0)")

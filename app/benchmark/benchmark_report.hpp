@@ -14,6 +14,10 @@
 #include <boresight/design/problem/pointing_budget.hpp>
 #include <boresight/io/case/case_file.hpp>
 
+namespace boresight::io {
+class Visitor;
+}
+
 namespace boresight::app {
 
 /// What is benchmarked: a controller as control::antenna_state_space_controller takes it.
@@ -89,7 +93,10 @@ BenchmarkReport benchmark(const DesignedAntenna& designed, const BenchmarkedCont
 /// The report, and as text for a terminal.
 Document document_of(const BenchmarkReport& report);
 std::string to_text(const BenchmarkReport& report);
-/// docs/benchmark.schema.json.
+/// The members of the JSON sheet; docs/benchmark.schema.json is made of it.
+void describe(io::Visitor& v, const BenchmarkReport& report);
+/// Those of its score alone, which is of a stable loop.
+void describe_score(io::Visitor& v, const BenchmarkReport& report);
 std::string to_json(const BenchmarkReport& report);
 
 /// Puts another score sheet (JSON of this command) beside the report's. @throws InvalidInput for

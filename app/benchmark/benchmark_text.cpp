@@ -7,8 +7,9 @@
 #include <boresight/app/document/document_text.hpp>
 #include <boresight/app/report/present_gains.hpp>
 #include <boresight/app/report/sky_units.hpp>
+#include <boresight/app/report/table_columns.hpp>
 #include <boresight/app/report/text_report.hpp>
-#include <boresight/numerics/angles.hpp>
+#include <boresight/io/description/loop_results.hpp>
 
 namespace boresight::app {
 namespace {
@@ -17,11 +18,6 @@ constexpr double per_meganewton = 1e6 / millidegree;
 
 std::string value(double number, const char* format = "{:.4g}") {
   return std::isfinite(number) ? fmt::format(fmt::runtime(format), number) : "-";
-}
-
-std::string decibel(double factor) {
-  return factor > 0.0 && std::isfinite(factor) ? fmt::format("{:.1f}", 20.0 * std::log10(factor))
-                                               : "none";
 }
 
 std::string limit_text(double speed) {
@@ -51,20 +47,20 @@ Document course_part(const char* name, const char* unit, const control::CourseSc
 }
 
 Document margins_part(const design::RejectionScore& score) {
-  std::vector<std::vector<std::string>> rows{{"loop cut at", "peak of |S|", "at Hz", "gain up dB",
-                                              "gain down dB", "phase deg", "delay ms"}};
+  std::vector<std::vector<std::string>> rows{{"loop cut at", "peak of |S|", "at Hz"}};
+  const auto append = [](std::vector<std::string>& row, const std::vector<std::string>& cells) {
+    row.insert(row.end(), cells.begin(), cells.end());
+  };
+  append(rows.front(), columns_of(control::Margins{}).headings);
   for (const auto& one : score.breaks) {
     std::vector<std::string> row{std::string(control::to_string(one.loop_break))};
     if (!one.margins) {
-      row.insert(row.end(), {"no such loop", "-", "-", "-", "-", "-"});
+      row.emplace_back("no such loop");
+      row.resize(rows.front().size(), "-");
     } else {
-      const auto& margins = *one.margins;
-      row.insert(
-          row.end(),
-          {value(margins.sensitivity.magnitude, "{:.3f}"),
-           value(margins.sensitivity.frequency / two_pi, "{:.3g}"),
-           decibel(margins.increasing_gain_margin), decibel(margins.decreasing_gain_margin),
-           value(margins.phase_margin_deg, "{:.1f}"), value(margins.delay_margin * 1e3, "{:.1f}")});
+      const auto& peak = one.margins->sensitivity;
+      append(row, {value(peak.magnitude, "{:.3f}"), value(peak.frequency / two_pi, "{:.3g}")});
+      append(row, columns_of(*one.margins).cells);
     }
     rows.push_back(std::move(row));
   }

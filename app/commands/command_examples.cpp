@@ -74,7 +74,10 @@ const std::map<std::string, Examples, std::less<>>& all_examples() {
         {"boresight completion fish > ~/.config/fish/completions/boresight.fish", "for fish"}}},
       {"man",
        {{"boresight man | man -l -", "read the manual"},
-        {"boresight man > boresight.1", "keep it"}}}};
+        {"boresight man > boresight.1", "keep it"}}},
+      {"schema",
+       {{"boresight schema benchmark", "of the score sheets of boresight benchmark"},
+        {"boresight schema simulation > simulation.schema.json", "keep it"}}}};
   return examples;
 }
 

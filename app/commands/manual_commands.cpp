@@ -8,6 +8,7 @@
 #include <boresight/app/commands/completion_scripts.hpp>
 #include <boresight/app/commands/man_page.hpp>
 #include <boresight/app/commands/manual_commands.hpp>
+#include <boresight/app/report/report_schemas.hpp>
 #include <boresight/io/case/field.hpp>
 #include <boresight/io/units/wording.hpp>
 #include <boresight/numerics/error.hpp>
@@ -49,6 +50,18 @@ Subcommand add_manual(CLI::App& program) {
       program.add_subcommand("man", "write the manual, for man -l or a folder of manuals");
   return {sub, [&program] {
             fmt::print("{}", man_page(describe_program(program)));
+            return done;
+          }};
+}
+
+Subcommand add_schema(CLI::App& program) {
+  const auto report = std::make_shared<std::string>();
+  CLI::App* sub =
+      program.add_subcommand("schema", "write the JSON schema of a report that --json writes");
+  sub->add_option("REPORT", *report, fmt::format("{}", fmt::join(described_reports(), ", ")))
+      ->required();
+  return {sub, [report] {
+            fmt::print("{}", report_schema(*report));
             return done;
           }};
 }

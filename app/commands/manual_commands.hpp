@@ -14,5 +14,6 @@ const std::vector<std::string>& completion_shells();
 
 Subcommand add_completion(CLI::App& program);
 Subcommand add_manual(CLI::App& program);
+Subcommand add_schema(CLI::App& program);
 
 }  // namespace boresight::app

@@ -4,6 +4,7 @@
 
 #include <boresight/app/commands/manual_commands.hpp>
 #include <boresight/app/commands/option_tree.hpp>
+#include <boresight/app/report/report_schemas.hpp>
 #include <boresight/app/simulate/antenna_tests.hpp>
 #include <boresight/io/case/usual_structures.hpp>
 
@@ -15,6 +16,7 @@ std::vector<std::string> known_words(const std::string& command, const std::stri
   if (option == "--structure") return io::usual_structures();
   if (option == "TEST") return simulated_test_names();
   if (option == "SHELL") return completion_shells();
+  if (option == "REPORT") return {described_reports().begin(), described_reports().end()};
   if (option == "--time-domain") return {"none", "few", "all"};
   if (command == "montecarlo" && option == "--gains") return {"tuned", "case"};
   return {};

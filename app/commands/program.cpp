@@ -47,7 +47,8 @@ void name_values(CLI::App& command) {
                                                          {"--outputs", "NAMES"},
                                                          {"TEST", "NAME"},
                                                          {"ANTENNA", "FOLDER"},
-                                                         {"SHELL", "NAME"}};
+                                                         {"SHELL", "NAME"},
+                                                         {"REPORT", "NAME"}};
   for (CLI::Option* option : command.get_options()) {
     const auto named = values.find(option->get_name(option->get_positional()));
     if (named != values.end()) option->type_name(named->second);
@@ -130,6 +131,7 @@ Program make_program() {
   for (const auto& command : program.commands) add_quiet(*command.options);
   program.commands.push_back(add_completion(options));
   program.commands.push_back(add_manual(options));
+  program.commands.push_back(add_schema(options));
   std::string codes;
   for (const auto& [code, meaning] : exit_code_meanings()) {
     codes += fmt::format("{}{} {}", codes.empty() ? "" : ", ", static_cast<int>(code), meaning);

@@ -14,6 +14,10 @@
 #include <boresight/design/commissioning/commissioning.hpp>
 #include <boresight/design/commissioning/commissioning_records.hpp>
 
+namespace boresight::io {
+class Visitor;
+}
+
 namespace boresight::app {
 
 /// What to plan for.
@@ -112,7 +116,8 @@ std::vector<ChannelComparison> compare_case_records(const io::Case& antenna,
 /// The report, and as text for a terminal.
 Document document_of(const CommissionReport& report);
 std::string to_text(const CommissionReport& report);
-/// As docs/commission.schema.json: keys end in their unit, null stands for what there is none of.
+/// The members of the JSON report; docs/commission.schema.json is made of it.
+void describe(io::Visitor& v, const CommissionReport& report);
 std::string to_json(const CommissionReport& report);
 
 }  // namespace boresight::app

@@ -3,11 +3,16 @@
 #include <functional>
 #include <memory>
 #include <string>
+#include <string_view>
 
 #include <boresight/app/commands/subcommand.hpp>
 #include <boresight/app/document/document.hpp>
 #include <boresight/app/montecarlo/montecarlo_section.hpp>
 #include <boresight/app/montecarlo/ranks.hpp>
+
+namespace boresight::io {
+class Visitor;
+}
 
 namespace boresight::app {
 
@@ -48,7 +53,12 @@ void summarise(const design::MonteCarloRun& run, const PlantDistribution& distri
 /// A few sentences that say what the numbers mean.
 std::vector<std::string> conclude(const MonteCarloSection& section);
 
-/// The report; as text for a terminal; as JSON (docs/montecarlo.schema.json); every plant as CSV.
+/// "stable", "unstable" or "undecided".
+std::string_view standing_text(design::Standing standing);
+
+/// The members of the JSON report; docs/montecarlo.schema.json is made of it.
+void describe(io::Visitor& v, const MonteCarloSection& section);
+/// The report; as text for a terminal; as JSON; every plant as CSV.
 Document document_of(const MonteCarloSection& section);
 std::string to_text(const MonteCarloSection& section);
 std::string to_json(const MonteCarloSection& section);

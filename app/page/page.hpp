@@ -24,7 +24,7 @@ struct Page {
   std::vector<std::string> reservations;
   Document document;  // the report's text
   std::vector<Figure> figures;
-  /// JSON of the table behind the matching sliders (what_if_json); empty: none.
+  /// JSON of the table behind the matching sliders (what_if_description.hpp); empty: none.
   std::string what_if;
 };
 

@@ -3,8 +3,9 @@
 #include <boresight/app/montecarlo/montecarlo_study.hpp>
 #include <boresight/app/page/decision.hpp>
 #include <boresight/app/page/report_page.hpp>
-#include <boresight/app/report/json_what_if.hpp>
+#include <boresight/app/report/json_writer.hpp>
 #include <boresight/app/report/text_report.hpp>
+#include <boresight/app/report/what_if_description.hpp>
 
 namespace boresight::app {
 namespace {
@@ -30,7 +31,7 @@ Page page_of(const Report& report) {
   page.interrupted = report.interrupted;
   page.reservations = reservations(report);
   if (report.matched && report.matched->what_if) {
-    page.what_if = what_if_json(*report.matched->what_if).dump();
+    page.what_if = json_of(*report.matched->what_if).dump();
   }
   return page;
 }

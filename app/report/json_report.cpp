@@ -4,137 +4,25 @@
 #include <boresight/app/redesign/matching_verdict.hpp>
 #include <boresight/app/redesign/needed_budgets.hpp>
 #include <boresight/app/redesign/tuning_verdict.hpp>
+#include <boresight/app/report/audit_description.hpp>
+#include <boresight/app/report/campaign_description.hpp>
 #include <boresight/app/report/evaluate_report.hpp>
+#include <boresight/app/report/identification_description.hpp>
 #include <boresight/app/report/json_assumed.hpp>
-#include <boresight/app/report/json_audit.hpp>
-#include <boresight/app/report/json_campaign.hpp>
 #include <boresight/app/report/json_design.hpp>
-#include <boresight/app/report/json_limit.hpp>
 #include <boresight/app/report/json_linear_models.hpp>
 #include <boresight/app/report/json_report.hpp>
 #include <boresight/app/report/json_time_domain.hpp>
 #include <boresight/app/report/json_tune.hpp>
+#include <boresight/app/report/json_writer.hpp>
 #include <boresight/app/report/match_report.hpp>
 #include <boresight/app/report/measured_report.hpp>
 #include <boresight/app/report/sky_units.hpp>
 #include <boresight/app/report/wind_mast.hpp>
-#include <boresight/numerics/angles.hpp>
+#include <boresight/io/description/pointing_limit_results.hpp>
 
 namespace boresight::app {
 namespace {
-
-Json propagated(const numerics::PropagatedResult& result, const std::string& unit) {
-  Json json{{"name", result.name},
-            {"value_" + unit, number(result.value)},
-            {"standard_uncertainty_" + unit, number(result.standard_uncertainty)},
-            {"lower_95_" + unit, number(result.lower)},
-            {"upper_95_" + unit, number(result.upper)}};
-  Json contributions = Json::array();
-  for (const auto& contribution : result.contributions) {
-    contributions.push_back(
-        {{"input", contribution.input}, {"variance_share_1", number(contribution.share)}});
-  }
-  json["contributions"] = std::move(contributions);
-  return json;
-}
-
-Json list(const std::vector<numerics::PropagatedResult>& results, const std::string& unit) {
-  Json json = Json::array();
-  for (const auto& result : results) json.push_back(propagated(result, unit));
-  return json;
-}
-
-Json identification_json(const IdentificationSection& section) {
-  Json json;
-  json["gear_ratio_1"] = section.inertia.gear_ratio;
-  Json methods = Json::array();
-  for (std::size_t i = 0; i < section.inertia.methods.size(); ++i) {
-    const auto& method = section.inertia.methods[i];
-    methods.push_back(
-        {{"name", method.name},
-         {"assumes", method.assumes},
-         {"reflected_inertia", propagated(method.reflected_inertia, "kg_m2")},
-         {"motor_to_load_ratio", propagated(method.motor_to_load_ratio, "1")},
-         {"draws_below_motor_inertia_1", number(method.motor_to_load_ratio.beyond_pole)},
-         {"antenna_remainder", propagated(method.antenna_remainder, "kg_m2")},
-         {"printed_reflected_inertia", text_or_null(section.printed[i].inertia)},
-         {"printed_motor_to_load_ratio", text_or_null(section.printed[i].ratio)}});
-  }
-  json["methods"] = std::move(methods);
-  if (section.reconciled) {
-    const auto& one = *section.reconciled;
-    json["reconciled"] = {{"reflected_inertia_kg_m2", number(one.value)},
-                          {"standard_uncertainty_kg_m2", number(one.standard_uncertainty)},
-                          {"lower_95_kg_m2", number(one.lower)},
-                          {"upper_95_kg_m2", number(one.upper)},
-                          {"between_methods_kg_m2", number(one.between_methods)},
-                          {"cochran_q_1", number(one.heterogeneity)},
-                          {"degrees_of_freedom", one.degrees_of_freedom},
-                          {"contradictory", one.contradictory()},
-                          {"motor_to_load_ratio_1", number(one.motor_to_load_ratio)},
-                          {"motor_to_load_ratio_lower_95_1", number(one.ratio_lower)},
-                          {"motor_to_load_ratio_upper_95_1", number(one.ratio_upper)}};
-  } else {
-    json["reconciled"] = nullptr;
-  }
-  json["load_rows"] = list(section.inertia.load_rows, "kg_m2");
-  json["line_bulk_modulus"] = list(section.inertia.line_bulk_modulus, "Pa");
-  json["bulk_modulus"] = propagated(section.inertia.bulk_modulus, "Pa");
-  json["oil_stiffness"] = propagated(section.inertia.oil_stiffness, "N_m_per_rad");
-  json["expected_hydraulic_frequency"] = propagated(section.inertia.expected_frequency, "Hz");
-  const auto optional = [](const std::optional<numerics::PropagatedResult>& result,
-                           const std::string& unit) {
-    return result ? propagated(*result, unit) : Json(nullptr);
-  };
-  json["tachometer_scale"] = optional(section.tachometer_scale, "rad_per_s_V");
-  json["slow_ramp_coulomb_friction"] = optional(section.slow_ramp_coulomb, "N_m");
-  json["slow_ramp_offset_torque"] = optional(section.slow_ramp_offset, "N_m");
-  return json;
-}
-
-Json friction_curve_json(const PlantSection& section) {
-  const plant::FrictionCurve& curve = section.friction;
-  Json tests = Json::array();
-  for (const auto& test : section.friction_tests) {
-    tests.push_back({{"motor_rate_rad_per_s", test.rate},
-                     {"torque_N_m", test.torque},
-                     {"residual_N_m", test.residual}});
-  }
-  return {{"coulomb_N_m", curve.coulomb_torque},
-          {"breakaway_N_m", curve.breakaway_torque},
-          {"stribeck_rate_rad_per_s", curve.stribeck_rate},
-          {"saturating_N_m", curve.saturating_torque},
-          {"saturating_rate_rad_per_s", curve.saturating_rate},
-          {"viscous_N_m_s_per_rad", curve.viscous_friction},
-          {"tests", std::move(tests)}};
-}
-
-Json plant_json(const PlantSection& section) {
-  const auto& drive = section.plant.drive;
-  Json modes = Json::array();
-  for (const auto& mode : section.modes) modes.push_back(mode_json(mode));
-  return {{"identified_from_records", section.records > 0},
-          {"gear_ratio_1", section.gear_ratio},
-          {"motor_side_inertia_kg_m2", drive.motor_inertia},
-          {"antenna_inertia_kg_m2", plant::antenna_inertia(section.plant.structure)},
-          {"reflected_inertia_kg_m2", section.reflected_inertia},
-          {"motor_to_load_ratio_1", number(section.motor_to_load_ratio)},
-          {"oil_stiffness_N_m_per_rad", drive.oil_stiffness},
-          {"leakage_rate_per_s", drive.leakage_rate},
-          {"viscous_friction_N_m_s_per_rad", drive.viscous_friction},
-          {"tracking_friction_slope_N_m_s_per_rad", section.tracking_slope},
-          {"friction_curve", friction_curve_json(section)},
-          {"gear_stiffness_N_m_per_rad", section.plant.structure.gear_stiffness},
-          {"valve_frequency_Hz", drive.valve_corner / two_pi},
-          {"supply_torque_N_m", section.supply_torque},
-          {"torque_for_wind_N_m", section.torque_for_wind},
-          {"mean_wind_torque_N_m", section.mean_wind_torque},
-          {"slew_rate_margin_1",
-           section.slew_rate_margin ? Json(*section.slew_rate_margin) : Json(nullptr)},
-          {"rigid_hydraulic_frequency_Hz", section.rigid_frequency},
-          {"hydraulic_mode", mode_json(section.hydraulic)},
-          {"modes", std::move(modes)}};
-}
 
 Json tuning_json(const TuningSection& section) {
   const auto gusts = plant::site_gusts(section.wind_site);
@@ -263,18 +151,18 @@ std::string to_json(const Report& report) {
             {"case", {{"path", report.case_path}, {"title", report.title}, {"axis", report.axis}}},
             {"seed", report.seed},
             {"interrupted", report.interrupted}};
-  if (report.campaign) json["campaign"] = campaign_json(*report.campaign);
-  if (report.identification) json["identification"] = identification_json(*report.identification);
-  if (report.audit) json["audit"] = audit_json(*report.audit);
-  if (report.plant) json["plant"] = plant_json(*report.plant);
+  if (report.campaign) json["campaign"] = json_of(*report.campaign);
+  if (report.identification) json["identification"] = json_of(*report.identification);
+  if (report.audit) json["audit"] = json_of(*report.audit);
+  if (report.plant) json["plant"] = json_of(*report.plant);
   if (report.tuning) json["tuning"] = tuning_json(*report.tuning);
-  if (report.measured) json["measured_tuning"] = measured_tuning_json(*report.measured);
+  if (report.measured) json["measured_tuning"] = json_of(*report.measured);
   if (report.tuned) json["tuned"] = tune_json(*report.tuned);
   if (report.time_domain) json["time_domain"] = time_domain_json(*report.time_domain);
-  if (report.limit) json["limit"] = limit_json(*report.limit);
+  if (report.limit) json["limit"] = json_of(*report.limit);
   if (!report.choices.empty()) json["choices"] = choices_json(report.choices);
   if (report.matching) json["matching"] = matching_json(*report.matching);
-  if (report.matched) json["matched"] = match_json(*report.matched);
+  if (report.matched) json["matched"] = json_of(*report.matched);
   if (report.evaluated) json["evaluated"] = evaluate_json(*report.evaluated);
   if (const auto models = linear_models(report)) {
     json["linear_models"] = linear_models_json(*models);

@@ -3,8 +3,9 @@
 
 #include <boresight/app/report/json_number.hpp>
 #include <boresight/app/report/json_time_domain.hpp>
+#include <boresight/app/report/json_writer.hpp>
 #include <boresight/app/report/sky_units.hpp>
-#include <boresight/numerics/angles.hpp>
+#include <boresight/io/description/loop_results.hpp>
 
 namespace boresight::app {
 namespace {
@@ -55,16 +56,7 @@ Json integrators_json(const std::optional<design::IntegratorAgreement>& agreemen
 }
 
 Json hunting_json(const design::HuntingResult& hunting) {
-  return {{"rate_mdeg_per_s", mdeg(hunting.rate)},
-          {"status", design::to_string(hunting.status)},
-          {"message", text_or_null(hunting.message)},
-          {"limit_cycle", hunting.limit_cycle},
-          {"starts", hunting.starts},
-          {"starts_hunting", hunting.starts_hunting},
-          {"encoder_amplitude_mdeg", mdeg(hunting.encoder_amplitude)},
-          {"beam_amplitude_mdeg", mdeg(hunting.beam_amplitude)},
-          {"frequency_Hz", number(hunting.frequency)},
-          {"persistence_1", number(hunting.persistence)}};
+  return json_by([&](io::Visitor& v) { describe(v, hunting, io::LimitCycleDetail::full); });
 }
 
 Json reversal_json(const design::ReversalResult& reversal) {

@@ -4,13 +4,23 @@
 
 #include <boresight/app/document/document.hpp>
 #include <boresight/app/match/match_section.hpp>
-#include <boresight/app/report/json_design.hpp>
+
+namespace boresight::io {
+class Visitor;
+}
 
 namespace boresight::app {
 
 /// The section of the report.
 Document document_of(const MatchSection& section);
+/// One law on the case's plant, its loop cut at one place.
+struct MatchMargins {
+  control::LoopBreak loop_break = control::LoopBreak::valve_command;
+  control::Margins margins;
+};
+void describe(io::Visitor& v, const MatchMargins& cut);
+
 /// "matched" of docs/report.schema.json.
-Json match_json(const MatchSection& section);
+void describe(io::Visitor& v, const MatchSection& section);
 
 }  // namespace boresight::app

@@ -3,10 +3,12 @@
 #include <string>
 #include <vector>
 
-#include <nlohmann/json_fwd.hpp>
-
 #include <boresight/app/document/document.hpp>
 #include <boresight/app/tune/measured_study.hpp>
+
+namespace boresight::io {
+class Visitor;
+}
 
 namespace boresight::app {
 
@@ -14,7 +16,7 @@ namespace boresight::app {
 Document document_of(const MeasuredTuneSection& section);
 
 /// "measured_tuning" of docs/report.schema.json.
-nlohmann::ordered_json measured_tuning_json(const MeasuredTuneSection& section);
+void describe(io::Visitor& v, const MeasuredTuneSection& section);
 
 /// A sentence a law.
 std::vector<std::string> conclude(const MeasuredTuneSection& section);

@@ -12,9 +12,10 @@
 #include <boresight/app/report/climate_wording.hpp>
 #include <boresight/app/report/loss_wording.hpp>
 #include <boresight/app/report/sky_units.hpp>
+#include <boresight/app/report/table_columns.hpp>
 #include <boresight/app/report/text_report.hpp>
 #include <boresight/app/report/wind_mast.hpp>
-#include <boresight/numerics/angles.hpp>
+#include <boresight/io/description/loop_results.hpp>
 
 namespace boresight::app {
 namespace {
@@ -71,18 +72,20 @@ std::string crossovers_text(const control::Margins& margins) {
 }
 
 Document breaks_part(const TuningSection& section) {
-  std::vector<std::vector<std::string>> rows{{"loop cut at", "peak of S", "goal", "at Hz",
-                                              "crossover Hz", "phase margin deg", "gain margin dB",
-                                              "down dB", "delay margin s"}};
+  std::vector<std::vector<std::string>> rows{
+      {"loop cut at", "peak of S", "goal", "at Hz", "crossover Hz"}};
+  const auto append = [](std::vector<std::string>& row, const std::vector<std::string>& cells) {
+    row.insert(row.end(), cells.begin(), cells.end());
+  };
+  append(rows.front(), columns_of(control::Margins{}).headings);
   for (std::size_t b = 0; b < control::loop_breaks.size(); ++b) {
     const auto& peak = section.design.verification.peaks[b];
     const auto& margins = section.design.margins[b];
-    rows.push_back(
-        {std::string(control::to_string(control::loop_breaks[b])),
-         fmt::format("{:.4f}", peak.upper), fmt::format("{:g}", section.goals.sensitivity_peak[b]),
-         finite(peak.frequency / two_pi, 3), crossovers_text(margins),
-         fmt::format("{:.1f}", margins.phase_margin_deg), decibel(margins.increasing_gain_margin),
-         decibel(margins.decreasing_gain_margin), finite(margins.delay_margin, 4)});
+    rows.push_back({std::string(control::to_string(control::loop_breaks[b])),
+                    fmt::format("{:.4f}", peak.upper),
+                    fmt::format("{:g}", section.goals.sensitivity_peak[b]),
+                    finite(peak.frequency / two_pi, 3), crossovers_text(margins)});
+    append(rows.back(), columns_of(margins).cells);
   }
   return table(rows);
 }

@@ -1,9 +1,10 @@
 #include <cmath>
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
+#include <boresight/app/report/json_writer.hpp>
 #include <boresight/app/report/wind_mast.hpp>
+#include <boresight/io/description/wind_mast_description.hpp>
 
 namespace boresight::app {
 
@@ -37,10 +38,7 @@ std::string conclude_mast(const io::WindMast& mast) {
 }
 
 nlohmann::ordered_json mast_json(const io::WindMast& mast) {
-  return {{"height_m", mast.height},
-          {"dish_height_m", mast.dish_height},
-          {"shear_exponent_1", mast.shear_exponent},
-          {"speed_ratio_1", mast.speed_ratio}};
+  return json_of(mast);
 }
 
 }  // namespace boresight::app

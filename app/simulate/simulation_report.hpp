@@ -9,6 +9,10 @@
 #include <boresight/app/simulate/drive_run.hpp>
 #include <boresight/app/simulate/position_run.hpp>
 
+namespace boresight::io {
+class Visitor;
+}
+
 namespace boresight::app {
 
 /// What `boresight simulate` ran, in order; the tests' records without their columns, which are in
@@ -34,7 +38,8 @@ struct SimulationReport {
 Document document_of(const SimulationReport& report);
 std::string to_text(const SimulationReport& report);
 
-/// As docs/simulation.schema.json: keys end in their unit, null stands for what there is none of.
+/// The members of the JSON report; docs/simulation.schema.json is made of it.
+void describe(io::Visitor& v, const SimulationReport& report);
 std::string to_json(const SimulationReport& report);
 
 }  // namespace boresight::app

@@ -7,5 +7,5 @@ import sys
 import unittest
 
 if __name__ == "__main__":
-    # Without names among its arguments unittest would look for files called test*.
+    # Named here: without names and a module unittest looks for tests in the working folder.
     unittest.main(module=None, argv=[sys.argv[0], "json_schema_test", "report_figures_test"])

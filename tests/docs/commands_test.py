@@ -37,6 +37,7 @@ ELSEWHERE = {
     "./dev package": "tests/packaging",
     "./dev python": "tests/python imports the module and runs the document's examples",
     "./dev peers": "minutes, and programs that only it needs",
+    "./dev schemas": "tests/app/report/report_schemas_test.cpp compares what it writes",
     "./dev screenshots": "draws two pictures; what they show is tested by tests/app/page_test.mjs",
     "./dev setup": "installs packages",
     "export PATH": "tests/docs/quickstart_test.py does so",

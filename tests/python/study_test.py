@@ -89,6 +89,7 @@ def test_best_law_meets_its_goals_and_closes_a_stable_loop(antenna, tuning):
         p[:, plant.outputs.index(name), 0] * k[:, demand, controller.inputs.index(name)]
         for name in ("tachometer", "encoder"))
     assert np.max(1 / np.abs(1 + loop)) == pytest.approx(peak.sensitivity_peak, rel=1e-6)
+    assert np.min(np.abs(1 + loop)) == pytest.approx(peak.modulus_margin, rel=1e-6)
 
 
 def test_goals_can_be_changed_and_refused(antenna):

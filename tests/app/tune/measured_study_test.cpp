@@ -8,6 +8,8 @@
 #include <nlohmann/json.hpp>
 
 #include <boresight/app/document/document_text.hpp>
+#include <boresight/app/redesign/antenna_model.hpp>
+#include <boresight/app/report/json_writer.hpp>
 #include <boresight/app/report/measured_report.hpp>
 #include <boresight/app/tune/measured_study.hpp>
 #include <boresight/control/loops/closed_loop.hpp>
@@ -60,7 +62,7 @@ TEST(MeasuredStudy, TunesOnTheChirpOfTheShippedCampaign) {
   EXPECT_THAT(text, HasSubstr("torque at the motor shaft"));
   EXPECT_THAT(text, HasSubstr("is not judged"));
   EXPECT_THAT(text, HasSubstr("verified"));
-  const auto json = measured_tuning_json(section);
+  const auto json = json_of(section);
   EXPECT_EQ(json["laws"][0]["status"], "confident");
   EXPECT_EQ(json["laws"][0]["gains"].size(), 7U);
   EXPECT_EQ(json["encoder_column"], nullptr);

@@ -1,0 +1,200 @@
+#include <boresight/app/commission/commission_study.hpp>
+#include <boresight/app/figures/figure_description.hpp>
+#include <boresight/app/report/json_writer.hpp>
+
+namespace boresight::app {
+namespace {
+
+namespace unit = io::key_units;
+
+using design::StageKind;
+
+// The key names the unit of what is in the band.
+void describe_band(io::Visitor& v, std::string_view key, const design::PlantBand& band,
+                   const io::KeyUnit& of, std::string_view meaning) {
+  const io::KeyUnit unnamed = io::without_suffix(of);
+  v.group(io::key_with_unit(key, of), meaning, [&] {
+    v.defined_as("band", "A quantity over the plants, in the unit of the key that holds it.");
+    v.number("nominal", band.nominal, unnamed, "on the case's own plant");
+    v.number("least", band.least, unnamed, "over the plants");
+    v.number("largest", band.largest, unnamed, "over the plants");
+    v.number("lower", band.lower, unnamed, "of the interval in which one more plant would lie");
+    v.number("upper", band.upper, unnamed, "of that interval");
+  });
+}
+
+// `sky`: of an angle of the motor.
+void describe_expected(io::Visitor& v, const design::StageExpectation& expected,
+                       const io::KeyUnit& sky) {
+  v.count("plants", expected.plants, "the case's own and those that may be the true one");
+  v.count("stable_plants", expected.stable, "by eigenvalues");
+  describe_band(v, "sensitivity_peak", expected.peak, unit::ratio,
+                "largest |S| over the loops that are closed");
+  describe_band(v, "crossover", expected.crossover, unit::hertz_of_radians,
+                "lowest gain crossover of the outer closed loop");
+  describe_band(v, "rise_time", expected.rise_time, unit::second,
+                "10 % to 90 % of the command's step");
+  describe_band(v, "overshoot", expected.overshoot, unit::ratio, "share of the step");
+  describe_band(v, "settling_time", expected.settling_time, unit::second, "into 5 %");
+  describe_band(v, "still_encoder_error", expected.still_encoder, sky,
+                "rms in still air as recorded, at the sky; null with the position loop open");
+  describe_band(v, "still_tachometer", expected.still_tachometer, unit::radian_per_second,
+                "rms in still air as recorded, at the motor");
+  describe_band(v, "still_torque", expected.still_torque, unit::newton_metre, "the same");
+  describe_band(v, "still_valve_command", expected.still_valve, unit::radian_per_second,
+                "the same");
+  describe_band(v, "windy_encoder_error", expected.windy_encoder, sky,
+                "rms in the design wind as recorded, at the sky; null with the position loop "
+                "open");
+  describe_band(v, "windy_tachometer", expected.windy_tachometer, unit::radian_per_second,
+                "rms in the design wind as recorded, at the motor");
+  describe_band(v, "windy_torque", expected.windy_torque, unit::newton_metre, "the same");
+  describe_band(v, "windy_valve_command", expected.windy_valve, unit::radian_per_second,
+                "the same");
+  describe_band(v, "beam_rms", expected.beam_rms, sky,
+                "in the design wind, one axis; null with the position loop open");
+  describe_band(v, "move_error", expected.move_error, sky,
+                "largest encoder error of the move; null with the position loop open");
+}
+
+void describe_sheet(io::Visitor& v, const StageSheet& sheet, const io::KeyUnit& sky) {
+  v.word("kind", to_string(sheet.stage.kind),
+         {to_string(StageKind::as_found), to_string(StageKind::rate_loop),
+          to_string(StageKind::pressure_feedback), to_string(StageKind::position_loop),
+          to_string(StageKind::compliance), to_string(StageKind::feedforward)},
+         "what the stage changes");
+  v.count("step", sheet.stage.step, "number among those of its kind, from 1");
+  v.count("steps", sheet.stage.steps, "of its kind");
+  v.word("position_loop", sheet.stage.law.position_open ? "open" : "closed", {"open", "closed"},
+         "in this stage");
+  v.flag("feedforward", sheet.stage.law.feedforward,
+         "of the commanded motion's own rate and acceleration");
+  v.list("gains", sheet.gains, "those that act", [&](const StageGain& gain) {
+    v.text("symbol", gain.symbol, "its symbol");
+    v.text("name", gain.name, "its name");
+    v.text("value", gain.text, "in the case's unit");
+    v.number("value", gain.value, {.suffix = "SI"}, "the same");
+    v.flag("changed", gain.changed, "against the stage before");
+  });
+  io::KeyUnit command = unit::millidegree;
+  command.suffix = "mdeg_or_mdeg_per_s";
+  v.number("command_step", sheet.step, command,
+           "of the position command, with the position loop open of the rate command, at the sky");
+  v.group("expected", "over the plants", [&] { describe_expected(v, sheet.stage.expected, sky); });
+  const auto& abort = sheet.stage.abort;
+  v.group("abort", "beyond any of these: back to the stage before", [&] {
+    v.number("overshoot", abort.overshoot, unit::ratio, "share of the step");
+    v.number("still_valve_command", abort.still_valve_rms, unit::radian_per_second,
+             "rms in still air");
+    v.number("still_encoder_error", abort.still_encoder_rms, sky,
+             "rms in still air, at the sky; null with the position loop open");
+    v.number("gain_reserve", abort.gain_reserve, unit::ratio,
+             "factor on the loop gain that takes the worst plant to the abort peak; null where 8 "
+             "does not");
+    v.text("worst_plant", abort.worst_plant, "the one nearest to the abort peak");
+  });
+  v.text("check", sheet.check, "what to measure, and the values to be expected");
+  v.text("abort_text", sheet.abort, "beyond what to go back");
+  v.text("way_back", sheet.way_back, "how");
+}
+
+void describe_compared(io::Visitor& v, const design::BandComparison& band) {
+  using enum design::Change;
+  v.defined_as("compared", "Mean squares of two records in one band of frequencies.");
+  v.number("lowest", band.lowest, unit::hertz, "where the band begins");
+  v.number("highest", band.highest, unit::hertz, "where it ends");
+  v.number("rms_before", band.rms_before, unit::none, "in the channel's unit");
+  v.number("rms_after", band.rms_after, unit::none, "in the channel's unit");
+  v.number("freedom_before", band.freedom_before, unit::ratio,
+           "degrees of freedom of the mean square");
+  v.number("freedom_after", band.freedom_after, unit::ratio,
+           "degrees of freedom of the mean square");
+  v.number("ratio", band.ratio, unit::ratio, "rms after over before");
+  v.number("ratio_lower", band.lower, unit::ratio, "of its 95 % interval");
+  v.number("ratio_upper", band.upper, unit::ratio, "of its 95 % interval");
+  v.word("change", to_string(band.change), {to_string(none), to_string(better), to_string(worse)},
+         "whether the interval holds 1");
+}
+
+void describe_comparison(io::Visitor& v, const ChannelComparison& channel) {
+  const auto& comparison = channel.comparison;
+  constexpr io::NumberForm known{.finite = true};
+  v.text("channel", channel.channel, "of both records");
+  v.text("unit", channel.unit, "of the channel");
+  v.text_or_null("not_compared", channel.not_compared,
+                 "why it could not be compared; its numbers then mean nothing");
+  v.group("whole", "over all frequencies compared",
+          [&] { describe_compared(v, comparison.whole); });
+  v.list("bands", comparison.bands, "by rising frequency",
+         [&](const design::BandComparison& band) { describe_compared(v, band); });
+  v.number("predicted_ratio", channel.predicted, unit::ratio,
+           "by the plan's first and last stage in the design wind");
+  v.number("predicted_ratio_lower", channel.predicted_lower, unit::ratio, "over the plants");
+  v.number("predicted_ratio_upper", channel.predicted_upper, unit::ratio, "over the plants");
+  v.flag("agrees", channel.predicted ? std::optional(channel.agrees) : std::nullopt,
+         "whether the two intervals meet");
+  v.numbers("frequency", comparison.frequency, unit::hertz, "of the densities", known);
+  const io::KeyUnit density{.suffix = "per_Hz"};
+  v.numbers("density_before", comparison.density_before, density,
+            "one-sided, of the channel's unit squared", known);
+  v.numbers("density_after", comparison.density_after, density,
+            "one-sided, of the channel's unit squared", known);
+}
+
+}  // namespace
+
+void describe(io::Visitor& v, const CommissionReport& report) {
+  io::KeyUnit sky = unit::millidegree;
+  sky.divisor = report.gear_ratio * unit::millidegree.divisor;
+  const auto sky_per = [&](std::string_view suffix) { return io::KeyUnit{suffix, sky.divisor}; };
+  v.constant("command", "commission", "the command");
+  v.text("case", report.case_path, "the case file, as given");
+  v.text("title", report.title, "its title");
+  v.text("axis", report.axis, "the axis");
+  v.count("seed", report.seed, "of all draws");
+  v.text("structure", report.structure, "of the law");
+  v.word("gains_from", report.tuned ? "tuning" : "user", {"tuning", "user"}, "of the law");
+  v.group("ensemble", "plants that may be the true one", [&] {
+    v.count("plants", report.ensemble_size, "how many");
+    v.text("source", report.ensemble_source, "what they are drawn from");
+  });
+  v.group("wind", "the design wind", [&] {
+    v.text("model", report.wind_model, "of the wind torque");
+    v.number("mean_speed", report.wind_speed, unit::metre_per_second, "of the design wind");
+  });
+  v.group("move", "the commanded move of the last stages, at the sky", [&] {
+    v.number("rate", report.move.rate, sky_per("mdeg_per_s"), "largest");
+    v.number("acceleration", report.move.acceleration, sky_per("mdeg_per_s2"), "largest");
+  });
+  v.number("largest_step",
+           report.failure == nullptr ? std::optional(report.plan.largest_step) : std::nullopt,
+           unit::ratio, "factor on a gain from stage to stage that was kept to");
+  v.number("sensitivity_limit", report.options.sensitivity_limit, unit::ratio,
+           "kept at every stage on every plant, unless the law's own peak is higher");
+  v.number("abort_peak", report.options.abort_peak, unit::ratio, "peak of S at which to give up");
+  v.number("confidence", report.options.confidence, unit::ratio, "of the bands' lower and upper");
+  v.number("assumed_detuning", report.plan.detuning, unit::ratio,
+           "factor that the assumed start's gains are divided by; null where the gains found are "
+           "used");
+  v.text_or_null("no_plan", report.no_plan, "why there is no plan; null: there is one");
+  v.texts("remarks", report.plan.remarks, "what the plan had to do otherwise than asked");
+  v.list("stages", report.sheets, "in the order of the work",
+         [&](const StageSheet& sheet) { describe_sheet(v, sheet, sky); });
+  v.text_or_null("record_before", report.before, "record of the case");
+  v.text_or_null("record_after", report.after, "record of the case");
+  v.list("comparisons", report.comparisons, "of the two records, a channel each",
+         [&](const ChannelComparison& channel) { describe_comparison(v, channel); });
+  v.texts("conclusions", report.conclusions, "what the numbers mean");
+  describe_figures(v, report.figures);
+  v.list("assumed", report.assumed, "inputs of the case that are assumed",
+         [&](const io::Quantity& quantity) {
+           v.text("key", quantity.key, "in the case file");
+           v.text("value", quantity.text, "as written");
+         });
+}
+
+std::string to_json(const CommissionReport& report) {
+  return json_of(report).dump(2) + "\n";
+}
+
+}  // namespace boresight::app

@@ -1,0 +1,63 @@
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include <boresight/app/montecarlo/montecarlo_study.hpp>
+#include <boresight/app/report/sky_units.hpp>
+
+namespace boresight::app {
+
+std::string_view standing_text(design::Standing standing) {
+  switch (standing) {
+    case design::Standing::unstable:
+      return "unstable";
+    case design::Standing::undecided:
+      return "undecided";
+    case design::Standing::stable_by_eigenvalues:
+    case design::Standing::stable_by_winding:
+      break;
+  }
+  return "stable";
+}
+
+std::string to_csv(const MonteCarloOutcome& outcome) {
+  const auto& section = outcome.section;
+  fmt::memory_buffer text;
+  const auto out = std::back_inserter(text);
+  fmt::format_to(
+      out,
+      "plant,structure_frequency_1,oil_stiffness_1,leakage_rate_1,"
+      "friction_slope_N_m_s_per_rad,antenna_inertia_1,motor_inertia_1,wind_torque_1,"
+      "standing,beam_rms_mdeg,climate_beam_rms_mdeg,valve_effort_rad_per_s,rate_loop_peak_1,"
+      "valve_command_peak_1,position_loop_peak_1,worst_goal_ratio_1,"
+      "retuned_beam_rms_mdeg\n");
+  // An empty cell for what there is not.
+  const auto cell = [&](double value) {
+    if (std::isfinite(value)) {
+      fmt::format_to(out, ",{}", value);
+    } else {
+      text.push_back(',');
+    }
+  };
+  const auto& run = *outcome.run;
+  for (std::size_t block = 0; block < run.blocks(); ++block) {
+    if (!run.whole(block)) continue;
+    std::uint64_t index = block * design::MonteCarloRun::block_size;
+    for (const auto& one : run.outcomes(block)) {
+      fmt::format_to(out, "{}", index);
+      for (const double value : outcome.distribution->draw(section.seed, index).values) cell(value);
+      fmt::format_to(out, ",{}", standing_text(one.standing));
+      cell(one.beam_rms / millidegree);
+      cell(one.climate_rms / millidegree);
+      cell(one.valve_effort);
+      for (const double peak : one.sensitivity_peaks) cell(peak);
+      cell(one.worst_goal_ratio);
+      cell(one.retuned_rms / millidegree);
+      text.push_back('\n');
+      ++index;
+    }
+  }
+  return fmt::to_string(text);
+}
+
+}  // namespace boresight::app

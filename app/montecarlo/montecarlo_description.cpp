@@ -1,0 +1,180 @@
+#include <boresight/app/figures/figure_description.hpp>
+#include <boresight/app/montecarlo/montecarlo_study.hpp>
+#include <boresight/app/report/common_description.hpp>
+#include <boresight/app/report/json_writer.hpp>
+#include <boresight/io/description/estimates.hpp>
+
+namespace boresight::app {
+namespace {
+
+namespace unit = io::key_units;
+
+using io::describe_distribution;
+using io::describe_estimate;
+
+void describe_draw(io::Visitor& v, const PlantDraw& draw) {
+  using enum UncertainInput;
+  v.defined_as("inputs",
+               "Factors on the numbers of the case (of the records' estimate, where there are "
+               "records); the slope of friction at the motor shaft.");
+  v.number("structure_frequency", draw[structure_frequency], unit::ratio,
+           "On the frequencies of locked rotor and modes.");
+  v.number("oil_stiffness", draw[oil_stiffness], unit::ratio, "On the oil spring.");
+  v.number("leakage_rate", draw[leakage_rate], unit::ratio, "On the leakage rate.");
+  v.number("friction_slope", draw[friction_slope], {.suffix = "N_m_s_per_rad"},
+           "Torque per rate at the motor shaft.");
+  v.number("antenna_inertia", draw[antenna_inertia], unit::ratio, "On the antenna's inertia.");
+  v.number("motor_inertia", draw[motor_inertia], unit::ratio,
+           "On the motors' inertia, flywheels included.");
+  v.number("wind_torque", draw[wind_torque], unit::ratio, "On the wind torque.");
+}
+
+void describe_plant(io::Visitor& v, const NotablePlant& plant) {
+  const auto& outcome = plant.outcome;
+  v.defined_as("plant", "Draw number `index` of the seed.");
+  v.count("index", plant.index, "From 0.");
+  v.group("inputs", "What was drawn.", [&] { describe_draw(v, plant.draw); });
+  v.word("standing", standing_text(outcome.standing), {"stable", "unstable", "undecided"},
+         "Whether the loop is stable; undecided: by less than what the rational dead time leaves "
+         "out.");
+  v.number("beam_rms", outcome.beam_rms, unit::millidegree, "In the design wind, one axis.");
+  v.number("climate_beam_rms", outcome.climate_rms, unit::millidegree,
+           "Over the site's wind climate.");
+  v.number("valve_effort", outcome.valve_effort, unit::radian_per_second,
+           "Rms of the valve command from the sensors' noise.");
+  v.numbers("sensitivity_peaks", outcome.sensitivity_peaks, unit::ratio,
+            "Rate loop alone, valve command, position loop.", {}, {.least = 3, .most = 3});
+  v.number("worst_goal_ratio", outcome.worst_goal_ratio, unit::ratio,
+           "Largest quantity over its limit.");
+  v.number("retuned_beam_rms", outcome.retuned_rms, unit::millidegree,
+           "Of a law tuned for this plant alone.");
+}
+
+// A gain of the law that is held.
+struct HeldGain {
+  std::string symbol, name, unit;
+  double value = 0.0;
+  std::string as_written;
+};
+
+void describe_law(io::Visitor& v, const MonteCarloSection& section) {
+  std::vector<HeldGain> gains;
+  for (std::size_t i = 0; i < section.gains.size(); ++i) {
+    const auto& gain = section.law.structure.gains().at(i);
+    gains.push_back({gain.symbol, gain.name, gain.unit, section.law.gains.at(i), section.gains[i]});
+  }
+  v.text("structure", section.structure, "As the user names it.");
+  v.text("source", section.law_source, "Where the gains come from.");
+  v.list("gains", gains, "That are held on every plant.", [&](const HeldGain& gain) {
+    v.text("symbol", gain.symbol, "Its symbol.");
+    v.text("name", gain.name, "Its name.");
+    v.text("unit", gain.unit, "Of the value: SI.");
+    v.number("value", gain.value, unit::none, "In that unit.", {.above = 0.0, .finite = true});
+    v.text("as_written", gain.as_written, "In the engineer's units.");
+  });
+}
+
+void describe_stability(io::Visitor& v, const MonteCarloSection& section) {
+  v.count("stable", section.stable, "Plants whose loop is stable.");
+  v.count("unstable", section.unstable, "Plants whose loop is not.");
+  v.count("undecided", section.undecided, "Plants of which that cannot be said.");
+  describe_estimate(v, "probability_not_stable", section.instability, unit::ratio,
+                    "Of a plant drawn, undecided ones counted.");
+  v.count("confirmed_by_eigenvalues", section.confirmed, "Plants whose poles were computed.");
+  v.count("winding_contradicted", section.contradicted,
+          "Of these, those of which the frequency response had said otherwise.");
+  v.number("confirmed_above_peak", section.confirm_peak, unit::ratio,
+           "Peak of S above which poles are computed.");
+  v.count("confirmed_every", section.confirm_every, "Of the other plants, one in so many.");
+  v.list("not_stable_plants", section.unstable_plants, "The first thousand; --csv has all.",
+         [&](const NotablePlant& plant) { describe_plant(v, plant); },
+         {.most = MonteCarloSection::most_listed});
+}
+
+void describe_pointing(io::Visitor& v, const MonteCarloSection& section) {
+  describe_distribution(v, "beam_rms", section.beam_rms, unit::millidegree,
+                        "In the design wind, one axis.");
+  describe_distribution(v, "climate_beam_rms", section.climate_rms, unit::millidegree,
+                        "Over the site's wind climate; null without one.");
+  v.list("bands", section.losses, "Of the antenna.", [&](const MonteCarloSection::BandLoss& loss) {
+    v.text("band", loss.band.name, "Its name.");
+    v.number("frequency", loss.band.frequency, unit::hertz, "Of the carrier.");
+    v.number("beamwidth", loss.band.beamwidth, unit::millidegree, "At half power.");
+    describe_distribution(v, "mean_loss_two_axes", loss.loss, unit::decibel_as_kept,
+                          "Over two equal axes, in the design wind.");
+    describe_distribution(v, "climate_mean_loss_two_axes", loss.climate_loss, unit::decibel_as_kept,
+                          "The same over the site's wind climate; null without one.");
+  });
+  v.list("budgets", section.budgets, "Pointing budgets.",
+         [&](const MonteCarloSection::BudgetChance& chance) {
+           v.text("name", chance.budget.name, "Its name.");
+           v.text("band", chance.budget.band, "That it is for.");
+           v.text("convention", chance.budget.convention, "What the loss is taken of.");
+           v.number("rms", chance.budget.rms, unit::millidegree, "Allowed, one axis.");
+           describe_estimate(v, "probability_met", chance.met, unit::ratio,
+                             "In the design wind; no unstable plant meets one.");
+         });
+  v.list("goals", section.goals_broken, "Hard goals.",
+         [&](const MonteCarloSection::GoalChance& chance) {
+           v.text("goal", chance.goal, "Which.");
+           describe_estimate(v, "probability_broken", chance.broken, unit::ratio,
+                             "By a stable plant, among all plants.");
+         });
+}
+
+void describe_retuned(io::Visitor& v, const MonteCarloSection::Retuned& retuned) {
+  v.count("laws_found", retuned.found, "Plants for which a law that meets the goals was found.");
+  v.count("unstable_under_held_law", retuned.only_retuned,
+          "Of these, those that the held law does not keep stable.");
+  describe_distribution(v, "beam_rms", retuned.beam_rms, unit::millidegree, "Of these laws.");
+  describe_distribution(v, "price_of_one_law", retuned.price, unit::ratio,
+                        "Held law's rms over the re-tuned one's, less 1.");
+}
+
+}  // namespace
+
+void describe(io::Visitor& v, const MonteCarloSection& section) {
+  describe_origin(v, "montecarlo");
+  describe_case(v, section.case_path, section.title, section.axis);
+  v.count("seed", section.seed, "Of all draws.");
+  v.flag("interrupted", section.interrupted,
+         "The user stopped the work: all is of the plants judged by then.");
+  v.count("plants_asked", section.plants_asked, "That were to be judged.");
+  v.count("plants", section.plants, "That were judged.");
+  v.group("distribution", "Of the plants.", [&] {
+    std::vector<std::string> inputs;
+    for (const auto input : section.inputs) inputs.emplace_back(to_string(input));
+    v.text("source", section.distribution, "What they are drawn from.");
+    v.texts("inputs", inputs, "That vary.");
+  });
+  v.group("law", "That is held on every plant.", [&] { describe_law(v, section); });
+  v.word("wind_model", plant::to_string(section.wind_model),
+         {to_string(plant::WindModel::uniform), to_string(plant::WindModel::vickery),
+          to_string(plant::WindModel::coherence)},
+         "Of the wind torque.");
+  v.number("wind_speed", section.wind_speed, unit::metre_per_second, "Mean, of the design wind.");
+  v.group("stability", "Of the loop on each plant.", [&] { describe_stability(v, section); });
+  describe_pointing(v, section);
+  describe_estimate(v, "probability_all_goals_met", section.all_goals_met, unit::ratio,
+                    "Of a plant drawn.");
+  v.list("correlations", section.correlations, "Of inputs with the beam rms.",
+         [&](const MonteCarloSection::Correlation& one) {
+           v.text("input", to_string(one.input), "Which.");
+           describe_estimate(v, "rank_correlation", one.with_rms, unit::ratio,
+                             "Spearman's, over stable plants.");
+         });
+  v.list("worst_plants", section.worst, "By beam rms, of the stable ones.",
+         [&](const NotablePlant& plant) { describe_plant(v, plant); });
+  v.optional_group(
+      "retuned", section.retuned, "Laws tuned for each plant alone; null without --retune.",
+      [&](const MonteCarloSection::Retuned& retuned) { describe_retuned(v, retuned); });
+  describe_assumed(v, section.assumed);
+  v.texts("conclusions", section.conclusions, "What the numbers mean, in sentences.");
+  describe_figures(v, section.figures);
+}
+
+std::string to_json(const MonteCarloSection& section) {
+  return json_of(section).dump(2) + "\n";
+}
+
+}  // namespace boresight::app

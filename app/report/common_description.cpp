@@ -1,0 +1,34 @@
+#include <boresight/app/report/common_description.hpp>
+#include <boresight/io/description/visitor.hpp>
+
+namespace boresight::app {
+
+void describe_origin(io::Visitor& v, std::string_view command) {
+  v.constant("program", "boresight", "Always boresight.");
+  v.text("version", BORESIGHT_VERSION, "Version of the program.",
+         {.pattern = R"(^[0-9]+\.[0-9]+\.[0-9]+$)"});
+  v.constant("command", command, "The command.");
+}
+
+void describe_case(io::Visitor& v, std::string_view path, std::string_view title,
+                   std::string_view axis) {
+  v.group("case", "The case file.", [&] {
+    v.text("path", path, "As given.");
+    v.text("title", title, "Its title.");
+    v.word("axis", axis, {"elevation", "azimuth"}, "The axis.");
+  });
+}
+
+void describe_assumed(io::Visitor& v, const std::vector<io::Quantity>& assumed) {
+  v.list("assumed_inputs", assumed, "Inputs whose value or uncertainty is assumed.",
+         [&](const io::Quantity& quantity) {
+           const bool value = quantity.basis == io::Basis::assumed;
+           v.text("key", quantity.key, "Its key in the case file.");
+           v.text("value", quantity.text, "As written.");
+           v.word("assumed", value ? "value" : "uncertainty", {"value", "uncertainty"},
+                  "What of it is assumed.");
+           v.text("source", value ? quantity.source : quantity.uncertainty_source, "Why this.");
+         });
+}
+
+}  // namespace boresight::app

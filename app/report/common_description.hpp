@@ -1,0 +1,27 @@
+#pragma once
+
+#include <string_view>
+#include <vector>
+
+#include <boresight/io/units/quantity.hpp>
+
+namespace boresight::io {
+class Visitor;
+}
+
+namespace boresight::app {
+
+/// What every schema says of its keys ("$comment").
+inline constexpr std::string_view schema_comment =
+    "A key that holds a number ends in its unit: _1 (none), _N_m, _mdeg, ... Counts are whole "
+    "numbers and have none. null stands for what is infinite, undefined or not there.";
+
+/// The keys that begin a report: "program", "version", "command".
+void describe_origin(io::Visitor& v, std::string_view command);
+/// "case": the file, its title and axis.
+void describe_case(io::Visitor& v, std::string_view path, std::string_view title,
+                   std::string_view axis);
+/// "assumed_inputs": inputs whose value or uncertainty is assumed.
+void describe_assumed(io::Visitor& v, const std::vector<io::Quantity>& assumed);
+
+}  // namespace boresight::app

@@ -1,0 +1,16 @@
+#pragma once
+
+#include <boresight/design/ensembles/plant_ensemble.hpp>
+#include <boresight/design/tuning/design_study.hpp>
+#include <boresight/io/description/visitor.hpp>
+
+namespace boresight::io {
+
+/// A mode of the plant.
+void describe(Visitor& v, const plant::PlantMode& mode);
+/// A tuned law with its verification. Angles at the sky, one axis.
+void describe(Visitor& v, const design::Design& design);
+/// A law with its gains held on every member of an ensemble.
+void describe(Visitor& v, const design::EnsembleResult& ensemble);
+
+}  // namespace boresight::io

@@ -1,0 +1,71 @@
+#include <boresight/io/description/loop_results.hpp>
+
+namespace boresight::io {
+
+namespace unit = key_units;
+
+void describe_break(Visitor& v, std::string_view key, control::LoopBreak loop_break) {
+  using enum control::LoopBreak;
+  v.word(key, to_string(loop_break),
+         {to_string(rate_loop_alone), to_string(valve_command), to_string(position_loop)},
+         "Where the loop is cut.");
+}
+
+void describe(Visitor& v, const control::Margins& margins) {
+  v.number("increasing_gain_margin", margins.increasing_gain_margin, unit::decibel,
+           "Smallest rise of the gain that makes the loop unstable, if any does.",
+           {.column = {"gain up dB", 1}});
+  v.number("decreasing_gain_margin", margins.decreasing_gain_margin, unit::decibel,
+           "Largest fall of the gain that makes the loop unstable, if any does.",
+           {.column = {"gain down dB", 1}});
+  v.number("modulus_margin", margins.distance_to_minus_one(), unit::ratio,
+           "Smallest |1 + L|, the loop's distance from -1: the inverse of the largest |S|.",
+           {.least = 0.0, .column = {"modulus", 3}});
+  v.number("phase_margin", margins.phase_margin_deg, unit::degree_as_kept,
+           "Smallest over the gain crossovers; 180 without any.", {.column = {"phase deg", 1}});
+  v.number("delay_margin", margins.delay_margin, unit::second,
+           "Smallest extra dead time that makes the loop unstable, if any does.",
+           {.least = 0.0, .column = {"delay ms", 1, 1e3}});
+}
+
+void describe_sensitivity(Visitor& v, const control::Margins& margins) {
+  v.number("sensitivity_peak", margins.sensitivity.magnitude, unit::ratio,
+           "Largest |S|, S = 1/(1 + L).", {.least = 0.0});
+  v.number("sensitivity_peak_frequency", margins.sensitivity.frequency, unit::hertz_of_radians,
+           "Where |S| is largest.", {.least = 0.0});
+}
+
+void describe_status(Visitor& v, design::RunStatus status) {
+  v.word("status", to_string(status), {"complete", "interrupted", "lost", "failed"},
+         "How the run ended.");
+}
+
+void describe(Visitor& v, const design::HuntingResult& result, LimitCycleDetail detail) {
+  const bool counted = detail != LimitCycleDetail::score;
+  const bool full = detail == LimitCycleDetail::full;
+  v.number("rate", result.rate, unit::millidegree_per_second, "Steady, at the sky.",
+           {.finite = true});
+  describe_status(v, result.status);
+  if (full)
+    v.text_or_null("message", result.message, "Why there are no figures; null if complete.");
+  v.flag("limit_cycle", result.limit_cycle,
+         "In one run at least an oscillation lasts, above the resolution of the encoder.");
+  if (counted) {
+    v.count("starts", result.starts,
+            "Runs, each moved by another step at its start; the figures are of the worst.",
+            {.least = 1});
+    v.count("starts_hunting", result.starts_hunting, "Runs with a limit cycle.");
+    v.number("encoder_amplitude", result.encoder_amplitude, unit::millidegree,
+             "Half of peak to peak.", {.least = 0.0});
+  }
+  v.number("beam_amplitude", result.beam_amplitude, unit::millidegree, "Half of peak to peak.",
+           {.least = 0.0});
+  v.number("frequency", result.frequency, unit::hertz, "Null with less than two periods seen.",
+           {.least = 0.0});
+  if (full) {
+    v.number("persistence", result.persistence, unit::ratio, "Amplitude over that before.",
+             {.least = 0.0});
+  }
+}
+
+}  // namespace boresight::io

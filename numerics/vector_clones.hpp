@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <utility>
 
 // The width, in doubles, of the widest registers that hot loops are compiled for: an option of the
 // build, BORESIGHT_WIDEST_CLONE. Without effect where compiler or sanitizer do not get along with
@@ -41,14 +42,14 @@ class NarrowRegisters {
 
 #if BORESIGHT_CLONE_LANES >= 8
 template <typename Kernel, typename... Arguments>
-[[gnu::target("avx512f"), gnu::noinline]] auto run_on_eight_lanes(Arguments&... arguments) {
-  return Kernel::template run<8>(arguments...);
+[[gnu::target("avx512f"), gnu::noinline]] auto run_on_eight_lanes(Arguments&&... arguments) {
+  return Kernel::template run<8>(std::forward<Arguments>(arguments)...);
 }
 #endif
 #if BORESIGHT_CLONE_LANES >= 4
 template <typename Kernel, typename... Arguments>
-[[gnu::target("avx2"), gnu::noinline]] auto run_on_four_lanes(Arguments&... arguments) {
-  return Kernel::template run<4>(arguments...);
+[[gnu::target("avx2"), gnu::noinline]] auto run_on_four_lanes(Arguments&&... arguments) {
+  return Kernel::template run<4>(std::forward<Arguments>(arguments)...);
 }
 #endif
 
@@ -61,12 +62,12 @@ auto run_on_widest_lanes(Arguments&&... arguments) {
   const std::size_t lanes = register_lanes();
 #endif
 #if BORESIGHT_CLONE_LANES >= 8
-  if (lanes >= 8) return run_on_eight_lanes<Kernel>(arguments...);
+  if (lanes >= 8) return run_on_eight_lanes<Kernel>(std::forward<Arguments>(arguments)...);
 #endif
 #if BORESIGHT_CLONE_LANES >= 4
-  if (lanes >= 4) return run_on_four_lanes<Kernel>(arguments...);
+  if (lanes >= 4) return run_on_four_lanes<Kernel>(std::forward<Arguments>(arguments)...);
 #endif
-  return Kernel::template run<2>(arguments...);
+  return Kernel::template run<2>(std::forward<Arguments>(arguments)...);
 }
 
 }  // namespace boresight::numerics

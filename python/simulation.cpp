@@ -5,8 +5,11 @@
 #include <pybind11/eigen.h>
 #include <pybind11/stl.h>
 
+#include <boresight/app/commands/subcommand.hpp>
 #include <boresight/app/simulate/drive_run.hpp>
 #include <boresight/app/simulate/position_run.hpp>
+#include <boresight/app/tune/chosen_controller.hpp>
+#include <boresight/app/uncertainty/designed_antenna.hpp>
 #include <boresight/numerics/error.hpp>
 #include <boresight/python/bindings.hpp>
 #include <boresight/python/interruptible.hpp>
@@ -37,8 +40,15 @@ std::vector<Record> simulate(const io::Case& antenna, const std::string& test, s
           {run.test, std::move(run.description), run.sample_time, std::move(run.record)});
     }
     if (records.empty()) {
-      auto run = test == "slew" ? app::run_slew(antenna, {}, seed, progress)
-                                : app::run_tracking(antenna, {}, seed, progress);
+      const auto designed = app::designed_antenna(antenna, seed, app::all_or(0), stop);
+      app::TuneOptions options;
+      options.seed = seed;
+      options.threads = app::all_or(0);
+      options.interrupted = stop;
+      const auto chosen = app::recommended_controller(designed.antenna, designed.ensemble, options);
+      const app::SimulatedController controller{chosen.law, chosen.source};
+      auto run = test == "slew" ? app::run_slew(antenna, controller, seed, progress)
+                                : app::run_tracking(antenna, controller, seed, progress);
       records.push_back(
           {run.test, std::move(run.description), run.sample_time, std::move(run.record)});
     }

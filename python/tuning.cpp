@@ -10,7 +10,8 @@
 #include <boresight/app/commands/subcommand.hpp>
 #include <boresight/app/redesign/assumed_inputs.hpp>
 #include <boresight/app/tune/asked_structures.hpp>
-#include <boresight/app/tune/tune_study.hpp>
+#include <boresight/app/tune/controller_study.hpp>
+#include <boresight/app/tune/tune_verdict.hpp>
 #include <boresight/app/uncertainty/designed_antenna.hpp>
 #include <boresight/io/description/loop_results.hpp>
 #include <boresight/python/bindings.hpp>
@@ -39,7 +40,7 @@ Tuning tune(io::Case antenna, std::vector<std::string> structures, std::vector<d
   io::change_goals(antenna.goals, changes);
   if (!structures.empty()) app::asked_structures(antenna, structures);
   Tuning result{{report_of(antenna, "tune", seed)}};
-  result.report.tuned = interruptible([&](const StopRequest& stop) {
+  auto study = interruptible([&](const StopRequest& stop) {
     auto designed = app::designed_antenna(antenna, seed, app::all_or(threads), stop);
     antenna = std::move(designed.antenna);
     app::TuneOptions options;
@@ -49,10 +50,16 @@ Tuning tune(io::Case antenna, std::vector<std::string> structures, std::vector<d
     options.seed = seed;
     options.threads = app::all_or(threads);
     options.interrupted = stop;
-    return app::tune_structures(antenna, designed.ensemble, options);
+    return app::study_controllers(antenna, designed.ensemble, options, app::ChoiceDetail::verified);
   });
-  result.report.assumed = app::assumed_inputs(antenna);
+  result.report.tuned = std::move(study.tuned);
+  result.report.time_domain = std::move(study.time_domain);
+  result.report.assumed =
+      app::assumed_inputs(antenna, {.time_runs = result.report.time_domain.has_value()});
   result.report.conclusions = app::conclude(*result.report.tuned);
+  if (result.report.time_domain) {
+    result.report.conclusions.push_back(app::conclude(*result.report.time_domain));
+  }
   return result;
 }
 
@@ -149,14 +156,12 @@ void add_tuning(py::module_& module) {
       .def_property_readonly(
           "best",
           [](const Tuning& tuning) -> std::optional<TunedLaw> {
-            const TunedLaw* best = app::best_law(tuning.section());
+            const TunedLaw* best = app::recommended_law(tuning.section());
             if (best == nullptr) return std::nullopt;
             return *best;
           },
-          "The TunedLaw of least beam rms on the linear plant that meets every goal and is "
-          "verified, robust ones before nominal ones, at the first wind speed that has one; None "
-          "if no law does. Whether it hunts on the nonlinear antenna, the program's tune says, "
-          "which may recommend another")
+          "The TunedLaw that every command of the program recommends, by its runs on the nonlinear "
+          "antenna where the case has a [simulation]; None if none is fit")
       .def_property_readonly(
           "shortfalls",
           [](const Tuning& tuning) {
@@ -180,9 +185,8 @@ void add_tuning(py::module_& module) {
              "starts, threads "
              "= 0: as the case has it, all; the result depends on the seed, not on the threads. "
              "The program "
-             "does the same and then adds the least that any controller could do, and simulated "
-             "runs. Goals "
-             "that no law meets are a result (shortfalls), not an error. Ctrl-C stops it.");
+             "does the same and then adds the least that any controller could do. Goals that no "
+             "law meets are a result (shortfalls), not an error. Ctrl-C stops it.");
 }
 
 }  // namespace boresight::python

@@ -84,7 +84,7 @@ void describe_compliance(io::Visitor& v, const design::RejectionScore& score) {
 
 // A pointing budget and the wind speed up to which it is met.
 struct BudgetSpeed {
-  PointingBudget budget;
+  design::PointingBudget budget;
   double speed = 0.0;
 };
 

@@ -15,6 +15,7 @@
 #include <boresight/control/loops/state_space_controller.hpp>
 #include <boresight/io/case/drive_numbers.hpp>
 #include <boresight/io/case/mission_of.hpp>
+#include <boresight/numerics/angles.hpp>
 #include <boresight/numerics/error.hpp>
 
 namespace boresight::app {

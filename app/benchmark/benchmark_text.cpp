@@ -10,6 +10,7 @@
 #include <boresight/app/report/table_columns.hpp>
 #include <boresight/app/report/text_report.hpp>
 #include <boresight/io/description/loop_results.hpp>
+#include <boresight/numerics/angles.hpp>
 
 namespace boresight::app {
 namespace {

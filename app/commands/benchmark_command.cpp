@@ -9,6 +9,7 @@
 #include <boresight/app/figures/benchmark_figures.hpp>
 #include <boresight/app/page/report_page.hpp>
 #include <boresight/app/report/json_report.hpp>
+#include <boresight/app/tune/chosen_controller.hpp>
 #include <boresight/app/tune/engineer_units.hpp>
 #include <boresight/io/case/drive_numbers.hpp>
 #include <boresight/io/exchange/controller_file.hpp>
@@ -18,6 +19,8 @@
 
 namespace boresight::app {
 namespace {
+
+constexpr std::string_view recommended_gains = "tuned";
 
 std::vector<std::string> names_in(const std::string& text) {
   std::vector<std::string> names;
@@ -30,33 +33,43 @@ std::vector<std::string> names_in(const std::string& text) {
   return names;
 }
 
-BenchmarkedController chosen_controller(const BenchmarkArguments& arguments,
-                                        const io::Case& antenna) {
-  const double sample_time =
-      arguments.sampled ? io::sample_time_of(antenna.controller_delay.value) : 0.0;
+// What the command line names; none where the recommended one is wanted.
+std::optional<BenchmarkedController> named_one(const BenchmarkArguments& arguments,
+                                               const io::Case& antenna, double sample_time) {
   if (!arguments.controller_path.empty()) {
-    if (!arguments.gains_path.empty() || arguments.sampled) {
+    if (arguments.gains != recommended_gains || arguments.sampled) {
       throw InvalidInput(
           "benchmark: expected either --controller or gains (--gains, --sampled), found both");
     }
     const auto file = io::read_controller(arguments.controller_path, io::gear_ratio(antenna),
                                           {names_in(arguments.controller_inputs),
                                            names_in(arguments.controller_outputs), arguments.part});
-    return {file.system, "controller of " + arguments.controller_path, std::nullopt, file.remarks};
+    return BenchmarkedController{file.system, "controller of " + arguments.controller_path,
+                                 std::nullopt, file.remarks};
   }
-  if (!arguments.gains_path.empty()) {
-    const auto gains = io::read_gains_file(arguments.gains_path, antenna, arguments.structure);
-    return controller_of(gains.law, gains.description, sample_time);
+  if (arguments.gains == recommended_gains) return std::nullopt;
+  if (arguments.gains == "case") {
+    const auto present = present_controller(antenna, arguments.structure);
+    return controller_of(present.law, present.law.structure.name() + ", present gains",
+                         sample_time);
   }
-  const auto present = present_laws(antenna);
-  if (present.empty()) {
-    throw InvalidInput(
-        fmt::format("{}: expected [gains] in the case, or gains by --gains FILE (such as the JSON "
-                    "report of boresight tune), or --controller FILE, found none",
-                    arguments.case_path));
-  }
-  return controller_of(present.front(), present.front().structure.name() + ", present gains",
-                       sample_time);
+  const auto gains = io::read_gains_file(arguments.gains, antenna, arguments.structure);
+  return controller_of(gains.law, gains.description, sample_time);
+}
+
+BenchmarkedController recommended_one(const BenchmarkArguments& arguments,
+                                      const DesignedAntenna& designed, double sample_time,
+                                      const std::function<bool()>& interrupted) {
+  ProgressLine progress("tuning and verifying");
+  TuneOptions options;
+  if (!arguments.structure.empty()) options.structures = {arguments.structure};
+  options.seed = arguments.seed;
+  options.threads = arguments.threads;
+  options.progress = [&](std::size_t done, std::size_t all) { progress.show(done, all); };
+  options.interrupted = interrupted;
+  const auto chosen = recommended_controller(designed.antenna, designed.ensemble, options);
+  return controller_of(
+      chosen.law, fmt::format("{}, {}", chosen.law.structure.name(), chosen.source), sample_time);
 }
 
 std::string text_of(const std::string& path) {
@@ -74,9 +87,15 @@ BenchmarkReport benchmark_case(const BenchmarkArguments& arguments,
   const io::Case antenna = io::read_case(arguments.case_path);
   arguments.outputs.require_writable();
   if (!arguments.export_path.empty()) io::require_writable(arguments.export_path);
-  const BenchmarkedController controller = chosen_controller(arguments, antenna);
+  const double sample_time =
+      arguments.sampled ? io::sample_time_of(antenna.controller_delay.value) : 0.0;
+  const auto named = named_one(arguments, antenna, sample_time);
   const std::string other =
       arguments.compare_path.empty() ? std::string() : text_of(arguments.compare_path);
+  const DesignedAntenna designed =
+      designed_antenna(antenna, arguments.seed, arguments.threads, interrupted);
+  const BenchmarkedController controller =
+      named ? *named : recommended_one(arguments, designed, sample_time, interrupted);
   if (!arguments.export_path.empty())
     io::write_controller(arguments.export_path, controller.system);
   ProgressLine progress("scoring");
@@ -85,8 +104,6 @@ BenchmarkReport benchmark_case(const BenchmarkArguments& arguments,
   options.threads = arguments.threads;
   options.interrupted = interrupted;
   options.progress = [&](std::size_t done, std::size_t all) { progress.show(done, all); };
-  const DesignedAntenna designed =
-      designed_antenna(antenna, arguments.seed, arguments.threads, interrupted);
   BenchmarkReport report = benchmark(designed, controller, options);
   if (!arguments.compare_path.empty()) compare_with(report, other, arguments.compare_path);
   report.figures = benchmark_figures(report);
@@ -116,7 +133,7 @@ int run(BenchmarkArguments arguments) {
   try {
     return score(arguments);
   } catch (const Interrupted&) {
-    fmt::print(stderr, "boresight: interrupted before the records were identified\n");
+    fmt::print(stderr, "boresight: interrupted before there was a controller to score\n");
     return interrupted;
   }
 }
@@ -128,10 +145,13 @@ Subcommand add_benchmark(CLI::App& program) {
   CLI::App* sub = program.add_subcommand(
       "benchmark", "score the closed loop's disturbance rejection by a fixed protocol");
   add_case(*sub, arguments->case_path);
-  sub->add_option("--gains", arguments->gains_path,
-                  "gains in the place of the case's: TOML with the keys of [gains], or the JSON "
-                  "report of boresight tune");
-  sub->add_option("--structure", arguments->structure, "which law of a report of boresight tune");
+  sub->add_option("--gains", arguments->gains,
+                  "what is scored: 'tuned' (the controller that `boresight tune` recommends, tuned "
+                  "now), 'case' (what the antenna runs on now), TOML with the keys of [gains], or "
+                  "the JSON report of boresight tune")
+      ->capture_default_str();
+  sub->add_option("--structure", arguments->structure,
+                  "its structure, as `boresight tune` takes it (default: any)");
   sub->add_flag("--sampled", arguments->sampled,
                 "score the gains in the sampled form that the antenna's computer runs");
   sub->add_option("--controller", arguments->controller_path,

@@ -12,8 +12,8 @@ namespace boresight::app {
 struct BenchmarkArguments {
   std::string case_path;
   Outputs outputs;
-  std::string gains_path;       // TOML or the JSON of tune; empty: [gains] of the case
-  std::string structure;        // of a tune report: which law; empty: the best
+  std::string gains = "tuned";  // "tuned", "case", or a path: TOML or the JSON of tune
+  std::string structure;        // of the controller; empty: any
   std::string controller_path;  // MAT or JSON; empty: none
   // Names, where the controller's file has none, comma between.
   std::string controller_inputs, controller_outputs;
@@ -28,7 +28,7 @@ struct BenchmarkArguments {
 /// Scores the controller asked for on the antenna that the case states or, of a case with records,
 /// the one that they show. After `interrupted` said yes the report holds what was whole.
 /// @throws InvalidInput for arguments, cases and files that cannot be worked on, Interrupted before
-/// the records are identified.
+/// the controller is known; InfeasibleRequirement as recommended_controller.
 BenchmarkReport benchmark_case(const BenchmarkArguments& arguments,
                                const std::function<bool()>& interrupted);
 

@@ -59,9 +59,10 @@ Subcommand add_commission(CLI::App& program) {
                                          "compare records before and after");
   auto& options = arguments->options;
   add_case(*sub, arguments->case_path);
-  sub->add_option("--structure", options.structure,
-                  "the loop structure to commission, tuned robustly, as `boresight tune` takes it")
-      ->capture_default_str();
+  sub->add_option(
+      "--structure", options.structure,
+      "the loop structure to commission, as `boresight tune` takes it (default: that of "
+      "the controller it recommends)");
   sub->add_option("--gains", options.gains,
                   "its gains in the place of tuned ones, KEY=VALUE each, all of them")
       ->expected(1, 100);

@@ -127,12 +127,12 @@ Subcommand add_evaluate(CLI::App& program) {
   CLI::App* sub = program.add_subcommand(
       "evaluate", "compare proposals of hardware and software, each re-tuned, with their chances");
   add_case(*sub, arguments->case_path);
-  sub->add_option("PROPOSAL", arguments->proposals, "proposal files (TOML), see docs/proposals.md")
-      ->required()
-      ->expected(1, 1000);
+  sub->add_option("PROPOSAL", arguments->proposals,
+                  "proposal files (TOML), see docs/proposals.md; none: the antenna as it is alone")
+      ->expected(0, 1000);
   sub->add_option("--structure", arguments->structures,
                   "loop structures of the antenna as it is and of proposals that name none, one or "
-                  "several, as `tune` takes them (default: PI)")
+                  "several, as `tune` takes them (default: what it tunes)")
       ->expected(1, 100);
   sub->add_option("--goal", arguments->goals,
                   "KEY=VALUE of [goals] in the place of the case's, one or several")

@@ -15,6 +15,7 @@
 #include <boresight/app/redesign/sections.hpp>
 #include <boresight/app/report/json_report.hpp>
 #include <boresight/app/report/text_report.hpp>
+#include <boresight/app/tune/controller_study.hpp>
 #include <boresight/app/uncertainty/designed_antenna.hpp>
 #include <boresight/io/case/friction_leeway.hpp>
 #include <boresight/io/files/write_atomically.hpp>
@@ -42,13 +43,13 @@ int run(const Arguments& arguments) {
   options.variants = !arguments.no_variants;
   Report report = begin_report("match", antenna, arguments.case_path, options.seed);
   watch_for_interrupt();
-  std::vector<design::EnsembleMember> members;
+  PlantEnsemble ensemble;
   try {
     DesignedAntenna designed =
         designed_antenna(antenna, arguments.ensemble_seed, options.threads, interrupt_requested);
     antenna = std::move(designed.antenna);
     report.resonance = designed.resonance;
-    if (!arguments.nominal) members = std::move(designed.ensemble.members);
+    ensemble = std::move(designed.ensemble);
   } catch (const Interrupted&) {
     fmt::print(stderr, "boresight: interrupted before the records were identified\n");
     return interrupted;
@@ -62,7 +63,21 @@ int run(const Arguments& arguments) {
       working = work;
       line->show(finished, all);
     };
-    report.matched = match_motors(antenna, members, options);
+    report.matched = match_motors(
+        antenna, arguments.nominal ? std::vector<design::EnsembleMember>() : ensemble.members,
+        options);
+    TuneOptions tuning;
+    tuning.structures = options.structures;
+    tuning.seed = options.seed;
+    tuning.threads = options.threads;
+    tuning.interrupted = options.interrupted;
+    tuning.progress = [&](std::size_t finished, std::size_t all) {
+      options.progress("tuning as built", finished, all);
+    };
+    if (!interrupt_requested()) {
+      ControllerStudy study = study_controllers(antenna, ensemble, tuning);
+      if (!interrupt_requested()) report.matched->tuned_as_built = std::move(study.tuned);
+    }
   }
   report.interrupted = interrupt_requested();
   report.conclusions = conclude(*report.matched);

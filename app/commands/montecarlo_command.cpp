@@ -45,12 +45,11 @@ Subcommand add_montecarlo(CLI::App& program) {
       ->check(CLI::Range(1.0, 1e8))
       ->capture_default_str();
   sub->add_option("--gains", arguments->gains,
-                  "the law: 'tuned' (the best robust one of a structure, tuned now), 'case' (that "
-                  "the antenna runs on now), or a report of tune or redesign in JSON")
+                  "the controller: 'tuned' (the one that `boresight tune` recommends, tuned now), "
+                  "'case' (what the antenna runs on now), or a report of tune or redesign in JSON")
       ->capture_default_str();
   sub->add_option("--structure", arguments->structure,
-                  "its structure, as `boresight tune` takes it (default: the first of the case's "
-                  "[tuning], else PI; of a report: any)");
+                  "its structure, as `boresight tune` takes it (default: any)");
   sub->add_flag("--retune", arguments->retune,
                 "also tune a law for each plant alone: what holding one for all costs");
   sub->add_option("--csv", arguments->csv_path, "write every plant to this file");

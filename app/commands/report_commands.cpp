@@ -20,6 +20,7 @@
 #include <boresight/app/report/text_report.hpp>
 #include <boresight/app/tune/budgets_on_plants.hpp>
 #include <boresight/app/tune/plant_members.hpp>
+#include <boresight/app/uncertainty/designed_antenna.hpp>
 #include <boresight/design/ensembles/plant_ensemble.hpp>
 #include <boresight/design/problem/pointing_budget.hpp>
 #include <boresight/io/case/mission_of.hpp>
@@ -81,25 +82,17 @@ void fill_redesign(const io::Case& antenna, const StudyOptions& options, Report&
   report.audit = audit(antenna);
   // With records the redesign is of the drive that they show, and is judged on what they leave
   // open.
-  io::Case designed = antenna;
-  if (report.campaign && report.campaign->grey_box) {
-    designed = with_identified(antenna, report.campaign->grey_box->estimate);
-  }
+  const DesignedAntenna plant = designed_antenna(antenna, report.campaign, options.seed);
+  const io::Case& designed = plant.antenna;
   report.plant = describe_plant(designed);
   if (report.campaign && report.campaign->grey_box) {
     report.plant->records = report.campaign->grey_box->records.size();
   } else {
-    report.resonance = resonance_verdict(designed);
+    report.resonance = plant.resonance;
   }
   report.assumed = assumed_inputs(designed);
-  redesign(designed, options, report);
-  if (report.tuning && report.tuning->design.tuning.status == design::TuningStatus::optimal) {
-    const auto& law = report.tuning->design.tuning.law;
-    report.time_domain =
-        verify_in_time_domain(designed, make_problem(designed), law, law.structure.name(),
-                              options.seed, options.threads, SecondIntegrator::cvodes);
-    report.assumed = assumed_inputs(designed, {.time_runs = report.time_domain.has_value()});
-  }
+  redesign(plant, options, report);
+  if (report.time_domain) report.assumed = assumed_inputs(designed, {.time_runs = true});
   if (report.tuning) {
     judge_on_ensemble(antenna, designed, options, report.campaign, *report.tuning);
   }

@@ -17,12 +17,13 @@
 #include <boresight/app/commands/progress_line.hpp>
 #include <boresight/app/commands/simulate_command.hpp>
 #include <boresight/app/figures/simulation_figures.hpp>
-#include <boresight/app/montecarlo/held_law.hpp>
 #include <boresight/app/page/report_page.hpp>
 #include <boresight/app/redesign/assumed_inputs.hpp>
 #include <boresight/app/redesign/sections.hpp>
 #include <boresight/app/report/json_report.hpp>
 #include <boresight/app/simulate/antenna_tests.hpp>
+#include <boresight/app/tune/chosen_controller.hpp>
+#include <boresight/app/uncertainty/designed_antenna.hpp>
 #include <boresight/io/case/drive_numbers.hpp>
 #include <boresight/io/case/field.hpp>
 #include <boresight/io/files/write_atomically.hpp>
@@ -60,16 +61,21 @@ void check_tests(const std::vector<std::string>& tests) {
   }
 }
 
-SimulatedLaw law_of(const io::Case& antenna, const std::string& gains,
-                    const std::string& structure) {
-  SimulatedLaw asked;
-  if (auto named = named_law(antenna, gains, structure)) {
-    asked.law = std::move(named->law);
-    asked.source = std::move(named->source);
-  } else if (!structure.empty()) {
-    asked.structure = structure_named(antenna, structure);
+// The case as stated is what runs; with records the controller is that of the drive they show.
+SimulatedController controller_of(const io::Case& antenna, const SimulateArguments& arguments,
+                                  const std::function<bool()>& interrupted) {
+  if (auto named = named_controller(antenna, arguments.gains, arguments.structure)) {
+    return {std::move(named->law), std::move(named->source)};
   }
-  return asked;
+  TuneOptions options;
+  if (!arguments.structure.empty()) options.structures = {arguments.structure};
+  options.seed = arguments.seed;
+  options.threads = arguments.threads;
+  options.interrupted = interrupted;
+  const DesignedAntenna designed =
+      designed_antenna(antenna, arguments.seed, arguments.threads, interrupted);
+  auto recommended = recommended_controller(designed.antenna, designed.ensemble, options);
+  return {std::move(recommended.law), std::move(recommended.source)};
 }
 
 using Record = std::variant<DriveRecord, PositionRecord>;
@@ -116,6 +122,15 @@ class Campaign {
   }
 
   SimulateOutcome run() {
+    if (under_position_loop_) {
+      try {
+        controller_ = controller_of(antenna_, arguments_, interrupted_);
+      } catch (const Interrupted&) {
+        report_.not_run = arguments_.tests;
+        report_.interrupted = true;
+        return {std::move(report_), nullptr};
+      }
+    }
     // An error of the loop itself, such as of a full disk, is the failure of nobody's test.
     numerics::for_each_index(runs_.size(), arguments_.threads,
                              [this](std::size_t i) { run_one(i); });
@@ -136,9 +151,9 @@ class Campaign {
     const auto seed = arguments_.seed;
     if (name == "tracking" || name == "slew") {
       const auto make = name == "slew" ? run_slew : run_tracking;
-      const SimulatedLaw law = law_of(antenna_, arguments_.gains, arguments_.structure);
-      runs_.push_back({name, name, [this, make, law, seed](const RunProgress& progress) -> Record {
-                         return make(antenna_, law, seed, progress);
+      under_position_loop_ = true;
+      runs_.push_back({name, name, [this, make, seed](const RunProgress& progress) -> Record {
+                         return make(antenna_, controller_, seed, progress);
                        }});
       return;
     }
@@ -236,6 +251,8 @@ class Campaign {
   const std::function<bool()>& interrupted_;
   io::Case antenna_;
   std::filesystem::path folder_;
+  bool under_position_loop_ = false;  // any of the runs
+  SimulatedController controller_;    // theirs
   std::vector<Run> runs_;
   std::mutex mutex_;  // of all below
   std::vector<RunState> states_;
@@ -257,7 +274,7 @@ namespace {
 int run(SimulateArguments arguments) {
   arguments.threads = all_or(arguments.threads);
   watch_for_interrupt();
-  const auto outcome = simulate_tests(arguments, interrupt_requested);
+  const SimulateOutcome outcome = simulate_tests(arguments, interrupt_requested);
   arguments.outputs.deliver({.text = [&] { return to_text(outcome.report); },
                              .json = [&] { return to_json(outcome.report); },
                              .page = [&] { return page_of(outcome.report); }});
@@ -283,12 +300,12 @@ Subcommand add_simulate(CLI::App& program) {
       ->check(CLI::IsMember({"csv", "mat"}))
       ->capture_default_str();
   sub->add_option("--gains", arguments->gains,
-                  "the law of tracking and slew: 'tuned' (on the case's plant, now), 'case' (that "
-                  "the antenna runs on now), or a report of tune or redesign in JSON")
+                  "the controller of tracking and slew: 'tuned' (the one that `boresight tune` "
+                  "recommends, tuned now), 'case' (what the antenna runs on now), or a report of "
+                  "tune or redesign in JSON")
       ->capture_default_str();
   sub->add_option("--structure", arguments->structure,
-                  "its structure, as `boresight tune` takes it (default: PI with lag; of a report: "
-                  "any)");
+                  "its structure, as `boresight tune` takes it (default: any)");
   sub->add_option("--sample-rate", arguments->sample_rate,
                   "samples a second of the records (default: as the case has it); slosh is sampled "
                   "at 1000 or more")

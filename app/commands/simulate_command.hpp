@@ -19,9 +19,8 @@ struct SimulateArguments {
   Outputs outputs;
   std::uint64_t seed = 1;
   double sample_rate = 0.0;  // Hz, of the records; 0: as the case has it
-  /// Of tracking and slew: 'tuned' (nominally, now), 'case' (that the antenna runs on now), or a
-  /// report of tune or redesign in JSON; and the structure, empty: the first there is, or PI with
-  /// lag.
+  /// Of tracking and slew: 'tuned' (recommended_controller), 'case' (what the antenna runs on now),
+  /// or a report of tune or redesign in JSON; and the structure, empty: any.
   std::string gains = "tuned";
   std::string structure;
   unsigned threads = 1;  // so many records at a time; they do not depend on it
@@ -37,7 +36,8 @@ struct SimulateOutcome {
   std::exception_ptr failure;
 };
 /// @throws InvalidInput for an unknown test or one given twice, a folder or JSON file that cannot
-/// be written to, and a case without what simulations need: before anything is run.
+/// be written to, and a case without what simulations need: before anything is run; as
+/// recommended_controller, whose interrupt leaves a report of no test.
 SimulateOutcome simulate_tests(const SimulateArguments& arguments,
                                const std::function<bool()>& interrupted);
 

@@ -15,9 +15,8 @@
 #include <boresight/app/report/measured_report.hpp>
 #include <boresight/app/report/text_report.hpp>
 #include <boresight/app/tune/asked_structures.hpp>
-#include <boresight/app/tune/laws_in_time.hpp>
+#include <boresight/app/tune/controller_study.hpp>
 #include <boresight/app/tune/tune_limit.hpp>
-#include <boresight/app/tune/tune_study.hpp>
 #include <boresight/app/tune/tune_verdict.hpp>
 #include <boresight/app/uncertainty/designed_antenna.hpp>
 #include <boresight/io/case/mission_of.hpp>
@@ -38,18 +37,6 @@ std::vector<double> read_speeds(const std::vector<std::string>& texts) {
     }
   }
   return speeds;
-}
-
-// The usable laws tuned for the same purpose and wind speed.
-std::vector<DescribedLaw> alternatives(const TuneSection& section, const TunedLaw& best) {
-  std::vector<DescribedLaw> laws;
-  for (const auto& row : section.laws) {
-    if (row.tuned_for != best.tuned_for || row.wind_speed != best.wind_speed || !row.usable()) {
-      continue;
-    }
-    laws.push_back({description_of(row), row.design.tuning.law});
-  }
-  return laws;
 }
 
 }  // namespace
@@ -99,27 +86,21 @@ Report tune_case(const TuneArguments& arguments, const std::function<bool()>& in
   }
   report.assumed = assumed_inputs(antenna);
   options.progress = [&](std::size_t done, std::size_t all) { progress.show(done, all); };
-  report.tuned = tune_structures(antenna, ensemble, options);
-  report.conclusions = conclude(*report.tuned);
+  ControllerStudy study = study_controllers(antenna, ensemble, options, ChoiceDetail::verified);
+  report.tuned = std::move(study.tuned);
+  report.time_domain = std::move(study.time_domain);
   report.interrupted = interrupted && interrupted();
+  if (report.time_domain) report.assumed = assumed_inputs(antenna, {.time_runs = true});
   const TunedLaw* best = best_law(*report.tuned);
   if (best != nullptr && !report.interrupted) {
     report.limit =
         pointing_limit_of(antenna, *report.tuned, ensemble, best->wind_speed, arguments.threads);
-    auto problem = make_problem(antenna);
-    problem.wind.mean_speed = best->wind_speed;
-    report.time_domain = choose_in_time_domain(antenna, problem, alternatives(*report.tuned, *best),
-                                               arguments.seed, arguments.threads);
-    if (report.time_domain) {
-      report.assumed = assumed_inputs(antenna, {.time_runs = true});
-      judge_in_time(antenna, report.time_domain, best->tuned_for, arguments.seed, arguments.threads,
-                    interrupted, *report.tuned);
-      report.conclusions = conclude(*report.tuned);
-      report.conclusions.push_back(conclude(*report.time_domain));
-    }
-    if (const TunedLaw* law = recommended_law(*report.tuned)) {
-      conclude_guessed_shares(antenna, law->design.tuning.law, law->wind_speed, report.conclusions);
-    }
+  }
+  report.conclusions = conclude(*report.tuned);
+  if (report.time_domain) report.conclusions.push_back(conclude(*report.time_domain));
+  const TunedLaw* law = best != nullptr ? recommended_law(*report.tuned) : nullptr;
+  if (law != nullptr && !report.interrupted) {
+    conclude_guessed_shares(antenna, law->design.tuning.law, law->wind_speed, report.conclusions);
   }
   lead_with_resonance(report);
   return report;

@@ -11,9 +11,9 @@
 #include <boresight/app/redesign/sections.hpp>
 #include <boresight/app/report/sky_units.hpp>
 #include <boresight/app/simulate/time_domain.hpp>
+#include <boresight/app/tune/controller_study.hpp>
 #include <boresight/app/tune/engineer_units.hpp>
 #include <boresight/app/tune/gains_at_bounds.hpp>
-#include <boresight/app/tune/tuned_assessment.hpp>
 #include <boresight/io/case/drive_numbers.hpp>
 #include <boresight/io/case/mission_of.hpp>
 #include <boresight/io/units/wording.hpp>
@@ -34,8 +34,13 @@ constexpr double move_ramp = 2.0;
 // Steps of commands are no larger than this at the sky.
 constexpr double largest_angle_step = 100.0 * millidegree;
 
+std::string structure_of_gains(const CommissionOptions& options) {
+  return options.structure.empty() ? "DPF" : options.structure;
+}
+
 control::ControlLaw given_law(const io::Case& antenna, const CommissionOptions& options) {
-  control::ControlLaw law{io::loop_structure(antenna, options.structure), {}};
+  const std::string structure = structure_of_gains(options);
+  control::ControlLaw law{io::loop_structure(antenna, structure), {}};
   std::vector<std::string> known;
   for (const auto& block : law.structure.blocks()) {
     for (std::size_t i = 0; i < block.gains.size(); ++i) {
@@ -45,7 +50,7 @@ control::ControlLaw given_law(const io::Case& antenna, const CommissionOptions& 
           options.gains, [&](const std::string& one) { return one.starts_with(symbol + "="); });
       if (text == options.gains.end()) {
         throw InvalidInput(fmt::format("--gains: expected a value for {} ({}) of {}, found none",
-                                       symbol, block.gains[i].name, options.structure));
+                                       symbol, block.gains[i].name, structure));
       }
       try {
         law.gains.push_back(io::parse_quantity(text->substr(symbol.size() + 1),
@@ -67,12 +72,11 @@ control::ControlLaw given_law(const io::Case& antenna, const CommissionOptions& 
   return law;
 }
 
-// Its bounds are told in `bounds`.
-control::ControlLaw tuned_law(const io::Case& antenna, const PlantEnsemble& ensemble,
-                              const CommissionOptions& options, std::vector<std::string>& bounds) {
+// The recommended controller; its structure and bounds go into the report.
+control::ControlLaw recommended(const io::Case& antenna, const PlantEnsemble& ensemble,
+                                const CommissionOptions& options, CommissionReport& report) {
   TuneOptions tuning;
-  tuning.structures = {options.structure};
-  tuning.wind_speeds = {antenna.wind.design_speed.value};
+  if (!options.structure.empty()) tuning.structures = {options.structure};
   tuning.starts = options.starts;
   tuning.seed = options.seed;
   tuning.threads = options.threads;
@@ -82,21 +86,23 @@ control::ControlLaw tuned_law(const io::Case& antenna, const PlantEnsemble& ense
       options.progress("tuning", done, all);
     };
   }
-  const TuneSection section = tune_structures(antenna, ensemble, tuning);
+  const ControllerStudy study = study_controllers(antenna, ensemble, tuning);
   if (options.interrupted && options.interrupted()) throw Interrupted("interrupted by the user");
-  // Its stages are for every plant: a nominal design will not do.
-  const TunedLaw* recommended = recommended_at(section, antenna.wind.design_speed.value, true,
-                                               {.accepted = design::Fitness::misses_budget});
-  if (recommended != nullptr) {
-    bounds = about_bounds(section, {recommended});
-    return recommended->design.tuning.law;
+  // One that limit-cycles is planned for with a warning. The stages are for every plant: a nominal
+  // design will not do.
+  const TunedLaw* law = recommended_or(study, design::Fitness::lost_in_wind);
+  if (law == nullptr || law->tuned_for != TunedFor::robust || !law->goals_met) {
+    const auto& shortfalls = study.tuned.shortfalls;
+    report.structure = fmt::format("{}", fmt::join(study.tuned.structures, ", "));
+    throw InfeasibleRequirement(fmt::format(
+        "commission: no law of {} meets its goals on every plant that may be the true one{}",
+        report.structure,
+        shortfalls.empty() ? std::string()
+                           : ": " + shortfalls[0].infeasible + " " + shortfalls[0].closest));
   }
-  throw InfeasibleRequirement(fmt::format(
-      "commission: no law of {} meets its goals on every plant that may be the true one{}",
-      options.structure,
-      section.shortfalls.empty()
-          ? std::string()
-          : ": " + section.shortfalls[0].infeasible + " " + section.shortfalls[0].closest));
+  report.structure = law->structure;
+  report.bounds = about_bounds(study.tuned, {law});
+  return law->design.tuning.law;
 }
 
 // 1, 2 or 5 times a power of ten, no larger.
@@ -379,8 +385,8 @@ CommissionReport plan_commission(const io::Case& antenna, const PlantEnsemble& e
   report.title = antenna.title;
   report.axis = antenna.axis;
   report.seed = options.seed;
-  report.structure = options.structure;
   report.tuned = options.gains.empty();
+  report.structure = report.tuned ? options.structure : structure_of_gains(options);
   report.ensemble_source = ensemble.source;
   report.ensemble_size = ensemble.members.size();
   report.wind_speed = problem.wind.mean_speed;
@@ -399,7 +405,7 @@ CommissionReport plan_commission(const io::Case& antenna, const PlantEnsemble& e
   }
   const double rate = move_share * antenna.drive.slew_rate.value * problem.gear_ratio;
   report.move = {rate, rate / move_ramp};
-  io::loop_structure(antenna, options.structure);
+  if (!options.structure.empty()) io::loop_structure(antenna, options.structure);
   if (!options.before.empty()) {
     report.comparisons =
         compare_case_records(antenna, options.before, options.after, options.threads);
@@ -415,7 +421,7 @@ CommissionReport plan_commission(const io::Case& antenna, const PlantEnsemble& e
   };
   try {
     const control::ControlLaw target = report.tuned
-                                           ? tuned_law(antenna, ensemble, options, report.bounds)
+                                           ? recommended(antenna, ensemble, options, report)
                                            : given_law(antenna, options);
     report.plan = design::plan_commissioning(problem, ensemble.members, found, target, report.move,
                                              report.options);

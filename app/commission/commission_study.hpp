@@ -22,7 +22,8 @@ namespace boresight::app {
 
 /// What to plan for.
 struct CommissionOptions {
-  std::string structure = "DPF";
+  /// Empty: of the controller that study_controllers recommends; DPF of gains given.
+  std::string structure;
   /// The law's gains, KEY=VALUE as [gains] has them; empty: tuned.
   std::vector<std::string> gains;
   double largest_step = 2.0;  // factor on a gain from stage to stage
@@ -99,8 +100,8 @@ struct CommissionReport {
   std::vector<Figure> figures;
 };
 
-/// Plans the way to the robustly tuned law of a structure, or to the gains given, and compares two
-/// records where asked. `antenna`: the plant the ensemble is about.
+/// Plans the way to the controller recommended (study_controllers), or to the gains given, and
+/// compares two records where asked. `antenna`: the plant the ensemble is about.
 /// @throws InvalidInput for a structure, gains or records that there are none of; Interrupted;
 /// InfeasibleRequirement if no law of the structure meets the goals on every plant, or no path to
 /// it was found, and NumericalFailure, if no records are compared: else the report holds them.

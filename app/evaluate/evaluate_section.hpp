@@ -19,7 +19,7 @@
 
 namespace boresight::app {
 
-/// One loop structure tuned robustly on what a proposal makes of the antenna. Rms at the sky, rad.
+/// One loop structure tuned on what a proposal makes of the antenna. Rms at the sky, rad.
 struct CandidateLaw {
   std::string structure;  // as the user names it
   design::Design design;  // on the proposal's nominal plant
@@ -68,7 +68,7 @@ struct CandidateFigures {
   std::optional<double> climate_rms;   // rad
   std::vector<double> climate_losses;  // dB, one a band; empty without a climate
   std::vector<double> speed_limits;    // m/s, one a budget
-  /// Mean wind speed (m/s) at which the supply's torque ends: supply_wind_speed of antenna_model.
+  /// Mean wind speed (m/s) at which the supply's torque ends: io::supply_wind_speed.
   double supply_wind_speed = std::numeric_limits<double>::infinity();
   /// What friction and offset leave of the supply's torque, over the largest in gusts.
   double supply_margin = 0.0;
@@ -93,8 +93,7 @@ struct Candidate {
   double motor_to_load_ratio = 0.0;
   plant::PlantMode oil_mode;       // plant::mode_of_oil, no loop closed
   std::vector<CandidateLaw> laws;  // one a structure
-  /// The law that stands for it: design::recommend by compared_rms and limit cycles; where none
-  /// meets its goals, that nearest to them; none if no structure is stable.
+  /// The controller recommended for it (TunedCandidate::chosen).
   std::optional<std::size_t> chosen;
   std::optional<CandidateFigures> figures;  // of the chosen law
 

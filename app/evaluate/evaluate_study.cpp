@@ -8,8 +8,8 @@
 #include <boresight/app/evaluate/evaluate_study.hpp>
 #include <boresight/app/simulate/nonlinear_model.hpp>
 #include <boresight/app/simulate/time_domain.hpp>
+#include <boresight/app/tune/asked_structures.hpp>
 #include <boresight/design/decisions/pareto_front.hpp>
-#include <boresight/design/decisions/recommend.hpp>
 #include <boresight/design/problem/drive_reach.hpp>
 #include <boresight/design/problem/pointing.hpp>
 #include <boresight/io/case/antenna_of.hpp>
@@ -28,40 +28,6 @@ namespace {
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 constexpr std::string_view as_it_is = "as it is";
-
-// Compared by what the proposal's whole ensemble has, not its nominal plant alone.
-design::Assessment assessment_of(const CandidateLaw& law) {
-  design::Assessment result;
-  result.structure = law.structure;
-  result.purpose = design::DesignPurpose::robust;
-  result.parts = law.design.tuning.law.structure.gains().size();
-  result.stable = law.stable();
-  result.verified = law.design.verification.passed;
-  result.nominal_constraints_met = result.member_constraints_met = law.goals_met;
-  result.linear_rms = std::isfinite(law.member_rms) ? law.member_rms : law.design.beam_rms;
-  if (law.time_domain) {
-    result.simulated_rms = law.compared_rms();
-    result.limit_cycle_amplitude = design::hunting_amplitude(law.time_domain->hunting);
-    result.limit_cycles =
-        limit_cycle_verdict(law.still, design::hunting_seen(law.time_domain->hunting));
-  }
-  return result;
-}
-
-// Where none is fit the least unfit; of those that miss their goals the nearest to them.
-std::optional<std::size_t> choose(const std::vector<CandidateLaw>& laws) {
-  std::vector<design::Assessment> candidates;
-  for (const auto& law : laws) candidates.push_back(assessment_of(law));
-  const auto winner =
-      design::recommend(candidates, {.accepted = design::Fitness::lost_in_wind}).winner;
-  if (winner) return winner;
-  std::optional<std::size_t> nearest;
-  const auto distance = [&](std::size_t i) { return laws[i].design.tuning.worst_goal_ratio; };
-  for (std::size_t i = 0; i < laws.size(); ++i) {
-    if (laws[i].stable() && (!nearest || distance(i) < distance(*nearest))) nearest = i;
-  }
-  return nearest;
-}
 
 std::optional<SlewFigures> slew_of(const io::Case& antenna, double inertia) {
   if (!antenna.simulation) return std::nullopt;
@@ -167,9 +133,6 @@ Candidate describe_candidate(const ProposedCase& proposed, const Proposal& propo
 }
 
 void check_together(const std::vector<Proposal>& proposals) {
-  if (proposals.empty()) {
-    throw InvalidInput("evaluate: expected a proposal or more, found none");
-  }
   for (std::size_t i = 0; i < proposals.size(); ++i) {
     const auto& one = proposals[i];
     if (one.name == as_it_is) {
@@ -258,9 +221,7 @@ EvaluateSection evaluate_proposals(const io::Case& antenna, const std::vector<Pr
     throw InvalidInput(
         fmt::format("evaluate: expected {} draws or more, found {}", least_draws, options.draws));
   }
-  std::vector<std::string> structures = options.structures;
-  if (structures.empty()) structures = {"PI"};
-  for (const auto& name : structures) io::loop_structure(antenna, name);
+  const std::vector<std::string> structures = asked_structures(antenna, options.structures);
 
   EvaluateSection section;
   section.bands = make_bands(antenna);
@@ -306,6 +267,7 @@ EvaluateSection evaluate_proposals(const io::Case& antenna, const std::vector<Pr
   for (std::size_t i = 0; i < section.candidates.size(); ++i) {
     whole.push_back(tuned.candidates[i].whole);
     section.candidates[i].laws = std::move(tuned.candidates[i].laws);
+    section.candidates[i].chosen = tuned.candidates[i].chosen;
   }
   for (std::size_t i = whole.size(); i-- > 0;) {
     if (whole[i]) continue;
@@ -315,7 +277,6 @@ EvaluateSection evaluate_proposals(const io::Case& antenna, const std::vector<Pr
   }
   numerics::for_each_index(section.candidates.size(), options.threads, [&](std::size_t i) {
     Candidate& candidate = section.candidates[i];
-    candidate.chosen = choose(candidate.laws);
     if (!candidate.chosen) return;
     candidate.figures = figures_of(cases[i], candidate.laws[*candidate.chosen], section);
   });
@@ -325,7 +286,9 @@ EvaluateSection evaluate_proposals(const io::Case& antenna, const std::vector<Pr
     section.decision = decide(section.candidates, cases, uncertainty.distribution, options);
     if (section.decision->draws == 0) section.decision.reset();
   }
-  if (!section.decision) section.not_run.emplace_back("chances, regrets and tests");
+  if (!section.decision && !proposals.empty()) {
+    section.not_run.emplace_back("chances, regrets and tests");
+  }
   if (options.progress) options.progress(1, 1);
   return section;
 }

@@ -10,7 +10,7 @@
 namespace boresight::app {
 
 struct EvaluateOptions {
-  /// Of the antenna as it is and of proposals that name none; empty: PI.
+  /// Of the antenna as it is and of proposals that name none; empty: as tune.
   std::vector<std::string> structures;
   std::size_t draws = 2000;
   int starts = 0;  // of each search; 0: as the case has it
@@ -35,10 +35,11 @@ struct PlantUncertainty {
 /// @throws InvalidInput as evaluate_proposals.
 void check_proposals(const io::Case& antenna, const std::vector<Proposal>& proposals);
 
-/// Tunes the antenna as it is and every proposal, robustly and with the same draws of what is
-/// uncertain, and compares them. The same for any number of threads.
+/// Tunes the antenna as it is and every proposal with the same draws of what is uncertain
+/// (study_controllers), and compares what is recommended for each. Without proposals: the antenna
+/// as it is alone. The same for any number of threads.
 /// @throws InvalidInput as apply_proposal, and for two proposals of one name or of different
-/// currencies, no proposals, a structure that is none, fewer than 100 draws.
+/// currencies, a structure that is none, fewer than 100 draws.
 EvaluateSection evaluate_proposals(const io::Case& antenna, const std::vector<Proposal>& proposals,
                                    const PlantUncertainty& uncertainty,
                                    const EvaluateOptions& options);

@@ -10,6 +10,7 @@
 #include <boresight/app/report/sky_units.hpp>
 #include <boresight/app/report/wind_mast.hpp>
 #include <boresight/design/problem/pointing_budget.hpp>
+#include <boresight/numerics/angles.hpp>
 
 namespace boresight::app {
 namespace {

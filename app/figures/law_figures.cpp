@@ -11,6 +11,7 @@
 #include <boresight/control/loops/closed_loop.hpp>
 #include <boresight/design/problem/pointing_budget.hpp>
 #include <boresight/design/tuning/design_study.hpp>
+#include <boresight/numerics/angles.hpp>
 #include <boresight/plant/antenna/plant_response.hpp>
 #include <boresight/plant/linear/response_grid.hpp>
 

@@ -106,9 +106,9 @@ Figure drive_test_figure(const DriveRecord& record, double torque_per_pressure) 
 Figure position_test_figure(const PositionRecord& record) {
   const io::CsvTable& table = record.record;
   const bool slew = record.test == "slew";
-  Figure figure = make_figure(figure_id("simulated " + record.test),
-                              "Position loop, tuned PI with lag, at the sky (mdeg)",
-                              fmt::format("Simulated {}", record.test), "", make_axis("time", "s"));
+  Figure figure =
+      make_figure(figure_id("simulated " + record.test), "Position loop, at the sky (mdeg)",
+                  fmt::format("Simulated {}", record.test), "", make_axis("time", "s"));
   if (table.columns.empty()) return figure;
   figure.caption = caption_of(record.description, table, record.complete);
   if (record.beam_rms) {

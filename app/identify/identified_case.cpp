@@ -51,7 +51,7 @@ void set_friction(io::Case& antenna, Replacement& replace, const plant::Antenna&
   replace.set(curve.saturating_rate, found.friction_curve.saturating_rate);
   replace.set(curve.viscous, found.friction_curve.viscous_friction);
   curve.tests.clear();
-  if (!antenna.simulation) return;
+  if (!antenna.simulation || !found.nonlinear) return;
   replace.set(antenna.simulation->offset_torque, found.nonlinear->offset_torque);
   replace.set(antenna.simulation->bristle_stiffness, found.nonlinear->bristle_stiffness);
   replace.set(antenna.simulation->bristle_damping, found.nonlinear->bristle_damping);

@@ -11,6 +11,7 @@
 #include <boresight/app/report/influences.hpp>
 #include <boresight/app/report/sky_units.hpp>
 #include <boresight/app/report/wind_mast.hpp>
+#include <boresight/app/tune/tune_verdict.hpp>
 
 namespace boresight::app {
 namespace {
@@ -346,6 +347,21 @@ void conclude_friction(const MatchSection& section, std::vector<std::string>& se
 
 }  // namespace
 
+std::string recommended_as_built(const MatchSection& section) {
+  if (!section.tuned_as_built) return "";
+  const TunedLaw* law = recommended_law(*section.tuned_as_built);
+  if (law == nullptr) {
+    return "For the motors as built no controller is recommended: `boresight tune` says why.";
+  }
+  return fmt::format(
+      "For the motors as built the controller recommended, as by `boresight tune`, is {}: {:.4f} "
+      "mdeg rms in {:.3g} m/s{}.",
+      name_and_purpose(*law), law->beam_rms / millidegree, law->wind_speed,
+      law->in_time
+          ? fmt::format(", {:.4f} on the nonlinear antenna", law->in_time->beam_rms / millidegree)
+          : "");
+}
+
 std::vector<std::string> conclude(const MatchSection& section) {
   std::vector<std::string> sentences;
   if (section.wind_mast) sentences.push_back(conclude_mast(*section.wind_mast));
@@ -354,6 +370,7 @@ std::vector<std::string> conclude(const MatchSection& section) {
       "plants, at the case's gear ratio and oil; the inputs listed as assumed set the scale.",
       plant::to_string(section.wind_model), section.wind_speed,
       std::max<std::size_t>(section.members, 1)));
+  if (std::string text = recommended_as_built(section); !text.empty()) sentences.push_back(text);
   for (const auto& series : section.series) {
     if (series.best) {
       sentences.push_back(best_of(section, series));

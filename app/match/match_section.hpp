@@ -7,6 +7,7 @@
 #include <vector>
 
 #include <boresight/app/match/what_if_table.hpp>
+#include <boresight/app/tune/tune_section.hpp>
 #include <boresight/design/matching/matching_curves.hpp>
 #include <boresight/design/matching/matching_smoothness.hpp>
 #include <boresight/design/tuning/design_study.hpp>
@@ -118,6 +119,9 @@ struct MatchSection {
   std::vector<FrictionThreshold> thresholds;
   std::vector<RuleVerdict> rules;
   std::optional<WhatIfTable> what_if;  // where a page asks for it
+  /// study_controllers of the antenna as built, whose recommended_law is the controller for its
+  /// motors; none where that was not asked for, or interrupted.
+  std::optional<TuneSection> tuned_as_built;
   double wind_speed = 0.0;
   plant::WindModel wind_model = plant::WindModel::coherence;
   std::optional<io::WindMast> wind_mast;  // none: the case states speeds at the dish's centre

@@ -12,6 +12,7 @@
 #include <boresight/io/case/drive_numbers.hpp>
 #include <boresight/io/case/mission_of.hpp>
 #include <boresight/io/case/plant_numbers.hpp>
+#include <boresight/numerics/angles.hpp>
 #include <boresight/numerics/error.hpp>
 #include <boresight/numerics/parallel_loop.hpp>
 #include <boresight/plant/antenna/antenna_change.hpp>

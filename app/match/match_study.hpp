@@ -51,6 +51,9 @@ void vary(const io::Case& antenna, const MatchOptions& options, MatchSection& se
 /// The classic rules against the curves.
 std::vector<RuleVerdict> judge_rules(const io::Case& antenna, const MatchSection& section);
 
+/// The controller for the motors as built, in a sentence; empty where it was not asked for.
+std::string recommended_as_built(const MatchSection& section);
+
 /// A few sentences that say what the numbers mean, with their conditions.
 std::vector<std::string> conclude(const MatchSection& section);
 

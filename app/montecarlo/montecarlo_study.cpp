@@ -9,14 +9,15 @@
 #include <boresight/app/commands/progress_line.hpp>
 #include <boresight/app/figures/montecarlo_figures.hpp>
 #include <boresight/app/montecarlo/checkpoint.hpp>
-#include <boresight/app/montecarlo/held_law.hpp>
 #include <boresight/app/montecarlo/montecarlo_study.hpp>
 #include <boresight/app/redesign/assumed_inputs.hpp>
 #include <boresight/app/redesign/sections.hpp>
+#include <boresight/app/tune/chosen_controller.hpp>
 #include <boresight/app/tune/engineer_units.hpp>
 #include <boresight/app/uncertainty/designed_antenna.hpp>
 #include <boresight/io/case/antenna_of.hpp>
 #include <boresight/io/case/mission_of.hpp>
+#include <boresight/io/files/input_files.hpp>
 #include <boresight/io/files/write_atomically.hpp>
 #include <boresight/numerics/error.hpp>
 
@@ -105,7 +106,7 @@ std::string digest_of(const MonteCarloArguments& arguments, const PlantDistribut
 }
 
 // Gains as bytes, so that every rank holds the same law to the last bit.
-std::string law_bytes(const HeldLaw& held) {
+std::string law_bytes(const ChosenController& held) {
   std::ostringstream text;
   text << held.structure << '\n' << held.source << '\n' << std::hexfloat;
   for (const double gain : held.law.gains) text << gain << '\n';
@@ -116,8 +117,8 @@ std::string gains_text(const std::string& text) {
   return text.substr(text.find('\n', text.find('\n') + 1) + 1);
 }
 
-HeldLaw law_from(const std::string& text, const io::Case& antenna) {
-  HeldLaw held;
+ChosenController law_from(const std::string& text, const io::Case& antenna) {
+  ChosenController held;
   std::istringstream lines(text);
   std::getline(lines, held.structure);
   std::getline(lines, held.source);
@@ -128,18 +129,18 @@ HeldLaw law_from(const std::string& text, const io::Case& antenna) {
   return held;
 }
 
-HeldLaw make_law(const MonteCarloArguments& arguments, const Population& population,
-                 const std::function<bool()>& interrupted) {
+ChosenController make_law(const MonteCarloArguments& arguments, const Population& population,
+                          const std::function<bool()>& interrupted) {
   const io::Case& antenna = population->antenna;
-  if (auto named = named_law(antenna, arguments.gains, arguments.structure)) {
+  if (auto named = named_controller(antenna, arguments.gains, arguments.structure)) {
     return std::move(*named);
   }
-  std::string structure = arguments.structure;
-  if (structure.empty() && !antenna.tuning.structures.empty()) {
-    structure = antenna.tuning.structures.front();
-  }
-  return tuned_law(antenna, population->ensemble, structure.empty() ? "PI" : structure,
-                   arguments.seed, arguments.threads, interrupted);
+  TuneOptions options;
+  if (!arguments.structure.empty()) options.structures = {arguments.structure};
+  options.seed = arguments.seed;
+  options.threads = arguments.threads;
+  options.interrupted = interrupted;
+  return recommended_controller(antenna, population->ensemble, options);
 }
 
 // Works the missing blocks off and keeps the checkpoint fresh.
@@ -250,7 +251,7 @@ design::MonteCarlo make_study(const MonteCarloArguments& arguments, const Popula
 
 // Law and case of a report; summarise() has the rest.
 MonteCarloSection new_section(const MonteCarloArguments& arguments, const io::Case& antenna,
-                              const design::MonteCarlo& study, const HeldLaw& held) {
+                              const design::MonteCarlo& study, const ChosenController& held) {
   MonteCarloSection section;
   section.case_path = arguments.case_path;
   section.title = antenna.title;
@@ -282,7 +283,7 @@ MonteCarloOutcome run_montecarlo(const MonteCarloArguments& arguments, Ranks& ra
                                  const std::function<bool()>& interrupted) {
   Population population;
   design::MonteCarlo study;
-  HeldLaw held;
+  ChosenController held;
   MonteCarloOutcome outcome;
   std::string law_text;
   on_all(ranks, [&] {

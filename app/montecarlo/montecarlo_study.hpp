@@ -22,7 +22,7 @@ struct MonteCarloArguments {
   std::string csv_path;         // of every plant; empty: none
   std::string checkpoint_path;  // empty: none
   std::uint64_t plants = 10000;
-  std::string structure;        // empty: the first of the case's [tuning], or PI
+  std::string structure;        // empty: all that tune tunes
   std::string gains = "tuned";  // "tuned", "case", or the path of a report in JSON
   bool retune = false;
   std::uint64_t seed = 1;

@@ -28,15 +28,22 @@ std::optional<JudgedChoice> judged(const ChoiceResult& choice) {
   return JudgedChoice{choice.design->beam_rms, *choice.speed_limits};
 }
 
+// The case's own, which is the first: tuned as the others are.
+std::optional<JudgedChoice> own_choice(const Report& report) {
+  return report.choices.empty() ? std::nullopt : judged(report.choices.front());
+}
+
 // Needed budgets with another verdict under one of those choices than under the case's own; empty
 // without one.
 template <typename Counts>
 std::string turned_verdicts(const Report& report, const TuningSection& section,
                             const Counts& counts) {
   std::vector<std::string> verdicts;
-  for (std::size_t i = 0; i < section.budgets.size(); ++i) {
+  const auto own = own_choice(report);
+  for (std::size_t i = 0; own && i < section.budgets.size(); ++i) {
     const design::PointingBudget& budget = section.budgets[i].budget;
-    const bool met = meets_need(budget, reached_wind_speed(section, section.budgets[i]));
+    const bool met =
+        meets_need(budget, std::min(own->speed_limits.at(i), section.supply_wind_speed));
     std::vector<std::string> names;
     // The first is the case's own.
     for (const auto& choice : report.choices | std::views::drop(1)) {
@@ -83,16 +90,18 @@ std::string guessed_shares_text(const Report& report, const TuningSection& secti
     double beam_rms;
     std::vector<double> reached;  // m/s
   };
-  std::vector<Guess> guesses{{"the case's own", section.design.beam_rms, {}}};
-  for (const auto& budget : section.budgets) {
-    guesses.front().reached.push_back(reached_wind_speed(section, budget));
-  }
-  for (const auto& choice : report.choices) {
-    const auto found = judged(choice);
-    if (!found || !choice.other_shares) continue;
-    Guess guess{"'" + choice.name + "'", found->beam_rms, found->speed_limits};
+  std::vector<Guess> guesses;
+  const auto add = [&](std::string name, const JudgedChoice& found) {
+    Guess guess{std::move(name), found.beam_rms, found.speed_limits};
     for (double& speed : guess.reached) speed = std::min(speed, section.supply_wind_speed);
     guesses.push_back(std::move(guess));
+  };
+  const auto own = own_choice(report);
+  if (!own) return "";
+  add("the case's own", *own);
+  for (const auto& choice : report.choices) {
+    const auto found = judged(choice);
+    if (found && choice.other_shares) add("'" + choice.name + "'", *found);
   }
   std::string verdicts;
   for (std::size_t i = 0; i < section.budgets.size(); ++i) {

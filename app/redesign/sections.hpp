@@ -6,6 +6,8 @@
 
 namespace boresight::app {
 
+struct DesignedAntenna;
+
 struct StudyOptions {
   std::uint64_t seed = 1;
   unsigned threads = 2;
@@ -15,10 +17,12 @@ struct StudyOptions {
 
 IdentificationSection identify(const io::Case& antenna, const StudyOptions& options);
 PlantSection describe_plant(const io::Case& antenna);
-/// Tuning from eight seeds, starting with options.seed, choices, and matching at the case's
-/// flywheel counts and at ratio 1, with and without lag, with the linear plant's friction and with
-/// the curve's slope at the tracking rate: in one pool of work. Fills the report's sections.
-void redesign(const io::Case& antenna, const StudyOptions& options, Report& report);
+/// The controller that study_controllers recommends, where none is fit the least unfit; its search
+/// repeated from eight seeds, starting with options.seed; its structure tuned for other choices of
+/// the plant; and matching at the case's flywheel counts and at ratio 1, of the case's structures
+/// or of PI with and without lag, with the linear plant's friction and with the curve's slope at
+/// the tracking rate. Fills the report's sections.
+void redesign(const DesignedAntenna& designed, const StudyOptions& options, Report& report);
 
 /// A few sentences that say what the numbers mean, from the numbers.
 std::vector<std::string> conclude(const Report& report);

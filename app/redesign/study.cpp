@@ -6,9 +6,10 @@
 
 #include <boresight/app/redesign/choices.hpp>
 #include <boresight/app/redesign/sections.hpp>
+#include <boresight/app/tune/controller_study.hpp>
 #include <boresight/app/tune/engineer_units.hpp>
-#include <boresight/app/tune/position_gain_trade.hpp>
-#include <boresight/design/decisions/recommend.hpp>
+#include <boresight/app/tune/laws_in_time.hpp>
+#include <boresight/app/uncertainty/designed_antenna.hpp>
 #include <boresight/design/problem/pointing.hpp>
 #include <boresight/design/problem/static_bending.hpp>
 #include <boresight/io/case/antenna_of.hpp>
@@ -41,12 +42,29 @@ double ratio_of(const io::Case& antenna, const design::TrackingProblem& problem,
                                     plant::reflected_inertia(problem.plant));
 }
 
-std::vector<design::DesignTask> tuning_tasks(const io::Case& antenna, const StudyOptions& options) {
+// Where none is stable, the first.
+const TunedLaw& recommended_or_first(const ControllerStudy& study) {
+  if (const TunedLaw* law = recommended_or(study, design::Fitness::unstable)) return *law;
+  return *std::ranges::find_if(
+      study.tuned.laws, [](const TunedLaw& row) { return row.tuned_for != TunedFor::present; });
+}
+
+// The search of the recommended controller, from other seeds and without its warm starts.
+std::vector<design::DesignTask> seed_tasks(const DesignedAntenna& designed, const TunedLaw& row,
+                                           const StudyOptions& options) {
+  const io::Case& antenna = designed.antenna;
   std::vector<design::DesignTask> tasks;
   for (int i = 0; i < seed_count; ++i) {
     tasks.push_back(make_task(antenna, options, "as built", io::antenna_of(antenna),
-                              io::loop_structure(antenna, "PI")));
-    tasks.back().options.seed = options.seed + static_cast<std::uint64_t>(i);
+                              row.design.tuning.law.structure));
+    design::DesignTask& task = tasks.back();
+    task.problem.wind.mean_speed = row.wind_speed;
+    if (antenna.goals.over_climate) task.problem.climate = make_climate(antenna);
+    task.options.seed = options.seed + static_cast<std::uint64_t>(i);
+    if (row.tuned_for == TunedFor::robust) {
+      task.options.members = designed.ensemble.members;
+      task.options.soft_goal = make_soft_goal(antenna);
+    }
   }
   return tasks;
 }
@@ -90,36 +108,31 @@ void judge_in_wind(const io::Case& antenna, const design::TrackingProblem& probl
   }
 }
 
-// Of one structure's designs on the nominal plant; where none is stable, the first.
-std::size_t recommended_design(const std::vector<design::Design>& designs) {
-  std::vector<design::Assessment> candidates;
-  for (const auto& one : designs) {
-    design::Assessment candidate;
-    candidate.structure = one.name;
-    candidate.parts = one.tuning.law.structure.gains().size();
-    candidate.stable = one.tuning.status != design::TuningStatus::unstable;
-    candidate.verified = one.verification.passed;
-    candidate.nominal_constraints_met = one.tuning.status == design::TuningStatus::optimal;
-    candidate.linear_rms = one.beam_rms;
-    candidates.push_back(std::move(candidate));
-  }
-  return design::recommend(candidates, {.accepted = design::Fitness::unstable}).winner.value_or(0);
+// The figures of a design that was tuned over the climate, at one wind speed as everywhere here.
+void at_one_speed(const design::TrackingProblem& problem, TuningSection& section) {
+  auto judged = design::assess(problem, section.design.tuning.law, section.goals);
+  judged.tuning = std::move(section.design.tuning);
+  section.design = std::move(judged);
 }
 
 TuningSection tuning_section(const io::Case& antenna, const StudyOptions& options,
-                             const std::vector<design::Design>& designs) {
+                             const TunedLaw& row, const std::vector<design::Design>& repeated) {
   TuningSection section;
-  section.design = designs[recommended_design(designs)];
+  section.structure = row.design.tuning.law.structure;
+  section.name = row.structure;
+  section.tuned_for = row.tuned_for;
+  section.design = row.design;
   section.goals = make_goals(antenna);
-  for (std::size_t i = 0; i < designs.size(); ++i) {
+  for (std::size_t i = 0; i < repeated.size(); ++i) {
     section.seeds.push_back(
-        {options.seed + i, designs[i].beam_rms, designs[i].verification.passed});
-    if (designs[i].verification.passed && designs[i].beam_rms < 1.01 * section.design.beam_rms) {
+        {options.seed + i, repeated[i].beam_rms, repeated[i].verification.passed});
+    if (repeated[i].verification.passed && repeated[i].beam_rms < 1.01 * row.design.beam_rms) {
       ++section.seeds_within_1_percent;
     }
   }
 
   section.problem = make_problem(antenna);
+  section.problem.wind.mean_speed = row.wind_speed;
   const design::TrackingProblem& problem = section.problem;
   section.design_speed = problem.wind.mean_speed;
   section.wind_model = problem.wind.model;
@@ -131,15 +144,23 @@ TuningSection tuning_section(const io::Case& antenna, const StudyOptions& option
   for (const auto& law : present_laws(antenna)) {
     section.present.push_back({law.structure.name(), design::assess(problem, law, section.goals)});
   }
-  if (section.design.tuning.status != design::TuningStatus::unstable) {
+  if (row.stable()) {
+    if (antenna.goals.over_climate) at_one_speed(problem, section);
     judge_in_wind(antenna, problem, section);
-    section.trade = position_gain_trade(antenna, problem, section.design.tuning,
-                                        section.design.beam_rms, section.goals, {});
+    section.trade = row.trade;
     constexpr std::size_t most_effects = 10;
     section.input_effects = input_effects(antenna, section.design.tuning.law, section.goals,
                                           section.design.beam_rms, most_effects, options.threads);
   }
   return section;
+}
+
+std::vector<LoopStructure> matched_structures(const io::Case& antenna) {
+  std::vector<std::string> names = antenna.tuning.structures;
+  if (names.empty()) names = {"PI", "PI-0"};
+  std::vector<LoopStructure> structures;
+  for (const auto& name : names) structures.push_back(io::loop_structure(antenna, name));
+  return structures;
 }
 
 // Every series of the matching study is one task a row.
@@ -190,8 +211,7 @@ MatchingPlan plan_matching(const io::Case& antenna, const StudyOptions& options)
     frictions = {{linear, ""}};
   }
   for (const auto& [friction, name] : frictions) {
-    for (const auto& structure :
-         {io::loop_structure(antenna, "PI"), io::loop_structure(antenna, "PI-0")}) {
+    for (const auto& structure : matched_structures(antenna)) {
       plan.section.series.push_back({name, friction, structure, {}});
       for (const auto& row : plan.section.rows) {
         plan.tasks.push_back(make_task(
@@ -236,22 +256,31 @@ std::optional<std::vector<double>> speed_limits(const io::Case& antenna,
 }
 
 std::vector<design::DesignTask> choice_tasks(const io::Case& antenna, const StudyOptions& options,
-                                             const std::vector<PlantChoice>& choices) {
+                                             const std::vector<PlantChoice>& choices,
+                                             const LoopStructure& structure) {
   std::vector<design::DesignTask> tasks;
   for (const auto& choice : choices) {
     if (!choice.antenna) continue;
-    tasks.push_back(make_task(antenna, options, choice.result.name, *choice.antenna,
-                              io::loop_structure(antenna, "PI")));
+    tasks.push_back(make_task(antenna, options, choice.result.name, *choice.antenna, structure));
   }
   return tasks;
 }
 
 }  // namespace
 
-void redesign(const io::Case& antenna, const StudyOptions& options, Report& report) {
-  const auto tuning = tuning_tasks(antenna, options);
+void redesign(const DesignedAntenna& designed, const StudyOptions& options, Report& report) {
+  const io::Case& antenna = designed.antenna;
+  TuneOptions how;
+  how.seed = options.seed;
+  how.threads = options.threads;
+  how.progress = options.progress;
+  ControllerStudy study =
+      study_controllers(antenna, designed.ensemble, how, ChoiceDetail::verified);
+  const TunedLaw& recommended = recommended_or_first(study);
+  const auto tuning = seed_tasks(designed, recommended, options);
   std::vector<PlantChoice> choices = plant_choices(antenna);
-  const auto chosen_tasks = choice_tasks(antenna, options, choices);
+  const auto chosen_tasks =
+      choice_tasks(antenna, options, choices, recommended.design.tuning.law.structure);
   MatchingPlan matching = plan_matching(antenna, options);
 
   std::vector<design::DesignTask> tasks = tuning;
@@ -261,7 +290,7 @@ void redesign(const io::Case& antenna, const StudyOptions& options, Report& repo
 
   const auto first_choice = designs.begin() + static_cast<std::ptrdiff_t>(tuning.size());
   const auto first_match = first_choice + static_cast<std::ptrdiff_t>(chosen_tasks.size());
-  report.tuning = tuning_section(antenna, options, {designs.begin(), first_choice});
+  report.tuning = tuning_section(antenna, options, recommended, {designs.begin(), first_choice});
   std::vector<design::Design> chosen(first_choice, first_match);
   design::improve_along(chosen_tasks, chosen);
   auto design = chosen.begin();
@@ -274,6 +303,13 @@ void redesign(const io::Case& antenna, const StudyOptions& options, Report& repo
     report.choices.push_back(std::move(choice.result));
   }
   report.matching = finish_matching(std::move(matching), first_match, options.threads);
+  if (study.time_domain && study.time_domain->law == description_of(recommended)) {
+    report.time_domain = std::move(study.time_domain);
+  } else if (recommended.goals_met) {
+    report.time_domain = verify_in_time_domain(
+        antenna, report.tuning->problem, recommended.design.tuning.law, description_of(recommended),
+        options.seed, options.threads, SecondIntegrator::cvodes);
+  }
 }
 
 }  // namespace boresight::app

@@ -59,10 +59,10 @@ std::string robustness_text(const TuningSection& section) {
                        plants);
   }
   const int unstable = plants - section.ensemble->stable;
-  return fmt::format(
-      "It was tuned on one plant: held on {} that may be the true one, it keeps its goals on "
-      "{}{}. `boresight tune` tunes laws to keep them on all.",
-      plants, within, unstable > 0 ? fmt::format(" and is unstable on {}", unstable) : "");
+  return fmt::format("{}eld on {} plants that may be the true one, it keeps its goals on {}{}.",
+                     section.tuned_for == TunedFor::robust ? "H" : "It was tuned on one plant: h",
+                     plants, within,
+                     unstable > 0 ? fmt::format(" and is unstable on {}", unstable) : "");
 }
 
 // On how many plants the needed budgets are met in the wind they are needed up to; `short_of_all`:
@@ -193,10 +193,12 @@ std::vector<std::string> unmet_needs(const TuningSection& section,
                            time_domain->result.wind.beam_rms <= budget.rms;
     if (linear && simulated) continue;
     sentences.push_back(fmt::format(
-        "NOT MET: {} is needed up to {:.3g} m/s{}; as built, with the best {} law found, it {}{}. "
-        "{}",
+        "NOT MET: {} is needed up to {:.3g} m/s{}; as built, with {}, the best of what was tuned, "
+        "it "
+        "{}{}.{}",
         budget_text(budget), *budget.wind_speed,
-        dish_and_mast(section.wind_mast, *budget.wind_speed), control::to_string(section.structure),
+        dish_and_mast(section.wind_mast, *budget.wind_speed),
+        fmt::format("{} ({})", control::to_string(section.structure), to_string(section.tuned_for)),
         met_text(section, result),
         linear
             ? fmt::format(" by the linear plant, but on the nonlinear antenna the law {} in {:.3g} "
@@ -208,8 +210,8 @@ std::vector<std::string> unmet_needs(const TuningSection& section,
                           time_domain->wind_speed)
             : "",
         meets_need(budget, section.supply_wind_speed)
-            ? "`boresight tune` looks for a loop structure that meets it."
-            : "No loop structure changes that: the drive lacks torque."));
+            ? ""
+            : " No loop structure changes that: the drive lacks torque."));
   }
   return sentences;
 }
@@ -247,9 +249,9 @@ void conclude_tuning(const Report& report, const TuningSection& section,
   }
   const bool repeated = 2 * section.seeds_within_1_percent > static_cast<int>(section.seeds.size());
   std::string text = fmt::format(
-      "As built, the best {} law found{} points within {:.3f} mdeg rms an axis in {:.3g} m/s of "
-      "wind",
-      control::to_string(section.structure),
+      "As built, the controller recommended, {} ({}){}, points within {:.3f} mdeg rms an axis in "
+      "{:.3g} m/s of wind",
+      control::to_string(section.structure), to_string(section.tuned_for),
       repeated ? "" : " (not repeated by most seeds: look further)", design.beam_rms / millidegree,
       section.design_speed);
   for (const auto& budget : section.budgets) {
@@ -290,16 +292,17 @@ std::vector<std::string> decide_tuning(const Report& report, const TuningSection
       sentences.push_back(unstable_present_gains(law.structure));
     }
   }
-  const std::string structure(control::to_string(section.structure));
+  const std::string structure =
+      fmt::format("{} ({})", control::to_string(section.structure), to_string(section.tuned_for));
   if (section.design.tuning.status != design::TuningStatus::optimal) {
     sentences.push_back(
-        fmt::format("No {} law meets the hard goals of this case.{}", structure,
+        fmt::format("No controller tuned meets the hard goals of this case.{}",
                     assumed_demand(section.design.tuning, section.demand_assumption)));
     return sentences;
   }
   if (!section.design.verification.passed) {
     sentences.push_back(fmt::format(
-        "The best {} law found fails its verification: decide nothing on it.", structure));
+        "The best controller found, {}, fails its verification: decide nothing on it.", structure));
     return sentences;
   }
   const bool still = !report.time_domain || not_still(*report.time_domain).empty();
@@ -309,7 +312,7 @@ std::vector<std::string> decide_tuning(const Report& report, const TuningSection
       fmt::format("{} {}: it points within {:.3f} mdeg rms an axis in {:.3g} m/s of wind",
                   met && robust && holds && still && sentences.empty()
                       ? "Run the drive as built on"
-                      : "The best law found for the drive as built is",
+                      : "The best controller found for the drive as built is",
                   structure, section.design.beam_rms / millidegree, section.design_speed);
   if (report.time_domain) {
     text += holds ? fmt::format(" ({:.3f} on the nonlinear antenna)",

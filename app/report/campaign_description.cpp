@@ -37,8 +37,7 @@ void describe_record(io::Visitor& v, const RecordNotes& record) {
   v.text("description", record.description, "By the case.");
   v.text("format", record.format, "Of the file.");
   v.count("bytes", record.bytes, "Of the file.");
-  v.text("crc32", fmt::format("{:08x}", record.checksum), "Checksum of the file.",
-         {.pattern = "^[0-9a-f]{8}$"});
+  v.text("sha256", record.sha256, "Digest of the file.", {.pattern = "^[0-9a-f]{64}$"});
   v.count("rows", record.rows, "Samples of the file.");
   v.number("sample_time", record.sample_time, unit::second, "Of the record as used.");
   v.number("duration", record.duration, unit::second, "Of the record as used.");

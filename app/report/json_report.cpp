@@ -20,6 +20,7 @@
 #include <boresight/app/report/sky_units.hpp>
 #include <boresight/app/report/wind_mast.hpp>
 #include <boresight/io/description/pointing_limit_results.hpp>
+#include <boresight/numerics/angles.hpp>
 
 namespace boresight::app {
 namespace {
@@ -32,6 +33,7 @@ Json tuning_json(const TuningSection& section) {
             {"turbulence_intensity_1",
              std::sqrt(plant::gust_variance(gusts, section.design_speed)) / section.design_speed},
             {"wind_torque_coefficient_1", section.wind_site.torque_coefficient},
+            {"tuned_for", to_string(section.tuned_for)},
             {"design", design_json(section.design)},
             {"seeds_within_1_percent", section.seeds_within_1_percent},
             {"encoder_held_rms_mdeg", number(section.encoder_held_rms / millidegree)},

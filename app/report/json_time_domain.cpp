@@ -6,6 +6,7 @@
 #include <boresight/app/report/json_writer.hpp>
 #include <boresight/app/report/sky_units.hpp>
 #include <boresight/io/description/loop_results.hpp>
+#include <boresight/numerics/angles.hpp>
 
 namespace boresight::app {
 namespace {

@@ -7,6 +7,7 @@
 #include <boresight/app/tune/tune_verdict.hpp>
 #include <boresight/design/problem/pointing.hpp>
 #include <boresight/design/problem/pointing_budget.hpp>
+#include <boresight/numerics/angles.hpp>
 
 namespace boresight::app {
 namespace {
@@ -65,6 +66,8 @@ Json limits_json(const design::TuningResult& tuning) {
   return limits;
 }
 
+}  // namespace
+
 Json law_json(const TuneSection& section, const TunedLaw& row) {
   const auto& descriptions = row.design.tuning.law.structure.gains();
   Json gains = Json::array();
@@ -110,8 +113,6 @@ Json law_json(const TuneSection& section, const TunedLaw& row) {
           {"design", row.stable() ? design_json(row.design) : Json(nullptr)},
           {"ensemble", row.ensemble ? ensemble_json(*row.ensemble) : Json(nullptr)}};
 }
-
-}  // namespace
 
 Json tune_json(const TuneSection& section) {
   Json bands = Json::array();

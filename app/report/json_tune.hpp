@@ -8,4 +8,7 @@ namespace boresight::app {
 /// "tuned" of docs/report.schema.json.
 Json tune_json(const TuneSection& section);
 
+/// One of its "laws".
+Json law_json(const TuneSection& section, const TunedLaw& row);
+
 }  // namespace boresight::app

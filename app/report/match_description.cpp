@@ -4,6 +4,7 @@
 
 #include <boresight/app/report/match_report.hpp>
 #include <boresight/app/report/what_if_description.hpp>
+#include <boresight/app/tune/tune_verdict.hpp>
 #include <boresight/io/description/design_results.hpp>
 #include <boresight/io/description/loop_results.hpp>
 #include <boresight/io/description/wind_mast_description.hpp>
@@ -255,6 +256,23 @@ void describe_conditions(io::Visitor& v, const MatchSection& section) {
            "Of the friction curve.", known);
 }
 
+void describe_recommended(io::Visitor& v, const TuneSection& tuned) {
+  const TunedLaw* law = recommended_law(tuned);
+  const TunedLaw example;
+  const TunedLaw& row = law != nullptr ? *law : example;
+  v.group_if("recommended_as_built", law != nullptr,
+             "The controller that tune recommends for the motors as built; null: none. Left out: "
+             "interrupted.",
+             [&] {
+               v.text("structure", row.structure, "Of the controller.");
+               v.word("tuned_for", to_string(row.tuned_for), {"nominal", "robust"},
+                      "For the case's plant alone, or for all of the ensemble.");
+               v.number("design_wind_speed", row.wind_speed, unit::metre_per_second, "Mean.",
+                        known);
+               v.object("design", row.design, "On the case's plant.");
+             });
+}
+
 }  // namespace
 
 void describe(io::Visitor& v, const MatchMargins& cut) {
@@ -282,6 +300,8 @@ void describe(io::Visitor& v, const MatchSection& section) {
   v.optional_members(section.wind_mast, [&](const io::WindMast& mast) {
     v.object("wind_mast", mast, "Where the case names one.");
   });
+  v.optional_members(section.tuned_as_built,
+                     [&](const TuneSection& tuned) { describe_recommended(v, tuned); });
   v.optional_members(section.what_if, [&](const WhatIfTable& table) {
     v.object("what_if", table,
              "The study's robust laws, their gains held, on plants and in winds that they were not "

@@ -70,8 +70,11 @@ struct BudgetResult {
   std::optional<int> plants_met = std::nullopt;
 };
 
+/// The recommended controller at depth.
 struct TuningSection {
   control::LoopStructure structure;
+  std::string name;  // of the structure, as the user has it
+  TunedFor tuned_for = TunedFor::nominal;
   design::TrackingProblem problem;  // what was tuned
   design::HardGoals goals;
   design::Design design;
@@ -102,7 +105,7 @@ struct TuningSection {
   /// Rms of the bending between bull gear and beam that no encoder sees, with the encoder held
   /// perfectly still (rad). Not a bound: a loop can move the encoder against the bending.
   double encoder_held_rms = 0.0;
-  /// Mean wind speed (m/s) at which the supply's torque ends: supply_wind_speed of antenna_model.
+  /// Mean wind speed (m/s) at which the supply's torque ends: io::supply_wind_speed.
   double supply_wind_speed = std::numeric_limits<double>::infinity();
   double static_bending = 0.0;  // rad under the mean wind: calibration's job, not the servo's
   struct BandLoss {

@@ -16,6 +16,7 @@
 #include <boresight/app/report/text_report.hpp>
 #include <boresight/app/report/wind_mast.hpp>
 #include <boresight/io/description/loop_results.hpp>
+#include <boresight/numerics/angles.hpp>
 
 namespace boresight::app {
 namespace {
@@ -190,9 +191,8 @@ Document effects_part(const TuningSection& section) {
 }
 
 std::string tuning_heading(const TuningSection& section) {
-  return fmt::format("Tuned loops: {}, as built, {:.3g} m/s, wind model {}",
-                     control::to_string(section.structure), section.design_speed,
-                     plant::to_string(section.wind_model));
+  return fmt::format("Tuned loops: {}, as built, {:.3g} m/s, wind model {}", section.name,
+                     section.design_speed, plant::to_string(section.wind_model));
 }
 
 Document document_of(const TuningSection& section) {

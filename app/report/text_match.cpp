@@ -8,6 +8,7 @@
 #include <boresight/app/report/match_report.hpp>
 #include <boresight/app/report/sky_units.hpp>
 #include <boresight/io/case/resonating_mode.hpp>
+#include <boresight/numerics/angles.hpp>
 
 namespace boresight::app {
 namespace {

@@ -16,6 +16,7 @@
 #include <boresight/design/problem/pointing_budget.hpp>
 #include <boresight/design/problem/static_bending.hpp>
 #include <boresight/io/case/drive_numbers.hpp>
+#include <boresight/numerics/angles.hpp>
 
 namespace boresight::app {
 namespace {

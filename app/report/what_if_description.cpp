@@ -50,13 +50,13 @@ void describe(io::Visitor& v, const WhatIfTable& table) {
   v.group("start", "The case's own values.", [&] { describe_start(v, table); });
   v.number("friction_slope_at_tracking_rate", rounded(table.tracking_friction, 4), slope_unit,
            "Of the friction curve.", known);
-  v.list("bands", table.bands, "Frequency bands.", [&](const PointingBand& band) {
+  v.list("bands", table.bands, "Frequency bands.", [&](const design::PointingBand& band) {
     v.text("name", band.name, "Its name.");
     v.number("frequency", band.frequency, unit::hertz, "Centre.", known);
     v.number("beamwidth", rounded(band.beamwidth / millidegree, 6), millidegrees,
              "Half-power width of the beam.", known);
   });
-  v.list("budgets", table.budgets, "Pointing budgets.", [&](const PointingBudget& budget) {
+  v.list("budgets", table.budgets, "Pointing budgets.", [&](const design::PointingBudget& budget) {
     v.text("name", budget.name, "Its name.");
     v.text("band", budget.band, "Of which band.");
     v.number("rms", rounded(budget.rms / millidegree, 5), millidegrees, "One axis.", known);

@@ -8,6 +8,7 @@
 #include <boresight/app/simulate/nonlinear_model.hpp>
 #include <boresight/app/simulate/recorder_filter.hpp>
 #include <boresight/io/case/drive_numbers.hpp>
+#include <boresight/numerics/angles.hpp>
 #include <boresight/numerics/error.hpp>
 #include <boresight/plant/integration/feedback_interconnection.hpp>
 #include <boresight/plant/nonlinear/operating_point.hpp>

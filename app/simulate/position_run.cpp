@@ -12,6 +12,7 @@
 #include <boresight/io/case/antenna_of.hpp>
 #include <boresight/io/case/drive_numbers.hpp>
 #include <boresight/io/case/mission_of.hpp>
+#include <boresight/numerics/angles.hpp>
 #include <boresight/numerics/error.hpp>
 #include <boresight/plant/nonlinear/simulation.hpp>
 #include <boresight/plant/wind/wind_time_series.hpp>
@@ -48,41 +49,23 @@ double run_interval(const io::Case& antenna) {
 // Beam rms of the linear design in wind of that mean speed (rad at the sky); none of an unstable
 // one.
 std::optional<double> predicted_rms(const design::TrackingProblem& problem,
-                                    const design::TuningResult& tuned, double mean_speed) {
-  if (mean_speed <= 0.0 || tuned.status == design::TuningStatus::unstable) return std::nullopt;
+                                    const design::TuningResult& judged, double mean_speed) {
+  if (mean_speed <= 0.0 || judged.status == design::TuningStatus::unstable) return std::nullopt;
   if (mean_speed == problem.wind.mean_speed) {
-    return std::sqrt(tuned.evaluation.beam_variance()) / problem.gear_ratio;
+    return std::sqrt(judged.evaluation.beam_variance()) / problem.gear_ratio;
   }
   control::LoopEvaluator evaluator = design::make_evaluator(problem);
-  return design::beam_rms_at_speed(problem, evaluator, evaluator.wind_transmission(tuned.law),
-                                   tuned.evaluation.noise_variance, mean_speed);
+  return design::beam_rms_at_speed(problem, evaluator, evaluator.wind_transmission(judged.law),
+                                   judged.evaluation.noise_variance, mean_speed);
 }
 
-control::LoopStructure structure_of_run(const io::Case& antenna, const SimulatedLaw& asked) {
-  if (asked.law) return asked.law->structure;
-  return asked.structure ? *asked.structure : io::loop_structure(antenna, "PI");
-}
-
-design::TuningResult law_of_run(const io::Case& antenna, const design::TrackingProblem& problem,
-                                const SimulatedLaw& asked) {
-  if (asked.law) return design::assess(problem, *asked.law, make_goals(antenna)).tuning;
-  const auto structure = structure_of_run(antenna, asked);
-  auto tuned = design::tune(problem, structure, make_goals(antenna), {});
-  if (tuned.status != design::TuningStatus::optimal) {
-    throw InfeasibleRequirement(
-        fmt::format("{}: no {} law meets the hard goals, so there is none to simulate",
-                    antenna.path, control::to_string(structure)));
-  }
-  return tuned;
-}
-
-PositionRun run_position_loop(const io::Case& antenna, const SimulatedLaw& asked,
+PositionRun run_position_loop(const io::Case& antenna, const SimulatedController& controller,
                               const Course& course, std::uint64_t seed,
                               const RunProgress& progress) {
   const auto problem = make_problem(antenna);
-  const auto tuned = law_of_run(antenna, problem, asked);
+  const auto judged = design::assess(problem, controller.law, make_goals(antenna)).tuning;
   const auto loop =
-      design::make_simulated_loop(problem, make_nonlinear_antenna(antenna), tuned.law);
+      design::make_simulated_loop(problem, make_nonlinear_antenna(antenna), controller.law);
   design::LoopRunOptions options;
   options.seed = seed;
   options.relative_tolerance = 1e-6;
@@ -94,11 +77,11 @@ PositionRun run_position_loop(const io::Case& antenna, const SimulatedLaw& asked
   }
   auto run = design::run_loop(loop, course.loop, options);
   if (run.status == design::RunStatus::failed) throw NumericalFailure(run.message);
-  return {std::move(run), predicted_rms(problem, tuned, course.mean_wind_speed)};
+  return {std::move(run), predicted_rms(problem, judged, course.mean_wind_speed)};
 }
 
-std::string described(const io::Case& antenna, const SimulatedLaw& asked) {
-  return fmt::format("by {}, {}", structure_of_run(antenna, asked).name(), asked.source);
+std::string described(const SimulatedController& controller) {
+  return fmt::format("by {}, {}", controller.law.structure.name(), controller.source);
 }
 
 double rms_about_mean(const VectorXd& values) {
@@ -208,8 +191,8 @@ WindCourse recorded_wind(const io::Case& antenna, const plant::WindRecord& recor
 
 }  // namespace
 
-PositionRecord run_tracking(const io::Case& antenna, const SimulatedLaw& law, std::uint64_t seed,
-                            const RunProgress& progress) {
+PositionRecord run_tracking(const io::Case& antenna, const SimulatedController& controller,
+                            std::uint64_t seed, const RunProgress& progress) {
   constexpr double settle = 60.0;
   constexpr double measured = 600.0;
   const auto wind = make_problem(antenna).wind;
@@ -226,19 +209,20 @@ PositionRecord run_tracking(const io::Case& antenna, const SimulatedLaw& law, st
       interval,
       VectorXd::LinSpaced(samples, 0.0, rate * interval * static_cast<double>(samples - 1)),
       VectorXd::Constant(samples, rate), VectorXd::Zero(samples), gusts.torque};
-  const auto run = run_position_loop(antenna, law, course, seed, progress);
+  const auto run = run_position_loop(antenna, controller, course, seed, progress);
   PositionRecord record = describe(antenna, run, course);
   judge(record, static_cast<Index>(std::llround(settle / interval)));
   record.predicted_rms = run.predicted_rms;
   record.test = "tracking";
+  record.controller = controller.law;
   record.description = fmt::format("tracking at {:.3g} mdeg/s {} in {}",
                                    antenna.drive.tracking_rate.value / millidegree_at_sky,
-                                   described(antenna, law), gusts.description);
+                                   described(controller), gusts.description);
   return record;
 }
 
-PositionRecord run_slew(const io::Case& antenna, const SimulatedLaw& law, std::uint64_t seed,
-                        const RunProgress& progress) {
+PositionRecord run_slew(const io::Case& antenna, const SimulatedController& controller,
+                        std::uint64_t seed, const RunProgress& progress) {
   constexpr double distance = 1.0 * degree;
   constexpr double still = 5.0;  // s before
   constexpr double hold = 60.0;  // s after
@@ -264,14 +248,15 @@ PositionRecord run_slew(const io::Case& antenna, const SimulatedLaw& law, std::u
       design::shaped_course(limits, sample_time, samples, intervals_per_sample, [&](double t) {
         return control::CommandSample{t > still ? distance * gear : 0.0, 0.0, 0.0};
       });
-  const auto run = run_position_loop(antenna, law, course, seed, progress);
+  const auto run = run_position_loop(antenna, controller, course, seed, progress);
   const Index end = moved * intervals_per_sample;
   const double interval = course.loop.interval;
   PositionRecord record = describe(antenna, run, course);
   record.test = "slew";
+  record.controller = controller.law;
   record.description =
       fmt::format("{:.3g} deg {} at up to {:.3g} deg/s and {:.2g} deg/s2", distance / degree,
-                  described(antenna, law), course.loop.reference_rate.maxCoeff() / (gear * degree),
+                  described(controller), course.loop.reference_rate.maxCoeff() / (gear * degree),
                   limits.acceleration / (gear * degree));
   if (attainable < wanted) {
     record.description += fmt::format(

@@ -9,18 +9,17 @@
 
 namespace boresight::app {
 
-/// Which law a simulated position loop runs on.
-struct SimulatedLaw {
-  /// Tuned for the case's own plant where there is no law; none is PI with lag.
-  std::optional<control::LoopStructure> structure;
-  std::optional<control::ControlLaw> law;
-  std::string source = "tuned now";  // of its gains, in words
+/// The controller that a simulated position loop runs on.
+struct SimulatedController {
+  control::ControlLaw law;
+  std::string source;  // of its gains, in words
 };
 
 /// The antenna under its position loop, in the time domain.
 struct PositionRecord {
   std::string test;
   std::string description;
+  control::ControlLaw controller;
   io::CsvTable record;
   bool complete = true;
   double duration = 0.0;     // s simulated
@@ -45,15 +44,14 @@ struct PositionRecord {
 /// its sampled form (control::AntennaController: feedforward, anti-windup), all noise,
 /// friction, orifices and lines. The controller's sample time is two thirds of the case's delay,
 /// which is one sample of computing and half of one of holding. @throws as run_drive_test, and
-/// InfeasibleRequirement if no law meets the goals or, for a slew, if the supply cannot move the
-/// antenna.
-PositionRecord run_tracking(const io::Case& antenna, const SimulatedLaw& law, std::uint64_t seed,
-                            const RunProgress& progress);
+/// InfeasibleRequirement for a slew if the supply cannot move the antenna.
+PositionRecord run_tracking(const io::Case& antenna, const SimulatedController& controller,
+                            std::uint64_t seed, const RunProgress& progress);
 
 /// One degree through the command preprocessor, at the case's slew rate, or at 0.8 times what the
 /// supply can hold against friction if that is less, and at 0.2 deg/s2, or with half the torque the
 /// supply has left at that rate if that is less, in still air, then 60 s of holding.
-PositionRecord run_slew(const io::Case& antenna, const SimulatedLaw& law, std::uint64_t seed,
-                        const RunProgress& progress);
+PositionRecord run_slew(const io::Case& antenna, const SimulatedController& controller,
+                        std::uint64_t seed, const RunProgress& progress);
 
 }  // namespace boresight::app

@@ -51,7 +51,7 @@ Document position_part(const SimulationReport& report) {
                     in_millidegrees(record.encoder_rms), in_millidegrees(record.beam_mean),
                     settling_text(record), in_millidegrees(record.overshoot)});
   }
-  return heading("Position loop, tuned PI with lag, at the sky (mdeg)") + table(rows);
+  return heading("Position loop, at the sky (mdeg)") + table(rows);
 }
 
 // Friction where the motor first leaves standstill, either way.

@@ -7,6 +7,7 @@
 #include <boresight/io/case/drive_numbers.hpp>
 #include <boresight/io/case/friction_leeway.hpp>
 #include <boresight/io/case/mission_of.hpp>
+#include <boresight/numerics/angles.hpp>
 #include <boresight/numerics/error.hpp>
 
 namespace boresight::app {
@@ -100,9 +101,11 @@ std::optional<TimeDomainSection> verify_in_time_domain(
 std::optional<TimeDomainSection> choose_in_time_domain(const io::Case& antenna,
                                                        const design::TrackingProblem& problem,
                                                        const std::vector<DescribedLaw>& laws,
-                                                       std::uint64_t seed, unsigned threads) {
+                                                       std::uint64_t seed, unsigned threads,
+                                                       ChoiceDetail detail) {
   if (laws.empty()) throw InvalidInput("choose_in_time_domain: expected laws, found none");
   if (!antenna.simulation) return std::nullopt;
+  std::vector<TimeDomainSection> sections;  // their results among the candidates
   std::vector<TimeDomainSection::Candidate> candidates;
   std::vector<design::Assessment> assessments;
   for (const auto& one : laws) {
@@ -112,10 +115,17 @@ std::optional<TimeDomainSection> choose_in_time_domain(const io::Case& antenna,
     assessments.push_back(assessment_of(one, section.result, tightest_budget(antenna)));
     count_budgets(antenna, problem.wind.mean_speed, section.result, assessments.back());
     candidates.push_back({one.description, std::move(section.result)});
+    sections.push_back(std::move(section));
   }
   // What is shown of none that is fit is shown of the least unfit.
   const std::size_t best =
       design::recommend(assessments, {.accepted = design::Fitness::unstable}).winner.value_or(0);
+  if (detail == ChoiceDetail::compared) {
+    TimeDomainSection chosen = std::move(sections[best]);
+    chosen.result = candidates[best].result;
+    if (candidates.size() > 1) chosen.candidates = std::move(candidates);
+    return chosen;
+  }
   auto chosen = verify_in_time_domain(antenna, problem, laws[best].law, laws[best].description,
                                       seed, threads, SecondIntegrator::cvodes);
   if (chosen && candidates.size() > 1) chosen->candidates = std::move(candidates);

@@ -40,6 +40,10 @@ struct TimeDomainSection {
 /// as all other runs together.
 enum class SecondIntegrator { none, cvodes };
 
+/// How closely the controller chosen of several is looked at: as the others were, or as
+/// verify_in_time_domain does with a second integrator, for a report.
+enum class ChoiceDetail { compared, verified };
+
 /// Simulates the law of a problem made from the case (make_problem): 300 s of wind with every
 /// influence switched off in turn, hunting, slow reversals and a slew of one degree at the case's
 /// rate and 0.2 deg/s2, settled within the tightest pointing budget (1 mdeg without one). Some 2 s
@@ -65,13 +69,14 @@ design::Assessment assessment_of(const DescribedLaw& controller,
                                  const design::NonlinearVerification& result, double budget);
 
 /// Of controllers that meet every constraint the one that design::recommend chooses by their
-/// simulations and the budgets required in the problem's wind, whatever its fitness; verified as
-/// above, with the others' results among its candidates. None for a case without a [simulation]
+/// simulations and the budgets required in the problem's wind, whatever its fitness; in that
+/// detail, with the others' results among its candidates. None for a case without a [simulation]
 /// table. @throws InvalidInput without laws; as design::verify_in_time.
 std::optional<TimeDomainSection> choose_in_time_domain(const io::Case& antenna,
                                                        const design::TrackingProblem& problem,
                                                        const std::vector<DescribedLaw>& laws,
-                                                       std::uint64_t seed, unsigned threads);
+                                                       std::uint64_t seed, unsigned threads,
+                                                       ChoiceDetail detail);
 
 /// How many laws are compared on the nonlinear antenna: as verify_in_time_domain has it, but for
 /// the slew and for telling the influences apart.

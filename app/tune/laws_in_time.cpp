@@ -20,14 +20,6 @@ LawInTime judged(const design::NonlinearVerification& result, double error) {
           .hunting_seen = design::hunting_seen(result.hunting)};
 }
 
-const design::NonlinearVerification* found(const TimeDomainSection& section, const TunedLaw& row) {
-  if (section.wind_speed != row.wind_speed) return nullptr;
-  const std::string law = description_of(row);
-  if (section.law == law) return &section.result;
-  const auto one = std::ranges::find(section.candidates, law, &TimeDomainSection::Candidate::law);
-  return one == section.candidates.end() ? nullptr : &one->result;
-}
-
 bool needed(const TuneSection& section, double speed) {
   return std::ranges::any_of(section.budgets, [&](const design::PointingBudget& budget) {
     return budget.wind_speed == speed;
@@ -40,6 +32,14 @@ std::string description_of(const TunedLaw& row) {
   return fmt::format("{}, {}", row.structure, to_string(row.tuned_for));
 }
 
+const design::NonlinearVerification* run_of(const TimeDomainSection& section, const TunedLaw& row) {
+  if (section.wind_speed != row.wind_speed) return nullptr;
+  const std::string law = description_of(row);
+  if (section.law == law) return &section.result;
+  const auto one = std::ranges::find(section.candidates, law, &TimeDomainSection::Candidate::law);
+  return one == section.candidates.end() ? nullptr : &one->result;
+}
+
 void judge_in_time(const io::Case& antenna, const std::optional<TimeDomainSection>& compared,
                    TunedFor purpose, std::uint64_t seed, unsigned threads,
                    const std::function<bool()>& interrupted, TuneSection& section) {
@@ -48,7 +48,7 @@ void judge_in_time(const io::Case& antenna, const std::optional<TimeDomainSectio
   std::vector<TunedLaw*> to_run;
   for (auto& row : section.laws) {
     if (row.tuned_for != purpose || !row.usable()) continue;
-    if (const auto* result = found(*compared, row)) {
+    if (const auto* result = run_of(*compared, row)) {
       row.in_time = judged(*result, error);
     } else if (needed(section, row.wind_speed)) {
       to_run.push_back(&row);

@@ -13,6 +13,9 @@ namespace boresight::app {
 /// What a simulated law is called.
 std::string description_of(const TunedLaw& row);
 
+/// What ran of a design among those of a section; null if nothing did.
+const design::NonlinearVerification* run_of(const TimeDomainSection& section, const TunedLaw& row);
+
 /// Says of each usable law of `purpose` what it does on the nonlinear antenna (TunedLaw::in_time):
 /// at the wind speed of `compared` by what ran there, at the speeds that budgets are needed up to
 /// by runs of their own, some seconds a law; then looks for shortfalls again. Nothing for a case

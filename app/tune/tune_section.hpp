@@ -91,7 +91,7 @@ struct TuneSection {
   std::vector<design::ClimatePart> climate;  // of the site; empty if the case states none
   /// What goals on the valve's demand in gusts rest on where no number of it is stated.
   std::string demand_assumption;
-  /// Mean wind speed (m/s) at which the supply's torque ends (supply_wind_speed of antenna_model):
+  /// Mean wind speed (m/s) at which the supply's torque ends (io::supply_wind_speed):
   /// speed limits do not count it.
   double supply_wind_speed = std::numeric_limits<double>::infinity();
   std::string ensemble_source;  // what its members were drawn from

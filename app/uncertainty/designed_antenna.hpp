@@ -4,6 +4,7 @@
 #include <functional>
 #include <optional>
 
+#include <boresight/app/identify/campaign_section.hpp>
 #include <boresight/app/redesign/resonance_verdict.hpp>
 #include <boresight/app/tune/tune_study.hpp>
 #include <boresight/app/uncertainty/plant_distribution.hpp>
@@ -22,6 +23,11 @@ struct DesignedAntenna {
   /// Of the antenna as stated; none where records show the drive.
   std::optional<ResonanceVerdict> resonance = std::nullopt;
 };
+
+/// What a case's identification makes of it; none: the case as stated. @throws as with_identified.
+DesignedAntenna designed_antenna(const io::Case& stated,
+                                 const std::optional<CampaignSection>& campaign,
+                                 std::uint64_t seed);
 
 /// Identifies a case's records, if it has any. The same for any number of threads.
 /// @throws Interrupted once `interrupted` (may be empty) said yes, as identify_campaign and

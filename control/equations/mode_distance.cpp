@@ -141,8 +141,8 @@ std::vector<ModeDistance::Mode> ModeDistance::unreached_unstable(double toleranc
   for (const Complex eigenvalue : schur_.t.diagonal()) {
     // A cluster of eigenvalues around the boundary has members on its far side.
     if (eigenvalue.imag() < 0.0 || stable(eigenvalue)) continue;
-    Mode mode = test_with_neighbours(eigenvalue, tolerance);
-    if (mode.distance <= tolerance && !stable(mode.eigenvalue)) found.push_back(std::move(mode));
+    const Mode mode = test_with_neighbours(eigenvalue, tolerance);
+    if (mode.distance <= tolerance && !stable(mode.eigenvalue)) found.push_back(mode);
   }
   return found;
 }

@@ -1,8 +1,8 @@
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include <boresight/control/loops/adaptive_panels.hpp>
+#include <boresight/numerics/angles.hpp>
 
 namespace boresight::control {
 
@@ -23,7 +23,7 @@ std::vector<double> places_within(double lowest, double highest,
   std::vector<double> places;
   for (const double frequency : frequencies) {
     if (frequency >= lowest && frequency <= highest) {
-      places.push_back(std::log(2.0 * std::numbers::pi * frequency));
+      places.push_back(std::log(two_pi * frequency));
     }
   }
   return places;

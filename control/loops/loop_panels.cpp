@@ -13,7 +13,6 @@ namespace {
 
 using Complex = std::complex<double>;
 using ChannelValues = std::array<Complex, numerics::pack_size>;
-constexpr double two_pi = 2.0 * std::numbers::pi;
 // In ln w: of the panel that carries what lies below it.
 constexpr double lowest_panel = 1e-3;
 

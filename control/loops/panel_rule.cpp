@@ -18,9 +18,8 @@ PanelRule make_rule() {
   std::ranges::copy(gauss.barycentric, rule.barycentric.begin());
   for (std::size_t i = 0; i < size; ++i) {
     for (std::size_t k = 0; k < 4; ++k) {
-      const auto degree = static_cast<int>(k) + 4;
-      rule.tail[i].set(k,
-                       0.5 * (2.0 * degree + 1.0) * boost::math::legendre_p(degree, rule.node[i]));
+      const auto order = static_cast<int>(k) + 4;
+      rule.tail[i].set(k, 0.5 * (2.0 * order + 1.0) * boost::math::legendre_p(order, rule.node[i]));
     }
   }
   return rule;

@@ -4,6 +4,8 @@
 #include <string>
 #include <string_view>
 
+#include <boresight/numerics/angles.hpp>
+
 namespace boresight::io {
 
 /// The unit in which a described number is written, named by the end of its key:
@@ -33,7 +35,7 @@ inline constexpr KeyUnit second{.suffix = "s"};
 inline constexpr KeyUnit per_second{.suffix = "per_s"};
 /// Of frequencies kept in Hz, and of those kept in rad/s.
 inline constexpr KeyUnit hertz{.suffix = "Hz"};
-inline constexpr KeyUnit hertz_of_radians{.suffix = "Hz", .divisor = 2.0 * std::numbers::pi};
+inline constexpr KeyUnit hertz_of_radians{.suffix = "Hz", .divisor = two_pi};
 inline constexpr KeyUnit radian_per_second{.suffix = "rad_per_s"};
 inline constexpr KeyUnit degree{.suffix = "deg", .divisor = std::numbers::pi / 180.0};
 /// Of angles kept in degrees.

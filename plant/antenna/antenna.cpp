@@ -1,16 +1,14 @@
 #include <cmath>
 #include <initializer_list>
-#include <numbers>
 
 #include <fmt/format.h>
 
+#include <boresight/numerics/angles.hpp>
 #include <boresight/numerics/error.hpp>
 #include <boresight/plant/antenna/antenna.hpp>
 
 namespace boresight::plant {
 namespace {
-
-constexpr double two_pi = 2.0 * std::numbers::pi;
 
 struct Named {
   const char* name;

@@ -1,12 +1,11 @@
-#include <numbers>
 
+#include <boresight/numerics/angles.hpp>
 #include <boresight/plant/antenna/antenna.hpp>
 
 namespace boresight::plant {
 
 Antenna demo_antenna() {
-  constexpr double degree = std::numbers::pi / 180.0;
-  constexpr double revolution = 2.0 * std::numbers::pi;
+  constexpr double revolution = two_pi;
   constexpr double psi = 6894.757293168361;         // Pa
   constexpr double lbf_ft_s2 = 1.3558179483314004;  // kg m2
   constexpr double arc_second = degree / 3600.0;

@@ -25,11 +25,12 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 
 // As many frequencies as are handed over at a time.
 constexpr int lane_count = 8;
+constexpr std::size_t bytes_of_double = sizeof(double);
 
 // Numbers in the work arrays, one Lane after the other, of any alignment.
 template <typename Lane>
 struct Work {
-  static constexpr Eigen::Index width = sizeof(Lane) / sizeof(double);
+  static constexpr Eigen::Index width = sizeof(Lane) / bytes_of_double;
 
   [[gnu::always_inline]] static inline void load(Lane& lane, const double* work, Eigen::Index i) {
     std::memcpy(&lane, work + i * width, sizeof(Lane));

@@ -36,6 +36,8 @@ def refuse_constant(name):
 
 def run(folder, *options, gain="0.2"):
     (folder / "case.toml").write_text(CASE + GAINS.format(gain), encoding="utf-8")
+    if "--controller" not in options:
+        options = ("--gains", "case", *options)
     process = subprocess.run([PROGRAM, "benchmark", "case.toml", "--json", "sheet.json", *options],
                              cwd=folder, capture_output=True, text=True, check=False)
     sheet = json.loads((folder / "sheet.json").read_text(), parse_constant=refuse_constant)

@@ -30,7 +30,7 @@ SECTIONS = {"audit": "audit", "identify": "identification", "model": "plant"}
 SMALL_MATCH = ("--structure", "PI", "--structure", "PI-0", "--points", "4", "--starts", "2")
 # Cheap to evaluate: what is checked is the report, not the search.
 PROPOSALS = [*(f"cases/{BIG}/proposals/{name}.toml" for name in
-               ("half-flywheels", "pressure-feedback")), "--draws", "100", "--starts", "2"]
+               ("half-flywheels", "pressure-feedback")), "--structure", "PI", "--draws", "100", "--starts", "2"]
 # The 70-m case with the tables that only tuning reads: its own loop, present gains, wind climate.
 TUNED = "tuned"
 
@@ -443,7 +443,7 @@ class Redesign(unittest.TestCase):
                 self.assertTrue(design["feasible"])
                 self.assertTrue(design["verified"])
                 self.assertEqual("rate_lag_corner_rad_per_s" in design["gains"],
-                                 design["structure"] == "PI with lag")
+                                 design["structure"] != "PI without lag")
                 for cut, goal in zip(design["loop_breaks"], goals):
                     self.assertLessEqual(cut["sensitivity_peak_1"], goal * (1 + 1e-6))
                     # A peak of S bounds the phase margin from below.
@@ -464,7 +464,7 @@ class Redesign(unittest.TestCase):
         tuning = report("redesign")["tuning"]
         self.assertEqual([seed["seed"] for seed in tuning["seeds"]], list(range(1, 9)))
         best = min(seed["beam_rms_mdeg"] for seed in tuning["seeds"] if seed["verified"])
-        self.assertEqual(tuning["design"]["beam_rms_mdeg"], best)
+        self.assertAlmostEqual(tuning["design"]["beam_rms_mdeg"], best, delta=1e-4 * best)
         held = {model["model"]: model["beam_rms_mdeg"] for model in tuning["wind_models"]}
         self.assertAlmostEqual(held[tuning["wind_model"]], best, delta=1e-6)
         self.assertGreater(tuning["encoder_held_rms_mdeg"], 0.0)
@@ -479,7 +479,8 @@ class Redesign(unittest.TestCase):
         for choice in choices:
             self.assertNotEqual(choice["design"] is None, choice["impossible_because"] is None)
         reference = choices[0]["design"]["beam_rms_mdeg"]
-        self.assertAlmostEqual(reference / found["tuning"]["design"]["beam_rms_mdeg"], 1, delta=0.01)
+        # Tuned for this plant alone.
+        self.assertLess(reference, 1.0001 * found["tuning"]["design"]["beam_rms_mdeg"])
 
     def test_matches_over_all_disks_and_at_ratio_one(self):
         matching = report("redesign")["matching"]

@@ -23,7 +23,7 @@ COMMANDS = {
     "audit": [], "model": [], "identify": [], "redesign": [], "benchmark": [], "commission": [],
     "tune": [], "simulate": ["slow-ramp", "tracking", "--folder", "records"],
     "match": ["--points", "5", "--structure", "PI", "DPF", "--no-variants"],
-    "evaluate": ["--draws", "200", *PROPOSALS], "montecarlo": ["--plants", "500", "--structure", "PI"],
+    "evaluate": ["--structure", "PI", "--draws", "200", *PROPOSALS], "montecarlo": ["--plants", "500", "--structure", "PI"],
 }
 
 

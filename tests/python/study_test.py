@@ -106,6 +106,8 @@ def test_matching_says_what_the_program_says(antenna, program):
     matching = boresight.match(antenna, ["PI-0"], points=4, starts=1, robust=False)
     report = program("match", "--structure", "PI-0", "--points", "4", "--starts", "1", "--nominal",
                      "--no-variants", "--time-domain", "none")
+    # The program adds what tune recommends.
+    del report["matched"]["recommended_as_built"]
     assert matching.to_dict()["matched"] == report["matched"]
     assert np.all(np.diff(matching.disks) > 0)
     assert len(matching.disks) == len(matching.motor_to_load_ratio)

@@ -35,6 +35,9 @@ std::string small_case(const ScratchFolder& folder, const std::string& more = ga
 
 ProgramResult benchmark(const std::string& path, std::vector<std::string> more = {}) {
   std::vector<std::string> arguments{"benchmark", path, "--threads", "1"};
+  const bool named = std::ranges::any_of(
+      more, [](const std::string& one) { return one == "--gains" || one == "--controller"; });
+  if (!named) arguments.insert(arguments.end(), {"--gains", "case"});
   arguments.insert(arguments.end(), more.begin(), more.end());
   return run_program(arguments);
 }
@@ -127,7 +130,7 @@ TEST(Benchmark, SaysWhatItNeeds) {
   const ScratchFolder folder;
   const auto none = benchmark(small_case(folder, ""));
   EXPECT_EQ(none.exit_code, 2);
-  EXPECT_THAT(none.errors, HasSubstr("expected [gains] in the case, or gains by --gains FILE"));
+  EXPECT_THAT(none.errors, HasSubstr("--gains case: expected [gains] in the case, found none"));
   const std::string path = small_case(folder);
   const auto both = benchmark(path, {"--controller", "k.json", "--sampled"});
   EXPECT_EQ(both.exit_code, 2);
@@ -182,7 +185,8 @@ TEST(Benchmark, IsTheSameForAnyNumberOfThreadsAndWritesItsCurves) {
   EXPECT_EQ(sheet.at("score").at("nonlinear").at("hunting").size(), 2U);
   EXPECT_TRUE(assumes(sheet, "simulation.bristle_stiffness"));
   EXPECT_FALSE(assumes(sheet, "recorder.sample_rate"));
-  const auto two = run_program({"benchmark", path, "--threads", "3", "--json", "-"});
+  const auto two =
+      run_program({"benchmark", path, "--gains", "case", "--threads", "3", "--json", "-"});
   EXPECT_EQ(one.output, two.output);
   for (const char* name : {"compliance.csv", "step.csv", "impulse.csv", "winds.csv"}) {
     EXPECT_GT(content_of(folder.file(std::string("curves/") + name)).size(), 200U) << name;
@@ -230,6 +234,7 @@ TEST(Benchmark, InterruptLeavesWhatWasWhole) {
   const ScratchFolder folder;
   BenchmarkArguments arguments;
   arguments.case_path = small_case(folder);
+  arguments.gains = "case";
   int asked = 0;
   const auto report = benchmark_case(arguments, [&] { return ++asked > 1; });
   EXPECT_TRUE(report.interrupted);

@@ -304,7 +304,9 @@ TEST(CaseWind, TracksInAMeasuredWind) {
   EditedCase edited = case_with_record();
   edited.replace("model = \"coherence\"", "model = \"uniform\"");
   const io::Case antenna = edited_case(folder, edited);
-  const auto run = run_tracking(antenna, {}, 1, {});
+  const auto loops = design::tune(make_problem(antenna), io::loop_structure(antenna, "PI"),
+                                  make_goals(antenna), {});
+  const auto run = run_tracking(antenna, {loops.law, "tuned"}, 1, {});
   EXPECT_NEAR(run.duration, 66.0, 0.01);
   EXPECT_THAT(run.description, HasSubstr("wind.csv, mean 8"));
   // The torque in the record is 1/2 rho V^2 A D C at the motor, sample for sample.

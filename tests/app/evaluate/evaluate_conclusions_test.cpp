@@ -14,6 +14,7 @@
 #include <boresight/app/report/evaluate_report.hpp>
 #include <boresight/app/report/sky_units.hpp>
 #include <boresight/design/problem/pointing_budget.hpp>
+#include <boresight/numerics/angles.hpp>
 
 namespace boresight::app {
 namespace {

@@ -32,6 +32,7 @@ EvaluateArguments arguments_of(std::vector<std::string> proposals) {
   EvaluateArguments arguments;
   arguments.case_path = case_path("dss14-70m");
   arguments.proposals = std::move(proposals);
+  arguments.structures = {"PI"};
   arguments.draws = 200;
   arguments.starts = 2;
   arguments.threads = 1;
@@ -201,8 +202,8 @@ TEST(Evaluate, KeepsProposalsThatMissTheirGoals) {
       folder.write("slow.toml", proposal_text("slow valve",
                                               "[drive]\nvalve_frequency = '0.02 Hz'\n"
                                               "valve_damping = '0.01'\n"));
-  const auto run =
-      run_program({"evaluate", case_path("dss14-70m"), slow, "--draws", "100", "--starts", "2"});
+  const auto run = run_program({"evaluate", case_path("dss14-70m"), slow, "--structure", "PI",
+                                "--draws", "100", "--starts", "2"});
   EXPECT_EQ(run.exit_code, 3) << run.errors;
   EXPECT_THAT(run.errors, HasSubstr("boresight: slow valve: "));
   EXPECT_THAT(run.output, HasSubstr("as it is"));
@@ -217,8 +218,8 @@ TEST(Evaluate, EndsWithCode3WhereNoCandidateMeetsANeededBudget) {
                                              "name = \"stated Ka-band need\"\n"
                                              "wind_speed = \"50 m/s\"")
                                     .text());
-  const auto run = run_program({"evaluate", antenna, proposal_path("half-flywheels"), "--draws",
-                                "100", "--starts", "2", "--time-domain", "none"});
+  const auto run = run_program({"evaluate", antenna, proposal_path("half-flywheels"), "--structure",
+                                "PI", "--draws", "100", "--starts", "2", "--time-domain", "none"});
   EXPECT_EQ(run.exit_code, 3) << run.errors;
   EXPECT_THAT(run.errors, HasSubstr(antenna + ": NOT MET: stated Ka-band need"));
 }
@@ -252,8 +253,17 @@ TEST(Evaluate, RefusesBadProposalsBeforeAnyWork) {
   run = run_program({"evaluate", case_path("dss14-70m"), "no-such-file.toml"});
   EXPECT_EQ(run.exit_code, 2);
   EXPECT_THAT(run.errors, HasSubstr("no-such-file.toml: expected a readable file"));
-  run = run_program({"evaluate", case_path("dss14-70m")});
-  EXPECT_EQ(run.exit_code, 2);
+}
+
+TEST(Evaluate, JudgesTheAntennaAsItIsWithoutProposals) {
+  auto arguments = arguments_of({});
+  arguments.time_domain = false;
+  const Report report = evaluate_case(arguments, nullptr);
+  ASSERT_EQ(report.evaluated->candidates.size(), 1U);
+  EXPECT_TRUE(report.evaluated->candidates.front().feasible());
+  EXPECT_FALSE(report.evaluated->decision);
+  EXPECT_TRUE(report.evaluated->not_run.empty());
+  EXPECT_FALSE(report.interrupted);
 }
 
 TEST(Evaluate, TellsWhatWasWholeWhenInterrupted) {

@@ -13,6 +13,7 @@
 #include <boresight/app/report/json_time_domain.hpp>
 #include <boresight/app/simulate/time_domain.hpp>
 #include <boresight/io/case/mission_of.hpp>
+#include <boresight/numerics/angles.hpp>
 
 namespace boresight::app {
 namespace {
@@ -377,14 +378,15 @@ TEST(TimeDomain, ChoosesTheLeastSimulatedRms) {
   const std::vector<DescribedLaw> laws{{"slow", {pi, {0.1, 0.42, 2.6, 3.0, 0.2}}},
                                        {"tuned", {pi, {0.15873, 0.42068, 2.6277, 10.257, 0.23532}}},
                                        {"loses it", {pi, {5.0, 0.42, 2.6, 30.0, 0.2}}}};
-  const auto chosen = choose_in_time_domain(antenna, problem, laws, 1, 2);
+  const auto chosen = choose_in_time_domain(antenna, problem, laws, 1, 2, ChoiceDetail::verified);
   ASSERT_TRUE(chosen);
   EXPECT_EQ(chosen->law, "tuned");
   ASSERT_EQ(chosen->candidates.size(), 3U);
   EXPECT_LT(chosen->candidates[1].result.wind.beam_rms, chosen->candidates[0].result.wind.beam_rms);
   EXPECT_EQ(chosen->candidates[1].result.wind.beam_rms, chosen->result.wind.beam_rms);
   EXPECT_FALSE(chosen->result.wind.influences.empty());
-  EXPECT_THROW(choose_in_time_domain(antenna, problem, {}, 1, 1), InvalidInput);
+  EXPECT_THROW(choose_in_time_domain(antenna, problem, {}, 1, 1, ChoiceDetail::compared),
+               InvalidInput);
 }
 
 TEST(TimeDomain, JsonAloneGivesTheDifferenceFromThePrediction) {

@@ -8,7 +8,6 @@
 #include <nlohmann/json.hpp>
 
 #include <boresight/app/document/document_text.hpp>
-#include <boresight/app/redesign/antenna_model.hpp>
 #include <boresight/app/report/json_writer.hpp>
 #include <boresight/app/report/measured_report.hpp>
 #include <boresight/app/tune/measured_study.hpp>

@@ -276,7 +276,7 @@ TEST(LoopPanels, AgreeWithTheTrapezoidRuleOnAGridOfThousands) {
   LoopEvaluator trapezoid(plant, w,
                           {.delay = reference::delay,
                            .noise = reference::sensor_noise(),
-                           .wind_spectrum = (w / reference::two_pi).unaryExpr([](double f) {
+                           .wind_spectrum = (w / two_pi).unaryExpr([](double f) {
                              return reference::motor_wind_spectrum(f);
                            })});
   LoopEvaluator panels = antenna_evaluator(reference_quadrature());

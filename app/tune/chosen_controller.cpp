@@ -2,11 +2,11 @@
 #include <fstream>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
-#include <boresight/app/montecarlo/held_law.hpp>
+#include <boresight/app/tune/chosen_controller.hpp>
 #include <boresight/app/tune/engineer_units.hpp>
-#include <boresight/app/tune/tuned_assessment.hpp>
 #include <boresight/io/exchange/reported_controller.hpp>
 #include <boresight/io/files/input_files.hpp>
 #include <boresight/numerics/error.hpp>
@@ -61,7 +61,7 @@ control::LoopStructure structure_named(const io::Case& antenna, const std::strin
   return io::loop_structure(antenna, name);
 }
 
-HeldLaw present_law(const io::Case& antenna, const std::string& structure) {
+ChosenController present_controller(const io::Case& antenna, const std::string& structure) {
   for (const auto& law : present_laws(antenna)) {
     if (structure.empty() || law.structure == io::loop_structure(antenna, structure)) {
       return {law, structure.empty() ? law.structure.name() : structure,
@@ -73,8 +73,8 @@ HeldLaw present_law(const io::Case& antenna, const std::string& structure) {
                   structure.empty() ? "" : fmt::format(" of the structure {}", structure)));
 }
 
-HeldLaw law_of_report(const io::Case& antenna, const std::string& path,
-                      const std::string& structure) {
+ChosenController controller_of_report(const io::Case& antenna, const std::string& path,
+                                      const std::string& structure) {
   std::ifstream file(path, std::ios::binary);
   const std::string text{std::istreambuf_iterator<char>(file), {}};
   if (!file) refuse(path, "no file that can be read");
@@ -105,33 +105,27 @@ HeldLaw law_of_report(const io::Case& antenna, const std::string& path,
   }
 }
 
-std::optional<HeldLaw> named_law(const io::Case& antenna, const std::string& gains,
-                                 const std::string& structure) {
+std::optional<ChosenController> named_controller(const io::Case& antenna, const std::string& gains,
+                                                 const std::string& structure) {
   if (gains == "tuned") return std::nullopt;
-  return gains == "case" ? present_law(antenna, structure)
-                         : law_of_report(antenna, gains, structure);
+  return gains == "case" ? present_controller(antenna, structure)
+                         : controller_of_report(antenna, gains, structure);
 }
 
-HeldLaw tuned_law(const io::Case& antenna, const PlantEnsemble& ensemble,
-                  const std::string& structure, std::uint64_t seed, unsigned threads,
-                  const std::function<bool()>& interrupted) {
-  TuneOptions options;
-  options.structures = {structure};
-  options.wind_speeds = {antenna.wind.design_speed.value};
-  options.seed = seed;
-  options.threads = threads;
-  options.interrupted = interrupted;
-  const TuneSection section = tune_structures(antenna, ensemble, options);
-  if (interrupted && interrupted()) throw Interrupted("interrupted while tuning the law to hold");
-  const TunedLaw* best =
-      recommended_at(section, options.wind_speeds.front(), true, {.accepted = usable});
+ChosenController recommended_controller(const io::Case& antenna, const PlantEnsemble& ensemble,
+                                        const TuneOptions& options) {
+  const ControllerStudy study = study_controllers(antenna, ensemble, options);
+  if (options.interrupted && options.interrupted()) {
+    throw Interrupted("interrupted while tuning the controller");
+  }
+  const TunedLaw* best = recommended_or(study, usable);
   if (best == nullptr) {
     throw InfeasibleRequirement(
-        fmt::format("montecarlo: no law of {} keeps the antenna stable; name "
-                    "another with --structure or gains with --gains",
-                    structure));
+        fmt::format("{}: no controller of {} keeps the antenna stable; name other structures with "
+                    "--structure or gains with --gains",
+                    antenna.path, fmt::join(study.tuned.structures, ", ")));
   }
-  return {best->design.tuning.law, structure,
+  return {best->design.tuning.law, best->structure,
           best->tuned_for == TunedFor::nominal
               ? fmt::format("tuned now at {:g} m/s, for the nominal plant: no robust design meets "
                             "its goals on all {} plants",

@@ -1,0 +1,111 @@
+#include <string>
+#include <vector>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "app/program_run.hpp"
+#include "io/edited_case.hpp"
+#include <boresight/app/commands/benchmark_command.hpp>
+#include <boresight/app/commands/commission_command.hpp>
+#include <boresight/app/commands/simulate_command.hpp>
+#include <boresight/app/montecarlo/montecarlo_study.hpp>
+#include <boresight/app/tune/controller_study.hpp>
+#include <boresight/app/tune/tune_verdict.hpp>
+#include <boresight/app/uncertainty/designed_antenna.hpp>
+
+namespace boresight::app {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+// Two structures and a small ensemble, so that a tuning takes a moment.
+constexpr std::string_view small_study =
+    "\n[ensemble]\ndraws = 1\n\n[tuning]\nstructures = [\"PI\", \"DPF\"]\nstarts = 2\n";
+
+std::string before(const std::string& text, std::string_view mark) {
+  return text.substr(0, text.find(mark));
+}
+
+// Three antennas: one with a nonlinear model, one from drawings alone, a small dish in azimuth.
+std::vector<std::string> antennas() {
+  const std::string dish =
+      content_of(BORESIGHT_SOURCE_DIR "/tests/data/campaigns/small-dish/case.toml");
+  return {EditedCase().text() + std::string(small_study),
+          EditedCase("dss14-64m").text() + std::string(small_study),
+          before(dish, "[instruments]") + std::string(small_study)};
+}
+
+Json answer(const std::vector<std::string>& arguments, const ScratchFolder& folder) {
+  std::vector<std::string> all = arguments;
+  all.insert(all.end(), {"--json", folder.file("answer.json"), "--threads", "2"});
+  const ProgramResult result = run_program(all);
+  EXPECT_THAT(result.exit_code, testing::AnyOf(0, 3)) << arguments.front() << result.errors;
+  return Json::parse(content_of(folder.file("answer.json")));
+}
+
+Json recommended_row(const Json& tuned) {
+  for (const auto& row : tuned.at("laws")) {
+    if (row.at("recommended").get<bool>()) return row;
+  }
+  return nullptr;
+}
+
+std::vector<double> numbers_in(const Json& gains) {
+  std::vector<double> numbers;
+  for (const auto& item : gains.items()) numbers.push_back(item.value().get<double>());
+  return numbers;
+}
+
+TEST(ControllerStudy, EveryCommandPutsTheSameControllerOnAnAntenna) {
+  for (const std::string& text : antennas()) {
+    const ScratchFolder folder;
+    const std::string path = folder.write("case.toml", text);
+    const bool nonlinear = text.find("[simulation]") != std::string::npos;
+    const Json row = recommended_row(answer({"tune", path}, folder).at("tuned"));
+    ASSERT_FALSE(row.is_null());
+    const Json& gains = row.at("design").at("gains");
+    const std::vector<double> expected = numbers_in(gains);
+    SCOPED_TRACE(row.at("structure").get<std::string>());
+
+    const Json redesign = answer({"redesign", path}, folder).at("tuning");
+    EXPECT_EQ(redesign.at("design").at("gains"), gains);
+    EXPECT_EQ(redesign.at("tuned_for"), row.at("tuned_for"));
+    const Json match = answer(
+        {"match", path, "--points", "4", "--starts", "1", "--no-variants", "--time-domain", "none"},
+        folder);
+    EXPECT_EQ(match.at("matched").at("recommended_as_built").at("design").at("gains"), gains);
+    const Json evaluated = answer({"evaluate", path}, folder).at("evaluated");
+    const Json& as_it_is = evaluated.at("candidates").at(0);
+    EXPECT_EQ(as_it_is.at("chosen_structure"), row.at("structure"));
+    for (const auto& law : as_it_is.at("laws")) {
+      if (law.at("structure") == row.at("structure")) {
+        EXPECT_EQ(law.at("design").at("gains"), gains);
+      }
+    }
+    const Json held = answer({"montecarlo", path, "--plants", "4"}, folder).at("law").at("gains");
+    ASSERT_EQ(held.size(), expected.size());
+    for (std::size_t i = 0; i < held.size(); ++i) EXPECT_EQ(held[i].at("value"), expected[i]);
+
+    BenchmarkArguments benchmark;
+    benchmark.case_path = path;
+    benchmark.threads = 2;
+    EXPECT_EQ(benchmark_case(benchmark, {}).controller.law->gains, expected);
+    CommissionArguments commission;
+    commission.case_path = path;
+    commission.options.threads = 2;
+    EXPECT_EQ(commission_case(commission, {}).plan.stages.back().law.law.gains, expected);
+    if (!nonlinear) continue;
+    SimulateArguments simulate;
+    simulate.case_path = path;
+    simulate.tests = {"slew"};
+    simulate.folder = folder.file("records");
+    simulate.threads = 2;
+    const auto record = simulate_tests(simulate, [] { return false; }).report.position.front();
+    EXPECT_EQ(record.controller.gains, expected);
+  }
+}
+
+}  // namespace
+}  // namespace boresight::app

@@ -41,11 +41,11 @@ std::vector<Record> simulate(const io::Case& antenna, const std::string& test, s
     }
     if (records.empty()) {
       const auto designed = app::designed_antenna(antenna, seed, app::all_or(0), stop);
-      app::TuneOptions options;
+      design::TuneOptions options;
       options.seed = seed;
       options.threads = app::all_or(0);
       options.interrupted = stop;
-      const auto chosen = app::recommended_controller(designed.antenna, designed.ensemble, options);
+      const auto chosen = app::recommended_controller(designed, options);
       const app::SimulatedController controller{chosen.law, chosen.source};
       auto run = test == "slew" ? app::run_slew(antenna, controller, seed, progress)
                                 : app::run_tracking(antenna, controller, seed, progress);

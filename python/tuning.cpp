@@ -10,9 +10,9 @@
 #include <boresight/app/commands/subcommand.hpp>
 #include <boresight/app/redesign/assumed_inputs.hpp>
 #include <boresight/app/tune/asked_structures.hpp>
-#include <boresight/app/tune/controller_study.hpp>
 #include <boresight/app/tune/tune_verdict.hpp>
 #include <boresight/app/uncertainty/designed_antenna.hpp>
+#include <boresight/design/studies/controller_study.hpp>
 #include <boresight/io/description/loop_results.hpp>
 #include <boresight/python/bindings.hpp>
 #include <boresight/python/described_class.hpp>
@@ -32,28 +32,29 @@ struct Tuning : Found {
   }
 };
 
-Tuning tune(io::Case antenna, std::vector<std::string> structures, std::vector<double> wind_speeds,
-            const std::map<std::string, std::string>& goals, int starts, std::uint64_t seed,
-            unsigned threads) {
+Tuning tune(io::Case antenna, const std::vector<std::string>& structures,
+            std::vector<double> wind_speeds, const std::map<std::string, std::string>& goals,
+            int starts, std::uint64_t seed, unsigned threads) {
   std::vector<std::string> changes;
   for (const auto& [key, value] : goals) changes.push_back(fmt::format("{}={}", key, value));
   io::change_goals(antenna.goals, changes);
-  if (!structures.empty()) app::asked_structures(antenna, structures);
+  app::asked_structures(antenna, structures);
   Tuning result{{report_of(antenna, "tune", seed)}};
   auto study = interruptible([&](const StopRequest& stop) {
     auto designed = app::designed_antenna(antenna, seed, app::all_or(threads), stop);
     antenna = std::move(designed.antenna);
-    app::TuneOptions options;
-    options.structures = std::move(structures);
+    design::TuneOptions options;
+    options.structures = app::asked_structures(antenna, structures);
     options.wind_speeds = std::move(wind_speeds);
     options.starts = starts;
     options.seed = seed;
     options.threads = app::all_or(threads);
     options.interrupted = stop;
-    return app::study_controllers(antenna, designed.ensemble, options, app::ChoiceDetail::verified);
+    return study_controllers(designed.mission, designed.ensemble, options,
+                             design::ChoiceDetail::verified);
   });
-  result.report.tuned = std::move(study.tuned);
-  result.report.time_domain = std::move(study.time_domain);
+  result.report.tuned = app::section_of(antenna, std::move(study.tuned));
+  result.report.time_domain = app::section_of(antenna, std::move(study.time_domain));
   result.report.assumed =
       app::assumed_inputs(antenna, {.time_runs = result.report.time_domain.has_value()});
   result.report.conclusions = app::conclude(*result.report.tuned);
@@ -156,7 +157,7 @@ void add_tuning(py::module_& module) {
       .def_property_readonly(
           "best",
           [](const Tuning& tuning) -> std::optional<TunedLaw> {
-            const TunedLaw* best = app::recommended_law(tuning.section());
+            const TunedLaw* best = recommended_law(tuning.section());
             if (best == nullptr) return std::nullopt;
             return *best;
           },

@@ -2,22 +2,22 @@
 #include <fmt/ranges.h>
 
 #include <boresight/app/audit/plausibility_checks.hpp>
-#include <boresight/app/tune/plant_members.hpp>
+#include <boresight/io/case/member_ranges.hpp>
 
 namespace boresight::app {
 
 void check_ensemble_ranges(const CaseNumbers& numbers, Implausibilities& found) {
   const io::Case& antenna = numbers.antenna;
   const io::EnsembleEntry& ensemble = antenna.ensemble;
-  const MemberRanges ranges = member_ranges(antenna);
-  const MemberRanges spread = spread_of_stated(antenna);
+  const design::MemberRanges ranges = member_ranges(antenna);
+  const design::MemberRanges spread = spread_of_stated(antenna);
   const double leakage = antenna.drive.leakage_rate.value;
   std::vector<std::string> narrow;
   std::string first;
   std::vector<NamedNumber> ends;
   const auto check = [&](const std::optional<io::RangeEntry>& stated, const char* key,
-                         const char* number, const MemberRanges::Ends& range,
-                         const MemberRanges::Ends& least, double scale) {
+                         const char* number, const design::Ends& range, const design::Ends& least,
+                         double scale) {
     if (!stated || (range.lower <= least.lower && range.upper >= least.upper)) return;
     if (narrow.empty()) first = fmt::format("ensemble.{}", key);
     narrow.push_back(

@@ -5,8 +5,9 @@
 #include <fmt/format.h>
 
 #include <boresight/app/audit/plausibility_checks.hpp>
+#include <boresight/io/case/antenna_of.hpp>
 #include <boresight/io/case/drive_numbers.hpp>
-#include <boresight/io/case/loaded_drive.hpp>
+#include <boresight/plant/nonlinear/drive_capability.hpp>
 
 namespace boresight::app {
 namespace {
@@ -34,12 +35,12 @@ std::vector<Stroke> strokes_of(const io::Case& antenna) {
   return strokes;
 }
 
-io::LoadedDrive loaded_drive(const CaseNumbers& numbers) {
-  return {numbers.antenna, numbers.oil_stiffness, numbers.supply_torque};
+plant::LoadedDrive loaded_drive(const CaseNumbers& numbers) {
+  return {drive_of(numbers.antenna), numbers.oil_stiffness, numbers.supply_torque};
 }
 
 // Of the excess at the slew rate.
-double uncertainty(const CaseNumbers& numbers, const io::LoadedDrive& drive,
+double uncertainty(const CaseNumbers& numbers, const plant::LoadedDrive& drive,
                    const io::Quantity& stroke) {
   const double square = std::pow(numbers.slew_rate_at_motor / stroke.value, 2);
   const double of_share =
@@ -68,7 +69,7 @@ void check_without_load(const CaseNumbers& numbers, const Stroke& stroke, Implau
 void check_under_load(const CaseNumbers& numbers, const Stroke& stroke, Implausibilities& found) {
   // That the supply cannot turn the motors so fast with any valve is said of the friction.
   if (friction_stops_slewing(numbers)) return;
-  const io::LoadedDrive drive = loaded_drive(numbers);
+  const plant::LoadedDrive drive = loaded_drive(numbers);
   const double slewing = numbers.slew_rate_at_motor;
   if (drive.excess(slewing, stroke.rate.value) <= 2.0 * uncertainty(numbers, drive, stroke.rate)) {
     return;

@@ -10,11 +10,11 @@
 #include <boresight/app/redesign/sections.hpp>
 #include <boresight/app/report/json_report.hpp>
 #include <boresight/app/report/sky_units.hpp>
-#include <boresight/app/tune/engineer_units.hpp>
 #include <boresight/control/controllers/sampled_law.hpp>
 #include <boresight/control/loops/state_space_controller.hpp>
 #include <boresight/io/case/drive_numbers.hpp>
 #include <boresight/io/case/mission_of.hpp>
+#include <boresight/io/case/present_gains.hpp>
 #include <boresight/numerics/angles.hpp>
 #include <boresight/numerics/error.hpp>
 
@@ -23,14 +23,14 @@ namespace {
 
 // Attitudes of the protocol that the table covers: every 45 degrees of yaw at every 20 of elevation
 // from 10.
-std::vector<design::WindAttitudeCoefficient> attitudes_of(const io::Case& antenna) {
+std::vector<design::WindAttitudeCoefficient> attitudes_of(const design::Mission& mission) {
   std::vector<design::WindAttitudeCoefficient> attitudes;
-  if (!antenna.wind.torque_table) return attitudes;
+  if (!mission.torque_table) return attitudes;
   for (int elevation = 10; elevation <= 90; elevation += 20) {
     for (int yaw = -135; yaw <= 180; yaw += 45) {
       try {
         attitudes.push_back({fmt::format("yaw {} deg, elevation {} deg", yaw, elevation),
-                             antenna.wind.torque_table->at(yaw * degree, elevation * degree)});
+                             mission.torque_table->at(yaw * degree, elevation * degree)});
       } catch (const InvalidInput&) {
         continue;  // outside the table
       }
@@ -39,9 +39,9 @@ std::vector<design::WindAttitudeCoefficient> attitudes_of(const io::Case& antenn
   return attitudes;
 }
 
-bool is_present(const control::ControlLaw& law, const io::Case& antenna) {
-  return std::ranges::any_of(present_laws(antenna), [&](const control::ControlLaw& present) {
-    return present.structure == law.structure && present.gains == law.gains;
+bool is_present(const control::ControlLaw& law, const design::Mission& mission) {
+  return std::ranges::any_of(mission.present_controllers, [&](const auto& present) {
+    return present.law.structure == law.structure && present.law.gains == law.gains;
   });
 }
 
@@ -60,24 +60,25 @@ BenchmarkedController controller_of(const control::ControlLaw& law, const std::s
 BenchmarkReport benchmark(const DesignedAntenna& designed, const BenchmarkedController& controller,
                           const BenchmarkOptions& options) {
   const io::Case& antenna = designed.antenna;
-  const design::TrackingProblem problem = make_problem(antenna);
+  const design::Mission& mission = designed.mission;
+  const design::TrackingProblem problem = tracking_problem(mission);
   BenchmarkReport report;
   report.case_path = antenna.path;
   report.title = antenna.title;
   report.axis = antenna.axis;
   report.seed = options.seed;
   report.controller = controller;
-  report.present_gains = controller.law && is_present(*controller.law, antenna);
+  report.present_gains = controller.law && is_present(*controller.law, mission);
   const double sample_time = controller.system.sample_time;
   report.dead_time = sample_time > 0.0 ? sample_time : problem.delay;
   report.gear_ratio = problem.gear_ratio;
   report.wind = problem.wind;
   report.rms_band = problem.rms_band;
-  report.goals = make_goals(antenna);
-  report.budgets = make_budgets(antenna);
+  report.goals = constraints(mission);
+  report.budgets = mission.budgets;
   report.from_records = designed.from_records;
-  report.ensemble_source = designed.ensemble.source;
-  const double expected = io::sample_time_of(problem.delay);
+  report.ensemble_source = to_string(designed.ensemble.source);
+  const double expected = control::sample_time_of(problem.delay);
   if (sample_time > 0.0 && std::abs(sample_time - expected) > 1e-6 * expected) {
     report.controller.remarks.push_back(
         fmt::format("warning: the controller samples every {:g} s, the case's delay of {:g} s "
@@ -87,7 +88,7 @@ BenchmarkReport benchmark(const DesignedAntenna& designed, const BenchmarkedCont
   }
 
   design::RejectionOptions scoring;
-  scoring.attitudes = attitudes_of(antenna);
+  scoring.attitudes = attitudes_of(mission);
   scoring.members = designed.ensemble.members;
   for (const auto& budget : report.budgets) scoring.budgets.push_back(budget.rms);
   scoring.sample_time = expected;
@@ -131,9 +132,10 @@ BenchmarkReport benchmark(const DesignedAntenna& designed, const BenchmarkedCont
   } else if (!antenna.simulation) {
     report.no_time_domain = "the case has no [simulation]";
   } else {
-    report.time_domain = verify_in_time_domain(antenna, problem, *report.controller.law,
-                                               report.controller.description, options.seed,
-                                               options.threads, SecondIntegrator::none);
+    report.time_domain =
+        section_of(antenna, verify_in_time_domain(mission, problem, *report.controller.law,
+                                                  report.controller.description, options.seed,
+                                                  options.threads, design::SecondIntegrator::none));
   }
   report.assumed = assumed_inputs(antenna, {.time_runs = report.time_domain.has_value()});
   return report;

@@ -9,9 +9,10 @@
 #include <boresight/app/figures/benchmark_figures.hpp>
 #include <boresight/app/page/report_page.hpp>
 #include <boresight/app/report/json_report.hpp>
+#include <boresight/app/tune/asked_structures.hpp>
 #include <boresight/app/tune/chosen_controller.hpp>
-#include <boresight/app/tune/engineer_units.hpp>
 #include <boresight/io/case/drive_numbers.hpp>
+#include <boresight/io/case/present_gains.hpp>
 #include <boresight/io/exchange/controller_file.hpp>
 #include <boresight/io/files/input_files.hpp>
 #include <boresight/io/files/write_atomically.hpp>
@@ -61,13 +62,15 @@ BenchmarkedController recommended_one(const BenchmarkArguments& arguments,
                                       const DesignedAntenna& designed, double sample_time,
                                       const std::function<bool()>& interrupted) {
   ProgressLine progress("tuning and verifying");
-  TuneOptions options;
-  if (!arguments.structure.empty()) options.structures = {arguments.structure};
+  design::TuneOptions options;
+  if (!arguments.structure.empty()) {
+    options.structures = asked_structures(designed.antenna, {arguments.structure});
+  }
   options.seed = arguments.seed;
   options.threads = arguments.threads;
   options.progress = [&](std::size_t done, std::size_t all) { progress.show(done, all); };
   options.interrupted = interrupted;
-  const auto chosen = recommended_controller(designed.antenna, designed.ensemble, options);
+  const auto chosen = recommended_controller(designed, options);
   return controller_of(
       chosen.law, fmt::format("{}, {}", chosen.law.structure.name(), chosen.source), sample_time);
 }
@@ -88,7 +91,7 @@ BenchmarkReport benchmark_case(const BenchmarkArguments& arguments,
   arguments.outputs.require_writable();
   if (!arguments.export_path.empty()) io::require_writable(arguments.export_path);
   const double sample_time =
-      arguments.sampled ? io::sample_time_of(antenna.controller_delay.value) : 0.0;
+      arguments.sampled ? control::sample_time_of(antenna.controller_delay.value) : 0.0;
   const auto named = named_one(arguments, antenna, sample_time);
   const std::string other =
       arguments.compare_path.empty() ? std::string() : text_of(arguments.compare_path);

@@ -48,7 +48,7 @@ CommissionReport commission_case(const CommissionArguments& arguments,
   };
   const DesignedAntenna designed = designed_antenna(io::read_case(arguments.case_path),
                                                     options.seed, options.threads, interrupted);
-  return plan_commission(designed.antenna, designed.ensemble, options);
+  return plan_commission(designed, options);
 }
 
 Subcommand add_commission(CLI::App& program) {

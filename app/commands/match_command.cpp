@@ -15,8 +15,9 @@
 #include <boresight/app/redesign/sections.hpp>
 #include <boresight/app/report/json_report.hpp>
 #include <boresight/app/report/text_report.hpp>
-#include <boresight/app/tune/controller_study.hpp>
+#include <boresight/app/tune/asked_structures.hpp>
 #include <boresight/app/uncertainty/designed_antenna.hpp>
+#include <boresight/design/studies/controller_study.hpp>
 #include <boresight/io/case/friction_leeway.hpp>
 #include <boresight/io/files/write_atomically.hpp>
 #include <boresight/numerics/error.hpp>
@@ -43,11 +44,13 @@ int run(const Arguments& arguments) {
   options.variants = !arguments.no_variants;
   Report report = begin_report("match", antenna, arguments.case_path, options.seed);
   watch_for_interrupt();
-  PlantEnsemble ensemble;
+  design::Mission mission;
+  design::PlantEnsemble ensemble;
   try {
     DesignedAntenna designed =
         designed_antenna(antenna, arguments.ensemble_seed, options.threads, interrupt_requested);
     antenna = std::move(designed.antenna);
+    mission = std::move(designed.mission);
     report.resonance = designed.resonance;
     ensemble = std::move(designed.ensemble);
   } catch (const Interrupted&) {
@@ -66,8 +69,8 @@ int run(const Arguments& arguments) {
     report.matched = match_motors(
         antenna, arguments.nominal ? std::vector<design::EnsembleMember>() : ensemble.members,
         options);
-    TuneOptions tuning;
-    tuning.structures = options.structures;
+    design::TuneOptions tuning;
+    tuning.structures = asked_structures(antenna, options.structures);
     tuning.seed = options.seed;
     tuning.threads = options.threads;
     tuning.interrupted = options.interrupted;
@@ -75,8 +78,10 @@ int run(const Arguments& arguments) {
       options.progress("tuning as built", finished, all);
     };
     if (!interrupt_requested()) {
-      ControllerStudy study = study_controllers(antenna, ensemble, tuning);
-      if (!interrupt_requested()) report.matched->tuned_as_built = std::move(study.tuned);
+      design::ControllerStudy study = study_controllers(mission, ensemble, tuning);
+      if (!interrupt_requested()) {
+        report.matched->tuned_as_built = section_of(antenna, std::move(study.tuned));
+      }
     }
   }
   report.interrupted = interrupt_requested();

@@ -18,10 +18,10 @@
 #include <boresight/app/redesign/tuning_verdict.hpp>
 #include <boresight/app/report/json_report.hpp>
 #include <boresight/app/report/text_report.hpp>
-#include <boresight/app/tune/budgets_on_plants.hpp>
-#include <boresight/app/tune/plant_members.hpp>
 #include <boresight/app/uncertainty/designed_antenna.hpp>
+#include <boresight/design/ensembles/budgets_on_plants.hpp>
 #include <boresight/design/ensembles/plant_ensemble.hpp>
+#include <boresight/design/ensembles/plant_members.hpp>
 #include <boresight/design/problem/pointing_budget.hpp>
 #include <boresight/io/case/mission_of.hpp>
 #include <boresight/io/files/write_atomically.hpp>
@@ -56,7 +56,7 @@ void fill_identification(const io::Case& antenna, const StudyOptions& options, R
 
 // The tuned law on other plants that may be the true one: those that the records leave open,
 // without records those of the case.
-void judge_on_ensemble(const io::Case& antenna, const io::Case& designed,
+void judge_on_ensemble(const io::Case& antenna, const design::Mission& designed,
                        const StudyOptions& options, const std::optional<CampaignSection>& campaign,
                        TuningSection& section) {
   if (section.design.tuning.status == design::TuningStatus::unstable) return;
@@ -94,7 +94,7 @@ void fill_redesign(const io::Case& antenna, const StudyOptions& options, Report&
   redesign(plant, options, report);
   if (report.time_domain) report.assumed = assumed_inputs(designed, {.time_runs = true});
   if (report.tuning) {
-    judge_on_ensemble(antenna, designed, options, report.campaign, *report.tuning);
+    judge_on_ensemble(antenna, plant.mission, options, report.campaign, *report.tuning);
   }
   report.conclusions = conclude(report);
 }

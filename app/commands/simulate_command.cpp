@@ -22,6 +22,7 @@
 #include <boresight/app/redesign/sections.hpp>
 #include <boresight/app/report/json_report.hpp>
 #include <boresight/app/simulate/antenna_tests.hpp>
+#include <boresight/app/tune/asked_structures.hpp>
 #include <boresight/app/tune/chosen_controller.hpp>
 #include <boresight/app/uncertainty/designed_antenna.hpp>
 #include <boresight/io/case/drive_numbers.hpp>
@@ -67,14 +68,16 @@ SimulatedController controller_of(const io::Case& antenna, const SimulateArgumen
   if (auto named = named_controller(antenna, arguments.gains, arguments.structure)) {
     return {std::move(named->law), std::move(named->source)};
   }
-  TuneOptions options;
-  if (!arguments.structure.empty()) options.structures = {arguments.structure};
+  const DesignedAntenna designed =
+      designed_antenna(antenna, arguments.seed, arguments.threads, interrupted);
+  design::TuneOptions options;
+  if (!arguments.structure.empty()) {
+    options.structures = asked_structures(designed.antenna, {arguments.structure});
+  }
   options.seed = arguments.seed;
   options.threads = arguments.threads;
   options.interrupted = interrupted;
-  const DesignedAntenna designed =
-      designed_antenna(antenna, arguments.seed, arguments.threads, interrupted);
-  auto recommended = recommended_controller(designed.antenna, designed.ensemble, options);
+  auto recommended = recommended_controller(designed, options);
   return {std::move(recommended.law), std::move(recommended.source)};
 }
 

@@ -15,10 +15,11 @@
 #include <boresight/app/report/measured_report.hpp>
 #include <boresight/app/report/text_report.hpp>
 #include <boresight/app/tune/asked_structures.hpp>
-#include <boresight/app/tune/controller_study.hpp>
-#include <boresight/app/tune/tune_limit.hpp>
+#include <boresight/app/tune/tune_study.hpp>
 #include <boresight/app/tune/tune_verdict.hpp>
 #include <boresight/app/uncertainty/designed_antenna.hpp>
+#include <boresight/design/studies/controller_study.hpp>
+#include <boresight/design/studies/limit_study.hpp>
 #include <boresight/io/case/mission_of.hpp>
 #include <boresight/io/files/write_atomically.hpp>
 #include <boresight/io/units/wording.hpp>
@@ -44,14 +45,15 @@ std::vector<double> read_speeds(const std::vector<std::string>& texts) {
 Report tune_case(const TuneArguments& arguments, const std::function<bool()>& interrupted) {
   io::Case antenna = io::read_case(arguments.case_path);
   io::change_goals(antenna.goals, arguments.goals);
-  TuneOptions options;
-  options.structures = arguments.structures;
+  design::TuneOptions options;
   options.wind_speeds = read_speeds(arguments.speeds);
   options.starts = arguments.starts;
   options.seed = arguments.seed;
   options.threads = arguments.threads;
   options.interrupted = interrupted;
-  if (!options.structures.empty()) asked_structures(antenna, options.structures);
+  if (!arguments.structures.empty()) {
+    options.structures = asked_structures(antenna, arguments.structures);
+  }
   arguments.outputs.require_writable();
 
   Report report = begin_report("tune", antenna, arguments.case_path, arguments.seed);
@@ -72,11 +74,13 @@ Report tune_case(const TuneArguments& arguments, const std::function<bool()>& in
     return report;
   }
   ProgressLine progress("tuning and verifying");
-  PlantEnsemble ensemble;
+  design::Mission mission;
+  design::PlantEnsemble ensemble;
   try {
     DesignedAntenna designed =
         designed_antenna(antenna, arguments.seed, arguments.threads, interrupted);
     antenna = std::move(designed.antenna);
+    mission = std::move(designed.mission);
     ensemble = std::move(designed.ensemble);
     report.resonance = designed.resonance;
   } catch (const Interrupted&) {
@@ -86,15 +90,16 @@ Report tune_case(const TuneArguments& arguments, const std::function<bool()>& in
   }
   report.assumed = assumed_inputs(antenna);
   options.progress = [&](std::size_t done, std::size_t all) { progress.show(done, all); };
-  ControllerStudy study = study_controllers(antenna, ensemble, options, ChoiceDetail::verified);
-  report.tuned = std::move(study.tuned);
-  report.time_domain = std::move(study.time_domain);
+  design::ControllerStudy study =
+      study_controllers(mission, ensemble, options, design::ChoiceDetail::verified);
+  report.tuned = section_of(antenna, std::move(study.tuned));
+  report.time_domain = section_of(antenna, std::move(study.time_domain));
   report.interrupted = interrupted && interrupted();
   if (report.time_domain) report.assumed = assumed_inputs(antenna, {.time_runs = true});
   const TunedLaw* best = best_law(*report.tuned);
   if (best != nullptr && !report.interrupted) {
     report.limit =
-        pointing_limit_of(antenna, *report.tuned, ensemble, best->wind_speed, arguments.threads);
+        pointing_limit_of(mission, *report.tuned, ensemble, best->wind_speed, arguments.threads);
   }
   report.conclusions = conclude(*report.tuned);
   if (report.time_domain) report.conclusions.push_back(conclude(*report.time_domain));

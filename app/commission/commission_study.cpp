@@ -11,11 +11,11 @@
 #include <boresight/app/redesign/sections.hpp>
 #include <boresight/app/report/sky_units.hpp>
 #include <boresight/app/simulate/time_domain.hpp>
-#include <boresight/app/tune/controller_study.hpp>
-#include <boresight/app/tune/engineer_units.hpp>
 #include <boresight/app/tune/gains_at_bounds.hpp>
+#include <boresight/design/studies/controller_study.hpp>
 #include <boresight/io/case/drive_numbers.hpp>
 #include <boresight/io/case/mission_of.hpp>
+#include <boresight/io/case/present_gains.hpp>
 #include <boresight/io/units/wording.hpp>
 #include <boresight/numerics/angles.hpp>
 #include <boresight/numerics/error.hpp>
@@ -73,10 +73,12 @@ control::ControlLaw given_law(const io::Case& antenna, const CommissionOptions& 
 }
 
 // The recommended controller; its structure and bounds go into the report.
-control::ControlLaw recommended(const io::Case& antenna, const PlantEnsemble& ensemble,
-                                const CommissionOptions& options, CommissionReport& report) {
-  TuneOptions tuning;
-  if (!options.structure.empty()) tuning.structures = {options.structure};
+control::ControlLaw recommended(const DesignedAntenna& designed, const CommissionOptions& options,
+                                CommissionReport& report) {
+  design::TuneOptions tuning;
+  if (!options.structure.empty()) {
+    tuning.structures = asked_structures(designed.antenna, {options.structure});
+  }
   tuning.starts = options.starts;
   tuning.seed = options.seed;
   tuning.threads = options.threads;
@@ -86,14 +88,14 @@ control::ControlLaw recommended(const io::Case& antenna, const PlantEnsemble& en
       options.progress("tuning", done, all);
     };
   }
-  const ControllerStudy study = study_controllers(antenna, ensemble, tuning);
+  design::ControllerStudy study = study_controllers(designed.mission, designed.ensemble, tuning);
   if (options.interrupted && options.interrupted()) throw Interrupted("interrupted by the user");
   // One that limit-cycles is planned for with a warning. The stages are for every plant: a nominal
   // design will not do.
   const TunedLaw* law = recommended_or(study, design::Fitness::lost_in_wind);
   if (law == nullptr || law->tuned_for != TunedFor::robust || !law->goals_met) {
-    const auto& shortfalls = study.tuned.shortfalls;
     report.structure = fmt::format("{}", fmt::join(study.tuned.structures, ", "));
+    const auto shortfalls = section_of(designed.antenna, std::move(study.tuned)).shortfalls;
     throw InfeasibleRequirement(fmt::format(
         "commission: no law of {} meets its goals on every plant that may be the true one{}",
         report.structure,
@@ -101,7 +103,7 @@ control::ControlLaw recommended(const io::Case& antenna, const PlantEnsemble& en
                            : ": " + shortfalls[0].infeasible + " " + shortfalls[0].closest));
   }
   report.structure = law->structure;
-  report.bounds = about_bounds(study.tuned, {law});
+  report.bounds = about_bounds(study.tuned, io::GainUnits(designed.antenna), {law});
   return law->design.tuning.law;
 }
 
@@ -228,7 +230,7 @@ void describe_way_back(const StageSheet* before, StageSheet& sheet) {
 
 std::vector<StageGain> acting_gains(const io::Case& antenna, const design::StageLaw& stage,
                                     const StageSheet* before) {
-  const auto texts = in_engineers_units(antenna, stage.law);
+  const auto texts = io::GainUnits(antenna).texts(stage.law);
   std::vector<StageGain> gains;
   std::size_t index = 0;
   for (const auto& block : stage.law.structure.blocks()) {
@@ -284,12 +286,12 @@ void predict(const design::CommissioningPlan& plan, ChannelComparison& channel) 
 }
 
 // The linear plant of the stages does not know friction. In still air: the wind is theirs.
-std::optional<double> hunting_beyond_budget(const io::Case& antenna,
+std::optional<double> hunting_beyond_budget(const design::Mission& mission,
                                             const design::TrackingProblem& problem,
                                             const control::ControlLaw& law, std::uint64_t seed) {
-  auto options = comparison_options(antenna, seed);
+  auto options = comparison_options(mission, seed);
   options.wind_duration = 1.0;
-  const auto run = run_in_time_domain(antenna, problem, law, options);
+  const auto run = run_in_time_domain(mission, problem, law, options);
   if (!run || design::holds_still(run->hunting, options.settled_error)) return std::nullopt;
   return design::hunting_seen(run->hunting) ? design::hunting_amplitude(run->hunting)
                                             : std::numeric_limits<double>::infinity();
@@ -372,14 +374,16 @@ std::vector<std::string> conclude(const CommissionReport& report, const io::Case
 
 }  // namespace
 
-CommissionReport plan_commission(const io::Case& antenna, const PlantEnsemble& ensemble,
+CommissionReport plan_commission(const DesignedAntenna& designed,
                                  const CommissionOptions& options) {
+  const io::Case& antenna = designed.antenna;
+  const design::PlantEnsemble& ensemble = designed.ensemble;
   if (options.before.empty() != options.after.empty()) {
     throw InvalidInput(
         "commission: expected both --before and --after, or neither: one record alone shows no "
         "change");
   }
-  const design::TrackingProblem problem = make_problem(antenna);
+  const design::TrackingProblem problem = tracking_problem(designed.mission);
   CommissionReport report;
   report.case_path = antenna.path;
   report.title = antenna.title;
@@ -387,7 +391,7 @@ CommissionReport plan_commission(const io::Case& antenna, const PlantEnsemble& e
   report.seed = options.seed;
   report.tuned = options.gains.empty();
   report.structure = report.tuned ? options.structure : structure_of_gains(options);
-  report.ensemble_source = ensemble.source;
+  report.ensemble_source = to_string(ensemble.source);
   report.ensemble_size = ensemble.members.size();
   report.wind_speed = problem.wind.mean_speed;
   report.wind_model = antenna.wind.model;
@@ -411,8 +415,8 @@ CommissionReport plan_commission(const io::Case& antenna, const PlantEnsemble& e
         compare_case_records(antenna, options.before, options.after, options.threads);
   }
   std::optional<control::ControlLaw> found;
-  const auto present = present_laws(antenna);
-  if (!present.empty()) found = present.front();
+  const auto& present = designed.mission.present_controllers;
+  if (!present.empty()) found = present.front().law;
   // What the records say of work that is done does not hang on a plan.
   const auto without_plan = [&](const std::exception& error) {
     if (report.comparisons.empty()) throw;
@@ -420,14 +424,13 @@ CommissionReport plan_commission(const io::Case& antenna, const PlantEnsemble& e
     report.no_plan = error.what();
   };
   try {
-    const control::ControlLaw target = report.tuned
-                                           ? recommended(antenna, ensemble, options, report)
-                                           : given_law(antenna, options);
+    const control::ControlLaw target =
+        report.tuned ? recommended(designed, options, report) : given_law(antenna, options);
     report.plan = design::plan_commissioning(problem, ensemble.members, found, target, report.move,
                                              report.options);
     for (auto& channel : report.comparisons) predict(report.plan, channel);
     report.sheets = make_sheets(antenna, report);
-    report.hunting = hunting_beyond_budget(antenna, problem, target, options.seed);
+    report.hunting = hunting_beyond_budget(designed.mission, problem, target, options.seed);
   } catch (const InfeasibleRequirement& error) {
     without_plan(error);
   } catch (const NumericalFailure& error) {

@@ -10,7 +10,7 @@
 
 #include <boresight/app/document/document.hpp>
 #include <boresight/app/figures/figure.hpp>
-#include <boresight/app/tune/tune_study.hpp>
+#include <boresight/app/uncertainty/designed_antenna.hpp>
 #include <boresight/design/commissioning/commissioning.hpp>
 #include <boresight/design/commissioning/commissioning_records.hpp>
 
@@ -101,12 +101,11 @@ struct CommissionReport {
 };
 
 /// Plans the way to the controller recommended (study_controllers), or to the gains given, and
-/// compares two records where asked. `antenna`: the plant the ensemble is about.
+/// compares two records where asked.
 /// @throws InvalidInput for a structure, gains or records that there are none of; Interrupted;
 /// InfeasibleRequirement if no law of the structure meets the goals on every plant, or no path to
 /// it was found, and NumericalFailure, if no records are compared: else the report holds them.
-CommissionReport plan_commission(const io::Case& antenna, const PlantEnsemble& ensemble,
-                                 const CommissionOptions& options);
+CommissionReport plan_commission(const DesignedAntenna& designed, const CommissionOptions& options);
 
 /// The comparison of two records of a case by its channels. @throws InvalidInput for a name that no
 /// usable record has.

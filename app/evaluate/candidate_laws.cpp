@@ -6,13 +6,13 @@
 
 #include <boresight/app/evaluate/candidate_laws.hpp>
 #include <boresight/app/simulate/time_domain.hpp>
-#include <boresight/app/tune/budgets_on_plants.hpp>
-#include <boresight/app/tune/controller_study.hpp>
-#include <boresight/app/tune/engineer_units.hpp>
-#include <boresight/app/tune/laws_in_time.hpp>
-#include <boresight/app/tune/plant_members.hpp>
+#include <boresight/app/tune/asked_structures.hpp>
+#include <boresight/design/ensembles/budgets_on_plants.hpp>
+#include <boresight/design/ensembles/plant_members.hpp>
+#include <boresight/design/studies/controller_study.hpp>
 #include <boresight/io/case/antenna_of.hpp>
 #include <boresight/io/case/mission_of.hpp>
+#include <boresight/io/case/present_gains.hpp>
 #include <boresight/numerics/parallel_loop.hpp>
 
 namespace boresight::app {
@@ -28,7 +28,7 @@ constexpr std::size_t drawn_members = 30;
 std::vector<design::EnsembleMember> members_of(const io::Case& as_is, const io::Case& proposed,
                                                const PlantUncertainty& uncertainty,
                                                std::uint64_t seed) {
-  if (!uncertainty.from_records) return plant_members(proposed, seed);
+  if (!uncertainty.from_records) return plant_members(mission_of(proposed), seed);
   std::vector<design::EnsembleMember> members;
   for (std::size_t i = 0; i < drawn_members; ++i) {
     members.push_back({fmt::format("draw {}", i + 1),
@@ -48,7 +48,7 @@ double over_members(const design::EnsembleResult& ensemble) {
 
 // Where none is fit the least unfit; of those that miss their goals the nearest to them; null
 // without a stable one.
-const TunedLaw* standing_for(const ControllerStudy& study) {
+const TunedLaw* standing_for(const design::ControllerStudy& study) {
   if (const TunedLaw* law = recommended_or(study, design::Fitness::lost_in_wind)) return law;
   const TunedLaw* nearest = nullptr;
   for (const auto& row : study.tuned.laws) {
@@ -61,7 +61,7 @@ const TunedLaw* standing_for(const ControllerStudy& study) {
   return nearest;
 }
 
-CandidateLaw candidate_law(const io::Case& antenna, const ControllerStudy& study,
+CandidateLaw candidate_law(const io::Case& antenna, const design::ControllerStudy& study,
                            const TunedLaw& row, const std::vector<design::EnsembleMember>& members,
                            const EvaluateOptions& options) {
   CandidateLaw law;
@@ -70,7 +70,7 @@ CandidateLaw candidate_law(const io::Case& antenna, const ControllerStudy& study
   law.member_rms = infinity;
   if (!law.stable() || !row.ensemble) return law;
   const design::EnsembleResult& ensemble = *row.ensemble;
-  law.gains = row.gains;
+  law.gains = io::GainUnits(antenna).texts(law.design.tuning.law);
   law.ensemble = ensemble;
   law.member_rms = over_members(ensemble);
   law.goals_met = law.design.tuning.status == TuningStatus::optimal &&
@@ -79,10 +79,11 @@ CandidateLaw candidate_law(const io::Case& antenna, const ControllerStudy& study
   problem.wind.mean_speed = row.wind_speed;
   const auto& gains = law.design.tuning.law;
   if (options.time_domain) {
-    const auto how = comparison_options(antenna, options.seed);
+    const design::Mission mission = mission_of(antenna);
+    const auto how = comparison_options(mission, options.seed);
     const auto* run = study.time_domain ? run_of(*study.time_domain, row) : nullptr;
     law.time_domain =
-        run != nullptr ? std::optional(*run) : run_in_time_domain(antenna, problem, gains, how);
+        run != nullptr ? std::optional(*run) : run_in_time_domain(mission, problem, gains, how);
     law.still =
         !law.time_domain || design::holds_still(law.time_domain->hunting, how.settled_error);
   }
@@ -91,11 +92,13 @@ CandidateLaw candidate_law(const io::Case& antenna, const ControllerStudy& study
   return law;
 }
 
-TunedCandidate tune_candidate(const io::Case& antenna, const PlantEnsemble& ensemble,
-                              const TuneOptions& how, const EvaluateOptions& options) {
-  const ControllerStudy study =
-      options.time_domain ? study_controllers(antenna, ensemble, how)
-                          : ControllerStudy{tune_structures(antenna, ensemble, how), std::nullopt};
+TunedCandidate tune_candidate(const io::Case& antenna, const design::PlantEnsemble& ensemble,
+                              const design::TuneOptions& how, const EvaluateOptions& options) {
+  const design::Mission mission = mission_of(antenna);
+  const design::ControllerStudy study =
+      options.time_domain
+          ? study_controllers(mission, ensemble, how)
+          : design::ControllerStudy{tune_structures(mission, ensemble, how), std::nullopt};
   TunedCandidate candidate;
   const auto stopped = [&] { return options.interrupted && options.interrupted(); };
   candidate.whole = !stopped();
@@ -127,10 +130,10 @@ TunedCandidates tune_candidates(const std::vector<io::Case>& cases,
   constexpr std::size_t steps = 1000;
   TunedCandidates result;
   for (std::size_t i = 0; i < cases.size(); ++i) {
-    PlantEnsemble ensemble;
+    design::PlantEnsemble ensemble;
     ensemble.members = members_of(cases.front(), cases[i], uncertainty, options.seed);
-    TuneOptions how;
-    how.structures = structures[i];
+    design::TuneOptions how;
+    how.structures = asked_structures(cases[i], structures[i]);
     how.starts = starts;
     how.seed = options.seed;
     how.threads = options.threads;

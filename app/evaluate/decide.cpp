@@ -10,6 +10,7 @@
 #include <boresight/app/evaluate/evaluate_study.hpp>
 #include <boresight/app/evaluate/held_candidate.hpp>
 #include <boresight/app/evaluate/pairs_by_structure.hpp>
+#include <boresight/app/uncertainty/distribution_source.hpp>
 #include <boresight/design/decisions/pareto_front.hpp>
 #include <boresight/numerics/error.hpp>
 
@@ -55,7 +56,7 @@ design::Probability share_of(const Eigen::ArrayXd& indicator) {
 class Decision {
  public:
   Decision(const std::vector<Candidate>& candidates, const std::vector<io::Case>& cases,
-           const PlantDistribution& distribution, const EvaluateOptions& options)
+           const design::PlantDistribution& distribution, const EvaluateOptions& options)
       : candidates_(candidates), cases_(cases), distribution_(distribution), options_(options) {
     for (std::size_t i = 0; i < candidates.size(); ++i) {
       const CandidateLaw* law = candidates[i].chosen_law();
@@ -100,7 +101,7 @@ class Decision {
 
   void summarise() {
     section_.draws = options_.draws;
-    section_.source = distribution_.source();
+    section_.source = source_text(distribution_);
     for (std::size_t i = 0; i < section_.candidates.size(); ++i) {
       const auto column = static_cast<Eigen::Index>(i);
       auto& one = section_.candidates[i];
@@ -222,7 +223,7 @@ class Decision {
 
   const std::vector<Candidate>& candidates_;
   const std::vector<io::Case>& cases_;
-  const PlantDistribution& distribution_;
+  const design::PlantDistribution& distribution_;
   const EvaluateOptions& options_;
   std::vector<HeldCandidate> held_;
   Eigen::MatrixXd rms_;  // mdeg, draws x candidates
@@ -233,7 +234,8 @@ class Decision {
 }  // namespace
 
 DecisionSection decide(const std::vector<Candidate>& candidates, const std::vector<io::Case>& cases,
-                       const PlantDistribution& distribution, const EvaluateOptions& options) {
+                       const design::PlantDistribution& distribution,
+                       const EvaluateOptions& options) {
   return Decision(candidates, cases, distribution, options).run();
 }
 

@@ -7,10 +7,10 @@
 #include <vector>
 
 #include <boresight/app/evaluate/proposed_case.hpp>
-#include <boresight/app/uncertainty/plant_distribution.hpp>
 #include <boresight/design/decisions/decision_statistics.hpp>
 #include <boresight/design/decisions/test_value.hpp>
 #include <boresight/design/decisions/tornado.hpp>
+#include <boresight/design/ensembles/plant_distribution.hpp>
 #include <boresight/design/ensembles/plant_ensemble.hpp>
 #include <boresight/design/problem/pointing_budget.hpp>
 #include <boresight/design/tuning/design_study.hpp>

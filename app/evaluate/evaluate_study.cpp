@@ -15,13 +15,13 @@
 #include <boresight/io/case/antenna_of.hpp>
 #include <boresight/io/case/drive_numbers.hpp>
 #include <boresight/io/case/field.hpp>
-#include <boresight/io/case/loaded_drive.hpp>
 #include <boresight/io/case/mission_of.hpp>
 #include <boresight/io/case/plant_numbers.hpp>
 #include <boresight/io/units/wording.hpp>
 #include <boresight/numerics/angles.hpp>
 #include <boresight/numerics/error.hpp>
 #include <boresight/numerics/parallel_loop.hpp>
+#include <boresight/plant/nonlinear/drive_capability.hpp>
 
 namespace boresight::app {
 namespace {
@@ -91,7 +91,7 @@ CandidateFigures figures_of(const io::Case& antenna, const CandidateLaw& tuned,
   figures.demand_margin =
       io::largest_demand(antenna) / (drive.leakage_rate / drive.oil_stiffness * mean +
                                      crest * std::sqrt(evaluation.wind_demand_variance));
-  figures.slew_rate_margin = slew_rate_margin(antenna);
+  figures.slew_rate_margin = plant::slew_rate_margin(drive_of(antenna));
   figures.slew = slew_of(antenna, motor_inertia(antenna, antenna.motor.flywheel_disks) +
                                       gear_train_inertia(antenna) + antenna_inertia(antenna));
   const auto climate = make_climate(antenna);
@@ -195,11 +195,11 @@ std::optional<double> Candidate::reversal_error() const {
 }
 
 plant::AntennaPlant proposed_plant(const io::Case& as_is, const io::Case& proposed,
-                                   const PlantDraw& draw) {
-  PlantDraw own = draw;
+                                   const design::PlantDraw& draw) {
+  design::PlantDraw own = draw;
   const double slope = io::tracking_friction(as_is);
   if (slope > 0.0) {
-    own.values.at(static_cast<std::size_t>(UncertainInput::friction_slope)) *=
+    own.values.at(static_cast<std::size_t>(design::UncertainInput::friction_slope)) *=
         io::tracking_friction(proposed) / slope;
   }
   return make_plant(proposed, changes_of(own));
@@ -221,7 +221,10 @@ EvaluateSection evaluate_proposals(const io::Case& antenna, const std::vector<Pr
     throw InvalidInput(
         fmt::format("evaluate: expected {} draws or more, found {}", least_draws, options.draws));
   }
-  const std::vector<std::string> structures = asked_structures(antenna, options.structures);
+  std::vector<std::string> structures;
+  for (const auto& one : asked_structures(antenna, options.structures)) {
+    structures.push_back(one.name);
+  }
 
   EvaluateSection section;
   section.bands = make_bands(antenna);
@@ -261,7 +264,7 @@ EvaluateSection evaluate_proposals(const io::Case& antenna, const std::vector<Pr
   section.ensemble_source = uncertainty.from_records ? "drawn from what the records leave open"
                                                      : "drawn from the ranges of the case";
   if (options.time_domain && antenna.simulation) {
-    section.time_domain = comparison_options(antenna, options.seed);
+    section.time_domain = comparison_options(mission_of(antenna), options.seed);
   }
   std::vector<bool> whole;
   for (std::size_t i = 0; i < section.candidates.size(); ++i) {

@@ -26,7 +26,7 @@ struct EvaluateOptions {
 
 /// Plants that may be the true one, whatever a proposal makes of the case.
 struct PlantUncertainty {
-  PlantDistribution distribution;
+  design::PlantDistribution distribution;
   /// Its members are draws of the distribution; else those of tune/plant_members.hpp.
   bool from_records = false;
 };
@@ -48,11 +48,12 @@ EvaluateSection evaluate_proposals(const io::Case& antenna, const std::vector<Pr
 /// proposal makes of the number; the friction slope scales with the friction curve's slope at the
 /// tracking rate.
 plant::AntennaPlant proposed_plant(const io::Case& as_is, const io::Case& proposed,
-                                   const PlantDraw& draw);
+                                   const design::PlantDraw& draw);
 
 /// Chances, regrets and what decides, of the candidates with a stable law; `cases` in their order,
 /// the antenna as it is first. Interrupted, or with fewer than two of them: no draws.
 DecisionSection decide(const std::vector<Candidate>& candidates, const std::vector<io::Case>& cases,
-                       const PlantDistribution& distribution, const EvaluateOptions& options);
+                       const design::PlantDistribution& distribution,
+                       const EvaluateOptions& options);
 
 }  // namespace boresight::app

@@ -147,7 +147,7 @@ void follow_sampling(const io::Case& before, const Proposal& proposal, io::Case&
   if (rate != nullptr) {
     const double sample = 1.0 / rate->number.value;
     if (delay == nullptr) {
-      after.controller_delay.value = io::dead_time_of(sample);
+      after.controller_delay.value = control::dead_time_of(sample);
       after.controller_delay.text = fmt::format("{:.4g} s", after.controller_delay.value);
     } else if (after.controller_delay.value < 0.5 * sample) {
       refuse_change(*delay,
@@ -163,10 +163,11 @@ void follow_sampling(const io::Case& before, const Proposal& proposal, io::Case&
   // The fastest thing a loop must see: below half the rate, or it comes back as another
   // frequency.
   const double fastest = std::max(fastest_mode(before.structure), fastest_mode(after.structure));
-  const double sampled =
-      rate != nullptr ? rate->number.value : 1.0 / io::sample_time_of(after.controller_delay.value);
+  const double sampled = rate != nullptr
+                             ? rate->number.value
+                             : 1.0 / control::sample_time_of(after.controller_delay.value);
   const auto* slow = rate != nullptr ? rate : delay;
-  const bool slower = sampled < 1.0 / io::sample_time_of(before.controller_delay.value);
+  const bool slower = sampled < 1.0 / control::sample_time_of(before.controller_delay.value);
   if (slow != nullptr && slower && sampled < 2.0 * fastest) {
     refuse_change(
         *slow, fmt::format("expected a sampling of at least {:.4g} Hz, twice the fastest mode of "

@@ -29,7 +29,7 @@ HeldCandidate::HeldCandidate(const io::Case& as_is, const io::Case& antenna,
       goals_(make_goals(antenna)),
       evaluator_(problem_, law.design.tuning.law, goals_) {}
 
-HeldCandidate::Outcome HeldCandidate::judge(const PlantDraw& draw) {
+HeldCandidate::Outcome HeldCandidate::judge(const design::PlantDraw& draw) {
   const auto plant = proposed_plant(*as_is_, *antenna_, draw);
   const auto values = evaluator_.evaluate(plant);
   const bool stable =
@@ -49,7 +49,7 @@ HeldCandidate::Outcome HeldCandidate::judge(const PlantDraw& draw) {
 }
 
 std::optional<DrawnOutcomes> judge_draws(const std::vector<HeldCandidate>& held,
-                                         const PlantDistribution& distribution,
+                                         const design::PlantDistribution& distribution,
                                          const EvaluateOptions& options) {
   const auto stopped = [&] { return options.interrupted && options.interrupted(); };
   const auto draws = static_cast<Eigen::Index>(options.draws);

@@ -21,7 +21,7 @@ class HeldCandidate {
     bool within_goals = false;
   };
 
-  Outcome judge(const PlantDraw& draw);
+  Outcome judge(const design::PlantDraw& draw);
 
  private:
   const io::Case* as_is_;
@@ -40,7 +40,7 @@ struct DrawnOutcomes {
 
 /// None if interrupted. The same for any number of threads.
 std::optional<DrawnOutcomes> judge_draws(const std::vector<HeldCandidate>& held,
-                                         const PlantDistribution& distribution,
+                                         const design::PlantDistribution& distribution,
                                          const EvaluateOptions& options);
 
 }  // namespace boresight::app

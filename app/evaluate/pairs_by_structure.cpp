@@ -44,7 +44,7 @@ class Columns {
     return place;
   }
 
-  bool judge(const PlantDistribution& distribution, const EvaluateOptions& options) {
+  bool judge(const design::PlantDistribution& distribution, const EvaluateOptions& options) {
     if (held_.empty()) return true;
     const auto outcomes = judge_draws(held_, distribution, options);
     if (!outcomes) return false;
@@ -172,7 +172,7 @@ std::optional<Winner> winner_of(const EvaluateSection& section, const DecisionSe
 std::optional<std::vector<PairByStructure>> compare_by_structure(
     const DecisionSection& decision, const Eigen::MatrixXd& rms,
     const std::vector<Candidate>& candidates, const std::vector<io::Case>& cases,
-    const PlantDistribution& distribution, const EvaluateOptions& options) {
+    const design::PlantDistribution& distribution, const EvaluateOptions& options) {
   std::vector<PairByStructure> pairs;
   std::vector<Comparison> comparisons;
   Columns columns(decision, rms, candidates, cases);

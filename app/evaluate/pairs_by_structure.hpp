@@ -17,7 +17,7 @@ namespace boresight::app {
 std::optional<std::vector<PairByStructure>> compare_by_structure(
     const DecisionSection& decision, const Eigen::MatrixXd& rms,
     const std::vector<Candidate>& candidates, const std::vector<io::Case>& cases,
-    const PlantDistribution& distribution, const EvaluateOptions& options);
+    const design::PlantDistribution& distribution, const EvaluateOptions& options);
 
 /// What of the difference between such candidates is the law's and what the hardware's, in a
 /// sentence a pair: of proposals with the antenna as it is, and of the two best. Empty without.

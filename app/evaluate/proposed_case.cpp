@@ -35,8 +35,9 @@ class Application {
     apply_gear_spring();
     apply_motor();
     if (const auto* rate = proposal_.find("controller.sample_rate")) {
-      note_before(rate->key, fmt::format("{:.4g} Hz by the delay",
-                                         1.0 / io::sample_time_of(before_.controller_delay.value)));
+      note_before(rate->key,
+                  fmt::format("{:.4g} Hz by the delay",
+                              1.0 / control::sample_time_of(before_.controller_delay.value)));
     }
     follow_sampling(before_, proposal_, after_);
     follow_drive(before_, proposal_, after_);
@@ -344,7 +345,7 @@ class Application {
     if (change.key == "motor.flywheel_disks") return value == before_.motor.flywheel_disks;
     if (change.key == "oil.bulk_modulus") return value == bulk_modulus(before_);
     if (change.key == "controller.sample_rate") {
-      return io::dead_time_of(1.0 / value) == before_.controller_delay.value;
+      return control::dead_time_of(1.0 / value) == before_.controller_delay.value;
     }
     if (change.key.starts_with("gear_train.stage["))
       return io::gear_ratio(after_) == io::gear_ratio(before_);

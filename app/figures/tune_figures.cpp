@@ -43,7 +43,7 @@ Figure structures_figure(const TuneSection& section, double wind_speed,
       "the case's plant, tuned so that every hard goal holds on {} plants ({}); all on the linear "
       "plant{}.",
       wind_speed, plant::to_string(section.wind_model), section.ensemble_size,
-      section.ensemble_source,
+      to_string(section.ensemble_source),
       in_time ? "; last those that ran on the nonlinear antenna, over one record of wind" : "");
   for (const auto& law : section.laws) {
     if (law.wind_speed != wind_speed || law.stable()) continue;
@@ -123,7 +123,7 @@ std::vector<Figure> tune_figures(const TuneSection& section,
   const bool any = std::any_of(section.laws.begin(), section.laws.end(),
                                [](const TunedLaw& law) { return law.stable(); });
   if (!any || section.wind_speeds.empty()) return figures;
-  const TunedLaw* shown = shown_law(section, in_time);
+  const TunedLaw* shown = shown_law(section, in_time ? &*in_time : nullptr);
   const double wind_speed = shown != nullptr ? shown->wind_speed : section.wind_speeds.front();
   figures.push_back(structures_figure(section, wind_speed, in_time));
   if (shown == nullptr) return figures;

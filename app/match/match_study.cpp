@@ -255,7 +255,7 @@ FlatRange flat_range(const std::vector<double>& axis, const std::vector<double>&
 MatchSection match_motors(const io::Case& antenna,
                           const std::vector<design::EnsembleMember>& members,
                           const MatchOptions& options) {
-  const auto names = asked_structures(antenna, options.structures);
+  const auto structures = asked_structures(antenna, options.structures);
   MatchSection section;
   section.slew_rate = rate_within_reach(antenna);
   section.slew_by_simulation = antenna.simulation.has_value();
@@ -284,7 +284,7 @@ MatchSection match_motors(const io::Case& antenna,
         make_plant(antenna, {plant::set_to("motor.flywheel_disks", point.disks)})
             .drive.motor_inertia);
   }
-  for (const auto& name : names) task.structures.push_back(io::loop_structure(antenna, name));
+  for (const auto& one : structures) task.structures.push_back(one.structure);
   design::MatchingOptions how;
   how.starts = options.starts;
   how.seed = options.seed;
@@ -301,18 +301,19 @@ MatchSection match_motors(const io::Case& antenna,
   section.settled = curves.settled;
   section.evaluations = curves.evaluations;
 
-  for (std::size_t s = 0; s < names.size(); ++s) {
-    section.series.push_back({names[s], std::move(curves.curves[s]), {}, {}, {}, {}, {}, false});
+  for (std::size_t s = 0; s < structures.size(); ++s) {
+    section.series.push_back(
+        {structures[s].name, std::move(curves.curves[s]), {}, {}, {}, {}, {}, false});
     section.series.back().values.resize(section.points.size());
   }
   const design::WindTable wind(task.problem);
-  const std::size_t all = section.points.size() * names.size();
+  const std::size_t all = section.points.size() * structures.size();
   numerics::StepCounter counter(all, [&](std::size_t done, std::size_t of) {
     if (options.progress) options.progress("checking", done, of);
   });
   numerics::for_each_index(all, options.threads, [&](std::size_t i) {
-    MatchSeries& series = section.series[i % names.size()];
-    const std::size_t p = i / names.size();
+    MatchSeries& series = section.series[i % structures.size()];
+    const std::size_t p = i / structures.size();
     const MatchPoint& point = section.points[p];
     const auto& law = series.curve.laws[p];
     series.values[p] = look_at(antenna, section, point, law, wind);

@@ -16,7 +16,7 @@ LinearModels linear_models(const plant::AntennaPlant& antenna, double gear_ratio
 LinearModels linear_models(const design::TrackingProblem& problem, const control::ControlLaw& law,
                            const std::string& description) {
   LinearModels models = linear_models(problem.plant, problem.gear_ratio);
-  const double sample_time = io::sample_time_of(problem.delay);
+  const double sample_time = control::sample_time_of(problem.delay);
   models.loop = {description,
                  law,
                  problem.delay,
@@ -28,7 +28,8 @@ LinearModels linear_models(const design::TrackingProblem& problem, const control
 
 std::optional<LinearModels> linear_models(const Report& report) {
   if (report.tuned) {
-    const TunedLaw* shown = shown_law(*report.tuned, report.time_domain);
+    const TunedLaw* shown =
+        shown_law(*report.tuned, report.time_domain ? &*report.time_domain : nullptr);
     const auto& problem = report.tuned->problem;
     if (shown == nullptr) return linear_models(problem.plant, problem.gear_ratio);
     const bool recommended = recommended_law(*report.tuned) != nullptr;

@@ -12,8 +12,8 @@ namespace unit = io::key_units;
 using io::describe_distribution;
 using io::describe_estimate;
 
-void describe_draw(io::Visitor& v, const PlantDraw& draw) {
-  using enum UncertainInput;
+void describe_draw(io::Visitor& v, const design::PlantDraw& draw) {
+  using enum design::UncertainInput;
   v.defined_as("inputs",
                "Factors on the numbers of the case (of the records' estimate, where there are "
                "records); the slope of friction at the motor shaft.");

@@ -7,9 +7,9 @@
 #include <vector>
 
 #include <boresight/app/figures/figure.hpp>
-#include <boresight/app/uncertainty/plant_distribution.hpp>
 #include <boresight/design/ensembles/monte_carlo.hpp>
 #include <boresight/design/ensembles/monte_carlo_statistics.hpp>
+#include <boresight/design/ensembles/plant_distribution.hpp>
 #include <boresight/design/problem/pointing_budget.hpp>
 #include <boresight/io/case/case_file.hpp>
 
@@ -18,7 +18,7 @@ namespace boresight::app {
 /// One plant of a Monte Carlo study that is worth naming.
 struct NotablePlant {
   std::uint64_t index = 0;
-  PlantDraw draw;
+  design::PlantDraw draw;
   design::PlantOutcome outcome;
 };
 
@@ -31,7 +31,7 @@ struct MonteCarloSection {
   std::uint64_t plants_asked = 0, plants = 0;  // judged: blocks that are whole
 
   std::string distribution;  // what the plants are drawn from
-  std::vector<UncertainInput> inputs;
+  std::vector<design::UncertainInput> inputs;
   control::ControlLaw law;
   std::string structure;           // as the user names it
   std::string law_source;          // where the gains come from
@@ -72,7 +72,7 @@ struct MonteCarloSection {
   design::EstimatedNumber all_goals_met;
 
   struct Correlation {
-    UncertainInput input = UncertainInput::structure_frequency;
+    design::UncertainInput input = design::UncertainInput::structure_frequency;
     design::EstimatedNumber with_rms;  // rank correlation, over stable plants
   };
   std::vector<Correlation> correlations;

@@ -12,11 +12,12 @@
 #include <boresight/app/montecarlo/montecarlo_study.hpp>
 #include <boresight/app/redesign/assumed_inputs.hpp>
 #include <boresight/app/redesign/sections.hpp>
+#include <boresight/app/tune/asked_structures.hpp>
 #include <boresight/app/tune/chosen_controller.hpp>
-#include <boresight/app/tune/engineer_units.hpp>
 #include <boresight/app/uncertainty/designed_antenna.hpp>
 #include <boresight/io/case/antenna_of.hpp>
 #include <boresight/io/case/mission_of.hpp>
+#include <boresight/io/case/present_gains.hpp>
 #include <boresight/io/files/input_files.hpp>
 #include <boresight/io/files/write_atomically.hpp>
 #include <boresight/numerics/error.hpp>
@@ -87,7 +88,8 @@ std::string content_of(const std::string& path) {
 
 // What makes a run this one and no other. Its first plants hold what the case's other files say,
 // and the outcome of one what this program makes of it.
-std::string digest_of(const MonteCarloArguments& arguments, const PlantDistribution& distribution,
+std::string digest_of(const MonteCarloArguments& arguments,
+                      const design::PlantDistribution& distribution,
                       const design::MonteCarlo& study) {
   std::string all = fmt::format("{}\n{}\n{} {} {} {}\n{}", BORESIGHT_VERSION,
                                 content_of(arguments.case_path), arguments.seed, arguments.plants,
@@ -135,12 +137,14 @@ ChosenController make_law(const MonteCarloArguments& arguments, const Population
   if (auto named = named_controller(antenna, arguments.gains, arguments.structure)) {
     return std::move(*named);
   }
-  TuneOptions options;
-  if (!arguments.structure.empty()) options.structures = {arguments.structure};
+  design::TuneOptions options;
+  if (!arguments.structure.empty()) {
+    options.structures = asked_structures(antenna, {arguments.structure});
+  }
   options.seed = arguments.seed;
   options.threads = arguments.threads;
   options.interrupted = interrupted;
-  return recommended_controller(antenna, population->ensemble, options);
+  return recommended_controller(*population, options);
 }
 
 // Works the missing blocks off and keeps the checkpoint fresh.
@@ -233,18 +237,18 @@ class Work {
 
 design::MonteCarlo make_study(const MonteCarloArguments& arguments, const Population& population,
                               const control::ControlLaw& law) {
-  const io::Case& antenna = population->antenna;
   design::MonteCarlo study;
-  study.problem = make_problem(antenna);
-  study.problem.climate = make_climate(antenna);
+  const design::Mission& mission = population->mission;
+  study.problem = tracking_problem(mission);
+  study.problem.climate = mission.climate;
   study.law = law;
-  study.goals = make_goals(antenna);
+  study.goals = constraints(mission);
   study.plants = arguments.plants;
   study.retune = arguments.retune;
-  study.retune_over_climate = antenna.goals.over_climate;
-  study.plant = [population, own = antenna_of(population->antenna),
-                 seed = arguments.seed](std::uint64_t index) {
-    return linear_plant(changed(own, changes_of(population->distribution.draw(seed, index))));
+  study.retune_over_climate = mission.minimises_climate;
+  study.plant = [population, seed = arguments.seed](std::uint64_t index) {
+    return linear_plant(changed(population->mission.antenna,
+                                changes_of(population->distribution.draw(seed, index))));
   };
   return study;
 }
@@ -260,7 +264,7 @@ MonteCarloSection new_section(const MonteCarloArguments& arguments, const io::Ca
   section.law = held.law;
   section.structure = held.structure;
   section.law_source = held.source;
-  section.gains = in_engineers_units(antenna, held.law);
+  section.gains = io::GainUnits(antenna).texts(held.law);
   section.wind_model = study.problem.wind.model;
   section.wind_speed = study.problem.wind.mean_speed;
   for (const auto& band : make_bands(antenna)) section.losses.push_back({band, {}, {}});

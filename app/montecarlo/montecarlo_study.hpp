@@ -31,7 +31,7 @@ struct MonteCarloArguments {
 
 /// A finished or interrupted run: every plant and what they amount to.
 struct MonteCarloOutcome {
-  std::shared_ptr<const PlantDistribution> distribution;
+  std::shared_ptr<const design::PlantDistribution> distribution;
   std::unique_ptr<design::MonteCarloRun> run;
   MonteCarloSection section;
 };
@@ -47,7 +47,7 @@ MonteCarloOutcome run_montecarlo(const MonteCarloArguments& arguments, Ranks& ra
                                  const std::function<bool()>& interrupted);
 
 /// What the plants that were judged amount to. Fills all but law, case and source of a section.
-void summarise(const design::MonteCarloRun& run, const PlantDistribution& distribution,
+void summarise(const design::MonteCarloRun& run, const design::PlantDistribution& distribution,
                MonteCarloSection& section);
 
 /// A few sentences that say what the numbers mean.

@@ -7,6 +7,7 @@
 
 #include <boresight/app/montecarlo/montecarlo_study.hpp>
 #include <boresight/app/report/sky_units.hpp>
+#include <boresight/app/uncertainty/distribution_source.hpp>
 #include <boresight/design/problem/pointing.hpp>
 #include <boresight/design/problem/pointing_budget.hpp>
 #include <boresight/numerics/error.hpp>
@@ -35,7 +36,7 @@ double mean_loss(double rms, const design::PointingBand& band) {
 // The plants that were judged, in their order.
 class Judged {
  public:
-  Judged(const design::MonteCarloRun& run, const PlantDistribution& distribution,
+  Judged(const design::MonteCarloRun& run, const design::PlantDistribution& distribution,
          std::uint64_t seed)
       : distribution_(distribution), seed_(seed), run_(run) {
     for (std::size_t block = 0; block < run.blocks(); ++block) {
@@ -51,7 +52,7 @@ class Judged {
   const std::vector<std::uint64_t>& all() const { return all_; }
   const std::vector<std::uint64_t>& stable() const { return stable_; }
   const PlantOutcome& outcome(std::uint64_t index) const { return run_.outcome(index); }
-  PlantDraw draw(std::uint64_t index) const { return distribution_.draw(seed_, index); }
+  design::PlantDraw draw(std::uint64_t index) const { return distribution_.draw(seed_, index); }
   NotablePlant notable(std::uint64_t index) const { return {index, draw(index), outcome(index)}; }
   std::vector<double> of_stable(double PlantOutcome::*quantity) const {
     std::vector<double> values;
@@ -65,7 +66,7 @@ class Judged {
   }
 
  private:
-  const PlantDistribution& distribution_;
+  const design::PlantDistribution& distribution_;
   std::uint64_t seed_;
   const design::MonteCarloRun& run_;
   std::vector<std::uint64_t> all_, stable_;
@@ -124,7 +125,7 @@ void count_goals(const Judged& judged, MonteCarloSection& section) {
 
 void correlate(const Judged& judged, MonteCarloSection& section) {
   const auto rms = judged.of_stable(&PlantOutcome::beam_rms);
-  std::vector<PlantDraw> draws;
+  std::vector<design::PlantDraw> draws;
   draws.reserve(rms.size());
   for (const auto index : judged.stable()) draws.push_back(judged.draw(index));
   for (const auto input : section.inputs) {
@@ -183,7 +184,7 @@ std::string between(const design::EstimatedNumber& number) {
 
 }  // namespace
 
-void summarise(const design::MonteCarloRun& run, const PlantDistribution& distribution,
+void summarise(const design::MonteCarloRun& run, const design::PlantDistribution& distribution,
                MonteCarloSection& section) {
   const design::MonteCarlo& study = run.study();
   const Judged judged(run, distribution, section.seed);
@@ -193,7 +194,7 @@ void summarise(const design::MonteCarloRun& run, const PlantDistribution& distri
   section.plants_asked = study.plants;
   section.plants = judged.all().size();
   section.interrupted = section.plants < section.plants_asked;
-  section.distribution = distribution.source();
+  section.distribution = source_text(distribution);
   section.inputs = distribution.inputs();
   section.goals = study.goals;
   section.climate = !study.problem.climate.empty();

@@ -176,7 +176,8 @@ std::vector<std::string> reservations(const Report& report) {
     if (!report.tuned) return sentences;
     const TunedLaw* law = recommended_law(*report.tuned);
     if (law == nullptr) return sentences;
-    std::ranges::move(about_bounds(*report.tuned, {law}), std::back_inserter(sentences));
+    std::ranges::move(about_bounds(*report.tuned, report.tuned->gain_units, {law}),
+                      std::back_inserter(sentences));
     return sentences;
   }
   if (report.tuning) sentences = tuning_reservations(report, *report.tuning);

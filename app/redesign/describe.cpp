@@ -8,7 +8,6 @@
 #include <boresight/io/case/antenna_of.hpp>
 #include <boresight/io/case/drive_evidence.hpp>
 #include <boresight/io/case/drive_numbers.hpp>
-#include <boresight/io/case/loaded_drive.hpp>
 #include <boresight/io/case/mission_of.hpp>
 #include <boresight/io/case/plant_numbers.hpp>
 #include <boresight/plant/antenna/plant_response.hpp>
@@ -181,7 +180,7 @@ PlantSection describe_plant(const io::Case& antenna) {
   const auto problem = make_problem(antenna);
   section.mean_wind_torque =
       plant::mean_wind_torque(problem.wind.site, problem.wind.mean_speed) / section.gear_ratio;
-  section.slew_rate_margin = slew_rate_margin(antenna);
+  section.slew_rate_margin = plant::slew_rate_margin(drive_of(antenna));
   return section;
 }
 

@@ -7,9 +7,9 @@
 
 #include <boresight/app/redesign/oil_remark.hpp>
 #include <boresight/app/redesign/resonance_verdict.hpp>
-#include <boresight/app/tune/plant_members.hpp>
 #include <boresight/io/case/antenna_of.hpp>
 #include <boresight/io/case/drive_evidence.hpp>
+#include <boresight/io/case/member_ranges.hpp>
 #include <boresight/io/case/plant_numbers.hpp>
 #include <boresight/io/case/resonating_mode.hpp>
 #include <boresight/plant/antenna/antenna_change.hpp>

@@ -6,16 +6,15 @@
 
 #include <boresight/app/redesign/choices.hpp>
 #include <boresight/app/redesign/sections.hpp>
-#include <boresight/app/tune/controller_study.hpp>
-#include <boresight/app/tune/engineer_units.hpp>
-#include <boresight/app/tune/laws_in_time.hpp>
 #include <boresight/app/uncertainty/designed_antenna.hpp>
 #include <boresight/design/problem/pointing.hpp>
 #include <boresight/design/problem/static_bending.hpp>
+#include <boresight/design/studies/controller_study.hpp>
 #include <boresight/io/case/antenna_of.hpp>
 #include <boresight/io/case/drive_numbers.hpp>
 #include <boresight/io/case/mission_of.hpp>
 #include <boresight/io/case/plant_numbers.hpp>
+#include <boresight/io/case/present_gains.hpp>
 #include <boresight/numerics/parallel_loop.hpp>
 #include <boresight/plant/antenna/antenna_change.hpp>
 #include <boresight/plant/antenna/plant_response.hpp>
@@ -43,7 +42,7 @@ double ratio_of(const io::Case& antenna, const design::TrackingProblem& problem,
 }
 
 // Where none is stable, the first.
-const TunedLaw& recommended_or_first(const ControllerStudy& study) {
+const TunedLaw& recommended_or_first(const design::ControllerStudy& study) {
   if (const TunedLaw* law = recommended_or(study, design::Fitness::unstable)) return *law;
   return *std::ranges::find_if(
       study.tuned.laws, [](const TunedLaw& row) { return row.tuned_for != TunedFor::present; });
@@ -141,13 +140,14 @@ TuningSection tuning_section(const io::Case& antenna, const StudyOptions& option
   section.wind_mast = antenna.wind.mast;
   section.climate = antenna.wind.climate_parts;
   section.demand_assumption = io::demand_assumption(antenna);
-  for (const auto& law : present_laws(antenna)) {
+  for (const auto& [name, law] : present_controllers(antenna)) {
     section.present.push_back({law.structure.name(), design::assess(problem, law, section.goals)});
   }
   if (row.stable()) {
     if (antenna.goals.over_climate) at_one_speed(problem, section);
     judge_in_wind(antenna, problem, section);
     section.trade = row.trade;
+    section.gain_units = io::GainUnits(antenna);
     constexpr std::size_t most_effects = 10;
     section.input_effects = input_effects(antenna, section.design.tuning.law, section.goals,
                                           section.design.beam_rms, most_effects, options.threads);
@@ -270,12 +270,12 @@ std::vector<design::DesignTask> choice_tasks(const io::Case& antenna, const Stud
 
 void redesign(const DesignedAntenna& designed, const StudyOptions& options, Report& report) {
   const io::Case& antenna = designed.antenna;
-  TuneOptions how;
+  design::TuneOptions how;
   how.seed = options.seed;
   how.threads = options.threads;
   how.progress = options.progress;
-  ControllerStudy study =
-      study_controllers(antenna, designed.ensemble, how, ChoiceDetail::verified);
+  design::ControllerStudy study =
+      study_controllers(designed.mission, designed.ensemble, how, design::ChoiceDetail::verified);
   const TunedLaw& recommended = recommended_or_first(study);
   const auto tuning = seed_tasks(designed, recommended, options);
   std::vector<PlantChoice> choices = plant_choices(antenna);
@@ -304,11 +304,13 @@ void redesign(const DesignedAntenna& designed, const StudyOptions& options, Repo
   }
   report.matching = finish_matching(std::move(matching), first_match, options.threads);
   if (study.time_domain && study.time_domain->law == description_of(recommended)) {
-    report.time_domain = std::move(study.time_domain);
+    report.time_domain = section_of(antenna, std::move(study.time_domain));
   } else if (recommended.goals_met) {
-    report.time_domain = verify_in_time_domain(
-        antenna, report.tuning->problem, recommended.design.tuning.law, description_of(recommended),
-        options.seed, options.threads, SecondIntegrator::cvodes);
+    report.time_domain = section_of(
+        antenna,
+        verify_in_time_domain(designed.mission, report.tuning->problem,
+                              recommended.design.tuning.law, description_of(recommended),
+                              options.seed, options.threads, design::SecondIntegrator::cvodes));
   }
 }
 

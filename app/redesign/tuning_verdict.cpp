@@ -105,10 +105,11 @@ std::string bound_text(const TuningSection& section) {
       "too).",
       fmt::join(names, ", "));
   const SearchedLaw law{section.structure.name(), &section.design.tuning,
-                        io::sample_time_of(section.problem.delay)};
+                        control::sample_time_of(section.problem.delay)};
   for (const auto& sentence : corners_beyond_sampling(law)) text += " " + sentence;
   if (section.trade) {
-    text += " " + trade_in_words(*section.trade, law.name, section.design.beam_rms, 0);
+    text += " " + trade_in_words(*section.trade, section.gain_units, law.name,
+                                 section.design.beam_rms, 0);
   }
   return text;
 }

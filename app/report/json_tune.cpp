@@ -71,10 +71,10 @@ Json limits_json(const design::TuningResult& tuning) {
 Json law_json(const TuneSection& section, const TunedLaw& row) {
   const auto& descriptions = row.design.tuning.law.structure.gains();
   Json gains = Json::array();
-  for (std::size_t i = 0; i < row.gains.size(); ++i) {
-    gains.push_back({{"symbol", descriptions[i].symbol},
-                     {"name", descriptions[i].name},
-                     {"value", row.gains[i]}});
+  const auto texts = section.gains_of(row);
+  for (std::size_t i = 0; i < texts.size(); ++i) {
+    gains.push_back(
+        {{"symbol", descriptions[i].symbol}, {"name", descriptions[i].name}, {"value", texts[i]}});
   }
   const auto loss = [&](std::optional<double> rms, const design::PointingBand& band) {
     return rms ? number(design::pointing_loss_db(*rms, band.beamwidth,
@@ -143,11 +143,11 @@ Json tune_json(const TuneSection& section) {
             {"bands", std::move(bands)},
             {"budgets", std::move(budgets)},
             {"supply_wind_speed_m_per_s", number(section.supply_wind_speed)},
-            {"ensemble_source", section.ensemble_source},
+            {"ensemble_source", to_string(section.ensemble_source)},
             {"ensemble_members", section.ensemble_size},
             {"starts", section.starts},
             {"laws", std::move(laws)},
-            {"not_run", section.not_run},
+            {"not_run", section.not_run_texts()},
             {"shortfalls", std::move(shortfalls)}};
   if (section.wind_mast) json["wind_mast"] = mast_json(*section.wind_mast);
   return json;

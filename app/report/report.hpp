@@ -15,7 +15,6 @@
 #include <boresight/app/redesign/resonance_verdict.hpp>
 #include <boresight/app/simulate/time_domain.hpp>
 #include <boresight/app/tune/measured_study.hpp>
-#include <boresight/app/tune/position_gain_trade.hpp>
 #include <boresight/app/tune/tune_section.hpp>
 #include <boresight/design/ensembles/plant_ensemble.hpp>
 #include <boresight/design/limits/pointing_limit.hpp>
@@ -122,7 +121,8 @@ struct TuningSection {
   std::optional<design::EnsembleResult> ensemble;
   std::string ensemble_source;
   /// Of a position gain at the upper bound of the search that can be halved or lowered further.
-  std::optional<PositionGainTrade> trade;
+  std::optional<design::PositionGainTrade> trade;
+  io::GainUnits gain_units;
   /// The numbers of the case that its rms hangs on most; empty without a stable law.
   std::vector<InputEffect> input_effects;
 };

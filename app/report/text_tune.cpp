@@ -245,8 +245,9 @@ Document gains_part(const TuneSection& section) {
     for (const auto& row : section.laws) {
       if (!same(row)) continue;
       rows[0].emplace_back(to_string(row.tuned_for));
+      const auto texts = section.gains_of(row);
       for (std::size_t k = 0; k < descriptions.size(); ++k) {
-        rows[k + 1].push_back(k < row.gains.size() ? row.gains[k] : "-");
+        rows[k + 1].push_back(k < texts.size() ? texts[k] : "-");
       }
     }
     text += subheading(fmt::format("{} at {:.3g} m/s", section.laws[i].structure,
@@ -271,11 +272,12 @@ Document limits_part(const TuneSection& section) {
   }
   std::vector<const TunedLaw*> laws;
   for (const auto& row : section.laws) laws.push_back(&row);
-  const double sample_time = io::sample_time_of(section.problem.delay);
+  const double sample_time = control::sample_time_of(section.problem.delay);
   for (const auto& sentence : gains_at_bounds(laws, sample_time)) {
     text += wrapped(sentence, "  ", "  ");
   }
-  for (const auto& sentence : gain_trades(laws)) text += wrapped(sentence, "  ", "  ");
+  for (const auto& sentence : gain_trades(laws, section.gain_units))
+    text += wrapped(sentence, "  ", "  ");
   return text;
 }
 
@@ -301,12 +303,13 @@ Document goals_part(const TuneSection& section) {
   }
   if (section.beam_rms_goal)
     text += fmt::format("; beam rms {} mdeg", mdeg(*section.beam_rms_goal));
-  return wrapped(fmt::format("{}. Least: {} rms of the beam{}. Robust laws keep the hard goals on "
-                             "{} plants, {}. {} starts.",
-                             text, design::to_string(section.soft_goal.kind),
-                             section.minimises_climate ? " over the site's wind climate" : "",
-                             section.ensemble_size, section.ensemble_source, section.starts),
-                 "  ");
+  return wrapped(
+      fmt::format("{}. Least: {} rms of the beam{}. Robust laws keep the hard goals on "
+                  "{} plants, {}. {} starts.",
+                  text, design::to_string(section.soft_goal.kind),
+                  section.minimises_climate ? " over the site's wind climate" : "",
+                  section.ensemble_size, to_string(section.ensemble_source), section.starts),
+      "  ");
 }
 
 }  // namespace
@@ -317,7 +320,7 @@ Document document_of(const TuneSection& section) {
                           plant::to_string(section.wind_model)));
   text += goals_part(section) + "\n";
   if (!section.not_run.empty()) {
-    text += wrapped(fmt::format("Not run: {}.", fmt::join(section.not_run, "; ")), "  ");
+    text += wrapped(fmt::format("Not run: {}.", fmt::join(section.not_run_texts(), "; ")), "  ");
   }
   text += pointing_part(section) + "\n" + robustness_part(section);
   const bool before = std::ranges::any_of(

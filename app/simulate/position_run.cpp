@@ -39,7 +39,7 @@ struct PositionRun {
 };
 
 double controller_sample_time(const io::Case& antenna) {
-  return io::sample_time_of(antenna.controller_delay.value);
+  return control::sample_time_of(antenna.controller_delay.value);
 }
 
 double run_interval(const io::Case& antenna) {

@@ -207,6 +207,13 @@ std::string assumed_stroke(const TimeDomainSection& section) {
       hanging, section.stroke_assumption);
 }
 
+std::optional<TimeDomainSection> section_of(const io::Case& antenna,
+                                            std::optional<design::TimeDomainStudy> study) {
+  if (!study) return std::nullopt;
+  return TimeDomainSection{std::move(*study), io::demand_assumption(antenna),
+                           io::loose_stribeck_text(antenna.friction_curve)};
+}
+
 std::string not_still(const TimeDomainSection& section) {
   const double error = section.options.settled_error;
   const auto& hunting = section.result.hunting;

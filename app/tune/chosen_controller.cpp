@@ -6,7 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include <boresight/app/tune/chosen_controller.hpp>
-#include <boresight/app/tune/engineer_units.hpp>
+#include <boresight/io/case/present_gains.hpp>
 #include <boresight/io/exchange/reported_controller.hpp>
 #include <boresight/io/files/input_files.hpp>
 #include <boresight/numerics/error.hpp>
@@ -49,7 +49,7 @@ control::ControlLaw read_law(const io::Case& antenna, const std::string& path, c
 }  // namespace
 
 control::LoopStructure structure_named(const io::Case& antenna, const std::string& name) {
-  for (const auto& law : present_laws(antenna)) {
+  for (const auto& [short_name, law] : present_controllers(antenna)) {
     if (law.structure.name() == name) return law.structure;
   }
   for (const auto* base : {"PI-0", "PI", "DPF", "LL", "FULL"}) {
@@ -62,7 +62,7 @@ control::LoopStructure structure_named(const io::Case& antenna, const std::strin
 }
 
 ChosenController present_controller(const io::Case& antenna, const std::string& structure) {
-  for (const auto& law : present_laws(antenna)) {
+  for (const auto& [name, law] : present_controllers(antenna)) {
     if (structure.empty() || law.structure == io::loop_structure(antenna, structure)) {
       return {law, structure.empty() ? law.structure.name() : structure,
               "the gains that the case says the antenna runs on"};
@@ -112,9 +112,9 @@ std::optional<ChosenController> named_controller(const io::Case& antenna, const 
                          : controller_of_report(antenna, gains, structure);
 }
 
-ChosenController recommended_controller(const io::Case& antenna, const PlantEnsemble& ensemble,
-                                        const TuneOptions& options) {
-  const ControllerStudy study = study_controllers(antenna, ensemble, options);
+ChosenController recommended_controller(const DesignedAntenna& designed,
+                                        const design::TuneOptions& options) {
+  const auto study = study_controllers(designed.mission, designed.ensemble, options);
   if (options.interrupted && options.interrupted()) {
     throw Interrupted("interrupted while tuning the controller");
   }
@@ -123,15 +123,15 @@ ChosenController recommended_controller(const io::Case& antenna, const PlantEnse
     throw InfeasibleRequirement(
         fmt::format("{}: no controller of {} keeps the antenna stable; name other structures with "
                     "--structure or gains with --gains",
-                    antenna.path, fmt::join(study.tuned.structures, ", ")));
+                    designed.antenna.path, fmt::join(study.tuned.structures, ", ")));
   }
   return {best->design.tuning.law, best->structure,
           best->tuned_for == TunedFor::nominal
               ? fmt::format("tuned now at {:g} m/s, for the nominal plant: no robust design meets "
                             "its goals on all {} plants",
-                            best->wind_speed, ensemble.members.size())
+                            best->wind_speed, designed.ensemble.members.size())
               : fmt::format("tuned now at {:g} m/s, robust over {} plants{}", best->wind_speed,
-                            ensemble.members.size(),
+                            designed.ensemble.members.size(),
                             best->goals_met ? "" : "; MISSES its goals on some of them")};
 }
 

@@ -3,8 +3,9 @@
 #include <optional>
 #include <string>
 
-#include <boresight/app/tune/controller_study.hpp>
+#include <boresight/app/uncertainty/designed_antenna.hpp>
 #include <boresight/control/controllers/control_law.hpp>
+#include <boresight/design/studies/controller_study.hpp>
 #include <boresight/io/case/case_file.hpp>
 
 namespace boresight::app {
@@ -38,9 +39,9 @@ std::optional<ChosenController> named_controller(const io::Case& antenna, const 
 
 /// The controller that every command takes where none is named: the one recommended by
 /// study_controllers; where none is fit for that, the least unfit that keeps the nominal antenna
-/// stable. `antenna` and `ensemble`: as designed_antenna has them.
+/// stable.
 /// @throws InfeasibleRequirement if no stable one is found; Interrupted; as study_controllers.
-ChosenController recommended_controller(const io::Case& antenna, const PlantEnsemble& ensemble,
-                                        const TuneOptions& options);
+ChosenController recommended_controller(const DesignedAntenna& designed,
+                                        const design::TuneOptions& options);
 
 }  // namespace boresight::app

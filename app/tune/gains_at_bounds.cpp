@@ -8,6 +8,7 @@
 #include <fmt/ranges.h>
 
 #include <boresight/app/tune/gains_at_bounds.hpp>
+#include <boresight/app/tune/position_gain_trade.hpp>
 #include <boresight/io/case/drive_numbers.hpp>
 #include <boresight/io/case/usual_structures.hpp>
 
@@ -33,7 +34,7 @@ struct ReachedBound {
 
 // "the upper bound of the compliance, cs = 0.1 rad/(N.m)": the one that the gain is nearer to.
 std::string bound_text(const control::GainDescription& gain, double value) {
-  const bool upper = ends_at_upper(gain, value);
+  const bool upper = design::ends_at_upper(gain, value);
   return fmt::format("the {} bound of the {}, {} = {:g}{}", upper ? "upper" : "lower", gain.name,
                      gain.symbol, upper ? gain.upper : gain.lower,
                      gain.unit == "1" ? "" : " " + gain.unit);
@@ -115,7 +116,7 @@ void add_law(const SearchedLaw& law, std::size_t gain, std::vector<ReachedBound>
   if (found == reached.end()) found = reached.insert(found, {text, law.sample_time});
   found->laws.push_back(law.name);
   const auto block = block_above(structure, gain);
-  const bool beyond = law.sample_time > 0.0 && ends_at_upper(description, value) &&
+  const bool beyond = law.sample_time > 0.0 && design::ends_at_upper(description, value) &&
                       value > highest_frequency(law.sample_time);
   if (!block || !beyond) return;
   found->idle = structure.blocks()[*block].kind;
@@ -154,10 +155,6 @@ std::string beyond_sampling(const ReachedBound& bound) {
 
 }  // namespace
 
-bool ends_at_upper(const control::GainDescription& gain, double value) {
-  return value > std::sqrt(gain.lower * gain.upper);
-}
-
 std::vector<std::string> gains_at_bounds(const std::vector<SearchedLaw>& laws) {
   std::vector<std::string> sentences;
   for (const auto& bound : reached_bounds(laws)) {
@@ -193,11 +190,12 @@ std::vector<std::string> corners_beyond_sampling(const SearchedLaw& law) {
   return sentences;
 }
 
-std::vector<std::string> gain_trades(const std::vector<const TunedLaw*>& laws) {
+std::vector<std::string> gain_trades(const std::vector<const TunedLaw*>& laws,
+                                     const io::GainUnits& units) {
   std::vector<std::string> sentences;
   for (const TunedLaw* row : laws) {
     if (!row->trade) continue;
-    sentences.push_back(trade_in_words(*row->trade,
+    sentences.push_back(trade_in_words(*row->trade, units,
                                        fmt::format("{} ({}, {:.3g} m/s)", row->structure,
                                                    to_string(row->tuned_for), row->wind_speed),
                                        row->beam_rms,
@@ -206,10 +204,10 @@ std::vector<std::string> gain_trades(const std::vector<const TunedLaw*>& laws) {
   return sentences;
 }
 
-std::vector<std::string> about_bounds(const TuneSection& section,
+std::vector<std::string> about_bounds(const design::TuningStudy& study, const io::GainUnits& units,
                                       const std::vector<const TunedLaw*>& laws) {
-  auto sentences = gains_at_bounds(laws, io::sample_time_of(section.problem.delay));
-  std::ranges::move(gain_trades(laws), std::back_inserter(sentences));
+  auto sentences = gains_at_bounds(laws, control::sample_time_of(study.problem.delay));
+  std::ranges::move(gain_trades(laws, units), std::back_inserter(sentences));
   return sentences;
 }
 

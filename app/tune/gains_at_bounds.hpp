@@ -22,10 +22,6 @@ std::vector<std::string> gains_at_bounds(const std::vector<SearchedLaw>& laws);
 std::vector<std::string> gains_at_bounds(const std::vector<const TunedLaw*>& laws,
                                          double sample_time);
 
-/// Whether a gain that ends at a bound of its search does so at the upper one: the nearer of the
-/// two in the logarithm.
-bool ends_at_upper(const control::GainDescription& gain, double value);
-
 /// One sentence for each corner of a lag, lead or notch that ends at the upper bound of its search
 /// above pi over the sample time, which does nothing that a sampled controller can do: that it is
 /// to be left out, and by which structure. None where the sample time is not known.
@@ -33,10 +29,11 @@ std::vector<std::string> corners_beyond_sampling(const SearchedLaw& law);
 
 /// One sentence for each law whose position gain at its bound is no sharp number
 /// (TunedLaw::trade).
-std::vector<std::string> gain_trades(const std::vector<const TunedLaw*>& laws);
+std::vector<std::string> gain_trades(const std::vector<const TunedLaw*>& laws,
+                                     const io::GainUnits& units);
 
 /// All that is to be said of gains at bounds of rows of a study: gains_at_bounds, then gain_trades.
-std::vector<std::string> about_bounds(const TuneSection& section,
+std::vector<std::string> about_bounds(const design::TuningStudy& study, const io::GainUnits& units,
                                       const std::vector<const TunedLaw*>& laws);
 
 }  // namespace boresight::app

@@ -83,7 +83,8 @@ void conclude_best(const TuneSection& section, std::vector<std::string>& sentenc
     if (std::ranges::find(concluded, recommended) != concluded.end()) continue;
     say(*recommended, fmt::format("the law recommended is {}", name_and_purpose(*recommended)));
   }
-  std::ranges::move(about_bounds(section, concluded), std::back_inserter(sentences));
+  std::ranges::move(about_bounds(section, section.gain_units, concluded),
+                    std::back_inserter(sentences));
 }
 
 void conclude_before_and_after(const TuneSection& section, std::vector<std::string>& sentences) {

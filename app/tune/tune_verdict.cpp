@@ -15,7 +15,7 @@
 #include <boresight/app/tune/laws_in_time.hpp>
 #include <boresight/app/tune/tune_study.hpp>
 #include <boresight/app/tune/tune_verdict.hpp>
-#include <boresight/app/tune/tuned_assessment.hpp>
+#include <boresight/control/controllers/sample_time.hpp>
 #include <boresight/design/problem/pointing.hpp>
 #include <boresight/design/problem/pointing_budget.hpp>
 #include <boresight/io/case/drive_numbers.hpp>
@@ -78,7 +78,8 @@ std::string found_and_limit(const GoalRatio& goal, const design::HardGoals& goal
 
 // Whether one of its corners does nothing that a sampled controller can do.
 bool has_idle_corner(const TuneSection& section, const TunedLaw& row) {
-  const SearchedLaw searched{"", &row.design.tuning, io::sample_time_of(section.problem.delay)};
+  const SearchedLaw searched{"", &row.design.tuning,
+                             control::sample_time_of(section.problem.delay)};
   return !corners_beyond_sampling(searched).empty();
 }
 
@@ -269,28 +270,6 @@ std::string name_and_purpose(const TunedLaw& row) {
   return fmt::format("{} ({})", row.structure, to_string(row.tuned_for));
 }
 
-const TunedLaw* recommended_law(const TuneSection& section, std::optional<double> wind_speed) {
-  if (!wind_speed) {
-    const TunedLaw* best = best_law(section);
-    if (best == nullptr) return nullptr;
-    wind_speed = best->wind_speed;
-  }
-  return recommended_at(section, *wind_speed, true, {});
-}
-
-const TunedLaw* shown_law(const TuneSection& section,
-                          const std::optional<TimeDomainSection>& in_time) {
-  if (const TunedLaw* recommended = recommended_law(section)) return recommended;
-  const TunedLaw* best = best_law(section);
-  if (best == nullptr || !in_time) return best;
-  for (const auto& law : section.laws) {
-    if (description_of(law) == in_time->law && law.wind_speed == best->wind_speed && law.usable()) {
-      return &law;
-    }
-  }
-  return best;
-}
-
 std::string why_not_recommended(const TuneSection& section, const TunedLaw& other,
                                 const TunedLaw& recommended) {
   std::vector<std::string> reasons;
@@ -328,6 +307,25 @@ std::string why_not_recommended(const TuneSection& section, const TunedLaw& othe
     reasons.push_back(fmt::format("is better by no more than {:.0f} %", 100.0 * negligible_change));
   }
   return fmt::format("{}", fmt::join(reasons, ", and "));
+}
+
+std::vector<std::string> TuneSection::not_run_texts() const {
+  std::vector<std::string> texts;
+  for (const auto& one : not_run) {
+    texts.push_back(
+        fmt::format("{}, {}, {:g} m/s", one.structure, to_string(one.tuned_for), one.wind_speed));
+  }
+  return texts;
+}
+
+TuneSection section_of(const io::Case& antenna, design::TuningStudy study) {
+  TuneSection section{std::move(study),
+                      io::GainUnits(antenna),
+                      antenna.wind.mast,
+                      io::demand_assumption(antenna),
+                      {}};
+  section.shortfalls = find_shortfalls(section);
+  return section;
 }
 
 std::vector<Shortfall> find_shortfalls(const TuneSection& section) {

@@ -2,9 +2,9 @@
 
 #include <boresight/app/identify/campaign_identification.hpp>
 #include <boresight/app/identify/identified_case.hpp>
-#include <boresight/app/tune/plant_members.hpp>
 #include <boresight/app/uncertainty/designed_antenna.hpp>
-#include <boresight/io/case/antenna_of.hpp>
+#include <boresight/design/ensembles/plant_members.hpp>
+#include <boresight/io/case/mission_of.hpp>
 #include <boresight/numerics/error.hpp>
 
 namespace boresight::app {
@@ -13,22 +13,25 @@ DesignedAntenna designed_antenna(const io::Case& stated,
                                  const std::optional<CampaignSection>& campaign,
                                  std::uint64_t seed) {
   if (!campaign || !campaign->grey_box) {
-    return {stated,
-            {"drawn from the ranges of the case", plant_members(stated, seed)},
-            PlantDistribution::of_ranges(stated),
-            false,
-            resonance_verdict(stated)};
+    design::Mission mission = mission_of(stated);
+    design::PlantEnsemble ensemble{design::EnsembleSource::ranges, plant_members(mission, seed)};
+    auto distribution = design::PlantDistribution::of_ranges(mission);
+    return {stated, std::move(mission),       std::move(ensemble), std::move(distribution),
+            false,  resonance_verdict(stated)};
   }
   // As many as the reference ensemble has.
   constexpr std::size_t members = 30;
   const io::Case identified = with_identified(stated, campaign->grey_box->estimate);
-  const auto distribution = PlantDistribution::of_records(identified, campaign->grey_box->draws);
-  PlantEnsemble ensemble{"drawn from what the records leave open", {}};
+  design::Mission mission = mission_of(identified);
+  const auto distribution =
+      design::PlantDistribution::of_records(mission, campaign->grey_box->draws);
+  design::PlantEnsemble ensemble{design::EnsembleSource::records, {}};
   for (std::size_t i = 0; i < members; ++i) {
-    ensemble.members.push_back({fmt::format("draw {}", i + 1),
-                                make_plant(identified, changes_of(distribution.draw(seed, i)))});
+    ensemble.members.push_back(
+        {fmt::format("draw {}", i + 1),
+         linear_plant(changed(mission.antenna, changes_of(distribution.draw(seed, i))))});
   }
-  return {identified, std::move(ensemble), distribution, true};
+  return {identified, std::move(mission), std::move(ensemble), distribution, true};
 }
 
 DesignedAntenna designed_antenna(const io::Case& stated, std::uint64_t seed, unsigned threads,

@@ -6,8 +6,7 @@
 
 #include <boresight/app/identify/campaign_section.hpp>
 #include <boresight/app/redesign/resonance_verdict.hpp>
-#include <boresight/app/tune/tune_study.hpp>
-#include <boresight/app/uncertainty/plant_distribution.hpp>
+#include <boresight/design/ensembles/plant_distribution.hpp>
 
 namespace boresight::app {
 
@@ -15,10 +14,11 @@ namespace boresight::app {
 struct DesignedAntenna {
   /// The case as stated; with records that show a drive, the case with that one.
   io::Case antenna;
+  design::Mission mission;  // of that case
   /// As many as the reference ensemble has: draws of the distribution where records leave it open,
-  /// else tune/plant_members.hpp.
-  PlantEnsemble ensemble;
-  PlantDistribution distribution;
+  /// else design::plant_members.
+  design::PlantEnsemble ensemble;
+  design::PlantDistribution distribution;
   bool from_records = false;
   /// Of the antenna as stated; none where records show the drive.
   std::optional<ResonanceVerdict> resonance = std::nullopt;

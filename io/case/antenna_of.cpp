@@ -41,6 +41,15 @@ std::vector<double> line_lengths(const Case& stated) {
   return lengths;
 }
 
+std::optional<double> value_of(const std::optional<Quantity>& quantity) {
+  return quantity ? std::optional(quantity->value) : std::nullopt;
+}
+
+double return_pressure_of(const Case& stated) {
+  if (stated.simulation) return stated.simulation->return_pressure.value;
+  return value_of(stated.campaign.return_pressure).value_or(0.0);
+}
+
 plant::GearTrain gear_train_of(const Case& stated) {
   plant::GearTrain train{gear_stages(stated), {}};
   for (const RotatingAssembly& assembly : stated.gear_train.assemblies) {
@@ -108,10 +117,16 @@ plant::Antenna drive_of(const Case& stated) {
   antenna.flywheels = {motor.inertia.value, motor.flywheel_disks, motor.disk_inertia.value,
                        motor.flywheel_disks};
   const DriveEntry& drive = stated.drive;
-  antenna.drive = {drive.leakage_rate.value,    drive.viscous_friction.value,
-                   drive.valve_frequency.value, drive.valve_damping.value,
-                   drive.supply_pressure.value, drive.tracking_rate.value,
-                   drive.slew_rate.value};
+  antenna.drive = {drive.leakage_rate.value,
+                   drive.viscous_friction.value,
+                   drive.valve_frequency.value,
+                   drive.valve_damping.value,
+                   drive.supply_pressure.value,
+                   drive.tracking_rate.value,
+                   drive.slew_rate.value,
+                   return_pressure_of(stated),
+                   value_of(drive.valve_rated_flow),
+                   value_of(drive.valve_rated_pressure_drop)};
   antenna.friction_curve = friction_curve(stated);
   const SensorsEntry& sensors = stated.sensors;
   antenna.sensors = {sensors.encoder_noise.value, sensors.tachometer_noise.value,

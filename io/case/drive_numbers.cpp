@@ -3,7 +3,9 @@
 
 #include <fmt/format.h>
 
+#include <boresight/io/case/antenna_of.hpp>
 #include <boresight/io/case/drive_numbers.hpp>
+#include <boresight/plant/nonlinear/drive_capability.hpp>
 
 namespace boresight::io {
 
@@ -103,10 +105,7 @@ plant::OffsetTorque offset_torque(const Case& antenna) {
 }
 
 double torque_for_wind(const Case& antenna) {
-  const double friction = plant::friction_torque(
-      friction_curve(antenna), antenna.drive.tracking_rate.value * gear_ratio(antenna));
-  const double offset = plant::offset_torque(offset_torque(antenna), 0.0).value;
-  return std::max(0.0, supply_torque(antenna) - friction - std::abs(offset));
+  return plant::available_wind_torque(drive_of(antenna));
 }
 
 std::optional<Quantity> rated_stroke(const Case& antenna,
@@ -138,9 +137,7 @@ std::optional<Quantity> rated_stroke(const Case& antenna) {
 }
 
 double largest_demand(const Case& antenna) {
-  if (antenna.simulation) return antenna.simulation->valve_stroke.value;
-  if (const auto rated = rated_stroke(antenna)) return rated->value;
-  return antenna.drive.slew_rate.value * gear_ratio(antenna);
+  return plant::largest_demand(drive_of(antenna));
 }
 
 std::string demand_assumption(const Case& antenna) {

@@ -1,13 +1,16 @@
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include <fmt/format.h>
 
 #include <boresight/design/problem/pointing.hpp>
 #include <boresight/io/case/antenna_of.hpp>
-#include <boresight/io/case/drive_numbers.hpp>
+#include <boresight/io/case/guessed_shares.hpp>
+#include <boresight/io/case/member_ranges.hpp>
 #include <boresight/io/case/mission_of.hpp>
+#include <boresight/io/case/plant_numbers.hpp>
+#include <boresight/io/case/present_gains.hpp>
+#include <boresight/io/case/usual_structures.hpp>
 #include <boresight/numerics/error.hpp>
 
 namespace boresight::io {
@@ -25,42 +28,29 @@ plant::WindModel wind_model(const std::string& name) {
   return plant::WindModel::coherence;
 }
 
-}  // namespace
-
-design::TrackingProblem make_problem(const Case& antenna,
-                                     const std::vector<plant::AntennaChange>& changes) {
-  return make_problem(antenna, changed(antenna_of(antenna), changes));
+design::WindCondition wind_of(const Case& stated) {
+  const WindEntry& wind = stated.wind;
+  return {{wind.air_density.value, wind.gusts.surface_drag, wind.torque_coefficient.value,
+           wind.gradient_coefficient.value, wind.coherence_decay.value,
+           stated.antenna.dish_diameter.value, wind.gusts},
+          wind_model(wind.model),
+          wind.design_speed.value};
 }
 
-design::TrackingProblem make_problem(const Case& antenna, const plant::Antenna& other) {
-  design::TrackingProblem problem;
-  problem.plant = linear_plant(other);
-  problem.gear_ratio = plant::gear_ratio(other);
-  problem.delay = other.dead_time;
-  const plant::Sensors& sensors = other.sensors;
-  problem.noise = {sky_to_motor(other, sensors.encoder_noise), sensors.tachometer_noise,
-                   sensors.noise_bandwidth, sensors.torque_noise};
-  const WindEntry& wind = antenna.wind;
-  problem.wind = {{wind.air_density.value, wind.gusts.surface_drag, wind.torque_coefficient.value,
-                   wind.gradient_coefficient.value, wind.coherence_decay.value,
-                   antenna.antenna.dish_diameter.value, wind.gusts},
-                  wind_model(wind.model),
-                  wind.design_speed.value};
-  problem.rms_band = {antenna.goals.lowest_frequency.value, antenna.goals.highest_frequency.value};
-  return problem;
+std::vector<design::WeightedWind> climate_of(const Case& stated) {
+  design::WindCondition wind = wind_of(stated);
+  if (stated.wind.climate_torque_coefficient) {
+    wind.site.torque_coefficient = *stated.wind.climate_torque_coefficient;
+  }
+  std::vector<design::WeightedWind> winds;
+  for (const auto& one : stated.wind.climate) {
+    wind.mean_speed = one.speed;
+    winds.push_back({wind, one.weight});
+  }
+  return winds;
 }
 
-double supply_wind_speed(const Case& antenna, const design::TrackingProblem& problem) {
-  const double left = torque_for_wind(antenna);
-  if (!(left > 0.0)) return 0.0;
-  const double speed = problem.wind.mean_speed;
-  // The torque goes with the square of the speed.
-  return speed * std::sqrt(left * problem.gear_ratio /
-                           std::abs(plant::mean_wind_torque(problem.wind.site, speed)));
-}
-
-design::HardGoals make_goals(const Case& antenna) {
-  const GoalsEntry& entry = antenna.goals;
+design::HardGoals stated_constraints_of(const GoalsEntry& entry) {
   design::HardGoals goals;
   for (std::size_t b = 0; b < goals.sensitivity_peak.size(); ++b) {
     const auto& own = entry.peak_at_break.at(b);
@@ -70,24 +60,14 @@ design::HardGoals make_goals(const Case& antenna) {
   if (entry.gain_margin) goals.gain_margin.fill(std::pow(10.0, entry.gain_margin->value / 20.0));
   if (entry.phase_margin) goals.phase_margin.fill(entry.phase_margin->value);
   if (entry.bandwidth) goals.bandwidth = entry.bandwidth->value;
-  if (entry.crest_factor) {
-    goals.crest_factor = entry.crest_factor->value;
-    goals.gust_torque = torque_for_wind(antenna);
-    if (!(*goals.gust_torque > 0.0)) {
-      throw InvalidInput(fmt::format(
-          "goals.crest_factor: expected a supply torque above friction and offset at the tracking "
-          "rate, found {:.4g} N.m, which they take",
-          supply_torque(antenna)));
-    }
-    goals.gust_demand = largest_demand(antenna);
-  }
+  if (entry.crest_factor) goals.crest_factor = entry.crest_factor->value;
   return goals;
 }
 
-design::SoftGoal make_soft_goal(const Case& antenna) {
+design::SoftGoal objective_of(const GoalsEntry& entry) {
   design::SoftGoal soft;
-  soft.quantile = antenna.goals.quantile;
-  switch (antenna.goals.soft_goal) {
+  soft.quantile = entry.quantile;
+  switch (entry.soft_goal) {
     case SoftGoalKind::nominal:
       break;
     case SoftGoalKind::expected:
@@ -103,17 +83,71 @@ design::SoftGoal make_soft_goal(const Case& antenna) {
   return soft;
 }
 
+// Relative; 0 where the case states none.
+double stated_uncertainty(const Quantity& quantity) {
+  return quantity.uncertainty_given ? relative_uncertainty(quantity) : 0.0;
+}
+
+design::AntennaUncertainty uncertainty_of(const Case& stated) {
+  design::AntennaUncertainty uncertainty;
+  uncertainty.ranges = member_ranges(stated);
+  if (stated.ensemble.draws > 0) {
+    uncertainty.draws = static_cast<std::size_t>(stated.ensemble.draws);
+  }
+  uncertainty.antenna_inertia = relative_uncertainty(stated.antenna.inertia);
+  uncertainty.motor_inertia = relative_uncertainty(stated.motor.inertia);
+  uncertainty.wind_torque = std::hypot(stated_uncertainty(stated.wind.torque_coefficient),
+                                       stated_uncertainty(stated.wind.air_density));
+  return uncertainty;
+}
+
+std::vector<design::AlternativeAntenna> alternatives_of(const Case& stated) {
+  const bool with_efficiency = stated.oil.efficiency_in_stiffness;
+  std::vector<design::AlternativeAntenna> alternatives{
+      {with_efficiency ? "oil stiffness without efficiencies" : "oil stiffness with efficiencies",
+       {plant::set_to(
+           "at_shaft.oil_stiffness",
+           oil_stiffness(stated, with_efficiency ? plant::EfficiencyInStiffness::none
+                                                 : plant::EfficiencyInStiffness::both))}}};
+  for (const auto& alternative : stated.antenna.alternatives) {
+    alternatives.push_back(
+        {"antenna inertia of " + alternative.name, changes_of(stated, alternative)});
+  }
+  for (const auto place : other_guesses) {
+    if (!moves_guessed_shares(stated.structure, place)) continue;
+    alternatives.push_back(
+        {std::string(to_string(place)), guessed_share_changes(stated.structure, place)});
+  }
+  return alternatives;
+}
+
+}  // namespace
+
+design::TrackingProblem make_problem(const Case& antenna,
+                                     const std::vector<plant::AntennaChange>& changes) {
+  return tracking_problem(mission_of(antenna), changes);
+}
+
+design::TrackingProblem make_problem(const Case& antenna, const plant::Antenna& other) {
+  return tracking_problem(mission_of(antenna), other);
+}
+
+double supply_wind_speed(const Case& antenna, const design::TrackingProblem& problem) {
+  design::Mission mission = mission_of(antenna);
+  mission.wind = problem.wind;
+  return torque_limited_wind_speed(mission);
+}
+
+design::HardGoals make_goals(const Case& antenna) {
+  return constraints(mission_of(antenna));
+}
+
+design::SoftGoal make_soft_goal(const Case& antenna) {
+  return objective_of(antenna.goals);
+}
+
 std::vector<design::WeightedWind> make_climate(const Case& antenna) {
-  design::WindCondition wind = make_problem(antenna).wind;
-  if (antenna.wind.climate_torque_coefficient) {
-    wind.site.torque_coefficient = *antenna.wind.climate_torque_coefficient;
-  }
-  std::vector<design::WeightedWind> winds;
-  for (const auto& one : antenna.wind.climate) {
-    wind.mean_speed = one.speed;
-    winds.push_back({wind, one.weight});
-  }
-  return winds;
+  return climate_of(antenna);
 }
 
 std::vector<design::PointingBand> make_bands(const Case& antenna) {
@@ -153,9 +187,52 @@ std::vector<design::PointingBudget> make_budgets(const Case& antenna) {
 }
 
 double tightest_budget(const Case& antenna) {
-  const auto budgets = make_budgets(antenna);
-  const auto tightest = std::ranges::min_element(budgets, {}, &design::PointingBudget::rms);
-  return tightest != budgets.end() ? tightest->rms : 1e-3 * std::numbers::pi / 180.0;
+  return tightest_budget(mission_of(antenna));
+}
+
+std::vector<design::NamedStructure> asked_structures(const Case& stated,
+                                                     std::vector<std::string> names) {
+  if (names.empty()) names = stated.tuning.structures;
+  if (names.empty()) {
+    names = {"PI", "DPF", "LL", "FULL", "PI+C", "DPF+C"};
+    for (const auto& loop : stated.loops) names.push_back(loop.structure.name());
+  }
+  std::vector<design::NamedStructure> structures;
+  for (const auto& name : names) {
+    structures.push_back({name, loop_structure(stated, name)});
+    if (std::ranges::count(names, name) != 1) {
+      throw InvalidInput(fmt::format("expected each structure once, found '{}' again", name));
+    }
+  }
+  return structures;
+}
+
+design::Mission mission_of(const Case& stated) {
+  design::Mission mission;
+  mission.antenna = antenna_of(stated);
+  mission.uncertainty = uncertainty_of(stated);
+  mission.alternatives = alternatives_of(stated);
+  mission.wind = wind_of(stated);
+  mission.climate = climate_of(stated);
+  mission.climate_parts = stated.wind.climate_parts;
+  mission.torque_table = stated.wind.torque_table;
+  mission.wind_record = stated.wind.record;
+  mission.bands = make_bands(stated);
+  mission.budgets = make_budgets(stated);
+  mission.rms_band = {stated.goals.lowest_frequency.value, stated.goals.highest_frequency.value};
+  mission.stated_constraints = stated_constraints_of(stated.goals);
+  mission.limits_gusts = stated.goals.crest_factor.has_value();
+  mission.objective = objective_of(stated.goals);
+  if (stated.goals.beam_rms) mission.rms_goal = stated.goals.beam_rms->value;
+  mission.minimises_climate = stated.goals.over_climate;
+  mission.structures = asked_structures(stated);
+  for (const auto& structure : usual_structures_with_lag(stated)) {
+    mission.usual_structures.push_back({short_name(structure), structure});
+  }
+  mission.present_controllers = present_controllers(stated);
+  mission.starts = static_cast<int>(stated.tuning.starts);
+  if (!stated.matching_disks.empty()) mission.most_disks = stated.matching_disks.back();
+  return mission;
 }
 
 }  // namespace boresight::io

@@ -2,14 +2,23 @@
 
 #include <vector>
 
-#include <boresight/design/problem/goals.hpp>
-#include <boresight/design/problem/pointing_budget.hpp>
-#include <boresight/design/problem/tracking_problem.hpp>
+#include <boresight/design/problem/mission.hpp>
 #include <boresight/io/case/case_file.hpp>
-#include <boresight/plant/antenna/antenna_change.hpp>
 
 /// What a case asks of its antenna, as the design takes it.
 namespace boresight::io {
+
+/// Everything that the case asks of its antenna. Its alternatives: the other convention of the oil
+/// spring, the inertias that other places of the source have, other places of guessed fractions of
+/// wind and boresight.
+/// @throws InvalidInput as antenna_of.
+design::Mission mission_of(const Case& stated);
+
+/// The loop structures of these names, or without names those that the case's [tuning] asks for,
+/// else PI, DPF, LL, FULL, PI+C, DPF+C and the case's own.
+/// @throws InvalidInput as loop_structure, and for a name given twice.
+std::vector<design::NamedStructure> asked_structures(const Case& stated,
+                                                     std::vector<std::string> names = {});
 
 /// The antenna of a case (antenna_of), so changed, in the case's wind.
 /// @throws InvalidInput as antenna_of, plant::changed and plant::linear_plant.

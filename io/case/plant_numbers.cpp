@@ -6,6 +6,7 @@
 #include <boresight/io/case/drive_numbers.hpp>
 #include <boresight/io/case/plant_numbers.hpp>
 #include <boresight/numerics/error.hpp>
+#include <boresight/plant/nonlinear/drive_capability.hpp>
 
 namespace boresight::io {
 
@@ -68,11 +69,7 @@ double largest_viscous_friction(const Case& antenna) {
 }
 
 std::optional<double> disks_at_unit_ratio(const Case& antenna, double load_inertia) {
-  const MotorEntry& motor = antenna.motor;
-  const double each = load_inertia / static_cast<double>(motor.count);
-  const double disks =
-      motor.flywheel_disks + (each - motor.inertia.value) / motor.disk_inertia.value;
-  return disks >= 0.0 ? std::optional(disks) : std::nullopt;
+  return plant::disks_at_unit_ratio(drive_of(antenna), load_inertia);
 }
 
 }  // namespace boresight::io

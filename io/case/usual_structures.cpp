@@ -13,4 +13,11 @@ const std::vector<std::string>& usual_structures() {
   return names;
 }
 
+std::string short_name(const control::LoopStructure& structure) {
+  for (const auto& name : usual_structures()) {
+    if (control::LoopStructure::named(name) == structure) return name;
+  }
+  return structure.name();
+}
+
 }  // namespace boresight::io

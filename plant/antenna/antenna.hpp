@@ -41,6 +41,9 @@ struct DriveRatings {
   double supply_pressure = 0.0;   // Pa
   double tracking_rate = 0.0;     // rad/s at the sky
   double slew_rate = 0.0;         // rad/s at the sky
+  double return_pressure = 0.0;   // Pa; NonlinearDrive::return_pressure where there is one
+  /// Flow of the fully open valve (m3/s) at a total pressure drop over both edges (Pa).
+  std::optional<double> rated_flow, rated_pressure_drop;
 };
 
 /// The flexible antenna by its frequencies with the bull gear held; see StructureSpecification.

@@ -8,8 +8,8 @@
 #include "app/program_run.hpp"
 #include "io/edited_case.hpp"
 #include <boresight/app/commands/benchmark_command.hpp>
-#include <boresight/app/tune/engineer_units.hpp>
 #include <boresight/io/case/antenna_of.hpp>
+#include <boresight/io/case/present_gains.hpp>
 
 namespace boresight::app {
 namespace {
@@ -200,7 +200,7 @@ TEST(Benchmark, ScoresTheAntennaThatRecordsShow) {
   const io::Case stated = io::read_case(small_case(folder));
   DesignedAntenna designed{stated,
                            {"drawn from the ranges of the case", {}},
-                           PlantDistribution::of_ranges(stated),
+                           design::PlantDistribution::of_ranges(stated),
                            false};
   const auto controller = controller_of(present_laws(stated).front(), "PI", 0.0);
   auto as_stated = benchmark(designed, controller, {});

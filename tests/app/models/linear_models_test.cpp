@@ -69,7 +69,7 @@ TEST(LinearModels, ComeBackBitByBitFromMatAndJson) {
   expect_same(io::controller_from_json(json, "r.json"), loop.controller);
   EXPECT_EQ(loop.controller.sample_time, 0.0);
   EXPECT_EQ(loop.sampled_controller.sample_time,
-            io::sample_time_of(antenna().controller_delay.value));
+            control::sample_time_of(antenna().controller_delay.value));
   EXPECT_EQ(mat, to_mat(written, "redesign", "case.toml"));
 }
 

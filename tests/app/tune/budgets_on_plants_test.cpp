@@ -4,8 +4,8 @@
 
 #include "io/edited_case.hpp"
 #include <boresight/app/report/sky_units.hpp>
-#include <boresight/app/tune/budgets_on_plants.hpp>
-#include <boresight/app/tune/plant_members.hpp>
+#include <boresight/design/ensembles/budgets_on_plants.hpp>
+#include <boresight/design/ensembles/plant_members.hpp>
 #include <boresight/design/problem/pointing_budget.hpp>
 #include <boresight/io/case/mission_of.hpp>
 

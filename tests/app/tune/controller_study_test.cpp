@@ -11,9 +11,9 @@
 #include <boresight/app/commands/commission_command.hpp>
 #include <boresight/app/commands/simulate_command.hpp>
 #include <boresight/app/montecarlo/montecarlo_study.hpp>
-#include <boresight/app/tune/controller_study.hpp>
 #include <boresight/app/tune/tune_verdict.hpp>
 #include <boresight/app/uncertainty/designed_antenna.hpp>
+#include <boresight/design/studies/controller_study.hpp>
 
 namespace boresight::app {
 namespace {

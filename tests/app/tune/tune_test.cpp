@@ -12,14 +12,14 @@
 
 #include "app/program_run.hpp"
 #include "io/edited_case.hpp"
-#include <boresight/app/tune/engineer_units.hpp>
-#include <boresight/app/tune/plant_members.hpp>
-#include <boresight/app/tune/tune_limit.hpp>
 #include <boresight/app/tune/tune_study.hpp>
+#include <boresight/design/ensembles/plant_members.hpp>
 #include <boresight/design/problem/pointing_budget.hpp>
+#include <boresight/design/studies/limit_study.hpp>
 #include <boresight/io/case/antenna_of.hpp>
 #include <boresight/io/case/drive_numbers.hpp>
 #include <boresight/io/case/mission_of.hpp>
+#include <boresight/io/case/present_gains.hpp>
 
 namespace boresight::app {
 namespace {
@@ -270,7 +270,7 @@ TEST(Tune, SaysThatABudgetIsOutOfReach) {
 // in inertia (0.3340 mdeg), not the optimum 2 % above it that random starts end in.
 TEST(Tune, FindsInAStructureAtLeastWhatItsPartsDo) {
   const io::Case antenna = io::read_case(case_path("dss14-70m"));
-  TuneOptions options;
+  design::TuneOptions options;
   options.structures = {"PI", "DPF", "DPF+C"};
   options.starts = 4;
   const auto section = tune_structures(antenna, {"", plant_members(antenna, 1)}, options);

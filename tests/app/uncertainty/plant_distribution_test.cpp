@@ -2,8 +2,8 @@
 
 #include <gtest/gtest.h>
 
-#include <boresight/app/tune/plant_members.hpp>
-#include <boresight/app/uncertainty/plant_distribution.hpp>
+#include <boresight/design/ensembles/plant_distribution.hpp>
+#include <boresight/design/ensembles/plant_members.hpp>
 #include <boresight/io/case/antenna_of.hpp>
 #include <boresight/io/case/plant_numbers.hpp>
 #include <boresight/numerics/error.hpp>
@@ -17,22 +17,22 @@ const io::Case& reference() {
   return antenna;
 }
 
-std::size_t place(UncertainInput input) {
+std::size_t place(design::UncertainInput input) {
   return static_cast<std::size_t>(input);
 }
 
 TEST(PlantDistribution, OfRangesKeepsToThem) {
-  const auto distribution = PlantDistribution::of_ranges(reference());
-  const MemberRanges ranges = member_ranges(reference());
+  const auto distribution = design::PlantDistribution::of_ranges(reference());
+  const design::MemberRanges ranges = member_ranges(reference());
   double mean = 0.0, log_square = 0.0;
   constexpr std::uint64_t count = 20000;
   for (std::uint64_t i = 0; i < count; ++i) {
-    const PlantDraw draw = distribution.draw(7, i);
-    const double oil = draw[UncertainInput::oil_stiffness];
+    const design::PlantDraw draw = distribution.draw(7, i);
+    const double oil = draw[design::UncertainInput::oil_stiffness];
     ASSERT_GE(oil, ranges.oil_stiffness.lower);
     ASSERT_LE(oil, ranges.oil_stiffness.upper);
     mean += oil / count;
-    log_square += std::pow(std::log(draw[UncertainInput::antenna_inertia]), 2) / count;
+    log_square += std::pow(std::log(draw[design::UncertainInput::antenna_inertia]), 2) / count;
   }
   const double width = ranges.oil_stiffness.upper - ranges.oil_stiffness.lower;
   EXPECT_NEAR(mean, 0.5 * (ranges.oil_stiffness.lower + ranges.oil_stiffness.upper),
@@ -44,11 +44,11 @@ TEST(PlantDistribution, OfRangesKeepsToThem) {
 
 TEST(PlantDistribution, SharesAreThoseOfTheDraws) {
   // A quarter of the draws lies below what stands at the share 0.25, of every input.
-  const auto distribution = PlantDistribution::of_ranges(reference());
+  const auto distribution = design::PlantDistribution::of_ranges(reference());
   const auto quarter =
       distribution.at_shares(std::vector<double>(distribution.inputs().size(), 0.25));
   constexpr std::uint64_t count = 20000;
-  for (const UncertainInput input : distribution.inputs()) {
+  for (const design::UncertainInput input : distribution.inputs()) {
     double below = 0.0;
     for (std::uint64_t i = 0; i < count; ++i) {
       below += distribution.draw(3, i)[input] < quarter[input] ? 1.0 / count : 0.0;
@@ -76,16 +76,16 @@ TEST(PlantDistribution, OfRecordsHasTheirCovariance) {
     draw.lowest_frequency = reference().structure.locked_rotor_frequency.value;
     records.push_back(draw);
   }
-  const auto distribution = PlantDistribution::of_records(reference(), records);
-  EXPECT_EQ(distribution.inputs(),
-            (std::vector{UncertainInput::oil_stiffness, UncertainInput::friction_slope,
-                         UncertainInput::antenna_inertia}));
+  const auto distribution = design::PlantDistribution::of_records(reference(), records);
+  EXPECT_EQ(distribution.inputs(), (std::vector{design::UncertainInput::oil_stiffness,
+                                                design::UncertainInput::friction_slope,
+                                                design::UncertainInput::antenna_inertia}));
   double oil = 0.0, inertia = 0.0, product = 0.0;
   constexpr std::uint64_t count = 20000;
   for (std::uint64_t i = 0; i < count; ++i) {
-    const PlantDraw draw = distribution.draw(5, i);
-    const double x = std::log(draw[UncertainInput::oil_stiffness]);
-    const double y = std::log(draw[UncertainInput::antenna_inertia]);
+    const design::PlantDraw draw = distribution.draw(5, i);
+    const double x = std::log(draw[design::UncertainInput::oil_stiffness]);
+    const double y = std::log(draw[design::UncertainInput::antenna_inertia]);
     oil += x * x / count;
     inertia += y * y / count;
     product += x * y / count;
@@ -96,14 +96,15 @@ TEST(PlantDistribution, OfRecordsHasTheirCovariance) {
 }
 
 TEST(PlantDistribution, AFactorOfOneIsTheCase) {
-  PlantDraw draw;
-  draw.values.at(place(UncertainInput::friction_slope)) = reference().drive.viscous_friction.value;
+  design::PlantDraw draw;
+  draw.values.at(place(design::UncertainInput::friction_slope)) =
+      reference().drive.viscous_friction.value;
   const auto own = make_plant(reference());
   const auto drawn = make_plant(reference(), changes_of(draw));
   EXPECT_EQ(drawn.drive.oil_stiffness, own.drive.oil_stiffness);
   EXPECT_EQ(drawn.drive.motor_inertia, own.drive.motor_inertia);
   EXPECT_DOUBLE_EQ(plant::reflected_inertia(drawn), plant::reflected_inertia(own));
-  draw.values.at(place(UncertainInput::structure_frequency)) = 1.1;
+  draw.values.at(place(design::UncertainInput::structure_frequency)) = 1.1;
   EXPECT_NEAR(make_plant(reference(), changes_of(draw)).structure.gear_stiffness,
               1.21 * own.structure.gear_stiffness, 1e-12 * own.structure.gear_stiffness);
 }
@@ -115,16 +116,16 @@ TEST(PlantDistribution, DrawsTheWindTorqueByItsStatedUncertainties) {
   windy.wind.torque_coefficient.standard_uncertainty = 0.2 * windy.wind.torque_coefficient.value;
   windy.wind.air_density.uncertainty_given = true;
   windy.wind.air_density.standard_uncertainty = 0.05 * windy.wind.air_density.value;
-  const auto calm = PlantDistribution::of_ranges(reference());
-  const auto distribution = PlantDistribution::of_ranges(windy);
+  const auto calm = design::PlantDistribution::of_ranges(reference());
+  const auto distribution = design::PlantDistribution::of_ranges(windy);
   EXPECT_EQ(calm.inputs().size() + 1, distribution.inputs().size());
-  EXPECT_EQ(distribution.inputs().back(), UncertainInput::wind_torque);
+  EXPECT_EQ(distribution.inputs().back(), design::UncertainInput::wind_torque);
   double square = 0.0;
   constexpr std::uint64_t count = 20000;
   for (std::uint64_t i = 0; i < count; ++i) {
-    PlantDraw draw = distribution.draw(7, i);
-    square += std::pow(std::log(draw[UncertainInput::wind_torque]), 2) / count;
-    draw.values.at(place(UncertainInput::wind_torque)) = 1.0;
+    design::PlantDraw draw = distribution.draw(7, i);
+    square += std::pow(std::log(draw[design::UncertainInput::wind_torque]), 2) / count;
+    draw.values.at(place(design::UncertainInput::wind_torque)) = 1.0;
     ASSERT_EQ(draw.values, calm.draw(7, i).values);
   }
   const double relative = std::hypot(0.2, 0.05);
@@ -134,21 +135,21 @@ TEST(PlantDistribution, DrawsTheWindTorqueByItsStatedUncertainties) {
 // The sequence of the six inputs of the plant, whatever else is drawn.
 TEST(PlantDistribution, KeepsTheSequenceOfItsDraws) {
   const auto ranges = member_ranges(reference());
-  const auto distribution = PlantDistribution::of_ranges(reference());
+  const auto distribution = design::PlantDistribution::of_ranges(reference());
   const std::uint64_t stream = numerics::splitmix64(7, 0x5eed0001);
   for (std::uint64_t i = 0; i < 5; ++i) {
     const double share =
         (static_cast<double>(numerics::splitmix64(stream, 6 * i + 1) >> 12U) + 0.5) * 0x1p-52;
-    EXPECT_DOUBLE_EQ(distribution.draw(7, i)[UncertainInput::oil_stiffness],
+    EXPECT_DOUBLE_EQ(distribution.draw(7, i)[design::UncertainInput::oil_stiffness],
                      ranges.oil_stiffness.lower +
                          share * (ranges.oil_stiffness.upper - ranges.oil_stiffness.lower));
   }
 }
 
 TEST(PlantDistribution, AWindTorqueIsThatOfThePlant) {
-  PlantDraw draw = PlantDistribution::of_ranges(reference()).median();
+  design::PlantDraw draw = design::PlantDistribution::of_ranges(reference()).median();
   const auto calm = make_plant(reference(), changes_of(draw)).structure;
-  draw.values.at(place(UncertainInput::wind_torque)) = 1.2;
+  draw.values.at(place(design::UncertainInput::wind_torque)) = 1.2;
   const auto windy = make_plant(reference(), changes_of(draw)).structure;
   EXPECT_EQ(windy.bull_gear_wind_fraction, 1.2 * calm.bull_gear_wind_fraction);
   for (std::size_t i = 0; i < calm.modes.size(); ++i) {
@@ -158,11 +159,11 @@ TEST(PlantDistribution, AWindTorqueIsThatOfThePlant) {
 }
 
 TEST(PlantDistribution, RefusesWhatIsNoShare) {
-  const auto distribution = PlantDistribution::of_ranges(reference());
+  const auto distribution = design::PlantDistribution::of_ranges(reference());
   EXPECT_THROW(distribution.at_shares({0.5}), InvalidInput);
   EXPECT_THROW(distribution.at_shares(std::vector<double>(distribution.inputs().size(), 1.0)),
                InvalidInput);
-  EXPECT_THROW(PlantDistribution::of_records(reference(), {}), InvalidInput);
+  EXPECT_THROW(design::PlantDistribution::of_records(reference(), {}), InvalidInput);
 }
 
 }  // namespace

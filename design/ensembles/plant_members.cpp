@@ -1,20 +1,14 @@
-#include <algorithm>
 #include <array>
-#include <numbers>
 #include <numeric>
 
 #include <fmt/format.h>
 
-#include <boresight/app/tune/plant_members.hpp>
-#include <boresight/io/case/antenna_of.hpp>
-#include <boresight/io/case/plant_numbers.hpp>
+#include <boresight/design/ensembles/plant_members.hpp>
 #include <boresight/numerics/normal_numbers.hpp>
 #include <boresight/plant/antenna/antenna_change.hpp>
 
-namespace boresight::app {
+namespace boresight::design {
 namespace {
-
-constexpr long reference_draws = 24;
 
 // What one member has in the place of the case's numbers, in the order of MemberRanges.
 struct Draw {
@@ -52,56 +46,24 @@ std::vector<double> stratified(std::size_t count, std::uint64_t state) {
   return numbers;
 }
 
-double between(const MemberRanges::Ends& ends, double share) {
+double between(const Ends& ends, double share) {
   return ends.lower + share * (ends.upper - ends.lower);
-}
-
-MemberRanges::Ends stated(const std::optional<io::RangeEntry>& range,
-                          const MemberRanges::Ends& usual) {
-  if (!range) return usual;
-  return {range->lower.value, range->upper.value};
-}
-
-MemberRanges::Ends both(const MemberRanges::Ends& one, const MemberRanges::Ends& other) {
-  return {std::min(one.lower, other.lower), std::max(one.upper, other.upper)};
-}
-
-// Of a number, `scale` times the factors about 1 that its stated uncertainty leaves.
-MemberRanges::Ends spread(const io::Quantity& quantity, double scale) {
-  constexpr double least = 0.05;
-  if (!quantity.uncertainty_given) return {scale, scale};
-  const double half = std::numbers::sqrt3 * relative_uncertainty(quantity);
-  return {scale * std::max(1.0 - half, least), scale * (1.0 + half)};
 }
 
 }  // namespace
 
-MemberRanges member_ranges(const io::Case& antenna) {
-  const io::EnsembleEntry& ensemble = antenna.ensemble;
-  const double leakage = antenna.drive.leakage_rate.value;
-  const MemberRanges spread = spread_of_stated(antenna);
-  return {stated(ensemble.structure_frequency, both({0.95, 1.05}, spread.structure_frequency)),
-          stated(ensemble.oil_stiffness, both({0.8, 1.33}, spread.oil_stiffness)),
-          stated(ensemble.leakage_rate, both({0.3 * leakage, leakage}, spread.leakage_rate)),
-          stated(ensemble.viscous_friction, {0.0, largest_viscous_friction(antenna)})};
+std::string_view to_string(EnsembleSource source) {
+  return source == EnsembleSource::records ? "drawn from what the records leave open"
+                                           : "drawn from the ranges of the case";
 }
 
-MemberRanges spread_of_stated(const io::Case& antenna) {
-  const io::Quantity& leakage = antenna.drive.leakage_rate;
-  const double friction = antenna.drive.viscous_friction.value;
-  return {spread(antenna.structure.locked_rotor_frequency, 1.0),
-          antenna.oil.bulk_modulus ? spread(*antenna.oil.bulk_modulus, 1.0) : MemberRanges::Ends{},
-          spread(leakage, leakage.value),
-          {friction, friction}};
-}
-
-std::vector<design::EnsembleMember> plant_members(const io::Case& antenna, std::uint64_t seed) {
-  const MemberRanges ranges = member_ranges(antenna);
-  const Draw own{1.0, 1.0, antenna.drive.leakage_rate.value, antenna.drive.viscous_friction.value};
-  const plant::Antenna stated = antenna_of(antenna);
-  std::vector<design::EnsembleMember> members;
+std::vector<EnsembleMember> plant_members(const Mission& mission, std::uint64_t seed) {
+  const MemberRanges& ranges = mission.uncertainty.ranges;
+  const plant::DriveRatings& drive = mission.antenna.drive;
+  const Draw own{1.0, 1.0, drive.leakage_rate, drive.viscous_friction};
+  std::vector<EnsembleMember> members;
   const auto add = [&](std::string name, const Draw& draw) {
-    members.push_back({std::move(name), plant_of(stated, draw)});
+    members.push_back({std::move(name), plant_of(mission.antenna, draw)});
   };
   add("nominal", own);
   Draw corner = own;
@@ -118,8 +80,7 @@ std::vector<design::EnsembleMember> plant_members(const io::Case& antenna, std::
   corner.leakage_rate = ranges.leakage_rate.lower;
   add(fmt::format("leakage rate {:.4g} 1/s", corner.leakage_rate), corner);
 
-  const long stated_draws = antenna.ensemble.draws;
-  const auto draws = static_cast<std::size_t>(stated_draws > 0 ? stated_draws : reference_draws);
+  const std::size_t draws = mission.uncertainty.draws;
   std::array<std::vector<double>, 4> shares;
   for (std::size_t i = 0; i < shares.size(); ++i) {
     shares.at(i) = stratified(draws, numerics::splitmix64(seed, i));
@@ -133,4 +94,4 @@ std::vector<design::EnsembleMember> plant_members(const io::Case& antenna, std::
   return members;
 }
 
-}  // namespace boresight::app
+}  // namespace boresight::design

@@ -2,17 +2,15 @@
 
 #include <array>
 #include <cstdint>
-#include <string>
 #include <string_view>
 #include <vector>
 
 #include <Eigen/Core>
 
+#include <boresight/design/ensembles/plant_members.hpp>
 #include <boresight/identification/grey_box/grey_box.hpp>
-#include <boresight/io/case/case_file.hpp>
-#include <boresight/plant/antenna/antenna_change.hpp>
 
-namespace boresight::app {
+namespace boresight::design {
 
 /// What is uncertain about a plant, in the order of PlantDraw::values.
 enum class UncertainInput {
@@ -28,8 +26,8 @@ inline constexpr std::size_t uncertain_inputs = 7;
 /// "structure frequency" and so on.
 std::string_view to_string(UncertainInput input);
 
-/// One plant that may be the true one: factors on the numbers of a case, whatever a proposal makes
-/// of them, and the slope of the friction.
+/// One sample of the plant: factors on the numbers of an antenna, whatever a proposal makes of
+/// them, and the slope of the friction.
 struct PlantDraw {
   std::array<double, uncertain_inputs> values{1.0, 1.0, 1.0, 0.0, 1.0, 1.0, 1.0};
 
@@ -40,19 +38,17 @@ struct PlantDraw {
 
 std::vector<plant::AntennaChange> changes_of(const PlantDraw& draw);
 
-/// How the plants that may be the true one are distributed.
+/// The distribution of the plant, given what is known of it.
 class PlantDistribution {
  public:
-  /// Independent, uniform over the case's ensemble ranges (tune/plant_members.hpp); the inertias
-  /// lognormal with the case's own uncertainties, and the wind torque with those that the case
-  /// states of torque coefficient and air density, none otherwise.
-  static PlantDistribution of_ranges(const io::Case& antenna);
+  /// Independent, uniform over AntennaUncertainty::ranges; inertias and wind torque lognormal with
+  /// the mission's uncertainties.
+  static PlantDistribution of_ranges(const Mission& mission);
   /// Lognormal with mean and covariance of what the records leave open, about `identified` (the
-  /// case at the estimate, identify/identified_case.hpp); the friction slope uniform from 0 to that
-  /// at the tracking rate; the wind torque as in of_ranges. Draws that leave the antenna no inertia
-  /// are passed over.
+  /// mission at the estimate); the friction slope uniform from 0 to largest_viscous_friction; the
+  /// wind torque as in of_ranges. Draws that leave the antenna no inertia are passed over.
   /// @throws InvalidInput for fewer than 20 draws.
-  static PlantDistribution of_records(const io::Case& identified,
+  static PlantDistribution of_records(const Mission& identified,
                                       const std::vector<identification::DriveEstimate>& draws);
 
   /// Draw number `index` of a seed, whatever was drawn before.
@@ -65,8 +61,9 @@ class PlantDistribution {
   PlantDraw median() const;
   /// Inputs that vary at all.
   const std::vector<UncertainInput>& inputs() const { return inputs_; }
-  /// In words, for reports: where it comes from.
-  const std::string& source() const { return source_; }
+  EnsembleSource source() const { return source_; }
+  /// Whether an input varies at all.
+  bool varies(UncertainInput input) const;
 
  private:
   // An input is uniform, or the exponential of a normal number.
@@ -77,13 +74,13 @@ class PlantDistribution {
 
     double at(double share) const;
   };
-  void set_wind_torque(const io::Case& antenna);
+  void set_wind_torque(double deviation);
   void list_inputs();
 
   std::array<Marginal, uncertain_inputs> marginals_;
   Eigen::MatrixXd factor_;  // lower triangular, of the covariance of the logarithms
   std::vector<UncertainInput> inputs_;
-  std::string source_;
+  EnsembleSource source_ = EnsembleSource::ranges;
 };
 
-}  // namespace boresight::app
+}  // namespace boresight::design

@@ -5,22 +5,15 @@
 
 #include <fmt/format.h>
 
-#include <boresight/app/tune/asked_structures.hpp>
-#include <boresight/app/tune/engineer_units.hpp>
-#include <boresight/app/tune/position_gain_trade.hpp>
-#include <boresight/app/tune/tune_study.hpp>
-#include <boresight/app/tune/tuned_assessment.hpp>
+#include <boresight/design/studies/time_domain_study.hpp>
+#include <boresight/design/studies/tuning_study.hpp>
 #include <boresight/design/tuning/structure_parts.hpp>
-#include <boresight/io/case/drive_numbers.hpp>
-#include <boresight/io/case/mission_of.hpp>
 #include <boresight/numerics/error.hpp>
 #include <boresight/numerics/parallel_loop.hpp>
 #include <boresight/plant/antenna/point_response.hpp>
 
-namespace boresight::app {
+namespace boresight::design {
 namespace {
-
-using design::TuningStatus;
 
 // Of every structure and wind speed: no tuning, or a nominal and a robust one.
 struct TuningUnit {
@@ -31,20 +24,19 @@ struct TuningUnit {
   bool asked = true;                    // else only to start others from
   std::vector<std::size_t> parts = {};  // units whose structures this one extends
   std::vector<TunedLaw> laws = {};
-  std::vector<std::string> not_run = {};
+  std::vector<TuningNotRun> not_run = {};
 };
 
 class Study {
  public:
-  Study(const io::Case& antenna, const PlantEnsemble& ensemble, const TuneOptions& options,
-        const TuneSection& section)
-      : antenna_(antenna),
+  Study(const Mission& mission, const PlantEnsemble& ensemble, const TuneOptions& options,
+        const TuningStudy& section)
+      : mission_(mission),
         ensemble_(ensemble),
         options_(options),
         section_(section),
-        problem_(make_problem(antenna)),
-        climate_(make_climate(antenna)) {
-    if (section.minimises_climate && climate_.empty()) {
+        problem_(tracking_problem(mission)) {
+    if (section.minimises_climate && mission.climate.empty()) {
       throw InvalidInput(
           "tune: expected [[wind.climate]] in the case for the goal rms_over = "
           "climate, found none");
@@ -58,7 +50,7 @@ class Study {
       return;
     }
     TunedLaw row = new_row(unit, TunedFor::present);
-    row.design = design::assess(problem_at(unit.wind_speed), *unit.present, section_.goals);
+    row.design = assess(problem_at(unit.wind_speed), *unit.present, section_.goals);
     unit.laws.push_back(std::move(row));
   }
 
@@ -67,18 +59,17 @@ class Study {
     bool other_nominal = false;
     for (auto& row : unit.laws) {
       if (stopped()) return;
-      const design::DesignTask task = task_of(unit, row.tuned_for);
+      const DesignTask task = task_of(unit, row.tuned_for);
       std::vector<std::vector<double>> starts;
       if (other_nominal) starts.push_back(unit.laws.front().design.tuning.law.gains);
       for (const std::size_t part : unit.parts) {
         for (const auto& law : units[part].laws) {
           if (law.tuned_for != row.tuned_for || !law.stable()) continue;
-          std::ranges::move(
-              design::starts_from_part(law.design.tuning.law, unit.structure, options_.seed),
-              std::back_inserter(starts));
+          std::ranges::move(starts_from_part(law.design.tuning.law, unit.structure, options_.seed),
+                            std::back_inserter(starts));
         }
       }
-      other_nominal = design::improve_from(task, starts, row.design);
+      other_nominal = improve_from(task, starts, row.design);
     }
   }
 
@@ -94,10 +85,10 @@ class Study {
   }
 
  private:
-  design::TrackingProblem problem_at(double wind_speed) const {
-    design::TrackingProblem problem = problem_;
+  TrackingProblem problem_at(double wind_speed) const {
+    TrackingProblem problem = problem_;
     problem.wind.mean_speed = wind_speed;
-    if (section_.minimises_climate) problem.climate = climate_;
+    if (section_.minimises_climate) problem.climate = mission_.climate;
     return problem;
   }
 
@@ -111,17 +102,17 @@ class Study {
 
   bool stopped() const { return options_.interrupted && options_.interrupted(); }
 
-  design::DesignTask task_of(const TuningUnit& unit, TunedFor purpose) const {
-    design::DesignTask task;
+  DesignTask task_of(const TuningUnit& unit, TunedFor purpose) const {
+    DesignTask task;
     task.name = unit.name;
     task.problem = problem_at(unit.wind_speed);
     task.structure = unit.structure;
     task.goals = section_.goals;
     task.options.seed = options_.seed;
     task.options.starts =
-        unit.asked ? section_.starts : std::min(section_.starts, design::starts_of_a_part);
+        unit.asked ? section_.starts : std::min(section_.starts, starts_of_a_part);
     task.options.stop = options_.interrupted;
-    for (const auto& law : present_laws(antenna_)) {
+    for (const auto& [name, law] : mission_.present_controllers) {
       if (law.structure == unit.structure) task.options.warm_starts.push_back(law.gains);
     }
     if (purpose == TunedFor::robust) {
@@ -133,65 +124,59 @@ class Study {
 
   void search(TuningUnit& unit, TunedFor purpose) const {
     if (stopped()) {
-      unit.not_run.push_back(
-          fmt::format("{}, {}, {:g} m/s", unit.name, to_string(purpose), unit.wind_speed));
+      unit.not_run.push_back({unit.name, purpose, unit.wind_speed});
       return;
     }
-    design::DesignTask task = task_of(unit, purpose);
+    DesignTask task = task_of(unit, purpose);
     if (!unit.laws.empty() && unit.laws.front().stable()) {
       task.options.warm_starts.push_back(unit.laws.front().design.tuning.law.gains);
     }
     TunedLaw row = new_row(unit, purpose);
-    row.design = design::solve(task);
+    row.design = solve(task);
     unit.laws.push_back(std::move(row));
   }
 
   void finish(TunedLaw& row) const {
     const control::ControlLaw& law = row.design.tuning.law;
-    row.gains = in_engineers_units(antenna_, law);
     if (!row.stable()) {
-      row.gains.clear();
       row.beam_rms = std::numeric_limits<double>::quiet_NaN();
       row.speed_limits.assign(section_.budgets.size(), row.beam_rms);
       return;
     }
-    design::TrackingProblem problem = problem_;
+    TrackingProblem problem = problem_;
     problem.wind.mean_speed = row.wind_speed;
-    control::LoopEvaluator evaluator = design::make_evaluator(problem);
+    control::LoopEvaluator evaluator = make_evaluator(problem);
     const auto evaluation = evaluator.evaluate(law, false);
     row.beam_rms = std::sqrt(evaluation.beam_variance()) / problem.gear_ratio;
     for (const auto& budget : section_.budgets) {
       row.speed_limits.push_back(
-          design::wind_speed_limit(problem, evaluator, law, evaluation.noise_variance, budget.rms));
+          wind_speed_limit(problem, evaluator, law, evaluation.noise_variance, budget.rms));
     }
-    if (!climate_.empty()) {
-      problem.climate = climate_;
-      row.climate_rms =
-          std::sqrt(design::make_evaluator(problem).evaluate(law, false).beam_variance()) /
-          problem.gear_ratio;
+    if (!mission_.climate.empty()) {
+      problem.climate = mission_.climate;
+      row.climate_rms = std::sqrt(make_evaluator(problem).evaluate(law, false).beam_variance()) /
+                        problem.gear_ratio;
     }
     if (!ensemble_.members.empty()) {
-      row.ensemble =
-          design::judge(problem_at(row.wind_speed), ensemble_.members, law, section_.goals, 1);
+      row.ensemble = judge(problem_at(row.wind_speed), ensemble_.members, law, section_.goals, 1);
     }
-    row.trade = position_gain_trade(antenna_, problem, row.design.tuning, row.beam_rms,
-                                    section_.goals, ensemble_.members);
+    row.trade = position_gain_trade(problem, row.design.tuning, row.beam_rms, section_.goals,
+                                    ensemble_.members);
   }
 
-  const io::Case& antenna_;
+  const Mission& mission_;
   const PlantEnsemble& ensemble_;
   const TuneOptions& options_;
-  const TuneSection& section_;
-  design::TrackingProblem problem_;
-  std::vector<design::WeightedWind> climate_;
+  const TuningStudy& section_;
+  TrackingProblem problem_;
 };
 
 // The speeds asked for, or the design's, and those of budgets that must be met.
-std::vector<double> speeds_of(const io::Case& antenna, const TuneOptions& options) {
+std::vector<double> speeds_of(const Mission& mission, const TuneOptions& options) {
   std::vector<double> speeds = options.wind_speeds;
-  if (speeds.empty()) speeds.push_back(antenna.wind.design_speed.value);
-  for (const auto& budget : antenna.budgets) {
-    if (budget.wind_speed) speeds.push_back(budget.wind_speed->value);
+  if (speeds.empty()) speeds.push_back(mission.wind.mean_speed);
+  for (const auto& budget : mission.budgets) {
+    if (budget.wind_speed) speeds.push_back(*budget.wind_speed);
   }
   std::vector<double> once;
   for (const double speed : speeds) {
@@ -204,36 +189,28 @@ std::vector<double> speeds_of(const io::Case& antenna, const TuneOptions& option
   return once;
 }
 
-// As --structure takes it: a usual structure's short name, else the own one's.
-std::string short_name(const control::LoopStructure& structure) {
-  for (const auto* base : {"PI-0", "PI", "DPF", "LL", "FULL"}) {
-    for (const auto* added : {"", "+N", "+C", "+N+C"}) {
-      const std::string name = std::string(base) + added;
-      if (control::LoopStructure::named(name) == structure) return name;
-    }
+std::vector<TuningUnit> units_of(const Mission& mission, std::vector<NamedStructure> named,
+                                 const std::vector<double>& wind_speeds) {
+  const std::size_t asked = named.size();
+  const auto structures_of = [](const std::vector<NamedStructure>& some) {
+    std::vector<control::LoopStructure> structures;
+    for (const auto& one : some) structures.push_back(one.structure);
+    return structures;
+  };
+  for (const auto& part :
+       missing_parts(structures_of(named), structures_of(mission.usual_structures))) {
+    named.push_back(*std::ranges::find(mission.usual_structures, part, &NamedStructure::structure));
   }
-  return structure.name();
-}
-
-std::vector<TuningUnit> units_of(const io::Case& antenna, const TuneSection& section) {
-  std::vector<control::LoopStructure> structures;
-  for (const auto& name : section.structures) {
-    structures.push_back(io::loop_structure(antenna, name));
-  }
-  const auto missing = design::missing_parts(structures, io::usual_structures_with_lag(antenna));
-  structures.insert(structures.end(), missing.begin(), missing.end());
-  const auto parts = design::parts_of(structures);
+  const auto parts = parts_of(structures_of(named));
   std::vector<TuningUnit> units;
-  for (const double speed : section.wind_speeds) {
-    for (const auto& law : present_laws(antenna)) {
-      units.push_back({short_name(law.structure), law.structure, speed, law});
+  for (const double speed : wind_speeds) {
+    for (const auto& [name, law] : mission.present_controllers) {
+      units.push_back({name, law.structure, speed, law});
     }
     const std::size_t first = units.size();
-    for (std::size_t s = 0; s < structures.size(); ++s) {
-      const bool asked = s < section.structures.size();
-      TuningUnit unit{asked ? section.structures[s] : short_name(structures[s]), structures[s],
-                      speed};
-      unit.asked = asked;
+    for (std::size_t s = 0; s < named.size(); ++s) {
+      TuningUnit unit{named[s].name, named[s].structure, speed};
+      unit.asked = s < asked;
       for (const std::size_t part : parts[s]) unit.parts.push_back(first + part);
       units.push_back(std::move(unit));
     }
@@ -248,6 +225,15 @@ bool only_unverified(const std::vector<TunedLaw>& laws) {
          std::ranges::none_of(laws, [&](const auto& row) { return tuned(row) && row.usable(); });
 }
 
+// Relative round-off of a budget that is met to the last digit.
+constexpr double round_off = 1e-6;
+
+void count_budget(const TunedLaw& row, double rms, bool with_simulation, Assessment& assessment) {
+  const double limit = (1.0 + round_off) * rms;
+  ++assessment.budgets_required;
+  if (with_simulation ? row.keeps(limit) : row.beam_rms <= limit) ++assessment.budgets_met;
+}
+
 }  // namespace
 
 std::string_view to_string(TunedFor purpose) {
@@ -255,12 +241,53 @@ std::string_view to_string(TunedFor purpose) {
   return names.at(static_cast<std::size_t>(purpose));
 }
 
-const TunedLaw* best_law(const TuneSection& section, std::optional<double> wind_speed) {
+Assessment assessment_of(const TuningStudy& section, const TunedLaw& row, bool with_simulation) {
+  const bool robust = row.tuned_for == TunedFor::robust;
+  Assessment result;
+  result.structure = row.structure;
+  result.purpose = robust ? DesignPurpose::robust : DesignPurpose::nominal;
+  result.parts = row.design.tuning.law.structure.gains().size();
+  result.stable = row.stable();
+  result.verified = row.design.verification.passed;
+  result.nominal_constraints_met = row.goals_met;
+  result.member_constraints_met = robust && row.goals_met;
+  result.linear_rms = row.beam_rms;
+  if (with_simulation && row.in_time) {
+    const LawInTime& run = *row.in_time;
+    result.simulated_rms = run.beam_rms;
+    result.limit_cycle_amplitude = run.hunting;
+    result.limit_cycles = limit_cycle_verdict(run.still, run.hunting_seen);
+  }
+  for (const auto& budget : section.budgets) {
+    if (budget.wind_speed == row.wind_speed) {
+      count_budget(row, budget.rms, with_simulation, result);
+    }
+  }
+  if (section.beam_rms_goal && row.wind_speed == section.wind_speeds.front()) {
+    count_budget(row, *section.beam_rms_goal, with_simulation, result);
+  }
+  return result;
+}
+
+const TunedLaw* recommended_at(const TuningStudy& section, double wind_speed, bool with_simulation,
+                               const RecommendOptions& options) {
+  std::vector<const TunedLaw*> rows;
+  std::vector<Assessment> candidates;
+  for (const auto& row : section.laws) {
+    if (row.tuned_for == TunedFor::present || row.wind_speed != wind_speed) continue;
+    rows.push_back(&row);
+    candidates.push_back(assessment_of(section, row, with_simulation));
+  }
+  const auto winner = recommend(candidates, options).winner;
+  return winner ? rows[*winner] : nullptr;
+}
+
+const TunedLaw* best_law(const TuningStudy& section, std::optional<double> wind_speed) {
   // Round-off of the search does not outweigh robustness.
-  design::RecommendOptions options{.tie = 1e-3};
+  RecommendOptions options{.tie = 1e-3};
   const auto best_at = [&](double speed) { return recommended_at(section, speed, false, options); };
   if (wind_speed) return best_at(*wind_speed);
-  for (const auto accepted : {design::Fitness::misses_budget, design::Fitness::misses_member}) {
+  for (const auto accepted : {Fitness::misses_budget, Fitness::misses_member}) {
     options.accepted = accepted;
     for (const double speed : section.wind_speeds) {
       if (const TunedLaw* best = best_at(speed)) return best;
@@ -269,7 +296,7 @@ const TunedLaw* best_law(const TuneSection& section, std::optional<double> wind_
   return nullptr;
 }
 
-const TunedLaw* nearest_to_budget(const TuneSection& section, std::optional<double> wind_speed) {
+const TunedLaw* nearest_to_budget(const TuningStudy& section, std::optional<double> wind_speed) {
   const TunedLaw* linear = best_law(section, wind_speed);
   if (linear == nullptr) return nullptr;
   const auto least = [&](bool left_out) {
@@ -287,35 +314,43 @@ const TunedLaw* nearest_to_budget(const TuneSection& section, std::optional<doub
   return nearest != nullptr ? nearest : linear;
 }
 
-TuneSection tune_structures(const io::Case& antenna, const PlantEnsemble& ensemble,
+const TunedLaw* recommended_law(const TuningStudy& section, std::optional<double> wind_speed) {
+  if (!wind_speed) {
+    const TunedLaw* best = best_law(section);
+    if (best == nullptr) return nullptr;
+    wind_speed = best->wind_speed;
+  }
+  return recommended_at(section, *wind_speed, true, {});
+}
+
+TuningStudy tune_structures(const Mission& mission, const PlantEnsemble& ensemble,
                             const TuneOptions& options) {
-  TuneSection section;
-  section.structures = asked_structures(antenna, options.structures);
-  section.wind_speeds = speeds_of(antenna, options);
-  section.goals = make_goals(antenna);
-  design::validate(section.goals);
-  section.soft_goal = make_soft_goal(antenna);
-  if (antenna.goals.beam_rms) section.beam_rms_goal = antenna.goals.beam_rms->value;
-  section.minimises_climate = antenna.goals.over_climate;
-  section.bands = make_bands(antenna);
-  section.budgets = make_budgets(antenna);
+  const auto& structures = options.structures.empty() ? mission.structures : options.structures;
+  TuningStudy section;
+  for (const auto& structure : structures) section.structures.push_back(structure.name);
+  section.wind_speeds = speeds_of(mission, options);
+  section.goals = constraints(mission);
+  validate(section.goals);
+  section.soft_goal = mission.objective;
+  section.beam_rms_goal = mission.rms_goal;
+  section.minimises_climate = mission.minimises_climate;
+  section.bands = mission.bands;
+  section.budgets = mission.budgets;
   section.ensemble_source = ensemble.source;
   section.ensemble_size = ensemble.members.size();
   section.starts = options.starts;
-  if (section.starts == 0) section.starts = static_cast<int>(antenna.tuning.starts);
-  if (section.starts == 0) section.starts = design::TuningOptions{}.starts;
+  if (section.starts == 0) section.starts = mission.starts;
+  if (section.starts == 0) section.starts = TuningOptions{}.starts;
 
-  const Study study(antenna, ensemble, options, section);
-  section.problem = make_problem(antenna);
-  section.supply_wind_speed = supply_wind_speed(antenna, section.problem);
+  const Study study(mission, ensemble, options, section);
+  section.problem = tracking_problem(mission);
+  section.supply_wind_speed = torque_limited_wind_speed(mission);
   section.wind_model = section.problem.wind.model;
-  section.wind_mast = antenna.wind.mast;
-  section.climate = antenna.wind.climate_parts;
-  section.demand_assumption = io::demand_assumption(antenna);
-  auto units = units_of(antenna, section);
+  section.climate = mission.climate_parts;
+  auto units = units_of(mission, structures, section.wind_speeds);
   std::vector<std::vector<std::size_t>> parts;
   for (const auto& unit : units) parts.push_back(unit.parts);
-  numerics::StepCounter counter(design::steps_of_search(parts), options.progress);
+  numerics::StepCounter counter(steps_of_search(parts), options.progress);
   const auto search = [&](std::size_t i) {
     study.search(units[i]);
     counter.step();
@@ -324,7 +359,7 @@ TuneSection tune_structures(const io::Case& antenna, const PlantEnsemble& ensemb
     study.improve(units[i], units);
     counter.step();
   };
-  design::search_then_improve(parts, options.threads, search, improve);
+  search_then_improve(parts, options.threads, search, improve);
   std::erase_if(units, [](const auto& unit) { return !unit.asked; });
   numerics::for_each_index(units.size(), options.threads,
                            [&](std::size_t i) { study.finish(units[i]); });
@@ -333,8 +368,7 @@ TuneSection tune_structures(const io::Case& antenna, const PlantEnsemble& ensemb
     std::ranges::move(unit.not_run, std::back_inserter(section.not_run));
   }
   section.unverified = only_unverified(section.laws);
-  section.shortfalls = find_shortfalls(section);
   return section;
 }
 
-}  // namespace boresight::app
+}  // namespace boresight::design

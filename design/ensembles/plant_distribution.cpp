@@ -7,14 +7,13 @@
 #include <boost/math/special_functions/erf.hpp>
 #include <fmt/format.h>
 
-#include <boresight/app/tune/plant_members.hpp>
-#include <boresight/app/uncertainty/plant_distribution.hpp>
-#include <boresight/io/case/plant_numbers.hpp>
+#include <boresight/design/ensembles/plant_distribution.hpp>
 #include <boresight/numerics/error.hpp>
 #include <boresight/numerics/normal_numbers.hpp>
 #include <boresight/plant/antenna/antenna_change.hpp>
+#include <boresight/plant/nonlinear/drive_capability.hpp>
 
-namespace boresight::app {
+namespace boresight::design {
 namespace {
 
 constexpr std::size_t place(UncertainInput input) {
@@ -38,24 +37,22 @@ constexpr std::size_t plant_inputs = place(UncertainInput::wind_torque);
 
 // Logarithms of a draw's factors against the estimate's case, in the order of PlantDraw::values;
 // the friction slope's stays 0. Nothing where it leaves the antenna no inertia.
-std::optional<Eigen::VectorXd> log_factors(const io::Case& identified,
+std::optional<Eigen::VectorXd> log_factors(const plant::Antenna& identified,
                                            const identification::DriveEstimate& draw) {
-  const double antenna = draw.inertia - draw.motor_inertia - gear_train_inertia(identified);
+  const double antenna = draw.inertia - draw.motor_inertia - plant::gear_train_inertia(identified);
   if (!(antenna > 0.0)) return std::nullopt;
   using enum UncertainInput;
   Eigen::VectorXd logs = Eigen::VectorXd::Zero(plant_inputs);
-  const auto set = [&](UncertainInput input, double value, double of_case) {
-    if (value > 0.0 && of_case > 0.0) {
-      logs(static_cast<Eigen::Index>(place(input))) = std::log(value / of_case);
+  const auto set = [&](UncertainInput input, double value, double at_estimate) {
+    if (value > 0.0 && at_estimate > 0.0) {
+      logs(static_cast<Eigen::Index>(place(input))) = std::log(value / at_estimate);
     }
   };
-  set(structure_frequency, draw.lowest_frequency,
-      identified.structure.locked_rotor_frequency.value);
-  set(oil_stiffness, draw.oil_stiffness, io::oil_stiffness(identified));
-  set(leakage_rate, draw.leakage_rate, identified.drive.leakage_rate.value);
-  set(antenna_inertia, antenna, io::antenna_inertia(identified));
-  set(motor_inertia, draw.motor_inertia,
-      io::motor_inertia(identified, identified.motor.flywheel_disks));
+  set(structure_frequency, draw.lowest_frequency, identified.structure.locked_rotor_frequency);
+  set(oil_stiffness, draw.oil_stiffness, plant::oil_stiffness(identified));
+  set(leakage_rate, draw.leakage_rate, identified.drive.leakage_rate);
+  set(antenna_inertia, antenna, plant::antenna_inertia(identified));
+  set(motor_inertia, draw.motor_inertia, plant::motor_inertia(identified));
   return logs;
 }
 
@@ -84,17 +81,14 @@ double PlantDistribution::Marginal::at(double share) const {
   return std::exp(centre - deviation * std::numbers::sqrt2 * boost::math::erfc_inv(2.0 * share));
 }
 
-void PlantDistribution::set_wind_torque(const io::Case& antenna) {
-  const auto stated = [](const io::Quantity& quantity) {
-    return quantity.uncertainty_given ? io::relative_uncertainty(quantity) : 0.0;
-  };
+void PlantDistribution::set_wind_torque(double deviation) {
   Marginal& marginal = marginals_.at(place(UncertainInput::wind_torque));
   marginal.uniform = false;
-  marginal.deviation =
-      std::hypot(stated(antenna.wind.torque_coefficient), stated(antenna.wind.air_density));
-  if (marginal.deviation > 0.0) {
-    source_ += "; the wind torque by the uncertainties stated of its coefficient and of the air";
-  }
+  marginal.deviation = deviation;
+}
+
+bool PlantDistribution::varies(UncertainInput input) const {
+  return std::ranges::find(inputs_, input) != inputs_.end();
 }
 
 void PlantDistribution::list_inputs() {
@@ -106,9 +100,10 @@ void PlantDistribution::list_inputs() {
   }
 }
 
-PlantDistribution PlantDistribution::of_ranges(const io::Case& antenna) {
-  const MemberRanges ranges = member_ranges(antenna);
-  const double leakage = antenna.drive.leakage_rate.value;
+PlantDistribution PlantDistribution::of_ranges(const Mission& mission) {
+  const AntennaUncertainty& uncertainty = mission.uncertainty;
+  const MemberRanges& ranges = uncertainty.ranges;
+  const double leakage = mission.antenna.drive.leakage_rate;
   PlantDistribution distribution;
   using enum UncertainInput;
   const auto uniform_within = [&](UncertainInput input, double lower, double upper) {
@@ -125,29 +120,26 @@ PlantDistribution PlantDistribution::of_ranges(const io::Case& antenna) {
   }
   uniform_within(friction_slope, ranges.viscous_friction.lower, ranges.viscous_friction.upper);
   distribution.factor_ = Eigen::MatrixXd::Zero(plant_inputs, plant_inputs);
-  for (const auto& [input, quantity] : {std::pair{antenna_inertia, &antenna.antenna.inertia},
-                                        std::pair{motor_inertia, &antenna.motor.inertia}}) {
+  for (const auto& [input, deviation] : {std::pair{antenna_inertia, uncertainty.antenna_inertia},
+                                         std::pair{motor_inertia, uncertainty.motor_inertia}}) {
     Marginal& marginal = distribution.marginals_.at(place(input));
     marginal.uniform = false;
-    marginal.deviation = io::relative_uncertainty(*quantity);
+    marginal.deviation = deviation;
     const auto i = static_cast<Eigen::Index>(place(input));
     distribution.factor_(i, i) = marginal.deviation;
   }
-  distribution.source_ =
-      "independent draws of structure frequencies, oil stiffness, leakage and friction slope from "
-      "the [ensemble]'s ranges and of the inertias by their uncertainties";
-  distribution.set_wind_torque(antenna);
+  distribution.set_wind_torque(uncertainty.wind_torque);
   distribution.list_inputs();
   return distribution;
 }
 
 PlantDistribution PlantDistribution::of_records(
-    const io::Case& identified, const std::vector<identification::DriveEstimate>& draws) {
+    const Mission& identified, const std::vector<identification::DriveEstimate>& draws) {
   constexpr Eigen::Index least = 20;
   Eigen::MatrixXd logs(static_cast<Eigen::Index>(draws.size()), plant_inputs);
   Eigen::Index kept = 0;
   for (const auto& draw : draws) {
-    if (const auto row = log_factors(identified, draw)) logs.row(kept++) = row->transpose();
+    if (const auto row = log_factors(identified.antenna, draw)) logs.row(kept++) = row->transpose();
   }
   if (kept < least) {
     throw InvalidInput(fmt::format(
@@ -174,9 +166,9 @@ PlantDistribution PlantDistribution::of_records(
   Marginal& friction = distribution.marginals_.at(place(UncertainInput::friction_slope));
   friction = {};
   friction.lower = 0.0;
-  friction.upper = largest_viscous_friction(identified);
-  distribution.source_ = "draws from what the records leave open, with their correlations";
-  distribution.set_wind_torque(identified);
+  friction.upper = largest_viscous_friction(identified.antenna);
+  distribution.source_ = EnsembleSource::records;
+  distribution.set_wind_torque(identified.uncertainty.wind_torque);
   distribution.list_inputs();
   return distribution;
 }
@@ -236,4 +228,4 @@ PlantDraw PlantDistribution::median() const {
   return draw;
 }
 
-}  // namespace boresight::app
+}  // namespace boresight::design

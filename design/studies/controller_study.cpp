@@ -1,0 +1,111 @@
+#include <algorithm>
+#include <utility>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include <boresight/design/studies/controller_study.hpp>
+#include <boresight/numerics/parallel_loop.hpp>
+
+namespace boresight::design {
+namespace {
+
+// The usable designs for the same purpose and wind speed.
+std::vector<NamedController> alternatives(const TuningStudy& section, const TunedLaw& best) {
+  std::vector<NamedController> laws;
+  for (const auto& row : section.laws) {
+    if (row.tuned_for != best.tuned_for || row.wind_speed != best.wind_speed || !row.usable()) {
+      continue;
+    }
+    laws.push_back({description_of(row), row.design.tuning.law});
+  }
+  return laws;
+}
+
+LawInTime judged(const NonlinearVerification& result, double error) {
+  return {.still = holds_still(result.hunting, error),
+          .hunting = hunting_amplitude(result.hunting),
+          .beam_rms = result.wind.beam_rms,
+          .hunting_seen = hunting_seen(result.hunting)};
+}
+
+bool needed(const TuningStudy& section, double speed) {
+  return std::ranges::any_of(
+      section.budgets, [&](const PointingBudget& budget) { return budget.wind_speed == speed; });
+}
+
+}  // namespace
+
+std::string description_of(const TunedLaw& row) {
+  return fmt::format("{}, {}", row.structure, to_string(row.tuned_for));
+}
+
+const NonlinearVerification* run_of(const TimeDomainStudy& section, const TunedLaw& row) {
+  if (section.wind_speed != row.wind_speed) return nullptr;
+  const std::string law = description_of(row);
+  if (section.law == law) return &section.result;
+  const auto one = std::ranges::find(section.candidates, law, &TimeDomainStudy::Candidate::law);
+  return one == section.candidates.end() ? nullptr : &one->result;
+}
+
+void judge_in_time(const Mission& mission, const TimeDomainStudy* compared, TunedFor purpose,
+                   std::uint64_t seed, unsigned threads, const std::function<bool()>& interrupted,
+                   TuningStudy& section) {
+  if (compared == nullptr) return;
+  const double error = tightest_budget(mission);
+  std::vector<TunedLaw*> to_run;
+  for (auto& row : section.laws) {
+    if (row.tuned_for != purpose || !row.usable()) continue;
+    if (const auto* result = run_of(*compared, row)) {
+      row.in_time = judged(*result, error);
+    } else if (needed(section, row.wind_speed)) {
+      to_run.push_back(&row);
+    }
+  }
+  const auto options = comparison_options(mission, seed);
+  numerics::for_each_index(to_run.size(), threads, [&](std::size_t i) {
+    if (interrupted && interrupted()) return;
+    TunedLaw& row = *to_run[i];
+    auto problem = tracking_problem(mission);
+    problem.wind.mean_speed = row.wind_speed;
+    const auto result = run_in_time_domain(mission, problem, row.design.tuning.law, options);
+    if (result) row.in_time = judged(*result, error);
+  });
+}
+
+const TunedLaw* shown_law(const TuningStudy& section, const TimeDomainStudy* in_time) {
+  if (const TunedLaw* recommended = recommended_law(section)) return recommended;
+  const TunedLaw* best = best_law(section);
+  if (best == nullptr || in_time == nullptr) return best;
+  for (const auto& law : section.laws) {
+    if (description_of(law) == in_time->law && law.wind_speed == best->wind_speed && law.usable()) {
+      return &law;
+    }
+  }
+  return best;
+}
+
+ControllerStudy study_controllers(const Mission& mission, const PlantEnsemble& ensemble,
+                                  const TuneOptions& options, ChoiceDetail detail) {
+  ControllerStudy study{tune_structures(mission, ensemble, options), std::nullopt};
+  const TunedLaw* best = best_law(study.tuned);
+  if (best == nullptr || (options.interrupted && options.interrupted())) return study;
+  auto problem = tracking_problem(mission);
+  problem.wind.mean_speed = best->wind_speed;
+  study.time_domain = choose_in_time_domain(mission, problem, alternatives(study.tuned, *best),
+                                            options.seed, options.threads, detail);
+  judge_in_time(mission, study.time_domain ? &*study.time_domain : nullptr, best->tuned_for,
+                options.seed, options.threads, options.interrupted, study.tuned);
+  return study;
+}
+
+const TunedLaw* recommended_or(const ControllerStudy& study, Fitness accepted) {
+  if (const TunedLaw* law = recommended_law(study.tuned)) return law;
+  // One that was not simulated beside others that limit-cycle is none to prefer.
+  if (study.time_domain && accepted >= Fitness::lost_in_wind) {
+    return shown_law(study.tuned, &*study.time_domain);
+  }
+  return recommended_at(study.tuned, study.tuned.wind_speeds.front(), true, {.accepted = accepted});
+}
+
+}  // namespace boresight::design

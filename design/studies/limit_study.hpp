@@ -1,0 +1,14 @@
+#pragma once
+
+#include <boresight/design/limits/pointing_limit.hpp>
+#include <boresight/design/studies/tuning_study.hpp>
+
+namespace boresight::design {
+
+/// The laws of a finished study that were tuned at one wind speed (m/s), and the present gains,
+/// against the least any controller could do there (design/limits/pointing_limit.hpp).
+/// @throws as pointing_limit.
+PointingLimit pointing_limit_of(const Mission& mission, const TuningStudy& study,
+                                const PlantEnsemble& ensemble, double wind_speed, unsigned threads);
+
+}  // namespace boresight::design

@@ -1,0 +1,73 @@
+#include <algorithm>
+#include <charconv>
+
+#include <fmt/format.h>
+
+#include <boresight/io/case/present_gains.hpp>
+#include <boresight/io/case/usual_structures.hpp>
+
+namespace boresight::io {
+namespace {
+
+// What stands behind the number.
+std::string unit_of(const std::string& written) {
+  double number = 0.0;
+  const auto [end, error] =
+      std::from_chars(written.data(), written.data() + written.size(), number);
+  std::string unit(end, written.data() + written.size());
+  unit.erase(0, unit.find_first_not_of(' '));
+  return unit;
+}
+
+control::ControlLaw law_of(const control::LoopStructure& structure,
+                           const std::vector<Quantity>& gains) {
+  control::ControlLaw law{structure, {}};
+  for (const auto& gain : gains) law.gains.push_back(gain.value);
+  return law;
+}
+
+}  // namespace
+
+GainUnits::GainUnits(const Case& stated) {
+  const auto add = [&](const control::LoopStructure& structure,
+                       const std::vector<Quantity>& gains) {
+    Written written{structure, {}};
+    for (const auto& gain : gains) {
+      const std::string unit = unit_of(gain.text);
+      written.units.push_back({unit, unit.empty() ? 1.0 : parse_unit(unit).factor});
+    }
+    written_.push_back(std::move(written));
+  };
+  if (stated.present_gains) add(stated.present_gains->structure, stated.present_gains->gains);
+  for (const auto& loop : stated.loops) {
+    add(loop.structure, loop.present.empty() ? loop.lower : loop.present);
+  }
+}
+
+std::vector<std::string> GainUnits::texts(const control::ControlLaw& law) const {
+  const auto written = std::ranges::find(written_, law.structure, &Written::structure);
+  const auto& descriptions = law.structure.gains();
+  std::vector<std::string> texts;
+  for (std::size_t i = 0; i < law.gains.size(); ++i) {
+    Unit unit{descriptions[i].unit == "1" ? "" : descriptions[i].unit};
+    if (written != written_.end()) unit = written->units.at(i);
+    texts.push_back(fmt::format("{:.5g}{}{}", law.gains[i] / unit.factor,
+                                unit.symbol.empty() ? "" : " ", unit.symbol));
+  }
+  return texts;
+}
+
+std::vector<design::NamedController> present_controllers(const Case& stated) {
+  std::vector<design::NamedController> controllers;
+  const auto add = [&](const control::LoopStructure& structure,
+                       const std::vector<Quantity>& gains) {
+    controllers.push_back({short_name(structure), law_of(structure, gains)});
+  };
+  if (stated.present_gains) add(stated.present_gains->structure, stated.present_gains->gains);
+  for (const auto& loop : stated.loops) {
+    if (!loop.present.empty()) add(loop.structure, loop.present);
+  }
+  return controllers;
+}
+
+}  // namespace boresight::io

@@ -9,7 +9,8 @@
 
 #include <boresight/app/commands/subcommand.hpp>
 #include <boresight/app/redesign/assumed_inputs.hpp>
-#include <boresight/app/tune/asked_structures.hpp>
+#include <boresight/app/tune/structure_option.hpp>
+#include <boresight/app/tune/tune_study.hpp>
 #include <boresight/app/tune/tune_verdict.hpp>
 #include <boresight/app/uncertainty/designed_antenna.hpp>
 #include <boresight/design/studies/controller_study.hpp>
@@ -38,13 +39,13 @@ Tuning tune(io::Case antenna, const std::vector<std::string>& structures,
   std::vector<std::string> changes;
   for (const auto& [key, value] : goals) changes.push_back(fmt::format("{}={}", key, value));
   io::change_goals(antenna.goals, changes);
-  app::asked_structures(antenna, structures);
+  app::structure_option(antenna, structures);
   Tuning result{{report_of(antenna, "tune", seed)}};
   auto study = interruptible([&](const StopRequest& stop) {
     auto designed = app::designed_antenna(antenna, seed, app::all_or(threads), stop);
     antenna = std::move(designed.antenna);
     design::TuneOptions options;
-    options.structures = app::asked_structures(antenna, structures);
+    options.structures = app::structure_option(antenna, structures);
     options.wind_speeds = std::move(wind_speeds);
     options.starts = starts;
     options.seed = seed;

@@ -10,6 +10,7 @@
 #include <boresight/app/redesign/sections.hpp>
 #include <boresight/app/report/json_report.hpp>
 #include <boresight/app/report/sky_units.hpp>
+#include <boresight/control/controllers/sample_time.hpp>
 #include <boresight/control/controllers/sampled_law.hpp>
 #include <boresight/control/loops/state_space_controller.hpp>
 #include <boresight/io/case/drive_numbers.hpp>

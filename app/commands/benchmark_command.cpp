@@ -9,8 +9,9 @@
 #include <boresight/app/figures/benchmark_figures.hpp>
 #include <boresight/app/page/report_page.hpp>
 #include <boresight/app/report/json_report.hpp>
-#include <boresight/app/tune/asked_structures.hpp>
 #include <boresight/app/tune/chosen_controller.hpp>
+#include <boresight/app/tune/structure_option.hpp>
+#include <boresight/control/controllers/sample_time.hpp>
 #include <boresight/io/case/drive_numbers.hpp>
 #include <boresight/io/case/present_gains.hpp>
 #include <boresight/io/exchange/controller_file.hpp>
@@ -64,7 +65,7 @@ BenchmarkedController recommended_one(const BenchmarkArguments& arguments,
   ProgressLine progress("tuning and verifying");
   design::TuneOptions options;
   if (!arguments.structure.empty()) {
-    options.structures = asked_structures(designed.antenna, {arguments.structure});
+    options.structures = structure_option(designed.antenna, {arguments.structure});
   }
   options.seed = arguments.seed;
   options.threads = arguments.threads;

@@ -16,7 +16,7 @@
 #include <boresight/app/redesign/sections.hpp>
 #include <boresight/app/report/json_report.hpp>
 #include <boresight/app/report/text_report.hpp>
-#include <boresight/app/tune/asked_structures.hpp>
+#include <boresight/app/tune/structure_option.hpp>
 #include <boresight/app/uncertainty/designed_antenna.hpp>
 #include <boresight/io/case/friction_leeway.hpp>
 #include <boresight/io/files/write_atomically.hpp>
@@ -85,7 +85,7 @@ Report evaluate_case(const EvaluateArguments& arguments, const std::function<boo
   options.seed = arguments.seed;
   options.threads = arguments.threads;
   options.interrupted = interrupted;
-  if (!options.structures.empty()) asked_structures(antenna, options.structures);
+  if (!options.structures.empty()) structure_option(antenna, options.structures);
   arguments.outputs.require_writable();
 
   Report report = begin_report("evaluate", antenna, arguments.case_path, arguments.seed);

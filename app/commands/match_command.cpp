@@ -15,7 +15,7 @@
 #include <boresight/app/redesign/sections.hpp>
 #include <boresight/app/report/json_report.hpp>
 #include <boresight/app/report/text_report.hpp>
-#include <boresight/app/tune/asked_structures.hpp>
+#include <boresight/app/tune/structure_option.hpp>
 #include <boresight/app/uncertainty/designed_antenna.hpp>
 #include <boresight/design/studies/controller_study.hpp>
 #include <boresight/io/case/friction_leeway.hpp>
@@ -70,7 +70,7 @@ int run(const Arguments& arguments) {
         antenna, arguments.nominal ? std::vector<design::EnsembleMember>() : ensemble.members,
         options);
     design::TuneOptions tuning;
-    tuning.structures = asked_structures(antenna, options.structures);
+    tuning.structures = structure_option(antenna, options.structures);
     tuning.seed = options.seed;
     tuning.threads = options.threads;
     tuning.interrupted = options.interrupted;

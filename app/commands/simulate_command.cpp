@@ -22,8 +22,8 @@
 #include <boresight/app/redesign/sections.hpp>
 #include <boresight/app/report/json_report.hpp>
 #include <boresight/app/simulate/antenna_tests.hpp>
-#include <boresight/app/tune/asked_structures.hpp>
 #include <boresight/app/tune/chosen_controller.hpp>
+#include <boresight/app/tune/structure_option.hpp>
 #include <boresight/app/uncertainty/designed_antenna.hpp>
 #include <boresight/io/case/drive_numbers.hpp>
 #include <boresight/io/case/field.hpp>
@@ -72,7 +72,7 @@ SimulatedController controller_of(const io::Case& antenna, const SimulateArgumen
       designed_antenna(antenna, arguments.seed, arguments.threads, interrupted);
   design::TuneOptions options;
   if (!arguments.structure.empty()) {
-    options.structures = asked_structures(designed.antenna, {arguments.structure});
+    options.structures = structure_option(designed.antenna, {arguments.structure});
   }
   options.seed = arguments.seed;
   options.threads = arguments.threads;

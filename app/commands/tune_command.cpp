@@ -14,7 +14,7 @@
 #include <boresight/app/report/json_report.hpp>
 #include <boresight/app/report/measured_report.hpp>
 #include <boresight/app/report/text_report.hpp>
-#include <boresight/app/tune/asked_structures.hpp>
+#include <boresight/app/tune/structure_option.hpp>
 #include <boresight/app/tune/tune_study.hpp>
 #include <boresight/app/tune/tune_verdict.hpp>
 #include <boresight/app/uncertainty/designed_antenna.hpp>
@@ -52,7 +52,7 @@ Report tune_case(const TuneArguments& arguments, const std::function<bool()>& in
   options.threads = arguments.threads;
   options.interrupted = interrupted;
   if (!arguments.structures.empty()) {
-    options.structures = asked_structures(antenna, arguments.structures);
+    options.structures = structure_option(antenna, arguments.structures);
   }
   arguments.outputs.require_writable();
 

@@ -12,6 +12,7 @@
 #include <boresight/app/report/sky_units.hpp>
 #include <boresight/app/simulate/time_domain.hpp>
 #include <boresight/app/tune/gains_at_bounds.hpp>
+#include <boresight/app/tune/structure_option.hpp>
 #include <boresight/design/studies/controller_study.hpp>
 #include <boresight/io/case/drive_numbers.hpp>
 #include <boresight/io/case/mission_of.hpp>
@@ -77,7 +78,7 @@ control::ControlLaw recommended(const DesignedAntenna& designed, const Commissio
                                 CommissionReport& report) {
   design::TuneOptions tuning;
   if (!options.structure.empty()) {
-    tuning.structures = asked_structures(designed.antenna, {options.structure});
+    tuning.structures = structure_option(designed.antenna, {options.structure});
   }
   tuning.starts = options.starts;
   tuning.seed = options.seed;

@@ -6,7 +6,8 @@
 
 #include <boresight/app/evaluate/candidate_laws.hpp>
 #include <boresight/app/simulate/time_domain.hpp>
-#include <boresight/app/tune/asked_structures.hpp>
+#include <boresight/app/tune/structure_option.hpp>
+#include <boresight/app/tune/tune_section.hpp>
 #include <boresight/design/ensembles/budgets_on_plants.hpp>
 #include <boresight/design/ensembles/plant_members.hpp>
 #include <boresight/design/studies/controller_study.hpp>
@@ -133,7 +134,7 @@ TunedCandidates tune_candidates(const std::vector<io::Case>& cases,
     design::PlantEnsemble ensemble;
     ensemble.members = members_of(cases.front(), cases[i], uncertainty, options.seed);
     design::TuneOptions how;
-    how.structures = asked_structures(cases[i], structures[i]);
+    how.structures = structure_option(cases[i], structures[i]);
     how.starts = starts;
     how.seed = options.seed;
     how.threads = options.threads;

@@ -8,7 +8,7 @@
 #include <boresight/app/evaluate/evaluate_study.hpp>
 #include <boresight/app/simulate/nonlinear_model.hpp>
 #include <boresight/app/simulate/time_domain.hpp>
-#include <boresight/app/tune/asked_structures.hpp>
+#include <boresight/app/tune/structure_option.hpp>
 #include <boresight/design/decisions/pareto_front.hpp>
 #include <boresight/design/problem/drive_reach.hpp>
 #include <boresight/design/problem/pointing.hpp>
@@ -222,7 +222,7 @@ EvaluateSection evaluate_proposals(const io::Case& antenna, const std::vector<Pr
         fmt::format("evaluate: expected {} draws or more, found {}", least_draws, options.draws));
   }
   std::vector<std::string> structures;
-  for (const auto& one : asked_structures(antenna, options.structures)) {
+  for (const auto& one : structure_option(antenna, options.structures)) {
     structures.push_back(one.name);
   }
 

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <boresight/app/evaluate/following_changes.hpp>
+#include <boresight/control/controllers/sample_time.hpp>
 #include <boresight/io/case/drive_numbers.hpp>
 #include <boresight/io/case/field.hpp>
 #include <boresight/io/case/plant_numbers.hpp>

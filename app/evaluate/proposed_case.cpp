@@ -6,6 +6,7 @@
 #include <boresight/app/evaluate/changeable_numbers.hpp>
 #include <boresight/app/evaluate/following_changes.hpp>
 #include <boresight/app/evaluate/proposed_case.hpp>
+#include <boresight/control/controllers/sample_time.hpp>
 #include <boresight/io/case/antenna_of.hpp>
 #include <boresight/io/case/drive_numbers.hpp>
 #include <boresight/io/case/field.hpp>

@@ -6,7 +6,7 @@
 
 #include <boresight/app/match/match_study.hpp>
 #include <boresight/app/simulate/nonlinear_model.hpp>
-#include <boresight/app/tune/asked_structures.hpp>
+#include <boresight/app/tune/structure_option.hpp>
 #include <boresight/design/problem/drive_reach.hpp>
 #include <boresight/io/case/antenna_of.hpp>
 #include <boresight/io/case/drive_numbers.hpp>
@@ -255,7 +255,7 @@ FlatRange flat_range(const std::vector<double>& axis, const std::vector<double>&
 MatchSection match_motors(const io::Case& antenna,
                           const std::vector<design::EnsembleMember>& members,
                           const MatchOptions& options) {
-  const auto structures = asked_structures(antenna, options.structures);
+  const auto structures = structure_option(antenna, options.structures);
   MatchSection section;
   section.slew_rate = rate_within_reach(antenna);
   section.slew_by_simulation = antenna.simulation.has_value();

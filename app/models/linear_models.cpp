@@ -4,6 +4,7 @@
 #include <boresight/app/models/linear_models.hpp>
 #include <boresight/app/tune/laws_in_time.hpp>
 #include <boresight/app/tune/tune_verdict.hpp>
+#include <boresight/control/controllers/sample_time.hpp>
 #include <boresight/control/loops/closed_loop.hpp>
 #include <boresight/io/case/drive_numbers.hpp>
 

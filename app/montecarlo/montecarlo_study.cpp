@@ -12,8 +12,8 @@
 #include <boresight/app/montecarlo/montecarlo_study.hpp>
 #include <boresight/app/redesign/assumed_inputs.hpp>
 #include <boresight/app/redesign/sections.hpp>
-#include <boresight/app/tune/asked_structures.hpp>
 #include <boresight/app/tune/chosen_controller.hpp>
+#include <boresight/app/tune/structure_option.hpp>
 #include <boresight/app/uncertainty/designed_antenna.hpp>
 #include <boresight/io/case/antenna_of.hpp>
 #include <boresight/io/case/mission_of.hpp>
@@ -139,7 +139,7 @@ ChosenController make_law(const MonteCarloArguments& arguments, const Population
   }
   design::TuneOptions options;
   if (!arguments.structure.empty()) {
-    options.structures = asked_structures(antenna, {arguments.structure});
+    options.structures = structure_option(antenna, {arguments.structure});
   }
   options.seed = arguments.seed;
   options.threads = arguments.threads;

@@ -11,6 +11,7 @@
 #include <boresight/io/case/mission_of.hpp>
 #include <boresight/io/case/plant_numbers.hpp>
 #include <boresight/plant/antenna/plant_response.hpp>
+#include <boresight/plant/nonlinear/drive_capability.hpp>
 
 namespace boresight::app {
 namespace {

@@ -14,6 +14,8 @@
 #include <boresight/app/report/sky_units.hpp>
 #include <boresight/app/report/wind_mast.hpp>
 #include <boresight/app/tune/gains_at_bounds.hpp>
+#include <boresight/app/tune/position_gain_trade.hpp>
+#include <boresight/control/controllers/sample_time.hpp>
 #include <boresight/design/problem/pointing_budget.hpp>
 #include <boresight/io/case/drive_numbers.hpp>
 

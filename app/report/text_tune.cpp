@@ -12,6 +12,7 @@
 #include <boresight/app/report/text_report.hpp>
 #include <boresight/app/report/wind_mast.hpp>
 #include <boresight/app/tune/gains_at_bounds.hpp>
+#include <boresight/control/controllers/sample_time.hpp>
 #include <boresight/design/problem/pointing.hpp>
 #include <boresight/design/problem/pointing_budget.hpp>
 #include <boresight/design/problem/static_bending.hpp>

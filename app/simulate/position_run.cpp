@@ -5,6 +5,7 @@
 
 #include <boresight/app/simulate/nonlinear_model.hpp>
 #include <boresight/app/simulate/position_run.hpp>
+#include <boresight/control/controllers/sample_time.hpp>
 #include <boresight/design/problem/drive_reach.hpp>
 #include <boresight/design/tuning/design_study.hpp>
 #include <boresight/design/tuning/tuner.hpp>

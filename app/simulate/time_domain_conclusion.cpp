@@ -7,6 +7,8 @@
 #include <boresight/app/report/influences.hpp>
 #include <boresight/app/report/sky_units.hpp>
 #include <boresight/app/simulate/time_domain.hpp>
+#include <boresight/io/case/drive_numbers.hpp>
+#include <boresight/io/case/friction_leeway.hpp>
 #include <boresight/numerics/angles.hpp>
 
 namespace boresight::app {

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include <boresight/app/tune/chosen_controller.hpp>
+#include <boresight/app/tune/tune_section.hpp>
 #include <boresight/io/case/present_gains.hpp>
 #include <boresight/io/exchange/reported_controller.hpp>
 #include <boresight/io/files/input_files.hpp>

@@ -9,6 +9,7 @@
 
 #include <boresight/app/tune/gains_at_bounds.hpp>
 #include <boresight/app/tune/position_gain_trade.hpp>
+#include <boresight/control/controllers/sample_time.hpp>
 #include <boresight/io/case/drive_numbers.hpp>
 #include <boresight/io/case/usual_structures.hpp>
 

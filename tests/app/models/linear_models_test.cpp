@@ -9,6 +9,7 @@
 #include <boresight/app/benchmark/benchmark_report.hpp>
 #include <boresight/app/models/linear_models.hpp>
 #include <boresight/app/report/json_linear_models.hpp>
+#include <boresight/control/controllers/sample_time.hpp>
 #include <boresight/io/case/drive_numbers.hpp>
 #include <boresight/io/case/mission_of.hpp>
 #include <boresight/io/exchange/controller_file.hpp>

@@ -1,12 +1,12 @@
 #include <fmt/format.h>
 
-#include <boresight/app/tune/asked_structures.hpp>
+#include <boresight/app/tune/structure_option.hpp>
 #include <boresight/io/case/mission_of.hpp>
 #include <boresight/numerics/error.hpp>
 
 namespace boresight::app {
 
-std::vector<design::NamedStructure> asked_structures(const io::Case& antenna,
+std::vector<design::NamedStructure> structure_option(const io::Case& antenna,
                                                      const std::vector<std::string>& asked) {
   try {
     return io::asked_structures(antenna, asked);

@@ -98,7 +98,7 @@ const MatchSeries* recommended_structure(const MatchSection& section,
     candidate.nominal_constraints_met = candidate.member_constraints_met = true;
     candidate.linear_rms = series.values[*series.best].beam_rms;
     if (!hunting_of(section, series).empty()) {
-      candidate.limit_cycles = limit_cycle_verdict(
+      candidate.limit_cycles = design::limit_cycle_verdict(
           !hunts(section, series), design::hunting_seen(hunting_of(section, series)));
     }
     structures.push_back(&series);

@@ -198,14 +198,14 @@ TEST(Benchmark, IsTheSameForAnyNumberOfThreadsAndWritesItsCurves) {
 TEST(Benchmark, ScoresTheAntennaThatRecordsShow) {
   const ScratchFolder folder;
   const io::Case stated = io::read_case(small_case(folder));
-  DesignedAntenna designed{stated,
-                           {"drawn from the ranges of the case", {}},
-                           design::PlantDistribution::of_ranges(stated),
-                           false};
-  const auto controller = controller_of(present_laws(stated).front(), "PI", 0.0);
+  const design::Mission mission = mission_of(stated);
+  DesignedAntenna designed{
+      stated, mission, {}, design::PlantDistribution::of_ranges(mission), false};
+  const auto controller = controller_of(mission.present_controllers.front().law, "PI", 0.0);
   auto as_stated = benchmark(designed, controller, {});
   designed.antenna.drive.leakage_rate.value *= 2.0;
-  designed.ensemble.source = "drawn from what the records leave open";
+  designed.mission = mission_of(designed.antenna);
+  designed.ensemble.source = design::EnsembleSource::records;
   designed.ensemble.members = {{"draw 1", make_plant(designed.antenna)}};
   designed.from_records = true;
   const auto recorded = benchmark(designed, controller, {});

@@ -164,8 +164,13 @@ TEST(Commission, ComparesTwoRecordsOfTheCase) {
   options.before = "constant-speed-0.25V";
   options.after = "constant-speed-0.5V";
   const auto plant = make_plant(antenna);
-  const auto report = plan_commission(
-      antenna, {"as stated", {{"one", plant}, {"another", plant}, {"a third", plant}}}, options);
+  const design::Mission mission = mission_of(antenna);
+  const DesignedAntenna designed{
+      antenna,
+      mission,
+      {design::EnsembleSource::ranges, {{"one", plant}, {"another", plant}, {"a third", plant}}},
+      design::PlantDistribution::of_ranges(mission)};
+  const auto report = plan_commission(designed, options);
   ASSERT_TRUE(report.failure);
   EXPECT_THROW(std::rethrow_exception(report.failure), InfeasibleRequirement);
   EXPECT_EQ(report.comparisons.size(), channels.size());

@@ -9,7 +9,8 @@
 #include "io/edited_case.hpp"
 #include <boresight/app/evaluate/evaluate_study.hpp>
 #include <boresight/app/evaluate/proposed_case.hpp>
-#include <boresight/design/ensembles/plant_members.hpp>
+#include <boresight/io/case/member_ranges.hpp>
+#include <boresight/io/case/mission_of.hpp>
 #include <boresight/io/case/antenna_of.hpp>
 #include <boresight/io/case/drive_numbers.hpp>
 #include <boresight/io/case/mission_of.hpp>
@@ -287,7 +288,7 @@ TEST(ProposedCase, StatedRangesOfTheEnsembleFollow) {
 
 TEST(ProposedCase, DrawsAreFactorsOnWhatTheProposalMakes) {
   const io::Case stiff = with("[oil]\nbulk_modulus = { factor = '2' }\n").antenna;
-  const auto draw = design::PlantDistribution::of_ranges(as_is()).draw(1, 5);
+  const auto draw = design::PlantDistribution::of_ranges(mission_of(as_is())).draw(1, 5);
   const auto before = proposed_plant(as_is(), as_is(), draw);
   const auto after = proposed_plant(as_is(), stiff, draw);
   EXPECT_NEAR(after.drive.oil_stiffness / before.drive.oil_stiffness, 2.0, 1e-12);

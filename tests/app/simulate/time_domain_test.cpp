@@ -373,20 +373,21 @@ TEST(TimeDomain, SaysOfALawAloneOnlyWhatItDoes) {
 
 TEST(TimeDomain, ChoosesTheLeastSimulatedRms) {
   const io::Case antenna = io::read_case(BORESIGHT_SOURCE_DIR "/cases/dss14-70m/case.toml");
-  const auto problem = make_problem(antenna);
+  const design::Mission mission = mission_of(antenna);
+  const auto problem = tracking_problem(mission);
   const control::LoopStructure& pi = control::LoopStructure::pi_with_lag();
-  const std::vector<DescribedLaw> laws{{"slow", {pi, {0.1, 0.42, 2.6, 3.0, 0.2}}},
+  const std::vector<design::NamedController> laws{{"slow", {pi, {0.1, 0.42, 2.6, 3.0, 0.2}}},
                                        {"tuned", {pi, {0.15873, 0.42068, 2.6277, 10.257, 0.23532}}},
                                        {"loses it", {pi, {5.0, 0.42, 2.6, 30.0, 0.2}}}};
   const auto chosen =
-      choose_in_time_domain(antenna, problem, laws, 1, 2, design::ChoiceDetail::verified);
+      choose_in_time_domain(mission, problem, laws, 1, 2, design::ChoiceDetail::verified);
   ASSERT_TRUE(chosen);
   EXPECT_EQ(chosen->law, "tuned");
   ASSERT_EQ(chosen->candidates.size(), 3U);
   EXPECT_LT(chosen->candidates[1].result.wind.beam_rms, chosen->candidates[0].result.wind.beam_rms);
   EXPECT_EQ(chosen->candidates[1].result.wind.beam_rms, chosen->result.wind.beam_rms);
   EXPECT_FALSE(chosen->result.wind.influences.empty());
-  EXPECT_THROW(choose_in_time_domain(antenna, problem, {}, 1, 1, design::ChoiceDetail::compared),
+  EXPECT_THROW(choose_in_time_domain(mission, problem, {}, 1, 1, design::ChoiceDetail::compared),
                InvalidInput);
 }
 
@@ -413,7 +414,8 @@ TEST(TimeDomain, NoneOfACaseThatSaysNothingOfItsDrive) {
   io::Case antenna = io::read_case(case_path("dss14-70m"));
   antenna.simulation.reset();
   const control::ControlLaw law{control::LoopStructure::pi_with_lag(), {0.2, 0.8, 6.0, 0.2, 0.02}};
-  EXPECT_FALSE(verify_in_time_domain(antenna, make_problem(antenna), law, "PI", 1, 1,
+  const design::Mission mission = mission_of(antenna);
+  EXPECT_FALSE(verify_in_time_domain(mission, tracking_problem(mission), law, "PI", 1, 1,
                                      design::SecondIntegrator::none));
 }
 

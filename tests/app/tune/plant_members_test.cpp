@@ -8,7 +8,7 @@
 #include "io/edited_case.hpp"
 #include <boresight/app/audit/case_graph.hpp>
 #include <boresight/app/audit/plausibility.hpp>
-#include <boresight/design/ensembles/plant_members.hpp>
+#include <boresight/io/case/member_ranges.hpp>
 
 namespace boresight::app {
 namespace {

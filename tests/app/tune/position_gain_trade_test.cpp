@@ -34,9 +34,10 @@ TEST(PositionGainTrade, LowersThePositionGainAtTheSameProductAndRms) {
   auto tuning = ended_at_position_gain({0.038316, 0.22045, 2.7894, 30.0, 0.18267});
   const double rms = design::judge(problem, nominal, tuning.law, goals, 1).members.front().beam_rms;
   ASSERT_TRUE(ends_at_position_gain(tuning));
-  const auto trade = position_gain_trade(antenna, problem, tuning, rms, goals, nominal);
+  const auto trade = design::position_gain_trade(problem, tuning, rms, goals, nominal);
   ASSERT_TRUE(trade);
-  const double position = std::stod(trade->position_gain), rate = std::stod(trade->rate_gain);
+  const double position = trade->law.gains.at(trade->position_gain);
+  const double rate = trade->law.gains.at(trade->rate_gain);
   EXPECT_LE(position, 15.0);
   EXPECT_NEAR(position * rate, 30.0 * 0.038316, 2e-4 * position * rate);
   EXPECT_LE(trade->beam_rms, 1.01 * rms);
@@ -57,22 +58,23 @@ TEST(PositionGainTrade, IsNoneWhereTheRateLoopActsOrNoBoundIsReached) {
   const double rms = design::judge(problem, {{"nominal", problem.plant}}, tuning.law, goals, 1)
                          .members.front()
                          .beam_rms;
-  EXPECT_TRUE(ends_at_position_gain(tuning));
-  EXPECT_FALSE(position_gain_trade(antenna, problem, tuning, rms, goals, {}));
+  EXPECT_TRUE(design::ends_at_position_gain(tuning));
+  EXPECT_FALSE(design::position_gain_trade(problem, tuning, rms, goals, {}));
   tuning.gains_at_bound.clear();
   EXPECT_FALSE(ends_at_position_gain(tuning));
-  EXPECT_FALSE(position_gain_trade(antenna, problem, tuning, rms, goals, {}));
+  EXPECT_FALSE(design::position_gain_trade(problem, tuning, rms, goals, {}));
   // The lower bound, and no law at all.
   EXPECT_FALSE(ends_at_position_gain(ended_at_position_gain({0.4, 0.8, 6.0, 0.03, 0.02})));
   EXPECT_FALSE(ends_at_position_gain(ended_at_position_gain({})));
 }
 
 TEST(PositionGainTrade, SpeaksOfPlantsOnlyWhereItWasJudgedOnSome) {
-  const PositionGainTrade trade{"6 1/s", "0.254", 9.5 * millidegree, 20};
-  EXPECT_THAT(trade_in_words(trade, "PI with lag", 9.4551 * millidegree, 30),
+  const design::PositionGainTrade trade{
+      {control::LoopStructure::pi(), {0.254, 1.0, 6.0, 0.25}}, 2, 0, 9.5 * millidegree, 20};
+  EXPECT_THAT(trade_in_words(trade, {}, "PI with lag", 9.4551 * millidegree, 30),
               AllOf(HasSubstr("PI with lag has kp at its bound because"),
                     HasSubstr("9.5000 mdeg, +0.5 %, with every goal kept on 20 of 30 plants")));
-  EXPECT_THAT(trade_in_words(trade, "PI with lag", 9.4551 * millidegree, 0),
+  EXPECT_THAT(trade_in_words(trade, {}, "PI with lag", 9.4551 * millidegree, 0),
               AllOf(HasSubstr("9.5000 mdeg, +0.5 %. A lower upper bound of kp ([[tuning.bound]]"),
                     Not(HasSubstr("plants"))));
 }

@@ -124,7 +124,7 @@ TEST(PlantMembers, TakeNoFallingFriction) {
   curve.stribeck_rate.value = antenna.drive.tracking_rate.value * gear_ratio(antenna);
   EXPECT_LT(io::tracking_slope(antenna), 0.0);
   EXPECT_EQ(io::tracking_friction(antenna), 0.0);
-  for (const auto& member : plant_members(antenna, 1)) {
+  for (const auto& member : design::plant_members(mission_of(antenna), 1)) {
     EXPECT_GE(member.plant.drive.viscous_friction, 0.0);
     EXPECT_LE(member.plant.drive.viscous_friction, antenna.drive.viscous_friction.value);
   }
@@ -132,7 +132,7 @@ TEST(PlantMembers, TakeNoFallingFriction) {
 
 TEST(PlantMembers, HasTheReferenceEnsemblesRanges) {
   const io::Case antenna = io::parse_case(EditedCase().text(), "case.toml");
-  const auto members = plant_members(antenna, 1);
+  const auto members = design::plant_members(mission_of(antenna), 1);
   ASSERT_EQ(members.size(), 30U);
   const auto own = make_plant(antenna);
   EXPECT_EQ(members[0].name, "nominal");
@@ -156,8 +156,8 @@ TEST(PlantMembers, HasTheReferenceEnsemblesRanges) {
 
 TEST(PlantMembers, RepeatWithTheSeedAndTakeTheCasesRanges) {
   const io::Case antenna = io::parse_case(EditedCase().text() + "\n" + tables(), "case.toml");
-  const auto first = plant_members(antenna, 1), again = plant_members(antenna, 1);
-  const auto other = plant_members(antenna, 2);
+  const auto first = design::plant_members(mission_of(antenna), 1), again = design::plant_members(mission_of(antenna), 1);
+  const auto other = design::plant_members(mission_of(antenna), 2);
   ASSERT_EQ(first.size(), 9U);
   for (std::size_t i = 0; i < first.size(); ++i) {
     EXPECT_EQ(first[i].plant.drive.leakage_rate, again[i].plant.drive.leakage_rate);
@@ -168,12 +168,13 @@ TEST(PlantMembers, RepeatWithTheSeedAndTakeTheCasesRanges) {
 
 TEST(EngineersUnits, AreThoseThatTheCaseWrites) {
   const io::Case antenna = io::parse_case(EditedCase().text() + "\n" + tables(), "case.toml");
-  const auto laws = present_laws(antenna);
+  const auto laws = present_controllers(antenna);
   ASSERT_EQ(laws.size(), 2U);
-  const auto written = in_engineers_units(antenna, laws[1]);
+  const io::GainUnits units(antenna);
+  const auto written = units.texts(laws[1].law);
   EXPECT_THAT(written,
               testing::ElementsAre("0.2", "0.127 Hz", "0.95 Hz", "40 Hz", "0.2 1/s", "0.02 rad/s"));
-  EXPECT_EQ(in_engineers_units(antenna, {control::LoopStructure::pi(), {0.5, 1.0, 2.0, 0.25}})[1],
+  EXPECT_EQ(units.texts({control::LoopStructure::pi(), {0.5, 1.0, 2.0, 0.25}})[1],
             "1 rad/s");
 }
 
@@ -270,10 +271,12 @@ TEST(Tune, SaysThatABudgetIsOutOfReach) {
 // in inertia (0.3340 mdeg), not the optimum 2 % above it that random starts end in.
 TEST(Tune, FindsInAStructureAtLeastWhatItsPartsDo) {
   const io::Case antenna = io::read_case(case_path("dss14-70m"));
+  const design::Mission mission = mission_of(antenna);
   design::TuneOptions options;
-  options.structures = {"PI", "DPF", "DPF+C"};
+  options.structures = asked_structures(antenna, {"PI", "DPF", "DPF+C"});
   options.starts = 4;
-  const auto section = tune_structures(antenna, {"", plant_members(antenna, 1)}, options);
+  const auto section = tune_structures(
+      mission, {design::EnsembleSource::ranges, plant_members(mission, 1)}, options);
   ASSERT_EQ(section.laws.size(), 6U);
   for (const auto& part : section.laws) {
     ASSERT_TRUE(part.usable()) << part.structure;

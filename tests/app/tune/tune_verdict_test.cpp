@@ -197,10 +197,11 @@ TEST(TuneConclusions, SayThatABoundOnlyStopsAFlatDirection) {
   law.tuned_for = TunedFor::robust;
   law.wind_speed = 12.7056;
   law.beam_rms = 9.4551 * millidegree;
-  EXPECT_TRUE(gain_trades({&law}).empty());
-  law.trade = {"6 1/s", "0.254", 9.5 * millidegree, 20};
+  EXPECT_TRUE(gain_trades({&law}, {}).empty());
+  law.trade = design::PositionGainTrade{
+      {control::LoopStructure::pi(), {0.254, 1.0, 6.0, 0.25}}, 2, 0, 9.5 * millidegree, 20};
   law.ensemble.emplace().members.resize(30);
-  const auto sentences = gain_trades({&law});
+  const auto sentences = gain_trades({&law}, {});
   ASSERT_EQ(sentences.size(), 1U);
   EXPECT_THAT(sentences[0],
               AllOf(HasSubstr("PI (robust, 12.7 m/s) has kp at its bound because"),
@@ -327,14 +328,14 @@ TEST(RecommendedLaw, IsWhatFiguresAndExportedModelsAreOf) {
   TimeDomainSection in_time;
   in_time.law = "LL, robust";
   ASSERT_EQ(best_law(section), &section.laws[2]);
-  EXPECT_EQ(shown_law(section, in_time), &section.laws[0]);
+  EXPECT_EQ(shown_law(section, &in_time), &section.laws[0]);
   // Where all hunt, that of the time domain's figures, and the linear plant's best without one.
   for (auto& law : section.laws) law.in_time->still = false;
   ASSERT_EQ(recommended_law(section), nullptr);
-  EXPECT_EQ(shown_law(section, in_time), &section.laws[1]);
-  EXPECT_EQ(shown_law(section, {}), &section.laws[2]);
+  EXPECT_EQ(shown_law(section, &in_time), &section.laws[1]);
+  EXPECT_EQ(shown_law(section, nullptr), &section.laws[2]);
   section.laws.clear();
-  EXPECT_EQ(shown_law(section, in_time), nullptr);
+  EXPECT_EQ(shown_law(section, &in_time), nullptr);
 }
 
 TEST(RecommendedLaw, IsTheOneOfEveryConclusion) {

@@ -3,13 +3,12 @@
 #include <gtest/gtest.h>
 
 #include "io/edited_case.hpp"
-#include <boresight/app/report/sky_units.hpp>
 #include <boresight/design/ensembles/budgets_on_plants.hpp>
 #include <boresight/design/ensembles/plant_members.hpp>
 #include <boresight/design/problem/pointing_budget.hpp>
 #include <boresight/io/case/mission_of.hpp>
 
-namespace boresight::app {
+namespace boresight::io {
 namespace {
 
 using testing::ElementsAre;
@@ -17,9 +16,9 @@ using testing::Eq;
 using testing::Optional;
 
 TEST(BudgetsOnPlants, AreJudgedInTheirOwnWind) {
-  const io::Case antenna = io::read_case(case_path("dss14-70m"));
+  const Case antenna = read_case(case_path("dss14-70m"));
   const auto problem = make_problem(antenna);
-  const auto members = plant_members(antenna, 1);
+  const auto members = design::plant_members(mission_of(antenna), 1);
   const auto all = static_cast<int>(members.size());
   const control::ControlLaw law{control::LoopStructure::pi_with_lag(), {0.2, 0.8, 6.0, 0.2, 0.02}};
   const auto judged = design::judge(problem, members, law, {}, 1);
@@ -48,4 +47,4 @@ TEST(BudgetsOnPlants, AreJudgedInTheirOwnWind) {
 }
 
 }  // namespace
-}  // namespace boresight::app
+}  // namespace boresight::io

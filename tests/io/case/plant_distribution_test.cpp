@@ -3,17 +3,18 @@
 #include <gtest/gtest.h>
 
 #include <boresight/design/ensembles/plant_distribution.hpp>
-#include <boresight/design/ensembles/plant_members.hpp>
 #include <boresight/io/case/antenna_of.hpp>
+#include <boresight/io/case/member_ranges.hpp>
+#include <boresight/io/case/mission_of.hpp>
 #include <boresight/io/case/plant_numbers.hpp>
 #include <boresight/numerics/error.hpp>
 #include <boresight/numerics/normal_numbers.hpp>
 
-namespace boresight::app {
+namespace boresight::io {
 namespace {
 
-const io::Case& reference() {
-  static const io::Case antenna = io::read_case(BORESIGHT_SOURCE_DIR "/cases/dss14-70m/case.toml");
+const Case& reference() {
+  static const Case antenna = read_case(BORESIGHT_SOURCE_DIR "/cases/dss14-70m/case.toml");
   return antenna;
 }
 
@@ -22,7 +23,7 @@ std::size_t place(design::UncertainInput input) {
 }
 
 TEST(PlantDistribution, OfRangesKeepsToThem) {
-  const auto distribution = design::PlantDistribution::of_ranges(reference());
+  const auto distribution = design::PlantDistribution::of_ranges(mission_of(reference()));
   const design::MemberRanges ranges = member_ranges(reference());
   double mean = 0.0, log_square = 0.0;
   constexpr std::uint64_t count = 20000;
@@ -44,7 +45,7 @@ TEST(PlantDistribution, OfRangesKeepsToThem) {
 
 TEST(PlantDistribution, SharesAreThoseOfTheDraws) {
   // A quarter of the draws lies below what stands at the share 0.25, of every input.
-  const auto distribution = design::PlantDistribution::of_ranges(reference());
+  const auto distribution = design::PlantDistribution::of_ranges(mission_of(reference()));
   const auto quarter =
       distribution.at_shares(std::vector<double>(distribution.inputs().size(), 0.25));
   constexpr std::uint64_t count = 20000;
@@ -76,7 +77,7 @@ TEST(PlantDistribution, OfRecordsHasTheirCovariance) {
     draw.lowest_frequency = reference().structure.locked_rotor_frequency.value;
     records.push_back(draw);
   }
-  const auto distribution = design::PlantDistribution::of_records(reference(), records);
+  const auto distribution = design::PlantDistribution::of_records(mission_of(reference()), records);
   EXPECT_EQ(distribution.inputs(), (std::vector{design::UncertainInput::oil_stiffness,
                                                 design::UncertainInput::friction_slope,
                                                 design::UncertainInput::antenna_inertia}));
@@ -111,13 +112,13 @@ TEST(PlantDistribution, AFactorOfOneIsTheCase) {
 
 // Two stated uncertainties together, and no other number of a draw moves.
 TEST(PlantDistribution, DrawsTheWindTorqueByItsStatedUncertainties) {
-  io::Case windy = reference();
+  Case windy = reference();
   windy.wind.torque_coefficient.uncertainty_given = true;
   windy.wind.torque_coefficient.standard_uncertainty = 0.2 * windy.wind.torque_coefficient.value;
   windy.wind.air_density.uncertainty_given = true;
   windy.wind.air_density.standard_uncertainty = 0.05 * windy.wind.air_density.value;
-  const auto calm = design::PlantDistribution::of_ranges(reference());
-  const auto distribution = design::PlantDistribution::of_ranges(windy);
+  const auto calm = design::PlantDistribution::of_ranges(mission_of(reference()));
+  const auto distribution = design::PlantDistribution::of_ranges(mission_of(windy));
   EXPECT_EQ(calm.inputs().size() + 1, distribution.inputs().size());
   EXPECT_EQ(distribution.inputs().back(), design::UncertainInput::wind_torque);
   double square = 0.0;
@@ -135,7 +136,7 @@ TEST(PlantDistribution, DrawsTheWindTorqueByItsStatedUncertainties) {
 // The sequence of the six inputs of the plant, whatever else is drawn.
 TEST(PlantDistribution, KeepsTheSequenceOfItsDraws) {
   const auto ranges = member_ranges(reference());
-  const auto distribution = design::PlantDistribution::of_ranges(reference());
+  const auto distribution = design::PlantDistribution::of_ranges(mission_of(reference()));
   const std::uint64_t stream = numerics::splitmix64(7, 0x5eed0001);
   for (std::uint64_t i = 0; i < 5; ++i) {
     const double share =
@@ -147,7 +148,7 @@ TEST(PlantDistribution, KeepsTheSequenceOfItsDraws) {
 }
 
 TEST(PlantDistribution, AWindTorqueIsThatOfThePlant) {
-  design::PlantDraw draw = design::PlantDistribution::of_ranges(reference()).median();
+  design::PlantDraw draw = design::PlantDistribution::of_ranges(mission_of(reference())).median();
   const auto calm = make_plant(reference(), changes_of(draw)).structure;
   draw.values.at(place(design::UncertainInput::wind_torque)) = 1.2;
   const auto windy = make_plant(reference(), changes_of(draw)).structure;
@@ -159,12 +160,12 @@ TEST(PlantDistribution, AWindTorqueIsThatOfThePlant) {
 }
 
 TEST(PlantDistribution, RefusesWhatIsNoShare) {
-  const auto distribution = design::PlantDistribution::of_ranges(reference());
+  const auto distribution = design::PlantDistribution::of_ranges(mission_of(reference()));
   EXPECT_THROW(distribution.at_shares({0.5}), InvalidInput);
   EXPECT_THROW(distribution.at_shares(std::vector<double>(distribution.inputs().size(), 1.0)),
                InvalidInput);
-  EXPECT_THROW(design::PlantDistribution::of_records(reference(), {}), InvalidInput);
+  EXPECT_THROW(design::PlantDistribution::of_records(mission_of(reference()), {}), InvalidInput);
 }
 
 }  // namespace
-}  // namespace boresight::app
+}  // namespace boresight::io

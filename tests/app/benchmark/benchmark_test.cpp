@@ -9,6 +9,7 @@
 #include "io/edited_case.hpp"
 #include <boresight/app/commands/benchmark_command.hpp>
 #include <boresight/io/case/antenna_of.hpp>
+#include <boresight/io/case/mission_of.hpp>
 #include <boresight/io/case/present_gains.hpp>
 
 namespace boresight::app {

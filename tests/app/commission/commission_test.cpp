@@ -9,6 +9,7 @@
 #include "io/edited_case.hpp"
 #include <boresight/app/commission/commission_study.hpp>
 #include <boresight/io/case/antenna_of.hpp>
+#include <boresight/io/case/mission_of.hpp>
 #include <boresight/numerics/error.hpp>
 
 namespace boresight::app {

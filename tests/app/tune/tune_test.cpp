@@ -53,7 +53,8 @@ TEST(PointingLimitOf, SamplesAsOftenAsTheCasesDelaySays) {
   double last = 0.0;
   for (const double sample_time : {0.005, 0.02}) {
     antenna.controller_delay.value = 1.5 * sample_time;
-    const auto limit = pointing_limit_of(antenna, section, {}, antenna.wind.design_speed.value, 1);
+    const design::Mission mission = mission_of(antenna);
+    const auto limit = pointing_limit_of(mission, section, {}, mission.wind.mean_speed, 1);
     EXPECT_DOUBLE_EQ(limit.sample_time, sample_time);
     EXPECT_DOUBLE_EQ(limit.computation_delay, sample_time);
     EXPECT_GT(limit.least_rms, last);  // slower sampling can only cost
@@ -156,7 +157,8 @@ TEST(PlantMembers, HasTheReferenceEnsemblesRanges) {
 
 TEST(PlantMembers, RepeatWithTheSeedAndTakeTheCasesRanges) {
   const io::Case antenna = io::parse_case(EditedCase().text() + "\n" + tables(), "case.toml");
-  const auto first = design::plant_members(mission_of(antenna), 1), again = design::plant_members(mission_of(antenna), 1);
+  const auto first = design::plant_members(mission_of(antenna), 1),
+             again = design::plant_members(mission_of(antenna), 1);
   const auto other = design::plant_members(mission_of(antenna), 2);
   ASSERT_EQ(first.size(), 9U);
   for (std::size_t i = 0; i < first.size(); ++i) {
@@ -174,8 +176,7 @@ TEST(EngineersUnits, AreThoseThatTheCaseWrites) {
   const auto written = units.texts(laws[1].law);
   EXPECT_THAT(written,
               testing::ElementsAre("0.2", "0.127 Hz", "0.95 Hz", "40 Hz", "0.2 1/s", "0.02 rad/s"));
-  EXPECT_EQ(units.texts({control::LoopStructure::pi(), {0.5, 1.0, 2.0, 0.25}})[1],
-            "1 rad/s");
+  EXPECT_EQ(units.texts({control::LoopStructure::pi(), {0.5, 1.0, 2.0, 0.25}})[1], "1 rad/s");
 }
 
 TEST(Tune, TunesVerifiesAndSetsBeforeBesideAfter) {

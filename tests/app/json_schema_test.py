@@ -22,8 +22,7 @@ VALIDATOR = jsonschema.Draft202012Validator(SCHEMA)
 
 BIG, SMALL = "dss14-70m", "dss14-64m"
 # A campaign's case with a few of its records.
-RECORDED = "recorded"
-RECORDS = ("slosh", "fast_ramp", "constant_speed_0.14deg_s", "valve_steps")
+RECORDED, RECORDS = "recorded", ("slosh", "fast_ramp", "constant_speed_0.14deg_s", "valve_steps")
 CHEAP = ("audit", "identify", "model")
 SECTIONS = {"audit": "audit", "identify": "identification", "model": "plant"}
 # A matching study small enough for a test.

@@ -59,22 +59,15 @@ void fill_identification(const io::Case& antenna, const StudyOptions& options, R
 void judge_on_ensemble(const io::Case& antenna, const design::Mission& designed,
                        const StudyOptions& options, const std::optional<CampaignSection>& campaign,
                        TuningSection& section) {
-  if (section.design.tuning.status == design::TuningStatus::unstable) return;
   constexpr std::size_t drawn_plants = 200;
   const bool recorded = campaign && campaign->grey_box;
   const auto members = recorded
                            ? identified_ensemble(antenna, campaign->grey_box->draws, drawn_plants)
                            : plant_members(designed, options.seed);
-  if (members.empty()) return;
-  const auto& law = section.design.tuning.law;
-  section.ensemble = design::judge(section.problem, members, law, section.goals, options.threads);
+  evaluate_on(members, options.threads, section);
+  if (!section.ensemble) return;
   section.ensemble_source =
       recorded ? "drawn from what the records leave open" : "of the case's ensemble";
-  std::vector<design::PointingBudget> budgets;
-  for (const auto& result : section.budgets) budgets.push_back(result.budget);
-  const auto met = plants_within_budgets(section.problem, members, law, section.goals, budgets, 1.0,
-                                         options.threads);
-  for (std::size_t i = 0; i < met.size(); ++i) section.budgets[i].plants_met = met[i];
 }
 
 void fill_redesign(const io::Case& antenna, const StudyOptions& options, Report& report) {

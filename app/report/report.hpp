@@ -19,6 +19,7 @@
 #include <boresight/design/ensembles/plant_ensemble.hpp>
 #include <boresight/design/limits/pointing_limit.hpp>
 #include <boresight/design/problem/pointing_budget.hpp>
+#include <boresight/design/studies/redesign_study.hpp>
 
 namespace boresight::app {
 
@@ -60,70 +61,19 @@ struct PlantSection {
   std::size_t records = 0;
 };
 
-/// Wind speed up to which a budget is met with the gains held.
-struct BudgetResult {
-  design::PointingBudget budget;
-  double wind_speed_limit = 0.0;  // m/s
-  /// Plants of the ensemble on which it is met in the wind that it is needed up to; none for a
-  /// budget that states no such wind and without an ensemble.
-  std::optional<int> plants_met = std::nullopt;
-};
+using design::BudgetResult;
+using MatchingRow = design::FlywheelRow;
+using MatchingSeries = design::FlywheelSeries;
+using MatchingSection = design::FlywheelComparison;
 
-/// The recommended controller at depth.
-struct TuningSection {
-  control::LoopStructure structure;
-  std::string name;  // of the structure, as the user has it
-  TunedFor tuned_for = TunedFor::nominal;
-  design::TrackingProblem problem;  // what was tuned
-  design::HardGoals goals;
-  design::Design design;
-  /// Gains that the antenna runs on now, by the case, judged on the same plant.
-  struct PresentLaw {
-    std::string structure;
-    design::Design design;
-  };
-  std::vector<PresentLaw> present;
-  double design_speed = 0.0;
-  plant::WindModel wind_model = plant::WindModel::coherence;
-  plant::WindSite wind_site;
+/// The recommended controller at depth, and what of the case's text its report needs.
+struct TuningSection : design::RecommendedDesign {
   std::optional<io::WindAttitude> wind_attitude;  // none: one torque coefficient for all
   std::optional<io::WindMast> wind_mast;  // none: the case states speeds at the dish's centre
-  struct SeedResult {
-    std::uint64_t seed = 0;
-    double beam_rms = 0.0;  // rad
-    bool verified = false;
-  };
-  std::vector<SeedResult> seeds;
-  int seeds_within_1_percent = 0;
-  struct WindAlternative {
-    plant::WindModel model = plant::WindModel::coherence;
-    double beam_rms = 0.0;                  // rad, same gains
-    std::vector<double> speed_limits = {};  // m/s, one a budget
-  };
-  std::vector<WindAlternative> wind_alternatives;
-  /// Rms of the bending between bull gear and beam that no encoder sees, with the encoder held
-  /// perfectly still (rad). Not a bound: a loop can move the encoder against the bending.
-  double encoder_held_rms = 0.0;
-  /// Mean wind speed (m/s) at which the supply's torque ends: io::supply_wind_speed.
-  double supply_wind_speed = std::numeric_limits<double>::infinity();
-  double static_bending = 0.0;  // rad under the mean wind: calibration's job, not the servo's
-  struct BandLoss {
-    design::PointingBand band;
-    double mean_loss_db = 0.0;       // two equal axes, static bending left out
-    double static_bending_db = 0.0;  // what that would add on this axis
-  };
-  std::vector<BandLoss> losses;
-  std::vector<BudgetResult> budgets;
-  std::vector<design::ClimatePart> climate;  // of the site; empty if the case states none
-  std::string demand_assumption;             // that a goal on gusts rests on; empty if stated
-  /// The law with its gains held on plants that may be the true one: drawn from what the records
-  /// leave open, or the case's ensemble. None without a stable law.
-  std::optional<design::EnsembleResult> ensemble;
-  std::string ensemble_source;
-  /// Of a position gain at the upper bound of the search that can be halved or lowered further.
-  std::optional<design::PositionGainTrade> trade;
+  std::string demand_assumption;          // that a goal on gusts rests on; empty if stated
+  std::string ensemble_source;            // of the plants that `ensemble` is about
   io::GainUnits gain_units;
-  /// The numbers of the case that its rms hangs on most; empty without a stable law.
+  /// The numbers of the case that its rms depends on most; empty without a stable law.
   std::vector<InputEffect> input_effects;
 };
 
@@ -161,28 +111,6 @@ std::string tuning_heading(const TuningSection& section);
 
 /// The heading above choices: of contradictions where there are some.
 std::string choices_heading(const std::vector<ChoiceResult>& choices);
-
-struct MatchingRow {
-  double disks = 0.0;
-  std::string label;  // "24 disks", "ratio 1"
-  bool as_built = false;
-  double motor_inertia = 0.0;
-  double motor_to_load_ratio = 0.0;
-  double reflected_inertia = 0.0;
-};
-
-/// One tuned design in the matching study.
-struct MatchingSeries {
-  std::string friction;  // "linear plant", "slope at tracking rate"; empty where one slope is both
-  double viscous_friction = 0.0;
-  control::LoopStructure structure;
-  std::vector<design::Design> designs;  // one a row
-};
-
-struct MatchingSection {
-  std::vector<MatchingRow> rows;
-  std::vector<MatchingSeries> series;
-};
 
 /// What one command found: the sections it computed.
 struct Report {

@@ -44,7 +44,8 @@ TEST(RedesignBounds, SayWhatABoundOnlyStopsAndWhatNoSamplingReaches) {
   };
   EXPECT_THAT(concluded(),
               Each(AllOf(Not(HasSubstr("hardly acts")), Not(HasSubstr("samples every")))));
-  section.trade = {"9.66 1/s", "0.228", 0.5045 * millidegree, 0};
+  section.trade = design::PositionGainTrade{
+      {control::LoopStructure::pi(), {0.228, 1.0, 9.66, 0.25}}, 2, 0, 0.5045 * millidegree, 0};
   section.problem.delay = 0.03;
   EXPECT_THAT(
       concluded(),

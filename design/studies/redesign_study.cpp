@@ -1,0 +1,266 @@
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <utility>
+
+#include <boresight/design/ensembles/budgets_on_plants.hpp>
+#include <boresight/design/problem/pointing.hpp>
+#include <boresight/design/problem/static_bending.hpp>
+#include <boresight/design/studies/redesign_study.hpp>
+#include <boresight/numerics/parallel_loop.hpp>
+#include <boresight/plant/antenna/plant_response.hpp>
+#include <boresight/plant/nonlinear/drive_capability.hpp>
+
+namespace boresight::design {
+namespace {
+
+using control::LoopStructure;
+constexpr int seed_count = 8;
+
+DesignTask make_task(const Mission& mission, std::uint64_t seed, std::string name,
+                     const plant::Antenna& variant, LoopStructure structure) {
+  DesignTask task;
+  task.name = std::move(name);
+  task.problem = tracking_problem(mission, variant);
+  task.structure = std::move(structure);
+  task.goals = constraints(mission);
+  task.options.seed = seed;
+  return task;
+}
+
+// Where none is stable, the first.
+const TunedLaw& recommended_or_first(const ControllerStudy& study) {
+  if (const TunedLaw* law = recommended_or(study, Fitness::unstable)) return *law;
+  return *std::ranges::find_if(
+      study.tuned.laws, [](const TunedLaw& row) { return row.tuned_for != TunedFor::present; });
+}
+
+// The search of the recommended controller, from other seeds and without its warm starts.
+std::vector<DesignTask> seed_tasks(const Mission& mission, const PlantEnsemble& ensemble,
+                                   const TunedLaw& row, std::uint64_t seed) {
+  std::vector<DesignTask> tasks;
+  for (int i = 0; i < seed_count; ++i) {
+    tasks.push_back(
+        make_task(mission, seed, "as built", mission.antenna, row.design.tuning.law.structure));
+    DesignTask& task = tasks.back();
+    task.problem.wind.mean_speed = row.wind_speed;
+    if (mission.minimises_climate) task.problem.climate = mission.climate;
+    task.options.seed = seed + static_cast<std::uint64_t>(i);
+    if (row.tuned_for == TunedFor::robust) {
+      task.options.members = ensemble.members;
+      task.options.soft_goal = mission.objective;
+    }
+  }
+  return tasks;
+}
+
+// What the tuned controller means at the sky: other winds, bending, bands and budgets.
+void evaluate_in_wind(const Mission& mission, RecommendedDesign& section) {
+  const TrackingProblem& problem = section.problem;
+  control::LoopEvaluator evaluator = make_evaluator(problem);
+  const control::ControlLaw& law = section.design.tuning.law;
+  const double noise = section.design.tuning.evaluation.noise_variance;
+  const Eigen::ArrayXd transmission = evaluator.wind_transmission(law);
+  for (const auto model :
+       {plant::WindModel::uniform, plant::WindModel::vickery, plant::WindModel::coherence}) {
+    TrackingProblem alternative = problem;
+    alternative.wind.model = model;
+    section.wind_alternatives.push_back(
+        {model,
+         beam_rms_at_speed(alternative, evaluator, transmission, noise, problem.wind.mean_speed)});
+    for (const auto& budget : mission.budgets) {
+      section.wind_alternatives.back().speed_limits.push_back(
+          wind_speed_limit(alternative, evaluator, law, noise, budget.rms));
+    }
+  }
+  const auto structure =
+      plant::structure_response(problem.plant.structure, evaluator.response().frequency);
+  section.encoder_held_rms = beam_rms_at_speed(problem, evaluator, structure.beam_per_wind.abs2(),
+                                               0.0, problem.wind.mean_speed);
+  Mission in_this_wind = mission;
+  in_this_wind.wind = problem.wind;
+  section.supply_wind_speed = torque_limited_wind_speed(in_this_wind);
+  section.static_bending = static_bending(problem);
+  for (const auto& band : mission.bands) {
+    section.losses.push_back({band,
+                              pointing_loss_db(section.design.beam_rms, band.beamwidth,
+                                               LossConvention::mean_loss_two_axes),
+                              pointing_loss_db(section.static_bending, band.beamwidth,
+                                               LossConvention::mean_loss_one_axis)});
+  }
+  for (const auto& budget : mission.budgets) {
+    section.budgets.push_back(
+        {budget, wind_speed_limit(problem, evaluator, law, noise, budget.rms)});
+  }
+}
+
+// The figures of a design that was tuned over the climate, at one wind speed as everywhere here.
+void at_one_speed(RecommendedDesign& section) {
+  auto judged = assess(section.problem, section.design.tuning.law, section.goals);
+  judged.tuning = std::move(section.design.tuning);
+  section.design = std::move(judged);
+}
+
+RecommendedDesign recommended_design(const Mission& mission, const TunedLaw& row,
+                                     std::uint64_t seed, const std::vector<Design>& repeated) {
+  RecommendedDesign section;
+  section.structure = row.design.tuning.law.structure;
+  section.name = row.structure;
+  section.tuned_for = row.tuned_for;
+  section.design = row.design;
+  section.goals = constraints(mission);
+  for (std::size_t i = 0; i < repeated.size(); ++i) {
+    section.seeds.push_back({seed + i, repeated[i].beam_rms, repeated[i].verification.passed});
+    if (repeated[i].verification.passed && repeated[i].beam_rms < 1.01 * row.design.beam_rms) {
+      ++section.seeds_within_1_percent;
+    }
+  }
+
+  section.problem = tracking_problem(mission);
+  section.problem.wind.mean_speed = row.wind_speed;
+  section.design_speed = section.problem.wind.mean_speed;
+  section.wind_model = section.problem.wind.model;
+  section.wind_site = section.problem.wind.site;
+  section.climate = mission.climate_parts;
+  for (const auto& [name, law] : mission.present_controllers) {
+    section.present.push_back({law.structure.name(), assess(section.problem, law, section.goals)});
+  }
+  if (row.stable()) {
+    if (mission.minimises_climate) at_one_speed(section);
+    evaluate_in_wind(mission, section);
+    section.trade = row.trade;
+  }
+  return section;
+}
+
+// Every series of the flywheel comparison is one task a row.
+struct FlywheelPlan {
+  FlywheelComparison comparison;
+  std::vector<DesignTask> tasks;
+};
+
+FlywheelPlan plan_flywheels(const Mission& mission, const RedesignTask& task) {
+  FlywheelPlan plan;
+  const plant::Antenna& antenna = mission.antenna;
+  for (const auto& [count, label] : task.disks) {
+    FlywheelRow row;
+    row.disks = count;
+    row.label = label;
+    row.as_built = count == antenna.flywheels.disks && !label.starts_with("ratio");
+    const auto other = changed(antenna, {plant::set_to("motor.flywheel_disks", count)});
+    row.motor_inertia = motor_inertia(other);
+    row.reflected_inertia = plant::reflected_inertia(linear_plant(other));
+    row.motor_to_load_ratio = plant::motor_to_load_ratio(row.motor_inertia, row.reflected_inertia);
+    plan.comparison.rows.push_back(std::move(row));
+  }
+  const double linear = antenna.drive.viscous_friction;
+  const double tracking = plant::tracking_friction(antenna);
+  std::vector<std::pair<double, std::string>> frictions{{linear, "linear plant"},
+                                                        {tracking, "slope at tracking rate"}};
+  // Twice the same study would tell nothing.
+  if (std::abs(tracking - linear) <= 1e-9 * std::max(tracking, linear)) {
+    frictions = {{linear, ""}};
+  }
+  for (const auto& [friction, name] : frictions) {
+    for (const auto& structure : task.structures) {
+      plan.comparison.series.push_back({name, friction, structure, {}});
+      for (const auto& row : plan.comparison.rows) {
+        plan.tasks.push_back(
+            make_task(mission, task.seed, row.label,
+                      changed(antenna, {plant::set_to("motor.flywheel_disks", row.disks),
+                                        plant::set_to("drive.viscous_friction", friction)}),
+                      structure));
+      }
+    }
+  }
+  return plan;
+}
+
+FlywheelComparison finish_flywheels(FlywheelPlan plan, std::vector<Design>::iterator design,
+                                    unsigned threads) {
+  const std::size_t rows = plan.comparison.rows.size();
+  for (auto& series : plan.comparison.series) {
+    series.designs.assign(std::make_move_iterator(design),
+                          std::make_move_iterator(design + static_cast<std::ptrdiff_t>(rows)));
+    design += static_cast<std::ptrdiff_t>(rows);
+  }
+  numerics::for_each_index(plan.comparison.series.size(), threads, [&](std::size_t s) {
+    const auto first = plan.tasks.begin() + static_cast<std::ptrdiff_t>(s * rows);
+    improve_along({first, first + static_cast<std::ptrdiff_t>(rows)},
+                  plan.comparison.series[s].designs);
+  });
+  return std::move(plan.comparison);
+}
+
+// Wind speeds (m/s) up to which a controller keeps the budgets on its own plant.
+std::optional<std::vector<double>> speed_limits(const Mission& mission,
+                                                const TrackingProblem& problem,
+                                                const Design& design) {
+  if (design.tuning.status == TuningStatus::unstable) return std::nullopt;
+  control::LoopEvaluator evaluator = make_evaluator(problem);
+  std::vector<double> limits;
+  for (const auto& budget : mission.budgets) {
+    limits.push_back(wind_speed_limit(problem, evaluator, design.tuning.law,
+                                      design.tuning.evaluation.noise_variance, budget.rms));
+  }
+  return limits;
+}
+
+}  // namespace
+
+RedesignStudy redesign(const Mission& mission, const PlantEnsemble& ensemble,
+                       const RedesignTask& task) {
+  TuneOptions how;
+  how.seed = task.seed;
+  how.threads = task.threads;
+  how.progress = task.progress;
+  ControllerStudy study = study_controllers(mission, ensemble, how, ChoiceDetail::verified);
+  const TunedLaw& best = recommended_or_first(study);
+  const auto seeds = seed_tasks(mission, ensemble, best, task.seed);
+  std::vector<DesignTask> alternatives;
+  for (const auto& [name, antenna] : task.alternatives) {
+    alternatives.push_back(
+        make_task(mission, task.seed, name, antenna, best.design.tuning.law.structure));
+  }
+  FlywheelPlan flywheels = plan_flywheels(mission, task);
+
+  std::vector<DesignTask> tasks = seeds;
+  tasks.insert(tasks.end(), alternatives.begin(), alternatives.end());
+  tasks.insert(tasks.end(), flywheels.tasks.begin(), flywheels.tasks.end());
+  auto designs = solve_all(tasks, task.threads, task.progress);
+
+  const auto first_alternative = designs.begin() + static_cast<std::ptrdiff_t>(seeds.size());
+  const auto first_row = first_alternative + static_cast<std::ptrdiff_t>(alternatives.size());
+  RedesignStudy result;
+  result.recommended =
+      recommended_design(mission, best, task.seed, {designs.begin(), first_alternative});
+  std::vector<Design> other(first_alternative, first_row);
+  improve_along(alternatives, other);
+  for (std::size_t i = 0; i < other.size(); ++i) {
+    auto limits = speed_limits(mission, alternatives[i].problem, other[i]);
+    result.alternatives.push_back({std::move(other[i]), std::move(limits)});
+  }
+  result.flywheels = finish_flywheels(std::move(flywheels), first_row, task.threads);
+  if (study.time_domain && study.time_domain->law == description_of(best)) {
+    result.time_domain = std::move(study.time_domain);
+  } else if (best.goals_met) {
+    result.time_domain = verify_in_time_domain(mission, result.recommended.problem,
+                                               best.design.tuning.law, description_of(best),
+                                               task.seed, task.threads, SecondIntegrator::cvodes);
+  }
+  return result;
+}
+
+void evaluate_on(const std::vector<EnsembleMember>& members, unsigned threads,
+                 RecommendedDesign& design) {
+  if (design.design.tuning.status == TuningStatus::unstable || members.empty()) return;
+  const auto& law = design.design.tuning.law;
+  design.ensemble = judge(design.problem, members, law, design.goals, threads);
+  std::vector<PointingBudget> budgets;
+  for (const auto& result : design.budgets) budgets.push_back(result.budget);
+  const auto met =
+      plants_within_budgets(design.problem, members, law, design.goals, budgets, 1.0, threads);
+  for (std::size_t i = 0; i < met.size(); ++i) design.budgets[i].plants_met = met[i];
+}
+
+}  // namespace boresight::design

@@ -1,0 +1,143 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <limits>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <boresight/design/studies/controller_study.hpp>
+
+namespace boresight::design {
+
+/// Wind speed up to which a budget is met with the gains fixed.
+struct BudgetResult {
+  PointingBudget budget;
+  double wind_speed_limit = 0.0;  // m/s
+  /// Members of the ensemble on which it is met in the wind that it is needed up to; none for a
+  /// budget that states no such wind and without an ensemble.
+  std::optional<int> plants_met = std::nullopt;
+};
+
+/// The recommended controller at depth.
+struct RecommendedDesign {
+  control::LoopStructure structure;
+  std::string name;  // of the structure, as the user has it
+  TunedFor tuned_for = TunedFor::nominal;
+  TrackingProblem problem;  // what was tuned
+  HardGoals goals;
+  Design design;
+  /// Gains that the antenna runs on now, evaluated on the same plant.
+  struct PresentLaw {
+    std::string structure;
+    Design design;
+  };
+  std::vector<PresentLaw> present;
+  double design_speed = 0.0;  // m/s
+  plant::WindModel wind_model = plant::WindModel::coherence;
+  plant::WindSite wind_site;
+  struct SeedResult {
+    std::uint64_t seed = 0;
+    double beam_rms = 0.0;  // rad
+    bool verified = false;
+  };
+  std::vector<SeedResult> seeds;
+  int seeds_within_1_percent = 0;
+  struct WindAlternative {
+    plant::WindModel model = plant::WindModel::coherence;
+    double beam_rms = 0.0;                  // rad, same gains
+    std::vector<double> speed_limits = {};  // m/s, one a budget
+  };
+  std::vector<WindAlternative> wind_alternatives;
+  /// Rms of the flexure beyond the encoder with the encoder at rest (rad). Not a bound: a loop can
+  /// move the encoder against the flexure.
+  double encoder_held_rms = 0.0;
+  /// torque_limited_wind_speed.
+  double supply_wind_speed = std::numeric_limits<double>::infinity();
+  double static_bending = 0.0;  // rad under the mean wind: calibration's job, not the servo's
+  struct BandLoss {
+    PointingBand band;
+    double mean_loss_db = 0.0;       // two equal axes, static bending left out
+    double static_bending_db = 0.0;  // what that would add on this axis
+  };
+  std::vector<BandLoss> losses;
+  std::vector<BudgetResult> budgets;
+  std::vector<ClimatePart> climate;  // of the site; empty if it is not known
+  /// The controller with its gains fixed on perturbed models. None without a stable one.
+  std::optional<EnsembleResult> ensemble;
+  /// Of a position gain at the upper bound of the search that can be halved or lowered further.
+  std::optional<PositionGainTrade> trade;
+};
+
+/// Another antenna that the evidence allows, with the recommended structure tuned for it.
+struct AlternativeDesign {
+  Design design;
+  /// Wind speed (m/s) up to which each budget is met; none without a stable controller.
+  std::optional<std::vector<double>> speed_limits;
+};
+
+/// One motor inertia of the flywheel comparison.
+struct FlywheelRow {
+  double disks = 0.0;  // on each motor
+  std::string label;   // "24 disks", "ratio 1"
+  bool as_built = false;
+  double motor_inertia = 0.0;        // kg m2, all motors
+  double motor_to_load_ratio = 0.0;  // R
+  double reflected_inertia = 0.0;    // kg m2, of all, at the motor shaft
+};
+
+/// One structure tuned at every row, with one friction slope.
+struct FlywheelSeries {
+  std::string friction;  // "linear plant", "slope at tracking rate"; empty where one slope is both
+  double viscous_friction = 0.0;  // N m s/rad
+  control::LoopStructure structure;
+  std::vector<Design> designs;  // one a row
+};
+
+struct FlywheelComparison {
+  std::vector<FlywheelRow> rows;
+  std::vector<FlywheelSeries> series;
+};
+
+/// What a redesign looks at beside the recommended controller.
+struct RedesignTask {
+  struct Alternative {
+    std::string name;
+    plant::Antenna antenna;
+  };
+  std::vector<Alternative> alternatives;
+  struct Disks {
+    double count = 0.0;
+    std::string label;
+  };
+  std::vector<Disks> disks;                        // ascending
+  std::vector<control::LoopStructure> structures;  // of the flywheel comparison
+  std::uint64_t seed = 1;
+  unsigned threads = 2;
+  /// Called with tasks done and all tasks; may be empty.
+  std::function<void(std::size_t, std::size_t)> progress;
+};
+
+struct RedesignStudy {
+  RecommendedDesign recommended;
+  std::vector<AlternativeDesign> alternatives;  // in the order of the task
+  FlywheelComparison flywheels;
+  /// None without Antenna::nonlinear, and for a controller that misses its constraints.
+  std::optional<TimeDomainStudy> time_domain;
+};
+
+/// The controller that study_controllers recommends, where none is fit the least unfit; its search
+/// repeated from eight seeds, starting with the task's; its structure tuned for the alternatives;
+/// and the task's structures tuned at each number of disks, with the linear plant's friction and
+/// with the friction curve's slope at the tracking rate.
+/// @throws as study_controllers.
+RedesignStudy redesign(const Mission& mission, const PlantEnsemble& ensemble,
+                       const RedesignTask& task);
+
+/// Evaluates the design with its gains fixed on members and counts on how many each budget is met
+/// in its wind. Nothing for an unstable design or without members.
+void evaluate_on(const std::vector<EnsembleMember>& members, unsigned threads,
+                 RecommendedDesign& design);
+
+}  // namespace boresight::design

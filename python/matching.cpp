@@ -9,8 +9,9 @@
 #include <pybind11/stl.h>
 
 #include <boresight/app/commands/subcommand.hpp>
-#include <boresight/app/match/match_study.hpp>
+#include <boresight/app/match/match_conclusions.hpp>
 #include <boresight/app/redesign/assumed_inputs.hpp>
+#include <boresight/app/tune/structure_option.hpp>
 #include <boresight/app/uncertainty/designed_antenna.hpp>
 #include <boresight/numerics/error.hpp>
 #include <boresight/python/bindings.hpp>
@@ -20,9 +21,9 @@
 namespace boresight::python {
 namespace {
 
-using app::MatchPoint;
-using app::MatchSeries;
-using app::MatchValue;
+using design::MatchPoint;
+using design::MatchSeries;
+using design::MatchValue;
 
 struct Matching : Found {
   const app::MatchSection& section() const {
@@ -31,23 +32,23 @@ struct Matching : Found {
   }
 };
 
-app::MatchTimeRuns time_runs_of(const std::string& name) {
-  if (name == "none") return app::MatchTimeRuns::none;
-  if (name == "few") return app::MatchTimeRuns::few;
-  if (name == "all") return app::MatchTimeRuns::all;
+design::MatchTimeRuns time_runs_of(const std::string& name) {
+  if (name == "none") return design::MatchTimeRuns::none;
+  if (name == "few") return design::MatchTimeRuns::few;
+  if (name == "all") return design::MatchTimeRuns::all;
   throw InvalidInput(
       fmt::format("match: expected time_domain 'none', 'few' or 'all', found '{}'", name));
 }
 
-Matching match(io::Case antenna, std::vector<std::string> structures, int points, double most_disks,
-               int starts, bool robust, bool variants, const std::string& time_domain,
-               std::uint64_t seed, unsigned threads) {
-  app::MatchOptions options;
-  options.structures = std::move(structures);
+Matching match(io::Case antenna, const std::vector<std::string>& structures, int points,
+               double most_disks, int starts, bool robust, bool variants,
+               const std::string& time_domain, std::uint64_t seed, unsigned threads) {
+  design::MatchOptions options;
   options.points = points;
   options.most_disks = most_disks;
   options.starts = starts;
   options.time_runs = time_runs_of(time_domain);
+  options.robust = robust;
   options.variants = variants;
   options.seed = seed;
   options.threads = app::all_or(threads);
@@ -57,11 +58,11 @@ Matching match(io::Case antenna, std::vector<std::string> structures, int points
     auto designed = app::designed_antenna(antenna, 1, options.threads, stop);
     antenna = std::move(designed.antenna);
     options.interrupted = stop;
-    if (!robust) designed.ensemble.members.clear();
-    return app::match_motors(antenna, designed.ensemble.members, options);
+    options.structures = app::structure_option(antenna, structures);
+    return app::section_of(antenna, study_matching(designed.mission, designed.ensemble, options));
   });
   result.report.assumed =
-      app::assumed_inputs(antenna, {.time_runs = options.time_runs != app::MatchTimeRuns::none});
+      app::assumed_inputs(antenna, {.time_runs = options.time_runs != design::MatchTimeRuns::none});
   result.report.conclusions = app::conclude(*result.report.matched);
   return result;
 }

@@ -8,8 +8,7 @@
 #include <boresight/app/commands/match_command.hpp>
 #include <boresight/app/commands/progress_line.hpp>
 #include <boresight/app/figures/report_figures.hpp>
-#include <boresight/app/match/match_study.hpp>
-#include <boresight/app/match/what_if.hpp>
+#include <boresight/app/match/match_conclusions.hpp>
 #include <boresight/app/page/report_page.hpp>
 #include <boresight/app/redesign/assumed_inputs.hpp>
 #include <boresight/app/redesign/sections.hpp>
@@ -17,7 +16,7 @@
 #include <boresight/app/report/text_report.hpp>
 #include <boresight/app/tune/structure_option.hpp>
 #include <boresight/app/uncertainty/designed_antenna.hpp>
-#include <boresight/design/studies/controller_study.hpp>
+#include <boresight/design/studies/what_if_study.hpp>
 #include <boresight/io/case/friction_leeway.hpp>
 #include <boresight/io/files/write_atomically.hpp>
 #include <boresight/numerics/error.hpp>
@@ -28,7 +27,8 @@ namespace {
 struct Arguments {
   std::string case_path;
   Outputs outputs;
-  MatchOptions options;
+  std::vector<std::string> structures;
+  design::MatchOptions options;
   /// Of the ensemble's draws; apart from that of the searches, which should make no difference.
   std::uint64_t ensemble_seed = 1;
   bool nominal = false;
@@ -38,10 +38,12 @@ struct Arguments {
 int run(const Arguments& arguments) {
   io::Case antenna = io::read_case(arguments.case_path);
   arguments.outputs.require_writable();
-  MatchOptions options = arguments.options;
+  design::MatchOptions options = arguments.options;
   options.threads = all_or(options.threads);
   options.interrupted = interrupt_requested;
+  options.robust = !arguments.nominal;
   options.variants = !arguments.no_variants;
+  options.tune_as_built = true;
   Report report = begin_report("match", antenna, arguments.case_path, options.seed);
   watch_for_interrupt();
   design::Mission mission;
@@ -66,23 +68,8 @@ int run(const Arguments& arguments) {
       working = work;
       line->show(finished, all);
     };
-    report.matched = match_motors(
-        antenna, arguments.nominal ? std::vector<design::EnsembleMember>() : ensemble.members,
-        options);
-    design::TuneOptions tuning;
-    tuning.structures = structure_option(antenna, options.structures);
-    tuning.seed = options.seed;
-    tuning.threads = options.threads;
-    tuning.interrupted = options.interrupted;
-    tuning.progress = [&](std::size_t finished, std::size_t all) {
-      options.progress("tuning as built", finished, all);
-    };
-    if (!interrupt_requested()) {
-      design::ControllerStudy study = study_controllers(mission, ensemble, tuning);
-      if (!interrupt_requested()) {
-        report.matched->tuned_as_built = section_of(antenna, std::move(study.tuned));
-      }
-    }
+    options.structures = structure_option(antenna, arguments.structures);
+    report.matched = section_of(antenna, study_matching(mission, ensemble, options));
   }
   report.interrupted = interrupt_requested();
   report.conclusions = conclude(*report.matched);
@@ -91,11 +78,11 @@ int run(const Arguments& arguments) {
   // Seconds that only a page's sliders are worth.
   if (!arguments.outputs.report_path.empty() && !report.interrupted) {
     ProgressLine line("what if");
-    WhatIfOptions table;
+    design::WhatIfOptions table;
     table.threads = options.threads;
     table.interrupted = interrupt_requested;
     table.progress = [&](std::size_t finished, std::size_t all) { line.show(finished, all); };
-    report.matched->what_if = what_if(antenna, *report.matched, table);
+    report.matched->what_if = design::what_if(mission, *report.matched, table);
   }
   report.figures = report_figures(report);
   arguments.outputs.deliver({.text = [&] { return to_text(report); },
@@ -128,9 +115,9 @@ Subcommand add_match(CLI::App& program) {
   CLI::App* sub = program.add_subcommand(
       "match",
       "re-tune every loop structure at every motor inertia, robustly, and judge the rules");
-  MatchOptions& options = arguments->options;
+  design::MatchOptions& options = arguments->options;
   add_case(*sub, arguments->case_path);
-  sub->add_option("--structure", options.structures,
+  sub->add_option("--structure", arguments->structures,
                   "what to tune, one or several, as of `boresight tune`")
       ->expected(1, 100);
   sub->add_option(

@@ -33,7 +33,8 @@ Figure started(const char* id, const char* title, std::string caption) {
 
 // The rule without its reasons, which the report states: labels along lines are short.
 std::string short_name(const RuleVerdict& rule) {
-  const std::string name = rule.rule.substr(0, rule.rule.find_first_of(",:"));
+  const std::string text = text_of(rule.rule);
+  const std::string name = text.substr(0, text.find_first_of(",:"));
   return fmt::format("{} (R = {:.2g})", name.substr(0, name.find(" at ")),
                      rule.motor_to_load_ratio);
 }
@@ -52,9 +53,9 @@ void add_rules(const MatchSection& section, RuleLabels labels, Figure& figure) {
           {FigureLine::Direction::vertical, *rule.disks, first ? label : std::string()});
     }
     for (const auto& point : section.points) {
-      if (point.label != "as built") continue;
+      if (!point.as_built || point.unit_ratio) continue;
       panel.lines.push_back(
-          {FigureLine::Direction::vertical, point.disks, first ? point.label : std::string()});
+          {FigureLine::Direction::vertical, point.disks, first ? label_of(point) : std::string()});
     }
   }
 }
@@ -224,7 +225,7 @@ Figure variants_figure(const MatchSection& section, std::size_t number) {
   FigurePanel panel;
   panel.y = {.label = "beam rms", .unit = "mdeg"};
   for (const auto& variant : variants.variants) {
-    FigureSeries series{.name = variant.name, .style = SeriesStyle::line_and_points};
+    FigureSeries series{.name = name_of(variant), .style = SeriesStyle::line_and_points};
     for (std::size_t i = 0; i < variant.rms.size(); ++i) {
       series.x.push_back(variants.disks[i]);
       series.y.push_back(variant.rms[i] / millidegree);
@@ -244,7 +245,7 @@ Figure rules_figure(const MatchSection& section) {
   figure.x = {.label = "more rms than at the best inertia", .unit = "%"};
   FigurePanel panel;
   for (const auto& rule : section.rules) {
-    if (rule.disks) panel.y.categories.push_back(rule.rule);
+    if (rule.disks) panel.y.categories.push_back(text_of(rule.rule));
   }
   for (std::size_t s = 0; s < section.series.size(); ++s) {
     FigureSeries bars{.name = section.series[s].name, .style = SeriesStyle::bars};

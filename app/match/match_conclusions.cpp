@@ -6,12 +6,12 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <boresight/app/match/match_study.hpp>
-#include <boresight/app/match/match_verdict.hpp>
+#include <boresight/app/match/match_conclusions.hpp>
 #include <boresight/app/report/influences.hpp>
 #include <boresight/app/report/sky_units.hpp>
 #include <boresight/app/report/wind_mast.hpp>
 #include <boresight/app/tune/tune_verdict.hpp>
+#include <boresight/design/studies/matching_verdict.hpp>
 
 namespace boresight::app {
 namespace {
@@ -20,11 +20,10 @@ std::string per_cent(double share) {
   return fmt::format("{:+.1f} %", 100.0 * share);
 }
 
-std::optional<std::size_t> labelled(const MatchSection& section, std::string_view label) {
-  for (std::size_t i = 0; i < section.points.size(); ++i) {
-    if (section.points[i].label.find(label) != std::string::npos) return i;
-  }
-  return std::nullopt;
+std::optional<std::size_t> marked(const MatchSection& section, bool MatchPoint::*which) {
+  const auto point = std::ranges::find_if(section.points, which);
+  if (point == section.points.end()) return std::nullopt;
+  return static_cast<std::size_t>(point - section.points.begin());
 }
 
 std::string feedback_of(const MatchSeries& series) {
@@ -36,22 +35,11 @@ std::string feedback_of(const MatchSeries& series) {
   return "loops that feed back no torque";
 }
 
-// The inertias beyond the range that is within 1 % of the least rms whose rms is within it too, the
-// nearest first; empty without one.
-std::string as_good_elsewhere(const MatchSection& section, const MatchSeries& series,
-                              std::size_t best) {
+// Inertias as good beyond the flat range; empty without one.
+std::string elsewhere(const MatchSection& section, const MatchSeries& series) {
   constexpr std::size_t most = 3;
-  const auto& range = series.within_1_percent;
-  std::vector<double> disks;
-  for (std::size_t i = 0; i < series.values.size(); ++i) {
-    const MatchValue& value = series.values[i];
-    const double at = section.points[i].disks;
-    if (!value.found || (range.lowest <= at && at <= range.highest)) continue;
-    if (value.beam_rms <= 1.01 * series.values[best].beam_rms) disks.push_back(at);
-  }
+  auto disks = as_good_elsewhere(section, series);
   if (disks.empty()) return "";
-  std::ranges::stable_sort(disks, {},
-                           [&](double at) { return std::abs(at - section.points[best].disks); });
   const std::size_t more = disks.size() > most ? disks.size() - most : 0;
   disks.resize(disks.size() - more);
   std::vector<std::string> named;
@@ -70,15 +58,15 @@ std::string best_of(const MatchSection& section, const MatchSeries& series) {
       section.points[best].motor_to_load_ratio,
       series.best_at_end ? ", an end of the range looked at" : "", series.within_1_percent.lowest,
       series.within_1_percent.highest, series.within_5_percent.lowest,
-      series.within_5_percent.highest, as_good_elsewhere(section, series, best));
-  const auto at = [&](const char* label, const char* words) {
-    const auto point = labelled(section, label);
+      series.within_5_percent.highest, elsewhere(section, series));
+  const auto at = [&](bool MatchPoint::*which, const char* words) {
+    const auto point = marked(section, which);
     if (!point || !series.values[*point].found) return;
     text +=
         fmt::format(" {} costs {}.", words, per_cent(series.values[*point].beam_rms / least - 1.0));
   };
-  at("as built", "As built");
-  at("ratio 1", "One to one");
+  at(&MatchPoint::as_built, "As built");
+  at(&MatchPoint::unit_ratio, "One to one");
   return text;
 }
 
@@ -152,8 +140,8 @@ void conclude_weight(const MatchSection& section, std::vector<std::string>& sent
         100.0 * widest, what_matters_more(section)));
     return;
   }
-  const StructuresAsBuilt built = structures_as_built(section);
-  if (built.count == 0 || !labelled(section, "as built")) return;
+  const design::StructuresAsBuilt built = structures_as_built(section);
+  if (built.count == 0 || !marked(section, &MatchPoint::as_built)) return;
   if (built.least == built.largest) {
     sentences.push_back(fmt::format(
         "Over all inertias looked at the rms changes most with {}, by {:.0f} %; what another "
@@ -175,13 +163,13 @@ void conclude_variants(const MatchSection& section, std::vector<std::string>& se
     if (!own.best || !weighed(section, variants.structure)) continue;
     for (const auto& variant : variants.variants) {
       if (!variant.best) {
-        moved += fmt::format("; with {} no law holds its goals", variant.name);
+        moved += fmt::format("; with {} no law holds its goals", name_of(variant));
         continue;
       }
       const double now = variant.rms[*variant.best];
       const double kept = variant.rms[*own.best];
       if (std::isfinite(kept) && kept / now - 1.0 < negligible_change) continue;
-      moved += fmt::format("; with {} it is at {:.3g} disks", variant.name,
+      moved += fmt::format("; with {} it is at {:.3g} disks", name_of(variant),
                            variants.disks[*variant.best]);
     }
     sentences.push_back(fmt::format(
@@ -222,15 +210,6 @@ void conclude_variants(const MatchSection& section, std::vector<std::string>& se
   }
 }
 
-// Whether a curve that is not flat has its least where the range looked at does not end it. Fewer
-// disks than none there are not.
-bool has_optimum(const MatchSection& section) {
-  return std::ranges::any_of(section.series, [&](const MatchSeries& series) {
-    return series.best && weighed(section, series) && *series.best + 1 < section.points.size() &&
-           span_of(series) >= negligible_change;
-  });
-}
-
 void conclude_rules(const MatchSection& section, std::vector<std::string>& sentences) {
   const bool flat = hardly_matters(section);
   if (flat) {
@@ -245,26 +224,14 @@ void conclude_rules(const MatchSection& section, std::vector<std::string>& sente
       sentences.push_back(
           fmt::format("The rule \"{}\" asks for R = {:.2f}, less than the motors have without "
                       "flywheels.",
-                      rule.rule, rule.motor_to_load_ratio));
+                      text_of(rule.rule), rule.motor_to_load_ratio));
       continue;
     }
-    double least = HUGE_VAL, largest = -HUGE_VAL;
-    std::string cheapest, dearest;
-    for (std::size_t s = 0; s < rule.cost.size(); ++s) {
-      if (!std::isfinite(rule.cost[s]) || !weighed(section, section.series[s])) continue;
-      if (rule.cost[s] < least) {
-        least = rule.cost[s];
-        cheapest = section.series[s].name;
-      }
-      if (rule.cost[s] > largest) {
-        largest = rule.cost[s];
-        dearest = section.series[s].name;
-      }
-    }
-    if (cheapest.empty()) continue;
-    const bool one = cheapest == dearest;
+    const design::RuleCosts costs = costs_of(section, rule);
+    if (costs.cheapest == nullptr) continue;
+    const bool one = costs.cheapest == costs.dearest;
     std::string verdict = one ? "no good rule here" : "no rule for every structure here";
-    if (largest < negligible_change) {
+    if (costs.largest < negligible_change) {
       verdict = optimum
                     ? "a good rule here"
                     : "it costs little, but the least lies at the upper end of the range looked "
@@ -273,11 +240,12 @@ void conclude_rules(const MatchSection& section, std::vector<std::string>& sente
     sentences.push_back(fmt::format(
         "The rule \"{}\" (R = {:.2f}, {:.1f} disks) costs {} of rms with {}{}, against {} own "
         "best: {}.",
-        rule.rule, rule.motor_to_load_ratio, *rule.disks, per_cent(least), cheapest,
-        one ? "" : fmt::format(" and {} with {}", per_cent(largest), dearest),
+        text_of(rule.rule), rule.motor_to_load_ratio, *rule.disks, per_cent(costs.least),
+        costs.cheapest->name,
+        one ? "" : fmt::format(" and {} with {}", per_cent(costs.largest), costs.dearest->name),
         one ? "its" : "each structure's", verdict));
   }
-  const auto built = labelled(section, "as built");
+  const auto built = marked(section, &MatchPoint::as_built);
   if (!built) return;
   const auto& now = section.points[*built];
   const auto& bare = section.points.front();
@@ -345,8 +313,7 @@ void conclude_friction(const MatchSection& section, std::vector<std::string>& se
       fmt::join(errors, ", "), fmt::join(cycles, "; ")));
 }
 
-}  // namespace
-
+// The controller for the motors as built; empty where it was not asked for.
 std::string recommended_as_built(const MatchSection& section) {
   if (!section.tuned_as_built) return "";
   const TunedLaw* law = recommended_law(*section.tuned_as_built);
@@ -360,6 +327,17 @@ std::string recommended_as_built(const MatchSection& section) {
       law->in_time
           ? fmt::format(", {:.4f} on the nonlinear antenna", law->in_time->beam_rms / millidegree)
           : "");
+}
+
+}  // namespace
+
+std::string what_matters_more(const MatchSection& section) {
+  Influences influences;
+  influences.add(structures_as_built(section).change, "the loop structure");
+  for (const auto& one : variant_changes(section)) {
+    influences.add(one.change, fmt::format("'{}' with {}", one.variant, one.structure));
+  }
+  return influences.sentence();
 }
 
 std::vector<std::string> conclude(const MatchSection& section) {

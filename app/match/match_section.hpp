@@ -1,146 +1,40 @@
 #pragma once
 
-#include <array>
-#include <cstddef>
 #include <optional>
 #include <string>
-#include <vector>
 
-#include <boresight/app/match/what_if_table.hpp>
-#include <boresight/app/tune/tune_section.hpp>
-#include <boresight/design/matching/matching_curves.hpp>
-#include <boresight/design/matching/matching_smoothness.hpp>
-#include <boresight/design/tuning/design_study.hpp>
-#include <boresight/design/verification/nonlinear_verification.hpp>
+#include <boresight/design/studies/matching_study.hpp>
+#include <boresight/design/studies/what_if_study.hpp>
 #include <boresight/io/case/case_file.hpp>
 
 namespace boresight::app {
 
-/// One motor inertia of the study, and what does not depend on the loops. SI, at the motor shaft
-/// where nothing else is said.
-struct MatchPoint {
-  double disks = 0.0;                // on each motor
-  std::string label = {};            // "ratio 1", "as built"; empty for the others
-  bool on_grid = true;               // of evenly spaced numbers of disks
-  double motor_inertia = 0.0;        // kg m2, of all motors
-  double motor_to_load_ratio = 0.0;  // R: motors over gear train and antenna
-  double reflected_inertia = 0.0;    // kg m2, of all
-  plant::PlantMode hydraulic = {};
-  plant::PlantMode oil_mode = {};  // plant::mode_of_oil
-  /// rad/s2 at the sky, at the slew rate: what the drive has reserve for there
-  /// (design::within_reach); of cases without [simulation] what the supply's torque leaves beyond
-  /// friction, the valve's drop not counted. 0 or less where nothing is left.
-  double acceleration = 0.0;
-  double slew_time = 0.0;  // s for slew_distance at the slew rate; infinite without acceleration
-  double two_mass_damping = 0.0;  // the rule zeta = 1/2 sqrt(J_L/J_m)
-  /// Acceleration for given torque over the most that any gear ratio gives with these motors:
-  /// 2 sqrt(R)/(1 + R).
-  double acceleration_of_best_ratio = 0.0;
+using design::FlatRange;
+using design::FrictionThreshold;
+using design::MatchPoint;
+using design::MatchSeries;
+using design::MatchTimeDomain;
+using design::MatchTimeRuns;
+using design::MatchValue;
+using design::MatchVariant;
+using design::MatchVariants;
+using design::RuleVerdict;
+
+/// What `boresight match` found, and what of the case's text and of the page its report needs.
+struct MatchSection : design::MatchingStudy {
+  std::optional<io::WindMast> wind_mast;       // none: the case states speeds at the dish's centre
+  std::optional<design::WhatIfTable> what_if;  // where a page asks for it
 };
 
-/// A law on the nonlinear antenna, in still air: at rest and at the tracking rate.
-struct MatchTimeDomain {
-  std::vector<design::HuntingResult> hunting;
-  std::optional<design::ReversalResult> reversal;
-};
+MatchSection section_of(const io::Case& antenna, design::MatchingStudy study);
 
-/// One law of the study on the case's plant. Angles at the sky, one axis.
-struct MatchValue {
-  bool found = false;  // a law that holds its goals on every plant
-  double beam_rms = 0.0, wind_rms = 0.0, noise_rms = 0.0;  // rad
-  double valve_effort = 0.0;                               // rad/s, by noise
-  /// Mean wind and crest factor times the gusts.
-  double gust_demand = 0.0;  // rad/s of valve
-  double gust_torque = 0.0;  // N m
-  std::array<control::Margins, 3> margins;
-  double bandwidth = 0.0;  // Hz: the lowest at which the position loop's |S| reaches 1/sqrt(2)
-  /// rad per rad/s2: steady error under a constant acceleration that is not fed forward, 1/(w^2 L)
-  /// of the position loop as w goes to 0.
-  double acceleration_error = 0.0;
-  design::Verification verification;
-  std::optional<MatchTimeDomain> time_domain;
-};
+/// "ratio 1", "as built" or both; empty for the other points.
+std::string label_of(const MatchPoint& point);
 
-/// Where a curve is least, and how flat it is there; in disks, between points by straight lines.
-struct FlatRange {
-  double lowest = 0.0, highest = 0.0;
-};
+/// "the case's plant", or what is not as the case has it.
+std::string name_of(const MatchVariant& variant);
 
-struct MatchSeries {
-  std::string name;  // as --structure takes it
-  design::MatchingCurve curve;
-  std::vector<MatchValue> values;  // one a point
-  design::CurveSmoothness smoothness;
-  std::optional<std::size_t> best;  // point of the least rms; none if none holds its goals
-  FlatRange within_1_percent, within_5_percent;
-  bool best_at_end = false;  // least at an end of the axis
-};
-
-/// The least rms along the axis when something else is not as the case has it; tuned on that plant
-/// alone.
-struct MatchVariant {
-  std::string name;
-  std::vector<double> rms;  // rad at the sky, one a coarse point; NaN without a law
-  std::optional<std::size_t> best;
-  FlatRange within_5_percent;
-};
-
-struct MatchVariants {
-  std::string structure;
-  std::vector<double> disks;
-  std::vector<MatchVariant> variants;  // the first is the case's own plant
-};
-
-/// The friction slope above which the inertia does not matter any more: the rms at the worst number
-/// of disks is within `spread` of that at the best. Tuned on the case's plant with that slope.
-struct FrictionThreshold {
-  std::string structure;
-  double spread = 0.05;
-  std::optional<double> slope;      // N m s/rad; none up to `searched_to`
-  double searched_to = 0.0;         // N m s/rad
-  double spread_at_nominal = 0.0;   // with the case's slope
-  double spread_at_tracking = 0.0;  // with the friction curve's slope at the tracking rate
-};
-
-/// A classic rule for the motor inertia, and what following it costs a structure.
-struct RuleVerdict {
-  std::string rule;
-  double motor_to_load_ratio = 0.0;  // that it asks for
-  std::optional<double> disks;       // none where the motors alone are heavier already
-  std::vector<double>
-      cost;  // rms over the structure's least, less 1; one a series, NaN if not known
-};
-
-/// What `boresight match` found.
-struct MatchSection {
-  std::vector<MatchPoint> points;  // by rising disks
-  std::vector<MatchSeries> series;
-  std::vector<MatchVariants> variants;
-  std::vector<FrictionThreshold> thresholds;
-  std::vector<RuleVerdict> rules;
-  std::optional<WhatIfTable> what_if;  // where a page asks for it
-  /// study_controllers of the antenna as built, whose recommended_law is the controller for its
-  /// motors; none where that was not asked for, or interrupted.
-  std::optional<TuneSection> tuned_as_built;
-  double wind_speed = 0.0;
-  plant::WindModel wind_model = plant::WindModel::coherence;
-  std::optional<io::WindMast> wind_mast;  // none: the case states speeds at the dish's centre
-  design::HardGoals goals;
-  design::SoftGoal soft_goal;
-  std::size_t members = 0;
-  double tolerance = 0.0;  // of ln rms: a law better by less counts as the same
-  int starts = 0;          // random ones of each law
-  int rounds = 0;
-  bool settled = false;
-  long evaluations = 0;
-  double slew_distance = 0.0;  // rad at the sky
-  /// rad/s at the sky: the case's, or four fifths of what the supply holds against friction.
-  double slew_rate = 0.0;
-  bool slew_by_simulation = false;  // rate and acceleration by design::within_reach
-  double tracking_rate = 0.0;       // rad/s at the sky
-  double tracking_friction = 0.0;   // N m s/rad
-  double friction = 0.0;            // N m s/rad, of the linear plant
-  double tightest_budget = 0.0;     // rad rms at the sky; 1 mdeg where the case has none
-};
+/// A rule in words, with its reason behind a comma or colon.
+std::string text_of(design::ClassicRule rule);
 
 }  // namespace boresight::app

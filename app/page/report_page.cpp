@@ -5,7 +5,7 @@
 #include <boresight/app/page/report_page.hpp>
 #include <boresight/app/report/json_writer.hpp>
 #include <boresight/app/report/text_report.hpp>
-#include <boresight/app/report/what_if_description.hpp>
+#include <boresight/io/description/what_if_description.hpp>
 
 namespace boresight::app {
 namespace {

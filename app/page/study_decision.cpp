@@ -6,7 +6,7 @@
 
 #include <boresight/app/evaluate/pairs_by_structure.hpp>
 #include <boresight/app/evaluate/unfit_candidates.hpp>
-#include <boresight/app/match/match_verdict.hpp>
+#include <boresight/app/match/match_conclusions.hpp>
 #include <boresight/app/page/decision.hpp>
 #include <boresight/app/page/study_decision.hpp>
 #include <boresight/app/report/climate_wording.hpp>
@@ -16,6 +16,7 @@
 #include <boresight/app/report/wind_mast.hpp>
 #include <boresight/app/tune/tune_study.hpp>
 #include <boresight/app/tune/tune_verdict.hpp>
+#include <boresight/design/studies/matching_verdict.hpp>
 
 namespace boresight::app {
 namespace {
@@ -38,7 +39,7 @@ std::string first_change(const MatchSection& section, const MatchSeries& best, b
                 : "With the motors as built those loops were not seen to hold still on the "
                   "nonlinear antenna: a run did not complete.";
   }
-  const StructuresAsBuilt structures = structures_as_built(section);
+  const design::StructuresAsBuilt structures = structures_as_built(section);
   const double by_disks =
       best.values[built].beam_rms / best.values[best.best.value_or(built)].beam_rms - 1.0;
   std::string text =
@@ -58,25 +59,14 @@ std::string first_change(const MatchSection& section, const MatchSeries& best, b
   return text + fmt::format(": change the {} first.", by_loops > by_disks ? "loops" : "flywheels");
 }
 
-// The friction slope that decides whether the inertia matters; empty where it matters little with
-// that of the linear plant already, or whatever the slope.
-std::string deciding_friction(const MatchSection& section) {
-  const FrictionThreshold* threshold = nullptr;
-  double slope = 0.0;
-  // A slope beyond those that the case knows is no question to be measured.
-  const double most = 1.5 * std::max(section.friction, section.tracking_friction);
-  for (const auto& one : section.thresholds) {
-    if (!one.slope || *one.slope > most || one.spread_at_nominal < one.spread) continue;
-    if (!weighed(section, one.structure)) continue;
-    if (threshold != nullptr && *one.slope >= slope) continue;
-    threshold = &one;
-    slope = *one.slope;
-  }
+// The friction slope that decides whether the inertia matters; empty without one.
+std::string measure_friction(const MatchSection& section) {
+  const FrictionThreshold* threshold = deciding_friction(section);
   if (threshold == nullptr) return "";
   return fmt::format(
       "Measure the friction slope at the tracking rate first: above {:.3g} N m s/rad the motors' "
       "inertia moves the rms of {} loops by less than {:.0f} %.",
-      slope, threshold->structure, 100.0 * threshold->spread);
+      *threshold->slope, threshold->structure, 100.0 * threshold->spread);
 }
 
 // Of the gains that the antenna runs on now.
@@ -128,7 +118,7 @@ Sentences decide_inertia(const MatchSection& section, bool others_hunt) {
   if (present.found) {
     sentences.push_back(first_change(section, *best, others_hunt || section.series.size() > 1));
   }
-  if (auto text = deciding_friction(section); inertia_matters && !text.empty()) {
+  if (auto text = measure_friction(section); inertia_matters && !text.empty()) {
     sentences.push_back(std::move(text));
   }
   return sentences;

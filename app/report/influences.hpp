@@ -4,11 +4,11 @@
 #include <utility>
 #include <vector>
 
+#include <boresight/design/decisions/negligible_change.hpp>
+
 namespace boresight::app {
 
-/// A change of the rms below this share decides nothing: assumed inputs, the wind model and what
-/// the linear plant leaves out move it by more.
-inline constexpr double negligible_change = 0.02;
+using design::negligible_change;
 
 /// A change of the rms above this share is worth a sentence wherever it comes from.
 inline constexpr double telling_change = 0.2;

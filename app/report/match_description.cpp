@@ -3,10 +3,10 @@
 #include <vector>
 
 #include <boresight/app/report/match_report.hpp>
-#include <boresight/app/report/what_if_description.hpp>
 #include <boresight/app/tune/tune_verdict.hpp>
 #include <boresight/io/description/design_results.hpp>
 #include <boresight/io/description/loop_results.hpp>
+#include <boresight/io/description/what_if_description.hpp>
 #include <boresight/io/description/wind_mast_description.hpp>
 
 namespace boresight::app {
@@ -28,7 +28,7 @@ void describe_range(io::Visitor& v, std::string_view key, const FlatRange& range
 
 void describe_point(io::Visitor& v, const MatchPoint& point) {
   v.number("flywheel_disks", point.disks, unit::ratio, "On each motor.", known);
-  v.text_or_null("label", point.label, "ratio 1, as built.");
+  v.text_or_null("label", label_of(point), "ratio 1, as built.");
   v.number("motor_inertia", point.motor_inertia, inertia_unit, "All motors.", known);
   v.number("motor_to_load_ratio", point.motor_to_load_ratio, unit::ratio,
            "Motors over gear train and antenna.", known);
@@ -191,7 +191,7 @@ void describe_variants(io::Visitor& v, const MatchVariants& variants) {
   v.numbers("flywheel_disks", variants.disks, unit::ratio, "Where.", known);
   v.list("variants", variants.variants, "The first is the case's plant.",
          [&](const MatchVariant& variant) {
-           v.text("name", variant.name, "What is not as the case has it.");
+           v.text("name", name_of(variant), "What is not as the case has it.");
            v.numbers("beam_rms", variant.rms, unit::millidegree, "At these disks.");
            v.number("best_disks",
                     variant.best ? std::optional(variants.disks[*variant.best]) : std::nullopt,
@@ -223,7 +223,7 @@ void describe_rule(io::Visitor& v, const MatchSection& section, const RuleVerdic
   for (std::size_t s = 0; s < rule.cost.size(); ++s) {
     costs.push_back({section.series[s].name, rule.cost[s]});
   }
-  v.text("rule", rule.rule, "In words.");
+  v.text("rule", text_of(rule.rule), "In words.");
   v.number("motor_to_load_ratio", rule.motor_to_load_ratio, unit::ratio, "R that it asks for.",
            known);
   v.number("flywheel_disks", rule.disks, unit::ratio, "Null: less inertia than the bare motors.");
@@ -256,10 +256,10 @@ void describe_conditions(io::Visitor& v, const MatchSection& section) {
            "Of the friction curve.", known);
 }
 
-void describe_recommended(io::Visitor& v, const TuneSection& tuned) {
-  const TunedLaw* law = recommended_law(tuned);
-  const TunedLaw example;
-  const TunedLaw& row = law != nullptr ? *law : example;
+void describe_recommended(io::Visitor& v, const design::TuningStudy& tuned) {
+  const design::TunedLaw* law = recommended_law(tuned);
+  const design::TunedLaw example;
+  const design::TunedLaw& row = law != nullptr ? *law : example;
   v.group_if("recommended_as_built", law != nullptr,
              "The controller that tune recommends for the motors as built; null: none. Left out: "
              "interrupted.",
@@ -301,8 +301,8 @@ void describe(io::Visitor& v, const MatchSection& section) {
     v.object("wind_mast", mast, "Where the case names one.");
   });
   v.optional_members(section.tuned_as_built,
-                     [&](const TuneSection& tuned) { describe_recommended(v, tuned); });
-  v.optional_members(section.what_if, [&](const WhatIfTable& table) {
+                     [&](const design::TuningStudy& tuned) { describe_recommended(v, tuned); });
+  v.optional_members(section.what_if, [&](const design::WhatIfTable& table) {
     v.object("what_if", table,
              "The study's robust laws, their gains held, on plants and in winds that they were not "
              "tuned for; only with --report.");

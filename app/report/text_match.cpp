@@ -57,7 +57,7 @@ Document motors_part(const MatchSection& section) {
                     fmt::format("{:.3f}", point.acceleration / degree),
                     std::isfinite(point.slew_time) ? fmt::format("{:.1f}", point.slew_time) : "-",
                     fmt::format("{:.2f}", point.two_mass_damping),
-                    fmt::format("{:.2f}", point.acceleration_of_best_ratio), point.label});
+                    fmt::format("{:.2f}", point.acceleration_of_best_ratio), label_of(point)});
   }
   return table(rows, "rrrrrrrrrl") +
          wrapped(
@@ -97,7 +97,7 @@ Document rms_part(const MatchSection& section) {
       if (series.best == i) text += '*';
       row.push_back(text);
     }
-    row.push_back(point.label);
+    row.push_back(label_of(point));
     rows.push_back(std::move(row));
   }
   return table(rows, alignment + "l") +
@@ -145,7 +145,7 @@ Document best_part(const MatchSection& section) {
 std::vector<std::size_t> shown_points(const MatchSection& section, const MatchSeries& series) {
   std::vector<std::size_t> shown;
   for (std::size_t i = 0; i < section.points.size(); ++i) {
-    if (i == 0 || !section.points[i].label.empty() || series.best == i) shown.push_back(i);
+    if (i == 0 || !label_of(section.points[i]).empty() || series.best == i) shown.push_back(i);
   }
   return shown;
 }
@@ -227,7 +227,7 @@ Document variants_part(const MatchSection& section) {
     header.insert(header.end(), {"best", "within 5 %"});
     Rows rows{std::move(header)};
     for (const auto& variant : variants.variants) {
-      std::vector<std::string> row{variant.name};
+      std::vector<std::string> row{name_of(variant)};
       for (const double rms : variant.rms) row.push_back(mdeg(rms));
       row.push_back(variant.best ? fmt::format("{:.3g}", variants.disks[*variant.best]) : "-");
       row.push_back(fmt::format("{:.1f}..{:.1f}", variant.within_5_percent.lowest,
@@ -244,7 +244,8 @@ Document rules_part(const MatchSection& section) {
   for (const auto& series : section.series) header.push_back(series.name);
   Rows rows{std::move(header)};
   for (const auto& rule : section.rules) {
-    std::vector<std::string> row{rule.rule, fmt::format("{:.2f}", rule.motor_to_load_ratio),
+    std::vector<std::string> row{text_of(rule.rule),
+                                 fmt::format("{:.2f}", rule.motor_to_load_ratio),
                                  rule.disks ? fmt::format("{:.2f}", *rule.disks) : "-"};
     for (const double cost : rule.cost) {
       row.push_back(std::isfinite(cost) ? fmt::format("{:+.1f} %", 100.0 * cost) : "-");

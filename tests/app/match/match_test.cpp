@@ -1,16 +1,19 @@
 #include <cmath>
-#include <limits>
+#include <functional>
 #include <regex>
 #include <string>
+#include <vector>
 
 #include <gtest/gtest.h>
 
 #include <boresight/app/document/document_text.hpp>
-#include <boresight/app/match/match_study.hpp>
+#include <boresight/app/match/match_conclusions.hpp>
 #include <boresight/app/report/match_report.hpp>
 #include <boresight/app/simulate/nonlinear_model.hpp>
+#include <boresight/app/tune/structure_option.hpp>
 #include <boresight/io/case/antenna_of.hpp>
 #include <boresight/io/case/drive_numbers.hpp>
+#include <boresight/io/case/mission_of.hpp>
 #include <boresight/io/case/plant_numbers.hpp>
 #include <boresight/numerics/error.hpp>
 #include <boresight/plant/antenna/antenna_change.hpp>
@@ -23,9 +26,9 @@ const io::Case& big_antenna() {
   return antenna;
 }
 
-MatchOptions small_options() {
-  MatchOptions options;
-  options.structures = {"PI-0", "PI"};
+design::MatchOptions small_options(const std::vector<std::string>& structures = {"PI-0", "PI"}) {
+  design::MatchOptions options;
+  options.structures = structure_option(big_antenna(), structures);
   options.points = 4;
   options.starts = 2;
   options.time_runs = MatchTimeRuns::none;
@@ -33,14 +36,18 @@ MatchOptions small_options() {
   return options;
 }
 
+MatchSection matched(const io::Case& antenna, const design::MatchOptions& options) {
+  return section_of(antenna, study_matching(io::mission_of(antenna), {}, options));
+}
+
 const MatchSection& small_study() {
-  static const MatchSection section = match_motors(big_antenna(), {}, small_options());
+  static const MatchSection section = matched(big_antenna(), small_options());
   return section;
 }
 
-std::string message_of(const MatchOptions& options) {
+std::string message_of(const std::function<void()>& work) {
   try {
-    match_motors(big_antenna(), {}, options);
+    work();
   } catch (const InvalidInput& error) {
     return error.what();
   }
@@ -53,13 +60,13 @@ TEST(Match, PutsRatioOneAndAsBuiltAmongTheEvenlySpacedDisks) {
   int on_grid = 0;
   for (const auto& point : points) {
     on_grid += point.on_grid ? 1 : 0;
-    if (point.label == "ratio 1") {
+    if (label_of(point) == "ratio 1") {
       EXPECT_NEAR(point.motor_to_load_ratio, 1.0, 1e-9);
     }
   }
   EXPECT_EQ(on_grid, 4);
   EXPECT_EQ(points.front().disks, 0.0);
-  EXPECT_EQ(points.back().label, "as built");
+  EXPECT_EQ(label_of(points.back()), "as built");
 }
 
 TEST(Match, SlewsByNewton) {
@@ -94,9 +101,7 @@ TEST(Match, WithoutAStrokeNoRoundingTakesTheSlewRate) {
   double& rate = antenna.drive.slew_rate.value;
   rate *= 0.1;
   while (rate * ratio / ratio >= rate) rate = std::nextafter(rate, 1.0);
-  MatchOptions options = small_options();
-  options.structures = {"PI-0"};
-  const MatchSection section = match_motors(antenna, {}, options);
+  const MatchSection section = matched(antenna, small_options({"PI-0"}));
   EXPECT_FALSE(section.slew_by_simulation);
   EXPECT_EQ(section.slew_rate, rate);
 }
@@ -135,19 +140,6 @@ TEST(Match, EveryLawIsVerifiedAndMoreStructureIsNeverWorse) {
                 section.series[0].curve.laws[i].soft_rms / io::gear_ratio(big_antenna()),
                 1e-5 * plain.beam_rms);
   }
-}
-
-TEST(Match, FindsTheLeastAndHowFlatItIs) {
-  const double nan = std::numeric_limits<double>::quiet_NaN();
-  EXPECT_EQ(least_of({3.0, 1.0, nan, 2.0}), 1U);
-  EXPECT_FALSE(least_of({nan, nan}));
-  const std::vector<double> axis{0.0, 1.0, 2.0, 3.0, 4.0};
-  const auto range = flat_range(axis, {1.2, 1.1, 1.0, 1.1, 1.2}, 0.05);
-  EXPECT_NEAR(range.lowest, 1.5, 1e-12);
-  EXPECT_NEAR(range.highest, 2.5, 1e-12);
-  const auto end = flat_range(axis, {1.0, 1.01, 1.02, nan, 1.0}, 0.05);
-  EXPECT_EQ(end.lowest, 0.0);
-  EXPECT_EQ(end.highest, 2.0);
 }
 
 TEST(Match, JudgesTheClassicRules) {
@@ -221,26 +213,37 @@ TEST(Match, NamesTheModeOfMostOilWhereTheHydraulicModeHasLittle) {
 }
 
 TEST(Match, AnInterruptLeavesWhatWasWhole) {
-  MatchOptions options = small_options();
+  design::MatchOptions options = small_options();
   int steps = 0;
   options.progress = [&](std::string_view, std::size_t, std::size_t) { ++steps; };
   options.interrupted = [&] { return steps >= 2; };
-  const auto section = match_motors(big_antenna(), {}, options);
+  const auto section = matched(big_antenna(), options);
   EXPECT_TRUE(section.series[0].values[0].found);
   EXPECT_FALSE(section.series[1].curve.laws.back().searched);
   EXPECT_FALSE(section.settled);
 }
 
 TEST(Match, SaysWhatItCannotWorkOn) {
-  MatchOptions options = small_options();
-  options.structures = {"PI", "PI"};
-  EXPECT_EQ(message_of(options), "--structure: expected each structure once, found 'PI' again");
-  options = small_options();
+  EXPECT_EQ(message_of([] {
+              small_options({"PI", "PI"});
+            }),
+            "--structure: expected each structure once, found 'PI' again");
+  design::MatchOptions options = small_options();
   options.points = 3;
-  EXPECT_EQ(message_of(options), "match: expected at least 4 points, found 3");
+  EXPECT_EQ(message_of([&] { matched(big_antenna(), options); }),
+            "match: expected at least 4 points, found 3");
   options = small_options();
   options.most_disks = -1.0;
-  EXPECT_EQ(message_of(options), "match: expected more than 0 disks at most, found -1");
+  EXPECT_EQ(message_of([&] { matched(big_antenna(), options); }),
+            "match: expected more than 0 disks at most, found -1");
+}
+
+TEST(Match, NamesPointsRulesAndVariants) {
+  EXPECT_EQ(label_of({.disks = 3.0}), "");
+  EXPECT_EQ(label_of({.disks = 3.0, .unit_ratio = true, .as_built = true}), "ratio 1, as built");
+  EXPECT_EQ(name_of(MatchVariant{}), "the case's plant");
+  EXPECT_EQ(text_of(design::ClassicRule::no_flywheels),
+            "most acceleration at this gear ratio: no flywheels");
 }
 
 }  // namespace

@@ -4,8 +4,8 @@
 #include <gtest/gtest.h>
 
 #include "io/edited_case.hpp"
-#include <boresight/app/match/what_if.hpp>
 #include <boresight/design/ensembles/monte_carlo.hpp>
+#include <boresight/design/studies/what_if_study.hpp>
 #include <boresight/design/tuning/design_study.hpp>
 #include <boresight/io/case/case_file.hpp>
 #include <boresight/io/case/drive_numbers.hpp>
@@ -15,8 +15,8 @@ namespace boresight::app {
 namespace {
 
 // The study of one law at two numbers of disks, with the gains of the last held at both.
-MatchSection study_of_one_law(const io::Case& antenna) {
-  MatchSection section;
+design::MatchingStudy study_of_one_law(const io::Case& antenna) {
+  design::MatchingStudy section;
   section.goals = make_goals(antenna);
   section.wind_speed = antenna.wind.design_speed.value;
   section.friction = antenna.drive.viscous_friction.value;
@@ -27,10 +27,10 @@ MatchSection study_of_one_law(const io::Case& antenna) {
   task.options.starts = 3;
   const auto found = design::solve(task).tuning;
   EXPECT_EQ(found.status, design::TuningStatus::optimal);
-  MatchSeries series;
+  design::MatchSeries series;
   series.name = "PI";
   for (const double disks : {12.0, 24.0}) {
-    MatchPoint point;
+    design::MatchPoint point;
     point.disks = disks;
     section.points.push_back(point);
     design::MatchedLaw law;
@@ -46,8 +46,8 @@ MatchSection study_of_one_law(const io::Case& antenna) {
 // whose corners are stable that is what the plant gives.
 TEST(WhatIf, InterpolatesWhatThePlantGives) {
   const io::Case antenna = io::read_case(case_path("dss14-70m"));
-  const MatchSection section = study_of_one_law(antenna);
-  const WhatIfTable table = what_if(antenna, section, {});
+  const design::MatchingStudy section = study_of_one_law(antenna);
+  const design::WhatIfTable table = design::what_if(io::mission_of(antenna), section, {});
   double largest = 0.0;
   int cells = 0, close = 0;
   for (std::size_t v = 0; v + 1 < table.wind_speeds.size(); ++v) {

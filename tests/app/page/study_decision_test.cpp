@@ -6,7 +6,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <boresight/app/match/match_study.hpp>
+#include <boresight/app/match/match_conclusions.hpp>
 #include <boresight/app/page/decision.hpp>
 #include <boresight/app/page/study_decision.hpp>
 #include <boresight/app/report/sky_units.hpp>
@@ -35,7 +35,7 @@ MatchSeries series_of(const std::string& name, const std::vector<double>& rms_md
     rms.push_back(value.beam_rms);
     series.values.push_back(std::move(value));
   }
-  series.best = least_of(rms);
+  series.best = design::least_of(rms);
   series.best_at_end = series.best != 1U;
   return series;
 }
@@ -45,10 +45,13 @@ MatchSection section_of(std::vector<MatchSeries> series) {
   section.wind_speed = 12.0;
   section.points.resize(3);
   section.points[1].disks = 1.0;
-  section.points[1].label = "as built";
+  section.points[1].as_built = true;
   section.points[2].disks = 3.0;
   section.series = std::move(series);
-  RuleVerdict rule{.rule = "one to one", .motor_to_load_ratio = 1.0, .disks = 1.0, .cost = {}};
+  RuleVerdict rule{.rule = design::ClassicRule::one_to_one,
+                   .motor_to_load_ratio = 1.0,
+                   .disks = 1.0,
+                   .cost = {}};
   for (const auto& one : section.series) {
     rule.cost.push_back(one.values[1].beam_rms / one.values[*one.best].beam_rms - 1.0);
   }
@@ -118,7 +121,7 @@ TEST(MatchDecision, OfOneFlatStructureIsToLeaveTheFlywheels) {
   MatchVariants variants;
   variants.structure = "PI";
   variants.disks = {0.0};
-  variants.variants = {{"the case's plant", {0.5}, 0U, {}},
+  variants.variants = {{"", {0.5}, 0U, {}},
                        {"wind model uniform", {0.95}, 0U, {}},
                        {"leakage x 2", {0.503}, 0U, {}}};
   section.variants = {variants};

@@ -3,18 +3,17 @@
 
 #include <fmt/format.h>
 
-#include <boresight/app/report/sky_units.hpp>
-#include <boresight/app/report/what_if_description.hpp>
-#include <boresight/io/description/visitor.hpp>
+#include <boresight/io/description/what_if_description.hpp>
+#include <boresight/numerics/angles.hpp>
 
-namespace boresight::app {
+namespace boresight::io {
 namespace {
 
-namespace unit = io::key_units;
+namespace unit = key_units;
 
-constexpr io::NumberForm known{.finite = true};
-constexpr io::KeyUnit millidegrees{.suffix = "mdeg"};  // of what is divided already
-constexpr io::KeyUnit slope_unit{.suffix = "N_m_s_per_rad"};
+constexpr NumberForm known{.finite = true};
+constexpr KeyUnit millidegrees{.suffix = "mdeg"};  // of what is divided already
+constexpr KeyUnit slope_unit{.suffix = "N_m_s_per_rad"};
 
 double rounded(double value, int digits) {
   if (!std::isfinite(value)) return value;
@@ -27,7 +26,7 @@ std::vector<double> rounded(const std::vector<double>& values, int digits, doubl
   return result;
 }
 
-void describe_start(io::Visitor& v, const WhatIfTable& table) {
+void describe_start(Visitor& v, const design::WhatIfTable& table) {
   v.number("flywheel_disks", rounded(table.disks_as_built, 6), unit::ratio, "As built.", known);
   v.number("leakage_rate", rounded(table.leakage_rate, 6), unit::per_second, "Nominal.", known);
   v.number("friction_slope", rounded(table.friction_slope, 6), slope_unit, "Of the linear plant.",
@@ -38,7 +37,7 @@ void describe_start(io::Visitor& v, const WhatIfTable& table) {
 
 }  // namespace
 
-void describe(io::Visitor& v, const WhatIfTable& table) {
+void describe(Visitor& v, const design::WhatIfTable& table) {
   v.texts("structures", table.structures, "As the series.");
   v.numbers("flywheel_disks", rounded(table.disks, 6), unit::ratio,
             "On each motor, rising; each law is the one tuned there.", known);
@@ -72,4 +71,4 @@ void describe(io::Visitor& v, const WhatIfTable& table) {
            {.most = 2});
 }
 
-}  // namespace boresight::app
+}  // namespace boresight::io

@@ -1,13 +1,12 @@
 #include <algorithm>
 #include <limits>
 
-#include <boresight/app/match/what_if.hpp>
 #include <boresight/design/ensembles/monte_carlo.hpp>
-#include <boresight/io/case/mission_of.hpp>
+#include <boresight/design/studies/what_if_study.hpp>
 #include <boresight/numerics/parallel_loop.hpp>
 #include <boresight/plant/antenna/antenna_change.hpp>
 
-namespace boresight::app {
+namespace boresight::design {
 namespace {
 
 // Rising, without those that are the same to a part in a million.
@@ -32,7 +31,7 @@ bool in_table(const MatchPoint& point, double as_built) {
   return point.on_grid || point.disks == as_built;
 }
 
-HeldState state_of(const design::PlantOutcome& outcome) {
+HeldState state_of(const PlantOutcome& outcome) {
   if (!outcome.stable()) return HeldState::unstable;
   return outcome.broken_goals != 0 ? HeldState::goals_missed : HeldState::goals_met;
 }
@@ -48,28 +47,28 @@ std::size_t WhatIfTable::place(std::size_t structure, std::size_t disk, std::siz
   return at * wind_speeds.size() + speed;
 }
 
-WhatIfTable what_if(const io::Case& antenna, const MatchSection& section,
+WhatIfTable what_if(const Mission& mission, const MatchingStudy& study,
                     const WhatIfOptions& options) {
   WhatIfTable table;
-  table.leakage_rate = antenna.drive.leakage_rate.value;
-  table.friction_slope = section.friction;
-  table.tracking_friction = section.tracking_friction;
-  table.wind_speed = section.wind_speed;
-  table.disks_as_built = antenna.motor.flywheel_disks;
-  table.bands = make_bands(antenna);
-  table.budgets = make_budgets(antenna);
+  table.leakage_rate = mission.antenna.drive.leakage_rate;
+  table.friction_slope = study.friction;
+  table.tracking_friction = study.tracking_friction;
+  table.wind_speed = study.wind_speed;
+  table.disks_as_built = mission.antenna.flywheels.disks;
+  table.bands = mission.bands;
+  table.budgets = mission.budgets;
   std::vector<std::size_t> points;
-  for (std::size_t p = 0; p < section.points.size(); ++p) {
-    if (!in_table(section.points[p], table.disks_as_built)) continue;
+  for (std::size_t p = 0; p < study.points.size(); ++p) {
+    if (!in_table(study.points[p], table.disks_as_built)) continue;
     points.push_back(p);
-    table.disks.push_back(section.points[p].disks);
+    table.disks.push_back(study.points[p].disks);
   }
-  for (const auto& series : section.series) table.structures.push_back(series.name);
+  for (const auto& series : study.series) table.structures.push_back(series.name);
   table.leakage_rates = scaled(table.leakage_rate, {0.3, 0.4, 0.5, 0.62, 0.75, 0.87, 1.0, 1.3});
-  const double tracking = section.tracking_friction;
-  table.friction_slopes = rising({0.0, 0.5 * section.friction, section.friction, tracking / 3.0,
+  const double tracking = study.tracking_friction;
+  table.friction_slopes = rising({0.0, 0.5 * study.friction, study.friction, tracking / 3.0,
                                   tracking / 1.5, tracking, 1.5 * tracking});
-  table.wind_speeds = scaled(section.wind_speed, {0.5, 0.75, 1.0, 1.25, 1.5, 2.0});
+  table.wind_speeds = scaled(study.wind_speed, {0.5, 0.75, 1.0, 1.25, 1.5, 2.0});
 
   const std::size_t laws = table.structures.size() * points.size();
   const std::size_t entries =
@@ -77,24 +76,22 @@ WhatIfTable what_if(const io::Case& antenna, const MatchSection& section,
   table.beam_rms.assign(laws * entries, std::numeric_limits<double>::quiet_NaN());
   table.states.assign(laws * entries, HeldState::unstable);
 
-  std::vector<design::TrackingProblem> problems;
+  std::vector<TrackingProblem> problems;
   for (const std::size_t p : points) {
     problems.push_back(
-        make_problem(antenna, {plant::set_to("motor.flywheel_disks", section.points[p].disks)}));
-    // The sliders name one speed; a climate has no say in it.
-    problems.back().climate.clear();
+        tracking_problem(mission, {plant::set_to("motor.flywheel_disks", study.points[p].disks)}));
   }
   numerics::StepCounter counter(laws, options.progress);
   numerics::for_each_index(laws, options.threads, [&](std::size_t i) {
     if (options.interrupted && options.interrupted()) return;
     const std::size_t s = i / points.size(), d = i % points.size();
-    const auto& law = section.series[s].curve.laws[points[d]];
-    if (law.status != design::TuningStatus::unstable) {
+    const auto& law = study.series[s].curve.laws[points[d]];
+    if (law.status != TuningStatus::unstable) {
       for (std::size_t v = 0; v < table.wind_speeds.size(); ++v) {
-        design::MonteCarlo study{problems[d], law.law, section.goals, 0, {}};
-        study.problem.wind.mean_speed = table.wind_speeds[v];
-        design::MonteCarloJudge judge(study);
-        plant::AntennaPlant plant = study.problem.plant;
+        MonteCarlo held{problems[d], law.law, study.goals, 0, {}};
+        held.problem.wind.mean_speed = table.wind_speeds[v];
+        MonteCarloJudge judge(held);
+        plant::AntennaPlant plant = held.problem.plant;
         for (std::size_t l = 0; l < table.leakage_rates.size(); ++l) {
           plant.drive.leakage_rate = table.leakage_rates[l];
           for (std::size_t f = 0; f < table.friction_slopes.size(); ++f) {
@@ -112,4 +109,4 @@ WhatIfTable what_if(const io::Case& antenna, const MatchSection& section,
   return table;
 }
 
-}  // namespace boresight::app
+}  // namespace boresight::design

@@ -1,0 +1,35 @@
+#include <utility>
+
+#include <boresight/app/match/match_section.hpp>
+
+namespace boresight::app {
+
+MatchSection section_of(const io::Case& antenna, design::MatchingStudy study) {
+  return {std::move(study), antenna.wind.mast, std::nullopt};
+}
+
+std::string label_of(const MatchPoint& point) {
+  if (!point.unit_ratio) return point.as_built ? "as built" : "";
+  return point.as_built ? "ratio 1, as built" : "ratio 1";
+}
+
+std::string name_of(const MatchVariant& variant) {
+  return variant.name.empty() ? "the case's plant" : variant.name;
+}
+
+std::string text_of(design::ClassicRule rule) {
+  using design::ClassicRule;
+  switch (rule) {
+    case ClassicRule::one_to_one:
+      break;
+    case ClassicRule::equal_poles_damped_0_7:
+      return "equal pole pairs, zeta = 1/2 sqrt(J_L/J_m) = 0.71";
+    case ClassicRule::equal_poles_damped_1:
+      return "equal pole pairs, zeta = 1/2 sqrt(J_L/J_m) = 1";
+    case ClassicRule::no_flywheels:
+      return "most acceleration at this gear ratio: no flywheels";
+  }
+  return "one to one: motors as heavy as their load";
+}
+
+}  // namespace boresight::app

@@ -1,0 +1,191 @@
+#include <algorithm>
+#include <cmath>
+
+#include <boresight/design/decisions/negligible_change.hpp>
+#include <boresight/design/decisions/recommend.hpp>
+#include <boresight/design/studies/matching_verdict.hpp>
+#include <boresight/design/studies/time_domain_study.hpp>
+
+namespace boresight::design {
+
+double span_of(const MatchSeries& series) {
+  double least = HUGE_VAL, largest = 0.0;
+  for (const auto& value : series.values) {
+    if (!value.found) continue;
+    least = std::min(least, value.beam_rms);
+    largest = std::max(largest, value.beam_rms);
+  }
+  return largest > 0.0 ? largest / least - 1.0 : 0.0;
+}
+
+bool hardly_matters(const MatchingStudy& study) {
+  bool any = false;
+  for (const auto& series : study.series) {
+    if (!weighed(study, series)) continue;
+    any = true;
+    const bool everywhere = std::ranges::all_of(series.values, &MatchValue::found);
+    if (!everywhere || span_of(series) >= negligible_change) return false;
+  }
+  return any;
+}
+
+std::vector<VariantChange> variant_changes(const MatchingStudy& study) {
+  std::vector<VariantChange> changes;
+  for (const auto& variants : study.variants) {
+    const MatchVariant& own = variants.variants.front();
+    if (!own.best || !weighed(study, variants.structure)) continue;
+    for (const auto& variant : variants.variants) {
+      if (!variant.best) continue;
+      changes.push_back({variant.name, variants.structure,
+                         std::abs(variant.rms[*variant.best] / own.rms[*own.best] - 1.0)});
+    }
+  }
+  return changes;
+}
+
+std::size_t hunting_point(const MatchingStudy& study, const MatchSeries& series) {
+  const std::size_t built = as_built(study);
+  const std::size_t best = series.best.value_or(built);
+  return series.values[best].time_domain ? best : built;
+}
+
+std::vector<HuntingResult> hunting_of(const MatchingStudy& study, const MatchSeries& series) {
+  const auto& run = series.values[hunting_point(study, series)].time_domain;
+  return run ? run->hunting : std::vector<HuntingResult>();
+}
+
+bool hunting_beyond(const MatchingStudy& study, const std::vector<HuntingResult>& hunting) {
+  return hunting_amplitude(hunting) > hunting_limit(study.tightest_budget);
+}
+
+bool hunts_at(const MatchingStudy& study, const MatchSeries& series, std::size_t point) {
+  const auto& run = series.values[point].time_domain;
+  return run && !holds_still(run->hunting, study.tightest_budget);
+}
+
+bool hunts(const MatchingStudy& study, const MatchSeries& series) {
+  return hunts_at(study, series, hunting_point(study, series));
+}
+
+// The span of a structure has its best motors at one end, the comparison of structures those as
+// built: what hunts at either has no such rms there.
+bool weighed(const MatchingStudy& study, const MatchSeries& series) {
+  return series.best && !hunts(study, series) && !hunts_at(study, series, as_built(study));
+}
+
+bool weighed(const MatchingStudy& study, std::string_view structure) {
+  return std::ranges::any_of(study.series, [&](const MatchSeries& series) {
+    return series.name == structure && weighed(study, series);
+  });
+}
+
+const MatchSeries* recommended_structure(const MatchingStudy& study,
+                                         const std::function<bool(const MatchSeries&)>& counts) {
+  std::vector<const MatchSeries*> structures;
+  std::vector<Assessment> candidates;
+  for (const auto& series : study.series) {
+    if (!series.best || !counts(series)) continue;
+    Assessment candidate;
+    candidate.structure = series.name;
+    candidate.purpose = DesignPurpose::robust;
+    candidate.parts = series.curve.structure.gains().size();
+    candidate.stable = candidate.verified = true;
+    candidate.nominal_constraints_met = candidate.member_constraints_met = true;
+    candidate.linear_rms = series.values[*series.best].beam_rms;
+    if (!hunting_of(study, series).empty()) {
+      candidate.limit_cycles =
+          limit_cycle_verdict(!hunts(study, series), hunting_seen(hunting_of(study, series)));
+    }
+    structures.push_back(&series);
+    candidates.push_back(std::move(candidate));
+  }
+  const auto winner = recommend(candidates, {.accepted = Fitness::limit_cycle}).winner;
+  return winner ? structures[*winner] : nullptr;
+}
+
+const MatchSeries* most_moved(const MatchingStudy& study) {
+  const MatchSeries* most = nullptr;
+  for (const auto& series : study.series) {
+    if (!weighed(study, series)) continue;
+    if (most == nullptr || span_of(series) > span_of(*most)) most = &series;
+  }
+  return most;
+}
+
+StructuresAsBuilt structures_as_built(const MatchingStudy& study) {
+  const std::size_t built = as_built(study);
+  const auto rms = [&](const MatchSeries& series) { return series.values[built].beam_rms; };
+  StructuresAsBuilt result;
+  for (const auto& series : study.series) {
+    if (!series.values[built].found || !weighed(study, series)) continue;
+    ++result.count;
+    if (result.least == nullptr || rms(series) < rms(*result.least)) result.least = &series;
+    if (result.largest == nullptr || rms(series) > rms(*result.largest)) result.largest = &series;
+  }
+  if (result.count > 0) result.change = rms(*result.largest) / rms(*result.least) - 1.0;
+  return result;
+}
+
+std::vector<double> as_good_elsewhere(const MatchingStudy& study, const MatchSeries& series) {
+  const std::size_t best = series.best.value_or(0);
+  const FlatRange& range = series.within_1_percent;
+  std::vector<double> disks;
+  for (std::size_t i = 0; i < series.values.size(); ++i) {
+    const MatchValue& value = series.values[i];
+    const double at = study.points[i].disks;
+    if (!value.found || (range.lowest <= at && at <= range.highest)) continue;
+    if (value.beam_rms <= 1.01 * series.values[best].beam_rms) disks.push_back(at);
+  }
+  std::ranges::stable_sort(disks, {},
+                           [&](double at) { return std::abs(at - study.points[best].disks); });
+  return disks;
+}
+
+bool has_optimum(const MatchingStudy& study) {
+  return std::ranges::any_of(study.series, [&](const MatchSeries& series) {
+    return series.best && weighed(study, series) && *series.best + 1 < study.points.size() &&
+           span_of(series) >= negligible_change;
+  });
+}
+
+RuleCosts costs_of(const MatchingStudy& study, const RuleVerdict& rule) {
+  RuleCosts costs{nullptr, nullptr, HUGE_VAL, -HUGE_VAL};
+  for (std::size_t s = 0; s < rule.cost.size(); ++s) {
+    const MatchSeries& series = study.series[s];
+    if (!std::isfinite(rule.cost[s]) || !weighed(study, series)) continue;
+    if (rule.cost[s] < costs.least) {
+      costs.least = rule.cost[s];
+      costs.cheapest = &series;
+    }
+    if (rule.cost[s] > costs.largest) {
+      costs.largest = rule.cost[s];
+      costs.dearest = &series;
+    }
+  }
+  return costs;
+}
+
+const FrictionThreshold* deciding_friction(const MatchingStudy& study) {
+  const FrictionThreshold* threshold = nullptr;
+  const double most = 1.5 * std::max(study.friction, study.tracking_friction);
+  for (const auto& one : study.thresholds) {
+    if (!one.slope || *one.slope > most || one.spread_at_nominal < one.spread) continue;
+    if (!weighed(study, one.structure)) continue;
+    if (threshold != nullptr && *one.slope >= threshold->slope) continue;
+    threshold = &one;
+  }
+  return threshold;
+}
+
+bool one_friction(const MatchingStudy& study) {
+  constexpr double same = 1e-9;
+  return std::abs(study.tracking_friction - study.friction) <= same * study.friction;
+}
+
+std::size_t as_built(const MatchingStudy& study) {
+  const auto point = std::ranges::find_if(study.points, &MatchPoint::as_built);
+  return point == study.points.end() ? study.points.size() - 1
+                                     : static_cast<std::size_t>(point - study.points.begin());
+}
+
+}  // namespace boresight::design

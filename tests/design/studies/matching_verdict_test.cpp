@@ -1,0 +1,132 @@
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include <boresight/design/studies/matching_verdict.hpp>
+
+namespace boresight::design {
+namespace {
+
+MatchSeries series_of(const std::string& name, const std::vector<double>& rms) {
+  MatchSeries series;
+  series.name = name;
+  series.curve.structure = control::LoopStructure::named(name);
+  for (const double one : rms) {
+    MatchValue value;
+    value.found = true;
+    value.beam_rms = one;
+    series.values.push_back(std::move(value));
+  }
+  series.best = least_of(rms);
+  return series;
+}
+
+// At 0 disks, 1 as built and 3; a budget of 1.
+MatchingStudy study_of(std::vector<MatchSeries> series) {
+  MatchingStudy study;
+  study.points = {{.disks = 0.0}, {.disks = 1.0, .as_built = true}, {.disks = 3.0}};
+  study.series = std::move(series);
+  study.tightest_budget = 1.0;
+  return study;
+}
+
+MatchSeries hunting(MatchSeries series, double amplitude) {
+  HuntingResult rest;
+  rest.status = RunStatus::complete;
+  rest.limit_cycle = true;
+  rest.beam_amplitude = amplitude;
+  for (auto& value : series.values) value.time_domain = MatchTimeDomain{{rest}, {}};
+  return series;
+}
+
+TEST(MatchingVerdict, WeighsNoStructureThatHuntsBeyondTheTightestBudget) {
+  const auto study = study_of({hunting(series_of("PI", {0.2, 0.3, 0.4}), 30.0),
+                               hunting(series_of("DPF", {0.5, 0.6, 0.7}), 0.1)});
+  EXPECT_TRUE(hunts(study, study.series[0]));
+  EXPECT_TRUE(hunting_beyond(study, hunting_of(study, study.series[0])));
+  EXPECT_FALSE(weighed(study, "PI"));
+  EXPECT_TRUE(weighed(study, "DPF"));
+  EXPECT_FALSE(weighed(study, "LL")) << "was not studied";
+  EXPECT_EQ(most_moved(study), &study.series[1]);
+  EXPECT_EQ(recommended_structure(study, [](const MatchSeries&) { return true; }),
+            &study.series[1]);
+}
+
+TEST(MatchingVerdict, InertiaHardlyMattersWhereEveryCurveIsFlat) {
+  EXPECT_TRUE(hardly_matters(study_of({series_of("PI", {1.0, 1.01, 1.015})})));
+  EXPECT_FALSE(hardly_matters(study_of({series_of("PI", {1.0, 1.01, 1.03})})));
+  EXPECT_FALSE(hardly_matters(study_of({})));
+  auto gap = study_of({series_of("PI", {1.0, 1.01, 1.015})});
+  gap.series[0].values[2].found = false;
+  EXPECT_FALSE(hardly_matters(gap));
+  EXPECT_NEAR(span_of(gap.series[0]), 0.01, 1e-12);
+}
+
+TEST(MatchingVerdict, ComparesStructuresAsBuilt) {
+  const auto study =
+      study_of({series_of("PI", {1.0, 1.2, 1.3}), series_of("DPF", {0.9, 0.8, 0.7})});
+  const auto built = structures_as_built(study);
+  EXPECT_EQ(as_built(study), 1U);
+  EXPECT_EQ(built.count, 2U);
+  EXPECT_EQ(built.least, &study.series[1]);
+  EXPECT_EQ(built.largest, &study.series[0]);
+  EXPECT_NEAR(built.change, 0.5, 1e-12);
+}
+
+TEST(MatchingVerdict, SeesAnOptimumOnlyBelowTheUpperEnd) {
+  EXPECT_TRUE(has_optimum(study_of({series_of("PI", {1.0, 1.2, 1.3})})));
+  EXPECT_FALSE(has_optimum(study_of({series_of("PI", {1.3, 1.2, 1.0})})));
+}
+
+TEST(MatchingVerdict, NamesInertiasAsGoodBeyondTheFlatRange) {
+  auto study = study_of({series_of("PI", {1.0, 1.2, 1.005})});
+  EXPECT_EQ(as_good_elsewhere(study, study.series[0]), std::vector<double>{3.0});
+  study.series[0].values[2].found = false;
+  EXPECT_TRUE(as_good_elsewhere(study, study.series[0]).empty());
+}
+
+TEST(MatchingVerdict, RulesCostWhatTheStructuresWeighedPay) {
+  const auto study = study_of({series_of("PI", {1.0, 1.2, 1.3}), series_of("DPF", {0.9, 0.8, 0.7}),
+                               hunting(series_of("LL", {0.5, 0.6, 0.7}), 30.0)});
+  const RuleVerdict rule{ClassicRule::one_to_one, 1.0, 1.0, {0.2, 0.1, 0.9}};
+  const auto costs = costs_of(study, rule);
+  EXPECT_EQ(costs.cheapest, &study.series[1]);
+  EXPECT_EQ(costs.dearest, &study.series[0]);
+  EXPECT_EQ(costs.least, 0.1);
+  EXPECT_EQ(costs_of(study_of({}), {}).cheapest, nullptr);
+}
+
+TEST(MatchingVerdict, FrictionDecidesWithinWhatTheAntennaMayHave) {
+  auto study = study_of({series_of("PI", {1.0, 1.2, 1.3})});
+  study.friction = 1.0;
+  study.tracking_friction = 4.0;
+  FrictionThreshold threshold;
+  threshold.structure = "PI";
+  threshold.slope = 5.0;
+  threshold.spread_at_nominal = 0.3;
+  study.thresholds = {threshold};
+  EXPECT_EQ(deciding_friction(study), &study.thresholds[0]);
+  study.thresholds[0].slope = 7.0;
+  EXPECT_EQ(deciding_friction(study), nullptr) << "beyond 1.5 times the curve's slope";
+  study.thresholds[0].slope = 5.0;
+  study.thresholds[0].spread_at_nominal = 0.01;
+  EXPECT_EQ(deciding_friction(study), nullptr) << "matters little already";
+}
+
+TEST(MatchingVerdict, TellsWhatEachVariantChanges) {
+  auto study = study_of({series_of("PI", {1.0, 1.2, 1.3})});
+  MatchVariants variants;
+  variants.structure = "PI";
+  variants.disks = {0.0};
+  variants.variants = {{"", {0.5}, 0U, {}}, {"leakage x 2", {0.6}, 0U, {}}, {"none", {}, {}, {}}};
+  study.variants = {variants};
+  const auto changes = variant_changes(study);
+  ASSERT_EQ(changes.size(), 2U);
+  EXPECT_EQ(changes[1].variant, "leakage x 2");
+  EXPECT_NEAR(changes[1].change, 0.2, 1e-12);
+}
+
+}  // namespace
+}  // namespace boresight::design

@@ -78,7 +78,7 @@ TEST(TunedLaw, KeepsABudgetByTheLargerRmsAndByItsLimitCycle) {
 }
 
 TEST(TuneStructures, IsTheSameForAnyNumberOfThreadsAndNamesWhatAnInterruptLeftOut) {
-  Mission mission = demo_mission();
+  Mission mission = reference::demo_mission();
   mission.structures = {{"PI", control::LoopStructure::named("PI")}};
   mission.starts = 2;
   const PlantEnsemble ensemble{EnsembleSource::ranges,
@@ -103,7 +103,7 @@ TEST(TuneStructures, IsTheSameForAnyNumberOfThreadsAndNamesWhatAnInterruptLeftOu
 
 // What the study recommends is what ran on the nonlinear antenna, and its own gains.
 TEST(StudyControllers, RunsWhatItRecommendsOnTheNonlinearAntenna) {
-  Mission mission = demo_mission();
+  Mission mission = reference::demo_mission();
   mission.structures = {{"PI", control::LoopStructure::named("PI")}};
   mission.starts = 2;
   const PlantEnsemble ensemble{EnsembleSource::ranges,

@@ -14,6 +14,7 @@ import tempfile
 import unittest
 
 PROGRAMS = pathlib.Path(sys.argv[1])
+SCRATCH = tempfile.TemporaryDirectory()
 STIFFNESS, LEAKAGE, FRICTION = 52.608, 1.219, 0.9  # of the antenna, as in README.md
 
 
@@ -23,6 +24,15 @@ def run(name, *arguments, status=0):
     if done.returncode != status:
         raise AssertionError(f"{name}: exit code {done.returncode}: {done.stderr}")
     return done.stdout if status == 0 else done.stderr
+
+
+def small_case():
+    """The 70-m antenna with two structures and few plants, so that tuning takes a moment."""
+    text = (pathlib.Path(__file__).parents[2] / "cases/dss14-70m/case.toml").read_text(encoding="utf-8")
+    path = pathlib.Path(tempfile.mkdtemp(dir=SCRATCH.name)) / "case.toml"
+    path.write_text(text + "\n[ensemble]\ndraws = 1\n\n[tuning]\nstructures = ['PI', 'DPF']\nstarts = 2\n",
+                    encoding="utf-8")
+    return path
 
 
 def figure(text, label):
@@ -103,6 +113,23 @@ class Examples(unittest.TestCase):
         # More wind than 10 m/s does not go with less error.
         self.assertLess(figure(text, "0.527 mdeg is met up to"), 10)
         self.assertGreater(figure(text, "2 mdeg is met up to"), 10)
+
+    def test_recommends_from_a_case_file_what_the_program_recommends(self):
+        text = run("recommend_controller", small_case())
+        best = re.search(r"^recommended (\S+), robust: ([\d.]+) mdeg linear, ([\d.]+) simulated, "
+                         r"constraints met$", text, re.M)
+        self.assertIsNotNone(best, text)
+        robust = re.findall(r"(\S+), robust: ([\d.]+) mdeg linear, ([\d.]+) simulated", text)
+        self.assertEqual({name for name, _, _ in robust}, {"PI", "DPF"})
+        # Of controllers that the nonlinear antenna does not tell apart by 2 % the one of fewer gains.
+        least = min(float(simulated) for _, _, simulated in robust)
+        self.assertLess(float(best[3]), 1.02 * least)
+        self.assertRegex(text, r"(?m)^kr: [\d.]+$")
+        self.assertRegex(text, r"(?m)^PI over the flywheels: the largest rms is [\d.]+ % above the least$")
+
+    def test_recommending_says_what_is_wrong_with_a_case_file(self):
+        self.assertIn("usage", run("recommend_controller", status=2))
+        self.assertIn("nowhere.toml", run("recommend_controller", "nowhere.toml", status=2))
 
 
 if __name__ == "__main__":

@@ -1,0 +1,58 @@
+// Of a case file: the controller that every command of the program recommends, what it was weighed
+// against, and what fewer or more flywheels would do.
+//   recommend_controller CASE.toml
+#include <cmath>
+#include <cstdio>
+#include <exception>
+
+#include <boresight/design/studies/controller_study.hpp>
+#include <boresight/design/studies/matching_verdict.hpp>
+#include <boresight/io/case/mission_of.hpp>
+#include <boresight/io/case/present_gains.hpp>
+#include <boresight/numerics/angles.hpp>
+
+namespace design = boresight::design;
+namespace io = boresight::io;
+
+void print_controllers(const io::Case& stated, const design::ControllerStudy& study) {
+  const design::TunedLaw* best = design::recommended_or(study, design::Fitness::unstable);
+  for (const auto& row : study.tuned.laws) {
+    const double simulated = row.in_time ? row.in_time->beam_rms : std::nan("");
+    std::printf("%s%s: %.4f mdeg linear, %.4f simulated, constraints %s\n",
+                &row == best ? "recommended " : "", design::description_of(row).c_str(),
+                row.beam_rms / boresight::millidegree, simulated / boresight::millidegree,
+                row.goals_met ? "met" : "missed");
+  }
+  if (best == nullptr) return;
+  const auto& law = best->design.tuning.law;
+  const auto gains = io::GainUnits(stated).texts(law);
+  for (std::size_t i = 0; i < gains.size(); ++i) {
+    std::printf("%s: %s\n", law.structure.gains()[i].symbol.c_str(), gains[i].c_str());
+  }
+}
+
+int main(int count, char** arguments) try {
+  if (count != 2) {
+    std::fprintf(stderr, "usage: recommend_controller CASE.toml\n");
+    return 2;
+  }
+  const io::Case stated = io::read_case(arguments[1]);
+  const design::Mission mission = io::mission_of(stated);
+  const design::PlantEnsemble ensemble{design::EnsembleSource::ranges,
+                                       design::plant_members(mission, 1)};
+  design::TuneOptions tuning;
+  tuning.threads = 2;
+  print_controllers(stated, design::study_controllers(mission, ensemble, tuning));
+
+  design::MatchOptions matching;
+  matching.points = 4;
+  matching.variants = false;
+  matching.threads = 2;
+  for (const auto& series : design::study_matching(mission, ensemble, matching).series) {
+    std::printf("%s over the flywheels: the largest rms is %.1f %% above the least\n",
+                series.name.c_str(), 100.0 * design::span_of(series));
+  }
+} catch (const std::exception& error) {
+  std::fprintf(stderr, "recommend_controller: %s\n", error.what());
+  return 2;
+}

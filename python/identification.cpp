@@ -6,7 +6,8 @@
 #include <pybind11/stl.h>
 
 #include <boresight/app/commands/subcommand.hpp>
-#include <boresight/app/identify/campaign_identification.hpp>
+#include <boresight/app/redesign/sections.hpp>
+#include <boresight/io/campaign/campaign_identification.hpp>
 #include <boresight/numerics/error.hpp>
 #include <boresight/python/bindings.hpp>
 #include <boresight/python/interruptible.hpp>
@@ -48,7 +49,7 @@ Identification identify(const io::Case& antenna, std::uint64_t seed, unsigned th
     };
     result.report.identification = app::identify(antenna, options);
     if (!antenna.campaign.records.empty()) {
-      result.report.campaign = app::identify_campaign(antenna, options);
+      result.report.campaign = io::identify_campaign(antenna, options);
     }
     return true;
   });

@@ -12,7 +12,7 @@
 #include <boresight/app/match/match_conclusions.hpp>
 #include <boresight/app/redesign/assumed_inputs.hpp>
 #include <boresight/app/tune/structure_option.hpp>
-#include <boresight/app/uncertainty/designed_antenna.hpp>
+#include <boresight/io/campaign/designed_antenna.hpp>
 #include <boresight/numerics/error.hpp>
 #include <boresight/python/bindings.hpp>
 #include <boresight/python/interruptible.hpp>
@@ -55,7 +55,7 @@ Matching match(io::Case antenna, const std::vector<std::string>& structures, int
   Matching result{{report_of(antenna, "match", seed)}};
   result.report.matched = interruptible([&](const StopRequest& stop) {
     // The ensemble's draws do not go with the seed of the searches.
-    auto designed = app::designed_antenna(antenna, 1, options.threads, stop);
+    auto designed = io::designed_antenna(antenna, 1, options.threads, stop);
     antenna = std::move(designed.antenna);
     options.interrupted = stop;
     options.structures = app::structure_option(antenna, structures);

@@ -9,7 +9,7 @@
 #include <boresight/app/simulate/drive_run.hpp>
 #include <boresight/app/simulate/position_run.hpp>
 #include <boresight/app/tune/chosen_controller.hpp>
-#include <boresight/app/uncertainty/designed_antenna.hpp>
+#include <boresight/io/campaign/designed_antenna.hpp>
 #include <boresight/numerics/error.hpp>
 #include <boresight/python/bindings.hpp>
 #include <boresight/python/interruptible.hpp>
@@ -40,7 +40,7 @@ std::vector<Record> simulate(const io::Case& antenna, const std::string& test, s
           {run.test, std::move(run.description), run.sample_time, std::move(run.record)});
     }
     if (records.empty()) {
-      const auto designed = app::designed_antenna(antenna, seed, app::all_or(0), stop);
+      const auto designed = io::designed_antenna(antenna, seed, app::all_or(0), stop);
       design::TuneOptions options;
       options.seed = seed;
       options.threads = app::all_or(0);

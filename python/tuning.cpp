@@ -12,8 +12,8 @@
 #include <boresight/app/tune/structure_option.hpp>
 #include <boresight/app/tune/tune_study.hpp>
 #include <boresight/app/tune/tune_verdict.hpp>
-#include <boresight/app/uncertainty/designed_antenna.hpp>
 #include <boresight/design/studies/controller_study.hpp>
+#include <boresight/io/campaign/designed_antenna.hpp>
 #include <boresight/io/description/loop_results.hpp>
 #include <boresight/python/bindings.hpp>
 #include <boresight/python/described_class.hpp>
@@ -42,7 +42,7 @@ Tuning tune(io::Case antenna, const std::vector<std::string>& structures,
   app::structure_option(antenna, structures);
   Tuning result{{report_of(antenna, "tune", seed)}};
   auto study = interruptible([&](const StopRequest& stop) {
-    auto designed = app::designed_antenna(antenna, seed, app::all_or(threads), stop);
+    auto designed = io::designed_antenna(antenna, seed, app::all_or(threads), stop);
     antenna = std::move(designed.antenna);
     design::TuneOptions options;
     options.structures = app::structure_option(antenna, structures);

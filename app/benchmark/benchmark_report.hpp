@@ -9,9 +9,9 @@
 #include <boresight/app/document/document.hpp>
 #include <boresight/app/figures/figure.hpp>
 #include <boresight/app/simulate/time_domain.hpp>
-#include <boresight/app/uncertainty/designed_antenna.hpp>
 #include <boresight/design/benchmark/rejection_benchmark.hpp>
 #include <boresight/design/problem/pointing_budget.hpp>
+#include <boresight/io/campaign/designed_antenna.hpp>
 #include <boresight/io/case/case_file.hpp>
 
 namespace boresight::io {
@@ -87,8 +87,8 @@ BenchmarkedController controller_of(const control::ControlLaw& law, const std::s
 
 /// Scores a controller on an antenna and its ensemble by the protocol. @throws as
 /// design::rejection_benchmark and verify_in_time_domain.
-BenchmarkReport benchmark(const DesignedAntenna& designed, const BenchmarkedController& controller,
-                          const BenchmarkOptions& options);
+BenchmarkReport benchmark(const io::DesignedAntenna& designed,
+                          const BenchmarkedController& controller, const BenchmarkOptions& options);
 
 /// The report, and as text for a terminal.
 Document document_of(const BenchmarkReport& report);

@@ -58,7 +58,8 @@ BenchmarkedController controller_of(const control::ControlLaw& law, const std::s
   return controller;
 }
 
-BenchmarkReport benchmark(const DesignedAntenna& designed, const BenchmarkedController& controller,
+BenchmarkReport benchmark(const io::DesignedAntenna& designed,
+                          const BenchmarkedController& controller,
                           const BenchmarkOptions& options) {
   const io::Case& antenna = designed.antenna;
   const design::Mission& mission = designed.mission;

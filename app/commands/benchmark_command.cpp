@@ -60,7 +60,7 @@ std::optional<BenchmarkedController> named_one(const BenchmarkArguments& argumen
 }
 
 BenchmarkedController recommended_one(const BenchmarkArguments& arguments,
-                                      const DesignedAntenna& designed, double sample_time,
+                                      const io::DesignedAntenna& designed, double sample_time,
                                       const std::function<bool()>& interrupted) {
   ProgressLine progress("tuning and verifying");
   design::TuneOptions options;
@@ -96,7 +96,7 @@ BenchmarkReport benchmark_case(const BenchmarkArguments& arguments,
   const auto named = named_one(arguments, antenna, sample_time);
   const std::string other =
       arguments.compare_path.empty() ? std::string() : text_of(arguments.compare_path);
-  const DesignedAntenna designed =
+  const io::DesignedAntenna designed =
       designed_antenna(antenna, arguments.seed, arguments.threads, interrupted);
   const BenchmarkedController controller =
       named ? *named : recommended_one(arguments, designed, sample_time, interrupted);

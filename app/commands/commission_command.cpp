@@ -8,7 +8,7 @@
 #include <boresight/app/commands/commission_command.hpp>
 #include <boresight/app/commands/progress_line.hpp>
 #include <boresight/app/page/report_page.hpp>
-#include <boresight/app/uncertainty/designed_antenna.hpp>
+#include <boresight/io/campaign/designed_antenna.hpp>
 #include <boresight/io/files/write_atomically.hpp>
 #include <boresight/numerics/error.hpp>
 
@@ -46,8 +46,8 @@ CommissionReport commission_case(const CommissionArguments& arguments,
     working = work;
     line->show(done, all);
   };
-  const DesignedAntenna designed = designed_antenna(io::read_case(arguments.case_path),
-                                                    options.seed, options.threads, interrupted);
+  const io::DesignedAntenna designed = designed_antenna(io::read_case(arguments.case_path),
+                                                        options.seed, options.threads, interrupted);
   return plan_commission(designed, options);
 }
 

@@ -17,7 +17,7 @@
 #include <boresight/app/report/json_report.hpp>
 #include <boresight/app/report/text_report.hpp>
 #include <boresight/app/tune/structure_option.hpp>
-#include <boresight/app/uncertainty/designed_antenna.hpp>
+#include <boresight/io/campaign/designed_antenna.hpp>
 #include <boresight/io/case/friction_leeway.hpp>
 #include <boresight/io/files/write_atomically.hpp>
 #include <boresight/numerics/error.hpp>
@@ -92,10 +92,10 @@ Report evaluate_case(const EvaluateArguments& arguments, const std::function<boo
   ProgressLine progress("tuning and comparing proposals");
   std::optional<PlantUncertainty> uncertainty;
   try {
-    DesignedAntenna designed =
+    io::DesignedAntenna designed =
         designed_antenna(antenna, arguments.seed, arguments.threads, interrupted);
     antenna = std::move(designed.antenna);
-    report.resonance = designed.resonance;
+    if (!designed.from_records) report.resonance = resonance_verdict(antenna);
     uncertainty = PlantUncertainty{std::move(designed.distribution), designed.from_records};
   } catch (const Interrupted&) {
     report.interrupted = true;

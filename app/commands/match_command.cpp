@@ -15,8 +15,8 @@
 #include <boresight/app/report/json_report.hpp>
 #include <boresight/app/report/text_report.hpp>
 #include <boresight/app/tune/structure_option.hpp>
-#include <boresight/app/uncertainty/designed_antenna.hpp>
 #include <boresight/design/studies/what_if_study.hpp>
+#include <boresight/io/campaign/designed_antenna.hpp>
 #include <boresight/io/case/friction_leeway.hpp>
 #include <boresight/io/files/write_atomically.hpp>
 #include <boresight/numerics/error.hpp>
@@ -49,11 +49,11 @@ int run(const Arguments& arguments) {
   design::Mission mission;
   design::PlantEnsemble ensemble;
   try {
-    DesignedAntenna designed =
+    io::DesignedAntenna designed =
         designed_antenna(antenna, arguments.ensemble_seed, options.threads, interrupt_requested);
     antenna = std::move(designed.antenna);
     mission = std::move(designed.mission);
-    report.resonance = designed.resonance;
+    if (!designed.from_records) report.resonance = resonance_verdict(antenna);
     ensemble = std::move(designed.ensemble);
   } catch (const Interrupted&) {
     fmt::print(stderr, "boresight: interrupted before the records were identified\n");

@@ -8,9 +8,8 @@
 #include <boresight/app/commands/report_commands.hpp>
 #include <boresight/app/figures/record_figures.hpp>
 #include <boresight/app/figures/report_figures.hpp>
-#include <boresight/app/identify/campaign_identification.hpp>
+#include <boresight/io/campaign/campaign_identification.hpp>
 #include <boresight/app/identify/first_tests.hpp>
-#include <boresight/app/identify/identified_case.hpp>
 #include <boresight/app/models/linear_models.hpp>
 #include <boresight/app/page/report_page.hpp>
 #include <boresight/app/redesign/assumed_inputs.hpp>
@@ -18,11 +17,12 @@
 #include <boresight/app/redesign/tuning_verdict.hpp>
 #include <boresight/app/report/json_report.hpp>
 #include <boresight/app/report/text_report.hpp>
-#include <boresight/app/uncertainty/designed_antenna.hpp>
 #include <boresight/design/ensembles/budgets_on_plants.hpp>
 #include <boresight/design/ensembles/plant_ensemble.hpp>
 #include <boresight/design/ensembles/plant_members.hpp>
 #include <boresight/design/problem/pointing_budget.hpp>
+#include <boresight/io/campaign/designed_antenna.hpp>
+#include <boresight/io/campaign/identified_case.hpp>
 #include <boresight/io/case/mission_of.hpp>
 #include <boresight/io/files/write_atomically.hpp>
 
@@ -57,8 +57,8 @@ void fill_identification(const io::Case& antenna, const StudyOptions& options, R
 // The tuned law on other plants that may be the true one: those that the records leave open,
 // without records those of the case.
 void judge_on_ensemble(const io::Case& antenna, const design::Mission& designed,
-                       const StudyOptions& options, const std::optional<CampaignSection>& campaign,
-                       TuningSection& section) {
+                       const StudyOptions& options,
+                       const std::optional<io::CampaignSection>& campaign, TuningSection& section) {
   constexpr std::size_t drawn_plants = 200;
   const bool recorded = campaign && campaign->grey_box;
   const auto members = recorded
@@ -75,13 +75,13 @@ void fill_redesign(const io::Case& antenna, const StudyOptions& options, Report&
   report.audit = audit(antenna);
   // With records the redesign is of the drive that they show, and is judged on what they leave
   // open.
-  const DesignedAntenna plant = designed_antenna(antenna, report.campaign, options.seed);
+  const io::DesignedAntenna plant = designed_antenna(antenna, report.campaign, options.seed);
   const io::Case& designed = plant.antenna;
   report.plant = describe_plant(designed);
   if (report.campaign && report.campaign->grey_box) {
     report.plant->records = report.campaign->grey_box->records.size();
   } else {
-    report.resonance = plant.resonance;
+    if (!plant.from_records) report.resonance = resonance_verdict(designed);
   }
   report.assumed = assumed_inputs(designed);
   redesign(plant, options, report);

@@ -24,7 +24,7 @@
 #include <boresight/app/simulate/antenna_tests.hpp>
 #include <boresight/app/tune/chosen_controller.hpp>
 #include <boresight/app/tune/structure_option.hpp>
-#include <boresight/app/uncertainty/designed_antenna.hpp>
+#include <boresight/io/campaign/designed_antenna.hpp>
 #include <boresight/io/case/drive_numbers.hpp>
 #include <boresight/io/case/field.hpp>
 #include <boresight/io/files/write_atomically.hpp>
@@ -68,7 +68,7 @@ SimulatedController controller_of(const io::Case& antenna, const SimulateArgumen
   if (auto named = named_controller(antenna, arguments.gains, arguments.structure)) {
     return {std::move(named->law), std::move(named->source)};
   }
-  const DesignedAntenna designed =
+  const io::DesignedAntenna designed =
       designed_antenna(antenna, arguments.seed, arguments.threads, interrupted);
   design::TuneOptions options;
   if (!arguments.structure.empty()) {

@@ -17,9 +17,9 @@
 #include <boresight/app/tune/structure_option.hpp>
 #include <boresight/app/tune/tune_study.hpp>
 #include <boresight/app/tune/tune_verdict.hpp>
-#include <boresight/app/uncertainty/designed_antenna.hpp>
 #include <boresight/design/studies/controller_study.hpp>
 #include <boresight/design/studies/limit_study.hpp>
+#include <boresight/io/campaign/designed_antenna.hpp>
 #include <boresight/io/case/mission_of.hpp>
 #include <boresight/io/files/write_atomically.hpp>
 #include <boresight/io/units/wording.hpp>
@@ -77,12 +77,12 @@ Report tune_case(const TuneArguments& arguments, const std::function<bool()>& in
   design::Mission mission;
   design::PlantEnsemble ensemble;
   try {
-    DesignedAntenna designed =
+    io::DesignedAntenna designed =
         designed_antenna(antenna, arguments.seed, arguments.threads, interrupted);
     antenna = std::move(designed.antenna);
     mission = std::move(designed.mission);
     ensemble = std::move(designed.ensemble);
-    report.resonance = designed.resonance;
+    if (!designed.from_records) report.resonance = resonance_verdict(antenna);
   } catch (const Interrupted&) {
     report.interrupted = true;
     report.assumed = assumed_inputs(antenna);

@@ -4,7 +4,7 @@
 #include <fmt/ranges.h>
 
 #include <boresight/app/commission/commission_study.hpp>
-#include <boresight/app/identify/loaded_record.hpp>
+#include <boresight/io/campaign/loaded_record.hpp>
 #include <boresight/numerics/error.hpp>
 
 namespace boresight::app {
@@ -12,7 +12,7 @@ namespace {
 
 using identification::Signal;
 
-const identification::DriveRecord& find_record(const std::vector<LoadedRecord>& records,
+const identification::DriveRecord& find_record(const std::vector<io::LoadedRecord>& records,
                                                const std::string& name) {
   std::vector<std::string> known;
   for (const auto& one : records) {
@@ -74,7 +74,7 @@ std::vector<ChannelComparison> compare_case_records(const io::Case& antenna,
   const auto records = load_records(antenna, threads);
   const identification::DriveRecord& first = find_record(records, before);
   const identification::DriveRecord& second = find_record(records, after);
-  CampaignNotes notes;
+  io::CampaignNotes notes;
   const auto knowledge = drive_knowledge(antenna, notes);
   std::vector<ChannelComparison> result;
   const auto add = [&](const char* name, const char* unit, const design::RecordedChannel& one,

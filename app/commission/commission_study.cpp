@@ -74,8 +74,8 @@ control::ControlLaw given_law(const io::Case& antenna, const CommissionOptions& 
 }
 
 // The recommended controller; its structure and bounds go into the report.
-control::ControlLaw recommended(const DesignedAntenna& designed, const CommissionOptions& options,
-                                CommissionReport& report) {
+control::ControlLaw recommended(const io::DesignedAntenna& designed,
+                                const CommissionOptions& options, CommissionReport& report) {
   design::TuneOptions tuning;
   if (!options.structure.empty()) {
     tuning.structures = structure_option(designed.antenna, {options.structure});
@@ -375,7 +375,7 @@ std::vector<std::string> conclude(const CommissionReport& report, const io::Case
 
 }  // namespace
 
-CommissionReport plan_commission(const DesignedAntenna& designed,
+CommissionReport plan_commission(const io::DesignedAntenna& designed,
                                  const CommissionOptions& options) {
   const io::Case& antenna = designed.antenna;
   const design::PlantEnsemble& ensemble = designed.ensemble;

@@ -10,9 +10,9 @@
 
 #include <boresight/app/document/document.hpp>
 #include <boresight/app/figures/figure.hpp>
-#include <boresight/app/uncertainty/designed_antenna.hpp>
 #include <boresight/design/commissioning/commissioning.hpp>
 #include <boresight/design/commissioning/commissioning_records.hpp>
+#include <boresight/io/campaign/designed_antenna.hpp>
 
 namespace boresight::io {
 class Visitor;
@@ -105,7 +105,8 @@ struct CommissionReport {
 /// @throws InvalidInput for a structure, gains or records that there are none of; Interrupted;
 /// InfeasibleRequirement if no law of the structure meets the goals on every plant, or no path to
 /// it was found, and NumericalFailure, if no records are compared: else the report holds them.
-CommissionReport plan_commission(const DesignedAntenna& designed, const CommissionOptions& options);
+CommissionReport plan_commission(const io::DesignedAntenna& designed,
+                                 const CommissionOptions& options);
 
 /// The comparison of two records of a case by its channels. @throws InvalidInput for a name that no
 /// usable record has.

@@ -16,7 +16,7 @@ namespace {
 constexpr const char* fit_heading = "How well one model explains all records";
 
 // What the records can hardly tell from the inertia and from the oil's stiffness.
-std::vector<Figure> correlation_figure(const CampaignSection& section) {
+std::vector<Figure> correlation_figure(const io::CampaignSection& section) {
   if (!section.grey_box) return {};
   const auto& fit = *section.grey_box;
   Figure figure = make_figure(
@@ -44,7 +44,7 @@ std::vector<Figure> correlation_figure(const CampaignSection& section) {
 }
 
 // Stated numbers that the records speak of, in standard uncertainties.
-std::vector<Figure> contradiction_figure(const CampaignSection& section) {
+std::vector<Figure> contradiction_figure(const io::CampaignSection& section) {
   if (section.contradictions.empty()) return {};
   constexpr double most = 20.0;
   Figure figure = make_figure(
@@ -68,7 +68,7 @@ std::vector<Figure> contradiction_figure(const CampaignSection& section) {
   return {figure};
 }
 
-std::vector<Figure> hold_out_figure(const CampaignSection& section) {
+std::vector<Figure> hold_out_figure(const io::CampaignSection& section) {
   if (!section.hold_out) return {};
   const auto& held = *section.hold_out;
   const auto& recorded = held.result.recorded;
@@ -101,7 +101,7 @@ std::vector<Figure> hold_out_figure(const CampaignSection& section) {
 
 }  // namespace
 
-std::vector<Figure> campaign_figures(const CampaignSection& section) {
+std::vector<Figure> campaign_figures(const io::CampaignSection& section) {
   std::vector<Figure> figures;
   for (auto&& some : {inertia_figures(section), ringing_figures(section), friction_figure(section),
                       contradiction_figure(section), hold_out_figure(section),

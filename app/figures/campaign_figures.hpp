@@ -3,7 +3,7 @@
 #include <vector>
 
 #include <boresight/app/figures/figure.hpp>
-#include <boresight/app/identify/campaign_section.hpp>
+#include <boresight/io/campaign/campaign_section.hpp>
 
 namespace boresight::app {
 
@@ -12,6 +12,6 @@ namespace boresight::app {
 /// with their fits, torque spectra with peaks and harmonics, rings after valve steps, torque over
 /// rate, the friction curve with its data and band, numbers of the case against the records, and a
 /// record foretold. What the campaign does not have is left out.
-std::vector<Figure> campaign_figures(const CampaignSection& section);
+std::vector<Figure> campaign_figures(const io::CampaignSection& section);
 
 }  // namespace boresight::app

@@ -26,7 +26,7 @@ FigureSeries windows_of(const identification::FrictionCurveFit& fit, bool forwar
 
 }  // namespace
 
-std::vector<Figure> friction_figure(const CampaignSection& section) {
+std::vector<Figure> friction_figure(const io::CampaignSection& section) {
   const identification::FrictionCurveFit* fit = nullptr;
   if (section.impulse && section.impulse->friction) fit = &*section.impulse->friction;
   if (section.friction.empty()) return {};

@@ -119,7 +119,7 @@ double printed_value(const std::string& text, io::Kind kind) {
 
 }  // namespace
 
-std::vector<Figure> inertia_figures(const CampaignSection& section) {
+std::vector<Figure> inertia_figures(const io::CampaignSection& section) {
   std::vector<Row> rows;
   if (section.grey_box) {
     rows.push_back({"reconciled (grey box)", section.grey_box->quantity("inertia").posterior,

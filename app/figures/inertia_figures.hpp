@@ -4,14 +4,14 @@
 #include <vector>
 
 #include <boresight/app/figures/figure.hpp>
-#include <boresight/app/identify/campaign_section.hpp>
 #include <boresight/app/report/report.hpp>
+#include <boresight/io/campaign/campaign_section.hpp>
 
 namespace boresight::app {
 
 /// Reflected inertia and motor-to-load ratio by each method of a campaign with 95 % intervals, the
 /// reconciled estimate first. Intervals without an end run to the edge.
-std::vector<Figure> inertia_figures(const CampaignSection& section);
+std::vector<Figure> inertia_figures(const io::CampaignSection& section);
 
 /// The same of the methods that rest on the case's stated numbers, with the values that the case
 /// prints beside them. (The section's own heading is theirs.)

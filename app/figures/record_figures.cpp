@@ -36,7 +36,7 @@ double value_at(const ThinnedSeries& data, double time) {
 }
 
 // One mark for each kind of defect of a channel, however often it was found.
-void mark_defects(const RecordNotes& record, const RecordTrace& trace, double scale,
+void mark_defects(const io::RecordNotes& record, const RecordTrace& trace, double scale,
                   FigurePanel& panel) {
   std::vector<const RecordDefect*> first;
   for (const auto& defect : record.defects) {
@@ -56,7 +56,7 @@ void mark_defects(const RecordNotes& record, const RecordTrace& trace, double sc
   }
 }
 
-void add_trace(const RecordNotes& record, const RecordTrace& trace, const std::string& name,
+void add_trace(const io::RecordNotes& record, const RecordTrace& trace, const std::string& name,
                double scale, FigurePanel& panel) {
   panel.series.push_back(series_of(trace.series, name, scale, SeriesStyle::line));
   if (!trace.masked.x.empty()) {
@@ -66,13 +66,13 @@ void add_trace(const RecordNotes& record, const RecordTrace& trace, const std::s
   mark_defects(record, trace, scale, panel);
 }
 
-bool has_defect(const RecordNotes& record, const std::string& channel) {
+bool has_defect(const io::RecordNotes& record, const std::string& channel) {
   return std::ranges::any_of(record.defects,
                              [&](const auto& defect) { return defect.channel == channel; });
 }
 
 // Of the record as a whole, at the top panel.
-void draw_times(const RecordNotes& record, FigurePanel& panel) {
+void draw_times(const io::RecordNotes& record, FigurePanel& panel) {
   for (const auto& defect : record.defects) {
     if (!defect.channel.empty() || !std::isfinite(defect.first_time)) continue;
     panel.lines.push_back(
@@ -81,7 +81,7 @@ void draw_times(const RecordNotes& record, FigurePanel& panel) {
   }
 }
 
-Figure record_figure(const RecordNotes& record, const std::vector<RecordTrace>& traces) {
+Figure record_figure(const io::RecordNotes& record, const std::vector<RecordTrace>& traces) {
   FigurePanel rate = make_panel(make_axis("motor rate", "rad/s"));
   FigurePanel torque = make_panel(make_axis("torque", "N.m"));
   FigurePanel valve = make_panel(make_axis("valve command", "rad/s"));
@@ -114,7 +114,7 @@ Figure record_figure(const RecordNotes& record, const std::vector<RecordTrace>& 
   figure.id = figure_id("record " + record.name);
   figure.section = "Records";
   figure.title = fmt::format("Record {}: {}", record.name,
-                             record.refusal.empty() ? to_string(record.test) : "not used");
+                             record.refusal.empty() ? io::to_string(record.test) : "not used");
   figure.caption = fmt::format(
       "{}, {} rows as recorded, at the motor shaft; least and largest value of every stretch that "
       "a pixel shows. {}",
@@ -132,7 +132,7 @@ Figure record_figure(const RecordNotes& record, const std::vector<RecordTrace>& 
 
 }  // namespace
 
-std::vector<Figure> record_figures(const CampaignNotes& notes,
+std::vector<Figure> record_figures(const io::CampaignNotes& notes,
                                    const std::vector<std::vector<RecordTrace>>& traces) {
   std::vector<Figure> figures;
   for (std::size_t i = 0; i < std::min(notes.records.size(), traces.size()); ++i) {

@@ -18,7 +18,7 @@ using identification::LineSide;
 
 constexpr std::size_t labelled_peaks = 8;
 
-std::string heading_of(const CampaignSection& section) {
+std::string heading_of(const io::CampaignSection& section) {
   return section.resonance && !section.resonance->notes.empty()
              ? "What the resonance alone shows"
              : "Inertia at the motor shaft, by method (95 % intervals)";
@@ -50,7 +50,7 @@ std::pair<Eigen::Index, Eigen::Index> about_lines(const identification::SloshRes
 }
 
 // A panel a port; the outlets ring as the inlets do and are left to the spectra.
-Figure ring_times(const SloshTest& test, double sample_time) {
+Figure ring_times(const io::SloshTest& test, double sample_time) {
   Figure figure;
   figure.id = figure_id(fmt::format("ringing {}", test.record));
   figure.title = fmt::format("Oil lines ringing ({})", test.record);
@@ -71,7 +71,7 @@ Figure ring_times(const SloshTest& test, double sample_time) {
   return figure;
 }
 
-Figure ring_spectra(const SloshTest& test) {
+Figure ring_spectra(const io::SloshTest& test) {
   Figure figure;
   figure.id = figure_id(fmt::format("ringing spectra {}", test.record));
   figure.title = fmt::format("Frequencies of the oil lines ({})", test.record);
@@ -199,7 +199,7 @@ Figure response_figure(const identification::DriveResponse& response) {
 
 }  // namespace
 
-std::vector<Figure> ringing_figures(const CampaignSection& section) {
+std::vector<Figure> ringing_figures(const io::CampaignSection& section) {
   std::vector<Figure> figures;
   for (const auto& test : section.slosh) {
     double sample_time = 0.0;
@@ -215,7 +215,7 @@ std::vector<Figure> ringing_figures(const CampaignSection& section) {
   return figures;
 }
 
-std::vector<Figure> resonance_figures(const CampaignSection& section) {
+std::vector<Figure> resonance_figures(const io::CampaignSection& section) {
   std::vector<Figure> figures;
   if (!section.resonance) return figures;
   const auto& resonance = *section.resonance;

@@ -2,9 +2,9 @@
 #include <cmath>
 #include <limits>
 
-#include <boresight/app/identify/loaded_record.hpp>
 #include <boresight/app/identify/record_traces.hpp>
 #include <boresight/identification/records/record_defects.hpp>
+#include <boresight/io/campaign/loaded_record.hpp>
 
 namespace boresight::app {
 namespace {
@@ -75,9 +75,9 @@ std::vector<RecordTrace> record_traces(const identification::RawRecord& raw,
 }
 
 std::vector<std::vector<RecordTrace>> campaign_traces(const io::Case& antenna, unsigned threads) {
-  CampaignNotes notes;
+  io::CampaignNotes notes;
   const auto knowledge = drive_knowledge(antenna, notes);
-  std::vector<LoadedRecord> works = load_records(antenna, threads);
+  std::vector<io::LoadedRecord> works = load_records(antenna, threads);
   recognise(antenna, works);
   settle_conflicts(antenna, works);
   std::vector<std::vector<RecordTrace>> traces;

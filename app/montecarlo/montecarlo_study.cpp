@@ -11,10 +11,11 @@
 #include <boresight/app/montecarlo/checkpoint.hpp>
 #include <boresight/app/montecarlo/montecarlo_study.hpp>
 #include <boresight/app/redesign/assumed_inputs.hpp>
+#include <boresight/app/redesign/resonance_verdict.hpp>
 #include <boresight/app/redesign/sections.hpp>
 #include <boresight/app/tune/chosen_controller.hpp>
 #include <boresight/app/tune/structure_option.hpp>
-#include <boresight/app/uncertainty/designed_antenna.hpp>
+#include <boresight/io/campaign/designed_antenna.hpp>
 #include <boresight/io/case/antenna_of.hpp>
 #include <boresight/io/case/mission_of.hpp>
 #include <boresight/io/case/present_gains.hpp>
@@ -28,7 +29,7 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 // What plants are drawn from, shared with the function that makes them.
-using Population = std::shared_ptr<const DesignedAntenna>;
+using Population = std::shared_ptr<const io::DesignedAntenna>;
 
 // Anything that goes wrong on one rank, on every one, by its kind. Kinds in the order of exit
 // codes.
@@ -300,7 +301,7 @@ MonteCarloOutcome run_montecarlo(const MonteCarloArguments& arguments, Ranks& ra
         throw InvalidInput(fmt::format("--structure: {}", error.what()));
       }
     }
-    population = std::make_shared<DesignedAntenna>(
+    population = std::make_shared<io::DesignedAntenna>(
         designed_antenna(antenna, arguments.seed, arguments.threads, interrupted));
     if (ranks.first()) {
       held = make_law(arguments, population, interrupted);
@@ -329,7 +330,9 @@ MonteCarloOutcome run_montecarlo(const MonteCarloArguments& arguments, Ranks& ra
   section = new_section(arguments, population->antenna, study, held);
   summarise(*outcome.run, *outcome.distribution, section);
   section.conclusions = conclude(section);
-  std::string warning = resonance_warning(population->resonance);
+  const auto resonance = population->from_records ? std::optional<ResonanceVerdict>()
+                                                  : resonance_verdict(population->antenna);
+  std::string warning = resonance_warning(resonance);
   if (!warning.empty()) {
     section.conclusions.insert(section.conclusions.begin(), std::move(warning));
   }

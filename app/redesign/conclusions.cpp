@@ -36,7 +36,8 @@ void conclude_masses(const IdentificationSection& section, std::vector<std::stri
 }
 
 // What the records say takes the place of the methods' own printed numbers.
-void conclude_campaign(const CampaignSection& section, const identification::GreyBoxResult& found,
+void conclude_campaign(const io::CampaignSection& section,
+                       const identification::GreyBoxResult& found,
                        std::vector<std::string>& sentences) {
   const auto& inertia = found.quantity("inertia").posterior;
   const auto& ratio = found.quantity("motor to load ratio").posterior;

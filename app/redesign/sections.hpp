@@ -1,19 +1,12 @@
 #pragma once
 
-#include <functional>
-
 #include <boresight/app/report/report.hpp>
+#include <boresight/io/campaign/campaign_identification.hpp>
+#include <boresight/io/campaign/designed_antenna.hpp>
 
 namespace boresight::app {
 
-struct DesignedAntenna;
-
-struct StudyOptions {
-  std::uint64_t seed = 1;
-  unsigned threads = 2;
-  /// Called with tasks done and all tasks; may be empty.
-  std::function<void(std::size_t, std::size_t)> progress;
-};
+using StudyOptions = io::IdentificationOptions;
 
 IdentificationSection identify(const io::Case& antenna, const StudyOptions& options);
 PlantSection describe_plant(const io::Case& antenna);
@@ -22,7 +15,7 @@ PlantSection describe_plant(const io::Case& antenna);
 /// the plant; and matching at the case's flywheel counts and at ratio 1, of the case's structures
 /// or of PI with and without lag, with the linear plant's friction and with the curve's slope at
 /// the tracking rate. Fills the report's sections.
-void redesign(const DesignedAntenna& designed, const StudyOptions& options, Report& report);
+void redesign(const io::DesignedAntenna& designed, const StudyOptions& options, Report& report);
 
 /// A few sentences that say what the numbers mean, from the numbers.
 std::vector<std::string> conclude(const Report& report);

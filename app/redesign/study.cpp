@@ -5,7 +5,7 @@
 
 #include <boresight/app/redesign/choices.hpp>
 #include <boresight/app/redesign/sections.hpp>
-#include <boresight/app/uncertainty/designed_antenna.hpp>
+#include <boresight/io/campaign/designed_antenna.hpp>
 #include <boresight/io/case/drive_numbers.hpp>
 #include <boresight/io/case/plant_numbers.hpp>
 
@@ -62,7 +62,7 @@ TuningSection section_of(const io::Case& antenna, design::RecommendedDesign desi
 
 }  // namespace
 
-void redesign(const DesignedAntenna& designed, const StudyOptions& options, Report& report) {
+void redesign(const io::DesignedAntenna& designed, const StudyOptions& options, Report& report) {
   const io::Case& antenna = designed.antenna;
   std::vector<PlantChoice> choices = plant_choices(antenna);
   design::RedesignTask task;

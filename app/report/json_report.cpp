@@ -5,7 +5,6 @@
 #include <boresight/app/redesign/needed_budgets.hpp>
 #include <boresight/app/redesign/tuning_verdict.hpp>
 #include <boresight/app/report/audit_description.hpp>
-#include <boresight/app/report/campaign_description.hpp>
 #include <boresight/app/report/evaluate_report.hpp>
 #include <boresight/app/report/identification_description.hpp>
 #include <boresight/app/report/json_assumed.hpp>
@@ -19,6 +18,7 @@
 #include <boresight/app/report/measured_report.hpp>
 #include <boresight/app/report/sky_units.hpp>
 #include <boresight/app/report/wind_mast.hpp>
+#include <boresight/io/campaign/campaign_description.hpp>
 #include <boresight/io/description/pointing_limit_results.hpp>
 #include <boresight/numerics/angles.hpp>
 

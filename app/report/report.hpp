@@ -9,7 +9,6 @@
 #include <boresight/app/audit/audit_report.hpp>
 #include <boresight/app/evaluate/evaluate_section.hpp>
 #include <boresight/app/figures/figure.hpp>
-#include <boresight/app/identify/campaign_section.hpp>
 #include <boresight/app/match/match_section.hpp>
 #include <boresight/app/redesign/input_effects.hpp>
 #include <boresight/app/redesign/resonance_verdict.hpp>
@@ -20,6 +19,7 @@
 #include <boresight/design/limits/pointing_limit.hpp>
 #include <boresight/design/problem/pointing_budget.hpp>
 #include <boresight/design/studies/redesign_study.hpp>
+#include <boresight/io/campaign/campaign_section.hpp>
 
 namespace boresight::app {
 
@@ -120,7 +120,7 @@ struct Report {
   std::string case_path;
   std::uint64_t seed = 1;
   std::optional<AuditReport> audit;
-  std::optional<CampaignSection> campaign;  // of cases with records
+  std::optional<io::CampaignSection> campaign;  // of cases with records
   std::optional<IdentificationSection> identification;
   std::optional<ResonanceVerdict> resonance;  // measured without records of the drive
   std::optional<PlantSection> plant;

@@ -5,7 +5,6 @@
 #include <boresight/app/figures/figure_description.hpp>
 #include <boresight/app/montecarlo/montecarlo_study.hpp>
 #include <boresight/app/report/audit_description.hpp>
-#include <boresight/app/report/campaign_description.hpp>
 #include <boresight/app/report/common_description.hpp>
 #include <boresight/app/report/identification_description.hpp>
 #include <boresight/app/report/match_report.hpp>
@@ -13,6 +12,7 @@
 #include <boresight/app/report/report_schemas.hpp>
 #include <boresight/app/report/schema_writer.hpp>
 #include <boresight/app/simulate/simulation_report.hpp>
+#include <boresight/io/campaign/campaign_description.hpp>
 #include <boresight/io/case/field.hpp>
 #include <boresight/io/description/design_results.hpp>
 #include <boresight/io/description/loop_results.hpp>
@@ -51,7 +51,7 @@ void describe(io::Visitor& v, const DescribedParts& /*parts*/) {
   v.object("design", design::Design{}, "");
   v.object("ensemble", design::EnsembleResult{}, "");
   v.object("audit", AuditReport{}, "");
-  v.object("campaign", CampaignSection{}, "");
+  v.object("campaign", io::CampaignSection{}, "");
   v.object("identification", IdentificationSection{}, "");
   v.object("plant", PlantSection{}, "");
   v.object("measured_tuning", MeasuredTuneSection{}, "");

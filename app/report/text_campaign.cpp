@@ -4,14 +4,20 @@
 #include <fmt/format.h>
 
 #include <boresight/app/document/document.hpp>
-#include <boresight/app/identify/campaign_comparison.hpp>
-#include <boresight/app/report/campaign_wording.hpp>
 #include <boresight/app/report/sky_units.hpp>
 #include <boresight/app/report/text_report.hpp>
+#include <boresight/io/campaign/campaign_comparison.hpp>
+#include <boresight/io/campaign/campaign_wording.hpp>
 
 namespace boresight::app {
 namespace {
 
+using io::advised_quantity;
+using io::range;
+using io::ranked;
+using io::shown_unit;
+using io::ShownUnit;
+using io::significant;
 using numerics::Interval;
 using Rows = std::vector<std::vector<std::string>>;
 
@@ -19,7 +25,7 @@ std::string with_unit(const std::string& name, const ShownUnit& unit) {
   return unit.name == "1" ? name : fmt::format("{}, {}", name, unit.name);
 }
 
-Document reconciled_part(const CampaignSection& section) {
+Document reconciled_part(const io::CampaignSection& section) {
   if (section.mean_of_methods) {
     const auto& mean = *section.mean_of_methods;
     return wrapped(
@@ -44,11 +50,11 @@ Document reconciled_part(const CampaignSection& section) {
   return table(rows, "lrrrrrl");
 }
 
-Document methods_part(const CampaignSection& section) {
+Document methods_part(const io::CampaignSection& section) {
   Document text = heading("Inertia at the motor shaft, by method (95 % intervals)");
   Rows rows{{"method", "J kg.m2", "interval", "R", "interval", "off by", "sigmas"}};
   const auto row_of = [](const std::string& name, const Interval& inertia, const Interval& ratio,
-                         const std::optional<Difference>& difference) {
+                         const std::optional<io::Difference>& difference) {
     return std::vector<std::string>{
         name,
         significant(inertia.value),
@@ -82,7 +88,7 @@ Document methods_part(const CampaignSection& section) {
   return text;
 }
 
-Document quantities_part(const CampaignSection& section) {
+Document quantities_part(const io::CampaignSection& section) {
   if (section.quantities.empty()) return {};
   Document text = heading("Other quantities, by method");
   Rows rows{{"quantity", "method", "value", "95 % interval", "off by", "sigmas"}};
@@ -97,7 +103,7 @@ Document quantities_part(const CampaignSection& section) {
   return text + table(rows, "llrrrr");
 }
 
-Document lines_part(const SloshTest& test) {
+Document lines_part(const io::SloshTest& test) {
   Document text = heading(fmt::format("Oil lines and bulk modulus ({})", test.record));
   Rows rows{
       {"line", "length m", "Hz", "interval", "damping", "events", "bulk modulus MPa", "interval"}};
@@ -135,7 +141,7 @@ Document lines_part(const SloshTest& test) {
   return text;
 }
 
-Document friction_part(const CampaignSection& section) {
+Document friction_part(const io::CampaignSection& section) {
   if (section.friction.empty()) return {};
   Document text = heading("Friction at the motor shaft, N.m (95 % intervals)");
   Rows rows{{"rate rad/s", "reconciled", "interval", "curve fit", "interval", "constant speed",
@@ -181,7 +187,7 @@ Document friction_part(const CampaignSection& section) {
   return text;
 }
 
-Document contradictions_part(const CampaignSection& section) {
+Document contradictions_part(const io::CampaignSection& section) {
   Document text = heading("Numbers of the case that the records contradict");
   if (section.contradictions.empty()) {
     return text + "  none by more than two combined standard uncertainties\n";
@@ -198,7 +204,7 @@ Document contradictions_part(const CampaignSection& section) {
   return text + table(rows, "llllrrrl");
 }
 
-Document advice_part(const CampaignSection& section) {
+Document advice_part(const io::CampaignSection& section) {
   if (section.test_gains.empty() || !section.grey_box) return {};
   Document text = heading("Which further test would shrink which interval most (1 = not at all)");
   const auto& quantities = section.grey_box->quantities;
@@ -232,7 +238,7 @@ Document advice_part(const CampaignSection& section) {
   return text;
 }
 
-Document fit_part(const CampaignSection& section) {
+Document fit_part(const io::CampaignSection& section) {
   if (!section.grey_box) return {};
   const auto& fit = *section.grey_box;
   Document text = heading("How well one model explains all records");
@@ -277,7 +283,7 @@ Document fit_part(const CampaignSection& section) {
   return text + table(rows);
 }
 
-Document method_notes_part(const CampaignSection& section) {
+Document method_notes_part(const io::CampaignSection& section) {
   Document text;
   const auto add = [&](const char* title, const std::vector<std::string>& notes) {
     if (notes.empty()) return;
@@ -291,7 +297,7 @@ Document method_notes_part(const CampaignSection& section) {
 
 }  // namespace
 
-Document document_of(const CampaignSection& section) {
+Document document_of(const io::CampaignSection& section) {
   Document text = heading("What the records say of the drive");
   for (const auto& sentence : section.not_identifiable) text += wrapped(sentence, "  ", "  ");
   if (!section.not_identifiable.empty()) text += "\n";

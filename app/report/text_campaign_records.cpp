@@ -13,7 +13,7 @@ std::string joined(const std::vector<std::string>& names) {
 }
 
 // What was guessed, once for all records that it was guessed in.
-Document guesses_part(const CampaignNotes& notes) {
+Document guesses_part(const io::CampaignNotes& notes) {
   std::map<std::string, std::vector<std::string>> guesses;
   std::vector<std::string> order;
   const auto add = [&](const std::string& sentence, const std::string& record) {
@@ -36,7 +36,7 @@ Document guesses_part(const CampaignNotes& notes) {
     }
     for (const auto& remark : record.remarks) add(remark, record.name);
     if (record.test_guessed) {
-      add(fmt::format("the test was told by the data: {}", to_string(record.test)), record.name);
+      add(fmt::format("the test was told by the data: {}", io::to_string(record.test)), record.name);
     }
     if (record.rate_loop_guessed) {
       add(fmt::format("the rate loop was taken as {}", record.rate_loop_closed ? "closed" : "open"),
@@ -60,7 +60,7 @@ Document guesses_part(const CampaignNotes& notes) {
 
 }  // namespace
 
-Document document_of(const CampaignNotes& notes) {
+Document document_of(const io::CampaignNotes& notes) {
   Document text = heading("Records");
   std::vector<std::vector<std::string>> rows{
       {"record", "test", "rate loop", "s", "samples/s", "rows", "defects"}};
@@ -70,7 +70,7 @@ Document document_of(const CampaignNotes& notes) {
       continue;
     }
     rows.push_back(
-        {record.name, to_string(record.test), record.rate_loop_closed ? "closed" : "open",
+        {record.name, io::to_string(record.test), record.rate_loop_closed ? "closed" : "open",
          fmt::format("{:.1f}", record.duration), fmt::format("{:.6g}", 1.0 / record.sample_time),
          fmt::format("{}", record.rows), fmt::format("{}", record.defects.size())});
   }

@@ -13,9 +13,9 @@ std::string to_text(const Report& report);
 
 // One function a section; each begins with its heading.
 /// What the records say: what is not identifiable, the reconciled estimate, the methods beside it.
-Document document_of(const CampaignSection& section);
+Document document_of(const io::CampaignSection& section);
 /// The records: tests, defects with place and count, everything that was taken for granted.
-Document document_of(const CampaignNotes& notes);
+Document document_of(const io::CampaignNotes& notes);
 Document document_of(const IdentificationSection& section);
 /// Every finding by kind, numbered, then the summary.
 Document document_of(const AuditReport& report);

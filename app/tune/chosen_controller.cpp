@@ -113,7 +113,7 @@ std::optional<ChosenController> named_controller(const io::Case& antenna, const 
                          : controller_of_report(antenna, gains, structure);
 }
 
-ChosenController recommended_controller(const DesignedAntenna& designed,
+ChosenController recommended_controller(const io::DesignedAntenna& designed,
                                         const design::TuneOptions& options) {
   const auto study = study_controllers(designed.mission, designed.ensemble, options);
   if (options.interrupted && options.interrupted()) {

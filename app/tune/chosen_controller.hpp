@@ -3,9 +3,9 @@
 #include <optional>
 #include <string>
 
-#include <boresight/app/uncertainty/designed_antenna.hpp>
 #include <boresight/control/controllers/control_law.hpp>
 #include <boresight/design/studies/controller_study.hpp>
+#include <boresight/io/campaign/designed_antenna.hpp>
 #include <boresight/io/case/case_file.hpp>
 
 namespace boresight::app {
@@ -41,7 +41,7 @@ std::optional<ChosenController> named_controller(const io::Case& antenna, const 
 /// study_controllers; where none is fit for that, the least unfit that keeps the nominal antenna
 /// stable.
 /// @throws InfeasibleRequirement if no stable one is found; Interrupted; as study_controllers.
-ChosenController recommended_controller(const DesignedAntenna& designed,
+ChosenController recommended_controller(const io::DesignedAntenna& designed,
                                         const design::TuneOptions& options);
 
 }  // namespace boresight::app

@@ -4,11 +4,11 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <boresight/app/identify/campaign.hpp>
 #include <boresight/app/tune/measured_study.hpp>
 #include <boresight/control/loops/closed_loop.hpp>
 #include <boresight/identification/resonance/drive_response.hpp>
 #include <boresight/identification/signals/local_polynomial_response.hpp>
+#include <boresight/io/campaign/campaign.hpp>
 #include <boresight/io/case/drive_numbers.hpp>
 #include <boresight/io/case/mission_of.hpp>
 #include <boresight/io/case/plant_numbers.hpp>
@@ -26,7 +26,7 @@ namespace {
 using Eigen::Index;
 
 const identification::DriveRecord& record_named(const identification::Campaign& campaign,
-                                                const CampaignNotes& notes,
+                                                const io::CampaignNotes& notes,
                                                 const std::string& name) {
   std::vector<std::string> names;
   for (const auto& note : notes.records) {
@@ -89,7 +89,7 @@ bool begins_with_encoder(const std::string& name) {
 
 // The antenna's angle beside the drive's signals. Only of a file whose rows are the record's
 // samples: nothing was cut or put on another time base.
-std::optional<EncoderColumn> encoder_of(const io::Case& antenna, const RecordNotes& notes,
+std::optional<EncoderColumn> encoder_of(const io::Case& antenna, const io::RecordNotes& notes,
                                         Index samples, std::vector<std::string>& remarks) {
   const io::RecordTable table = io::read_record(notes.path);
   const auto column = std::ranges::find_if(
@@ -227,12 +227,12 @@ MeasuredTuneSection tune_measured(const io::Case& antenna, const MeasuredStudyOp
   std::vector<control::LoopStructure> structures;
   for (const auto& name : names) structures.push_back(io::loop_structure(antenna, name));
 
-  CampaignNotes notes;
+  io::CampaignNotes notes;
   const identification::Campaign campaign = make_campaign(antenna, notes);
   const identification::DriveRecord& record = record_named(campaign, notes, options.record);
   MeasuredTuneSection section;
   section.record = options.record;
-  const auto note = std::ranges::find(notes.records, options.record, &RecordNotes::name);
+  const auto note = std::ranges::find(notes.records, options.record, &io::RecordNotes::name);
   const auto encoder = encoder_of(antenna, *note, record.samples(), section.notes);
   if (encoder) section.encoder_column = encoder->name;
 

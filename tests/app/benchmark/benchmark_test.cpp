@@ -200,7 +200,7 @@ TEST(Benchmark, ScoresTheAntennaThatRecordsShow) {
   const ScratchFolder folder;
   const io::Case stated = io::read_case(small_case(folder));
   const design::Mission mission = mission_of(stated);
-  DesignedAntenna designed{
+  io::DesignedAntenna designed{
       stated, mission, {}, design::PlantDistribution::of_ranges(mission), false};
   const auto controller = controller_of(mission.present_controllers.front().law, "PI", 0.0);
   auto as_stated = benchmark(designed, controller, {});

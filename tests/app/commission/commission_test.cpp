@@ -166,7 +166,7 @@ TEST(Commission, ComparesTwoRecordsOfTheCase) {
   options.after = "constant-speed-0.5V";
   const auto plant = make_plant(antenna);
   const design::Mission mission = mission_of(antenna);
-  const DesignedAntenna designed{
+  const io::DesignedAntenna designed{
       antenna,
       mission,
       {design::EnsembleSource::ranges, {{"one", plant}, {"another", plant}, {"a third", plant}}},

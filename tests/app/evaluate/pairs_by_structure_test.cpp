@@ -8,7 +8,7 @@
 #include "io/edited_case.hpp"
 #include <boresight/app/evaluate/evaluate_study.hpp>
 #include <boresight/app/evaluate/pairs_by_structure.hpp>
-#include <boresight/app/uncertainty/designed_antenna.hpp>
+#include <boresight/io/campaign/designed_antenna.hpp>
 
 namespace boresight::app {
 namespace {
@@ -47,7 +47,7 @@ Candidate candidate_of(const std::string& name, double first, double second, std
 
 // One plant for both, so that means over the draws go as the factors of the laws.
 DecisionSection decided(const std::vector<Candidate>& candidates) {
-  static const DesignedAntenna antenna =
+  static const io::DesignedAntenna antenna =
       designed_antenna(io::read_case(case_path("dss14-70m")), 1, 1, nullptr);
   EvaluateOptions options;
   options.draws = 100;

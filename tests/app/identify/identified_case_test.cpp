@@ -3,8 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <boresight/app/identify/identified_case.hpp>
 #include <boresight/app/redesign/assumed_inputs.hpp>
+#include <boresight/io/campaign/identified_case.hpp>
 #include <boresight/io/case/antenna_of.hpp>
 #include <boresight/io/case/drive_numbers.hpp>
 #include <boresight/io/case/plant_numbers.hpp>

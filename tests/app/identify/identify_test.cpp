@@ -11,10 +11,10 @@
 
 #include "app/program_run.hpp"
 #include <boresight/app/document/document_text.hpp>
-#include <boresight/app/identify/campaign_comparison.hpp>
-#include <boresight/app/identify/campaign_identification.hpp>
 #include <boresight/app/report/json_report.hpp>
 #include <boresight/app/report/text_report.hpp>
+#include <boresight/io/campaign/campaign_comparison.hpp>
+#include <boresight/io/campaign/campaign_identification.hpp>
 #include <boresight/plant/antenna/friction.hpp>
 
 namespace boresight::app {
@@ -72,7 +72,7 @@ void expect_close_and_covered(const Interval& found, double truth, double share,
   EXPECT_GE(found.upper, truth) << what;
 }
 
-void expect_truth(const CampaignSection& section, const std::string& campaign) {
+void expect_truth(const io::CampaignSection& section, const std::string& campaign) {
   const auto truth = truth_of(campaign);
   ASSERT_TRUE(section.grey_box);
   const auto check = [&](const char* quantity, const char* key, double share) {
@@ -99,14 +99,14 @@ void expect_truth(const CampaignSection& section, const std::string& campaign) {
   EXPECT_GE(tested, 6);
 }
 
-const InertiaRow& row_named(const CampaignSection& section, const std::string& name) {
+const io::InertiaRow& row_named(const io::CampaignSection& section, const std::string& name) {
   for (const auto& row : section.inertia) {
     if (row.name.find(name) != std::string::npos) return row;
   }
   throw std::runtime_error("no method " + name);
 }
 
-std::string failures_of(const CampaignSection& section) {
+std::string failures_of(const io::CampaignSection& section) {
   std::string all;
   for (const auto& failure : section.failures) all += failure.method + ": " + failure.reason + "\n";
   return all;
@@ -118,7 +118,7 @@ std::string joined(const std::vector<std::string>& sentences) {
   return all;
 }
 
-Report report_of(CampaignSection section) {
+Report report_of(io::CampaignSection section) {
   Report report;
   report.command = "identify";
   report.campaign = std::move(section);
@@ -136,23 +136,23 @@ constexpr const char* too_slow =
 TEST(IdentifyCampaign, FindsTheTruthByThePapersTestsAndSaysWhyItsMethodsMissIt) {
   if (under_sanitizers) GTEST_SKIP() << too_slow;
   const io::Case antenna = campaign_case("paper-like");
-  const CampaignSection section = identify_campaign(antenna, {});
+  const io::CampaignSection section = identify_campaign(antenna, {});
   expect_truth(section, "paper-like");
   const double truth = truth_of("paper-like")["reflected_inertia"];
 
-  const InertiaRow& spectrum = row_named(section, "spectrum's peak");
+  const io::InertiaRow& spectrum = row_named(section, "spectrum's peak");
   EXPECT_TRUE(spectrum.of_the_paper);
   for (const auto* reason : {"Harmonic lock", "flexibility", "Efficiency convention"}) {
     EXPECT_THAT(spectrum.why, HasSubstr(reason));
   }
   // What a harmonic says of the mode is next to nothing: its interval has to show it.
   EXPECT_GT(spectrum.inertia.upper / spectrum.inertia.lower, 3.0);
-  const InertiaRow& line = row_named(section, "two windows, straight line");
+  const io::InertiaRow& line = row_named(section, "two windows, straight line");
   EXPECT_TRUE(line.of_the_paper);
   EXPECT_THAT(line.why, HasSubstr("straight-line friction"));
   EXPECT_LT(line.inertia.value, 0.95 * truth);  // the known bias
   EXPECT_GT(line.inertia.upper, truth);
-  const InertiaRow& curve = row_named(section, "whole records, curve");
+  const io::InertiaRow& curve = row_named(section, "whole records, curve");
   EXPECT_NEAR(curve.inertia.value, truth, 0.02 * truth);
   EXPECT_FALSE(curve.of_the_paper);
 
@@ -171,7 +171,7 @@ TEST(IdentifyCampaign, FindsTheTruthByThePapersTestsAndSaysWhyItsMethodsMissIt) 
 
 TEST(IdentifyCampaign, FindsTheTruthOfAnotherAntennaInOtherUnits) {
   if (under_sanitizers) GTEST_SKIP() << too_slow;
-  const CampaignSection section = identify_campaign(campaign_case("small-dish"), {});
+  const io::CampaignSection section = identify_campaign(campaign_case("small-dish"), {});
   expect_truth(section, "small-dish");
   const auto truth = truth_of("small-dish");
   EXPECT_EQ(failures_of(section), "");
@@ -194,7 +194,7 @@ TEST(IdentifyCampaign, GivesTheSameForAnyNumberOfThreads) {
   const io::Case antenna = campaign_case("small-dish", few);
   std::string first;
   for (const unsigned threads : {1U, 3U}) {
-    StudyOptions options;
+    io::IdentificationOptions options;
     options.threads = threads;
     const std::string json = to_json(report_of(identify_campaign(antenna, options)));
     if (first.empty()) first = json;
@@ -204,7 +204,7 @@ TEST(IdentifyCampaign, GivesTheSameForAnyNumberOfThreads) {
 }
 
 TEST(IdentifyCampaign, SaysWhatACampaignLacksAndDoesTheRest) {
-  const CampaignSection section = identify_campaign(campaign_case("small-dish", few), {});
+  const io::CampaignSection section = identify_campaign(campaign_case("small-dish", few), {});
   EXPECT_THAT(failures_of(section), HasSubstr("slosh: no record of a slosh test"));
   EXPECT_TRUE(section.bulk_modulus_stated);
   EXPECT_DOUBLE_EQ(section.bulk_modulus.value, 1.3e9);
@@ -234,19 +234,19 @@ TEST(IdentifyCampaign, ListsTheCasesNumbersThatTheRecordsContradict) {
     return identify_campaign(antenna, {}).contradictions;
   };
   const auto wrong = contradicted("1.60 GPa");
-  ASSERT_THAT(wrong, Contains(testing::Field(&Contradiction::key, "oil.bulk_modulus")));
-  const auto found = std::find_if(wrong.begin(), wrong.end(), [](const Contradiction& one) {
+  ASSERT_THAT(wrong, Contains(testing::Field(&io::Contradiction::key, "oil.bulk_modulus")));
+  const auto found = std::find_if(wrong.begin(), wrong.end(), [](const io::Contradiction& one) {
     return one.key == "oil.bulk_modulus";
   });
   EXPECT_EQ(found->stated, "1.60 GPa");
   EXPECT_FALSE(found->assumed);
   EXPECT_LT(found->normalised, -5.0);
   EXPECT_THAT(contradicted("1.38 GPa"),
-              Not(Contains(testing::Field(&Contradiction::key, "oil.bulk_modulus"))));
+              Not(Contains(testing::Field(&io::Contradiction::key, "oil.bulk_modulus"))));
 }
 
 TEST(IdentifyCampaign, StopsWhenProgressSaysSo) {
-  StudyOptions options;
+  io::IdentificationOptions options;
   options.progress = [](std::size_t done, std::size_t all) {
     EXPECT_GT(done, 0U);
     EXPECT_LE(done, all);
@@ -256,7 +256,7 @@ TEST(IdentifyCampaign, StopsWhenProgressSaysSo) {
 }
 
 TEST(IdentifyCampaign, SaysThatLeakageIsNotIdentifiableFromASloshTestWithoutValveCommand) {
-  const CampaignSection section = identify_campaign(campaign_case("paper-like", {"slosh"}), {});
+  const io::CampaignSection section = identify_campaign(campaign_case("paper-like", {"slosh"}), {});
   const auto truth = truth_of("paper-like");
   ASSERT_TRUE(section.grey_box);
   const auto& leakage = section.grey_box->quantity("leakage rate");
@@ -281,11 +281,11 @@ TEST(MotorToLoadRatio, HasNoUpperEndWhereTheIntervalReachesTheMotors) {
   identification::DriveKnowledge knowledge;
   knowledge.motor_count = 4.0;
   knowledge.motor_inertia = {0.3, 0.0};
-  const Interval ratio = motor_to_load_ratio(knowledge, {1.8, 0.1, 1.6, 2.0});
+  const Interval ratio = io::motor_to_load_ratio(knowledge, {1.8, 0.1, 1.6, 2.0});
   EXPECT_DOUBLE_EQ(ratio.value, 2.0);
   EXPECT_DOUBLE_EQ(ratio.lower, 1.5);
   EXPECT_DOUBLE_EQ(ratio.upper, 3.0);
-  EXPECT_TRUE(std::isinf(motor_to_load_ratio(knowledge, {1.3, 0.1, 1.1, 1.5}).upper));
+  EXPECT_TRUE(std::isinf(io::motor_to_load_ratio(knowledge, {1.3, 0.1, 1.1, 1.5}).upper));
 }
 
 }  // namespace

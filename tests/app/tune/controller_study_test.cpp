@@ -12,8 +12,8 @@
 #include <boresight/app/commands/simulate_command.hpp>
 #include <boresight/app/montecarlo/montecarlo_study.hpp>
 #include <boresight/app/tune/tune_verdict.hpp>
-#include <boresight/app/uncertainty/designed_antenna.hpp>
 #include <boresight/design/studies/controller_study.hpp>
+#include <boresight/io/campaign/designed_antenna.hpp>
 
 namespace boresight::app {
 namespace {

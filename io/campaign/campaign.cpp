@@ -3,24 +3,24 @@
 
 #include <fmt/format.h>
 
-#include <boresight/app/identify/campaign.hpp>
-#include <boresight/app/identify/loaded_record.hpp>
+#include <boresight/io/campaign/campaign.hpp>
+#include <boresight/io/campaign/loaded_record.hpp>
 #include <boresight/io/case/drive_evidence.hpp>
 #include <boresight/io/case/drive_numbers.hpp>
 #include <boresight/io/case/field.hpp>
 #include <boresight/plant/antenna/gear_train.hpp>
 
-namespace boresight::app {
+namespace boresight::io {
 namespace {
 
 using identification::TestKind;
 using numerics::Uncertain;
 
-Uncertain uncertain(const io::Quantity& quantity) {
+Uncertain uncertain(const Quantity& quantity) {
   return {quantity.value, quantity.standard_uncertainty};
 }
 
-identification::Instruments make_instruments(const io::Case& antenna, CampaignNotes& notes) {
+identification::Instruments make_instruments(const Case& antenna, CampaignNotes& notes) {
   identification::Instruments instruments;
   if (const auto& entry = antenna.campaign.instruments) {
     instruments.pressure_gain = entry->pressure_gain.value;
@@ -124,7 +124,7 @@ bool loop_seems_closed(const identification::DriveRecord& record) {
 
 }  // namespace
 
-identification::DriveKnowledge drive_knowledge(const io::Case& antenna, CampaignNotes& notes) {
+identification::DriveKnowledge drive_knowledge(const Case& antenna, CampaignNotes& notes) {
   identification::DriveKnowledge knowledge;
   const identification::DriveEvidence evidence = make_evidence(antenna);
   knowledge.motor_count = evidence.motor_count;
@@ -179,11 +179,11 @@ identification::DriveKnowledge drive_knowledge(const io::Case& antenna, Campaign
     notes.assumptions.emplace_back("no drive.return_pressure: taken as zero");
   }
   if (!(knowledge.supply_pressure > knowledge.return_pressure)) {
-    const io::Quantity& supply = antenna.drive.supply_pressure;
-    io::refuse_at(supply.location, supply.key,
-                  fmt::format("expected a supply pressure above the return's, {:.4g} Pa, found {} "
-                              "({:.4g} Pa)",
-                              knowledge.return_pressure, supply.text, supply.value));
+    const Quantity& supply = antenna.drive.supply_pressure;
+    refuse_at(supply.location, supply.key,
+              fmt::format("expected a supply pressure above the return's, {:.4g} Pa, found {} "
+                          "({:.4g} Pa)",
+                          knowledge.return_pressure, supply.text, supply.value));
   }
   if (!antenna.oil.efficiency_in_stiffness) {
     notes.assumptions.push_back(fmt::format(
@@ -196,7 +196,7 @@ identification::DriveKnowledge drive_knowledge(const io::Case& antenna, Campaign
   return knowledge;
 }
 
-identification::Campaign make_campaign(const io::Case& antenna, CampaignNotes& notes,
+identification::Campaign make_campaign(const Case& antenna, CampaignNotes& notes,
                                        unsigned threads) {
   const auto& entries = antenna.campaign.records;
   if (entries.empty()) {
@@ -256,4 +256,4 @@ identification::Campaign make_campaign(const io::Case& antenna, CampaignNotes& n
   return campaign;
 }
 
-}  // namespace boresight::app
+}  // namespace boresight::io

@@ -5,17 +5,17 @@
 
 #include <fmt/format.h>
 
-#include <boresight/app/identify/loaded_record.hpp>
-#include <boresight/app/identify/raw_record.hpp>
 #include <boresight/identification/records/column_conflicts.hpp>
 #include <boresight/identification/records/test_recognition.hpp>
+#include <boresight/io/campaign/loaded_record.hpp>
+#include <boresight/io/campaign/raw_record.hpp>
 #include <boresight/io/case/field.hpp>
 #include <boresight/io/records/record_columns.hpp>
 #include <boresight/io/records/record_file.hpp>
 #include <boresight/io/units/wording.hpp>
 #include <boresight/numerics/parallel_loop.hpp>
 
-namespace boresight::app {
+namespace boresight::io {
 namespace {
 
 using identification::DefectHandling;
@@ -30,18 +30,18 @@ constexpr std::pair<const char*, TestKind> tests[] = {{"slosh", TestKind::slosh}
                                                       {"valve-chirp", TestKind::valve_chirp},
                                                       {"other", TestKind::other}};
 
-std::string resolved(const io::Case& antenna, const std::string& file) {
+std::string resolved(const Case& antenna, const std::string& file) {
   const std::filesystem::path path(file);
   if (path.is_absolute()) return file;
   return (std::filesystem::path(antenna.path).parent_path() / path).string();
 }
 
-void load(const io::Case& antenna, const io::RecordEntry& entry, LoadedRecord& work) {
+void load(const Case& antenna, const RecordEntry& entry, LoadedRecord& work) {
   RecordNotes& notes = work.notes;
   notes.name = entry.name;
   notes.description = entry.description;
   notes.path = resolved(antenna, entry.file);
-  const io::RecordTable table = io::read_record(notes.path);
+  const RecordTable table = read_record(notes.path);
   notes.format = table.format;
   notes.bytes = table.bytes;
   notes.sha256 = table.sha256;
@@ -58,30 +58,29 @@ void load(const io::Case& antenna, const io::RecordEntry& entry, LoadedRecord& w
 }
 
 // A record may lack a column that the case names, but not every record: that is a misspelt name.
-void check_names(const io::Case& antenna, const std::vector<LoadedRecord>& works) {
-  io::RecordTable all;  // of all records' columns, one of each name
+void check_names(const Case& antenna, const std::vector<LoadedRecord>& works) {
+  RecordTable all;  // of all records' columns, one of each name
   std::set<std::string> seen;
   std::vector<std::string_view> names;
   for (const LoadedRecord& work : works) {
-    for (const io::RecordColumn& column : work.columns) {
+    for (const RecordColumn& column : work.columns) {
       all.columns.push_back(column);
       if (!seen.insert(column.name).second) all.columns.pop_back();
     }
   }
-  for (const io::RecordColumn& column : all.columns) names.push_back(column.name);
-  const auto check = [&](const std::string& name, const io::Location& location,
+  for (const RecordColumn& column : all.columns) names.push_back(column.name);
+  const auto check = [&](const std::string& name, const Location& location,
                          const std::string& key) {
     for (const LoadedRecord& work : works) {
-      for (const io::RecordColumn& column : work.columns) {
-        if (io::is_named(column, name)) return;
+      for (const RecordColumn& column : work.columns) {
+        if (is_named(column, name)) return;
       }
     }
-    io::refuse_at(
-        location, key,
-        fmt::format("expected a column of one record at least, found {}{} where they have {}",
-                    io::in_quotes(name), io::did_you_mean(name, names), io::columns_of(all)));
+    refuse_at(location, key,
+              fmt::format("expected a column of one record at least, found {}{} where they have {}",
+                          in_quotes(name), did_you_mean(name, names), columns_of(all)));
   };
-  const io::RecordColumnsEntry& entry = antenna.campaign.columns;
+  const RecordColumnsEntry& entry = antenna.campaign.columns;
   for (const auto* command : {&entry.rate_command, &entry.valve_command}) {
     if (*command) check((*command)->name, (*command)->location, (*command)->key);
   }
@@ -105,7 +104,7 @@ std::string to_string(TestKind test) {
   return found->first;
 }
 
-std::vector<LoadedRecord> load_records(const io::Case& antenna, unsigned threads) {
+std::vector<LoadedRecord> load_records(const Case& antenna, unsigned threads) {
   const auto& entries = antenna.campaign.records;
   std::vector<LoadedRecord> works(entries.size());
   numerics::for_each_index(works.size(), numerics::thread_count(threads),
@@ -114,7 +113,7 @@ std::vector<LoadedRecord> load_records(const io::Case& antenna, unsigned threads
   return works;
 }
 
-void recognise(const io::Case& antenna, std::vector<LoadedRecord>& works) {
+void recognise(const Case& antenna, std::vector<LoadedRecord>& works) {
   std::vector<const identification::DriveRecord*> all;
   for (const LoadedRecord& work : works) {
     if (work.clean.record) all.push_back(&*work.clean.record);
@@ -138,7 +137,7 @@ void recognise(const io::Case& antenna, std::vector<LoadedRecord>& works) {
   }
 }
 
-void settle_conflicts(const io::Case& antenna, std::vector<LoadedRecord>& works) {
+void settle_conflicts(const Case& antenna, std::vector<LoadedRecord>& works) {
   std::vector<identification::JudgedRecord> judged;
   judged.reserve(works.size());
   for (const LoadedRecord& work : works) judged.push_back({&work.raw, &work.clean});
@@ -156,4 +155,4 @@ void settle_conflicts(const io::Case& antenna, std::vector<LoadedRecord>& works)
   }
 }
 
-}  // namespace boresight::app
+}  // namespace boresight::io

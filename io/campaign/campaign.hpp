@@ -7,7 +7,7 @@
 #include <boresight/identification/records/record_defects.hpp>
 #include <boresight/io/case/case_file.hpp>
 
-namespace boresight::app {
+namespace boresight::io {
 
 /// Where a signal of a record came from.
 struct SignalSource {
@@ -64,13 +64,13 @@ struct CampaignNotes {
 /// read, a column, unit or scale that is missing or of the wrong kind, for columns whose names or
 /// signs the records contradict beyond repair, and if most records are
 /// refused.
-identification::Campaign make_campaign(const io::Case& antenna, CampaignNotes& notes,
+identification::Campaign make_campaign(const Case& antenna, CampaignNotes& notes,
                                        unsigned threads = 0);
 
 /// The part of it that needs no files. Assumptions are added to the notes.
-identification::DriveKnowledge drive_knowledge(const io::Case& antenna, CampaignNotes& notes);
+identification::DriveKnowledge drive_knowledge(const Case& antenna, CampaignNotes& notes);
 
 /// "slosh", "fast-ramp" and so on, as in a case.
 std::string to_string(identification::TestKind test);
 
-}  // namespace boresight::app
+}  // namespace boresight::io

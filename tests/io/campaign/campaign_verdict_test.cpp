@@ -4,11 +4,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "app/one_record.hpp"
-#include <boresight/app/identify/campaign_comparison.hpp>
-#include <boresight/app/identify/identified_case.hpp>
+#include "io/one_record.hpp"
+#include <boresight/io/campaign/campaign_comparison.hpp>
+#include <boresight/io/campaign/identified_case.hpp>
 
-namespace boresight::app {
+namespace boresight::io {
 namespace {
 
 using identification::GreyBoxQuantity;
@@ -119,4 +119,4 @@ TEST(WithIdentified, RefusesADriveThatItsOwnCaseContradicts) {
 }
 
 }  // namespace
-}  // namespace boresight::app
+}  // namespace boresight::io

@@ -6,14 +6,14 @@
 
 #include <fmt/format.h>
 
-#include <boresight/app/report/campaign_description.hpp>
+#include <boresight/io/campaign/campaign_description.hpp>
 #include <boresight/io/description/interval_results.hpp>
 #include <boresight/plant/antenna/friction.hpp>
 
-namespace boresight::app {
+namespace boresight::io {
 namespace {
 
-namespace unit = io::key_units;
+namespace unit = key_units;
 
 using identification::FrictionCurveFit;
 
@@ -23,14 +23,14 @@ double short_number(double value) {
 }
 
 template <typename Numbers>
-void list(io::Visitor& v, std::string_view key, const Numbers& numbers, const io::KeyUnit& of,
+void list(Visitor& v, std::string_view key, const Numbers& numbers, const KeyUnit& of,
           std::string_view meaning) {
   std::vector<double> rounded;
   for (const double value : numbers) rounded.push_back(short_number(value));
   v.numbers(key, rounded, of, meaning);
 }
 
-void describe_windows(io::Visitor& v, const FrictionCurveFit& fit) {
+void describe_windows(Visitor& v, const FrictionCurveFit& fit) {
   // Every so many of a long campaign's windows: a plot is not to be thousands of dots.
   constexpr std::size_t most = 600;
   const std::size_t step = 1 + fit.points.size() / most;
@@ -63,7 +63,7 @@ std::optional<RateRange> friction_rates(const CampaignSection& section) {
   return range;
 }
 
-void describe_friction(io::Visitor& v, const CampaignSection& section, const RateRange& range) {
+void describe_friction(Visitor& v, const CampaignSection& section, const RateRange& range) {
   const auto fit = section.impulse ? section.impulse->friction : std::optional<FrictionCurveFit>();
   constexpr int points = 60;
   std::vector<double> rate, value, lower, upper, fitted;
@@ -87,7 +87,7 @@ void describe_friction(io::Visitor& v, const CampaignSection& section, const Rat
                    [&](const FrictionCurveFit& there) { describe_windows(v, there); });
 }
 
-void describe_spectrum(io::Visitor& v, const identification::TorqueSpectrum& spectrum) {
+void describe_spectrum(Visitor& v, const identification::TorqueSpectrum& spectrum) {
   double end = 0.0;
   for (const auto& peak : spectrum.peaks) end = std::max(end, 1.2 * peak.frequency);
   Eigen::Index count = 0;
@@ -115,7 +115,7 @@ void describe_spectrum(io::Visitor& v, const identification::TorqueSpectrum& spe
   v.texts("notes", spectrum.notes, "On it.");
 }
 
-void describe_ringing(io::Visitor& v, const SloshTest& test) {
+void describe_ringing(Visitor& v, const SloshTest& test) {
   double lowest = std::numeric_limits<double>::infinity(), highest = 0.0;
   for (const auto& line : test.result.lines) {
     lowest = std::min(lowest, line.frequency.value);
@@ -143,12 +143,12 @@ void describe_ringing(io::Visitor& v, const SloshTest& test) {
   });
 }
 
-void describe_rings(io::Visitor& v, const identification::StepRings& rings) {
+void describe_rings(Visitor& v, const identification::StepRings& rings) {
   v.list("rings", rings.rings, "Those used.", [&](const auto& ring) {
     v.number("time", short_number(ring.time), unit::second, "Of the step.");
     v.number("mean_rate", short_number(ring.mean_rate), unit::radian_per_second, "Of the motor.");
-    io::describe_interval(v, "frequency", ring.frequency, "Hz", "Undamped natural.");
-    io::describe_interval(v, "damping_ratio", ring.damping_ratio, "1", "Of the ring.");
+    describe_interval(v, "frequency", ring.frequency, "Hz", "Undamped natural.");
+    describe_interval(v, "damping_ratio", ring.damping_ratio, "1", "Of the ring.");
   });
   const bool drawn = rings.plot_signals.cols() == 2 && rings.plot_fitted.cols() == 2;
   const auto column = [&](const auto& signals, Eigen::Index at) {
@@ -161,8 +161,8 @@ void describe_rings(io::Visitor& v, const identification::StepRings& rings) {
   list(v, "fitted_rate", column(rings.plot_fitted, 1), unit::radian_per_second, "Fit.");
 }
 
-void describe_response(io::Visitor& v, const identification::DriveResponse& response) {
-  const io::KeyUnit of{.suffix = "N_m_s_per_rad"};
+void describe_response(Visitor& v, const identification::DriveResponse& response) {
+  const KeyUnit of{.suffix = "N_m_s_per_rad"};
   v.text("record", response.record, "The record.");
   list(v, "frequency", response.frequency, unit::hertz, "Of the values.");
   list(v, "measured_real", response.measured.real().eval(), of, "Measured.");
@@ -171,7 +171,7 @@ void describe_response(io::Visitor& v, const identification::DriveResponse& resp
   list(v, "fitted_imaginary", response.fitted.imag().eval(), of, "Fit.");
 }
 
-void describe_hold_out(io::Visitor& v, const HoldOut& held) {
+void describe_hold_out(Visitor& v, const HoldOut& held) {
   const auto& recorded = held.result.recorded;
   const auto& simulated = held.result.simulated;
   v.number("sample_time", short_number(recorded.sample_time), unit::second, "Of all series.");
@@ -183,7 +183,7 @@ void describe_hold_out(io::Visitor& v, const HoldOut& held) {
 
 }  // namespace
 
-void describe_campaign_plots(io::Visitor& v, const CampaignSection& section) {
+void describe_campaign_plots(Visitor& v, const CampaignSection& section) {
   const identification::ResonanceResult none;
   const auto& resonance = section.resonance ? *section.resonance : none;
   v.defined_as("campaign_plots", "Data of plots, to six digits.");
@@ -202,4 +202,4 @@ void describe_campaign_plots(io::Visitor& v, const CampaignSection& section) {
                    [&](const HoldOut& held) { describe_hold_out(v, held); });
 }
 
-}  // namespace boresight::app
+}  // namespace boresight::io

@@ -4,9 +4,9 @@
 
 #include <fmt/format.h>
 
-#include <boresight/app/report/campaign_wording.hpp>
+#include <boresight/io/campaign/campaign_wording.hpp>
 
-namespace boresight::app {
+namespace boresight::io {
 
 ShownUnit shown_unit(const std::string& unit) {
   if (unit == "Pa") return {"MPa", 1e-6};
@@ -42,4 +42,4 @@ std::vector<const identification::GreyBoxTestGain*> ranked(
   return sorted;
 }
 
-}  // namespace boresight::app
+}  // namespace boresight::io

@@ -3,9 +3,9 @@
 
 #include <fmt/format.h>
 
-#include <boresight/app/identify/campaign_comparison.hpp>
+#include <boresight/io/campaign/campaign_comparison.hpp>
 
-namespace boresight::app {
+namespace boresight::io {
 
 using numerics::Interval;
 using numerics::Uncertain;
@@ -273,4 +273,4 @@ std::vector<std::string> not_identifiable(const CampaignSection& section) {
   return sentences;
 }
 
-}  // namespace boresight::app
+}  // namespace boresight::io

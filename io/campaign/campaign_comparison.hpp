@@ -1,9 +1,9 @@
 #pragma once
 
-#include <boresight/app/identify/campaign_section.hpp>
+#include <boresight/io/campaign/campaign_section.hpp>
 #include <boresight/io/case/case_file.hpp>
 
-namespace boresight::app {
+namespace boresight::io {
 
 /// The reconciled estimate of a quantity (GreyBoxQuantity::name), where there is one.
 std::optional<numerics::Interval> reconciled(const CampaignSection& section,
@@ -17,7 +17,7 @@ numerics::Interval motor_to_load_ratio(const identification::DriveKnowledge& kno
                                        const numerics::Interval& inertia);
 
 /// One row a method, with the difference from the reconciled inertia and its reasons.
-std::vector<InertiaRow> inertia_rows(const CampaignSection& section, const io::Case& antenna);
+std::vector<InertiaRow> inertia_rows(const CampaignSection& section, const Case& antenna);
 
 /// Other estimates of bulk modulus, oil stiffness, leakage, offset and Coulomb level.
 std::vector<QuantityRow> quantity_rows(const CampaignSection& section);
@@ -48,6 +48,6 @@ std::vector<std::string> not_identifiable(const CampaignSection& section);
 
 /// Numbers that the case states and the records contradict by more than two combined standard
 /// uncertainties, the worst first.
-std::vector<Contradiction> contradictions(const CampaignSection& section, const io::Case& antenna);
+std::vector<Contradiction> contradictions(const CampaignSection& section, const Case& antenna);
 
-}  // namespace boresight::app
+}  // namespace boresight::io

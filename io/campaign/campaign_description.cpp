@@ -4,23 +4,22 @@
 
 #include <fmt/format.h>
 
-#include <boresight/app/identify/campaign_comparison.hpp>
-#include <boresight/app/report/campaign_description.hpp>
-#include <boresight/app/report/campaign_wording.hpp>
+#include <boresight/io/campaign/campaign_comparison.hpp>
+#include <boresight/io/campaign/campaign_description.hpp>
+#include <boresight/io/campaign/campaign_wording.hpp>
 #include <boresight/io/description/interval_results.hpp>
 
-namespace boresight::app {
+namespace boresight::io {
 namespace {
 
-namespace unit = io::key_units;
+namespace unit = key_units;
 
-using io::describe_interval;
 
-constexpr io::KeyUnit as_named{.suffix = "si"};
+constexpr KeyUnit as_named{.suffix = "si"};
 constexpr std::array<std::string_view, 7> test_kinds{
     "slosh", "fast-ramp", "slow-ramp", "constant-speed", "valve-steps", "valve-chirp", "other"};
 
-void describe_difference(io::Visitor& v, const std::optional<Difference>& difference,
+void describe_difference(Visitor& v, const std::optional<Difference>& difference,
                          std::string_view meaning) {
   v.optional_group("difference", difference, meaning, [&](const Difference& there) {
     v.defined_as("difference", "Another estimate against the reconciled one.");
@@ -30,7 +29,7 @@ void describe_difference(io::Visitor& v, const std::optional<Difference>& differ
   });
 }
 
-void describe_record(io::Visitor& v, const RecordNotes& record) {
+void describe_record(Visitor& v, const RecordNotes& record) {
   v.defined_as("record", "What became of one recorder file.");
   v.text("name", record.name, "The record.");
   v.text("path", record.path, "The file.");
@@ -66,7 +65,7 @@ void describe_record(io::Visitor& v, const RecordNotes& record) {
   v.text_or_null("refused_because", record.refusal, "Why the record is not used; null if it is.");
 }
 
-void describe_quantities(io::Visitor& v, const CampaignSection& section,
+void describe_quantities(Visitor& v, const CampaignSection& section,
                          const identification::GreyBoxResult& fit) {
   v.list("quantities", fit.quantities, "What it says of the drive.", [&](const auto& q) {
     v.text("name", q.name, "The quantity.");
@@ -90,7 +89,7 @@ void describe_quantities(io::Visitor& v, const CampaignSection& section,
   v.number_rows("correlation", correlation, unit::ratio, "Of the quantities, in their order.");
 }
 
-void describe_fit(io::Visitor& v, const CampaignSection& section,
+void describe_fit(Visitor& v, const CampaignSection& section,
                   const identification::GreyBoxResult& fit) {
   v.defined_as("grey_box", "One nonlinear model fitted to all records: the reconciled estimate.");
   describe_quantities(v, section, fit);
@@ -140,7 +139,7 @@ void describe_fit(io::Visitor& v, const CampaignSection& section,
   v.texts("notes", fit.notes, "What the reader must know.");
 }
 
-void describe_mean(io::Visitor& v, const identification::ReconciledInertia& mean) {
+void describe_mean(Visitor& v, const identification::ReconciledInertia& mean) {
   const numerics::Interval inertia{mean.value, mean.standard_uncertainty, mean.lower, mean.upper};
   v.defined_as("mean_of_methods", "Random-effects mean of the methods.");
   describe_interval(v, "inertia", inertia, "kg m2", "The mean.");
@@ -154,7 +153,7 @@ void describe_mean(io::Visitor& v, const identification::ReconciledInertia& mean
            "Upper end; null: infinite.");
 }
 
-void describe_method(io::Visitor& v, const InertiaRow& row) {
+void describe_method(Visitor& v, const InertiaRow& row) {
   v.text("name", row.name, "The method.");
   v.flag("of_the_paper", row.of_the_paper, "One of the founding paper's procedures.");
   describe_interval(v, "inertia", row.inertia, "kg m2", "Motors and load at the motor shaft.");
@@ -165,7 +164,7 @@ void describe_method(io::Visitor& v, const InertiaRow& row) {
   v.text("why", row.why, "Why it differs, in words and numbers.");
 }
 
-void describe_slosh(io::Visitor& v, const SloshTest& test) {
+void describe_slosh(Visitor& v, const SloshTest& test) {
   v.defined_as("slosh", "Oil lines by one slosh test.");
   v.text("record", test.record, "The record.");
   v.list("lines", test.result.lines, "Lines that rang.", [&](const auto& line) {
@@ -197,7 +196,7 @@ void describe_slosh(io::Visitor& v, const SloshTest& test) {
   v.texts("notes", test.result.notes, "What was found or left out.");
 }
 
-void describe_friction(io::Visitor& v, const CampaignSection& section) {
+void describe_friction(Visitor& v, const CampaignSection& section) {
   v.defined_as("campaign_friction", "Friction of the antenna at the motor shaft.");
   v.list("rows", section.friction, "By speed.", [&](const FrictionRow& row) {
     v.number("rate", row.rate, unit::radian_per_second, "Of the motor.");
@@ -228,7 +227,7 @@ void describe_friction(io::Visitor& v, const CampaignSection& section) {
                    });
 }
 
-void describe_contradiction(io::Visitor& v, const Contradiction& one) {
+void describe_contradiction(Visitor& v, const Contradiction& one) {
   v.text("key", one.key, "Of the case, or the id of a stated number.");
   v.text("stated", one.stated, "As written.");
   v.flag("assumed", one.assumed, "The case says itself that it assumes it.");
@@ -265,7 +264,7 @@ std::vector<Advice> advice_of(const CampaignSection& section) {
   return advice;
 }
 
-void describe_advice(io::Visitor& v, const Advice& advice) {
+void describe_advice(Visitor& v, const Advice& advice) {
   v.text("quantity", advice.quantity, "The quantity.");
   v.list("tests", advice.tests, "The best first.", [&](const AdvisedTest& test) {
     v.text("test", test.gain.test, "The test.");
@@ -276,7 +275,7 @@ void describe_advice(io::Visitor& v, const Advice& advice) {
   });
 }
 
-void describe_methods(io::Visitor& v, const CampaignSection& section) {
+void describe_methods(Visitor& v, const CampaignSection& section) {
   v.list("methods", section.inertia, "Reflected inertia by method.",
          [&](const InertiaRow& row) { describe_method(v, row); });
   v.list("methods_not_done", section.failures, "Methods that the campaign does not allow.",
@@ -312,7 +311,7 @@ void describe_methods(io::Visitor& v, const CampaignSection& section) {
 
 }  // namespace
 
-void describe(io::Visitor& v, const CampaignSection& section) {
+void describe(Visitor& v, const CampaignSection& section) {
   v.defined_as("campaign", "What the records of a campaign say of the drive.");
   v.texts("not_identifiable", section.not_identifiable, "What the records cannot tell, plainly.");
   v.list("records", section.notes.records, "In the case's order, refused ones too.",
@@ -348,4 +347,4 @@ void describe(io::Visitor& v, const CampaignSection& section) {
   v.group("plots", "Data of plots, to six digits.", [&] { describe_campaign_plots(v, section); });
 }
 
-}  // namespace boresight::app
+}  // namespace boresight::io

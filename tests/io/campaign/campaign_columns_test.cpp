@@ -6,9 +6,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "app/one_record.hpp"
+#include "io/one_record.hpp"
 
-namespace boresight::app {
+namespace boresight::io {
 namespace {
 
 using testing::HasSubstr;
@@ -104,7 +104,7 @@ TEST(MakeCampaign, RefusesAMappedColumnThatNoRecordHas) {
 TEST(MakeCampaign, SaysWhichRecordsLackAMappedColumn) {
   OneRecord record("full", "slow_ramp");
   record.antenna.campaign.records.push_back(record.antenna.campaign.records[0]);
-  io::RecordEntry& whole = record.antenna.campaign.records[1];
+  RecordEntry& whole = record.antenna.campaign.records[1];
   whole.name = "whole";
   whole.file = folder_of("full") + "/slow_ramp.csv";
   record.replace("rate_command", "rate_commnd");
@@ -202,7 +202,7 @@ TEST(MakeCampaign, TakesASampleRateWhereTheFileHasNoTimes) {
   OneRecord record("full", "slow_ramp");
   const auto before = record.make().records.at(0);
   record.antenna.campaign.columns.time.reset();
-  io::Quantity rate;
+  Quantity rate;
   rate.value = 200.0;
   rate.text = "200 Hz";
   record.antenna.campaign.columns.sample_rate = rate;
@@ -225,4 +225,4 @@ TEST(MakeCampaign, ReadsTheSameWhateverTheSeparator) {
 }
 
 }  // namespace
-}  // namespace boresight::app
+}  // namespace boresight::io

@@ -6,10 +6,10 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "app/one_record.hpp"
-#include <boresight/app/identify/campaign_identification.hpp>
+#include "io/one_record.hpp"
+#include <boresight/io/campaign/campaign_identification.hpp>
 
-namespace boresight::app {
+namespace boresight::io {
 namespace {
 
 using testing::Contains;
@@ -29,12 +29,12 @@ void write_dead(const std::string& from, const std::string& to) {
 }
 
 TEST(DeadPressure, LeavesTheCampaignItsMethodsAndIsSaid) {
-  io::Case antenna = case_of("small-dish");
-  std::erase_if(antenna.campaign.records, [](const io::RecordEntry& entry) {
+  Case antenna = case_of("small-dish");
+  std::erase_if(antenna.campaign.records, [](const RecordEntry& entry) {
     return entry.name != "slosh" && entry.name != "valve_steps" &&
            entry.name != "constant_speed_0.02deg_s" && entry.name != "constant_speed_0.22deg_s";
   });
-  for (io::RecordEntry& record : antenna.campaign.records) {
+  for (RecordEntry& record : antenna.campaign.records) {
     const std::string dead = testing::TempDir() + "/dead_" + record.name + ".csv";
     write_dead(folder_of("small-dish") + "/" + record.file, dead);
     record.file = dead;
@@ -61,4 +61,4 @@ TEST(DeadPressure, LeavesTheCampaignItsMethodsAndIsSaid) {
 }
 
 }  // namespace
-}  // namespace boresight::app
+}  // namespace boresight::io

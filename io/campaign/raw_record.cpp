@@ -5,19 +5,19 @@
 
 #include <fmt/format.h>
 
-#include <boresight/app/identify/raw_record.hpp>
+#include <boresight/io/campaign/raw_record.hpp>
 #include <boresight/io/case/drive_numbers.hpp>
 #include <boresight/io/case/field.hpp>
 #include <boresight/io/records/record_columns.hpp>
 #include <boresight/io/units/kinds.hpp>
 #include <boresight/io/units/wording.hpp>
 
-namespace boresight::app {
+namespace boresight::io {
 namespace {
 
 using identification::RawChannel;
 
-io::Dimension product(const io::Dimension& a, const io::Dimension& b) {
+Dimension product(const Dimension& a, const Dimension& b) {
   return {a.length + b.length, a.mass + b.mass,       a.time + b.time,
           a.angle + b.angle,   a.current + b.current, a.level + b.level};
 }
@@ -25,12 +25,12 @@ io::Dimension product(const io::Dimension& a, const io::Dimension& b) {
 /// Turns columns of one file into channels.
 class Mapper {
  public:
-  Mapper(const io::Case& antenna, const io::RecordTable& table, RecordNotes& notes)
+  Mapper(const Case& antenna, const RecordTable& table, RecordNotes& notes)
       : antenna_(antenna), campaign_(antenna.campaign), table_(table), notes_(notes) {}
 
   identification::RawRecord map() {
-    const io::RecordColumnsEntry& entry = campaign_.columns;
-    const io::ChosenColumns chosen = io::choose_columns(table_, entry, antenna_.motor.count);
+    const RecordColumnsEntry& entry = campaign_.columns;
+    const ChosenColumns chosen = choose_columns(table_, entry, antenna_.motor.count);
     notes_.remarks.insert(notes_.remarks.end(), chosen.remarks.begin(), chosen.remarks.end());
     identification::RawRecord raw;
     raw.tachometer = tachometer(chosen.tachometer);
@@ -50,38 +50,37 @@ class Mapper {
 
  private:
   struct Measured {
-    const io::RecordColumn& column;
-    io::Unit unit;
+    const RecordColumn& column;
+    Unit unit;
     std::string unit_text;
     std::string key;  // of the case, for messages
     SignalSource source;
   };
 
   // A column with its unit: the file's, or the case's where the file states none.
-  Measured measured(const io::ChosenColumn& chosen, const std::optional<io::ColumnEntry>& entry,
+  Measured measured(const ChosenColumn& chosen, const std::optional<ColumnEntry>& entry,
                     const std::string& signal, const std::string& key) {
-    const io::RecordColumn& column = table_.columns[chosen.index];
+    const RecordColumn& column = table_.columns[chosen.index];
     if (!used_.insert(chosen.index).second) {
       throw InvalidInput(
           fmt::format("{}: expected a column for each signal, found {} taken for two "
                       "(say which is which in [record_columns])",
-                      table_.path, io::in_quotes(column.name)));
+                      table_.path, in_quotes(column.name)));
     }
     Measured result{column, {}, column.unit, "record_columns." + key, {}};
     std::string remark;
-    const std::optional<io::Unit> own =
-        column.unit.empty() ? std::nullopt : io::recorded_unit(column.unit);
+    const std::optional<Unit> own = column.unit.empty() ? std::nullopt : recorded_unit(column.unit);
     if (entry && !entry->unit.empty()) {
-      result.unit = io::parse_unit(entry->unit);
+      result.unit = parse_unit(entry->unit);
       result.unit_text = entry->unit;
       if (own && (own->factor != result.unit.factor || own->dimension != result.unit.dimension)) {
-        io::refuse_at(entry->location, entry->key,
-                      fmt::format("expected the unit that {} states, '{}', or none, found '{}'",
-                                  table_.path, column.unit, entry->unit));
+        refuse_at(entry->location, entry->key,
+                  fmt::format("expected the unit that {} states, '{}', or none, found '{}'",
+                              table_.path, column.unit, entry->unit));
       }
       if (!own && !column.unit.empty()) {
-        remark = fmt::format("the file states the unit {}, which is not known",
-                             io::in_quotes(column.unit));
+        remark =
+            fmt::format("the file states the unit {}, which is not known", in_quotes(column.unit));
       }
     } else if (own) {
       result.unit = *own;
@@ -89,8 +88,8 @@ class Mapper {
       throw InvalidInput(fmt::format(
           "{}: expected a unit of column {}, found {} (say it in the case: record_columns.{} = "
           "\"{} [unit]\")",
-          table_.path, io::in_quotes(column.name),
-          column.unit.empty() ? "none in the file or the case" : io::in_quotes(column.unit), key,
+          table_.path, in_quotes(column.name),
+          column.unit.empty() ? "none in the file or the case" : in_quotes(column.unit), key,
           column.name));
     }
     result.source = {signal, column.name, result.unit_text, chosen.guessed, remark};
@@ -99,15 +98,15 @@ class Mapper {
 
   [[noreturn]] void refuse_kind(const Measured& measured, const std::string& expected) const {
     throw InvalidInput(fmt::format("{}: expected {} in column {}, found '{}', {}", table_.path,
-                                   expected, io::in_quotes(measured.column.name),
-                                   measured.unit_text, io::measured_by(measured.unit.dimension)));
+                                   expected, in_quotes(measured.column.name), measured.unit_text,
+                                   measured_by(measured.unit.dimension)));
   }
 
   RawChannel channel(const Measured& measured, double factor) {
     RawChannel result;
     const auto& reversed = campaign_.columns.reversed;
     const bool turned = std::any_of(reversed.begin(), reversed.end(), [&](const std::string& name) {
-      return io::is_named(measured.column, name);
+      return is_named(measured.column, name);
     });
     SignalSource source = measured.source;
     if (turned) source.remark += std::string(source.remark.empty() ? "" : "; ") + "sign turned";
@@ -120,9 +119,9 @@ class Mapper {
     return result;
   }
 
-  Eigen::VectorXd time(const io::ChosenColumn& chosen) {
+  Eigen::VectorXd time(const ChosenColumn& chosen) {
     const Measured column = measured(chosen, campaign_.columns.time, "time", "time");
-    if (column.unit.dimension != io::dimension_of(io::Kind::time)) refuse_kind(column, "a time");
+    if (column.unit.dimension != dimension_of(Kind::time)) refuse_kind(column, "a time");
     return channel(column, column.unit.factor).values;
   }
 
@@ -135,13 +134,12 @@ class Mapper {
            rate->value;
   }
 
-  RawChannel pressure(const io::ChosenColumn& chosen, const std::vector<io::ColumnEntry>& entries,
+  RawChannel pressure(const ChosenColumn& chosen, const std::vector<ColumnEntry>& entries,
                       std::size_t motor, const std::string& side) {
     const Measured column =
         measured(chosen, entries.empty() ? std::nullopt : std::optional(entries[motor]),
                  fmt::format("{} pressure {}", side, motor + 1), side);
-    if (column.unit.dimension != io::dimension_of(io::Kind::pressure))
-      refuse_kind(column, "a pressure");
+    if (column.unit.dimension != dimension_of(Kind::pressure)) refuse_kind(column, "a pressure");
     RawChannel result = channel(column, column.unit.factor);
     if (campaign_.instruments && campaign_.instruments->pressure_range) {
       result.upper_limit = campaign_.instruments->pressure_range->value;
@@ -156,7 +154,7 @@ class Mapper {
   // Motor turns per turn of a shaft.
   double turns(const std::string& shaft, const std::string& what) const {
     if (shaft == "motor") return 1.0;
-    if (shaft == "antenna") return io::gear_ratio(antenna_);
+    if (shaft == "antenna") return gear_ratio(antenna_);
     const auto& tachometer = campaign_.tachometer;
     if (!tachometer || !tachometer->motor_teeth || !tachometer->tachometer_teeth) {
       throw InvalidInput(
@@ -168,11 +166,11 @@ class Mapper {
     return tachometer->motor_teeth->value / tachometer->tachometer_teeth->value;
   }
 
-  RawChannel tachometer(const io::ChosenColumn& chosen) {
+  RawChannel tachometer(const ChosenColumn& chosen) {
     const Measured column =
         measured(chosen, campaign_.columns.tachometer, "tachometer", "tachometer");
-    const bool volts = column.unit.dimension == io::dimension_of(io::Kind::voltage);
-    if (!volts && column.unit.dimension != io::dimension_of(io::Kind::angular_rate)) {
+    const bool volts = column.unit.dimension == dimension_of(Kind::voltage);
+    if (!volts && column.unit.dimension != dimension_of(Kind::angular_rate)) {
       refuse_kind(column, "a voltage or an angular rate");
     }
     const auto& entry = campaign_.tachometer;
@@ -200,40 +198,40 @@ class Mapper {
                                      const std::string& reason) {
     if (wanted) {
       throw InvalidInput(fmt::format("{}: {} for {} of {}, found none", antenna_.path, reason,
-                                     io::in_quotes(column.column.name), table_.path));
+                                     in_quotes(column.column.name), table_.path));
     }
     notes_.remarks.push_back(fmt::format("column {} is not used: {}, found none",
-                                         io::in_quotes(column.column.name), reason));
+                                         in_quotes(column.column.name), reason));
     return std::nullopt;
   }
 
-  std::optional<RawChannel> scaled(const Measured& column, const std::optional<io::Quantity>& scale,
+  std::optional<RawChannel> scaled(const Measured& column, const std::optional<Quantity>& scale,
                                    double gear, bool wanted, const std::string& key) {
     if (!scale) {
       return left_out(column, wanted,
                       fmt::format("instruments.{}: expected a rate per recorded unit, '{}',", key,
                                   column.unit_text));
     }
-    if (product(io::dimension_of(scale->kind), column.unit.dimension) !=
-        io::dimension_of(io::Kind::angular_rate)) {
-      io::refuse_at(scale->location, scale->key,
-                    fmt::format("expected a rate per '{}', in which {} has column {}, found {}",
-                                column.unit_text, table_.path, io::in_quotes(column.column.name),
-                                io::in_quotes(scale->text)));
+    if (product(dimension_of(scale->kind), column.unit.dimension) !=
+        dimension_of(Kind::angular_rate)) {
+      refuse_at(scale->location, scale->key,
+                fmt::format("expected a rate per '{}', in which {} has column {}, found {}",
+                            column.unit_text, table_.path, in_quotes(column.column.name),
+                            in_quotes(scale->text)));
     }
     return channel(column, column.unit.factor * scale->value * gear);
   }
 
   // A column guessed for a command, without a unit: nothing can be said of it.
-  bool lacks_unit(const io::ChosenColumn& chosen) {
-    const io::RecordColumn& column = table_.columns[chosen.index];
-    if (!chosen.guessed || io::recorded_unit(column.unit)) return false;
+  bool lacks_unit(const ChosenColumn& chosen) {
+    const RecordColumn& column = table_.columns[chosen.index];
+    if (!chosen.guessed || recorded_unit(column.unit)) return false;
     notes_.remarks.push_back(
-        fmt::format("column {} is not used: it has no known unit", io::in_quotes(column.name)));
+        fmt::format("column {} is not used: it has no known unit", in_quotes(column.name)));
     return true;
   }
 
-  std::optional<RawChannel> rate_command(const io::ChosenColumn& chosen) {
+  std::optional<RawChannel> rate_command(const ChosenColumn& chosen) {
     if (lacks_unit(chosen)) return std::nullopt;
     const auto& entry = campaign_.columns.rate_command;
     const Measured column = measured(chosen, entry, "rate command", "rate_command");
@@ -245,18 +243,18 @@ class Mapper {
                       "'tachometer' or 'antenna',");
     }
     const double gear = turns(shaft, "instruments.rate_command_shaft");
-    if (column.unit.dimension == io::dimension_of(io::Kind::angular_rate)) {
+    if (column.unit.dimension == dimension_of(Kind::angular_rate)) {
       return channel(column, column.unit.factor * gear);
     }
     return scaled(column, instruments ? instruments->rate_command_scale : std::nullopt, gear,
                   entry.has_value(), "rate_command_scale");
   }
 
-  std::optional<RawChannel> valve_command(const io::ChosenColumn& chosen) {
+  std::optional<RawChannel> valve_command(const ChosenColumn& chosen) {
     if (lacks_unit(chosen)) return std::nullopt;
     const auto& entry = campaign_.columns.valve_command;
     const Measured column = measured(chosen, entry, "valve command", "valve_command");
-    if (column.unit.dimension == io::dimension_of(io::Kind::angular_rate)) {
+    if (column.unit.dimension == dimension_of(Kind::angular_rate)) {
       return channel(column, column.unit.factor);
     }
     const auto& instruments = campaign_.instruments;
@@ -264,18 +262,18 @@ class Mapper {
                   entry.has_value(), "valve_command_scale");
   }
 
-  const io::Case& antenna_;
-  const io::CampaignEntry& campaign_;
-  const io::RecordTable& table_;
+  const Case& antenna_;
+  const CampaignEntry& campaign_;
+  const RecordTable& table_;
   RecordNotes& notes_;
   std::set<std::size_t> used_;
 };
 
 }  // namespace
 
-identification::RawRecord raw_record(const io::Case& antenna, const io::RecordTable& table,
+identification::RawRecord raw_record(const Case& antenna, const RecordTable& table,
                                      RecordNotes& notes) {
   return Mapper(antenna, table, notes).map();
 }
 
-}  // namespace boresight::app
+}  // namespace boresight::io

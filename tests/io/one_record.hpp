@@ -6,17 +6,17 @@
 
 #include <gtest/gtest.h>
 
-#include <boresight/app/identify/campaign.hpp>
+#include <boresight/io/campaign/campaign.hpp>
 #include <boresight/numerics/error.hpp>
 
-namespace boresight::app {
+namespace boresight::io {
 
 inline std::string folder_of(const std::string& campaign) {
   return std::string(BORESIGHT_CAMPAIGNS) + "/" + campaign;
 }
 
-inline io::Case case_of(const std::string& campaign) {
-  return io::read_case(folder_of(campaign) + "/case.toml");
+inline Case case_of(const std::string& campaign) {
+  return read_case(folder_of(campaign) + "/case.toml");
 }
 
 // The whole of a campaign with one record of it, whose text is edited.
@@ -24,7 +24,7 @@ struct OneRecord {
   explicit OneRecord(const std::string& campaign, const std::string& record)
       : antenna(case_of(campaign)) {
     std::erase_if(antenna.campaign.records,
-                  [&](const io::RecordEntry& entry) { return entry.name != record; });
+                  [&](const RecordEntry& entry) { return entry.name != record; });
     std::ifstream file(folder_of(campaign) + "/" + record + ".csv");
     std::stringstream content;
     content << file.rdbuf();
@@ -52,9 +52,9 @@ struct OneRecord {
     ASSERT_NE(at, std::string::npos) << old;
     text.replace(at, old.size(), replacement);
   }
-  io::Case antenna;
+  Case antenna;
   std::string text, path;
   CampaignNotes notes;
 };
 
-}  // namespace boresight::app
+}  // namespace boresight::io

@@ -7,10 +7,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "app/one_record.hpp"
+#include "io/one_record.hpp"
 #include <boresight/identification/records/integrated_motion.hpp>
 
-namespace boresight::app {
+namespace boresight::io {
 namespace {
 
 using identification::DefectKind;
@@ -19,7 +19,7 @@ using testing::HasSubstr;
 TEST(MakeCampaign, ReadsTheThreeCampaignsWithoutAFalseAlarm) {
   for (const std::string name : {"full", "paper-like", "small-dish"}) {
     CampaignNotes notes;
-    const io::Case antenna = case_of(name);
+    const Case antenna = case_of(name);
     const auto campaign = make_campaign(antenna, notes);
     EXPECT_EQ(campaign.records.size(), antenna.campaign.records.size());
     EXPECT_TRUE(notes.assumptions.empty());
@@ -82,7 +82,7 @@ TEST(MakeCampaign, ScalesAtTheMotorShaft) {
 
 TEST(MakeCampaign, GuessesColumnsTestsAndLoopsAndSaysSo) {
   for (const std::string name : {"full", "small-dish", "paper-like"}) {
-    io::Case antenna = case_of(name);
+    Case antenna = case_of(name);
     CampaignNotes stated_notes;
     const auto stated = make_campaign(antenna, stated_notes);
     antenna.campaign.columns = {};
@@ -242,4 +242,4 @@ TEST(MakeCampaign, RaisesUncertaintiesForADeadTransducer) {
 }
 
 }  // namespace
-}  // namespace boresight::app
+}  // namespace boresight::io

@@ -2,39 +2,39 @@
 
 #include <fmt/format.h>
 
-#include <boresight/app/identify/identified_case.hpp>
 #include <boresight/identification/grey_box/identified_antenna.hpp>
+#include <boresight/io/campaign/identified_case.hpp>
 #include <boresight/io/case/antenna_of.hpp>
 #include <boresight/numerics/error.hpp>
 
-namespace boresight::app {
+namespace boresight::io {
 namespace {
 
 // The number of a case's quantity by what the records say; in the list of all quantities too.
 class Replacement {
  public:
-  explicit Replacement(io::Case& antenna) : antenna_(antenna) {}
-  void set(io::Quantity& quantity, double value) {
+  explicit Replacement(Case& antenna) : antenna_(antenna) {}
+  void set(Quantity& quantity, double value) {
     quantity.value = value;
-    quantity.basis = io::Basis::measured;
+    quantity.basis = Basis::measured;
     quantity.source = "identified from the records";
     quantity.uncertainty_source.clear();
     quantity.text.clear();
     quantity.also.clear();
-    for (io::Quantity& listed : antenna_.quantities) {
+    for (Quantity& listed : antenna_.quantities) {
       if (listed.key == quantity.key) listed = quantity;
     }
   }
 
  private:
-  io::Case& antenna_;
+  Case& antenna_;
 };
 
-void set_oil(io::Case& antenna, Replacement& replace, const plant::HydraulicDrive& found) {
+void set_oil(Case& antenna, Replacement& replace, const plant::HydraulicDrive& found) {
   if (!antenna.oil.bulk_modulus) {
     // The mean of the lines gives way to one number, which then has to have a key.
-    antenna.oil.bulk_modulus = io::Quantity{};
-    antenna.oil.bulk_modulus->kind = io::Kind::pressure;
+    antenna.oil.bulk_modulus = Quantity{};
+    antenna.oil.bulk_modulus->kind = Kind::pressure;
     antenna.oil.bulk_modulus->key = "oil.bulk_modulus";
   }
   replace.set(*antenna.oil.bulk_modulus, found.bulk_modulus);
@@ -42,8 +42,8 @@ void set_oil(io::Case& antenna, Replacement& replace, const plant::HydraulicDriv
   replace.set(antenna.oil.volume_2, found.volume_2);
 }
 
-void set_friction(io::Case& antenna, Replacement& replace, const plant::Antenna& found) {
-  io::FrictionCurveEntry& curve = antenna.friction_curve;
+void set_friction(Case& antenna, Replacement& replace, const plant::Antenna& found) {
+  FrictionCurveEntry& curve = antenna.friction_curve;
   replace.set(curve.coulomb, found.friction_curve.coulomb_torque);
   replace.set(curve.breakaway, found.friction_curve.breakaway_torque);
   replace.set(curve.stribeck_rate, found.friction_curve.stribeck_rate);
@@ -58,18 +58,18 @@ void set_friction(io::Case& antenna, Replacement& replace, const plant::Antenna&
 }
 
 // The case may state its frequencies with the motors held: all are in one proportion.
-void set_structure(io::Case& antenna, Replacement& replace, double lowest_frequency) {
-  io::StructureEntry& structure = antenna.structure;
+void set_structure(Case& antenna, Replacement& replace, double lowest_frequency) {
+  StructureEntry& structure = antenna.structure;
   const double scale = lowest_frequency / structure.locked_rotor_frequency.value;
   replace.set(structure.locked_rotor_frequency, lowest_frequency);
-  for (io::StructureModeEntry& mode : structure.modes) {
+  for (StructureModeEntry& mode : structure.modes) {
     replace.set(mode.frequency, mode.frequency.value * scale);
   }
 }
 
 }  // namespace
 
-io::Case with_identified(const io::Case& antenna, const identification::DriveEstimate& estimate) {
+Case with_identified(const Case& antenna, const identification::DriveEstimate& estimate) {
   if (estimate.contradicted) {
     throw NumericalFailure(fmt::format(
         "{}: the records contradict the stated numbers that inertia and stiffness rest on: there "
@@ -78,7 +78,7 @@ io::Case with_identified(const io::Case& antenna, const identification::DriveEst
   }
   const plant::Antenna own = antenna_of(antenna);
   const plant::Antenna found = changed(own, identified_changes(own, estimate));
-  io::Case identified = antenna;
+  Case identified = antenna;
   Replacement replace(identified);
   replace.set(identified.motor.inertia, found.flywheels.motor_inertia);
   replace.set(identified.antenna.inertia, found.inertia);
@@ -93,7 +93,7 @@ io::Case with_identified(const io::Case& antenna, const identification::DriveEst
 }
 
 std::vector<design::EnsembleMember> identified_ensemble(
-    const io::Case& antenna, const std::vector<identification::DriveEstimate>& draws,
+    const Case& antenna, const std::vector<identification::DriveEstimate>& draws,
     std::size_t count) {
   const plant::Antenna own = antenna_of(antenna);
   std::vector<design::EnsembleMember> members;
@@ -108,4 +108,4 @@ std::vector<design::EnsembleMember> identified_ensemble(
   return members;
 }
 
-}  // namespace boresight::app
+}  // namespace boresight::io

@@ -6,13 +6,13 @@
 
 #include <fmt/format.h>
 
-#include <boresight/app/identify/campaign_comparison.hpp>
-#include <boresight/app/identify/campaign_identification.hpp>
 #include <boresight/identification/resonance/drive_response.hpp>
+#include <boresight/io/campaign/campaign_comparison.hpp>
+#include <boresight/io/campaign/campaign_identification.hpp>
 #include <boresight/io/case/plant_numbers.hpp>
 #include <boresight/numerics/parallel_loop.hpp>
 
-namespace boresight::app {
+namespace boresight::io {
 namespace {
 
 using identification::Campaign;
@@ -23,7 +23,7 @@ using numerics::Uncertain;
 /// Several methods at once, each telling how far it is, as one number of hundredths.
 class SharedProgress {
  public:
-  explicit SharedProgress(const StudyOptions& options) : options_(options) {}
+  explicit SharedProgress(const IdentificationOptions& options) : options_(options) {}
   enum Part : std::size_t { reading, simple_methods, grey_box, hold_out, ranking };
   void tell(Part part, double share) {
     if (!options_.progress) return;
@@ -35,7 +35,7 @@ class SharedProgress {
 
  private:
   static constexpr std::array<double, 5> weights{5.0, 20.0, 50.0, 20.0, 5.0};
-  const StudyOptions& options_;
+  const IdentificationOptions& options_;
   std::mutex mutex_;
   std::array<double, 5> done_{};
 };
@@ -69,13 +69,13 @@ void run_slosh(const Campaign& campaign, CampaignSection& section) {
   }
 }
 
-bool is_vouched_for(const io::Quantity& stated) {
-  return stated.uncertainty_given && stated.basis != io::Basis::assumed;
+bool is_vouched_for(const Quantity& stated) {
+  return stated.uncertainty_given && stated.basis != Basis::assumed;
 }
 
 // What the case says where no line was heard to ring. A number that nobody vouches for may be off
 // by the air in the oil.
-Interval stated_bulk_modulus(const io::Case& antenna) {
+Interval stated_bulk_modulus(const Case& antenna) {
   const double value = bulk_modulus(antenna);
   constexpr double by_air = 0.15;
   double uncertainty = by_air * value;
@@ -85,7 +85,7 @@ Interval stated_bulk_modulus(const io::Case& antenna) {
   return numerics::normal_interval(value, uncertainty);
 }
 
-void choose_bulk_modulus(const io::Case& antenna, CampaignSection& section) {
+void choose_bulk_modulus(const Case& antenna, CampaignSection& section) {
   const Interval* best = nullptr;
   for (const auto& test : section.slosh) {
     const auto& found = test.result.bulk_modulus;
@@ -123,7 +123,7 @@ std::optional<Uncertain> friction_slope(const Campaign& campaign,
   return std::nullopt;
 }
 
-void run_simple_methods(const Campaign& campaign, const StudyOptions& options,
+void run_simple_methods(const Campaign& campaign, const IdentificationOptions& options,
                         SharedProgress& progress, CampaignSection& section,
                         std::vector<MethodFailure>& failures) {
   attempt("impulse and momentum", failures, [&] {
@@ -141,8 +141,9 @@ void run_simple_methods(const Campaign& campaign, const StudyOptions& options,
   progress.tell(SharedProgress::simple_methods, 1.0);
 }
 
-void run_grey_box(const Campaign& campaign, const StudyOptions& options, SharedProgress& progress,
-                  CampaignSection& section, std::vector<MethodFailure>& failures) {
+void run_grey_box(const Campaign& campaign, const IdentificationOptions& options,
+                  SharedProgress& progress, CampaignSection& section,
+                  std::vector<MethodFailure>& failures) {
   attempt("grey box", failures, [&] {
     identification::GreyBoxOptions grey;
     grey.seed = options.seed;
@@ -170,8 +171,9 @@ const identification::DriveRecord* record_to_hold_out(const Campaign& campaign) 
   return nullptr;
 }
 
-void run_hold_out(const Campaign& campaign, const StudyOptions& options, SharedProgress& progress,
-                  CampaignSection& section, std::vector<MethodFailure>& failures) {
+void run_hold_out(const Campaign& campaign, const IdentificationOptions& options,
+                  SharedProgress& progress, CampaignSection& section,
+                  std::vector<MethodFailure>& failures) {
   if (const auto* record = record_to_hold_out(campaign)) {
     attempt(fmt::format("foretelling {}", record->name), failures, [&] {
       identification::GreyBoxOptions grey;
@@ -210,7 +212,7 @@ void require_something(const CampaignSection& section) {
 
 }  // namespace
 
-CampaignSection identify_campaign(const io::Case& antenna, const StudyOptions& options) {
+CampaignSection identify_campaign(const Case& antenna, const IdentificationOptions& options) {
   CampaignSection section;
   SharedProgress progress(options);
   const Campaign campaign = make_campaign(antenna, section.notes, options.threads);
@@ -253,4 +255,4 @@ CampaignSection identify_campaign(const io::Case& antenna, const StudyOptions& o
   return section;
 }
 
-}  // namespace boresight::app
+}  // namespace boresight::io

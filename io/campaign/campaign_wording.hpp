@@ -7,7 +7,7 @@
 #include <boresight/identification/grey_box/grey_box_test_gain.hpp>
 #include <boresight/numerics/statistics/interval.hpp>
 
-namespace boresight::app {
+namespace boresight::io {
 
 /// A unit as reports show it, and what an SI number is multiplied by.
 struct ShownUnit {
@@ -29,4 +29,4 @@ bool advised_quantity(std::string_view name);
 std::vector<const identification::GreyBoxTestGain*> ranked(
     const std::vector<identification::GreyBoxTestGain>& gains, std::size_t quantity);
 
-}  // namespace boresight::app
+}  // namespace boresight::io

@@ -1,8 +1,19 @@
 #pragma once
 
-#include <boresight/app/redesign/sections.hpp>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
 
-namespace boresight::app {
+#include <boresight/io/campaign/campaign_section.hpp>
+
+namespace boresight::io {
+
+struct IdentificationOptions {
+  std::uint64_t seed = 1;
+  unsigned threads = 2;
+  /// Called with tasks done and all tasks; may be empty. What it throws ends the work.
+  std::function<void(std::size_t, std::size_t)> progress;
+};
 
 /// Everything that the records of a case say of its drive: bulk modulus from slosh tests, hydraulic
 /// resonance, impulse and momentum, friction, the grey box that reconciles them, and what further
@@ -10,6 +21,6 @@ namespace boresight::app {
 /// depends on the seed, not on the number of threads; progress is told in hundredths.
 /// @throws InvalidInput as make_campaign; NumericalFailure if not one method beside the mass
 /// properties gives an inertia; what options.progress throws (Interrupted).
-CampaignSection identify_campaign(const io::Case& antenna, const StudyOptions& options);
+CampaignSection identify_campaign(const Case& antenna, const IdentificationOptions& options);
 
-}  // namespace boresight::app
+}  // namespace boresight::io

@@ -3,12 +3,12 @@
 
 #include <fmt/format.h>
 
-#include <boresight/app/identify/campaign_comparison.hpp>
+#include <boresight/io/campaign/campaign_comparison.hpp>
 #include <boresight/io/case/drive_numbers.hpp>
 #include <boresight/io/case/plant_numbers.hpp>
 #include <boresight/plant/antenna/friction.hpp>
 
-namespace boresight::app {
+namespace boresight::io {
 namespace {
 
 using numerics::Interval;
@@ -18,13 +18,13 @@ constexpr double contradicts = 2.0;  // standard uncertainties, both sides' toge
 /// Holds stated numbers against the records' and keeps those that are apart.
 class Contradictions {
  public:
-  void compare(const io::Quantity& quantity, const std::string& key, const char* unit,
+  void compare(const Quantity& quantity, const std::string& key, const char* unit,
                const std::optional<Interval>& records, const std::string& by) {
     if (!records) return;
-    compare({key, quantity.text, quantity.basis == io::Basis::assumed, quantity.value,
+    compare({key, quantity.text, quantity.basis == Basis::assumed, quantity.value,
              quantity.standard_uncertainty, unit, *records, by, 0.0});
   }
-  void compare(const std::optional<io::Quantity>& quantity, const char* unit,
+  void compare(const std::optional<Quantity>& quantity, const char* unit,
                const std::optional<Interval>& records, const std::string& by) {
     if (quantity) compare(*quantity, quantity->key, unit, records, by);
   }
@@ -116,7 +116,7 @@ class Records {
   const CampaignSection& section_;
 };
 
-void compare_friction(const CampaignSection& section, const io::Case& antenna,
+void compare_friction(const CampaignSection& section, const Case& antenna,
                       Contradictions& contradictions) {
   const auto& tests = antenna.friction_tests;
   if (section.impulse && section.impulse->constant_speed &&
@@ -128,7 +128,7 @@ void compare_friction(const CampaignSection& section, const io::Case& antenna,
                            "constant-speed tests");
   }
   const auto& curve = antenna.friction_curve;
-  const bool assumed = curve.coulomb.basis == io::Basis::assumed;
+  const bool assumed = curve.coulomb.basis == Basis::assumed;
   std::vector<const FrictionRow*> tested;
   for (const auto& row : section.friction) {
     if (!row.extrapolated && (row.reconciled || row.curve)) tested.push_back(&row);
@@ -141,7 +141,7 @@ void compare_friction(const CampaignSection& section, const io::Case& antenna,
     const FrictionRow& row = *one;
     const auto& records = row.reconciled ? row.reconciled : row.curve;
     if (!records) continue;
-    const double stated = plant::friction_torque(io::friction_curve(antenna), row.rate);
+    const double stated = plant::friction_torque(friction_curve(antenna), row.rate);
     const double uncertainty =
         std::hypot(curve.coulomb.standard_uncertainty, curve.saturating.standard_uncertainty,
                    row.rate * curve.viscous.standard_uncertainty);
@@ -152,7 +152,7 @@ void compare_friction(const CampaignSection& section, const io::Case& antenna,
 }
 
 // The numbers that a case states as derived ones.
-void compare_stated(const io::Case& antenna, const Records& records, const CampaignSection& section,
+void compare_stated(const Case& antenna, const Records& records, const CampaignSection& section,
                     Contradictions& contradictions) {
   for (const auto& stated : antenna.stated) {
     const std::string& id = stated.quantity;
@@ -214,7 +214,7 @@ void compare_drawings(const CampaignSection& section, Contradictions& contradict
 
 }  // namespace
 
-std::vector<Contradiction> contradictions(const CampaignSection& section, const io::Case& antenna) {
+std::vector<Contradiction> contradictions(const CampaignSection& section, const Case& antenna) {
   Contradictions contradictions;
   const Records records(section);
   contradictions.compare(antenna.resonance_frequency, "Hz", records.frequency(),
@@ -229,4 +229,4 @@ std::vector<Contradiction> contradictions(const CampaignSection& section, const 
   return contradictions.take();
 }
 
-}  // namespace boresight::app
+}  // namespace boresight::io

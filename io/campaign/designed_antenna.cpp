@@ -1,27 +1,25 @@
 #include <fmt/format.h>
 
-#include <boresight/app/identify/campaign_identification.hpp>
-#include <boresight/app/identify/identified_case.hpp>
-#include <boresight/app/uncertainty/designed_antenna.hpp>
 #include <boresight/design/ensembles/plant_members.hpp>
+#include <boresight/io/campaign/campaign_identification.hpp>
+#include <boresight/io/campaign/designed_antenna.hpp>
+#include <boresight/io/campaign/identified_case.hpp>
 #include <boresight/io/case/mission_of.hpp>
 #include <boresight/numerics/error.hpp>
 
-namespace boresight::app {
+namespace boresight::io {
 
-DesignedAntenna designed_antenna(const io::Case& stated,
-                                 const std::optional<CampaignSection>& campaign,
+DesignedAntenna designed_antenna(const Case& stated, const std::optional<CampaignSection>& campaign,
                                  std::uint64_t seed) {
   if (!campaign || !campaign->grey_box) {
     design::Mission mission = mission_of(stated);
     design::PlantEnsemble ensemble{design::EnsembleSource::ranges, plant_members(mission, seed)};
     auto distribution = design::PlantDistribution::of_ranges(mission);
-    return {stated, std::move(mission),       std::move(ensemble), std::move(distribution),
-            false,  resonance_verdict(stated)};
+    return {stated, std::move(mission), std::move(ensemble), std::move(distribution), false};
   }
   // As many as the reference ensemble has.
   constexpr std::size_t members = 30;
-  const io::Case identified = with_identified(stated, campaign->grey_box->estimate);
+  const Case identified = with_identified(stated, campaign->grey_box->estimate);
   design::Mission mission = mission_of(identified);
   const auto distribution =
       design::PlantDistribution::of_records(mission, campaign->grey_box->draws);
@@ -34,10 +32,10 @@ DesignedAntenna designed_antenna(const io::Case& stated,
   return {identified, std::move(mission), std::move(ensemble), distribution, true};
 }
 
-DesignedAntenna designed_antenna(const io::Case& stated, std::uint64_t seed, unsigned threads,
+DesignedAntenna designed_antenna(const Case& stated, std::uint64_t seed, unsigned threads,
                                  const std::function<bool()>& interrupted) {
   if (stated.campaign.records.empty()) return designed_antenna(stated, std::nullopt, seed);
-  StudyOptions study;
+  IdentificationOptions study;
   study.seed = seed;
   study.threads = threads;
   study.progress = [&](std::size_t, std::size_t) {
@@ -46,4 +44,4 @@ DesignedAntenna designed_antenna(const io::Case& stated, std::uint64_t seed, uns
   return designed_antenna(stated, identify_campaign(stated, study), seed);
 }
 
-}  // namespace boresight::app
+}  // namespace boresight::io

@@ -4,15 +4,15 @@
 #include <string>
 #include <vector>
 
-#include <boresight/app/identify/campaign.hpp>
 #include <boresight/identification/grey_box/grey_box.hpp>
 #include <boresight/identification/grey_box/grey_box_hold_out.hpp>
 #include <boresight/identification/grey_box/grey_box_test_gain.hpp>
 #include <boresight/identification/impulse/impulse_momentum.hpp>
 #include <boresight/identification/lines/slosh.hpp>
 #include <boresight/identification/resonance/hydraulic_resonance.hpp>
+#include <boresight/io/campaign/campaign.hpp>
 
-namespace boresight::app {
+namespace boresight::io {
 
 /// What one slosh test gave.
 struct SloshTest {
@@ -120,4 +120,4 @@ struct CampaignSection {
   std::vector<Contradiction> contradictions;
 };
 
-}  // namespace boresight::app
+}  // namespace boresight::io

@@ -2,28 +2,28 @@
 
 #include <vector>
 
-#include <boresight/app/identify/campaign.hpp>
+#include <boresight/io/campaign/campaign.hpp>
 #include <boresight/io/records/record_table.hpp>
 
-namespace boresight::app {
+namespace boresight::io {
 
 /// A record on its way from file to campaign.
 struct LoadedRecord {
   RecordNotes notes;
-  std::vector<io::RecordColumn> columns;  // without their values
+  std::vector<RecordColumn> columns;  // without their values
   identification::RawRecord raw;
   identification::CleanRecord clean;
 };
 
 /// All records of a case, each by itself, at most `threads` at a time (0: as many as the machine
 /// has). @throws InvalidInput as make_campaign.
-std::vector<LoadedRecord> load_records(const io::Case& antenna, unsigned threads);
+std::vector<LoadedRecord> load_records(const Case& antenna, unsigned threads);
 
 /// Tells the tests that the case does not name by the data.
-void recognise(const io::Case& antenna, std::vector<LoadedRecord>& works);
+void recognise(const Case& antenna, std::vector<LoadedRecord>& works);
 
 /// Leaves out, or has cleaned again, what identification::column_conflicts says.
 /// @throws InvalidInput where the campaign cannot be used.
-void settle_conflicts(const io::Case& antenna, std::vector<LoadedRecord>& works);
+void settle_conflicts(const Case& antenna, std::vector<LoadedRecord>& works);
 
-}  // namespace boresight::app
+}  // namespace boresight::io

@@ -4,11 +4,11 @@
 
 #include <fmt/format.h>
 
-#include <boresight/app/identify/campaign_comparison.hpp>
+#include <boresight/io/campaign/campaign_comparison.hpp>
 #include <boresight/numerics/angles.hpp>
 #include <boresight/numerics/statistics/distribution_quantiles.hpp>
 
-namespace boresight::app {
+namespace boresight::io {
 namespace {
 
 using identification::FrictionTreatment;
@@ -101,7 +101,7 @@ std::string harmonic_lock(const identification::TorqueSpectrum& spectrum, double
 // What in a spectrum's reading is oil data, flexibility, and the rest: harmonic or losses.
 std::string why_spectrum(const CampaignSection& section,
                          const identification::ResonanceResult& resonance,
-                         const identification::InertiaReading& one, const io::Case& antenna) {
+                         const identification::InertiaReading& one, const Case& antenna) {
   const auto inertia = reconciled(section, "inertia");
   const double frequency = one.frequency ? one.frequency->value : 0.0;
   std::string why;
@@ -190,7 +190,7 @@ InertiaRow mass_row(const CampaignSection& section) {
   return row;
 }
 
-void add_resonance(const CampaignSection& section, const io::Case& antenna,
+void add_resonance(const CampaignSection& section, const Case& antenna,
                    std::vector<InertiaRow>& rows) {
   if (!section.resonance) return;
   const auto& resonance = *section.resonance;
@@ -249,7 +249,7 @@ Interval motor_to_load_ratio(const identification::DriveKnowledge& knowledge,
   return {value, spread, ratio(end(inertia.upper)), ratio(end(inertia.lower))};
 }
 
-std::vector<InertiaRow> inertia_rows(const CampaignSection& section, const io::Case& antenna) {
+std::vector<InertiaRow> inertia_rows(const CampaignSection& section, const Case& antenna) {
   std::vector<InertiaRow> rows{mass_row(section)};
   add_resonance(section, antenna, rows);
   add_impulse(section, rows);
@@ -260,4 +260,4 @@ std::vector<InertiaRow> inertia_rows(const CampaignSection& section, const io::C
   return rows;
 }
 
-}  // namespace boresight::app
+}  // namespace boresight::io

@@ -3,11 +3,11 @@
 #include <optional>
 #include <vector>
 
-#include <boresight/app/redesign/sections.hpp>
 #include <boresight/design/ensembles/plant_ensemble.hpp>
 #include <boresight/identification/grey_box/grey_box.hpp>
+#include <boresight/io/case/case_file.hpp>
 
-namespace boresight::app {
+namespace boresight::io {
 
 /// The case with what its records say in the place of what it states: the motors' and the antenna's
 /// inertia (gear train as stated), oil stiffness and bulk modulus (both volumes scaled alike to
@@ -16,12 +16,12 @@ namespace boresight::app {
 /// numbers then have the basis "measured".
 /// @throws NumericalFailure for an estimate that leaves the antenna no inertia, and for one that
 /// the records' contradiction with the case makes none (DriveEstimate::contradicted).
-io::Case with_identified(const io::Case& antenna, const identification::DriveEstimate& estimate);
+Case with_identified(const Case& antenna, const identification::DriveEstimate& estimate);
 
 /// Plants of the identified distribution, at most `count`, named "draw 1" and so on. Draws that
 /// leave the antenna no inertia are passed over.
 std::vector<design::EnsembleMember> identified_ensemble(
-    const io::Case& antenna, const std::vector<identification::DriveEstimate>& draws,
+    const Case& antenna, const std::vector<identification::DriveEstimate>& draws,
     std::size_t count);
 
-}  // namespace boresight::app
+}  // namespace boresight::io

@@ -9,6 +9,7 @@
 #include <boresight/app/simulate/time_domain.hpp>
 #include <boresight/io/case/drive_numbers.hpp>
 #include <boresight/io/case/friction_leeway.hpp>
+#include <boresight/io/case/plant_numbers.hpp>
 #include <boresight/numerics/angles.hpp>
 
 namespace boresight::app {

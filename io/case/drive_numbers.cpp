@@ -3,9 +3,7 @@
 
 #include <fmt/format.h>
 
-#include <boresight/io/case/antenna_of.hpp>
 #include <boresight/io/case/drive_numbers.hpp>
-#include <boresight/plant/nonlinear/drive_capability.hpp>
 
 namespace boresight::io {
 
@@ -104,10 +102,6 @@ plant::OffsetTorque offset_torque(const Case& antenna) {
           value_or_0(antenna.antenna.elevation), gear_ratio(antenna)};
 }
 
-double torque_for_wind(const Case& antenna) {
-  return plant::available_wind_torque(drive_of(antenna));
-}
-
 std::optional<Quantity> rated_stroke(const Case& antenna,
                                      const std::optional<Quantity>& return_pressure) {
   const auto& flow = antenna.drive.valve_rated_flow;
@@ -134,22 +128,6 @@ std::optional<Quantity> rated_stroke(const Case& antenna,
 std::optional<Quantity> rated_stroke(const Case& antenna) {
   return rated_stroke(antenna, antenna.simulation ? antenna.simulation->return_pressure
                                                   : antenna.campaign.return_pressure);
-}
-
-double largest_demand(const Case& antenna) {
-  return plant::largest_demand(drive_of(antenna));
-}
-
-std::string demand_assumption(const Case& antenna) {
-  if (antenna.simulation) {
-    const Quantity& stroke = antenna.simulation->valve_stroke;
-    if (stroke.basis != Basis::assumed) return "";
-    return fmt::format("a valve stroke of {} that is assumed{}", stroke.text,
-                       stroke.source.empty() ? "" : fmt::format(" ({})", stroke.source));
-  }
-  if (rated_stroke(antenna)) return "";
-  return fmt::format("a valve stroke of {:.4g} rad/s that is assumed (what the slew rate takes)",
-                     largest_demand(antenna));
 }
 
 }  // namespace boresight::io

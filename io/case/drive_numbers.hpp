@@ -41,11 +41,6 @@ plant::HydraulicDrive hydraulic_drive(const Case& antenna);
 double supply_torque(const Case& antenna);
 /// Torque of gravity and the like that the motors hold, by [simulation]; none without that table.
 plant::OffsetTorque offset_torque(const Case& antenna);
-/// What of it is left against wind (N m): the supply's less the friction at the tracking rate and
-/// the magnitude of the offset torque at antenna.elevation, since the wind may blow the way that
-/// both resist; 0 where they take all of it.
-double torque_for_wind(const Case& antenna);
-
 /// No-load rate of the motors (rad/s) with the valve fully open, by its rated flow; nothing if the
 /// case does not state that flow. The flow goes with the root of the drop over both edges, which
 /// without load is what the supply has above `return_pressure` (none: 0). The volumetric efficiency
@@ -55,12 +50,5 @@ std::optional<Quantity> rated_stroke(const Case& antenna,
                                      const std::optional<Quantity>& return_pressure);
 /// The same with simulation.return_pressure, else drive.return_pressure.
 std::optional<Quantity> rated_stroke(const Case& antenna);
-
-/// The largest rate (rad/s of motor) that may be asked of the valve: simulation.valve_stroke; else
-/// by its rated flow; else what the slew rate takes.
-double largest_demand(const Case& antenna);
-/// What largest_demand rests on where the case states no number of its valve for it, in words;
-/// empty where it does.
-std::string demand_assumption(const Case& antenna);
 
 }  // namespace boresight::io

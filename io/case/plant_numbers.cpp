@@ -72,4 +72,24 @@ std::optional<double> disks_at_unit_ratio(const Case& antenna, double load_inert
   return plant::disks_at_unit_ratio(drive_of(antenna), load_inertia);
 }
 
+double torque_for_wind(const Case& antenna) {
+  return plant::available_wind_torque(drive_of(antenna));
+}
+
+double largest_demand(const Case& antenna) {
+  return plant::largest_demand(drive_of(antenna));
+}
+
+std::string demand_assumption(const Case& antenna) {
+  if (antenna.simulation) {
+    const Quantity& stroke = antenna.simulation->valve_stroke;
+    if (stroke.basis != Basis::assumed) return "";
+    return fmt::format("a valve stroke of {} that is assumed{}", stroke.text,
+                       stroke.source.empty() ? "" : fmt::format(" ({})", stroke.source));
+  }
+  if (rated_stroke(antenna)) return "";
+  return fmt::format("a valve stroke of {:.4g} rad/s that is assumed (what the slew rate takes)",
+                     largest_demand(antenna));
+}
+
 }  // namespace boresight::io

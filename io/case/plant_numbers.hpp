@@ -1,6 +1,7 @@
 #pragma once
 
 #include <optional>
+#include <string>
 #include <vector>
 
 #include <boresight/io/case/antenna_of.hpp>
@@ -34,5 +35,17 @@ double largest_viscous_friction(const Case& antenna);
 /// Number of flywheel disks at which motors and load (gear train and antenna) have one inertia;
 /// nothing if that would need fewer than none.
 std::optional<double> disks_at_unit_ratio(const Case& antenna, double load_inertia);
+
+/// What is left of the supply torque against wind (N m): the supply's less the friction at the
+/// tracking rate and the magnitude of the offset torque at antenna.elevation, since the wind may
+/// blow the way that both resist; 0 where they take all of it.
+double torque_for_wind(const Case& antenna);
+
+/// The largest rate (rad/s of motor) that may be asked of the valve: simulation.valve_stroke; else
+/// by its rated flow; else what the slew rate takes.
+double largest_demand(const Case& antenna);
+/// What largest_demand rests on where the case states no number of its valve for it, in words;
+/// empty where it does.
+std::string demand_assumption(const Case& antenna);
 
 }  // namespace boresight::io

@@ -116,4 +116,4 @@ now = between(now, "paper table", paper_table(found["paper-like"], truth["paper-
 if "--write" in sys.argv:
     page.write_text(now)
 else:
-    assert same(written, now, whole=2), "docs/identification.md is not what the program prints: ./dev figures"
+    assert same(written, now, whole=2, digits=end_digits), "docs/identification.md is not what the program prints: ./dev figures"

@@ -7,14 +7,22 @@ import subprocess
 figure = re.compile(r"\d+(?:\.\d+)?")
 
 
-def same(shown, printed, whole=0):
+def unit_of_whole(word, digits):
+    """Of the last digit of a whole number that is rounded to so many digits: 10 for 1230 and 3."""
+    zeros = len(word) - len(word.rstrip("0"))
+    return 10**max(0, min(zeros, len(word) - digits))
+
+
+def same(shown, printed, whole=0, digits=99):
     """Whether two texts differ by no more than blanks and another processor's rounding: two units of
-    the last digit of a number with a decimal point, `whole` of a number without one."""
+    the last digit of a number with a decimal point, `whole` units of a number without one, which may
+    be rounded to `digits` digits."""
     if figure.sub("#", shown).split() != figure.sub("#", printed).split():
         return False
     for x, y in zip(figure.findall(shown), figure.findall(printed)):
         places = min(len(word.partition(".")[2]) for word in (x, y))
-        if abs(float(x) - float(y)) > (2.001 * 10.0**-places if places else whole):
+        unit = min(unit_of_whole(word, digits) for word in (x, y))
+        if abs(float(x) - float(y)) > (2.001 * 10.0**-places if places else whole * unit):
             return False
     return True
 

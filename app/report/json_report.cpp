@@ -5,9 +5,9 @@
 #include <boresight/app/redesign/needed_budgets.hpp>
 #include <boresight/app/redesign/tuning_verdict.hpp>
 #include <boresight/app/report/audit_description.hpp>
+#include <boresight/app/report/common_description.hpp>
 #include <boresight/app/report/evaluate_report.hpp>
 #include <boresight/app/report/identification_description.hpp>
-#include <boresight/app/report/json_assumed.hpp>
 #include <boresight/app/report/json_design.hpp>
 #include <boresight/app/report/json_linear_models.hpp>
 #include <boresight/app/report/json_report.hpp>
@@ -147,12 +147,11 @@ Json matching_json(const MatchingSection& section) {
 }  // namespace
 
 std::string to_json(const Report& report) {
-  Json json{{"program", "boresight"},
-            {"version", BORESIGHT_VERSION},
-            {"command", report.command},
-            {"case", {{"path", report.case_path}, {"title", report.title}, {"axis", report.axis}}},
-            {"seed", report.seed},
-            {"interrupted", report.interrupted}};
+  Json json{{"program", "boresight"}, {"version", BORESIGHT_VERSION}, {"command", report.command}};
+  json.update(json_by(
+      [&](io::Visitor& v) { describe_case(v, report.case_path, report.title, report.axis); }));
+  json["seed"] = report.seed;
+  json["interrupted"] = report.interrupted;
   if (report.campaign) json["campaign"] = json_of(*report.campaign);
   if (report.identification) json["identification"] = json_of(*report.identification);
   if (report.audit) json["audit"] = json_of(*report.audit);
@@ -169,7 +168,7 @@ std::string to_json(const Report& report) {
   if (const auto models = linear_models(report)) {
     json["linear_models"] = linear_models_json(*models);
   }
-  json["assumed_inputs"] = assumed_json(report.assumed);
+  json.update(json_by([&](io::Visitor& v) { describe_assumed(v, report.assumed); }));
   json["conclusions"] = report.conclusions;
   if (!report.figures.empty()) json["figures"] = figures_json(report.figures);
   return json.dump(2) + "\n";

@@ -61,10 +61,19 @@ void describe(io::Visitor& v, const DescribedParts& /*parts*/) {
   describe_figures(v, {});
 }
 
+// Members of the report itself that other reports have too.
+Json common_members() {
+  SchemaWriter writer;
+  describe_case(writer, {}, {}, {});
+  describe_assumed(writer, {});
+  return writer.take().at("properties");
+}
+
 Json report_schema_with_parts() {
   SchemaWriter writer;
   describe(writer, DescribedParts{});
   Json schema = Json::parse(report_schema_base);
+  schema["properties"].update(common_members());
   schema["$defs"].update(writer.take().at("$defs"));
   return schema;
 }

@@ -1,5 +1,5 @@
-// Of a case file: the controller that every command of the program recommends, what it was weighed
-// against, and what fewer or more flywheels would do.
+// Of a case file, and of its records where it has some: the controller that every command of the
+// program recommends, what it was weighed against, and what fewer or more flywheels would do.
 //   recommend_controller CASE.toml
 #include <cmath>
 #include <cstdio>
@@ -7,7 +7,7 @@
 
 #include <boresight/design/studies/controller_study.hpp>
 #include <boresight/design/studies/matching_verdict.hpp>
-#include <boresight/io/case/mission_of.hpp>
+#include <boresight/io/campaign/designed_antenna.hpp>
 #include <boresight/io/case/present_gains.hpp>
 #include <boresight/numerics/angles.hpp>
 
@@ -37,18 +37,19 @@ int main(int count, char** arguments) try {
     return 2;
   }
   const io::Case stated = io::read_case(arguments[1]);
-  const design::Mission mission = io::mission_of(stated);
-  const design::PlantEnsemble ensemble{design::EnsembleSource::ranges,
-                                       design::plant_members(mission, 1)};
+  const io::DesignedAntenna antenna = io::designed_antenna(stated, 1, 2, {});
+  std::printf("reflected inertia: %.4f kg.m2 %s\n",
+              boresight::plant::reflected_inertia(linear_plant(antenna.mission.antenna)),
+              antenna.from_records ? "by the records" : "as stated");
   design::TuneOptions tuning;
   tuning.threads = 2;
-  print_controllers(stated, design::study_controllers(mission, ensemble, tuning));
+  print_controllers(stated, study_controllers(antenna.mission, antenna.ensemble, tuning));
 
   design::MatchOptions matching;
   matching.points = 4;
   matching.variants = false;
   matching.threads = 2;
-  for (const auto& series : design::study_matching(mission, ensemble, matching).series) {
+  for (const auto& series : study_matching(antenna.mission, antenna.ensemble, matching).series) {
     std::printf("%s over the flywheels: the largest rms is %.1f %% above the least\n",
                 series.name.c_str(), 100.0 * design::span_of(series));
   }

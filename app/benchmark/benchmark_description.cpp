@@ -184,7 +184,7 @@ void describe_controller(io::Visitor& v, const BenchmarkReport& report) {
   v.count("states", system.a.rows(), "How many.");
   v.texts("inputs", system.inputs, "What it is given.");
   v.texts("outputs", system.outputs, "What it commands.");
-  v.texts("remarks", report.controller.remarks, "What is to be known of it.");
+  v.texts("remarks", report.remarks, "What is to be known of it.");
 }
 
 void describe_conditions(io::Visitor& v, const BenchmarkReport& report) {
@@ -199,7 +199,7 @@ void describe_conditions(io::Visitor& v, const BenchmarkReport& report) {
            score.stable ? std::optional(score.design_wind.torque_rms) : std::nullopt,
            unit::newton_metre,
            "Of the design wind, at the antenna's axis; null for an unstable loop.");
-  v.text("attitudes", report.attitudes, "Which were judged.");
+  v.text("attitudes", report.attitudes_text, "Which were judged.");
   v.number("gear_ratio", report.gear_ratio, unit::ratio, "Motor turns per turn of the axis.");
   v.number("band_lowest", report.rms_band.lowest, unit::hertz, "Of the band of every rms.");
   v.number("band_highest", report.rms_band.highest, unit::hertz, "Of the band of every rms.");

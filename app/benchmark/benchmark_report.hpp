@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cstdint>
-#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -9,8 +8,7 @@
 #include <boresight/app/document/document.hpp>
 #include <boresight/app/figures/figure.hpp>
 #include <boresight/app/simulate/time_domain.hpp>
-#include <boresight/design/benchmark/rejection_benchmark.hpp>
-#include <boresight/design/problem/pointing_budget.hpp>
+#include <boresight/design/studies/benchmark_study.hpp>
 #include <boresight/io/campaign/designed_antenna.hpp>
 #include <boresight/io/case/case_file.hpp>
 
@@ -19,16 +17,6 @@ class Visitor;
 }
 
 namespace boresight::app {
-
-/// What is benchmarked: a controller as control::antenna_state_space_controller takes it.
-struct BenchmarkedController {
-  plant::StateSpace system;
-  std::string description;
-  /// The law that the system is the state space of, if it is one: what is not linear is run of laws
-  /// only.
-  std::optional<control::ControlLaw> law;
-  std::vector<std::string> remarks;
-};
 
 /// One quantity of two score sheets.
 struct ComparedQuantity {
@@ -44,24 +32,15 @@ struct ComparedSheet {
 };
 
 /// A score sheet of `boresight benchmark`.
-struct BenchmarkReport {
+struct BenchmarkReport : design::BenchmarkStudy {
   std::string case_path, title, axis;
   std::uint64_t seed = 1;
-  BenchmarkedController controller;
-  bool present_gains = false;  // the controller is what the antenna runs on now, by the case
-  double dead_time = 0.0;      // s, of a continuous controller; one sample time of a sampled one
-  double gear_ratio = 1.0;
-  design::WindCondition wind;
-  control::FrequencyBand rms_band;
-  design::HardGoals goals;
+  /// Of the controller's file, and where it samples otherwise than the case's delay says.
+  std::vector<std::string> remarks;
   /// Whether plant and ensemble are what the case's records show, not what it states.
   bool from_records = false;
-  std::string attitudes;  // which were judged, in words
+  std::string attitudes_text;  // which were judged, in words
   std::string ensemble_source;
-  std::vector<design::PointingBudget> budgets;
-  design::RejectionScore score;
-  /// Of the beam after 1 N m, 1 N m s at the motor shaft (rad of motor): at most 120 s for plots.
-  std::vector<control::CoursePoint> step_course, impulse_course;
   std::optional<TimeDomainSection> time_domain;
   std::string no_time_domain;  // why there is none
   std::vector<io::Quantity> assumed;
@@ -69,26 +48,14 @@ struct BenchmarkReport {
   std::vector<ComparedQuantity> comparison;
   std::optional<ComparedSheet> compared_sheet;
   std::vector<Figure> figures;
-  bool interrupted = false;
 };
 
-struct BenchmarkOptions {
-  std::uint64_t seed = 1;
-  unsigned threads = 1;
-  std::function<bool()> interrupted;
-  /// Called between parts with those done and all.
-  std::function<void(std::size_t, std::size_t)> progress;
-};
-
-/// The controller of a law: continuous, or in the sampled form that the antenna's computer runs
-/// (sample_time above 0). @throws as control::sampled_law.
-BenchmarkedController controller_of(const control::ControlLaw& law, const std::string& description,
-                                    double sample_time);
-
-/// Scores a controller on an antenna and its ensemble by the protocol. @throws as
-/// design::rejection_benchmark and verify_in_time_domain.
+/// design::study_rejection of the antenna, in words. `remarks`: of the controller's file.
+/// @throws as design::study_rejection.
 BenchmarkReport benchmark(const io::DesignedAntenna& designed,
-                          const BenchmarkedController& controller, const BenchmarkOptions& options);
+                          const design::BenchmarkedController& controller,
+                          const std::vector<std::string>& remarks,
+                          const design::BenchmarkOptions& options);
 
 /// The report, and as text for a terminal.
 Document document_of(const BenchmarkReport& report);

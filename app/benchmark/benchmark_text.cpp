@@ -171,14 +171,14 @@ Document document_of(const BenchmarkReport& report) {
                       : fmt::format("continuous with a dead time of {:g} s", report.dead_time),
                   system.a.rows(), fmt::join(read, ", ")),
       "  ", "  ");
-  for (const auto& remark : report.controller.remarks) text += wrapped(remark, "  ", "  ");
+  for (const auto& remark : report.remarks) text += wrapped(remark, "  ", "  ");
   text += wrapped(
       fmt::format(
           "Linear plant {}; wind model {}, design wind {:g} m/s, "
           "{}; rms of one axis over {:g} to {:g} Hz about the mean. Torques at the antenna's "
           "axis, angles at the sky.",
           described(report), plant::to_string(report.wind.model), report.wind.mean_speed,
-          report.attitudes, report.rms_band.lowest, report.rms_band.highest),
+          report.attitudes_text, report.rms_band.lowest, report.rms_band.highest),
       "  ", "  ");
   if (!score.stable) {
     text += wrapped(

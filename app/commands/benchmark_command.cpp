@@ -35,9 +35,15 @@ std::vector<std::string> names_in(const std::string& text) {
   return names;
 }
 
+// A controller, and the remarks of its file.
+struct Named {
+  design::BenchmarkedController controller;
+  std::vector<std::string> remarks = {};
+};
+
 // What the command line names; none where the recommended one is wanted.
-std::optional<BenchmarkedController> named_one(const BenchmarkArguments& arguments,
-                                               const io::Case& antenna, double sample_time) {
+std::optional<Named> named_one(const BenchmarkArguments& arguments, const io::Case& antenna,
+                               double sample_time) {
   if (!arguments.controller_path.empty()) {
     if (arguments.gains != recommended_gains || arguments.sampled) {
       throw InvalidInput(
@@ -46,22 +52,21 @@ std::optional<BenchmarkedController> named_one(const BenchmarkArguments& argumen
     const auto file = io::read_controller(arguments.controller_path, io::gear_ratio(antenna),
                                           {names_in(arguments.controller_inputs),
                                            names_in(arguments.controller_outputs), arguments.part});
-    return BenchmarkedController{file.system, "controller of " + arguments.controller_path,
-                                 std::nullopt, file.remarks};
+    return Named{{file.system, "controller of " + arguments.controller_path, std::nullopt},
+                 file.remarks};
   }
   if (arguments.gains == recommended_gains) return std::nullopt;
   if (arguments.gains == "case") {
     const auto present = present_controller(antenna, arguments.structure);
-    return controller_of(present.law, present.law.structure.name() + ", present gains",
-                         sample_time);
+    return Named{design::controller_of(
+        present.law, present.law.structure.name() + ", present gains", sample_time)};
   }
   const auto gains = io::read_gains_file(arguments.gains, antenna, arguments.structure);
-  return controller_of(gains.law, gains.description, sample_time);
+  return Named{design::controller_of(gains.law, gains.description, sample_time)};
 }
 
-BenchmarkedController recommended_one(const BenchmarkArguments& arguments,
-                                      const io::DesignedAntenna& designed, double sample_time,
-                                      const std::function<bool()>& interrupted) {
+Named recommended_one(const BenchmarkArguments& arguments, const io::DesignedAntenna& designed,
+                      double sample_time, const std::function<bool()>& interrupted) {
   ProgressLine progress("tuning and verifying");
   design::TuneOptions options;
   if (!arguments.structure.empty()) {
@@ -72,8 +77,8 @@ BenchmarkedController recommended_one(const BenchmarkArguments& arguments,
   options.progress = [&](std::size_t done, std::size_t all) { progress.show(done, all); };
   options.interrupted = interrupted;
   const auto chosen = recommended_controller(designed, options);
-  return controller_of(
-      chosen.law, fmt::format("{}, {}", chosen.law.structure.name(), chosen.source), sample_time);
+  return {design::controller_of(
+      chosen.law, fmt::format("{}, {}", chosen.law.structure.name(), chosen.source), sample_time)};
 }
 
 std::string text_of(const std::string& path) {
@@ -98,17 +103,17 @@ BenchmarkReport benchmark_case(const BenchmarkArguments& arguments,
       arguments.compare_path.empty() ? std::string() : text_of(arguments.compare_path);
   const io::DesignedAntenna designed =
       designed_antenna(antenna, arguments.seed, arguments.threads, interrupted);
-  const BenchmarkedController controller =
+  const Named scored =
       named ? *named : recommended_one(arguments, designed, sample_time, interrupted);
   if (!arguments.export_path.empty())
-    io::write_controller(arguments.export_path, controller.system);
+    io::write_controller(arguments.export_path, scored.controller.system);
   ProgressLine progress("scoring");
-  BenchmarkOptions options;
+  design::BenchmarkOptions options;
   options.seed = arguments.seed;
   options.threads = arguments.threads;
   options.interrupted = interrupted;
   options.progress = [&](std::size_t done, std::size_t all) { progress.show(done, all); };
-  BenchmarkReport report = benchmark(designed, controller, options);
+  BenchmarkReport report = benchmark(designed, scored.controller, scored.remarks, options);
   if (!arguments.compare_path.empty()) compare_with(report, other, arguments.compare_path);
   report.figures = benchmark_figures(report);
   return report;

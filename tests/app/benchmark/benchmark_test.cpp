@@ -202,14 +202,14 @@ TEST(Benchmark, ScoresTheAntennaThatRecordsShow) {
   const design::Mission mission = mission_of(stated);
   io::DesignedAntenna designed{
       stated, mission, {}, design::PlantDistribution::of_ranges(mission), false};
-  const auto controller = controller_of(mission.present_controllers.front().law, "PI", 0.0);
-  auto as_stated = benchmark(designed, controller, {});
+  const auto controller = design::controller_of(mission.present_controllers.front().law, "PI", 0.0);
+  auto as_stated = app::benchmark(designed, controller, {}, {});
   designed.antenna.drive.leakage_rate.value *= 2.0;
   designed.mission = mission_of(designed.antenna);
   designed.ensemble.source = design::EnsembleSource::records;
   designed.ensemble.members = {{"draw 1", make_plant(designed.antenna)}};
   designed.from_records = true;
-  const auto recorded = benchmark(designed, controller, {});
+  const auto recorded = app::benchmark(designed, controller, {}, {});
   EXPECT_NE(recorded.score.abscissa, as_stated.score.abscissa);
   ASSERT_TRUE(recorded.score.ensemble);
   EXPECT_EQ(recorded.score.ensemble->members.size(), 1U);

@@ -15,6 +15,7 @@
 #include <boresight/app/redesign/sections.hpp>
 #include <boresight/app/tune/chosen_controller.hpp>
 #include <boresight/app/tune/structure_option.hpp>
+#include <boresight/app/uncertainty/distribution_source.hpp>
 #include <boresight/io/campaign/designed_antenna.hpp>
 #include <boresight/io/case/antenna_of.hpp>
 #include <boresight/io/case/mission_of.hpp>
@@ -328,7 +329,8 @@ MonteCarloOutcome run_montecarlo(const MonteCarloArguments& arguments, Ranks& ra
 
   MonteCarloSection& section = outcome.section;
   section = new_section(arguments, population->antenna, study, held);
-  summarise(*outcome.run, *outcome.distribution, section);
+  summarise(*outcome.run, *outcome.distribution, arguments.seed, section);
+  section.distribution = source_text(*outcome.distribution);
   section.conclusions = conclude(section);
   const auto resonance = population->from_records ? std::optional<ResonanceVerdict>()
                                                   : resonance_verdict(population->antenna);

@@ -46,10 +46,6 @@ struct MonteCarloOutcome {
 MonteCarloOutcome run_montecarlo(const MonteCarloArguments& arguments, Ranks& ranks,
                                  const std::function<bool()>& interrupted);
 
-/// What the plants that were judged amount to. Fills all but law, case and source of a section.
-void summarise(const design::MonteCarloRun& run, const design::PlantDistribution& distribution,
-               MonteCarloSection& section);
-
 /// A few sentences that say what the numbers mean.
 std::vector<std::string> conclude(const MonteCarloSection& section);
 

@@ -1,0 +1,191 @@
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <numeric>
+
+#include <boresight/design/problem/pointing.hpp>
+#include <boresight/design/studies/monte_carlo_summary.hpp>
+#include <boresight/numerics/error.hpp>
+
+namespace boresight::design {
+namespace {
+
+const std::vector<double>& shares() {
+  static const std::vector<double> all{0.01, 0.05, 0.25, 0.5, 0.75, 0.95, 0.99};
+  return all;
+}
+
+std::vector<double> mapped(const std::vector<double>& values,
+                           const std::function<double(double)>& map) {
+  std::vector<double> result(values.size());
+  std::ranges::transform(values, result.begin(), map);
+  return result;
+}
+
+double mean_loss(double rms, const PointingBand& band) {
+  return pointing_loss_db(rms, band.beamwidth, LossConvention::mean_loss_two_axes);
+}
+
+// The plants that were judged, in their order.
+class Judged {
+ public:
+  Judged(const MonteCarloRun& run, const PlantDistribution& distribution, std::uint64_t seed)
+      : distribution_(distribution), seed_(seed), run_(run) {
+    for (std::size_t block = 0; block < run.blocks(); ++block) {
+      if (!run.whole(block)) continue;
+      const std::uint64_t first = block * MonteCarloRun::block_size;
+      for (std::uint64_t k = 0; k < run.outcomes(block).size(); ++k) {
+        all_.push_back(first + k);
+        if (run.outcome(first + k).stable()) stable_.push_back(first + k);
+      }
+    }
+  }
+
+  const std::vector<std::uint64_t>& all() const { return all_; }
+  const std::vector<std::uint64_t>& stable() const { return stable_; }
+  const PlantOutcome& outcome(std::uint64_t index) const { return run_.outcome(index); }
+  PlantDraw draw(std::uint64_t index) const { return distribution_.draw(seed_, index); }
+  NotablePlant notable(std::uint64_t index) const { return {index, draw(index), outcome(index)}; }
+  std::vector<double> of_stable(double PlantOutcome::*quantity) const {
+    std::vector<double> values;
+    values.reserve(stable_.size());
+    for (const auto index : stable_) values.push_back(outcome(index).*quantity);
+    return values;
+  }
+  std::uint64_t count(const std::function<bool(const PlantOutcome&)>& holds) const {
+    return static_cast<std::uint64_t>(
+        std::ranges::count_if(all_, [&](std::uint64_t index) { return holds(outcome(index)); }));
+  }
+
+ private:
+  const PlantDistribution& distribution_;
+  std::uint64_t seed_;
+  const MonteCarloRun& run_;
+  std::vector<std::uint64_t> all_, stable_;
+};
+
+void count_standings(const Judged& judged, MonteCarloSummary& section) {
+  for (const auto index : judged.all()) {
+    const PlantOutcome& outcome = judged.outcome(index);
+    section.confirmed += outcome.confirmed;
+    section.contradicted += outcome.contradicted;
+    if (outcome.stable()) continue;
+    ++(outcome.standing == Standing::unstable ? section.unstable : section.undecided);
+    if (section.unstable_plants.size() < MonteCarloSummary::most_listed) {
+      section.unstable_plants.push_back(judged.notable(index));
+    }
+  }
+  section.stable = judged.stable().size();
+  section.instability = probability(section.unstable + section.undecided, section.plants);
+}
+
+void summarise_losses(const Judged& judged, MonteCarloSummary& section) {
+  const auto rms = judged.of_stable(&PlantOutcome::beam_rms);
+  section.beam_rms = summarise(rms, shares());
+  std::vector<double> climate_rms;
+  if (section.climate) {
+    climate_rms = judged.of_stable(&PlantOutcome::climate_rms);
+    section.climate_rms = summarise(climate_rms, shares());
+  }
+  for (auto& [band, loss, climate_loss] : section.losses) {
+    const auto in_band = [&named = band](double value) { return mean_loss(value, named); };
+    loss = summarise(mapped(rms, in_band), shares());
+    if (section.climate) {
+      climate_loss = summarise(mapped(climate_rms, in_band), shares());
+    }
+  }
+  for (auto& [budget, met] : section.budgets) {
+    const double limit = budget.rms;
+    const auto hits = judged.count(
+        [&](const PlantOutcome& one) { return one.stable() && one.beam_rms <= limit; });
+    met = probability(hits, section.plants);
+  }
+}
+
+void count_goals(const Judged& judged, MonteCarloSummary& section) {
+  const auto names = goal_names(section.goals);
+  for (std::size_t k = 0; k < names.size(); ++k) {
+    const auto hits = judged.count([&](const PlantOutcome& one) {
+      return one.stable() && ((one.broken_goals >> k) & 1U) != 0;
+    });
+    section.goals_broken.push_back({names[k], probability(hits, section.plants)});
+  }
+  const auto met =
+      judged.count([](const PlantOutcome& one) { return one.stable() && one.broken_goals == 0; });
+  section.all_goals_met = probability(met, section.plants);
+}
+
+void correlate(const Judged& judged, MonteCarloSummary& section) {
+  const auto rms = judged.of_stable(&PlantOutcome::beam_rms);
+  std::vector<PlantDraw> draws;
+  draws.reserve(rms.size());
+  for (const auto index : judged.stable()) draws.push_back(judged.draw(index));
+  for (const auto input : section.inputs) {
+    std::vector<double> values;
+    values.reserve(draws.size());
+    for (const auto& draw : draws) values.push_back(draw[input]);
+    section.correlations.push_back({input, rank_correlation(values, rms)});
+  }
+  std::ranges::stable_sort(section.correlations, [](const auto& one, const auto& other) {
+    return std::abs(one.with_rms.value) > std::abs(other.with_rms.value);
+  });
+}
+
+void find_worst(const Judged& judged, MonteCarloSummary& section) {
+  constexpr std::size_t most = 10;
+  auto order = judged.stable();
+  const std::size_t count = std::min(most, order.size());
+  std::ranges::partial_sort(order, order.begin() + static_cast<std::ptrdiff_t>(count),
+                            [&](std::uint64_t one, std::uint64_t other) {
+                              const double a = judged.outcome(one).beam_rms;
+                              const double b = judged.outcome(other).beam_rms;
+                              return a > b || (a == b && one < other);
+                            });
+  for (std::size_t k = 0; k < count; ++k) section.worst.push_back(judged.notable(order[k]));
+}
+
+void summarise_retuned(const Judged& judged, MonteCarloSummary& section) {
+  MonteCarloSummary::Retuned retuned;
+  std::vector<double> rms, price;
+  for (const auto index : judged.all()) {
+    const PlantOutcome& one = judged.outcome(index);
+    if (std::isnan(one.retuned_rms)) continue;
+    ++retuned.found;
+    rms.push_back(one.retuned_rms);
+    if (one.stable()) {
+      price.push_back(one.beam_rms / one.retuned_rms - 1.0);
+    } else {
+      ++retuned.only_retuned;
+    }
+  }
+  retuned.beam_rms = summarise(std::move(rms), shares());
+  retuned.price = summarise(std::move(price), shares());
+  section.retuned = std::move(retuned);
+}
+
+}  // namespace
+
+void summarise(const MonteCarloRun& run, const PlantDistribution& distribution, std::uint64_t seed,
+               MonteCarloSummary& section) {
+  const MonteCarlo& study = run.study();
+  const Judged judged(run, distribution, seed);
+  if (judged.all().empty()) {
+    throw Interrupted("montecarlo: interrupted before a block of plants was whole");
+  }
+  section.plants_asked = study.plants;
+  section.plants = judged.all().size();
+  section.interrupted = section.plants < section.plants_asked;
+  section.inputs = distribution.inputs();
+  section.goals = study.goals;
+  section.climate = !study.problem.climate.empty();
+  section.confirm_peak = study.held.confirm_peak;
+  section.confirm_every = study.confirm_every;
+  count_standings(judged, section);
+  summarise_losses(judged, section);
+  count_goals(judged, section);
+  correlate(judged, section);
+  find_worst(judged, section);
+  if (study.retune) summarise_retuned(judged, section);
+}
+
+}  // namespace boresight::design

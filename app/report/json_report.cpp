@@ -11,7 +11,6 @@
 #include <boresight/app/report/json_design.hpp>
 #include <boresight/app/report/json_linear_models.hpp>
 #include <boresight/app/report/json_report.hpp>
-#include <boresight/app/report/json_time_domain.hpp>
 #include <boresight/app/report/json_tune.hpp>
 #include <boresight/app/report/json_writer.hpp>
 #include <boresight/app/report/match_report.hpp>
@@ -20,6 +19,7 @@
 #include <boresight/app/report/wind_mast.hpp>
 #include <boresight/io/campaign/campaign_description.hpp>
 #include <boresight/io/description/pointing_limit_results.hpp>
+#include <boresight/io/description/time_domain_results.hpp>
 #include <boresight/numerics/angles.hpp>
 
 namespace boresight::app {
@@ -159,7 +159,7 @@ std::string to_json(const Report& report) {
   if (report.tuning) json["tuning"] = tuning_json(*report.tuning);
   if (report.measured) json["measured_tuning"] = json_of(*report.measured);
   if (report.tuned) json["tuned"] = tune_json(*report.tuned);
-  if (report.time_domain) json["time_domain"] = time_domain_json(*report.time_domain);
+  if (report.time_domain) json["time_domain"] = json_of(*report.time_domain);
   if (report.limit) json["limit"] = json_of(*report.limit);
   if (!report.choices.empty()) json["choices"] = choices_json(report.choices);
   if (report.matching) json["matching"] = matching_json(*report.matching);

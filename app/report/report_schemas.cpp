@@ -15,8 +15,8 @@
 #include <boresight/io/campaign/campaign_description.hpp>
 #include <boresight/io/case/field.hpp>
 #include <boresight/io/description/design_results.hpp>
-#include <boresight/io/description/loop_results.hpp>
 #include <boresight/io/description/pointing_limit_results.hpp>
+#include <boresight/io/description/time_domain_results.hpp>
 #include <boresight/io/units/wording.hpp>
 #include <boresight/numerics/error.hpp>
 #include <boresight/report_schema_base.hpp>
@@ -40,13 +40,6 @@ Json stages_or_reason() {
 // The parts of the report of redesign and its parts that are described, each defined by its name.
 struct DescribedParts {};
 
-void describe_limit_cycle(io::Visitor& v, std::string_view name, io::LimitCycleDetail detail) {
-  v.group(name, "", [&] {
-    v.defined_as(name, "What the loop does by itself at one steady rate.");
-    describe(v, design::HuntingResult{}, detail);
-  });
-}
-
 void describe(io::Visitor& v, const DescribedParts& /*parts*/) {
   v.object("design", design::Design{}, "");
   v.object("ensemble", design::EnsembleResult{}, "");
@@ -57,7 +50,8 @@ void describe(io::Visitor& v, const DescribedParts& /*parts*/) {
   v.object("measured_tuning", MeasuredTuneSection{}, "");
   v.object("limit", design::PointingLimit{}, "");
   v.object("matched", MatchSection{}, "");
-  describe_limit_cycle(v, "limit_cycle", io::LimitCycleDetail::full);
+  v.object("time_domain", design::TimeDomainStudy{}, "");
+  v.object("compared_run", design::NonlinearVerification{}, "");
   describe_figures(v, {});
 }
 

@@ -11,11 +11,11 @@
 #include <boresight/app/report/json_design.hpp>
 #include <boresight/app/report/json_linear_models.hpp>
 #include <boresight/app/report/json_report.hpp>
-#include <boresight/app/report/json_tune.hpp>
 #include <boresight/app/report/json_writer.hpp>
 #include <boresight/app/report/match_report.hpp>
 #include <boresight/app/report/measured_report.hpp>
 #include <boresight/app/report/sky_units.hpp>
+#include <boresight/app/report/tune_description.hpp>
 #include <boresight/app/report/wind_mast.hpp>
 #include <boresight/io/campaign/campaign_description.hpp>
 #include <boresight/io/description/pointing_limit_results.hpp>
@@ -158,7 +158,7 @@ std::string to_json(const Report& report) {
   if (report.plant) json["plant"] = json_of(*report.plant);
   if (report.tuning) json["tuning"] = tuning_json(*report.tuning);
   if (report.measured) json["measured_tuning"] = json_of(*report.measured);
-  if (report.tuned) json["tuned"] = tune_json(*report.tuned);
+  if (report.tuned) json["tuned"] = json_of(*report.tuned);
   if (report.time_domain) json["time_domain"] = json_of(*report.time_domain);
   if (report.limit) json["limit"] = json_of(*report.limit);
   if (!report.choices.empty()) json["choices"] = choices_json(report.choices);

@@ -11,6 +11,7 @@
 #include <boresight/app/report/measured_report.hpp>
 #include <boresight/app/report/report_schemas.hpp>
 #include <boresight/app/report/schema_writer.hpp>
+#include <boresight/app/report/tune_description.hpp>
 #include <boresight/app/simulate/simulation_report.hpp>
 #include <boresight/io/campaign/campaign_description.hpp>
 #include <boresight/io/case/field.hpp>
@@ -50,6 +51,7 @@ void describe(io::Visitor& v, const DescribedParts& /*parts*/) {
   v.object("measured_tuning", MeasuredTuneSection{}, "");
   v.object("limit", design::PointingLimit{}, "");
   v.object("matched", MatchSection{}, "");
+  v.object("tuned", TuneSection{}, "");
   v.object("time_domain", design::TimeDomainStudy{}, "");
   v.object("compared_run", design::NonlinearVerification{}, "");
   describe_figures(v, {});

@@ -9,6 +9,7 @@
 #include <boresight/app/report/identification_description.hpp>
 #include <boresight/app/report/match_report.hpp>
 #include <boresight/app/report/measured_report.hpp>
+#include <boresight/app/report/redesign_description.hpp>
 #include <boresight/app/report/report_schemas.hpp>
 #include <boresight/app/report/schema_writer.hpp>
 #include <boresight/app/report/tune_description.hpp>
@@ -57,10 +58,12 @@ void describe(io::Visitor& v, const DescribedParts& /*parts*/) {
   describe_figures(v, {});
 }
 
-// Members of the report itself that other reports have too.
-Json common_members() {
+// Members of the report itself; what they refer to is among the parts.
+Json described_members() {
   SchemaWriter writer;
   describe_case(writer, {}, {}, {});
+  describe_choices(writer, {});
+  describe_matching(writer, {});
   describe_assumed(writer, {});
   return writer.take().at("properties");
 }
@@ -69,7 +72,7 @@ Json report_schema_with_parts() {
   SchemaWriter writer;
   describe(writer, DescribedParts{});
   Json schema = Json::parse(report_schema_base);
-  schema["properties"].update(common_members());
+  schema["properties"].update(described_members());
   schema["$defs"].update(writer.take().at("$defs"));
   return schema;
 }

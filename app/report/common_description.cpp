@@ -1,3 +1,5 @@
+#include <cmath>
+
 #include <boresight/app/report/common_description.hpp>
 #include <boresight/io/description/visitor.hpp>
 
@@ -29,6 +31,14 @@ void describe_assumed(io::Visitor& v, const std::vector<io::Quantity>& assumed) 
                   "What of it is assumed.");
            v.text("source", value ? quantity.source : quantity.uncertainty_source, "Why this.");
          });
+}
+
+void describe_share_of_time(io::Visitor& v, const std::vector<design::ClimatePart>& climate,
+                            double speed, std::string_view meaning) {
+  const bool known = !climate.empty() && !std::isnan(speed);
+  v.number("share_of_time",
+           known ? std::optional(design::share_of_time(climate, speed)) : std::nullopt,
+           io::key_units::ratio, meaning, {.least = 0.0, .most = 1.0});
 }
 
 }  // namespace boresight::app

@@ -3,6 +3,7 @@
 #include <string_view>
 #include <vector>
 
+#include <boresight/design/problem/wind_climate.hpp>
 #include <boresight/io/units/quantity.hpp>
 
 namespace boresight::io {
@@ -23,5 +24,9 @@ void describe_case(io::Visitor& v, std::string_view path, std::string_view title
                    std::string_view axis);
 /// "assumed_inputs": inputs whose value or uncertainty is assumed.
 void describe_assumed(io::Visitor& v, const std::vector<io::Quantity>& assumed);
+/// "share_of_time": share of the climate's time up to a speed (m/s); null without a climate, or if
+/// the speed is not a number.
+void describe_share_of_time(io::Visitor& v, const std::vector<design::ClimatePart>& climate,
+                            double speed, std::string_view meaning);
 
 }  // namespace boresight::app

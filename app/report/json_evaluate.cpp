@@ -1,8 +1,9 @@
 
 #include <boresight/app/report/evaluate_report.hpp>
-#include <boresight/app/report/json_time_domain.hpp>
+#include <boresight/app/report/json_writer.hpp>
 #include <boresight/app/report/sky_units.hpp>
 #include <boresight/app/report/wind_mast.hpp>
+#include <boresight/io/description/time_domain_results.hpp>
 #include <boresight/numerics/angles.hpp>
 
 namespace boresight::app {
@@ -26,7 +27,7 @@ Json law_json(const CandidateLaw& law) {
           {"ensemble_rms_mdeg", number(law.member_rms / millidegree)},
           {"nonlinear_factor_1", number(law.nonlinear_factor())},
           {"compared_rms_mdeg", number(law.compared_rms() / millidegree)},
-          {"time_domain", law.time_domain ? compared_run_json(*law.time_domain) : Json(nullptr)},
+          {"time_domain", law.time_domain ? json_of(*law.time_domain) : Json(nullptr)},
           {"gains_as_written", std::move(gains)},
           {"design", law.stable() ? design_json(law.design) : Json(nullptr)},
           {"ensemble", law.ensemble ? ensemble_json(*law.ensemble) : Json(nullptr)}};

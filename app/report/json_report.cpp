@@ -1,7 +1,6 @@
 #include <cmath>
 
 #include <boresight/app/figures/figure_json.hpp>
-#include <boresight/app/redesign/matching_verdict.hpp>
 #include <boresight/app/redesign/needed_budgets.hpp>
 #include <boresight/app/redesign/tuning_verdict.hpp>
 #include <boresight/app/report/audit_description.hpp>
@@ -11,15 +10,16 @@
 #include <boresight/app/report/json_design.hpp>
 #include <boresight/app/report/json_linear_models.hpp>
 #include <boresight/app/report/json_report.hpp>
-#include <boresight/app/report/json_time_domain.hpp>
-#include <boresight/app/report/json_tune.hpp>
 #include <boresight/app/report/json_writer.hpp>
 #include <boresight/app/report/match_report.hpp>
 #include <boresight/app/report/measured_report.hpp>
+#include <boresight/app/report/redesign_description.hpp>
 #include <boresight/app/report/sky_units.hpp>
+#include <boresight/app/report/tune_description.hpp>
 #include <boresight/app/report/wind_mast.hpp>
 #include <boresight/io/campaign/campaign_description.hpp>
 #include <boresight/io/description/pointing_limit_results.hpp>
+#include <boresight/io/description/time_domain_results.hpp>
 #include <boresight/numerics/angles.hpp>
 
 namespace boresight::app {
@@ -103,47 +103,6 @@ Json tuning_json(const TuningSection& section) {
   return json;
 }
 
-Json choices_json(const std::vector<ChoiceResult>& choices) {
-  Json json = Json::array();
-  for (const auto& choice : choices) {
-    Json limits = nullptr;
-    if (choice.speed_limits) {
-      limits = Json::array();
-      for (const double speed : *choice.speed_limits) limits.push_back(number(speed));
-    }
-    json.push_back({{"name", choice.name},
-                    {"says", choice.says},
-                    {"oil_stiffness_N_m_per_rad", number(choice.oil_stiffness)},
-                    {"reflected_inertia_kg_m2", number(choice.reflected_inertia)},
-                    {"motor_to_load_ratio_1", number(choice.motor_to_load_ratio)},
-                    {"impossible_because", text_or_null(choice.impossible)},
-                    {"speed_limits_m_per_s", std::move(limits)},
-                    {"design", choice.design ? design_json(*choice.design) : Json(nullptr)}});
-  }
-  return json;
-}
-
-Json matching_json(const MatchingSection& section) {
-  Json json = Json::array();
-  for (const auto& series : section.series) {
-    Json points = Json::array();
-    for (std::size_t i = 0; i < section.rows.size(); ++i) {
-      const MatchingRow& row = section.rows[i];
-      points.push_back({{"label", row.label},
-                        {"flywheel_disks_1", row.disks},
-                        {"motor_inertia_kg_m2", row.motor_inertia},
-                        {"reflected_inertia_kg_m2", row.reflected_inertia},
-                        {"motor_to_load_ratio_1", number(row.motor_to_load_ratio)},
-                        {"design", design_json(series.designs[i])}});
-    }
-    json.push_back({{"structure", control::to_string(series.structure)},
-                    {"friction", friction_text(series)},
-                    {"viscous_friction_N_m_s_per_rad", series.viscous_friction},
-                    {"points", std::move(points)}});
-  }
-  return json;
-}
-
 }  // namespace
 
 std::string to_json(const Report& report) {
@@ -158,11 +117,15 @@ std::string to_json(const Report& report) {
   if (report.plant) json["plant"] = json_of(*report.plant);
   if (report.tuning) json["tuning"] = tuning_json(*report.tuning);
   if (report.measured) json["measured_tuning"] = json_of(*report.measured);
-  if (report.tuned) json["tuned"] = tune_json(*report.tuned);
-  if (report.time_domain) json["time_domain"] = time_domain_json(*report.time_domain);
+  if (report.tuned) json["tuned"] = json_of(*report.tuned);
+  if (report.time_domain) json["time_domain"] = json_of(*report.time_domain);
   if (report.limit) json["limit"] = json_of(*report.limit);
-  if (!report.choices.empty()) json["choices"] = choices_json(report.choices);
-  if (report.matching) json["matching"] = matching_json(*report.matching);
+  if (!report.choices.empty()) {
+    json.update(json_by([&](io::Visitor& v) { describe_choices(v, report.choices); }));
+  }
+  if (report.matching) {
+    json.update(json_by([&](io::Visitor& v) { describe_matching(v, *report.matching); }));
+  }
   if (report.matched) json["matched"] = json_of(*report.matched);
   if (report.evaluated) json["evaluated"] = evaluate_json(*report.evaluated);
   if (const auto models = linear_models(report)) {

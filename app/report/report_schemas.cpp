@@ -9,14 +9,16 @@
 #include <boresight/app/report/identification_description.hpp>
 #include <boresight/app/report/match_report.hpp>
 #include <boresight/app/report/measured_report.hpp>
+#include <boresight/app/report/redesign_description.hpp>
 #include <boresight/app/report/report_schemas.hpp>
 #include <boresight/app/report/schema_writer.hpp>
+#include <boresight/app/report/tune_description.hpp>
 #include <boresight/app/simulate/simulation_report.hpp>
 #include <boresight/io/campaign/campaign_description.hpp>
 #include <boresight/io/case/field.hpp>
 #include <boresight/io/description/design_results.hpp>
-#include <boresight/io/description/loop_results.hpp>
 #include <boresight/io/description/pointing_limit_results.hpp>
+#include <boresight/io/description/time_domain_results.hpp>
 #include <boresight/io/units/wording.hpp>
 #include <boresight/numerics/error.hpp>
 #include <boresight/report_schema_base.hpp>
@@ -40,13 +42,6 @@ Json stages_or_reason() {
 // The parts of the report of redesign and its parts that are described, each defined by its name.
 struct DescribedParts {};
 
-void describe_limit_cycle(io::Visitor& v, std::string_view name, io::LimitCycleDetail detail) {
-  v.group(name, "", [&] {
-    v.defined_as(name, "What the loop does by itself at one steady rate.");
-    describe(v, design::HuntingResult{}, detail);
-  });
-}
-
 void describe(io::Visitor& v, const DescribedParts& /*parts*/) {
   v.object("design", design::Design{}, "");
   v.object("ensemble", design::EnsembleResult{}, "");
@@ -57,14 +52,18 @@ void describe(io::Visitor& v, const DescribedParts& /*parts*/) {
   v.object("measured_tuning", MeasuredTuneSection{}, "");
   v.object("limit", design::PointingLimit{}, "");
   v.object("matched", MatchSection{}, "");
-  describe_limit_cycle(v, "limit_cycle", io::LimitCycleDetail::full);
+  v.object("tuned", TuneSection{}, "");
+  v.object("time_domain", design::TimeDomainStudy{}, "");
+  v.object("compared_run", design::NonlinearVerification{}, "");
   describe_figures(v, {});
 }
 
-// Members of the report itself that other reports have too.
-Json common_members() {
+// Members of the report itself; what they refer to is among the parts.
+Json described_members() {
   SchemaWriter writer;
   describe_case(writer, {}, {}, {});
+  describe_choices(writer, {});
+  describe_matching(writer, {});
   describe_assumed(writer, {});
   return writer.take().at("properties");
 }
@@ -73,7 +72,7 @@ Json report_schema_with_parts() {
   SchemaWriter writer;
   describe(writer, DescribedParts{});
   Json schema = Json::parse(report_schema_base);
-  schema["properties"].update(common_members());
+  schema["properties"].update(described_members());
   schema["$defs"].update(writer.take().at("$defs"));
   return schema;
 }

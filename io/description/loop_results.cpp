@@ -35,9 +35,8 @@ void describe_sensitivity(Visitor& v, const control::Margins& margins) {
            "Where |S| is largest.", {.least = 0.0});
 }
 
-void describe_status(Visitor& v, design::RunStatus status) {
-  v.word("status", to_string(status), {"complete", "interrupted", "lost", "failed"},
-         "How the run ended.");
+void describe_status(Visitor& v, design::RunStatus status, std::string_view meaning) {
+  v.word("status", to_string(status), {"complete", "interrupted", "lost", "failed"}, meaning);
 }
 
 void describe(Visitor& v, const design::HuntingResult& result, LimitCycleDetail detail) {

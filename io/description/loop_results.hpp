@@ -27,6 +27,7 @@ enum class LimitCycleDetail {
 void describe(Visitor& v, const design::HuntingResult& result, LimitCycleDetail detail);
 
 /// "status": how a run ended.
-void describe_status(Visitor& v, design::RunStatus status);
+void describe_status(Visitor& v, design::RunStatus status,
+                     std::string_view meaning = "How the run ended.");
 
 }  // namespace boresight::io

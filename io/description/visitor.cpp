@@ -79,8 +79,8 @@ void Visitor::constant(std::string_view key, std::string_view value, std::string
 }
 
 void Visitor::texts(std::string_view key, std::span<const std::string> values,
-                    std::string_view meaning) {
-  on_list({key, meaning}, {}, true, false);
+                    std::string_view meaning, const ListSize& size) {
+  on_list({key, meaning}, size, true, false);
   if (by_example()) {
     on_text({}, {}, {}, false);
   } else {

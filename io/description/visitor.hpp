@@ -109,7 +109,8 @@ class Visitor {
   void word(std::string_view key, std::string_view value, std::span<const std::string_view> words,
             std::string_view meaning);
   void constant(std::string_view key, std::string_view value, std::string_view meaning);
-  void texts(std::string_view key, std::span<const std::string> values, std::string_view meaning);
+  void texts(std::string_view key, std::span<const std::string> values, std::string_view meaning,
+             const ListSize& size = {});
   void numbers(std::string_view key, std::span<const double> values, const KeyUnit& unit,
                std::string_view meaning, const NumberForm& form = {}, const ListSize& size = {});
   /// null unless `present`.

@@ -10,9 +10,10 @@
 #include <nlohmann/json.hpp>
 
 #include "io/edited_case.hpp"
-#include <boresight/app/report/json_time_domain.hpp>
+#include <boresight/app/report/json_writer.hpp>
 #include <boresight/app/simulate/time_domain.hpp>
 #include <boresight/io/case/mission_of.hpp>
+#include <boresight/io/description/time_domain_results.hpp>
 #include <boresight/numerics/angles.hpp>
 
 namespace boresight::app {
@@ -202,7 +203,7 @@ TEST(TimeDomain, StatesWhetherASecondIntegratorConfirmsTheRun) {
   };
   auto checked = section();
   EXPECT_THAT(told(checked), Not(HasSubstr("CVODES")));
-  EXPECT_TRUE(time_domain_json(checked).at("integrators").is_null());
+  EXPECT_TRUE(json_of(checked).at("integrators").is_null());
   auto& both = checked.result.integrators.emplace();
   both.collocation_rms = 0.6 * mdeg;
   both.cvodes_rms = 0.6 * mdeg;
@@ -211,7 +212,7 @@ TEST(TimeDomain, StatesWhetherASecondIntegratorConfirmsTheRun) {
   EXPECT_THAT(told(checked), HasSubstr("CVODES: 0.6000 mdeg in this wind, differs by 5e-07 of the "
                                        "rms (limit 1e-04); the integration is confirmed."));
   EXPECT_THAT(conclude(checked), Not(HasSubstr("CVODES")));
-  const auto json = time_domain_json(checked).at("integrators");
+  const auto json = json_of(checked).at("integrators");
   EXPECT_DOUBLE_EQ(json.at("ratio_1").get<double>(), 5e-7);
   EXPECT_TRUE(json.at("agree").get<bool>());
 
@@ -226,7 +227,7 @@ TEST(TimeDomain, StatesWhetherASecondIntegratorConfirmsTheRun) {
   both.cvodes_rms = both.difference_rms = nan;
   EXPECT_THAT(told(checked), HasSubstr("CVODES: no check, failed: too stiff."));
   EXPECT_THAT(conclude(checked), Not(HasSubstr("CVODES")));
-  EXPECT_TRUE(time_domain_json(checked).at("integrators").at("ratio_1").is_null());
+  EXPECT_TRUE(json_of(checked).at("integrators").at("ratio_1").is_null());
 }
 
 TEST(TimeDomain, ConcludesWhatTheLinearFigureIsWorth) {
@@ -272,7 +273,7 @@ TEST(TimeDomain, SaysWhyAnotherLawThanTheLinearlyBestIsChosen) {
   quick.wind.status = design::RunStatus::lost;
   EXPECT_THAT(conclude(chosen), HasSubstr("it does not hold (lost)"));
   EXPECT_THAT(to_text(chosen), HasSubstr("quick"));
-  const auto json = time_domain_json(chosen);
+  const auto json = json_of(chosen);
   ASSERT_EQ(json.at("candidates").size(), 2U);
   EXPECT_DOUBLE_EQ(json.at("candidates")[1].at("predicted_rms_mdeg").get<double>(), 0.3);
 }
@@ -376,9 +377,10 @@ TEST(TimeDomain, ChoosesTheLeastSimulatedRms) {
   const design::Mission mission = mission_of(antenna);
   const auto problem = tracking_problem(mission);
   const control::LoopStructure& pi = control::LoopStructure::pi_with_lag();
-  const std::vector<design::NamedController> laws{{"slow", {pi, {0.1, 0.42, 2.6, 3.0, 0.2}}},
-                                       {"tuned", {pi, {0.15873, 0.42068, 2.6277, 10.257, 0.23532}}},
-                                       {"loses it", {pi, {5.0, 0.42, 2.6, 30.0, 0.2}}}};
+  const std::vector<design::NamedController> laws{
+      {"slow", {pi, {0.1, 0.42, 2.6, 3.0, 0.2}}},
+      {"tuned", {pi, {0.15873, 0.42068, 2.6277, 10.257, 0.23532}}},
+      {"loses it", {pi, {5.0, 0.42, 2.6, 30.0, 0.2}}}};
   const auto chosen =
       choose_in_time_domain(mission, problem, laws, 1, 2, design::ChoiceDetail::verified);
   ASSERT_TRUE(chosen);
@@ -392,7 +394,7 @@ TEST(TimeDomain, ChoosesTheLeastSimulatedRms) {
 }
 
 TEST(TimeDomain, JsonAloneGivesTheDifferenceFromThePrediction) {
-  const auto json = time_domain_json(section());
+  const auto json = json_of(section());
   const auto& wind = json.at("wind");
   double sum = wind.at("predicted_rms_mdeg").get<double>() + wind.at("chance_mdeg").get<double>() +
                wind.at("sampling_mdeg").get<double>() + wind.at("joint_mdeg").get<double>();
@@ -405,9 +407,9 @@ TEST(TimeDomain, JsonAloneGivesTheDifferenceFromThePrediction) {
   bare.result.reversal.reset();
   bare.result.slew.reset();
   bare.result.wind.beam_rms = nan;
-  EXPECT_TRUE(time_domain_json(bare).at("slew").is_null());
-  EXPECT_TRUE(time_domain_json(bare).at("reversal").is_null());
-  EXPECT_TRUE(time_domain_json(bare).at("wind").at("beam_rms_mdeg").is_null());
+  EXPECT_TRUE(json_of(bare).at("slew").is_null());
+  EXPECT_TRUE(json_of(bare).at("reversal").is_null());
+  EXPECT_TRUE(json_of(bare).at("wind").at("beam_rms_mdeg").is_null());
 }
 
 TEST(TimeDomain, NoneOfACaseThatSaysNothingOfItsDrive) {

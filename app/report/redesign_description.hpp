@@ -1,0 +1,18 @@
+#pragma once
+
+#include <vector>
+
+#include <boresight/app/report/report.hpp>
+
+namespace boresight::io {
+class Visitor;
+}
+
+namespace boresight::app {
+
+/// "choices" of docs/report.schema.json.
+void describe_choices(io::Visitor& v, const std::vector<ChoiceResult>& choices);
+/// "matching" of docs/report.schema.json.
+void describe_matching(io::Visitor& v, const MatchingSection& section);
+
+}  // namespace boresight::app

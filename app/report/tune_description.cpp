@@ -1,0 +1,238 @@
+#include <algorithm>
+#include <string>
+#include <vector>
+
+#include <boresight/app/report/common_description.hpp>
+#include <boresight/app/report/tune_description.hpp>
+#include <boresight/design/problem/pointing.hpp>
+#include <boresight/io/description/design_results.hpp>
+#include <boresight/io/description/loop_results.hpp>
+#include <boresight/io/description/wind_mast_description.hpp>
+
+namespace boresight::app {
+namespace {
+
+namespace unit = io::key_units;
+
+constexpr io::NumberForm above_zero{.above = 0.0, .finite = true};
+
+// What the loop must keep, cut at one place.
+struct BreakGoals {
+  control::LoopBreak loop_break = control::LoopBreak::valve_command;
+  double sensitivity_peak = 0.0;
+  std::optional<double> gain_margin, phase_margin;
+};
+
+// A gain of a law as the case writes it.
+struct WrittenGain {
+  std::string symbol, name, value;
+};
+
+// Up to which wind a law meets one budget.
+struct BudgetLimit {
+  design::PointingBudget budget;
+  double wind_speed = 0.0;  // m/s
+};
+
+void describe_breaks(io::Visitor& v, const design::HardGoals& goals) {
+  std::vector<BreakGoals> breaks;
+  for (std::size_t b = 0; b < control::loop_breaks.size(); ++b) {
+    breaks.push_back({control::loop_breaks.at(b), goals.sensitivity_peak.at(b),
+                      goals.gain_margin.at(b), goals.phase_margin.at(b)});
+  }
+  v.list("loop_breaks", breaks, "Goals of the loop cut at each of three places.",
+         [&](const BreakGoals& one) {
+           io::describe_break(v, "loop_break", one.loop_break);
+           v.number("sensitivity_peak", one.sensitivity_peak, unit::ratio,
+                    "Largest sensitivity allowed.", above_zero);
+           v.number("gain_margin", one.gain_margin, unit::decibel,
+                    "Least, up and down; null: none asked for.");
+           v.number("phase_margin", one.phase_margin, unit::degree, "Least; null: none asked for.");
+         },
+         {.least = control::loop_breaks.size(), .most = control::loop_breaks.size()});
+}
+
+void describe_goals(io::Visitor& v, const TuneSection& section) {
+  const design::HardGoals& goals = section.goals;
+  const bool over_quantile = section.soft_goal.kind == design::SoftGoalKind::quantile;
+  describe_breaks(v, goals);
+  v.number("valve_effort", goals.valve_effort, unit::radian_per_second,
+           "Largest rms of the noise-driven valve command.", above_zero);
+  v.number("bandwidth", goals.bandwidth, unit::hertz_of_radians,
+           "Least, of the position loop; null: none asked for.");
+  v.number("crest_factor", goals.ask_for_gusts() ? std::optional(goals.crest_factor) : std::nullopt,
+           unit::ratio, "Times the rms in gusts; null: saturation is no goal.");
+  v.number("gust_demand", goals.gust_demand, unit::radian_per_second,
+           "Largest valve command in gusts; null: no goal.");
+  v.number("gust_torque", goals.gust_torque, unit::newton_metre,
+           "Largest motor torque in gusts; null: no goal.");
+  v.number("beam_rms", section.beam_rms_goal, unit::millidegree,
+           "Largest beam error at the first wind speed; null: no goal.");
+  v.text("soft_goal", design::to_string(section.soft_goal.kind),
+         "What is made least over the plants: nominal, expected, worst_case, quantile.");
+  v.number("quantile", over_quantile ? std::optional(section.soft_goal.quantile) : std::nullopt,
+           unit::ratio, "Share of the plants; null for another soft goal.");
+  v.word("rms_over", section.minimises_climate ? "climate" : "design_speed",
+         {"design_speed", "climate"}, "Wind in which the rms that is made least is taken.");
+}
+
+void describe_mission(io::Visitor& v, const TuneSection& section) {
+  v.list("bands", section.bands, "Radio bands.", [&](const design::PointingBand& band) {
+    v.text("name", band.name, "Its name.");
+    v.number("frequency", band.frequency, unit::hertz, "Its frequency.", above_zero);
+    v.number("beamwidth", band.beamwidth, unit::millidegree, "Half-power beamwidth.", above_zero);
+    v.text_or_null("illumination", band.illumination,
+                   "Illumination that the beamwidth is computed from; null if its factor is "
+                   "stated.");
+  });
+  v.list("budgets", section.budgets, "Pointing budgets.",
+         [&](const design::PointingBudget& budget) {
+           v.text("name", budget.name, "Its name.");
+           v.text("band", budget.band, "Its band.");
+           v.text("convention", budget.convention, "What the loss is taken of.");
+           v.number("rms", budget.rms, unit::millidegree, "Error of one axis.", above_zero);
+           v.number("wind_speed", budget.wind_speed, unit::metre_per_second,
+                    "Up to which the budget must be met; null: it need not be met.");
+         });
+}
+
+std::string_view status_of(const TunedLaw& row) {
+  switch (row.design.tuning.status) {
+    case design::TuningStatus::optimal:
+      return row.goals_met ? "goals met" : "goals missed";
+    case design::TuningStatus::infeasible:
+      return "goals missed";
+    case design::TuningStatus::unstable:
+      break;
+  }
+  return "no stable law";
+}
+
+void describe_losses(io::Visitor& v, const TuneSection& section, const TunedLaw& row) {
+  const auto loss = [](const std::optional<double>& rms, const design::PointingBand& band) {
+    return rms ? std::optional(design::pointing_loss_db(*rms, band.beamwidth,
+                                                        design::LossConvention::mean_loss_two_axes))
+               : std::nullopt;
+  };
+  v.list("bands", section.bands, "Losses, one a radio band.",
+         [&](const design::PointingBand& band) {
+           v.text("name", band.name, "Its name.");
+           v.number("mean_loss_two_axes", loss(row.beam_rms, band), unit::decibel_as_kept,
+                    "Mean loss with both axes equally in error, by a parabola that does not hold "
+                    "beyond 3 dB; texts say > 3 there.");
+           v.number("climate_mean_loss_two_axes", loss(row.climate_rms, band),
+                    unit::decibel_as_kept, "The same, expected over the wind climate.");
+         });
+}
+
+void describe_limits(io::Visitor& v, const TuneSection& section, const TunedLaw& row) {
+  std::vector<BudgetLimit> limits;
+  for (std::size_t i = 0; i < row.speed_limits.size(); ++i) {
+    limits.push_back({section.budgets[i], row.speed_limits[i]});
+  }
+  v.list("budgets", limits, "One a pointing budget.", [&](const BudgetLimit& one) {
+    v.text("name", one.budget.name, "Its name.");
+    v.text("band", one.budget.band, "Its band.");
+    v.number("wind_speed_limit", one.wind_speed, unit::metre_per_second,
+             "Mean wind speed up to which the budget is met, supply torque not counted; null: "
+             "beyond 60 m/s.");
+    describe_share_of_time(v, section.climate, std::min(one.wind_speed, section.supply_wind_speed),
+                           "Share of the climate's time up to that speed, or up to the supply's if "
+                           "that is less; null without a climate or a stable law.");
+  });
+}
+
+void describe_gains(io::Visitor& v, const TuneSection& section, const TunedLaw& row) {
+  std::vector<WrittenGain> gains;
+  if (!v.by_example()) {
+    const auto& descriptions = row.design.tuning.law.structure.gains();
+    const auto texts = section.gains_of(row);
+    for (std::size_t i = 0; i < texts.size(); ++i) {
+      gains.push_back({descriptions[i].symbol, descriptions[i].name, texts[i]});
+    }
+  }
+  v.list("gains_as_written", gains, "Gains in the units that the case writes them in.",
+         [&](const WrittenGain& gain) {
+           v.text("symbol", gain.symbol, "Its symbol.");
+           v.text("name", gain.name, "Its name.");
+           v.text("value", gain.value, "Number and unit.");
+         });
+}
+
+void describe_prices(io::Visitor& v, const std::vector<design::LimitingGoal>& limits) {
+  v.list("limits", limits, "Goals with a price, dearest first: what limits the result.",
+         [&](const design::LimitingGoal& limit) {
+           v.text("goal", design::describe(limit.goal), "Which, where and at which frequency.");
+           v.text("plant", limit.member.empty() ? "nominal" : limit.member, "On which plant.");
+           v.number("ratio_to_limit", limit.goal.ratio, unit::ratio,
+                    "Quantity over limit; limit over quantity where the limit is the least.");
+           v.number("rms_per_limit", limit.price, unit::ratio,
+                    "Per cent by which the rms falls for each per cent of the limit; the worst "
+                    "ratio instead of the rms where the law misses its goals.");
+         });
+}
+
+void describe_law(io::Visitor& v, const TuneSection& section, const TunedLaw& row) {
+  const design::TuningResult& tuning = row.design.tuning;
+  v.text("structure", row.structure, "As --structure names it.");
+  v.word("tuned_for", to_string(row.tuned_for), {"present", "nominal", "robust"},
+         "present: the gains that the antenna runs on now; nominal: tuned for its plant alone; "
+         "robust: tuned for all of the ensemble.");
+  v.number("design_wind_speed", row.wind_speed, unit::metre_per_second, "Mean wind speed.",
+           above_zero);
+  v.word("status", status_of(row), {"goals met", "goals missed", "no stable law"},
+         "What became of the goals.");
+  v.flag("goals_met", row.goals_met, "Every hard goal is met, by a robust law on every plant.");
+  v.flag("interrupted", tuning.interrupted,
+         "The user stopped its tuning: the law is the best found until then.");
+  v.flag("recommended", recommended_law(section, row.wind_speed) == &row,
+         "The law that the conclusions name at its wind speed, the nonlinear antenna considered.");
+  v.number("beam_rms", row.beam_rms, unit::millidegree,
+           "Beam error at the wind speed; null without a stable law.");
+  v.number("climate_beam_rms", row.climate_rms, unit::millidegree,
+           "Root of the mean square of the beam error over the site's wind climate; null if the "
+           "case states none.");
+  describe_losses(v, section, row);
+  describe_limits(v, section, row);
+  describe_gains(v, section, row);
+  describe_prices(v, tuning.limits);
+  v.group_if("design", row.stable(), "The law with its verification; null without a stable one.",
+             [&] { describe(v, row.design); });
+  v.object("ensemble", row.ensemble,
+           "Its gains held on every plant of the ensemble; null without a stable law.");
+}
+
+}  // namespace
+
+void describe(io::Visitor& v, const TuneSection& section) {
+  v.defined_as("tuned", "What the command tune found: every law, judged.");
+  v.texts("structures", section.structures, "What was tuned.", {.least = 1});
+  v.numbers("wind_speeds", section.wind_speeds, unit::metre_per_second,
+            "The design's wind speeds, and those up to which budgets must be met.", above_zero,
+            {.least = 1});
+  v.word("wind_model", plant::to_string(section.wind_model), {"uniform", "vickery", "coherence"},
+         "Model of the wind torque.");
+  v.group("goals", "What every law must meet, and what is made least.",
+          [&] { describe_goals(v, section); });
+  describe_mission(v, section);
+  v.number("supply_wind_speed", section.supply_wind_speed, unit::metre_per_second,
+           "Mean wind speed whose mean torque takes what friction and offset leave of the "
+           "supply's; null: none does.");
+  v.text("ensemble_source", to_string(section.ensemble_source),
+         "What the plants of the ensemble were drawn from.");
+  v.count("ensemble_members", section.ensemble_size, "Its plants.");
+  v.count("starts", section.starts, "Random starts of each search.", {.least = 1});
+  v.list("laws", section.laws, "One a structure, purpose and wind speed; at the sky, one axis.",
+         [&](const TunedLaw& row) { describe_law(v, section, row); });
+  v.texts("not_run", section.not_run_texts(), "Tunings that an interrupt left out.");
+  v.list("shortfalls", section.shortfalls, "What cannot be reached (exit code 3).",
+         [&](const Shortfall& one) {
+           v.text("infeasible", one.infeasible, "What it is.");
+           v.text("closest", one.closest, "What comes nearest.");
+         });
+  v.optional_members(section.wind_mast, [&](const io::WindMast& mast) {
+    v.object("wind_mast", mast, "Where the case names one.");
+  });
+}
+
+}  // namespace boresight::app

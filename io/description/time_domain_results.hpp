@@ -1,0 +1,16 @@
+#pragma once
+
+#include <boresight/design/studies/time_domain_study.hpp>
+#include <boresight/io/description/visitor.hpp>
+
+namespace boresight::io {
+
+/// A tuned controller on the nonlinear antenna: in wind, at rest and at the tracking rate, in slow
+/// reversals and in a slew, and the controllers that it was chosen from.
+void describe(Visitor& v, const design::TimeDomainStudy& study);
+
+/// The runs of one of many controllers that are compared: in wind, influences not told apart, at
+/// rest and at the tracking rate, and in slow reversals.
+void describe(Visitor& v, const design::NonlinearVerification& run);
+
+}  // namespace boresight::io

@@ -1,5 +1,6 @@
 #include <functional>
 #include <memory>
+#include <utility>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -8,7 +9,6 @@
 #include <boresight/app/commands/report_commands.hpp>
 #include <boresight/app/figures/record_figures.hpp>
 #include <boresight/app/figures/report_figures.hpp>
-#include <boresight/io/campaign/campaign_identification.hpp>
 #include <boresight/app/identify/first_tests.hpp>
 #include <boresight/app/models/linear_models.hpp>
 #include <boresight/app/page/report_page.hpp>
@@ -21,6 +21,7 @@
 #include <boresight/design/ensembles/plant_ensemble.hpp>
 #include <boresight/design/ensembles/plant_members.hpp>
 #include <boresight/design/problem/pointing_budget.hpp>
+#include <boresight/io/campaign/campaign_identification.hpp>
 #include <boresight/io/campaign/designed_antenna.hpp>
 #include <boresight/io/campaign/identified_case.hpp>
 #include <boresight/io/case/mission_of.hpp>
@@ -49,9 +50,11 @@ struct Command {
 void fill_identification(const io::Case& antenna, const StudyOptions& options, Report& report) {
   report.identification = identify(antenna, options);
   if (antenna.campaign.records.empty()) return;
-  report.campaign = identify_campaign(antenna, options);
-  report.figures =
-      record_figures(report.campaign->notes, campaign_traces(antenna, options.threads));
+  // Drawn before the methods run, which free what the files held.
+  io::LoadedCampaign loaded = load_campaign(antenna, options.threads);
+  const auto traces = campaign_traces(loaded);
+  report.campaign = identify_campaign(antenna, std::move(loaded), options);
+  report.figures = record_figures(report.campaign->notes, traces);
 }
 
 // The tuned law on other plants that may be the true one: those that the records leave open,

@@ -4,7 +4,7 @@
 
 #include <boresight/app/identify/record_traces.hpp>
 #include <boresight/identification/records/record_defects.hpp>
-#include <boresight/io/campaign/loaded_record.hpp>
+#include <boresight/io/campaign/loaded_campaign.hpp>
 
 namespace boresight::app {
 namespace {
@@ -74,15 +74,12 @@ std::vector<RecordTrace> record_traces(const identification::RawRecord& raw,
   return traces;
 }
 
-std::vector<std::vector<RecordTrace>> campaign_traces(const io::Case& antenna, unsigned threads) {
-  io::CampaignNotes notes;
-  const auto knowledge = drive_knowledge(antenna, notes);
-  std::vector<io::LoadedRecord> works = load_records(antenna, threads);
-  recognise(antenna, works);
-  settle_conflicts(antenna, works);
+std::vector<std::vector<RecordTrace>> campaign_traces(const io::LoadedCampaign& loaded) {
   std::vector<std::vector<RecordTrace>> traces;
-  traces.reserve(works.size());
-  for (const auto& work : works) traces.push_back(record_traces(work.raw, work.clean, knowledge));
+  traces.reserve(loaded.records.size());
+  for (const auto& work : loaded.records) {
+    traces.push_back(record_traces(work.raw, work.clean, loaded.knowledge));
+  }
   return traces;
 }
 

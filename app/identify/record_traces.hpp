@@ -4,13 +4,16 @@
 #include <vector>
 
 #include <boresight/app/figures/thinned_series.hpp>
-#include <boresight/io/case/case_file.hpp>
 
 namespace boresight::identification {
 struct CleanRecord;
 struct DriveKnowledge;
 struct RawRecord;
 }  // namespace boresight::identification
+
+namespace boresight::io {
+struct LoadedCampaign;
+}  // namespace boresight::io
 
 namespace boresight::app {
 
@@ -30,9 +33,7 @@ std::vector<RecordTrace> record_traces(const identification::RawRecord& raw,
                                        const identification::CleanRecord& clean,
                                        const identification::DriveKnowledge& knowledge);
 
-/// The traces of every record of a case, in its order: the files are read once more, as
-/// make_campaign reads them, since nothing but plots needs what is in them thereafter.
-/// @throws InvalidInput as make_campaign.
-std::vector<std::vector<RecordTrace>> campaign_traces(const io::Case& antenna, unsigned threads);
+/// The traces of every record, in the case's order.
+std::vector<std::vector<RecordTrace>> campaign_traces(const io::LoadedCampaign& loaded);
 
 }  // namespace boresight::app

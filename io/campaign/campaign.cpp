@@ -1,10 +1,11 @@
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include <fmt/format.h>
 
 #include <boresight/io/campaign/campaign.hpp>
-#include <boresight/io/campaign/loaded_record.hpp>
+#include <boresight/io/campaign/loaded_campaign.hpp>
 #include <boresight/io/case/drive_evidence.hpp>
 #include <boresight/io/case/drive_numbers.hpp>
 #include <boresight/io/case/field.hpp>
@@ -18,30 +19,6 @@ using numerics::Uncertain;
 
 Uncertain uncertain(const Quantity& quantity) {
   return {quantity.value, quantity.standard_uncertainty};
-}
-
-identification::Instruments make_instruments(const Case& antenna, CampaignNotes& notes) {
-  identification::Instruments instruments;
-  if (const auto& entry = antenna.campaign.instruments) {
-    instruments.pressure_gain = entry->pressure_gain.value;
-    instruments.pressure_zero = entry->pressure_zero.value;
-    instruments.tachometer_scale = entry->tachometer_gain.value;
-    if (const auto& valve = entry->valve_command_scale) {
-      instruments.valve_scale = valve->standard_uncertainty / valve->value;
-    }
-  } else if (const auto& recorder = antenna.recorder) {
-    instruments.pressure_gain = recorder->pressure_gain.value;
-    instruments.pressure_zero = recorder->pressure_zero.value;
-    instruments.tachometer_scale = recorder->tachometer_gain.value;
-    notes.assumptions.emplace_back(
-        "no [instruments]: uncertainties of the simulated [recorder] were taken");
-  } else {
-    throw InvalidInput(
-        fmt::format("{}: instruments: expected the uncertainties of the recorder's channels beside "
-                    "records, found none",
-                    antenna.path));
-  }
-  return instruments;
 }
 
 // Of the motors' means over a record, theirs and how far they are from one another (Pa, standard
@@ -196,20 +173,16 @@ identification::DriveKnowledge drive_knowledge(const Case& antenna, CampaignNote
   return knowledge;
 }
 
-identification::Campaign make_campaign(const Case& antenna, CampaignNotes& notes,
-                                       unsigned threads) {
+identification::Campaign make_campaign(const Case& antenna, LoadedCampaign loaded,
+                                       CampaignNotes& notes) {
   const auto& entries = antenna.campaign.records;
-  if (entries.empty()) {
-    throw InvalidInput(
-        fmt::format("{}: record: expected a list of tables [[record]], found none", antenna.path));
-  }
+  auto& works = loaded.records;
+  const identification::Instruments stated = loaded.instruments;
   identification::Campaign campaign;
-  campaign.knowledge = drive_knowledge(antenna, notes);
-  campaign.instruments = make_instruments(antenna, notes);
-  const identification::Instruments stated = campaign.instruments;
-  std::vector<LoadedRecord> works = load_records(antenna, threads);
-  recognise(antenna, works);
-  settle_conflicts(antenna, works);
+  campaign.knowledge = std::move(loaded.knowledge);
+  campaign.instruments = stated;
+  notes = {};
+  notes.assumptions = std::move(loaded.assumptions);
   std::string replaced;  // names of records
   for (std::size_t i = 0; i < works.size(); ++i) {
     LoadedRecord& work = works[i];
@@ -254,6 +227,11 @@ identification::Campaign make_campaign(const Case& antenna, CampaignNotes& notes
                     antenna.path, notes.records.size(), count, refused));
   }
   return campaign;
+}
+
+identification::Campaign make_campaign(const Case& antenna, CampaignNotes& notes,
+                                       unsigned threads) {
+  return make_campaign(antenna, load_campaign(antenna, threads), notes);
 }
 
 }  // namespace boresight::io

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <mutex>
 #include <numeric>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -213,9 +214,14 @@ void require_something(const CampaignSection& section) {
 }  // namespace
 
 CampaignSection identify_campaign(const Case& antenna, const IdentificationOptions& options) {
+  return identify_campaign(antenna, load_campaign(antenna, options.threads), options);
+}
+
+CampaignSection identify_campaign(const Case& antenna, LoadedCampaign loaded,
+                                  const IdentificationOptions& options) {
   CampaignSection section;
   SharedProgress progress(options);
-  const Campaign campaign = make_campaign(antenna, section.notes, options.threads);
+  const Campaign campaign = make_campaign(antenna, std::move(loaded), section.notes);
   section.knowledge = campaign.knowledge;
   section.instruments = campaign.instruments;
   progress.tell(SharedProgress::reading, 0.5);

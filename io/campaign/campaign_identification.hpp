@@ -5,6 +5,7 @@
 #include <functional>
 
 #include <boresight/io/campaign/campaign_section.hpp>
+#include <boresight/io/campaign/loaded_campaign.hpp>
 
 namespace boresight::io {
 
@@ -22,5 +23,10 @@ struct IdentificationOptions {
 /// @throws InvalidInput as make_campaign; NumericalFailure if not one method beside the mass
 /// properties gives an inertia; what options.progress throws (Interrupted).
 CampaignSection identify_campaign(const Case& antenna, const IdentificationOptions& options);
+
+/// The same of records that are read already, of the same case (load_campaign). Given away, their
+/// raw samples are freed before the methods run. @throws as above.
+CampaignSection identify_campaign(const Case& antenna, LoadedCampaign loaded,
+                                  const IdentificationOptions& options);
 
 }  // namespace boresight::io

@@ -3,12 +3,14 @@
 #include <numbers>
 #include <sstream>
 #include <string>
+#include <utility>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "io/one_record.hpp"
 #include <boresight/identification/records/integrated_motion.hpp>
+#include <boresight/io/campaign/loaded_campaign.hpp>
 
 namespace boresight::io {
 namespace {
@@ -39,6 +41,28 @@ TEST(MakeCampaign, ReadsTheThreeCampaignsWithoutAFalseAlarm) {
       EXPECT_EQ(campaign.records[i].inlet_pressure.size(), name == "small-dish" ? 2U : 4U);
       EXPECT_EQ(campaign.records[i].valve_command.has_value(), name != "paper-like");
     }
+  }
+}
+
+TEST(LoadCampaign, HoldsWhatWasRecordedAndMakesTheSameCampaign) {
+  const Case antenna = case_of("small-dish");
+  LoadedCampaign loaded = load_campaign(antenna, 3);
+  ASSERT_EQ(loaded.records.size(), antenna.campaign.records.size());
+  for (const LoadedRecord& one : loaded.records) {
+    EXPECT_GT(one.raw.time.size(), 1000);
+    EXPECT_TRUE(one.clean.record);
+  }
+  CampaignNotes notes, direct_notes;
+  const auto campaign = make_campaign(antenna, std::move(loaded), notes);
+  const auto direct = make_campaign(antenna, direct_notes, 1);
+  EXPECT_EQ(notes.assumptions, direct_notes.assumptions);
+  ASSERT_EQ(notes.records.size(), direct_notes.records.size());
+  EXPECT_EQ(campaign.instruments.pressure_zero, direct.instruments.pressure_zero);
+  ASSERT_EQ(campaign.records.size(), direct.records.size());
+  for (std::size_t i = 0; i < campaign.records.size(); ++i) {
+    EXPECT_EQ(notes.records[i].sha256, direct_notes.records[i].sha256);
+    const auto& rate = campaign.records[i].motor_rate.values;
+    EXPECT_TRUE((rate.array() == direct.records[i].motor_rate.values.array()).all());
   }
 }
 

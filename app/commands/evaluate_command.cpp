@@ -26,8 +26,8 @@ namespace boresight::app {
 namespace {
 
 // Numbers that the proposals assume, beside the case's.
-void add_assumed(const std::vector<Proposal>& proposals, std::vector<io::Quantity>& assumed) {
-  const auto add = [&](const Proposal& proposal, const io::Quantity& quantity,
+void add_assumed(const std::vector<io::Proposal>& proposals, std::vector<io::Quantity>& assumed) {
+  const auto add = [&](const io::Proposal& proposal, const io::Quantity& quantity,
                        const std::string& key) {
     const bool uncertainty = quantity.uncertainty_source.starts_with("assumed");
     if (quantity.basis != io::Basis::assumed && !uncertainty) return;
@@ -74,8 +74,8 @@ int run(EvaluateArguments arguments) {
 Report evaluate_case(const EvaluateArguments& arguments, const std::function<bool()>& interrupted) {
   io::Case antenna = io::read_case(arguments.case_path);
   io::change_goals(antenna.goals, arguments.goals);
-  std::vector<Proposal> proposals;
-  for (const auto& path : arguments.proposals) proposals.push_back(read_proposal(path));
+  std::vector<io::Proposal> proposals;
+  for (const auto& path : arguments.proposals) proposals.push_back(io::read_proposal(path));
   check_proposals(antenna, proposals);
   EvaluateOptions options;
   options.structures = arguments.structures;

@@ -6,7 +6,6 @@
 #include <string>
 #include <vector>
 
-#include <boresight/app/evaluate/proposed_case.hpp>
 #include <boresight/design/decisions/decision_statistics.hpp>
 #include <boresight/design/decisions/test_value.hpp>
 #include <boresight/design/decisions/tornado.hpp>
@@ -15,6 +14,7 @@
 #include <boresight/design/problem/pointing_budget.hpp>
 #include <boresight/design/tuning/design_study.hpp>
 #include <boresight/design/verification/nonlinear_verification.hpp>
+#include <boresight/io/proposals/proposed_case.hpp>
 #include <boresight/numerics/statistics/sobol_indices.hpp>
 
 namespace boresight::app {
@@ -86,8 +86,8 @@ struct Candidate {
   double cost_uncertainty = 0.0;
   bool cost_assumed = false;
   std::vector<std::string> risks;
-  std::vector<ChangeRow> changes;
-  std::vector<DerivedChange> consequences;
+  std::vector<io::ChangeRow> changes;
+  std::vector<io::DerivedChange> consequences;
   double motor_inertia = 0.0;  // kg m2, all motors
   double reflected_inertia = 0.0;
   double motor_to_load_ratio = 0.0;

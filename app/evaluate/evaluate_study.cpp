@@ -115,7 +115,7 @@ Candidate describe_candidate(const io::Case& antenna) {
   return candidate;
 }
 
-Candidate describe_candidate(const ProposedCase& proposed, const Proposal& proposal) {
+Candidate describe_candidate(const io::ProposedCase& proposed, const io::Proposal& proposal) {
   Candidate candidate = describe_candidate(proposed.antenna);
   candidate.name = proposal.name;
   candidate.path = proposal.path;
@@ -132,7 +132,7 @@ Candidate describe_candidate(const ProposedCase& proposed, const Proposal& propo
   return candidate;
 }
 
-void check_together(const std::vector<Proposal>& proposals) {
+void check_together(const std::vector<io::Proposal>& proposals) {
   for (std::size_t i = 0; i < proposals.size(); ++i) {
     const auto& one = proposals[i];
     if (one.name == as_it_is) {
@@ -205,14 +205,15 @@ plant::AntennaPlant proposed_plant(const io::Case& as_is, const io::Case& propos
   return make_plant(proposed, changes_of(own));
 }
 
-void check_proposals(const io::Case& antenna, const std::vector<Proposal>& proposals) {
+void check_proposals(const io::Case& antenna, const std::vector<io::Proposal>& proposals) {
   check_together(proposals);
   for (const auto& proposal : proposals) {
     design::validate(make_goals(apply_proposal(antenna, proposal).antenna));
   }
 }
 
-EvaluateSection evaluate_proposals(const io::Case& antenna, const std::vector<Proposal>& proposals,
+EvaluateSection evaluate_proposals(const io::Case& antenna,
+                                   const std::vector<io::Proposal>& proposals,
                                    const PlantUncertainty& uncertainty,
                                    const EvaluateOptions& options) {
   check_together(proposals);
@@ -252,7 +253,7 @@ EvaluateSection evaluate_proposals(const io::Case& antenna, const std::vector<Pr
   section.candidates.front().description = "the antenna of the case, re-tuned";
   std::vector<std::vector<std::string>> names{structures};
   for (const auto& proposal : proposals) {
-    ProposedCase proposed = apply_proposal(antenna, proposal);
+    io::ProposedCase proposed = apply_proposal(antenna, proposal);
     section.candidates.push_back(describe_candidate(proposed, proposal));
     cases.push_back(std::move(proposed.antenna));
     design::validate(make_goals(cases.back()));

@@ -33,14 +33,15 @@ struct PlantUncertainty {
 
 /// Whether the proposals fit the case and one another: to be asked before any work.
 /// @throws InvalidInput as evaluate_proposals.
-void check_proposals(const io::Case& antenna, const std::vector<Proposal>& proposals);
+void check_proposals(const io::Case& antenna, const std::vector<io::Proposal>& proposals);
 
 /// Tunes the antenna as it is and every proposal with the same draws of what is uncertain
 /// (study_controllers), and compares what is recommended for each. Without proposals: the antenna
 /// as it is alone. The same for any number of threads.
 /// @throws InvalidInput as apply_proposal, and for two proposals of one name or of different
 /// currencies, a structure that is none, fewer than 100 draws.
-EvaluateSection evaluate_proposals(const io::Case& antenna, const std::vector<Proposal>& proposals,
+EvaluateSection evaluate_proposals(const io::Case& antenna,
+                                   const std::vector<io::Proposal>& proposals,
                                    const PlantUncertainty& uncertainty,
                                    const EvaluateOptions& options);
 

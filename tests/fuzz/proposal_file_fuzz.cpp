@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <string_view>
 
-#include <boresight/app/evaluate/proposal.hpp>
+#include <boresight/io/proposals/proposal.hpp>
 #include <boresight/numerics/error.hpp>
 
 using namespace boresight;
@@ -11,7 +11,7 @@ using namespace boresight;
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const std::string_view content(reinterpret_cast<const char*>(data), size);
   try {
-    app::parse_proposal(content, "proposal.toml");
+    io::parse_proposal(content, "proposal.toml");
   } catch (const InvalidInput&) {  // refused in words, as it should be
   }
   return 0;

@@ -5,16 +5,16 @@
 
 #include <boresight/io/case/case_file.hpp>
 
-namespace boresight::app {
+namespace boresight::io {
 
 /// A number of a case that proposals may change, in a table of the same name.
 struct ChangeableNumber {
   const char* table = "";
   const char* key = "";
-  io::Kind kind = io::Kind::number;
-  io::Range range;  // of the number once changed
+  Kind kind = Kind::number;
+  Range range;  // of the number once changed
   /// Where it stands in a case; none where the case has no such table.
-  io::Quantity* (*in)(io::Case& antenna) = nullptr;
+  Quantity* (*in)(Case& antenna) = nullptr;
 
   std::string path() const { return std::string(table) + "." + key; }
 };
@@ -23,4 +23,4 @@ struct ChangeableNumber {
 /// the gear spring, all modes at once, the sampling rate.
 const std::vector<ChangeableNumber>& changeable_numbers();
 
-}  // namespace boresight::app
+}  // namespace boresight::io

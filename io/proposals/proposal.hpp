@@ -8,19 +8,19 @@
 #include <boresight/io/case/case_file.hpp>
 #include <boresight/io/units/quantity.hpp>
 
-namespace boresight::app {
+namespace boresight::io {
 
 /// A number of a case that a proposal replaces, or multiplies.
 struct ProposedChange {
   /// In the case's words: "motor.displacement", "gear_train.stage[3].driven_teeth" (counted from
   /// the motors, from 1), "gear_train.assembly[J3].inertia".
   std::string key;
-  io::Quantity number;
+  Quantity number;
   bool multiplies = false;  // the number is a factor
 };
 
 struct ProposedCost {
-  io::Quantity amount;
+  Quantity amount;
   std::string currency;
 };
 
@@ -28,14 +28,14 @@ struct ProposedCost {
 struct Proposal {
   std::string path;
   std::string name;
-  io::Location name_location;
+  Location name_location;
   std::string description;
   std::optional<ProposedCost> cost;  // none: nobody has priced it
-  io::Location cost_location;
+  Location cost_location;
   std::vector<std::string> risks;
   /// Loop structures to tune it with; empty: those of the antenna as it is.
   std::vector<std::string> structures;
-  io::Location structures_location;
+  Location structures_location;
   std::vector<ProposedChange> changes;  // in the order of docs/proposals.md
 
   /// The change of that key, or none.
@@ -49,4 +49,4 @@ Proposal read_proposal(const std::string& path);
 /// Same, of a text.
 Proposal parse_proposal(std::string_view text, const std::string& path);
 
-}  // namespace boresight::app
+}  // namespace boresight::io

@@ -1,16 +1,18 @@
 // Proposal files: what is read, and every refusal with its place.
 #include <array>
+#include <cmath>
+#include <filesystem>
 #include <random>
 #include <string>
+#include <string_view>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "app/program_run.hpp"
-#include <boresight/app/evaluate/proposal.hpp>
+#include <boresight/io/proposals/proposal.hpp>
 #include <boresight/numerics/error.hpp>
 
-namespace boresight::app {
+namespace boresight::io {
 namespace {
 
 using ::testing::ElementsAre;
@@ -49,7 +51,7 @@ TEST(ProposalFile, ReadsValuesAndFactors) {
   ASSERT_NE(displacement, nullptr);
   EXPECT_TRUE(displacement->multiplies);
   EXPECT_DOUBLE_EQ(displacement->number.value, 1.41);
-  EXPECT_EQ(displacement->number.basis, io::Basis::assumed);
+  EXPECT_EQ(displacement->number.basis, Basis::assumed);
   EXPECT_EQ(displacement->number.source, "frame");
   ASSERT_NE(proposal.find("gear_train.stage[3].driving_teeth"), nullptr);
   EXPECT_EQ(proposal.find("motor.inertia"), nullptr);
@@ -161,7 +163,7 @@ TEST(ProposalFile, ReadsEveryProposalOfTheCases) {
     const Proposal proposal = read_proposal(entry.path().string());
     ASSERT_TRUE(proposal.cost) << entry.path();
     EXPECT_EQ(proposal.cost->currency, "kUSD") << entry.path();
-    EXPECT_EQ(proposal.cost->amount.basis, io::Basis::assumed) << entry.path();
+    EXPECT_EQ(proposal.cost->amount.basis, Basis::assumed) << entry.path();
     EXPECT_FALSE(proposal.cost->amount.source.empty()) << entry.path();
     ++read;
   }
@@ -230,4 +232,4 @@ TEST(ProposalFile, SurvivesRandomFiles) {
 }
 
 }  // namespace
-}  // namespace boresight::app
+}  // namespace boresight::io

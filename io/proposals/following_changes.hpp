@@ -2,32 +2,31 @@
 
 #include <string>
 
-#include <boresight/app/evaluate/proposal.hpp>
 #include <boresight/io/case/case_file.hpp>
+#include <boresight/io/proposals/proposal.hpp>
 
-namespace boresight::app {
+namespace boresight::io {
 
 /// "FILE:LINE:COLUMN: KEY: MESSAGE" of a change. @throws InvalidInput always
 [[noreturn]] void refuse_change(const ProposedChange& change, const std::string& message);
 
 /// What a change makes of a number.
 double changed(const ProposedChange& change, double before);
-io::Quantity changed(const ProposedChange& change, const io::Quantity& before);
+Quantity changed(const ProposedChange& change, const Quantity& before);
 /// Refuses a number that a change has taken out of its range.
-void check_changed_range(const ProposedChange& change, io::Kind kind, const io::Range& range,
-                         double value);
+void check_changed_range(const ProposedChange& change, Kind kind, const Range& range, double value);
 
 /// The same structure on a gear spring so many times as stiff: by the locked-rotor frequency that
 /// gives it, every mode by what it is with the bull gear held. @throws InvalidInput for a factor
 /// that is not positive, one that takes the frequency beyond 1 kHz, and as structure_specification
-void stiffen_gear(const ProposedChange& change, io::StructureEntry& structure);
+void stiffen_gear(const ProposedChange& change, StructureEntry& structure);
 
 /// Dead time and noise bandwidth after the sampling rate; refuses a delay that contradicts it, and
 /// a sampling slower than before that is too slow for the structure's modes, as the case states
 /// them or as the proposal leaves them (stiffen_gear states them anew, and lower).
-void follow_sampling(const io::Case& before, const Proposal& proposal, io::Case& after);
+void follow_sampling(const Case& before, const Proposal& proposal, Case& after);
 /// What gear ratio, displacement, count, volumes, bulk modulus, supply pressure and the valve's
 /// rated flow bring with them, as proposed_case.hpp says; ranges of the ensemble.
-void follow_drive(const io::Case& before, const Proposal& proposal, io::Case& after);
+void follow_drive(const Case& before, const Proposal& proposal, Case& after);
 
-}  // namespace boresight::app
+}  // namespace boresight::io

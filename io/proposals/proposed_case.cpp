@@ -3,19 +3,19 @@
 
 #include <fmt/format.h>
 
-#include <boresight/app/evaluate/changeable_numbers.hpp>
-#include <boresight/app/evaluate/following_changes.hpp>
-#include <boresight/app/evaluate/proposed_case.hpp>
 #include <boresight/control/controllers/sample_time.hpp>
 #include <boresight/io/case/antenna_of.hpp>
 #include <boresight/io/case/drive_numbers.hpp>
 #include <boresight/io/case/field.hpp>
 #include <boresight/io/case/plant_numbers.hpp>
 #include <boresight/io/case/structure_numbers.hpp>
+#include <boresight/io/proposals/changeable_numbers.hpp>
+#include <boresight/io/proposals/following_changes.hpp>
+#include <boresight/io/proposals/proposed_case.hpp>
 #include <boresight/io/units/wording.hpp>
 #include <boresight/numerics/error.hpp>
 
-namespace boresight::app {
+namespace boresight::io {
 namespace {
 
 std::string after_text(const ProposedChange& change) {
@@ -24,7 +24,7 @@ std::string after_text(const ProposedChange& change) {
 
 class Application {
  public:
-  Application(const io::Case& antenna, const Proposal& proposal)
+  Application(const Case& antenna, const Proposal& proposal)
       : before_(antenna), proposal_(proposal), result_{antenna, {}, {}}, after_(result_.antenna) {}
 
   ProposedCase run() {
@@ -59,11 +59,11 @@ class Application {
   void check_structures() const {
     for (const auto& name : proposal_.structures) {
       try {
-        io::loop_structure(before_, name);
+        loop_structure(before_, name);
       } catch (const InvalidInput& error) {
-        io::refuse_at(proposal_.structures_location, "structures",
-                      fmt::format("expected loop structures, found {}: {}", io::in_quotes(name),
-                                  error.what()));
+        refuse_at(
+            proposal_.structures_location, "structures",
+            fmt::format("expected loop structures, found {}: {}", in_quotes(name), error.what()));
       }
     }
   }
@@ -75,16 +75,16 @@ class Application {
     if (modulus != nullptr || lengths != nullptr) {
       // A case may have the modulus from its lines' pressure waves: it is the oil's, not the
       // lines'.
-      io::Quantity mean;
+      Quantity mean;
       mean.value = bulk_modulus(before_);
-      mean.kind = io::Kind::pressure;
+      mean.kind = Kind::pressure;
       mean.text = fmt::format("{:.6g} Pa", mean.value);
       mean.key = "oil.bulk_modulus";
-      io::Quantity own = after_.oil.bulk_modulus.value_or(mean);
+      Quantity own = after_.oil.bulk_modulus.value_or(mean);
       if (modulus != nullptr) {
         note_before("oil.bulk_modulus", own.text);
         own = changed(*modulus, own);
-        check_changed_range(*modulus, io::Kind::pressure, io::Range::between(1e7, 1e10), own.value);
+        check_changed_range(*modulus, Kind::pressure, Range::between(1e7, 1e10), own.value);
       }
       after_.oil.bulk_modulus = own;
     }
@@ -108,8 +108,7 @@ class Application {
       if (!(kept > 0.0)) {
         refuse_change(*share, "expected volumes to be left when the lines are gone, found none");
       }
-      for (io::Quantity* volume : {&after_.oil.volume_1, &after_.oil.volume_2})
-        volume->value *= kept;
+      for (Quantity* volume : {&after_.oil.volume_1, &after_.oil.volume_2}) volume->value *= kept;
     } else if (!stated) {
       refuse_change(*lengths,
                     "expected line_share (the share of each volume that is lines) or the volumes "
@@ -147,8 +146,8 @@ class Application {
           refuse_change(change, fmt::format("expected a stage from 1 to {}, the case's, found {}",
                                             train.stages.size(), number));
         }
-        io::GearStageEntry& stage = train.stages[number - 1];
-        io::Quantity& teeth =
+        GearStageEntry& stage = train.stages[number - 1];
+        Quantity& teeth =
             change.key.ends_with("driven_teeth") ? stage.driven_teeth : stage.driving_teeth;
         note_before(change.key, teeth.text);
         teeth = changed(change, teeth);
@@ -166,20 +165,20 @@ class Application {
     const std::string name =
         change.key.substr(20, change.key.size() - 20 - std::string_view("].inertia").size());
     auto& assemblies = after_.gear_train.assemblies;
-    const auto found = std::ranges::find(assemblies, name, &io::RotatingAssembly::name);
+    const auto found = std::ranges::find(assemblies, name, &RotatingAssembly::name);
     if (found == assemblies.end()) {
       std::vector<std::string_view> known;
       for (const auto& assembly : assemblies) known.emplace_back(assembly.name);
-      refuse_change(change, fmt::format("expected an assembly of the case ({}), found {}{}",
-                                        io::quoted_list(known), io::in_quotes(name),
-                                        io::did_you_mean(name, known)));
+      refuse_change(change,
+                    fmt::format("expected an assembly of the case ({}), found {}{}",
+                                quoted_list(known), in_quotes(name), did_you_mean(name, known)));
     }
     if (!found->inertia && change.multiplies) {
       refuse_change(change,
                     "expected an inertia, since the case sums this one from its parts, found a "
                     "factor");
     }
-    std::optional<io::Quantity>& inertia = found->inertia;
+    std::optional<Quantity>& inertia = found->inertia;
     note_before(change.key, inertia ? inertia->text : "of its parts");
     inertia = changed(change, inertia ? *inertia : change.number);
   }
@@ -188,8 +187,8 @@ class Application {
     for (const auto& number : changeable_numbers()) {
       const auto* change = proposal_.find(number.path());
       if (change == nullptr) continue;
-      io::Quantity* quantity = number.in(after_);
-      const io::Quantity* own = number.in(original_);
+      Quantity* quantity = number.in(after_);
+      const Quantity* own = number.in(original_);
       if (quantity == nullptr || own == nullptr) {
         refuse_change(*change,
                       fmt::format("expected a number that the case has, found none of it in {}{}",
@@ -198,7 +197,7 @@ class Application {
       note_before(change->key, own->text);
       *quantity = changed(*change, *quantity);
       check_changed_range(*change, number.kind, number.range, quantity->value);
-      if (number.kind == io::Kind::volume) check_volume(*change, own->value, quantity->value);
+      if (number.kind == Kind::volume) check_volume(*change, own->value, quantity->value);
     }
   }
 
@@ -218,7 +217,7 @@ class Application {
       note_before(change->key, "the case's");
       for (auto& mode : after_.structure.modes) {
         mode.damping_ratio = changed(*change, mode.damping_ratio);
-        check_changed_range(*change, io::Kind::number, io::Range::between(0.0, 1.0),
+        check_changed_range(*change, Kind::number, Range::between(0.0, 1.0),
                             mode.damping_ratio.value);
       }
     }
@@ -235,7 +234,7 @@ class Application {
         refuse_change(locked != nullptr ? *locked : *modes, message);
     }
     try {
-      io::structure_specifications(after_.structure);
+      structure_specifications(after_.structure);
     } catch (const InvalidInput& error) {
       if (locked != nullptr || modes != nullptr) {
         refuse_change(locked != nullptr ? *locked : *modes, error.what());
@@ -254,8 +253,8 @@ class Application {
 
   // Disks, count and inertia as built.
   void apply_motor() {
-    io::MotorEntry& motor = after_.motor;
-    const io::MotorEntry& own = before_.motor;
+    MotorEntry& motor = after_.motor;
+    const MotorEntry& own = before_.motor;
     if (const auto* change = proposal_.find("motor.count")) {
       const double count = changed(*change, static_cast<double>(own.count));
       if (count < 1.0 || std::abs(count - std::round(count)) > 1e-9) {
@@ -328,17 +327,17 @@ class Application {
       return change.key != "oil.line_share" && !same_as_before(change);
     });
     if (any || !proposal_.structures.empty()) return;
-    io::refuse_at(proposal_.name_location, "name",
-                  fmt::format("expected a proposal that changes something, found {}",
-                              proposal_.changes.empty()
-                                  ? "no change and no structures"
-                                  : "that every change leaves the case's number as it is"));
+    refuse_at(proposal_.name_location, "name",
+              fmt::format("expected a proposal that changes something, found {}",
+                          proposal_.changes.empty()
+                              ? "no change and no structures"
+                              : "that every change leaves the case's number as it is"));
   }
 
   bool same_as_before(const ProposedChange& change) {
     for (const auto& number : changeable_numbers()) {
       if (change.key != number.path()) continue;
-      const io::Quantity* own = number.in(original_);
+      const Quantity* own = number.in(original_);
       return own != nullptr && own->value == change.number.value;
     }
     const double value = change.number.value;
@@ -349,24 +348,24 @@ class Application {
       return control::dead_time_of(1.0 / value) == before_.controller_delay.value;
     }
     if (change.key.starts_with("gear_train.stage["))
-      return io::gear_ratio(after_) == io::gear_ratio(before_);
+      return gear_ratio(after_) == gear_ratio(before_);
     return false;
   }
 
   using Before = std::pair<std::string, std::string>;
 
-  const io::Case& before_;
+  const Case& before_;
   const Proposal& proposal_;
   ProposedCase result_;
-  io::Case& after_;
-  io::Case original_ = before_;  // places of numbers are told of a case that may be written to
+  Case& after_;
+  Case original_ = before_;  // places of numbers are told of a case that may be written to
   std::vector<Before> befores_;
 };
 
 }  // namespace
 
-ProposedCase apply_proposal(const io::Case& antenna, const Proposal& proposal) {
+ProposedCase apply_proposal(const Case& antenna, const Proposal& proposal) {
   return Application(antenna, proposal).run();
 }
 
-}  // namespace boresight::app
+}  // namespace boresight::io

@@ -3,17 +3,17 @@
 #include <string>
 #include <vector>
 
-#include <boresight/app/evaluate/proposal.hpp>
 #include <boresight/io/case/case_file.hpp>
+#include <boresight/io/proposals/proposal.hpp>
 
-namespace boresight::app {
+namespace boresight::io {
 
 /// One change as a report shows it.
 struct ChangeRow {
   std::string key;
   std::string before;  // as the case has it
   std::string after;   // as the proposal has it: "12", "x 1.41"
-  io::Basis basis = io::Basis::unstated;
+  Basis basis = Basis::unstated;
   std::string source;
 };
 
@@ -28,7 +28,7 @@ struct DerivedChange {
 
 /// A case as a proposal makes it.
 struct ProposedCase {
-  io::Case antenna;
+  Case antenna;
   std::vector<ChangeRow> changes;
   std::vector<DerivedChange> consequences;  // of quantities that the proposal does not name
 };
@@ -57,9 +57,9 @@ struct ProposedCase {
 /// that contradict one another (motor inertia against disks, volumes against lines, delay against
 /// sampling rate), a sampling that its own antenna's modes are too fast for, and a proposal that
 /// changes nothing.
-ProposedCase apply_proposal(const io::Case& antenna, const Proposal& proposal);
+ProposedCase apply_proposal(const Case& antenna, const Proposal& proposal);
 
 /// What differs between a case and what was made of it, quantity by quantity.
-std::vector<DerivedChange> consequences_of(const io::Case& before, const io::Case& after);
+std::vector<DerivedChange> consequences_of(const Case& before, const Case& after);
 
-}  // namespace boresight::app
+}  // namespace boresight::io

@@ -3,44 +3,44 @@
 
 #include <fmt/format.h>
 
-#include <boresight/app/evaluate/following_changes.hpp>
 #include <boresight/control/controllers/sample_time.hpp>
 #include <boresight/io/case/drive_numbers.hpp>
 #include <boresight/io/case/field.hpp>
 #include <boresight/io/case/plant_numbers.hpp>
 #include <boresight/io/case/structure_numbers.hpp>
+#include <boresight/io/proposals/following_changes.hpp>
 
-namespace boresight::app {
+namespace boresight::io {
 namespace {
 
-double motors_displacement(const io::Case& antenna) {
+double motors_displacement(const Case& antenna) {
   return static_cast<double>(antenna.motor.count) * antenna.motor.displacement.value;
 }
 
-double compliance_of_sides(const io::Case& antenna) {
+double compliance_of_sides(const Case& antenna) {
   return 1.0 / antenna.oil.volume_1.value + 1.0 / antenna.oil.volume_2.value;
 }
 
 // As rated_stroke has it.
-double no_load_pressure(const io::Case& antenna) {
-  const std::optional<io::Quantity> returned =
+double no_load_pressure(const Case& antenna) {
+  const std::optional<Quantity> returned =
       antenna.simulation ? antenna.simulation->return_pressure : antenna.campaign.return_pressure;
   return antenna.drive.supply_pressure.value - (returned ? returned->value : 0.0);
 }
 
 // A number of the same antenna in other terms, as uncertain for its size.
-io::Quantity in_other_terms(const io::Quantity& stated, double value, const char* unit) {
-  io::Quantity quantity = io::derived_quantity(stated, stated.kind, value, unit);
-  quantity.standard_uncertainty = io::relative_uncertainty(stated) * value;
+Quantity in_other_terms(const Quantity& stated, double value, const char* unit) {
+  Quantity quantity = derived_quantity(stated, stated.kind, value, unit);
+  quantity.standard_uncertainty = relative_uncertainty(stated) * value;
   return quantity;
 }
 
 // Frequencies with the motors held would move with the gear spring.
-void hold_bull_gear(io::StructureEntry& structure) {
+void hold_bull_gear(StructureEntry& structure) {
   if (!structure.motors_held) return;
-  const plant::StructureSpecification held = io::structure_specification(structure);
+  const plant::StructureSpecification held = structure_specification(structure);
   for (std::size_t i = 0; i < structure.modes.size(); ++i) {
-    io::StructureModeEntry& mode = structure.modes[i];
+    StructureModeEntry& mode = structure.modes[i];
     mode.frequency = in_other_terms(mode.frequency, held.modes[i].frequency, "Hz");
     if (!mode.effective_fraction) continue;
     const double fraction = held.modes[i].inertia_fraction;
@@ -51,8 +51,8 @@ void hold_bull_gear(io::StructureEntry& structure) {
   structure.motors_held = false;
 }
 
-void follow_gear(const io::Case& before, io::Case& after) {
-  const double up = io::gear_ratio(after) / io::gear_ratio(before);
+void follow_gear(const Case& before, Case& after) {
+  const double up = gear_ratio(after) / gear_ratio(before);
   if (up == 1.0 || !after.simulation) return;
   auto& simulation = *after.simulation;
   if (simulation.backlash) simulation.backlash->value *= up;
@@ -61,24 +61,24 @@ void follow_gear(const io::Case& before, io::Case& after) {
   if (simulation.offset_sine) simulation.offset_sine->value /= up;
 }
 
-void follow_ensemble(const io::Case& before, io::Case& after) {
-  const auto scale = [](std::optional<io::RangeEntry>& range, double factor) {
+void follow_ensemble(const Case& before, Case& after) {
+  const auto scale = [](std::optional<RangeEntry>& range, double factor) {
     if (!range) return;
     range->lower.value *= factor;
     range->upper.value *= factor;
   };
   scale(after.ensemble.leakage_rate,
         after.drive.leakage_rate.value / before.drive.leakage_rate.value);
-  const double friction = io::tracking_friction(before);
+  const double friction = tracking_friction(before);
   if (friction > 0.0) {
-    scale(after.ensemble.viscous_friction, io::tracking_friction(after) / friction);
+    scale(after.ensemble.viscous_friction, tracking_friction(after) / friction);
   }
 }
 
 }  // namespace
 
 void refuse_change(const ProposedChange& change, const std::string& message) {
-  io::refuse_at(change.number.location, change.key, message);
+  refuse_at(change.number.location, change.key, message);
 }
 
 double changed(const ProposedChange& change, double before) {
@@ -86,9 +86,9 @@ double changed(const ProposedChange& change, double before) {
 }
 
 // A number of a case with the change's word in the place of its own.
-io::Quantity changed(const ProposedChange& change, const io::Quantity& before) {
+Quantity changed(const ProposedChange& change, const Quantity& before) {
   if (!change.multiplies) return change.number;
-  io::Quantity after = before;
+  Quantity after = before;
   const double factor = change.number.value;
   after.value *= factor;
   after.standard_uncertainty *= std::abs(factor);
@@ -98,12 +98,11 @@ io::Quantity changed(const ProposedChange& change, const io::Quantity& before) {
   return after;
 }
 
-void check_changed_range(const ProposedChange& change, io::Kind kind, const io::Range& range,
+void check_changed_range(const ProposedChange& change, Kind kind, const Range& range,
                          double value) {
   const bool within = range.minimum_excluded ? value > range.minimum : value >= range.minimum;
   if (within && value <= range.maximum) return;
-  const std::string unit =
-      kind == io::Kind::number ? "" : fmt::format(" {}", io::describe(kind).si_unit);
+  const std::string unit = kind == Kind::number ? "" : fmt::format(" {}", describe(kind).si_unit);
   const std::string least =
       fmt::format("{} {:g}{}", range.minimum_excluded ? "above" : "from", range.minimum, unit);
   const std::string most =
@@ -112,21 +111,21 @@ void check_changed_range(const ProposedChange& change, io::Kind kind, const io::
                 fmt::format("expected a result {}{}, found {:g}{}", least, most, value, unit));
 }
 
-void stiffen_gear(const ProposedChange& change, io::StructureEntry& structure) {
+void stiffen_gear(const ProposedChange& change, StructureEntry& structure) {
   const double factor = change.number.value;
   if (!(factor > 0.0)) {
     refuse_change(change, fmt::format("expected a factor above 0, found {:g}", factor));
   }
   hold_bull_gear(structure);
-  const plant::StructureSpecification antenna = io::structure_specification(structure);
+  const plant::StructureSpecification antenna = structure_specification(structure);
   const double stiffness = factor * plant::make_structure(antenna).gear_stiffness;
   double frequency = 0.0;
   try {
-    frequency = io::locked_rotor_frequency_for(antenna, stiffness);
+    frequency = locked_rotor_frequency_for(antenna, stiffness);
   } catch (const InvalidInput& error) {
     refuse_change(change, error.what());
   }
-  check_changed_range(change, io::Kind::frequency, io::Range::positive(1000.0), frequency);
+  check_changed_range(change, Kind::frequency, Range::positive(1000.0), frequency);
   structure.locked_rotor_frequency =
       in_other_terms(structure.locked_rotor_frequency, frequency, "Hz");
 }
@@ -134,7 +133,7 @@ void stiffen_gear(const ProposedChange& change, io::StructureEntry& structure) {
 namespace {
 
 // Of those stated, whichever part they hold.
-double fastest_mode(const io::StructureEntry& structure) {
+double fastest_mode(const StructureEntry& structure) {
   double fastest = structure.locked_rotor_frequency.value;
   for (const auto& mode : structure.modes) fastest = std::max(fastest, mode.frequency.value);
   return fastest;
@@ -142,7 +141,7 @@ double fastest_mode(const io::StructureEntry& structure) {
 
 }  // namespace
 
-void follow_sampling(const io::Case& before, const Proposal& proposal, io::Case& after) {
+void follow_sampling(const Case& before, const Proposal& proposal, Case& after) {
   const auto* rate = proposal.find("controller.sample_rate");
   const auto* delay = proposal.find("controller.delay");
   if (rate != nullptr) {
@@ -179,7 +178,7 @@ void follow_sampling(const io::Case& before, const Proposal& proposal, io::Case&
   }
 }
 
-void follow_drive(const io::Case& before, const Proposal& proposal, io::Case& after) {
+void follow_drive(const Case& before, const Proposal& proposal, Case& after) {
   const auto& own = before.motor;
   for (auto& assembly : after.gear_train.assemblies) {
     if (assembly.count == own.count) assembly.count = after.motor.count;
@@ -220,4 +219,4 @@ void follow_drive(const io::Case& before, const Proposal& proposal, io::Case& af
   follow_ensemble(before, after);
 }
 
-}  // namespace boresight::app
+}  // namespace boresight::io

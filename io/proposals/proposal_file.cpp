@@ -6,25 +6,24 @@
 
 #include <fmt/format.h>
 
-#include <boresight/app/evaluate/changeable_numbers.hpp>
-#include <boresight/app/evaluate/proposal.hpp>
 #include <boresight/io/case/field.hpp>
 #include <boresight/io/case/table_reader.hpp>
 #include <boresight/io/case/toml_tree.hpp>
+#include <boresight/io/proposals/changeable_numbers.hpp>
+#include <boresight/io/proposals/proposal.hpp>
 #include <boresight/io/units/wording.hpp>
 
-namespace boresight::app {
+namespace boresight::io {
 namespace {
 
 constexpr double largest_factor = 1000.0;
 
 // What a number says of itself when it is no quantity but a factor.
-io::Quantity read_factor(io::TableReader& details, io::Quantity factor) {
+Quantity read_factor(TableReader& details, Quantity factor) {
   if (details.has("basis") || details.optional_text("basis")) {
     const std::string basis =
         details.choice("basis", {"measured", "published", "inferred", "assumed"});
-    for (const auto known :
-         {io::Basis::measured, io::Basis::published, io::Basis::inferred, io::Basis::assumed}) {
+    for (const auto known : {Basis::measured, Basis::published, Basis::inferred, Basis::assumed}) {
       if (basis == to_string(known)) factor.basis = known;
     }
   }
@@ -35,30 +34,27 @@ io::Quantity read_factor(io::TableReader& details, io::Quantity factor) {
 // A table of the file and the same table of its tree, which tells a factor from a value.
 class ChangeTable {
  public:
-  ChangeTable(io::TableReader reader, const io::TomlNode& node)
-      : reader_(std::move(reader)), node_(node) {}
+  ChangeTable(TableReader reader, const TomlNode& node) : reader_(std::move(reader)), node_(node) {}
 
-  io::TableReader& reader() { return reader_; }
+  TableReader& reader() { return reader_; }
 
   // The change that stands at `key`, if any, as one of `path` in the case.
-  void read(const char* key, const std::string& path, io::Kind kind, const io::Range& range,
+  void read(const char* key, const std::string& path, Kind kind, const Range& range,
             std::vector<ProposedChange>& changes) {
-    const io::TomlNode* found = node_.find(key);
-    if (found == nullptr || found->type != io::TomlType::table ||
-        found->find("factor") == nullptr) {
+    const TomlNode* found = node_.find(key);
+    if (found == nullptr || found->type != TomlType::table || found->find("factor") == nullptr) {
       if (auto value = reader_.optional_quantity(key, kind, range)) {
         changes.push_back({path, std::move(*value), false});
       }
       return;
     }
-    io::TableReader details = reader_.table(key);
+    TableReader details = reader_.table(key);
     if (details.has("value")) {
       details.refuse("factor", "expected either a value or a factor, found both");
     }
-    io::Quantity factor =
-        details.quantity("factor", io::Kind::number, io::Range::between(0.0, largest_factor));
-    if (auto uncertainty = details.optional_quantity("uncertainty", io::Kind::number,
-                                                     io::Range::not_negative(largest_factor))) {
+    Quantity factor = details.quantity("factor", Kind::number, Range::between(0.0, largest_factor));
+    if (auto uncertainty = details.optional_quantity("uncertainty", Kind::number,
+                                                     Range::not_negative(largest_factor))) {
       factor.standard_uncertainty =
           uncertainty->text.ends_with('%') ? uncertainty->value * factor.value : uncertainty->value;
       factor.uncertainty_given = true;
@@ -71,28 +67,28 @@ class ChangeTable {
 
   // Whether a value stands at `key`, and no factor.
   bool has_value(const char* key) const {
-    const io::TomlNode* found = node_.find(key);
+    const TomlNode* found = node_.find(key);
     if (found == nullptr) return false;
-    if (found->type != io::TomlType::table) return true;
+    if (found->type != TomlType::table) return true;
     return found->find("value") != nullptr && found->find("factor") == nullptr;
   }
 
   void whole_number(const ProposedChange& change, const char* key) const {
     if (!change.multiplies && change.number.value != std::round(change.number.value)) {
       reader_.refuse(
-          key, fmt::format("expected a whole number, found {}", io::in_quotes(change.number.text)));
+          key, fmt::format("expected a whole number, found {}", in_quotes(change.number.text)));
     }
   }
 
  private:
-  io::TableReader reader_;
-  const io::TomlNode& node_;
+  TableReader reader_;
+  const TomlNode& node_;
 };
 
 class ProposalReader {
  public:
   ProposalReader(std::string_view text, const std::string& path)
-      : root_(io::parse_toml(text, path)), file_(io::TableReader::parse(text, path)) {
+      : root_(parse_toml(text, path)), file_(TableReader::parse(text, path)) {
     proposal_.path = path;
   }
 
@@ -119,9 +115,9 @@ class ProposalReader {
     const bool blank = proposal_.name.find_first_not_of(' ') == std::string::npos;
     const bool control = std::ranges::any_of(
         proposal_.name, [](char c) { return static_cast<unsigned char>(c) < 0x20U || c == 0x7F; });
-    if (blank || control || io::character_count(proposal_.name) > 60) {
+    if (blank || control || character_count(proposal_.name) > 60) {
       file_.refuse("name", fmt::format("expected a name of 1 to 60 printable characters, found {}",
-                                       io::in_quotes(proposal_.name)));
+                                       in_quotes(proposal_.name)));
     }
     proposal_.description = file_.text("description");
     if (file_.has("risks")) proposal_.risks = file_.texts("risks");
@@ -135,7 +131,7 @@ class ProposalReader {
       for (const auto& name : proposal_.structures) {
         if (!once.insert(name).second) {
           file_.refuse("structures", fmt::format("expected each structure once, found {} again",
-                                                 io::in_quotes(name)));
+                                                 in_quotes(name)));
         }
       }
     }
@@ -150,7 +146,7 @@ class ProposalReader {
     if (!table) return;
     proposal_.cost_location = table->location();
     ProposedCost cost;
-    cost.amount = table->quantity("amount", io::Kind::number, io::Range::not_negative(1e15));
+    cost.amount = table->quantity("amount", Kind::number, Range::not_negative(1e15));
     cost.currency = table->text("currency");
     if (cost.currency.empty()) {
       table->refuse("currency", "expected a currency such as 'kUSD of 2026', found ''");
@@ -185,11 +181,11 @@ class ProposalReader {
     auto table = open("motor");
     if (!table) return;
     const std::size_t before = proposal_.changes.size();
-    table->read("count", "motor.count", io::Kind::number, io::Range::between(1.0, 1000.0),
+    table->read("count", "motor.count", Kind::number, Range::between(1.0, 1000.0),
                 proposal_.changes);
     if (proposal_.changes.size() > before) table->whole_number(proposal_.changes.back(), "count");
-    table->read("flywheel_disks", "motor.flywheel_disks", io::Kind::number,
-                io::Range::not_negative(10000), proposal_.changes);
+    table->read("flywheel_disks", "motor.flywheel_disks", Kind::number, Range::not_negative(10000),
+                proposal_.changes);
     read_fields(*table, "motor");
     table->reader().finish();
   }
@@ -197,7 +193,7 @@ class ProposalReader {
   void read_gear() {
     auto table = open("gear_train");
     if (!table) return;
-    const io::TomlNode& node = *root_.find("gear_train");
+    const TomlNode& node = *root_.find("gear_train");
     auto stages = table->reader().tables("stage");
     std::set<long> changed;
     for (std::size_t i = 0; i < stages.size(); ++i) {
@@ -210,8 +206,8 @@ class ProposalReader {
       const std::size_t before = proposal_.changes.size();
       for (const char* teeth : {"driven_teeth", "driving_teeth"}) {
         const std::size_t already = proposal_.changes.size();
-        inner.read(teeth, fmt::format("gear_train.stage[{}].{}", stage, teeth), io::Kind::number,
-                   io::Range::positive(1e6), proposal_.changes);
+        inner.read(teeth, fmt::format("gear_train.stage[{}].{}", stage, teeth), Kind::number,
+                   Range::positive(1e6), proposal_.changes);
         if (proposal_.changes.size() > already) {
           inner.whole_number(proposal_.changes.back(), teeth);
         }
@@ -227,13 +223,13 @@ class ProposalReader {
     for (std::size_t i = 0; i < assemblies.size(); ++i) {
       const std::string name = assemblies[i].text("name");
       if (!names.insert(name).second) {
-        assemblies[i].refuse("name", fmt::format("expected each assembly once, found {} again",
-                                                 io::in_quotes(name)));
+        assemblies[i].refuse(
+            "name", fmt::format("expected each assembly once, found {} again", in_quotes(name)));
       }
       ChangeTable inner(std::move(assemblies[i]), node.find("assembly")->elements[i]);
       const std::size_t before = proposal_.changes.size();
-      inner.read("inertia", fmt::format("gear_train.assembly[{}].inertia", name), io::Kind::inertia,
-                 io::Range::positive(), proposal_.changes);
+      inner.read("inertia", fmt::format("gear_train.assembly[{}].inertia", name), Kind::inertia,
+                 Range::positive(), proposal_.changes);
       inner.reader().finish();
       if (proposal_.changes.size() == before) {
         inner.reader().refuse("inertia", "expected the assembly's inertia, found none");
@@ -250,18 +246,18 @@ class ProposalReader {
           key, fmt::format("expected {{ factor = \"...\" }}, which multiplies {}, found a value",
                            of_what));
     }
-    table.read(key, path, io::Kind::number, io::Range::positive(largest_factor), proposal_.changes);
+    table.read(key, path, Kind::number, Range::positive(largest_factor), proposal_.changes);
   }
 
   void read_oil() {
     auto table = open("oil");
     if (!table) return;
-    table->read("bulk_modulus", "oil.bulk_modulus", io::Kind::pressure,
-                io::Range::between(1e7, 1e10), proposal_.changes);
+    table->read("bulk_modulus", "oil.bulk_modulus", Kind::pressure, Range::between(1e7, 1e10),
+                proposal_.changes);
     read_fields(*table, "oil");
     read_only_factor(*table, "line_lengths", "oil.line_lengths", "the lengths of all lines");
     const bool lines = proposal_.find("oil.line_lengths") != nullptr;
-    table->read("line_share", "oil.line_share", io::Kind::number, io::Range::between(0.0, 1.0),
+    table->read("line_share", "oil.line_share", Kind::number, Range::between(0.0, 1.0),
                 proposal_.changes);
     if (const auto* share = proposal_.find("oil.line_share"); share != nullptr) {
       if (share->multiplies) {
@@ -279,9 +275,9 @@ class ProposalReader {
   void check_valve() const {
     const auto* flow = proposal_.find("drive.valve_rated_flow");
     if (flow == nullptr || proposal_.find("simulation.valve_stroke") == nullptr) return;
-    io::refuse_at(flow->number.location, flow->key,
-                  "expected either valve_rated_flow, from which the valve's stroke follows, or "
-                  "simulation.valve_stroke, found both");
+    refuse_at(flow->number.location, flow->key,
+              "expected either valve_rated_flow, from which the valve's stroke follows, or "
+              "simulation.valve_stroke, found both");
   }
 
   void read_structure() {
@@ -307,8 +303,8 @@ class ProposalReader {
     auto table = open("controller");
     if (!table) return;
     const std::size_t before = proposal_.changes.size();
-    table->read("sample_rate", "controller.sample_rate", io::Kind::frequency,
-                io::Range::positive(1e6), proposal_.changes);
+    table->read("sample_rate", "controller.sample_rate", Kind::frequency, Range::positive(1e6),
+                proposal_.changes);
     if (proposal_.changes.size() > before && proposal_.changes.back().multiplies) {
       table->reader().refuse("sample_rate",
                              "expected a frequency such as \"100 Hz\", found a "
@@ -318,8 +314,8 @@ class ProposalReader {
     table->reader().finish();
   }
 
-  io::TomlNode root_;
-  io::TableReader file_;
+  TomlNode root_;
+  TableReader file_;
   Proposal proposal_;
 };
 
@@ -335,9 +331,9 @@ Proposal parse_proposal(std::string_view text, const std::string& path) {
 }
 
 Proposal read_proposal(const std::string& path) {
-  io::TableReader::open(path);  // says what is wrong with a file that cannot be read
+  TableReader::open(path);  // says what is wrong with a file that cannot be read
   std::ifstream file(path, std::ios::binary);
   return parse_proposal(std::string{std::istreambuf_iterator<char>(file), {}}, path);
 }
 
-}  // namespace boresight::app
+}  // namespace boresight::io

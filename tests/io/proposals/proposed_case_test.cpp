@@ -7,32 +7,30 @@
 #include <gtest/gtest.h>
 
 #include "io/edited_case.hpp"
-#include <boresight/app/evaluate/evaluate_study.hpp>
-#include <boresight/app/evaluate/proposed_case.hpp>
-#include <boresight/io/case/member_ranges.hpp>
-#include <boresight/io/case/mission_of.hpp>
 #include <boresight/io/case/antenna_of.hpp>
 #include <boresight/io/case/drive_numbers.hpp>
+#include <boresight/io/case/member_ranges.hpp>
 #include <boresight/io/case/mission_of.hpp>
 #include <boresight/io/case/plant_numbers.hpp>
 #include <boresight/io/case/structure_numbers.hpp>
+#include <boresight/io/proposals/proposed_case.hpp>
 #include <boresight/numerics/error.hpp>
 #include <boresight/plant/antenna/antenna_change.hpp>
 #include <boresight/plant/antenna/motors_held_modes.hpp>
 
-namespace boresight::app {
+namespace boresight::io {
 namespace {
 
 using ::testing::HasSubstr;
 
 const std::string head = "name = 'a'\ndescription = 'b'\n[cost]\namount = 1\ncurrency = 'kUSD'\n";
 
-const io::Case& as_is() {
-  static const io::Case antenna = io::read_case(case_path("dss14-70m"));
+const Case& as_is() {
+  static const Case antenna = read_case(case_path("dss14-70m"));
   return antenna;
 }
 
-ProposedCase of(const io::Case& antenna, const std::string& text) {
+ProposedCase of(const Case& antenna, const std::string& text) {
   return apply_proposal(antenna, parse_proposal(head + text, "p.toml"));
 }
 
@@ -43,12 +41,12 @@ ProposedCase with(const std::string& text) {
 enum class Fractions { of_inertia, effective };
 
 // The same antenna by its modes with the motors held.
-io::Case by_motors_held(Fractions fractions) {
-  io::Case antenna = as_is();
+Case by_motors_held(Fractions fractions) {
+  Case antenna = as_is();
   const auto held = plant::motors_held_modes(make_plant(antenna).structure);
   antenna.structure.motors_held = true;
   for (std::size_t i = 0; i < antenna.structure.modes.size(); ++i) {
-    io::StructureModeEntry& mode = antenna.structure.modes[i];
+    StructureModeEntry& mode = antenna.structure.modes[i];
     mode.frequency.value = held.at(i + 1).frequency;
     if (fractions == Fractions::of_inertia) continue;
     mode.effective_fraction = mode.inertia_fraction;
@@ -67,16 +65,16 @@ std::string refusal(const std::string& text) {
 }
 
 // The case with its valve stated by the rated flow.
-io::Case by_rated_flow() {
+Case by_rated_flow() {
   EditedCase edited;
   edited.replace("\nvalve_stroke = {", "\n# valve_stroke = {")
       .replace("valve_damping = {",
                "valve_rated_flow = \"160 L/min\"\nvalve_rated_pressure_drop = \"7 MPa\"\n"
                "valve_damping = {");
-  return io::parse_case(edited.text(), case_path("dss14-70m"));
+  return parse_case(edited.text(), case_path("dss14-70m"));
 }
 
-double leakage(const io::Case& antenna) {
+double leakage(const Case& antenna) {
   return antenna.drive.leakage_rate.value;
 }
 
@@ -88,27 +86,27 @@ const DerivedChange* find(const ProposedCase& proposed, const std::string& quant
 }
 
 TEST(ProposedCase, LeakageRateFollowsVolumesAndBulkModulus) {
-  const io::Case volumes =
+  const Case volumes =
       with("[oil]\nvolume_1 = { factor = '0.5' }\nvolume_2 = { factor = '0.25' }\n").antenna;
   const auto& oil = as_is().oil;
   const double sides = (2.0 / oil.volume_1.value + 4.0 / oil.volume_2.value) /
                        (1.0 / oil.volume_1.value + 1.0 / oil.volume_2.value);
   EXPECT_NEAR(leakage(volumes) / leakage(as_is()), sides, 1e-12);
   EXPECT_NEAR(oil_stiffness(volumes) / oil_stiffness(as_is()), sides, 1e-12);
-  const io::Case stiff = with("[oil]\nbulk_modulus = { factor = '1.3' }\n").antenna;
+  const Case stiff = with("[oil]\nbulk_modulus = { factor = '1.3' }\n").antenna;
   EXPECT_NEAR(leakage(stiff) / leakage(as_is()), 1.3, 1e-12);
-  for (const io::Case* one : {&volumes, &stiff}) {
+  for (const Case* one : {&volumes, &stiff}) {
     EXPECT_NEAR(oil_stiffness(*one) / leakage(*one), oil_stiffness(as_is()) / leakage(as_is()),
                 1e-10);
   }
 }
 
 TEST(ProposedCase, StatedLeakageIsTheChangedDrives) {
-  const io::Case stated =
+  const Case stated =
       with("[oil]\nbulk_modulus = { factor = '1.3' }\n[drive]\nleakage_rate = '2 1/s'\n").antenna;
   EXPECT_DOUBLE_EQ(leakage(stated), 2.0);
   // A factor is one on the hardware's coefficient, on top of what follows.
-  const io::Case factor =
+  const Case factor =
       with("[oil]\nbulk_modulus = { factor = '1.3' }\n[drive]\nleakage_rate = { factor = '0.5' }\n")
           .antenna;
   EXPECT_NEAR(leakage(factor) / leakage(as_is()), 0.65, 1e-12);
@@ -116,9 +114,9 @@ TEST(ProposedCase, StatedLeakageIsTheChangedDrives) {
 
 TEST(ProposedCase, DisplacementChangesAllThatPressureAndFlowDo) {
   const auto proposed = with("[motor]\ndisplacement = { factor = '1.41' }\n");
-  const io::Case& larger = proposed.antenna;
+  const Case& larger = proposed.antenna;
   EXPECT_NEAR(oil_stiffness(larger) / oil_stiffness(as_is()), 1.41 * 1.41, 1e-12);
-  EXPECT_NEAR(io::supply_torque(larger) / io::supply_torque(as_is()), 1.41, 1e-12);
+  EXPECT_NEAR(supply_torque(larger) / supply_torque(as_is()), 1.41, 1e-12);
   EXPECT_DOUBLE_EQ(leakage(larger), leakage(as_is()));
   EXPECT_NEAR(larger.sensors.torque_noise->value / as_is().sensors.torque_noise->value, 1.41,
               1e-12);
@@ -133,9 +131,9 @@ TEST(ProposedCase, DisplacementChangesAllThatPressureAndFlowDo) {
 }
 
 TEST(ProposedCase, MoreMotorsCountInEverything) {
-  const io::Case more = with("[motor]\ncount = 8\n").antenna;
+  const Case more = with("[motor]\ncount = 8\n").antenna;
   EXPECT_NEAR(oil_stiffness(more) / oil_stiffness(as_is()), 4.0, 1e-12);
-  EXPECT_NEAR(io::supply_torque(more) / io::supply_torque(as_is()), 2.0, 1e-12);
+  EXPECT_NEAR(supply_torque(more) / supply_torque(as_is()), 2.0, 1e-12);
   EXPECT_NEAR(motor_inertia(more, 24) / motor_inertia(as_is(), 24), 2.0, 1e-12);
   EXPECT_NEAR(gear_train_inertia(more) / gear_train_inertia(as_is()), 2.0, 1e-12);
   EXPECT_NEAR(leakage(more) / leakage(as_is()), 2.0, 1e-12);
@@ -143,8 +141,8 @@ TEST(ProposedCase, MoreMotorsCountInEverything) {
 
 TEST(ProposedCase, GearRatioChangesEveryReflection) {
   const auto proposed = with("[[gear_train.stage]]\nnumber = 5\ndriven_teeth = '1508'\n");
-  const io::Case& geared = proposed.antenna;
-  EXPECT_NEAR(io::gear_ratio(geared) / io::gear_ratio(as_is()), 2.0, 1e-12);
+  const Case& geared = proposed.antenna;
+  EXPECT_NEAR(gear_ratio(geared) / gear_ratio(as_is()), 2.0, 1e-12);
   EXPECT_NEAR(antenna_inertia(geared) / antenna_inertia(as_is()), 0.25, 1e-12);
   // All bodies stand before the last stage.
   EXPECT_NEAR(gear_train_inertia(geared) / gear_train_inertia(as_is()), 1.0, 1e-12);
@@ -161,7 +159,7 @@ TEST(ProposedCase, GearRatioChangesEveryReflection) {
   EXPECT_NEAR(geared.simulation->backlash->value / as_is().simulation->backlash->value, 2.0, 1e-12);
   EXPECT_NEAR(geared.simulation->offset_torque.value / as_is().simulation->offset_torque.value, 0.5,
               1e-12);
-  EXPECT_LT(io::tracking_friction(geared), io::tracking_friction(as_is()));
+  EXPECT_LT(tracking_friction(geared), tracking_friction(as_is()));
   for (const char* quantity : {"slew rate at the motor", "tracking rate at the motor",
                                "friction level at the sky", "encoder noise at the motor"}) {
     ASSERT_NE(find(proposed, quantity), nullptr) << quantity;
@@ -171,7 +169,7 @@ TEST(ProposedCase, GearRatioChangesEveryReflection) {
 }
 
 TEST(ProposedCase, FirstStageLeavesTheMotorsAlone) {
-  const io::Case geared = with("[[gear_train.stage]]\nnumber = 1\ndriven_teeth = '268'\n").antenna;
+  const Case geared = with("[[gear_train.stage]]\nnumber = 1\ndriven_teeth = '268'\n").antenna;
   const auto& assemblies = as_is().gear_train.assemblies;
   const double at_motors =
       static_cast<double>(assemblies.back().count) * assemblies.back().inertia->value;
@@ -180,7 +178,7 @@ TEST(ProposedCase, FirstStageLeavesTheMotorsAlone) {
 }
 
 TEST(ProposedCase, FlywheelsChangeTheMotorsInertiaOnly) {
-  const io::Case bare = with("[motor]\nflywheel_disks = 0\n").antenna;
+  const Case bare = with("[motor]\nflywheel_disks = 0\n").antenna;
   const auto& motor = as_is().motor;
   EXPECT_NEAR(motor_inertia(bare, bare.motor.flywheel_disks), motor_inertia(as_is(), 0.0), 1e-12);
   EXPECT_NEAR(bare.motor.inertia.value, motor.inertia.value - 24.0 * motor.disk_inertia.value,
@@ -192,8 +190,7 @@ TEST(ProposedCase, FlywheelsChangeTheMotorsInertiaOnly) {
 }
 
 TEST(ProposedCase, LinesCarryTheirShareOfTheVolumes) {
-  const io::Case near =
-      with("[oil]\nline_lengths = { factor = '0.1' }\nline_share = '0.9'\n").antenna;
+  const Case near = with("[oil]\nline_lengths = { factor = '0.1' }\nline_share = '0.9'\n").antenna;
   EXPECT_NEAR(near.oil.volume_1.value / as_is().oil.volume_1.value, 0.19, 1e-12);
   EXPECT_NEAR(leakage(near) / leakage(as_is()), 1.0 / 0.19, 1e-9);
   // The lines' pressure waves are faster, the oil the same.
@@ -203,8 +200,8 @@ TEST(ProposedCase, LinesCarryTheirShareOfTheVolumes) {
 }
 
 TEST(ProposedCase, PressureFeedsTheValve) {
-  const io::Case strong = with("[drive]\nsupply_pressure = { factor = '1.5' }\n").antenna;
-  EXPECT_NEAR(io::supply_torque(strong) / io::supply_torque(as_is()), 1.5, 1e-12);
+  const Case strong = with("[drive]\nsupply_pressure = { factor = '1.5' }\n").antenna;
+  EXPECT_NEAR(supply_torque(strong) / supply_torque(as_is()), 1.5, 1e-12);
   const double returned = as_is().simulation->return_pressure.value;
   const double supply = as_is().drive.supply_pressure.value;
   EXPECT_NEAR(strong.simulation->valve_stroke.value / as_is().simulation->valve_stroke.value,
@@ -212,7 +209,7 @@ TEST(ProposedCase, PressureFeedsTheValve) {
 }
 
 TEST(ProposedCase, RatedFlowDoesWhatTheStrokeDoes) {
-  const io::Case antenna = by_rated_flow();
+  const Case antenna = by_rated_flow();
   const auto by_stroke = of(antenna, "[simulation]\nvalve_stroke = { factor = '2' }\n");
   for (const std::string flow : {"'320 L/min'", "{ factor = '2' }"}) {
     const auto by_flow = of(antenna, "[drive]\nvalve_rated_flow = " + flow + "\n");
@@ -229,7 +226,7 @@ TEST(ProposedCase, RatedFlowDoesWhatTheStrokeDoes) {
     EXPECT_EQ(by_flow.changes[0].before, "160 L/min");
   }
   // A stroke that the case states beside the flow goes with it.
-  io::Case both = antenna;
+  Case both = antenna;
   both.simulation->valve_stroke.value = 150.0;
   EXPECT_NEAR(
       of(both, "[drive]\nvalve_rated_flow = '80 L/min'\n").antenna.simulation->valve_stroke.value,
@@ -241,16 +238,16 @@ TEST(ProposedCase, RatedFlowGoesWithDisplacementAndPressure) {
   const std::string text =
       "[motor]\ndisplacement = { factor = '1.41' }\n"
       "[drive]\nvalve_rated_flow = '320 L/min'\nsupply_pressure = { factor = '1.5' }\n";
-  io::Case antenna = by_rated_flow();
+  Case antenna = by_rated_flow();
   for (const bool simulated : {true, false}) {
     if (!simulated) {
       antenna.campaign.return_pressure = antenna.simulation->return_pressure;
       antenna.simulation.reset();
     }
-    const io::Case after = of(antenna, text).antenna;
-    EXPECT_NEAR(io::largest_demand(after) / io::rated_stroke(after).value().value, 1.0, 1e-12);
+    const Case after = of(antenna, text).antenna;
+    EXPECT_NEAR(largest_demand(after) / rated_stroke(after).value().value, 1.0, 1e-12);
     EXPECT_NEAR(after.goals.valve_effort.value / antenna.goals.valve_effort.value,
-                io::largest_demand(after) / io::largest_demand(antenna), 1e-12);
+                largest_demand(after) / largest_demand(antenna), 1e-12);
   }
 }
 
@@ -260,7 +257,7 @@ TEST(ProposedCase, RefusesARatedFlowThatTheCaseHasNot) {
   EXPECT_THAT(told, HasSubstr("p.toml:7:20: drive.valve_rated_flow: expected a number that the "
                               "case has, found none of it in "));
   EXPECT_THAT(told, testing::EndsWith(": change simulation.valve_stroke instead"));
-  io::Case linear = as_is();
+  Case linear = as_is();
   linear.simulation.reset();
   EXPECT_THAT([&] { of(linear, flow); }, testing::ThrowsMessage<InvalidInput>(testing::EndsWith(
                                              ": state it there, with valve_rated_pressure_drop")));
@@ -269,14 +266,14 @@ TEST(ProposedCase, RefusesARatedFlowThatTheCaseHasNot) {
 }
 
 TEST(ProposedCase, SamplingSetsDeadTimeAndNoiseBandwidth) {
-  const io::Case fast = with("[controller]\nsample_rate = '200 Hz'\n").antenna;
+  const Case fast = with("[controller]\nsample_rate = '200 Hz'\n").antenna;
   EXPECT_NEAR(fast.controller_delay.value, 1.5 / 200.0, 1e-15);
   EXPECT_NEAR(fast.sensors.noise_bandwidth.value, 100.0, 1e-12);
 }
 
 TEST(ProposedCase, StatedRangesOfTheEnsembleFollow) {
   EditedCase edited;
-  const io::Case ranged = io::parse_case(
+  const Case ranged = parse_case(
       edited.text() + "[ensemble]\nleakage_rate = { lower = '0.5 1/s', upper = '1.5 1/s' }\n",
       case_path("dss14-70m"));
   const auto proposed = apply_proposal(
@@ -286,23 +283,8 @@ TEST(ProposedCase, StatedRangesOfTheEnsembleFollow) {
   EXPECT_NEAR(after.leakage_rate.upper / before.leakage_rate.upper, 2.0, 1e-12);
 }
 
-TEST(ProposedCase, DrawsAreFactorsOnWhatTheProposalMakes) {
-  const io::Case stiff = with("[oil]\nbulk_modulus = { factor = '2' }\n").antenna;
-  const auto draw = design::PlantDistribution::of_ranges(mission_of(as_is())).draw(1, 5);
-  const auto before = proposed_plant(as_is(), as_is(), draw);
-  const auto after = proposed_plant(as_is(), stiff, draw);
-  EXPECT_NEAR(after.drive.oil_stiffness / before.drive.oil_stiffness, 2.0, 1e-12);
-  EXPECT_NEAR(after.drive.leakage_rate / before.drive.leakage_rate, 2.0, 1e-12);
-  EXPECT_DOUBLE_EQ(after.drive.viscous_friction, before.drive.viscous_friction);
-  // The friction slope is that of the same curve at another rate of the motor.
-  const io::Case geared = with("[[gear_train.stage]]\nnumber = 5\ndriven_teeth = '1508'\n").antenna;
-  EXPECT_NEAR(
-      proposed_plant(as_is(), geared, draw).drive.viscous_friction / before.drive.viscous_friction,
-      io::tracking_friction(geared) / io::tracking_friction(as_is()), 1e-12);
-}
-
 TEST(ProposedCase, StifferGearLeavesTheStructureOnIt) {
-  for (const io::Case& antenna :
+  for (const Case& antenna :
        {as_is(), by_motors_held(Fractions::of_inertia), by_motors_held(Fractions::effective)}) {
     const auto before = make_plant(antenna).structure;
     for (const std::string factor : {"0.5", "1.1", "5"}) {
@@ -337,7 +319,7 @@ TEST(ProposedCase, StifferGearLeavesTheStructureOnIt) {
 }
 
 TEST(ProposedCase, StifferGearComesOnTopOfWhatFollows) {
-  const io::Case heavy =
+  const Case heavy =
       with(
           "[antenna]\ninertia = { factor = '1.2' }\n[structure]\ngear_stiffness = { factor = '1.1' "
           "}\n")
@@ -349,8 +331,8 @@ TEST(ProposedCase, StifferGearComesOnTopOfWhatFollows) {
 
 // In other terms a number is as uncertain for its size, and says as much of where it is from.
 TEST(ProposedCase, StifferGearKeepsWhatNumbersSayOfThemselves) {
-  io::Case antenna = by_motors_held(Fractions::effective);
-  io::Quantity& second = antenna.structure.modes.at(1).frequency;
+  Case antenna = by_motors_held(Fractions::effective);
+  Quantity& second = antenna.structure.modes.at(1).frequency;
   second.standard_uncertainty = 0.03 * second.value;
   second.uncertainty_given = true;
   const auto& structure =
@@ -359,7 +341,7 @@ TEST(ProposedCase, StifferGearKeepsWhatNumbersSayOfThemselves) {
   const auto& mode = structure.modes.at(1);
   EXPECT_FALSE(mode.effective_fraction);
   EXPECT_LT(mode.frequency.value, second.value);
-  EXPECT_NEAR(io::relative_uncertainty(mode.frequency), 0.03, 1e-12);
+  EXPECT_NEAR(relative_uncertainty(mode.frequency), 0.03, 1e-12);
   EXPECT_TRUE(mode.frequency.uncertainty_given);
   EXPECT_EQ(mode.frequency.source, second.source);
   EXPECT_EQ(mode.inertia_fraction.basis, second.basis);
@@ -368,10 +350,10 @@ TEST(ProposedCase, StifferGearKeepsWhatNumbersSayOfThemselves) {
 TEST(ProposedCase, SaysWhatFrequenciesDoToTheGearSpring) {
   const char* spring = "gear spring Kg at the motors";
   const char* lowest = "lowest mode with the bull gear held";
-  const io::Case held = by_motors_held(Fractions::effective);
+  const Case held = by_motors_held(Fractions::effective);
   for (const char* key : {"locked_rotor_frequency", "mode_frequencies"}) {
     const std::string text = std::string("[structure]\n") + key + " = { factor = '1.05' }\n";
-    for (const io::Case& antenna : {as_is(), held}) {
+    for (const Case& antenna : {as_is(), held}) {
       const auto proposed = of(antenna, text);
       const auto* found = find(proposed, spring);
       ASSERT_NE(found, nullptr) << key;
@@ -386,11 +368,10 @@ TEST(ProposedCase, SaysWhatFrequenciesDoToTheGearSpring) {
       if (mode == nullptr) continue;
       EXPECT_NEAR(mode->before, 2.4, 1e-6);
       EXPECT_NEAR(mode->after,
-                  io::structure_specification(proposed.antenna.structure).modes.at(0).frequency,
-                  1e-9);
+                  structure_specification(proposed.antenna.structure).modes.at(0).frequency, 1e-9);
     }
   }
-  for (const io::Case& antenna : {as_is(), held}) {
+  for (const Case& antenna : {as_is(), held}) {
     const auto proposed = of(antenna, "[antenna]\ninertia = { factor = '1.2' }\n");
     const auto* found = find(proposed, spring);
     ASSERT_NE(found, nullptr);
@@ -476,7 +457,7 @@ TEST(ProposedCase, RefusesStructuresAndNumbersThatTheCaseHasNot) {
     EXPECT_THAT(error.what(),
                 HasSubstr("p.toml:1:14: structures: expected loop structures, found 'PIDD'"));
   }
-  const io::Case small = io::read_case(case_path("dss14-64m"));
+  const Case small = read_case(case_path("dss14-64m"));
   try {
     apply_proposal(small, parse_proposal(head + "[simulation]\nvalve_stroke = '100 rad/s'\n", "p"));
     if (!small.simulation) FAIL();
@@ -487,4 +468,4 @@ TEST(ProposedCase, RefusesStructuresAndNumbersThatTheCaseHasNot) {
 }
 
 }  // namespace
-}  // namespace boresight::app
+}  // namespace boresight::io

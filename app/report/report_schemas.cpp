@@ -52,6 +52,7 @@ void describe(io::Visitor& v, const DescribedParts& /*parts*/) {
   v.object("measured_tuning", MeasuredTuneSection{}, "");
   v.object("limit", design::PointingLimit{}, "");
   v.object("matched", MatchSection{}, "");
+  v.object("tuning", TuningSection{}, "");
   v.object("tuned", TuneSection{}, "");
   v.object("time_domain", design::TimeDomainStudy{}, "");
   v.object("compared_run", design::NonlinearVerification{}, "");

@@ -3,9 +3,9 @@
 #include <boresight/app/report/common_description.hpp>
 #include <boresight/app/report/evaluate_report.hpp>
 #include <boresight/app/report/identification_description.hpp>
-#include <boresight/app/report/json_linear_models.hpp>
 #include <boresight/app/report/json_report.hpp>
 #include <boresight/app/report/json_writer.hpp>
+#include <boresight/app/report/linear_models_description.hpp>
 #include <boresight/app/report/match_report.hpp>
 #include <boresight/app/report/measured_report.hpp>
 #include <boresight/app/report/redesign_description.hpp>
@@ -39,9 +39,7 @@ std::string to_json(const Report& report) {
   }
   if (report.matched) json["matched"] = json_of(*report.matched);
   if (report.evaluated) json["evaluated"] = evaluate_json(*report.evaluated);
-  if (const auto models = linear_models(report)) {
-    json["linear_models"] = linear_models_json(*models);
-  }
+  if (const auto models = linear_models(report)) json["linear_models"] = json_of(*models);
   json.update(json_by([&](io::Visitor& v) { describe_assumed(v, report.assumed); }));
   json["conclusions"] = report.conclusions;
   if (!report.figures.empty()) json["figures"] = figures_json(report.figures);

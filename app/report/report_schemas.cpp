@@ -7,6 +7,7 @@
 #include <boresight/app/report/audit_description.hpp>
 #include <boresight/app/report/common_description.hpp>
 #include <boresight/app/report/identification_description.hpp>
+#include <boresight/app/report/linear_models_description.hpp>
 #include <boresight/app/report/match_report.hpp>
 #include <boresight/app/report/measured_report.hpp>
 #include <boresight/app/report/redesign_description.hpp>
@@ -56,6 +57,7 @@ void describe(io::Visitor& v, const DescribedParts& /*parts*/) {
   v.object("tuned", TuneSection{}, "");
   v.object("time_domain", design::TimeDomainStudy{}, "");
   v.object("compared_run", design::NonlinearVerification{}, "");
+  v.object("linear_models", LinearModels{}, "");
   describe_figures(v, {});
 }
 
@@ -75,6 +77,9 @@ Json report_schema_with_parts() {
   Json schema = Json::parse(report_schema_base);
   schema["properties"].update(described_members());
   schema["$defs"].update(writer.take().at("$defs"));
+  // A law's models are there together.
+  schema["$defs"]["linear_models"]["dependentRequired"] = {
+      {"law", {"dead_time_s", "controller", "sampled_controller"}}};
   return schema;
 }
 

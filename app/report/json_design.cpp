@@ -1,15 +1,8 @@
-#include <cmath>
-
 #include <boresight/app/report/json_design.hpp>
 #include <boresight/app/report/json_writer.hpp>
 #include <boresight/io/description/design_results.hpp>
 
 namespace boresight::app {
-
-Json share_of_time_json(const std::vector<design::ClimatePart>& climate, double speed) {
-  if (climate.empty() || std::isnan(speed)) return nullptr;
-  return number(design::share_of_time(climate, speed));
-}
 
 Json mode_json(const plant::PlantMode& mode) {
   return json_of(mode);

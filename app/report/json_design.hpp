@@ -1,20 +1,12 @@
 #pragma once
 
-#include <string>
-#include <vector>
-
 #include <nlohmann/json.hpp>
 
 #include <boresight/app/report/json_number.hpp>
 #include <boresight/design/ensembles/plant_ensemble.hpp>
-#include <boresight/design/problem/wind_climate.hpp>
 #include <boresight/design/tuning/design_study.hpp>
 
 namespace boresight::app {
-
-/// Share of the climate's time up to a speed (m/s); null without a climate, or if it is not a
-/// number.
-Json share_of_time_json(const std::vector<design::ClimatePart>& climate, double speed);
 
 Json mode_json(const plant::PlantMode& mode);
 /// A tuned law with its verification, "design" of docs/report.schema.json.

@@ -1,8 +1,15 @@
+#include <array>
+#include <cmath>
+#include <string_view>
 #include <vector>
 
 #include <boresight/app/redesign/matching_verdict.hpp>
+#include <boresight/app/redesign/needed_budgets.hpp>
+#include <boresight/app/report/common_description.hpp>
 #include <boresight/app/report/redesign_description.hpp>
 #include <boresight/io/description/design_results.hpp>
+#include <boresight/io/description/loop_results.hpp>
+#include <boresight/io/description/wind_mast_description.hpp>
 
 namespace boresight::app {
 namespace {
@@ -12,6 +19,14 @@ namespace unit = io::key_units;
 constexpr io::NumberForm positive{.least = 0.0};
 constexpr io::NumberForm above_zero{.above = 0.0, .finite = true};
 constexpr io::KeyUnit inertia_unit{.suffix = "kg_m2"};
+
+constexpr std::array<std::string_view, 3> wind_models{"uniform", "vickery", "coherence"};
+
+// The largest sensitivity allowed where the loop is cut.
+struct SensitivityGoal {
+  control::LoopBreak loop_break = control::LoopBreak::valve_command;
+  double peak = 0.0;
+};
 
 // A loop tuned at one motor inertia.
 struct MatchingPoint {
@@ -65,7 +80,173 @@ void describe_series(io::Visitor& v, const MatchingSection& section, const Match
          [&](const MatchingPoint& point) { describe_point(v, point); }, {.least = 2});
 }
 
+void describe_conditions(io::Visitor& v, const TuningSection& section) {
+  const plant::GustSpectrum gusts = plant::site_gusts(section.wind_site);
+  const double speed = section.design_speed;  // 0 by example, of which there is no variance
+  const double intensity =
+      v.by_example() ? 0.0 : std::sqrt(plant::gust_variance(gusts, speed)) / speed;
+  v.number("design_wind_speed", speed, unit::metre_per_second, "Mean wind speed.", above_zero);
+  v.word("wind_model", plant::to_string(section.wind_model), wind_models,
+         "Model of the wind torque.");
+  v.word("gust_spectrum", plant::to_string(gusts.kind),
+         {"davenport", "von_karman", "kaimal", "eurocode"}, "Spectrum of the gusts.");
+  v.number("turbulence_intensity", intensity, unit::ratio,
+           "Rms of the gusts over the design wind speed.", {.least = 0.0, .finite = true});
+  v.number("wind_torque_coefficient", section.wind_site.torque_coefficient, unit::ratio,
+           "Mean torque over 1/2 rho V^2 A D, from the table at its yaw and elevation if the case "
+           "has one.",
+           {.finite = true});
+}
+
+void describe_goals(io::Visitor& v, const design::HardGoals& goals) {
+  std::vector<SensitivityGoal> peaks;
+  for (std::size_t b = 0; b < control::loop_breaks.size(); ++b) {
+    peaks.push_back({control::loop_breaks.at(b), goals.sensitivity_peak.at(b)});
+  }
+  v.list("sensitivity_goals", peaks, "Largest sensitivities allowed.",
+         [&](const SensitivityGoal& one) {
+           io::describe_break(v, "loop_break", one.loop_break);
+           v.number("sensitivity_peak", one.peak, unit::ratio, "Goal.",
+                    {.least = 1.0, .finite = true});
+         },
+         {.least = control::loop_breaks.size(), .most = control::loop_breaks.size()});
+  v.number("valve_effort_goal", goals.valve_effort, unit::radian_per_second,
+           "Largest valve effort allowed.", above_zero);
+}
+
+void describe_search(io::Visitor& v, const TuningSection& section) {
+  v.list("seeds", section.seeds, "The search from each seed.",
+         [&](const TuningSection::SeedResult& one) {
+           v.count("seed", one.seed, "The seed.");
+           v.number("beam_rms", one.beam_rms, unit::millidegree,
+                    "Beam error that the search reached.", positive);
+           v.flag("verified", one.verified, "Confirmed by independent code.");
+         },
+         {.least = 1});
+}
+
+void describe_wind_models(io::Visitor& v, const TuningSection& section) {
+  v.list("wind_models", section.wind_alternatives, "The same gains by each wind model.",
+         [&](const TuningSection::WindAlternative& one) {
+           v.word("model", plant::to_string(one.model), wind_models, "Model of the wind torque.");
+           v.number("beam_rms", one.beam_rms, unit::millidegree, "Beam error.", positive);
+           v.numbers("budget_wind_speed_limits", one.speed_limits, unit::metre_per_second,
+                     "Mean wind speeds up to which the budgets are met by this model, in their "
+                     "order; null: beyond 60 m/s.",
+                     positive);
+         });
+}
+
+void describe_bands(io::Visitor& v, const TuningSection& section) {
+  v.list("bands", section.losses, "Loss in each band.", [&](const TuningSection::BandLoss& loss) {
+    v.text("name", loss.band.name, "The band.");
+    v.number("frequency", loss.band.frequency, unit::hertz, "Carrier frequency.", above_zero);
+    v.number("beamwidth", loss.band.beamwidth, unit::millidegree, "Half-power beamwidth.",
+             above_zero);
+    v.number("mean_loss_two_axes", loss.mean_loss_db, unit::decibel_as_kept,
+             "Mean loss with two equal axes, static bending left out, by a parabola that does not "
+             "hold beyond 3 dB; texts say > 3 there.",
+             positive);
+    v.number("static_bending_loss", loss.static_bending_db, unit::decibel_as_kept,
+             "What static bending on this axis would add if no pointing model took it away.",
+             positive);
+  });
+}
+
+void describe_present(io::Visitor& v, const TuningSection& section) {
+  v.list("present", section.present,
+         "The gains that the antenna runs on now, by the case, on the same plant; empty if it "
+         "states none.",
+         [&](const TuningSection::PresentLaw& law) {
+           v.text("structure", law.structure, "Its loop structure.");
+           v.flag("stable", law.design.tuning.status != design::TuningStatus::unstable,
+                  "The loop is stable on the plant.");
+           v.flag("goals_met", law.design.verification.passed, "It meets every hard goal.");
+           v.number("beam_rms", law.design.beam_rms, unit::millidegree,
+                    "Beam error; null of an unstable loop.", positive);
+         });
+}
+
+void describe_inputs(io::Visitor& v, const TuningSection& section) {
+  constexpr io::KeyUnit as_named{.suffix = "si"};
+  v.list("input_effects", section.input_effects,
+         "The numbers of the case on which the law's rms depends most, each moved alone with the "
+         "gains held; the largest effect first.",
+         [&](const InputEffect& effect) {
+           v.text("key", effect.quantity.key, "Its place in the case file.");
+           v.word("basis", to_string(effect.quantity.basis),
+                  {"unstated", "measured", "published", "inferred", "assumed"},
+                  "What it rests on.");
+           v.number("value", effect.quantity.value, as_named,
+                    "As the case has it; frequencies in Hz.", {.finite = true});
+           v.number("moved_by", effect.moved_by, as_named,
+                    "To either side: its standard uncertainty, or a tenth of an assumed value "
+                    "without one. An assumed share of wind or beam without one is moved to its "
+                    "body's share of the inertia, if that is farther than a tenth, and as far to "
+                    "the other side, but not beyond 0 and 1.",
+                    above_zero);
+           v.flag("uncertainty_unstated", effect.unstated,
+                  "The case states no uncertainty, and moved_by is such a guess.");
+           v.number("lower_beam_rms", effect.low_rms, unit::millidegree,
+                    "With the number lower; null if unstable.", positive);
+           v.number("higher_beam_rms", effect.high_rms, unit::millidegree,
+                    "With the number higher; null if unstable.", positive);
+         });
+}
+
+void describe_budgets(io::Visitor& v, const TuningSection& section) {
+  v.list("budgets", section.budgets, "Wind speed up to which each budget is met.",
+         [&](const BudgetResult& result) {
+           v.text("name", result.budget.name, "The budget.");
+           v.text("band", result.budget.band, "Its band.");
+           v.text("convention", result.budget.convention, "What the loss is taken of.");
+           v.number("rms", result.budget.rms, unit::millidegree, "As rms error of one axis.",
+                    above_zero);
+           v.number("wind_speed_limit", result.wind_speed_limit, unit::metre_per_second,
+                    "Mean wind speed up to which it is met, gains held.", positive);
+           v.count("plants_met", result.plants_met,
+                   "Plants of the ensemble on which it is met in the wind up to which the case "
+                   "needs it, supply torque not counted; null without such a wind or an ensemble.");
+           describe_share_of_time(v, section.climate, reached_wind_speed(section, result),
+                                  "Share of the climate's time up to that speed, or up to the "
+                                  "supply's if that is less; null without a climate.");
+         });
+}
+
 }  // namespace
+
+void describe(io::Visitor& v, const TuningSection& section) {
+  v.defined_as("tuning", "The loops tuned for the least beam rms in wind.");
+  describe_conditions(v, section);
+  v.word("tuned_for", to_string(section.tuned_for), {"nominal", "robust"},
+         "What the recommended controller was tuned for: the case's plant alone, or all of the "
+         "ensemble.");
+  v.object("design", section.design, "The controller recommended, by tune.");
+  v.count("seeds_within_1_percent", section.seeds_within_1_percent,
+          "Seeds whose verified rms is within 1 % of the best.");
+  v.number("encoder_held_rms", section.encoder_held_rms, unit::millidegree,
+           "Rms of the bending that no encoder sees, with the encoder held still; not a bound.",
+           positive);
+  v.number("supply_wind_speed", section.supply_wind_speed, unit::metre_per_second,
+           "Mean wind speed whose mean torque takes what friction and offset leave of the "
+           "supply's; null if there is none.",
+           positive);
+  v.number("static_bending", section.static_bending, unit::millidegree,
+           "Bending by the mean wind; not in the rms.");
+  v.optional_members(section.wind_mast, [&](const io::WindMast& mast) {
+    v.object("wind_mast", mast, "Where the case names one.");
+  });
+  describe_goals(v, section.goals);
+  describe_search(v, section);
+  describe_wind_models(v, section);
+  describe_bands(v, section);
+  describe_present(v, section);
+  v.object("ensemble", section.ensemble,
+           "The design's gains held on plants that may be the true one: drawn from what the "
+           "records leave open, otherwise the case's ensemble; null without a stable law.");
+  describe_inputs(v, section);
+  describe_budgets(v, section);
+}
 
 void describe_choices(io::Visitor& v, const std::vector<ChoiceResult>& choices) {
   v.list("choices", choices,

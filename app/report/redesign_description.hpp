@@ -10,6 +10,8 @@ class Visitor;
 
 namespace boresight::app {
 
+/// "tuning" of docs/report.schema.json.
+void describe(io::Visitor& v, const TuningSection& section);
 /// "choices" of docs/report.schema.json.
 void describe_choices(io::Visitor& v, const std::vector<ChoiceResult>& choices);
 /// "matching" of docs/report.schema.json.

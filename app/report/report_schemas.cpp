@@ -7,6 +7,7 @@
 #include <boresight/app/report/audit_description.hpp>
 #include <boresight/app/report/common_description.hpp>
 #include <boresight/app/report/identification_description.hpp>
+#include <boresight/app/report/linear_models_description.hpp>
 #include <boresight/app/report/match_report.hpp>
 #include <boresight/app/report/measured_report.hpp>
 #include <boresight/app/report/redesign_description.hpp>
@@ -52,9 +53,11 @@ void describe(io::Visitor& v, const DescribedParts& /*parts*/) {
   v.object("measured_tuning", MeasuredTuneSection{}, "");
   v.object("limit", design::PointingLimit{}, "");
   v.object("matched", MatchSection{}, "");
+  v.object("tuning", TuningSection{}, "");
   v.object("tuned", TuneSection{}, "");
   v.object("time_domain", design::TimeDomainStudy{}, "");
   v.object("compared_run", design::NonlinearVerification{}, "");
+  v.object("linear_models", LinearModels{}, "");
   describe_figures(v, {});
 }
 
@@ -74,6 +77,9 @@ Json report_schema_with_parts() {
   Json schema = Json::parse(report_schema_base);
   schema["properties"].update(described_members());
   schema["$defs"].update(writer.take().at("$defs"));
+  // A law's models are there together.
+  schema["$defs"]["linear_models"]["dependentRequired"] = {
+      {"law", {"dead_time_s", "controller", "sampled_controller"}}};
   return schema;
 }
 

@@ -115,13 +115,13 @@ void Visitor::number_elements(std::span<const double> values, const KeyUnit& uni
 }
 
 void Visitor::number_rows(std::string_view key, std::span<const std::vector<double>> rows,
-                          const KeyUnit& unit, std::string_view meaning) {
+                          const KeyUnit& unit, std::string_view meaning, const NumberForm& form) {
   const KeyUnit unnamed = without_suffix(unit);
   on_list({key_with_unit(key, unit), meaning}, {}, true, false);
   if (by_example()) {
-    numbers({}, {}, unnamed, {});
+    numbers({}, {}, unnamed, {}, form);
   } else {
-    for (const auto& row : rows) numbers({}, row, unnamed, {});
+    for (const auto& row : rows) numbers({}, row, unnamed, {}, form);
   }
   on_list_end();
 }

@@ -118,7 +118,7 @@ class Visitor {
                   const KeyUnit& unit, std::string_view meaning, const NumberForm& form = {});
   /// A list of rows of numbers.
   void number_rows(std::string_view key, std::span<const std::vector<double>> rows,
-                   const KeyUnit& unit, std::string_view meaning);
+                   const KeyUnit& unit, std::string_view meaning, const NumberForm& form = {});
 
   /// An object described by its own function.
   template <typename Object>

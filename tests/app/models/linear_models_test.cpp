@@ -8,7 +8,8 @@
 #include "io/edited_case.hpp"
 #include <boresight/app/benchmark/benchmark_report.hpp>
 #include <boresight/app/models/linear_models.hpp>
-#include <boresight/app/report/json_linear_models.hpp>
+#include <boresight/app/report/json_writer.hpp>
+#include <boresight/app/report/linear_models_description.hpp>
 #include <boresight/control/controllers/sample_time.hpp>
 #include <boresight/io/case/drive_numbers.hpp>
 #include <boresight/io/case/mission_of.hpp>
@@ -33,9 +34,8 @@ LinearModels models() {
 }
 
 // The part of a report that has them.
-std::string json_of(const LinearModels& models) {
-  const nlohmann::ordered_json report{{"command", "tune"},
-                                      {"linear_models", linear_models_json(models)}};
+std::string report_with(const LinearModels& models) {
+  const nlohmann::ordered_json report{{"command", "tune"}, {"linear_models", json_of(models)}};
   return report.dump(2);
 }
 
@@ -54,7 +54,7 @@ void expect_same(const io::ControllerText& read, const plant::StateSpace& writte
 TEST(LinearModels, ComeBackBitByBitFromMatAndJson) {
   const LinearModels written = models();
   const std::string mat = to_mat(written, "redesign", "case.toml");
-  const std::string json = json_of(written);
+  const std::string json = report_with(written);
   ASSERT_TRUE(written.loop);
   const auto& loop = *written.loop;
   for (const auto& [part, system] : {std::pair{"plant", &written.plant},
@@ -78,7 +78,8 @@ TEST(LinearModels, GiveBenchmarksTheLawsOwnController) {
   const double ratio = io::gear_ratio(antenna());
   const LinearModels written = models();
   const auto mat = io::parse_controller(to_mat(written, "tune", "case.toml"), "m.mat", ratio);
-  const auto json = io::parse_controller(json_of(written), "r.json", ratio, {{}, {}, "controller"});
+  const auto json =
+      io::parse_controller(report_with(written), "r.json", ratio, {{}, {}, "controller"});
   const auto own = controller_of(written.loop->law, "law", 0.0);
   for (const auto* read : {&mat.system, &json.system}) {
     EXPECT_EQ(read->a, own.system.a);
@@ -101,16 +102,16 @@ TEST(LinearModels, RefusePartsThatAFileDoesNotHave) {
     return "taken";
   };
   const LinearModels alone = linear_models(written.antenna, written.gear_ratio);
-  for (const std::string& content : {to_mat(written, "tune", "c"), json_of(written)}) {
+  for (const std::string& content : {to_mat(written, "tune", "c"), report_with(written)}) {
     EXPECT_THAT(refusal(content, "contoller"), HasSubstr("f: expected a part 'contoller', found"));
     EXPECT_THAT(refusal(content, "contoller"), HasSubstr("sampled_controller"));
   }
-  EXPECT_THAT(refusal(json_of(alone), ""), HasSubstr("expected a controller, found none"));
+  EXPECT_THAT(refusal(report_with(alone), ""), HasSubstr("expected a controller, found none"));
   EXPECT_THAT(refusal(R"({"D": [[1]]})", "controller"), HasSubstr("found none"));
 }
 
 TEST(LinearModels, SayTheUnitsOfAllSignalsOfThePlant) {
-  const auto json = nlohmann::json::parse(json_of(models()))["linear_models"]["plant"];
+  const auto json = nlohmann::json::parse(report_with(models()))["linear_models"]["plant"];
   for (const char* key : {"input_units", "output_units", "state_units"}) {
     for (const auto& unit : json[key]) EXPECT_NE(unit, "") << key;
   }

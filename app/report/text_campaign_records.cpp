@@ -36,7 +36,8 @@ Document guesses_part(const io::CampaignNotes& notes) {
     }
     for (const auto& remark : record.remarks) add(remark, record.name);
     if (record.test_guessed) {
-      add(fmt::format("the test was told by the data: {}", io::to_string(record.test)), record.name);
+      add(fmt::format("the test was told by the data: {}", io::to_string(record.test)),
+          record.name);
     }
     if (record.rate_loop_guessed) {
       add(fmt::format("the rate loop was taken as {}", record.rate_loop_closed ? "closed" : "open"),

@@ -14,7 +14,6 @@ namespace {
 
 namespace unit = key_units;
 
-
 constexpr KeyUnit as_named{.suffix = "si"};
 constexpr std::array<std::string_view, 7> test_kinds{
     "slosh", "fast-ramp", "slow-ramp", "constant-speed", "valve-steps", "valve-chirp", "other"};

@@ -14,8 +14,8 @@
 #include <boresight/app/redesign/resonance_verdict.hpp>
 #include <boresight/app/redesign/sections.hpp>
 #include <boresight/app/report/text_report.hpp>
-#include <boresight/io/case/member_ranges.hpp>
 #include <boresight/io/case/antenna_of.hpp>
+#include <boresight/io/case/member_ranges.hpp>
 #include <boresight/io/case/resonating_mode.hpp>
 #include <boresight/plant/antenna/hydraulics.hpp>
 

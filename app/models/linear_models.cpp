@@ -21,8 +21,8 @@ LinearModels linear_models(const design::TrackingProblem& problem, const control
   models.loop = {description,
                  law,
                  problem.delay,
-                 controller_of(law, description, 0.0).system,
-                 controller_of(law, description, sample_time).system,
+                 design::controller_of(law, description, 0.0).system,
+                 design::controller_of(law, description, sample_time).system,
                  control::closed_loop(problem.plant, law, problem.delay)};
   return models;
 }

@@ -1,4 +1,6 @@
 
+#include <optional>
+
 #include <boresight/numerics/angles.hpp>
 #include <boresight/plant/antenna/antenna.hpp>
 
@@ -31,7 +33,9 @@ Antenna demo_antenna() {
                    .valve_damping = 0.7,
                    .supply_pressure = 2000.0 * psi,
                    .tracking_rate = 15.0 * arc_second,
-                   .slew_rate = 0.25 * degree};
+                   .slew_rate = 0.25 * degree,
+                   .rated_flow = std::nullopt,
+                   .rated_pressure_drop = std::nullopt};
   antenna.friction_curve = {.coulomb_torque = 10.33,
                             .breakaway_torque = 16.83,
                             .stribeck_rate = 0.15,

@@ -80,7 +80,7 @@ TEST(LinearModels, GiveBenchmarksTheLawsOwnController) {
   const auto mat = io::parse_controller(to_mat(written, "tune", "case.toml"), "m.mat", ratio);
   const auto json =
       io::parse_controller(report_with(written), "r.json", ratio, {{}, {}, "controller"});
-  const auto own = controller_of(written.loop->law, "law", 0.0);
+  const auto own = design::controller_of(written.loop->law, "law", 0.0);
   for (const auto* read : {&mat.system, &json.system}) {
     EXPECT_EQ(read->a, own.system.a);
     EXPECT_EQ(read->b, own.system.b);

@@ -1,9 +1,9 @@
 // Of a case file, and of its records where it has some: the controller that every command of the
 // program recommends, what it was weighed against, and what fewer or more flywheels would do.
 //   recommend_controller CASE.toml
-#include <cmath>
 #include <cstdio>
 #include <exception>
+#include <stdexcept>
 
 #include <boresight/design/studies/controller_study.hpp>
 #include <boresight/design/studies/matching_verdict.hpp>
@@ -17,11 +17,16 @@ namespace io = boresight::io;
 void print_controllers(const io::Case& stated, const design::ControllerStudy& study) {
   const design::TunedLaw* best = design::recommended_or(study, design::Fitness::unstable);
   for (const auto& row : study.tuned.laws) {
-    const double simulated = row.in_time ? row.in_time->beam_rms : std::nan("");
-    std::printf("%s%s: %.4f mdeg linear, %.4f simulated, constraints %s\n",
-                &row == best ? "recommended " : "", design::description_of(row).c_str(),
-                row.beam_rms / boresight::millidegree, simulated / boresight::millidegree,
+    std::printf("%s%s: %.4f mdeg linear, constraints %s", &row == best ? "recommended " : "",
+                design::description_of(row).c_str(), row.beam_rms / boresight::millidegree,
                 row.goals_met ? "met" : "missed");
+    if (row.in_time) {
+      std::printf(", %.4f simulated, limit cycle %.4f%s",
+                  row.in_time->beam_rms / boresight::millidegree,
+                  row.in_time->hunting / boresight::millidegree,
+                  row.left_out() ? ", beyond the budget" : "");
+    }
+    std::puts("");
   }
   if (best == nullptr) return;
   const auto& law = best->design.tuning.law;
@@ -32,10 +37,7 @@ void print_controllers(const io::Case& stated, const design::ControllerStudy& st
 }
 
 int main(int count, char** arguments) try {
-  if (count != 2) {
-    std::fprintf(stderr, "usage: recommend_controller CASE.toml\n");
-    return 2;
-  }
+  if (count != 2) throw std::invalid_argument("usage: recommend_controller CASE.toml");
   const io::Case stated = io::read_case(arguments[1]);
   const io::DesignedAntenna antenna = io::designed_antenna(stated, 1, 2, {});
   std::printf("reflected inertia: %.4f kg.m2 %s\n",

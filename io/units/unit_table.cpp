@@ -78,7 +78,7 @@ std::vector<Line> lines_of(std::string_view text) {
   return lines;
 }
 
-bool stands_for(const TableColumn& column, std::string_view name) {
+bool stands_for(const UnitTableColumn& column, std::string_view name) {
   if (!column.name.ends_with('*')) return name == column.name;
   return name.starts_with(std::string_view(column.name).substr(0, column.name.size() - 1));
 }
@@ -108,7 +108,7 @@ struct Header {
 };
 
 Header header_of(const std::string& path, const Line& line,
-                 const std::vector<TableColumn>& columns) {
+                 const std::vector<UnitTableColumn>& columns) {
   Header header;
   std::vector<std::string_view> known;
   for (const auto& column : columns) known.push_back(column.name);
@@ -125,8 +125,8 @@ Header header_of(const std::string& path, const Line& line,
       }
       unit = trimmed(unit.substr(0, unit.size() - 1));
     }
-    const auto column =
-        std::ranges::find_if(columns, [&](const TableColumn& c) { return stands_for(c, name); });
+    const auto column = std::ranges::find_if(
+        columns, [&](const UnitTableColumn& c) { return stands_for(c, name); });
     if (column == columns.end()) {
       refuse_line(path, line.number,
                   fmt::format("expected columns out of {}, found {}", fmt::join(known, ", "),
@@ -153,8 +153,8 @@ Header header_of(const std::string& path, const Line& line,
 
 }  // namespace
 
-std::map<std::string, Eigen::VectorXd> read_unit_table(const std::string& path,
-                                                       const std::vector<TableColumn>& columns) {
+std::map<std::string, Eigen::VectorXd> read_unit_table(
+    const std::string& path, const std::vector<UnitTableColumn>& columns) {
   const std::string text = content(path);
   const auto lines = lines_of(text);
   if (lines.size() < 2) {

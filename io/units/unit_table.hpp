@@ -12,7 +12,7 @@ namespace boresight::io {
 
 /// A column of a table file. A name that ends in '*' stands for any number of columns, at least one
 /// if needed, whose names begin so.
-struct TableColumn {
+struct UnitTableColumn {
   std::string name;
   Kind kind = Kind::number;
   bool needed = true;
@@ -26,7 +26,7 @@ struct TableColumn {
 /// file that cannot be read or is larger than 256 MB, an unknown, missing or repeated column, a
 /// unit of another kind, a row of another length, and what is no finite number.
 std::map<std::string, Eigen::VectorXd> read_unit_table(const std::string& path,
-                                                       const std::vector<TableColumn>& columns);
+                                                       const std::vector<UnitTableColumn>& columns);
 
 /// The path that a text of a case file names: relative to the case file's folder.
 std::string beside_case(const std::string& case_path, const std::string& name);

@@ -20,25 +20,11 @@
 #include <boresight/io/campaign/designed_antenna.hpp>
 #include <boresight/io/case/friction_leeway.hpp>
 #include <boresight/io/files/write_atomically.hpp>
+#include <boresight/io/proposals/compared_antennas.hpp>
 #include <boresight/numerics/error.hpp>
 
 namespace boresight::app {
 namespace {
-
-// Numbers that the proposals assume, beside the case's.
-void add_assumed(const std::vector<io::Proposal>& proposals, std::vector<io::Quantity>& assumed) {
-  const auto add = [&](const io::Proposal& proposal, const io::Quantity& quantity,
-                       const std::string& key) {
-    const bool uncertainty = quantity.uncertainty_source.starts_with("assumed");
-    if (quantity.basis != io::Basis::assumed && !uncertainty) return;
-    assumed.push_back(quantity);
-    assumed.back().key = fmt::format("{}: {}", proposal.name, key);
-  };
-  for (const auto& proposal : proposals) {
-    if (proposal.cost) add(proposal, proposal.cost->amount, "cost.amount");
-    for (const auto& change : proposal.changes) add(proposal, change.number, change.key);
-  }
-}
 
 int run(EvaluateArguments arguments) {
   arguments.threads = all_or(arguments.threads);
@@ -76,7 +62,7 @@ Report evaluate_case(const EvaluateArguments& arguments, const std::function<boo
   io::change_goals(antenna.goals, arguments.goals);
   std::vector<io::Proposal> proposals;
   for (const auto& path : arguments.proposals) proposals.push_back(io::read_proposal(path));
-  check_proposals(antenna, proposals);
+  io::check_proposals(antenna, proposals);
   EvaluateOptions options;
   options.structures = arguments.structures;
   options.draws = arguments.draws;
@@ -90,13 +76,13 @@ Report evaluate_case(const EvaluateArguments& arguments, const std::function<boo
 
   Report report = begin_report("evaluate", antenna, arguments.case_path, arguments.seed);
   ProgressLine progress("tuning and comparing proposals");
-  std::optional<PlantUncertainty> uncertainty;
+  std::optional<design::PlantUncertainty> uncertainty;
   try {
     io::DesignedAntenna designed =
         designed_antenna(antenna, arguments.seed, arguments.threads, interrupted);
+    report.resonance = resonance_verdict(designed);
     antenna = std::move(designed.antenna);
-    if (!designed.from_records) report.resonance = resonance_verdict(antenna);
-    uncertainty = PlantUncertainty{std::move(designed.distribution), designed.from_records};
+    uncertainty = design::PlantUncertainty{std::move(designed.distribution), designed.from_records};
   } catch (const Interrupted&) {
     report.interrupted = true;
     report.assumed = assumed_inputs(antenna);

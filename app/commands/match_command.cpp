@@ -51,9 +51,9 @@ int run(const Arguments& arguments) {
   try {
     io::DesignedAntenna designed =
         designed_antenna(antenna, arguments.ensemble_seed, options.threads, interrupt_requested);
+    report.resonance = resonance_verdict(designed);
     antenna = std::move(designed.antenna);
     mission = std::move(designed.mission);
-    if (!designed.from_records) report.resonance = resonance_verdict(antenna);
     ensemble = std::move(designed.ensemble);
   } catch (const Interrupted&) {
     fmt::print(stderr, "boresight: interrupted before the records were identified\n");

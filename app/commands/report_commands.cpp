@@ -83,9 +83,8 @@ void fill_redesign(const io::Case& antenna, const StudyOptions& options, Report&
   report.plant = describe_plant(designed);
   if (report.campaign && report.campaign->grey_box) {
     report.plant->records = report.campaign->grey_box->records.size();
-  } else {
-    if (!plant.from_records) report.resonance = resonance_verdict(designed);
   }
+  report.resonance = resonance_verdict(plant);
   report.assumed = assumed_inputs(designed);
   redesign(plant, options, report);
   if (report.time_domain) report.assumed = assumed_inputs(designed, {.time_runs = true});

@@ -79,10 +79,10 @@ Report tune_case(const TuneArguments& arguments, const std::function<bool()>& in
   try {
     io::DesignedAntenna designed =
         designed_antenna(antenna, arguments.seed, arguments.threads, interrupted);
+    report.resonance = resonance_verdict(designed);
     antenna = std::move(designed.antenna);
     mission = std::move(designed.mission);
     ensemble = std::move(designed.ensemble);
-    if (!designed.from_records) report.resonance = resonance_verdict(antenna);
   } catch (const Interrupted&) {
     report.interrupted = true;
     report.assumed = assumed_inputs(antenna);

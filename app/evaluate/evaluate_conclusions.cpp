@@ -246,27 +246,12 @@ std::string ended_at_bounds(const EvaluateSection& section) {
 }  // namespace
 
 std::size_t worth_its_cost(const EvaluateSection& section, const DecisionSection& decision) {
-  const auto& options = decision.statistics.options;
-  const auto candidate = [&](std::size_t place) -> const Candidate& {
-    return section.candidates[decision.candidates[place].candidate];
-  };
-  double least = std::numeric_limits<double>::infinity();
-  for (std::size_t i = 0; i < options.size(); ++i) {
-    if (candidate(i).feasible()) least = std::min(least, options[i].mean);
+  std::vector<design::PricedOption> priced;
+  for (std::size_t i = 0; i < decision.statistics.options.size(); ++i) {
+    const Candidate& candidate = section.candidates[decision.candidates[i].candidate];
+    priced.push_back({candidate.feasible(), candidate.cost, decision.statistics.options[i].mean});
   }
-  std::size_t choice = decision.best;
-  bool chosen = false;
-  for (std::size_t i = 0; i < options.size(); ++i) {
-    if (!candidate(i).feasible() || !(options[i].mean <= (1.0 + negligible_change) * least)) {
-      continue;
-    }
-    const double cost = cost_of(candidate(i)), least_cost = cost_of(candidate(choice));
-    const bool cheaper = cost < least_cost;
-    const bool better = cost == least_cost && options[i].mean < options[choice].mean;
-    if (!chosen || cheaper || better) choice = i;
-    chosen = true;
-  }
-  return choice;
+  return design::worth_its_cost(priced, decision.best);
 }
 
 std::vector<std::string> conclude(const EvaluateSection& section) {

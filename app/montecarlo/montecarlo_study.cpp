@@ -332,9 +332,7 @@ MonteCarloOutcome run_montecarlo(const MonteCarloArguments& arguments, Ranks& ra
   summarise(*outcome.run, *outcome.distribution, arguments.seed, section);
   section.distribution = source_text(*outcome.distribution);
   section.conclusions = conclude(section);
-  const auto resonance = population->from_records ? std::optional<ResonanceVerdict>()
-                                                  : resonance_verdict(population->antenna);
-  std::string warning = resonance_warning(resonance);
+  std::string warning = resonance_warning(resonance_verdict(*population));
   if (!warning.empty()) {
     section.conclusions.insert(section.conclusions.begin(), std::move(warning));
   }

@@ -108,6 +108,11 @@ std::optional<ResonanceVerdict> resonance_verdict(const io::Case& antenna) {
   return verdict;
 }
 
+std::optional<ResonanceVerdict> resonance_verdict(const io::DesignedAntenna& designed) {
+  if (designed.from_records) return std::nullopt;
+  return resonance_verdict(designed.antenna);
+}
+
 std::string which_was_measured(const ResonanceVerdict& verdict) {
   const std::string remark = verdict.of_oil ? "" : oil_remark(verdict.mode, verdict.oil_mode);
   return remark.empty() ? ""

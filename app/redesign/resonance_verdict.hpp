@@ -4,6 +4,7 @@
 #include <string>
 
 #include <boresight/identification/campaign/inertia_methods.hpp>
+#include <boresight/io/campaign/designed_antenna.hpp>
 #include <boresight/io/case/case_file.hpp>
 #include <boresight/plant/antenna/antenna_plant.hpp>
 
@@ -40,6 +41,8 @@ std::optional<double> bulk_modulus_for(const io::Case& antenna, double frequency
 
 /// Nothing for a case without a measured frequency.
 std::optional<ResonanceVerdict> resonance_verdict(const io::Case& antenna);
+/// The same of an antenna as stated; none where records show the drive.
+std::optional<ResonanceVerdict> resonance_verdict(const io::DesignedAntenna& designed);
 
 /// The oil_remark of the expected mode, and to make sure which was measured; empty without one and
 /// where the case says which.

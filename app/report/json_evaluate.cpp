@@ -14,13 +14,13 @@ Json optional_number(const std::optional<Number>& value, double unit = 1.0) {
   return value ? number(*value / unit) : Json(nullptr);
 }
 
-Json law_json(const CandidateLaw& law) {
+Json law_json(const CandidateLaw& law, const std::vector<std::string>& written) {
   const auto& descriptions = law.design.tuning.law.structure.gains();
   Json gains = Json::array();
-  for (std::size_t i = 0; i < law.gains.size(); ++i) {
+  for (std::size_t i = 0; i < written.size(); ++i) {
     gains.push_back({{"symbol", descriptions[i].symbol},
                      {"name", descriptions[i].name},
-                     {"value", law.gains[i]}});
+                     {"value", written[i]}});
   }
   return {{"structure", law.structure},
           {"goals_met", law.goals_met},
@@ -94,7 +94,9 @@ Json candidate_json(const EvaluateSection& section, const Candidate& candidate) 
                             {"follows_from", one.follows_from}});
   }
   Json laws = Json::array();
-  for (const auto& law : candidate.laws) laws.push_back(law_json(law));
+  for (std::size_t i = 0; i < candidate.laws.size(); ++i) {
+    laws.push_back(law_json(candidate.laws[i], candidate.gains.at(i)));
+  }
   return {{"name", candidate.name},
           {"path", text_or_null(candidate.path)},
           {"description", candidate.description},

@@ -294,7 +294,8 @@ Document laws_part(const EvaluateSection& section) {
   Rows rows{{"proposal", "loops", "rms mdeg", "linear over plants", "within goals", "S rate",
              "S valve", "S pos.", "effort rad/s", "starts", "gains"}};
   for (const auto& candidate : section.candidates) {
-    for (const auto& law : candidate.laws) {
+    for (std::size_t i = 0; i < candidate.laws.size(); ++i) {
+      const CandidateLaw& law = candidate.laws[i];
       std::vector<std::string> cells{candidate.name, law.structure};
       if (law.stable() && law.ensemble) {
         cells.push_back(mdeg(law.design.beam_rms));
@@ -308,9 +309,10 @@ Document laws_part(const EvaluateSection& section) {
         cells.push_back(
             fmt::format("{}/{}", law.design.tuning.starts_at_optimum, law.design.tuning.starts));
         const auto& gains = law.design.tuning.law.structure.gains();
+        const auto& written = candidate.gains.at(i);
         std::string list;
-        for (std::size_t k = 0; k < law.gains.size(); ++k) {
-          list += fmt::format("{}{} {}", k == 0 ? "" : ", ", gains[k].symbol, law.gains[k]);
+        for (std::size_t k = 0; k < written.size(); ++k) {
+          list += fmt::format("{}{} {}", k == 0 ? "" : ", ", gains[k].symbol, written[k]);
         }
         cells.push_back(std::move(list));
       }

@@ -19,14 +19,14 @@ std::vector<RuleVerdict> judge_rules(const Mission& mission, const MatchingStudy
     for (const auto& series : study.series) {
       rule.cost.push_back(std::numeric_limits<double>::quiet_NaN());
       if (!rule.disks || !series.best || *rule.disks > study.points.back().disks) continue;
-      const double least = series.values[*series.best].beam_rms;
+      const double disks = *rule.disks, least = series.values[*series.best].beam_rms;
       for (std::size_t i = 0; i + 1 < study.points.size(); ++i) {
         const double from = study.points[i].disks, to = study.points[i + 1].disks;
-        if (*rule.disks < from || *rule.disks > to) continue;
+        if (disks < from || disks > to) continue;
         const auto& one = series.values[i];
         const auto& other = series.values[i + 1];
         if (!one.found || !other.found) break;
-        const double part = (*rule.disks - from) / (to - from);
+        const double part = (disks - from) / (to - from);
         rule.cost.back() = std::lerp(one.beam_rms, other.beam_rms, part) / least - 1.0;
         break;
       }

@@ -34,10 +34,11 @@ std::vector<VariantChange> variant_changes(const MatchingStudy& study) {
   for (const auto& variants : study.variants) {
     const MatchVariant& own = variants.variants.front();
     if (!own.best || !weighed(study, variants.structure)) continue;
+    const double least = own.rms[*own.best];
     for (const auto& variant : variants.variants) {
       if (!variant.best) continue;
-      changes.push_back({variant.name, variants.structure,
-                         std::abs(variant.rms[*variant.best] / own.rms[*own.best] - 1.0)});
+      changes.push_back(
+          {variant.name, variants.structure, std::abs(variant.rms[*variant.best] / least - 1.0)});
     }
   }
   return changes;

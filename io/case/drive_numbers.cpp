@@ -92,16 +92,6 @@ double supply_torque(const Case& antenna) {
   return antenna.drive.supply_pressure.value * plant::torque_per_pressure(hydraulic_drive(antenna));
 }
 
-plant::OffsetTorque offset_torque(const Case& antenna) {
-  if (!antenna.simulation) return {};
-  const SimulationEntry& entry = *antenna.simulation;
-  const auto value_or_0 = [](const std::optional<Quantity>& quantity) {
-    return quantity ? quantity->value : 0.0;
-  };
-  return {entry.offset_torque.value, value_or_0(entry.offset_cosine), value_or_0(entry.offset_sine),
-          value_or_0(antenna.antenna.elevation), gear_ratio(antenna)};
-}
-
 std::optional<Quantity> rated_stroke(const Case& antenna,
                                      const std::optional<Quantity>& return_pressure) {
   const auto& flow = antenna.drive.valve_rated_flow;

@@ -9,7 +9,6 @@
 #include <boresight/plant/antenna/friction.hpp>
 #include <boresight/plant/antenna/gear_train.hpp>
 #include <boresight/plant/antenna/hydraulics.hpp>
-#include <boresight/plant/nonlinear/drive_elements.hpp>
 
 namespace boresight::io {
 
@@ -39,8 +38,7 @@ double tracking_friction(const Case& antenna);
 plant::HydraulicDrive hydraulic_drive(const Case& antenna);
 /// Torque of all motors at the supply pressure (N m), the return pressure not taken off.
 double supply_torque(const Case& antenna);
-/// Torque of gravity and the like that the motors hold, by [simulation]; none without that table.
-plant::OffsetTorque offset_torque(const Case& antenna);
+
 /// No-load rate of the motors (rad/s) with the valve fully open, by its rated flow; nothing if the
 /// case does not state that flow. The flow goes with the root of the drop over both edges, which
 /// without load is what the supply has above `return_pressure` (none: 0). The volumetric efficiency

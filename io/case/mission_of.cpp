@@ -121,25 +121,38 @@ std::vector<design::AlternativeAntenna> alternatives_of(const Case& stated) {
   return alternatives;
 }
 
+// Wind and constraints, without the antenna: its structure may take time to solve for.
+design::Mission asked_of(const Case& stated) {
+  design::Mission mission;
+  mission.wind = wind_of(stated);
+  mission.rms_band = {stated.goals.lowest_frequency.value, stated.goals.highest_frequency.value};
+  mission.stated_constraints = stated_constraints_of(stated.goals);
+  mission.limits_gusts = stated.goals.crest_factor.has_value();
+  return mission;
+}
+
 }  // namespace
 
 design::TrackingProblem make_problem(const Case& antenna,
                                      const std::vector<plant::AntennaChange>& changes) {
-  return tracking_problem(mission_of(antenna), changes);
+  return make_problem(antenna, changed(antenna_of(antenna), changes));
 }
 
 design::TrackingProblem make_problem(const Case& antenna, const plant::Antenna& other) {
-  return tracking_problem(mission_of(antenna), other);
+  return tracking_problem(asked_of(antenna), other);
 }
 
 double supply_wind_speed(const Case& antenna, const design::TrackingProblem& problem) {
-  design::Mission mission = mission_of(antenna);
+  design::Mission mission;
+  mission.antenna = drive_of(antenna);
   mission.wind = problem.wind;
   return torque_limited_wind_speed(mission);
 }
 
 design::HardGoals make_goals(const Case& antenna) {
-  return constraints(mission_of(antenna));
+  design::Mission mission = asked_of(antenna);
+  mission.antenna = drive_of(antenna);
+  return constraints(mission);
 }
 
 design::SoftGoal make_soft_goal(const Case& antenna) {
@@ -187,7 +200,9 @@ std::vector<design::PointingBudget> make_budgets(const Case& antenna) {
 }
 
 double tightest_budget(const Case& antenna) {
-  return tightest_budget(mission_of(antenna));
+  design::Mission mission;
+  mission.budgets = make_budgets(antenna);
+  return tightest_budget(mission);
 }
 
 std::vector<design::NamedStructure> asked_structures(const Case& stated,
@@ -208,20 +223,16 @@ std::vector<design::NamedStructure> asked_structures(const Case& stated,
 }
 
 design::Mission mission_of(const Case& stated) {
-  design::Mission mission;
+  design::Mission mission = asked_of(stated);
   mission.antenna = antenna_of(stated);
   mission.uncertainty = uncertainty_of(stated);
   mission.alternatives = alternatives_of(stated);
-  mission.wind = wind_of(stated);
   mission.climate = climate_of(stated);
   mission.climate_parts = stated.wind.climate_parts;
   mission.torque_table = stated.wind.torque_table;
   mission.wind_record = stated.wind.record;
   mission.bands = make_bands(stated);
   mission.budgets = make_budgets(stated);
-  mission.rms_band = {stated.goals.lowest_frequency.value, stated.goals.highest_frequency.value};
-  mission.stated_constraints = stated_constraints_of(stated.goals);
-  mission.limits_gusts = stated.goals.crest_factor.has_value();
   mission.objective = objective_of(stated.goals);
   if (stated.goals.beam_rms) mission.rms_goal = stated.goals.beam_rms->value;
   mission.minimises_climate = stated.goals.over_climate;

@@ -1,6 +1,6 @@
 # The tests of the program: what it prints and writes, and the documents that show it.
 boresight_tests(app boresight::io fmt::fmt)
-target_compile_definitions(test_app PRIVATE BORESIGHT_PROGRAM="$<TARGET_FILE:boresight>")
+target_compile_definitions(tests_of_app PRIVATE BORESIGHT_PROGRAM="$<TARGET_FILE:boresight>")
 
 function(boresight_python_test name script)
   add_test(NAME ${name} COMMAND ${BORESIGHT_INTERPRETER} -B ${CMAKE_CURRENT_SOURCE_DIR}/app/${script}

@@ -108,6 +108,7 @@ TEST(EvaluateTables, StandUnderTheHeadingThatFiguresName) {
   section.candidates.resize(1);
   Candidate& candidate = section.candidates[0];
   candidate.laws.resize(1);
+  candidate.gains.resize(1);
   candidate.chosen = 0;
   candidate.laws[0].ensemble.emplace().members.resize(1);
   const auto figures = evaluate_figures(section);

@@ -12,6 +12,7 @@
 
 #include "app/program_run.hpp"
 #include "io/edited_case.hpp"
+#include "refused_call.hpp"
 #include <boresight/app/tune/tune_study.hpp>
 #include <boresight/design/ensembles/plant_members.hpp>
 #include <boresight/design/problem/pointing_budget.hpp>
@@ -93,7 +94,7 @@ TEST(Shortfalls, NoWindIsHeldWhereFrictionTakesTheSupply) {
   antenna.friction_curve.coulomb.value = io::supply_torque(antenna);
   EXPECT_EQ(supply_wind_speed(antenna, make_problem(antenna)), 0.0);
   antenna.goals.crest_factor = antenna.goals.sensitivity_peak;
-  EXPECT_THAT([&] { make_goals(antenna); },
+  EXPECT_THAT(reference::Call([&] { make_goals(antenna); }),
               testing::ThrowsMessage<InvalidInput>(HasSubstr("above friction and offset")));
 }
 

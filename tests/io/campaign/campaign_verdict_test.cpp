@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "io/one_record.hpp"
+#include "refused_call.hpp"
 #include <boresight/io/campaign/campaign_comparison.hpp>
 #include <boresight/io/campaign/identified_case.hpp>
 
@@ -114,7 +115,7 @@ TEST(AverageMethods, GivesNoMeanOfMethodsThatContradictOneAnother) {
 TEST(WithIdentified, RefusesADriveThatItsOwnCaseContradicts) {
   identification::DriveEstimate estimate;
   estimate.contradicted = true;
-  EXPECT_THAT([&] { with_identified(case_of("small-dish"), estimate); },
+  EXPECT_THAT(reference::Call([&] { with_identified(case_of("small-dish"), estimate); }),
               testing::ThrowsMessage<NumericalFailure>(HasSubstr("no drive to design for")));
 }
 

@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "io/edited_case.hpp"
+#include "refused_call.hpp"
 #include <boresight/io/case/antenna_of.hpp>
 #include <boresight/io/case/drive_numbers.hpp>
 #include <boresight/io/case/member_ranges.hpp>
@@ -259,10 +260,12 @@ TEST(ProposedCase, RefusesARatedFlowThatTheCaseHasNot) {
   EXPECT_THAT(told, testing::EndsWith(": change simulation.valve_stroke instead"));
   Case linear = as_is();
   linear.simulation.reset();
-  EXPECT_THAT([&] { of(linear, flow); }, testing::ThrowsMessage<InvalidInput>(testing::EndsWith(
-                                             ": state it there, with valve_rated_pressure_drop")));
-  EXPECT_THAT([&] { of(by_rated_flow(), "[drive]\nvalve_rated_flow = '160 L/min'\n"); },
-              testing::ThrowsMessage<InvalidInput>(HasSubstr("found that every change leaves")));
+  EXPECT_THAT(reference::Call([&] { of(linear, flow); }),
+              testing::ThrowsMessage<InvalidInput>(
+                  testing::EndsWith(": state it there, with valve_rated_pressure_drop")));
+  EXPECT_THAT(
+      reference::Call([&] { of(by_rated_flow(), "[drive]\nvalve_rated_flow = '160 L/min'\n"); }),
+      testing::ThrowsMessage<InvalidInput>(HasSubstr("found that every change leaves")));
 }
 
 TEST(ProposedCase, SamplingSetsDeadTimeAndNoiseBandwidth) {

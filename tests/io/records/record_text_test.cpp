@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "refused_call.hpp"
 #include <boresight/io/files/input_files.hpp>
 #include <boresight/io/records/record_file.hpp>
 #include <boresight/io/records/record_text.hpp>
@@ -213,9 +214,9 @@ TEST(ReadRecord, RefusesWhatIsNoRecorderFile) {
   EXPECT_THAT(refused("\x1F\x8B compressed"), HasSubstr("a gzip file (unpack it"));
   EXPECT_THAT(refused("PK\x03\x04"), HasSubstr("a zip or spreadsheet file"));
   EXPECT_THAT(refused("\xD0\xCF\x11\xE0"), HasSubstr("a spreadsheet file"));
-  EXPECT_THAT([&] { io::read_record(folder); },
+  EXPECT_THAT(reference::Call([&] { io::read_record(folder); }),
               testing::ThrowsMessage<InvalidInput>(HasSubstr("found a folder")));
-  EXPECT_THAT([&] { io::read_record(folder + "/nobody"); },
+  EXPECT_THAT(reference::Call([&] { io::read_record(folder + "/nobody"); }),
               testing::ThrowsMessage<InvalidInput>(HasSubstr("No such file")));
   EXPECT_EQ(refused("t,x\n0,1\n"), "taken");
   const io::RecordTable table = io::read_record(folder + "/refused_record");

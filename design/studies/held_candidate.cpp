@@ -2,35 +2,46 @@
 #include <cmath>
 #include <limits>
 
-#include <boresight/app/evaluate/held_candidate.hpp>
-#include <boresight/app/report/sky_units.hpp>
-#include <boresight/io/case/mission_of.hpp>
+#include <boresight/design/studies/held_candidate.hpp>
+#include <boresight/numerics/angles.hpp>
 #include <boresight/numerics/parallel_loop.hpp>
+#include <boresight/plant/nonlinear/drive_capability.hpp>
 
-namespace boresight::app {
+namespace boresight::design {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-design::TrackingProblem problem_of(const io::Case& antenna) {
-  auto problem = make_problem(antenna);
-  if (antenna.goals.over_climate) problem.climate = make_climate(antenna);
+TrackingProblem problem_of(const Mission& mission) {
+  TrackingProblem problem = tracking_problem(mission);
+  if (mission.minimises_climate) problem.climate = mission.climate;
   return problem;
 }
 
 }  // namespace
 
-HeldCandidate::HeldCandidate(const io::Case& as_is, const io::Case& antenna,
+plant::AntennaPlant proposed_plant(const plant::Antenna& as_is, const plant::Antenna& proposed,
+                                   const PlantDraw& draw) {
+  PlantDraw own = draw;
+  const double slope = plant::tracking_friction(as_is);
+  if (slope > 0.0) {
+    own.values.at(static_cast<std::size_t>(UncertainInput::friction_slope)) *=
+        plant::tracking_friction(proposed) / slope;
+  }
+  return plant::linear_plant(plant::changed(proposed, changes_of(own)));
+}
+
+HeldCandidate::HeldCandidate(const plant::Antenna& as_is, const Mission& proposed,
                              const CandidateLaw& law)
     : as_is_(&as_is),
-      antenna_(&antenna),
+      proposed_(&proposed.antenna),
       nonlinear_factor_(law.nonlinear_factor()),
-      problem_(problem_of(antenna)),
-      goals_(make_goals(antenna)),
+      problem_(problem_of(proposed)),
+      goals_(constraints(proposed)),
       evaluator_(problem_, law.design.tuning.law, goals_) {}
 
-HeldCandidate::Outcome HeldCandidate::judge(const design::PlantDraw& draw) {
-  const auto plant = proposed_plant(*as_is_, *antenna_, draw);
+HeldCandidate::Outcome HeldCandidate::judge(const PlantDraw& draw) {
+  const auto plant = proposed_plant(*as_is_, *proposed_, draw);
   const auto values = evaluator_.evaluate(plant);
   const bool stable =
       evaluator_.near_the_axis(values) ? evaluator_.confirm(plant).stable() : values.stable;
@@ -49,8 +60,8 @@ HeldCandidate::Outcome HeldCandidate::judge(const design::PlantDraw& draw) {
 }
 
 std::optional<DrawnOutcomes> judge_draws(const std::vector<HeldCandidate>& held,
-                                         const design::PlantDistribution& distribution,
-                                         const EvaluateOptions& options) {
+                                         const PlantDistribution& distribution,
+                                         const ProposalOptions& options) {
   const auto stopped = [&] { return options.interrupted && options.interrupted(); };
   const auto draws = static_cast<Eigen::Index>(options.draws);
   const auto columns = static_cast<Eigen::Index>(held.size());
@@ -76,4 +87,4 @@ std::optional<DrawnOutcomes> judge_draws(const std::vector<HeldCandidate>& held,
   return outcomes;
 }
 
-}  // namespace boresight::app
+}  // namespace boresight::design

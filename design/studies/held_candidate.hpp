@@ -5,31 +5,31 @@
 
 #include <Eigen/Core>
 
-#include <boresight/app/evaluate/evaluate_study.hpp>
 #include <boresight/design/ensembles/held_gains_evaluator.hpp>
+#include <boresight/design/studies/proposal_study.hpp>
 
-namespace boresight::app {
+namespace boresight::design {
 
 /// A law of a candidate with its gains held, on plant after plant. Not to be shared between
-/// threads: copies are independent. The cases must outlive it.
+/// threads: copies are independent. The antennas must outlive it.
 class HeldCandidate {
  public:
-  HeldCandidate(const io::Case& as_is, const io::Case& antenna, const CandidateLaw& law);
+  HeldCandidate(const plant::Antenna& as_is, const Mission& proposed, const CandidateLaw& law);
 
   struct Outcome {
     double rms = 0.0;  // mdeg, of linear loops times the law's nonlinear_factor; infinite: unstable
     bool within_goals = false;
   };
 
-  Outcome judge(const design::PlantDraw& draw);
+  Outcome judge(const PlantDraw& draw);
 
  private:
-  const io::Case* as_is_;
-  const io::Case* antenna_;
+  const plant::Antenna* as_is_;
+  const plant::Antenna* proposed_;
   double nonlinear_factor_;
-  design::TrackingProblem problem_;
-  design::HardGoals goals_;
-  design::HeldGainsEvaluator evaluator_;
+  TrackingProblem problem_;
+  HardGoals goals_;
+  HeldGainsEvaluator evaluator_;
 };
 
 /// Outcomes of laws on the same draws: draws x laws.
@@ -40,7 +40,7 @@ struct DrawnOutcomes {
 
 /// None if interrupted. The same for any number of threads.
 std::optional<DrawnOutcomes> judge_draws(const std::vector<HeldCandidate>& held,
-                                         const design::PlantDistribution& distribution,
-                                         const EvaluateOptions& options);
+                                         const PlantDistribution& distribution,
+                                         const ProposalOptions& options);
 
-}  // namespace boresight::app
+}  // namespace boresight::design

@@ -1,0 +1,263 @@
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <memory>
+#include <mutex>
+#include <utility>
+
+#include <boresight/design/decisions/negligible_change.hpp>
+#include <boresight/design/decisions/pareto_front.hpp>
+#include <boresight/design/studies/held_candidate.hpp>
+#include <boresight/design/studies/proposal_decision.hpp>
+#include <boresight/design/studies/same_structure_pairs.hpp>
+#include <boresight/numerics/error.hpp>
+
+namespace boresight::design {
+namespace {
+
+// Pairs of candidates, each in one thread's hands at a time.
+class Pool {
+ public:
+  struct Pair {
+    HeldCandidate best, second;
+  };
+
+  Pool(const HeldCandidate& best, const HeldCandidate& second) : pattern_{best, second} {}
+
+  std::unique_ptr<Pair> take() {
+    {
+      const std::lock_guard lock(mutex_);
+      if (!idle_.empty()) {
+        auto pair = std::move(idle_.back());
+        idle_.pop_back();
+        return pair;
+      }
+    }
+    return std::make_unique<Pair>(pattern_);
+  }
+
+  void give(std::unique_ptr<Pair> pair) {
+    const std::lock_guard lock(mutex_);
+    idle_.push_back(std::move(pair));
+  }
+
+ private:
+  Pair pattern_;
+  std::mutex mutex_;
+  std::vector<std::unique_ptr<Pair>> idle_;
+};
+
+Probability share_of(const Eigen::ArrayXd& indicator) {
+  return mean_score(indicator, DecisionOptions{}.confidence);
+}
+
+class Decision {
+ public:
+  Decision(const std::vector<ProposedDesign>& candidates, const plant::Antenna& as_is,
+           const std::vector<const Mission*>& missions, const PlantDistribution& distribution,
+           const ProposalOptions& options)
+      : candidates_(candidates),
+        as_is_(as_is),
+        missions_(missions),
+        distribution_(distribution),
+        options_(options) {
+    for (std::size_t i = 0; i < candidates.size(); ++i) {
+      const CandidateLaw* law = candidates[i].chosen_law();
+      if (law == nullptr) {
+        found_.left_out.push_back({i, NotDrawn::no_stable_law});
+        continue;
+      }
+      if (!std::isfinite(law->nonlinear_factor())) {
+        found_.left_out.push_back({i, NotDrawn::run_not_completed});
+        continue;
+      }
+      found_.candidates.push_back({i, {}, {}});
+      held_.emplace_back(as_is, *missions[i], *law);
+    }
+    found_.uncertain = distribution.inputs();
+  }
+
+  std::optional<ProposalDecision> run() {
+    if (held_.size() < 2 || !draw_outcomes()) return std::nullopt;
+    summarise();
+    if (!stopped()) hold_structures_apart();
+    if (!stopped()) find_what_decides();
+    if (!stopped()) value_tests();
+    if (stopped()) return std::nullopt;
+    return std::move(found_);
+  }
+
+ private:
+  bool stopped() const { return options_.interrupted && options_.interrupted(); }
+
+  // All candidates on the same draws. False if interrupted.
+  bool draw_outcomes() {
+    auto outcomes = judge_draws(held_, distribution_, options_);
+    if (!outcomes) return false;
+    rms_ = std::move(outcomes->rms);
+    outside_ = std::move(outcomes->outside);
+    return true;
+  }
+
+  void summarise() {
+    found_.draws = options_.draws;
+    for (std::size_t i = 0; i < found_.candidates.size(); ++i) {
+      const auto column = static_cast<Eigen::Index>(i);
+      auto& one = found_.candidates[i];
+      one.unstable = share_of(rms_.col(column).array().isInf().cast<double>());
+      one.outside_goals = share_of(outside_.col(column));
+    }
+    found_.statistics = compare_options(rms_);
+    find_front_shares();
+    const auto& options = found_.statistics.options;
+    std::vector<std::size_t> order(options.size());
+    for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
+    std::ranges::stable_sort(order, {}, [&](std::size_t i) {
+      return std::pair(!candidate(i).feasible(), options[i].mean);
+    });
+    found_.best = order[0];
+    found_.second = order[1];
+    std::vector<PricedOption> priced;
+    for (std::size_t i = 0; i < options.size(); ++i) {
+      priced.push_back({candidate(i).feasible(), candidate(i).cost, options[i].mean});
+    }
+    found_.worth = worth_its_cost(priced, found_.best);
+  }
+
+  void hold_structures_apart() {
+    auto pairs =
+        compare_by_structure(found_, rms_, candidates_, as_is_, missions_, distribution_, options_);
+    if (pairs) found_.by_structure = std::move(*pairs);
+  }
+
+  const ProposedDesign& candidate(std::size_t place) const {
+    return candidates_[found_.candidates[place].candidate];
+  }
+
+  // Of those with a cost that are fit to be chosen, as of the front by the plants.
+  void find_front_shares() {
+    found_.front_shares.assign(found_.candidates.size(), std::numeric_limits<double>::quiet_NaN());
+    std::vector<double> costs;
+    std::vector<Eigen::Index> columns;
+    for (std::size_t i = 0; i < found_.candidates.size(); ++i) {
+      const auto& cost = candidate(i).cost;
+      if (!cost || !candidate(i).feasible()) continue;
+      costs.push_back(*cost);
+      columns.push_back(static_cast<Eigen::Index>(i));
+    }
+    if (costs.empty()) return;
+    const Eigen::MatrixXd rms = rms_(Eigen::all, columns);
+    const auto shares = front_shares(costs, rms);
+    for (std::size_t k = 0; k < shares.size(); ++k) {
+      found_.front_shares[static_cast<std::size_t>(columns[k])] = shares[k];
+    }
+  }
+
+  double difference(HeldCandidate& best, HeldCandidate& second,
+                    const std::vector<double>& shares) const {
+    const auto draw = distribution_.at_shares(shares);
+    return second.judge(draw).rms - best.judge(draw).rms;
+  }
+
+  void find_what_decides() {
+    const std::size_t inputs = distribution_.inputs().size();
+    if (inputs == 0) return;
+    try {
+      HeldCandidate best = held_[found_.best], second = held_[found_.second];
+      found_.tornado = tornado(inputs, [&](const std::vector<double>& shares) {
+        return difference(best, second, shares);
+      });
+      numerics::SobolOptions sobol;
+      sobol.points = 64;
+      sobol.seed = options_.seed;
+      sobol.threads = options_.threads;
+      Pool pool(held_[found_.best], held_[found_.second]);
+      const auto function = [&](const std::vector<double>& shares, Eigen::VectorXd& out) {
+        if (stopped()) {
+          out(0) = shares[0];
+          return;
+        }
+        auto pair = pool.take();
+        out(0) = difference(pair->best, pair->second, shares);
+        pool.give(std::move(pair));
+      };
+      found_.sobol = numerics::sobol_indices(inputs, 1, function, sobol);
+    } catch (const NumericalFailure& error) {
+      found_.tornado.reset();
+      found_.undecided = error.what();
+    }
+  }
+
+  // Of the choice between those that are fit to be chosen; places and means are of all.
+  void value_tests() {
+    if (found_.uncertain.empty()) return;
+    if (!candidate(found_.second).feasible()) {
+      found_.tests_not_valued = TestsNotValued::fewer_than_two_fit;
+      return;
+    }
+    std::vector<Eigen::Index> fit;
+    for (std::size_t i = 0; i < found_.candidates.size(); ++i) {
+      if (candidate(i).feasible()) fit.push_back(static_cast<Eigen::Index>(i));
+    }
+    const Eigen::MatrixXd rms = rms_(Eigen::all, fit);
+    if (!rms.allFinite()) {
+      found_.tests_not_valued = TestsNotValued::unstable_on_some_draws;
+      return;
+    }
+    Eigen::MatrixXd inputs(rms_.rows(), static_cast<Eigen::Index>(found_.uncertain.size()));
+    for (Eigen::Index d = 0; d < rms_.rows(); ++d) {
+      const auto draw = distribution_.draw(options_.seed, static_cast<std::uint64_t>(d));
+      for (Eigen::Index k = 0; k < inputs.cols(); ++k) {
+        inputs(d, k) = draw[distribution_.inputs()[static_cast<std::size_t>(k)]];
+      }
+    }
+    auto& tests = found_.tests.emplace(test_value(inputs, rms));
+    tests.choice = static_cast<std::size_t>(fit[tests.choice]);
+    tests.mean_loss.clear();
+    for (const auto& option : found_.statistics.options) tests.mean_loss.push_back(option.mean);
+  }
+
+  const std::vector<ProposedDesign>& candidates_;
+  const plant::Antenna& as_is_;
+  const std::vector<const Mission*>& missions_;
+  const PlantDistribution& distribution_;
+  const ProposalOptions& options_;
+  std::vector<HeldCandidate> held_;
+  Eigen::MatrixXd rms_;  // mdeg, draws x candidates
+  Eigen::ArrayXXd outside_;
+  ProposalDecision found_;
+};
+
+double cost_of(const PricedOption& option) {
+  return option.cost.value_or(std::numeric_limits<double>::infinity());
+}
+
+}  // namespace
+
+std::size_t worth_its_cost(const std::vector<PricedOption>& options, std::size_t best) {
+  double least = std::numeric_limits<double>::infinity();
+  for (const auto& option : options) {
+    if (option.fit) least = std::min(least, option.mean_rms);
+  }
+  std::size_t choice = best;
+  bool chosen = false;
+  for (std::size_t i = 0; i < options.size(); ++i) {
+    if (!options[i].fit || !(options[i].mean_rms <= (1.0 + negligible_change) * least)) continue;
+    const double cost = cost_of(options[i]), least_cost = cost_of(options[choice]);
+    const bool cheaper = cost < least_cost;
+    const bool better = cost == least_cost && options[i].mean_rms < options[choice].mean_rms;
+    if (!chosen || cheaper || better) choice = i;
+    chosen = true;
+  }
+  return choice;
+}
+
+std::optional<ProposalDecision> decide(const std::vector<ProposedDesign>& candidates,
+                                       const plant::Antenna& as_is,
+                                       const std::vector<const Mission*>& missions,
+                                       const PlantDistribution& distribution,
+                                       const ProposalOptions& options) {
+  return Decision(candidates, as_is, missions, distribution, options).run();
+}
+
+}  // namespace boresight::design

@@ -1,0 +1,99 @@
+#include <limits>
+#include <string>
+#include <vector>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "design/studies/held_law.hpp"
+#include <boresight/design/studies/proposal_decision.hpp>
+
+namespace boresight::design {
+namespace {
+
+using testing::ElementsAre;
+
+ProposedDesign candidate_of(const std::string& name, double first, double second,
+                            std::size_t chosen) {
+  ProposedDesign candidate;
+  candidate.name = name;
+  candidate.changed = name != "as it is";
+  candidate.laws = {reference::held_law("PI", first), reference::held_law("DPF", second)};
+  candidate.chosen = chosen;
+  return candidate;
+}
+
+// One plant for all, so that means over the draws go as the factors of the laws.
+std::optional<ProposalDecision> decided(const std::vector<ProposedDesign>& candidates) {
+  static const Mission mission = reference::uncertain_mission();
+  ProposalOptions options;
+  options.draws = 100;
+  return decide(candidates, mission.antenna, {candidates.size(), &mission},
+                PlantDistribution::of_ranges(mission), options);
+}
+
+TEST(Decide, ComparesWithOneStructureOnBothOverTheSameDraws) {
+  const auto decision =
+      decided({candidate_of("as it is", 1.0, 0.9, 0), candidate_of("no flywheels", 1.1, 0.95, 1)});
+  ASSERT_TRUE(decision);
+  ASSERT_EQ(decision->by_structure.size(), 1U);
+  const auto& found = decision->by_structure[0].structures;
+  ASSERT_EQ(found.size(), 2U);
+  const double mean = decision->statistics.options[0].mean;
+  EXPECT_EQ(found[0].structure, "PI");
+  EXPECT_NEAR(found[0].mean_gain, 0.1 * mean, 1e-9 * mean);
+  EXPECT_EQ(found[1].structure, "DPF");
+  EXPECT_NEAR(found[1].mean_gain, 0.05 * mean, 1e-9 * mean);
+  EXPECT_GT(found[1].better.value, 0.95);
+}
+
+TEST(Decide, LeavesOutPairsThatTheChosenLawsHoldApartAlready) {
+  const auto decision =
+      decided({candidate_of("as it is", 1.0, 0.9, 0), candidate_of("no flywheels", 1.1, 0.95, 0)});
+  ASSERT_TRUE(decision);
+  EXPECT_TRUE(decision->by_structure.empty());
+}
+
+TEST(Decide, SaysWhomItLeavesOutAndWhy) {
+  auto lost = candidate_of("lost", 1.0, 1.0, 0);
+  lost.laws[0].time_domain->wind.status = RunStatus::lost;
+  auto none = candidate_of("none", 1.0, 1.0, 0);
+  none.chosen.reset();
+  const auto decision = decided(
+      {candidate_of("as it is", 1.0, 1.0, 0), lost, candidate_of("better", 0.9, 0.9, 0), none});
+  ASSERT_TRUE(decision);
+  ASSERT_EQ(decision->left_out.size(), 2U);
+  EXPECT_EQ(decision->left_out[0].candidate, 1U);
+  EXPECT_EQ(decision->left_out[0].reason, NotDrawn::run_not_completed);
+  EXPECT_EQ(decision->left_out[1].reason, NotDrawn::no_stable_law);
+  EXPECT_EQ(decision->candidates[decision->best].candidate, 2U);
+  EXPECT_THAT(decision->uncertain,
+              ElementsAre(UncertainInput::oil_stiffness, UncertainInput::leakage_rate));
+  EXPECT_FALSE(decided({lost, none, candidate_of("as it is", 1.0, 1.0, 0)}));
+}
+
+// Fitness comes before the rms, also where nothing is left to choose between.
+TEST(Decide, PutsWhatIsFitFirst) {
+  auto unfit = candidate_of("unfit", 0.5, 0.5, 0);
+  unfit.laws[0].goals_met = false;
+  const auto decision = decided({candidate_of("as it is", 1.0, 1.0, 0), unfit});
+  ASSERT_TRUE(decision);
+  EXPECT_EQ(decision->best, 0U);
+  EXPECT_EQ(decision->worth, 0U);
+  EXPECT_EQ(decision->tests_not_valued, TestsNotValued::fewer_than_two_fit);
+  EXPECT_FALSE(decision->tests);
+}
+
+TEST(WorthItsCost, IsTheCheapestWithinWhatDecidesNothing) {
+  const std::vector<PricedOption> options{
+      {true, 0.0, 1.03}, {true, 5.0, 1.015}, {true, 9.0, 1.0}, {false, 1.0, 0.5}};
+  EXPECT_EQ(worth_its_cost(options, 2), 1U);
+  // Without a cost it is dearer than any.
+  EXPECT_EQ(worth_its_cost({{true, std::nullopt, 1.0}, {true, 1e9, 1.01}}, 0), 1U);
+  // At one price the better one.
+  EXPECT_EQ(worth_its_cost({{true, 1.0, 1.01}, {true, 1.0, 1.0}}, 1), 1U);
+  EXPECT_EQ(worth_its_cost({{false, 0.0, 1.0}, {false, 0.0, 2.0}}, 0), 0U);
+}
+
+}  // namespace
+}  // namespace boresight::design

@@ -1,61 +1,60 @@
-// Of a case file, and of its records where it has some: the controller that every command of the
-// program recommends, what it was weighed against, and what fewer or more flywheels would do.
-//   recommend_controller CASE.toml
-#include <cstdio>
-#include <exception>
+// recommend_controller CASE.toml [PROPOSAL.toml]: the controller that every command recommends, its
+// rivals, what flywheels change, and whether a proposal of hardware is worth its cost.
+#include <iostream>
 #include <stdexcept>
 
 #include <boresight/design/studies/controller_study.hpp>
 #include <boresight/design/studies/matching_verdict.hpp>
 #include <boresight/io/campaign/designed_antenna.hpp>
 #include <boresight/io/case/present_gains.hpp>
+#include <boresight/io/proposals/compared_antennas.hpp>
 #include <boresight/numerics/angles.hpp>
 
-namespace design = boresight::design;
-namespace io = boresight::io;
+using namespace boresight;
 
 void print_controllers(const io::Case& stated, const design::ControllerStudy& study) {
   const design::TunedLaw* best = design::recommended_or(study, design::Fitness::unstable);
   for (const auto& row : study.tuned.laws) {
-    std::printf("%s%s: %.4f mdeg linear, constraints %s", &row == best ? "recommended " : "",
-                design::description_of(row).c_str(), row.beam_rms / boresight::millidegree,
-                row.goals_met ? "met" : "missed");
+    std::cout << (&row == best ? "recommended " : "") << design::description_of(row) << ": "
+              << row.beam_rms / millidegree << " mdeg linear, constraints "
+              << (row.goals_met ? "met" : "missed");
     if (row.in_time) {
-      std::printf(", %.4f simulated, limit cycle %.4f%s",
-                  row.in_time->beam_rms / boresight::millidegree,
-                  row.in_time->hunting / boresight::millidegree,
-                  row.left_out() ? ", beyond the budget" : "");
+      std::cout << ", " << row.in_time->beam_rms / millidegree << " simulated, limit cycle "
+                << row.in_time->hunting / millidegree
+                << (row.left_out() ? ", beyond the budget" : "");
     }
-    std::puts("");
+    std::cout << '\n';
   }
   if (best == nullptr) return;
   const auto& law = best->design.tuning.law;
   const auto gains = io::GainUnits(stated).texts(law);
   for (std::size_t i = 0; i < gains.size(); ++i) {
-    std::printf("%s: %s\n", law.structure.gains()[i].symbol.c_str(), gains[i].c_str());
+    std::cout << law.structure.gains()[i].symbol << ": " << gains[i] << '\n';
   }
 }
 
 int main(int count, char** arguments) try {
-  if (count != 2) throw std::invalid_argument("usage: recommend_controller CASE.toml");
+  if (count < 2) throw std::invalid_argument("usage: recommend_controller CASE [PROPOSAL]");
   const io::Case stated = io::read_case(arguments[1]);
-  const io::DesignedAntenna antenna = io::designed_antenna(stated, 1, 2, {});
-  std::printf("reflected inertia: %.4f kg.m2 %s\n",
-              boresight::plant::reflected_inertia(linear_plant(antenna.mission.antenna)),
-              antenna.from_records ? "by the records" : "as stated");
-  design::TuneOptions tuning;
-  tuning.threads = 2;
-  print_controllers(stated, study_controllers(antenna.mission, antenna.ensemble, tuning));
-
+  const auto antenna = io::designed_antenna(stated, 1, 1, {});  // seed, threads
+  std::cout << "reflected inertia: " << reflected_inertia(linear_plant(antenna.mission.antenna))
+            << " kg.m2 " << (antenna.from_records ? "by the records" : "as stated") << '\n';
+  print_controllers(stated, design::study_controllers(antenna.mission, antenna.ensemble, {}));
   design::MatchOptions matching;
   matching.points = 4;
-  matching.variants = false;
-  matching.threads = 2;
   for (const auto& series : study_matching(antenna.mission, antenna.ensemble, matching).series) {
-    std::printf("%s over the flywheels: the largest rms is %.1f %% above the least\n",
-                series.name.c_str(), 100.0 * design::span_of(series));
+    std::cout << series.name << " over the flywheels: the largest rms is "
+              << 100.0 * design::span_of(series) << " % above the least\n";
   }
+  if (count < 3) return 0;
+  const auto asked = io::compared_antennas(antenna.antenna, {io::read_proposal(arguments[2])});
+  const auto study = design::study_proposals(asked.antennas, {antenna.distribution}, {});
+  const auto& decision = study.decision.value();
+  std::cout << "worth its cost: "
+            << study.candidates[decision.candidates[decision.worth].candidate].name
+            << "; as it is better with probability "
+            << decision.statistics.pairs.front().better.value << '\n';
 } catch (const std::exception& error) {
-  std::fprintf(stderr, "recommend_controller: %s\n", error.what());
+  std::cerr << "recommend_controller: " << error.what() << '\n';
   return 2;
 }

@@ -19,6 +19,7 @@ void add_plant(py::module_& module);
 void add_control_law(py::module_& module);
 void add_tuning(py::module_& module);
 void add_matching(py::module_& module);
+void add_evaluation(py::module_& module);
 void add_simulation(py::module_& module);
 
 }  // namespace boresight::python

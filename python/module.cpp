@@ -23,5 +23,6 @@ PYBIND11_MODULE(boresight, module) {
   python::add_control_law(module);
   python::add_tuning(module);
   python::add_matching(module);
+  python::add_evaluation(module);
   python::add_simulation(module);
 }

@@ -14,6 +14,7 @@ import tempfile
 import unittest
 
 PROGRAMS = pathlib.Path(sys.argv[1])
+SOURCE = pathlib.Path(__file__).resolve().parents[2]
 SCRATCH = tempfile.TemporaryDirectory()
 STIFFNESS, LEAKAGE, FRICTION = 52.608, 1.219, 0.9  # of the antenna, as in README.md
 
@@ -28,8 +29,7 @@ def run(name, *arguments, status=0):
 
 def small_case():
     """The 70-m antenna with two structures and few plants, so that tuning takes a moment."""
-    source = pathlib.Path(__file__).resolve().parents[2]
-    text = (source / "cases/dss14-70m/case.toml").read_text(encoding="utf-8")
+    text = (SOURCE / "cases/dss14-70m/case.toml").read_text(encoding="utf-8")
     path = pathlib.Path(tempfile.mkdtemp(dir=SCRATCH.name)) / "case.toml"
     path.write_text(text + "\n[ensemble]\ndraws = 1\n\n[tuning]\nstructures = ['PI', 'DPF']\nstarts = 2\n",
                     encoding="utf-8")
@@ -116,9 +116,10 @@ class Examples(unittest.TestCase):
         self.assertGreater(figure(text, "2 mdeg is met up to"), 10)
 
     def test_recommends_from_a_case_file_what_the_program_recommends(self):
-        text = run("recommend_controller", small_case())
-        rows = re.findall(r"^(recommended )?(\S+), robust: .* constraints met, ([\d.]+) simulated, "
-                          r"limit cycle ([\d.]+)(, beyond the budget)?$", text, re.M)
+        proposal = SOURCE / "cases/dss14-70m/proposals/half-flywheels.toml"
+        text = run("recommend_controller", small_case(), proposal)
+        rows = re.findall(r"^(recommended )?(\S+), robust: .* constraints met, ([-e\d.]+) simulated, "
+                          r"limit cycle ([-e\d.]+)(, beyond the budget)?$", text, re.M)
         self.assertEqual({row[1] for row in rows}, {"PI", "DPF"}, text)
         # The limit cycle counts by its rms; within 2 % the controller of fewer gains is taken.
         figures = {bool(row[0]): [] for row in rows}
@@ -128,7 +129,9 @@ class Examples(unittest.TestCase):
         self.assertEqual(len(figures[True]), 1)
         self.assertLess(figures[True][0], 1.02 * min(figures[True] + figures[False]))
         self.assertRegex(text, r"(?m)^kr: [\d.]+$")
-        self.assertRegex(text, r"(?m)^PI over the flywheels: the largest rms is [\d.]+ % above the least$")
+        self.assertRegex(text, r"(?m)^PI over the flywheels: the largest rms is [-e\d.]+ % above the least$")
+        # `boresight evaluate` of both: half of the flywheels has the lower rms in every draw.
+        self.assertRegex(text, r"(?m)^worth its cost: half the flywheels; as it is better with probability 0$")
 
     def test_recommending_says_what_is_wrong_with_a_case_file(self):
         self.assertIn("usage", run("recommend_controller", status=2))

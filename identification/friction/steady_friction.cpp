@@ -74,7 +74,9 @@ void check(const std::vector<SteadyFriction>& tests) {
   }
 }
 
-constexpr int coulomb = 1, bump = 2, viscous = 4;
+constexpr int coulomb = 1;
+constexpr int bump = 2;
+constexpr int viscous = 4;
 
 // Which numbers the tests are asked for, and between what the Stribeck rate is searched.
 struct Question {

@@ -30,12 +30,12 @@ template <class Handle>
 using Owned = std::unique_ptr<std::remove_pointer_t<Handle>, Destroy>;
 
 using ConstVector = Eigen::Map<const Eigen::VectorXd>;
-using Vector = Eigen::Map<Eigen::VectorXd>;
+using MappedVector = Eigen::Map<Eigen::VectorXd>;
 
 ConstVector elements(N_Vector vector) {
   return {N_VGetArrayPointer(vector), N_VGetLength(vector)};
 }
-Vector writable(N_Vector vector) {
+MappedVector writable(N_Vector vector) {
   return {N_VGetArrayPointer(vector), N_VGetLength(vector)};
 }
 
@@ -212,7 +212,7 @@ int OdeIntegrator::Solver::jacobian(double t, N_Vector x, N_Vector /*dx*/, SUNMa
 // should it go back, it crosses again.
 int OdeIntegrator::Solver::event_values(double t, N_Vector x, double* g, void* self) {
   Solver& solver = *static_cast<Solver*>(self);
-  Vector values(g, solver.ode.system().events());
+  MappedVector values(g, solver.ode.system().events());
   const int verdict = solver.ode.event_values(t, elements(x), values);
   if (t != solver.crossing_time) return verdict;
   for (Eigen::Index i = 0; i < values.size(); ++i) {
@@ -233,7 +233,7 @@ int OdeIntegrator::Solver::sensitivity_rate(int count, double t, N_Vector x, N_V
   verdict = solver.ode.rate_by_parameters(t, elements(x), solver.by_parameters);
   if (verdict != 0) return verdict;
   for (int k = 0; k < count; ++k) {
-    Vector result = writable(ds[k]);
+    MappedVector result = writable(ds[k]);
     result = solver.by_parameters.col(k);
     result.noalias() += solver.by_state * elements(s[k]);
   }

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "random_numbers.hpp"
+#include "refused_call.hpp"
 #include <boresight/numerics/error.hpp>
 #include <boresight/numerics/linear_solve.hpp>
 
@@ -35,8 +36,9 @@ TEST(LinearSolve, GivesTheClosedFormOfTwoUnknowns) {
 TEST(LinearSolve, NamesTheCallerOfASingularMatrix) {
   Eigen::Matrix3d singular;
   singular << 1, 2, 3, 4, 5, 6, 7, 8, 9;
-  EXPECT_THAT([&] { numerics::linear_solve(singular, Eigen::Vector3d::Ones(), "caller"); },
-              ThrowsMessage<NumericalFailure>(HasSubstr("caller: the matrix is singular")));
+  EXPECT_THAT(
+      reference::Call([&] { numerics::linear_solve(singular, Eigen::Vector3d::Ones(), "caller"); }),
+      ThrowsMessage<NumericalFailure>(HasSubstr("caller: the matrix is singular")));
   EXPECT_THROW(numerics::linear_solve(Eigen::Matrix2d::Zero(), Eigen::Vector2d::Ones(), "caller"),
                NumericalFailure);
   EXPECT_THROW(
@@ -45,9 +47,11 @@ TEST(LinearSolve, NamesTheCallerOfASingularMatrix) {
 }
 
 TEST(LinearSolve, RefusesShapesThatDoNotFit) {
-  EXPECT_THAT(
-      [] { numerics::linear_solve(Eigen::MatrixXd::Ones(2, 3), Eigen::MatrixXd::Ones(2, 1), "x"); },
-      ThrowsMessage<InvalidInput>(HasSubstr("found 2 x 3")));
+  EXPECT_THAT(reference::Call([] {
+                numerics::linear_solve(Eigen::MatrixXd::Ones(2, 3), Eigen::MatrixXd::Ones(2, 1),
+                                       "x");
+              }),
+              ThrowsMessage<InvalidInput>(HasSubstr("found 2 x 3")));
   EXPECT_THROW(
       numerics::linear_solve(Eigen::MatrixXd::Identity(2, 2), Eigen::MatrixXd::Ones(3, 1), "x"),
       InvalidInput);

@@ -6,6 +6,7 @@
 #include "peer_family.hpp"
 #include "random_numbers.hpp"
 #include "reference_values.hpp"
+#include "refused_call.hpp"
 #include <boresight/numerics/error.hpp>
 #include <boresight/numerics/matrix_exponential.hpp>
 
@@ -127,13 +128,14 @@ TEST(HeldTransition, OfTheAntennaFamilyMatchesThePeers) {
 
 TEST(HeldTransition, RefusesWhatHasNoMeaning) {
   const Eigen::MatrixXd a = Eigen::MatrixXd::Identity(2, 2), b = Eigen::MatrixXd::Ones(2, 1);
-  EXPECT_THAT([&] { numerics::held_transition(a, b, -1.0); },
+  EXPECT_THAT(reference::Call([&] { numerics::held_transition(a, b, -1.0); }),
               ThrowsMessage<InvalidInput>(HasSubstr("found -1 s")));
   EXPECT_THROW(numerics::held_transition(a, b, std::nan("")), InvalidInput);
-  EXPECT_THAT([&] { numerics::held_transition(a, Eigen::MatrixXd::Ones(3, 1), 1.0); },
-              ThrowsMessage<InvalidInput>(HasSubstr("found 2 x 2 and 3 x 1")));
+  EXPECT_THAT(
+      reference::Call([&] { numerics::held_transition(a, Eigen::MatrixXd::Ones(3, 1), 1.0); }),
+      ThrowsMessage<InvalidInput>(HasSubstr("found 2 x 2 and 3 x 1")));
   EXPECT_THROW(numerics::held_transition(a * HUGE_VAL, b, 1.0), InvalidInput);
-  EXPECT_THAT([&] { numerics::held_transition(1e4 * a, b, 1.0); },
+  EXPECT_THAT(reference::Call([&] { numerics::held_transition(1e4 * a, b, 1.0); }),
               ThrowsMessage<NumericalFailure>(HasSubstr("overflows")));
   EXPECT_THROW(numerics::matrix_exponential(Eigen::MatrixXd::Ones(2, 3)), InvalidInput);
   EXPECT_THROW(numerics::matrix_exponential(a * 1e300), NumericalFailure);

@@ -6,6 +6,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "refused_call.hpp"
 #include <boresight/numerics/parallel_loop.hpp>
 
 namespace boresight::design {
@@ -46,7 +47,7 @@ TEST(ForEachIndex, LetsOutTheExceptionOfTheLowestIndex) {
         throw std::runtime_error("five");
       }
     };
-    EXPECT_THAT([&] { numerics::for_each_index(1000, 4, work); },
+    EXPECT_THAT(reference::Call([&] { numerics::for_each_index(1000, 4, work); }),
                 testing::ThrowsMessage<std::runtime_error>("two"));
   }
 }

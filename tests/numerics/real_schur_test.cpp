@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "random_numbers.hpp"
+#include "refused_call.hpp"
 #include <boresight/numerics/eigenvalues.hpp>
 #include <boresight/numerics/error.hpp>
 #include <boresight/numerics/real_schur.hpp>
@@ -154,11 +155,11 @@ TEST(RealSchur, OfAKnownPairAndOfNothing) {
 }
 
 TEST(RealSchur, RefusesWhatIsNotSquareOrNotFinite) {
-  EXPECT_THAT([] { numerics::real_schur(MatrixXd::Ones(2, 3)); },
+  EXPECT_THAT(reference::Call([] { numerics::real_schur(MatrixXd::Ones(2, 3)); }),
               ThrowsMessage<InvalidInput>(HasSubstr("found 2 x 3")));
   MatrixXd matrix = MatrixXd::Identity(3, 3);
   matrix(1, 2) = std::numeric_limits<double>::quiet_NaN();
-  EXPECT_THAT([&] { numerics::real_schur(matrix); },
+  EXPECT_THAT(reference::Call([&] { numerics::real_schur(matrix); }),
               ThrowsMessage<InvalidInput>(HasSubstr("not finite")));
 }
 

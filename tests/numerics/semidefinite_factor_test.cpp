@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "random_numbers.hpp"
+#include "refused_call.hpp"
 #include <boresight/numerics/error.hpp>
 #include <boresight/numerics/semidefinite_factor.hpp>
 
@@ -43,19 +44,20 @@ TEST(SemidefiniteFactor, OfNothingAndOfZero) {
 TEST(SemidefiniteFactor, RefusesWhatIsNotSemidefinite) {
   MatrixXd saddle(2, 2);
   saddle << 1.0, 2.0, 2.0, 1.0;
-  EXPECT_THAT([&] { numerics::semidefinite_factor(saddle, "weight Q"); },
+  EXPECT_THAT(reference::Call([&] { numerics::semidefinite_factor(saddle, "weight Q"); }),
               ThrowsMessage<InvalidInput>(
                   HasSubstr("weight Q: expected a positive semidefinite matrix, found -3")));
   MatrixXd hollow(2, 2);
   hollow << 0.0, 1.0, 1.0, 0.0;
   EXPECT_THROW(numerics::semidefinite_factor(hollow, "Q"), InvalidInput);
-  EXPECT_THAT([] { numerics::semidefinite_factor(-MatrixXd::Identity(2, 2), "Q"); },
-              ThrowsMessage<InvalidInput>(HasSubstr("at row 1")));
+  EXPECT_THAT(
+      reference::Call([] { numerics::semidefinite_factor(-MatrixXd::Identity(2, 2), "Q"); }),
+      ThrowsMessage<InvalidInput>(HasSubstr("at row 1")));
   MatrixXd skew = MatrixXd::Identity(2, 2);
   skew(0, 1) = 1e-3;
-  EXPECT_THAT([&] { numerics::semidefinite_factor(skew, "Q"); },
+  EXPECT_THAT(reference::Call([&] { numerics::semidefinite_factor(skew, "Q"); }),
               ThrowsMessage<InvalidInput>(HasSubstr("antisymmetric part")));
-  EXPECT_THAT([] { numerics::semidefinite_factor(MatrixXd::Ones(2, 3), "Q"); },
+  EXPECT_THAT(reference::Call([] { numerics::semidefinite_factor(MatrixXd::Ones(2, 3), "Q"); }),
               ThrowsMessage<InvalidInput>(HasSubstr("found 2 x 3")));
   EXPECT_THROW(numerics::semidefinite_factor(saddle * std::nan(""), "Q"), InvalidInput);
 }
@@ -77,15 +79,18 @@ TEST(PositiveDefiniteSolve, SolvesInAnyUnits) {
 }
 
 TEST(PositiveDefiniteSolve, RefusesWhatIsNotPositiveDefinite) {
-  EXPECT_THAT(
-      [] { numerics::positive_definite_solve(MatrixXd::Ones(2, 2), MatrixXd::Ones(2, 1), "R"); },
-      ThrowsMessage<NumericalFailure>(HasSubstr("R: the matrix is singular")));
-  EXPECT_THAT(
-      [] { numerics::positive_definite_solve(MatrixXd::Zero(2, 2), MatrixXd::Ones(2, 1), "R"); },
-      ThrowsMessage<NumericalFailure>(HasSubstr("found 0 on its diagonal")));
-  EXPECT_THAT(
-      [] { numerics::positive_definite_solve(MatrixXd::Ones(2, 2), MatrixXd::Ones(3, 1), "R"); },
-      ThrowsMessage<InvalidInput>(HasSubstr("2 x 2 and 3 rows")));
+  EXPECT_THAT(reference::Call([] {
+                numerics::positive_definite_solve(MatrixXd::Ones(2, 2), MatrixXd::Ones(2, 1), "R");
+              }),
+              ThrowsMessage<NumericalFailure>(HasSubstr("R: the matrix is singular")));
+  EXPECT_THAT(reference::Call([] {
+                numerics::positive_definite_solve(MatrixXd::Zero(2, 2), MatrixXd::Ones(2, 1), "R");
+              }),
+              ThrowsMessage<NumericalFailure>(HasSubstr("found 0 on its diagonal")));
+  EXPECT_THAT(reference::Call([] {
+                numerics::positive_definite_solve(MatrixXd::Ones(2, 2), MatrixXd::Ones(3, 1), "R");
+              }),
+              ThrowsMessage<InvalidInput>(HasSubstr("2 x 2 and 3 rows")));
 }
 
 }  // namespace

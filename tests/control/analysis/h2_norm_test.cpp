@@ -9,6 +9,7 @@
 #include "peer_family.hpp"
 #include "random_numbers.hpp"
 #include "reference_values.hpp"
+#include "refused_call.hpp"
 #include <boresight/control/analysis/h2_norm.hpp>
 #include <boresight/control/equations/lyapunov.hpp>
 #include <boresight/numerics/eigenvalues.hpp>
@@ -272,9 +273,9 @@ TEST(OutputCovariance, AgreesWithTheLyapunovEquationForAnyIntensity) {
 
 TEST(OutputCovariance, RefusesAnIntensityThatIsNone) {
   const auto lag = plant::rational({1.0}, {1.0, 1.0}, "u", "y", "x");
-  EXPECT_THAT([&] { output_covariance(lag, MatrixXd::Ones(2, 2)); },
+  EXPECT_THAT(reference::Call([&] { output_covariance(lag, MatrixXd::Ones(2, 2)); }),
               ThrowsMessage<InvalidInput>(HasSubstr("found 2 x 2")));
-  EXPECT_THAT([&] { output_covariance(lag, MatrixXd::Constant(1, 1, -1.0)); },
+  EXPECT_THAT(reference::Call([&] { output_covariance(lag, MatrixXd::Constant(1, 1, -1.0)); }),
               ThrowsMessage<InvalidInput>(HasSubstr("positive semidefinite")));
   EXPECT_THROW(output_covariance(lag, MatrixXd::Constant(1, 1, std::nan(""))), InvalidInput);
   const auto unstable = plant::rational({1.0}, {-1.0, 1.0}, "u", "y", "x");

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "peer_modal_family.hpp"
+#include "refused_call.hpp"
 #include <boresight/control/analysis/modal_margins.hpp>
 #include <boresight/control/loops/sensitivity_bounds.hpp>
 #include <boresight/numerics/error.hpp>
@@ -124,11 +125,11 @@ TEST(ModalMargins, FindBothCrossoversBesideALightZeroThatNoPoleTellsOf) {
 TEST(ModalMargins, RefuseWhatTheyCannotFollow) {
   ModalMarginOptions options;
   options.largest_turn = 3.0;
-  EXPECT_THAT([&] { margins(peer_loop(3), options); },
+  EXPECT_THAT(reference::Call([&] { margins(peer_loop(3), options); }),
               ThrowsMessage<InvalidInput>(HasSubstr("0.01 to 1 rad, found 3")));
   options.largest_turn = 0.02;
   options.most_points = 300;
-  EXPECT_THAT([&] { margins(peer_loop(3), options); },
+  EXPECT_THAT(reference::Call([&] { margins(peer_loop(3), options); }),
               ThrowsMessage<NumericalFailure>(HasSubstr("more than 300 frequencies")));
 }
 

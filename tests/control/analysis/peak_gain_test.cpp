@@ -8,6 +8,7 @@
 #include "peer_family.hpp"
 #include "random_stable_system.hpp"
 #include "reference_values.hpp"
+#include "refused_call.hpp"
 #include <boresight/control/analysis/peak_gain.hpp>
 #include <boresight/numerics/eigenvalues.hpp>
 #include <boresight/numerics/error.hpp>
@@ -286,21 +287,20 @@ TEST(PeakGain, TakesSystemsWithoutIndependentEigenvectors) {
 
 TEST(PeakGain, RefusesWhatHasNoMeaning) {
   auto system = plant::rational({1.0}, {1.0, 1.0}, "u", "y", "x");
-  EXPECT_THAT(
-      [&] {
-        peak_gain(system, {1e-16, 100});
-      },
-      ThrowsMessage<InvalidInput>(HasSubstr("found 1e-16")));
-  EXPECT_THAT(
-      [&] {
-        peak_gain(system, {1e-9, 0});
-      },
-      ThrowsMessage<InvalidInput>(HasSubstr("at least 2 intervals, found 0")));
+  EXPECT_THAT(reference::Call([&] {
+                peak_gain(system, {1e-16, 100});
+              }),
+              ThrowsMessage<InvalidInput>(HasSubstr("found 1e-16")));
+  EXPECT_THAT(reference::Call([&] {
+                peak_gain(system, {1e-9, 0});
+              }),
+              ThrowsMessage<InvalidInput>(HasSubstr("at least 2 intervals, found 0")));
   system.a(0, 0) = infinity;
-  EXPECT_THAT([&] { peak_gain(system); }, ThrowsMessage<InvalidInput>(HasSubstr("not finite")));
+  EXPECT_THAT(reference::Call([&] { peak_gain(system); }),
+              ThrowsMessage<InvalidInput>(HasSubstr("not finite")));
   auto sampled = plant::rational({1.0}, {1.0, 1.0}, "u", "y", "x");
   sampled.sample_time = 0.1;
-  EXPECT_THAT([&] { peak_gain(sampled); },
+  EXPECT_THAT(reference::Call([&] { peak_gain(sampled); }),
               ThrowsMessage<NumericalFailure>(HasSubstr("a pole at -1")));
   // Too few intervals: a bracket that is open and says so.
   const PeakGain open =

@@ -6,6 +6,7 @@
 
 #include "peer_family.hpp"
 #include "random_stable_system.hpp"
+#include "refused_call.hpp"
 #include <boresight/control/analysis/spectral_rms.hpp>
 #include <boresight/control/equations/lyapunov.hpp>
 #include <boresight/numerics/error.hpp>
@@ -109,17 +110,15 @@ TEST(SpectralRms, WithDeadTimeIsThatOfTheClosedForm) {
 }
 
 TEST(SpectralRms, OfWhatHasNoneIsRefused) {
-  EXPECT_THAT(
-      [] {
-        spectral_rms(response_of(plant::rational({1.0, 0.1}, {1.0, 1.0}, "n", "y", "x")));
-      },
-      ThrowsMessage<NumericalFailure>(HasSubstr("a response that falls off")));
-  EXPECT_THAT(
-      [] {
-        spectral_rms(response_of(plant::rational({1.0}, {1.0, 1.0}, "n", "y", "x")),
-                     SpectralRmsOptions{1e-20, 100, {}});
-      },
-      ThrowsMessage<InvalidInput>(HasSubstr("found 1e-20")));
+  EXPECT_THAT(reference::Call([] {
+                spectral_rms(response_of(plant::rational({1.0, 0.1}, {1.0, 1.0}, "n", "y", "x")));
+              }),
+              ThrowsMessage<NumericalFailure>(HasSubstr("a response that falls off")));
+  EXPECT_THAT(reference::Call([] {
+                spectral_rms(response_of(plant::rational({1.0}, {1.0, 1.0}, "n", "y", "x")),
+                             SpectralRmsOptions{1e-20, 100, {}});
+              }),
+              ThrowsMessage<InvalidInput>(HasSubstr("found 1e-20")));
   // Nothing at all has an rms of 0.
   const auto none = spectral_rms(response_of(plant::rational({0.0}, {1.0, 1.0}, "n", "y", "x")));
   EXPECT_EQ(none.rms, 0.0);

@@ -7,6 +7,7 @@
 #include "peer_family.hpp"
 #include "random_numbers.hpp"
 #include "reference_values.hpp"
+#include "refused_call.hpp"
 #include <boresight/control/analysis/step_characteristics.hpp>
 #include <boresight/numerics/eigenvalues.hpp>
 #include <boresight/numerics/error.hpp>
@@ -337,7 +338,7 @@ TEST(StepCharacteristics, OfAStaticGainAreThere) {
 TEST(StepCharacteristics, NameWhatTheyRefuse) {
   const auto lag = rational({1.0}, {1.0, 1.0}, "u", "y", "x");
   const auto refused = [&](const StepOptions& options, const char* message) {
-    EXPECT_THAT([&] { step_characteristics(lag, options); },
+    EXPECT_THAT(reference::Call([&] { step_characteristics(lag, options); }),
                 ThrowsMessage<InvalidInput>(HasSubstr(message)));
   };
   refused({.settling_band = 0.0}, "settling_band between 0 and 1, found 0");
@@ -345,19 +346,17 @@ TEST(StepCharacteristics, NameWhatTheyRefuse) {
   refused({.rise_from = 0.5, .rise_to = 0.4}, "found 0.5 and 0.4");
   refused({.rise_to = 1.0}, "found 0.1 and 1");
   refused({.minimal_tolerance = -1.0}, "tolerance");
-  EXPECT_THAT([] { step_characteristics(reference::peer_closed_loop(5)); },
+  EXPECT_THAT(reference::Call([] { step_characteristics(reference::peer_closed_loop(5)); }),
               ThrowsMessage<InvalidInput>(HasSubstr("found 3 and 2")));
-  EXPECT_THAT(
-      [] {
-        step_characteristics(rational({1.0}, {-2.0, 1.0}, "u", "y", "x"));
-      },
-      ThrowsMessage<NumericalFailure>(
-          AllOf(HasSubstr("expected a stable system"), HasSubstr("at 2 +0j"))));
-  EXPECT_THAT(
-      [] {
-        step_characteristics(rational({1.0}, {4.0, 0.0, 1.0}, "u", "y", "x"));
-      },
-      ThrowsMessage<NumericalFailure>(HasSubstr("2j")));
+  EXPECT_THAT(reference::Call([] {
+                step_characteristics(rational({1.0}, {-2.0, 1.0}, "u", "y", "x"));
+              }),
+              ThrowsMessage<NumericalFailure>(
+                  AllOf(HasSubstr("expected a stable system"), HasSubstr("at 2 +0j"))));
+  EXPECT_THAT(reference::Call([] {
+                step_characteristics(rational({1.0}, {4.0, 0.0, 1.0}, "u", "y", "x"));
+              }),
+              ThrowsMessage<NumericalFailure>(HasSubstr("2j")));
   // Double integrator: it drifts.
   EXPECT_FALSE(step_characteristics(rational({1.0}, {0.0, 0.0, 1.0}, "u", "y", "x")).settles);
 }

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "control/reference_loop.hpp"
+#include "refused_call.hpp"
 #include <boresight/control/controllers/control_law.hpp>
 #include <boresight/numerics/error.hpp>
 
@@ -134,33 +135,30 @@ TEST(LoopStructure, MovesItsBoundsByTheDecadesOfTheLoad) {
     EXPECT_DOUBLE_EQ(other.gains()[k].lower, moved * gain.lower) << gain.symbol;
     EXPECT_DOUBLE_EQ(other.gains()[k].upper, moved * gain.upper) << gain.symbol;
   }
-  EXPECT_THAT(
-      [&] {
-        usual.with_bounds_for({0.0, 1.0});
-      },
-      ThrowsMessage<InvalidInput>(HasSubstr("found 0 Hz and 1 kg.m2")));
+  EXPECT_THAT(reference::Call([&] {
+                usual.with_bounds_for({0.0, 1.0});
+              }),
+              ThrowsMessage<InvalidInput>(HasSubstr("found 0 Hz and 1 kg.m2")));
 }
 
 TEST(ControlLaw, GivesItsGainsBySymbol) {
   const ControlLaw law{LoopStructure::pi_with_lag(), {1, 2, 3, 4, 5}};
   EXPECT_EQ(gain(law, "wp"), 3.0);
   EXPECT_EQ(gain(law, "wip"), 5.0);
-  EXPECT_THAT(
-      [] {
-        gain({LoopStructure::pi(), {1, 2, 3, 4}}, "wp");
-      },
-      ThrowsMessage<InvalidInput>(HasSubstr("has no gain 'wp'")));
+  EXPECT_THAT(reference::Call([] {
+                gain({LoopStructure::pi(), {1, 2, 3, 4}}, "wp");
+              }),
+              ThrowsMessage<InvalidInput>(HasSubstr("has no gain 'wp'")));
 }
 
 TEST(ControlLaw, NamesTheGainItRefuses) {
-  EXPECT_THAT(
-      [] {
-        validate({LoopStructure::pi(), {1, 2, 3}});
-      },
-      ThrowsMessage<InvalidInput>(HasSubstr("expected 4 gains for PI without lag")));
+  EXPECT_THAT(reference::Call([] {
+                validate({LoopStructure::pi(), {1, 2, 3}});
+              }),
+              ThrowsMessage<InvalidInput>(HasSubstr("expected 4 gains for PI without lag")));
   for (const double bad : {0.0, -1.0, std::nan(""), HUGE_VAL}) {
     const ControlLaw law{LoopStructure::pi_with_lag(), {1, 2, 3, bad, 5}};
-    EXPECT_THAT([&] { validate(law); },
+    EXPECT_THAT(reference::Call([&] { validate(law); }),
                 ThrowsMessage<InvalidInput>(HasSubstr("positive finite position gain")));
     EXPECT_THROW(to_state_space(law), InvalidInput);
   }

@@ -5,6 +5,7 @@
 
 #include "random_numbers.hpp"
 #include "reference_values.hpp"
+#include "refused_call.hpp"
 #include <boresight/control/controllers/delay.hpp>
 #include <boresight/numerics/eigenvalues.hpp>
 #include <boresight/numerics/error.hpp>
@@ -102,7 +103,7 @@ TEST(DelayApproximant, DependsOnFrequencyTimesDelayAlone) {
 
 TEST(DelayApproximant, RefusesDelaysAndOrdersWithoutMeaning) {
   for (const double bad : {0.0, -0.1, std::nan(""), HUGE_VAL}) {
-    EXPECT_THAT([&] { delay_approximant(bad, 4, "in", "out"); },
+    EXPECT_THAT(reference::Call([&] { delay_approximant(bad, 4, "in", "out"); }),
                 ThrowsMessage<InvalidInput>(HasSubstr("positive delay")));
   }
   EXPECT_THROW(delay_approximant(0.03, 0, "in", "out"), InvalidInput);
@@ -178,7 +179,7 @@ TEST(PadeApproximant, MeetsTheLegendreRealisation) {
 
 TEST(PadeApproximant, RefusesDelaysAndDegreesWithoutMeaning) {
   const auto refused = [](double delay, int m, int n, const char* message) {
-    EXPECT_THAT([&] { pade_approximant(delay, m, n, "in", "out"); },
+    EXPECT_THAT(reference::Call([&] { pade_approximant(delay, m, n, "in", "out"); }),
                 ThrowsMessage<InvalidInput>(HasSubstr(message)));
   };
   refused(0.1, 3, 2, "found 3 over 2");

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "control/reference_loop.hpp"
+#include "refused_call.hpp"
 #include <boresight/control/controllers/sampled_law.hpp>
 #include <boresight/control/loops/closed_loop.hpp>
 #include <boresight/numerics/angles.hpp>
@@ -151,15 +152,14 @@ TEST(SampledLaw, LeavesOnlyTheFreeAngleWithThePositionLoopOpen) {
 
 TEST(SampledLaw, RefusesWhatIsNoSampleTime) {
   const ControlLaw law = cautious(LoopStructure::pi());
-  EXPECT_THAT([&] { sampled_law(law, 0.0); },
+  EXPECT_THAT(reference::Call([&] { sampled_law(law, 0.0); }),
               ThrowsMessage<InvalidInput>(HasSubstr("expected a sample time above 0, found 0 s")));
-  EXPECT_THAT([&] { sampled_rate_loop_law(law, std::nan("")); },
+  EXPECT_THAT(reference::Call([&] { sampled_rate_loop_law(law, std::nan("")); }),
               ThrowsMessage<InvalidInput>(HasSubstr("expected a sample time above 0, found nan")));
-  EXPECT_THAT(
-      [&] {
-        sampled_law({LoopStructure::pi(), {1.0}}, period);
-      },
-      ThrowsMessage<InvalidInput>(HasSubstr("expected 4 gains")));
+  EXPECT_THAT(reference::Call([&] {
+                sampled_law({LoopStructure::pi(), {1.0}}, period);
+              }),
+              ThrowsMessage<InvalidInput>(HasSubstr("expected 4 gains")));
 }
 
 }  // namespace

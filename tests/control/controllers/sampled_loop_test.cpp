@@ -5,6 +5,7 @@
 
 #include "random_numbers.hpp"
 #include "reference_values.hpp"
+#include "refused_call.hpp"
 #include <boresight/control/controllers/sampled_loop.hpp>
 #include <boresight/control/equations/lyapunov.hpp>
 #include <boresight/numerics/eigenvalues.hpp>
@@ -262,7 +263,7 @@ TEST(SampledLoop, NamesWhatItRefuses) {
   const auto refused = [](auto change, const char* message) {
     SampledLoop loop = loop_with(0.0);
     change(loop);
-    EXPECT_THAT([&] { sampled_closed_loop(loop); },
+    EXPECT_THAT(reference::Call([&] { sampled_closed_loop(loop); }),
                 ThrowsMessage<InvalidInput>(HasSubstr(message)));
   };
   refused([](SampledLoop& l) { l.controller.sample_time = 0.0; }, "a sampled controller");
@@ -275,11 +276,11 @@ TEST(SampledLoop, NamesWhatItRefuses) {
       "none of the controller's inputs reference, rate");
   refused([](SampledLoop& l) { l.computation_delay = -0.1; }, "found -0.1 s");
   refused([](SampledLoop& l) { l.controller.states[0] = "x1"; }, "found 'x1' twice");
-  EXPECT_THAT([] { sampled_open_loop(loop_with(0.0), "wind"); },
+  EXPECT_THAT(reference::Call([] { sampled_open_loop(loop_with(0.0), "wind"); }),
               ThrowsMessage<InvalidInput>(HasSubstr("among torque, found 'wind'")));
   const auto rms_refused = [](const SampledLoopNoise& noise,
                               const std::vector<std::string>& outputs, const char* message) {
-    EXPECT_THAT([&] { sampled_loop_rms(loop_with(0.0), noise, outputs); },
+    EXPECT_THAT(reference::Call([&] { sampled_loop_rms(loop_with(0.0), noise, outputs); }),
                 ThrowsMessage<InvalidInput>(HasSubstr(message)));
   };
   rms_refused({{{"torque", 1.0}}, {}}, {"angle"}, "one of wind, found 'torque'");
@@ -288,11 +289,10 @@ TEST(SampledLoop, NamesWhatItRefuses) {
   rms_refused({}, {"rate"}, "found 'rate'");
   SampledLoop direct = loop_with(0.0);
   direct.plant.d(1, 1) = 0.1;
-  EXPECT_THAT(
-      [&] {
-        sampled_loop_rms(direct, {{{"wind", 1.0}}, {}}, {"mixed"});
-      },
-      ThrowsMessage<InvalidInput>(HasSubstr("reaches the output 'mixed' without a lag")));
+  EXPECT_THAT(reference::Call([&] {
+                sampled_loop_rms(direct, {{{"wind", 1.0}}, {}}, {"mixed"});
+              }),
+              ThrowsMessage<InvalidInput>(HasSubstr("reaches the output 'mixed' without a lag")));
   EXPECT_NO_THROW(sampled_loop_rms(direct, {{{"wind", 1.0}}, {}}, {"angle"}));
   SampledLoop unstable = loop_with(0.0);
   unstable.controller.d *= 100.0;

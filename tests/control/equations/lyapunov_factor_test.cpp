@@ -5,6 +5,7 @@
 
 #include "random_numbers.hpp"
 #include "reference_values.hpp"
+#include "refused_call.hpp"
 #include <boresight/control/equations/lyapunov.hpp>
 #include <boresight/control/equations/lyapunov_factor.hpp>
 #include <boresight/numerics/eigenvalues.hpp>
@@ -118,21 +119,22 @@ TEST(LyapunovFactor, OfAnUndrivenSystemIsZero) {
 
 TEST(LyapunovFactor, RefusesShapesNumbersAndInstability) {
   const MatrixXd a = -MatrixXd::Identity(2, 2);
-  EXPECT_THAT([&] { lyapunov_factor("caller", a, MatrixXd::Ones(3, 1), TimeDomain::continuous); },
+  EXPECT_THAT(reference::Call([&] {
+                lyapunov_factor("caller", a, MatrixXd::Ones(3, 1), TimeDomain::continuous);
+              }),
               ThrowsMessage<InvalidInput>(HasSubstr("caller: expected a square A")));
   EXPECT_THROW(lyapunov_factor("caller", a, a, Eigen::VectorXd::Ones(3), TimeDomain::continuous),
                InvalidInput);
   EXPECT_THROW(lyapunov_factor("caller", MatrixXd(0, 0), MatrixXd(0, 1), TimeDomain::sampled),
                InvalidInput);
   EXPECT_THROW(lyapunov_factor("caller", a * std::nan(""), a, TimeDomain::sampled), InvalidInput);
-  EXPECT_THAT([&] { lyapunov_factor("caller", -a, a, TimeDomain::continuous); },
+  EXPECT_THAT(reference::Call([&] { lyapunov_factor("caller", -a, a, TimeDomain::continuous); }),
               ThrowsMessage<NumericalFailure>(HasSubstr("found one at 1")));
-  EXPECT_THAT(
-      [&] {
-        triangular_lyapunov_factor(a.cast<std::complex<double>>(), MatrixXcd(1, 1),
-                                   TimeDomain::continuous);
-      },
-      ThrowsMessage<InvalidInput>(HasSubstr("as many rows of B")));
+  EXPECT_THAT(reference::Call([&] {
+                triangular_lyapunov_factor(a.cast<std::complex<double>>(), MatrixXcd(1, 1),
+                                           TimeDomain::continuous);
+              }),
+              ThrowsMessage<InvalidInput>(HasSubstr("as many rows of B")));
 }
 
 }  // namespace

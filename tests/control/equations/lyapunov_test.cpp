@@ -6,6 +6,7 @@
 #include "peer_family.hpp"
 #include "random_numbers.hpp"
 #include "reference_values.hpp"
+#include "refused_call.hpp"
 #include <boresight/control/equations/lyapunov.hpp>
 #include <boresight/numerics/eigenvalues.hpp>
 #include <boresight/numerics/error.hpp>
@@ -278,13 +279,13 @@ TEST(DiscreteLyapunov, RefusesWhatIsNotStable) {
   const MatrixXd q = MatrixXd::Identity(2, 2);
   Eigen::Matrix2d outside;
   outside << 1.25, 1.0, 0.0, 0.5;
-  EXPECT_THAT([&] { solve_discrete_lyapunov(outside, q); },
+  EXPECT_THAT(reference::Call([&] { solve_discrete_lyapunov(outside, q); }),
               ThrowsMessage<NumericalFailure>(HasSubstr("magnitude 1 + 0.25")));
   EXPECT_THROW(solve_discrete_lyapunov(MatrixXd::Identity(2, 2), q), NumericalFailure);
   Eigen::Matrix2d turning;
   turning << 0.6, 0.8, -0.8, 0.6;
   EXPECT_THROW(solve_discrete_lyapunov(turning, q), NumericalFailure);
-  EXPECT_THAT([&] { solve_discrete_lyapunov(outside, MatrixXd::Ones(3, 3)); },
+  EXPECT_THAT(reference::Call([&] { solve_discrete_lyapunov(outside, MatrixXd::Ones(3, 3)); }),
               ThrowsMessage<InvalidInput>(HasSubstr("solve_discrete_lyapunov")));
 }
 
@@ -292,11 +293,11 @@ TEST(Lyapunov, RefusesAMatrixThatIsNotStableAndSaysByHowMuch) {
   const MatrixXd q = MatrixXd::Identity(2, 2);
   Eigen::Matrix2d unstable;
   unstable << 0.25, 1.0, 0.0, -1.0;
-  EXPECT_THAT([&] { solve_lyapunov(unstable, q); },
+  EXPECT_THAT(reference::Call([&] { solve_lyapunov(unstable, q); }),
               ThrowsMessage<NumericalFailure>(HasSubstr("0.25")));
   Eigen::Matrix2d integrator;
   integrator << 0.0, 1.0, 0.0, -1.0;
-  EXPECT_THAT([&] { solve_lyapunov(integrator, q); },
+  EXPECT_THAT(reference::Call([&] { solve_lyapunov(integrator, q); }),
               ThrowsMessage<NumericalFailure>(HasSubstr("remove integrators")));
   Eigen::Matrix2d oscillator;
   oscillator << 0.0, 1.0, -4.0, 0.0;
@@ -305,7 +306,7 @@ TEST(Lyapunov, RefusesAMatrixThatIsNotStableAndSaysByHowMuch) {
 
 TEST(Lyapunov, RefusesShapesAndNumbersThatDoNotFit) {
   const MatrixXd stable = -MatrixXd::Identity(2, 2);
-  EXPECT_THAT([&] { solve_lyapunov(stable, MatrixXd::Identity(3, 3)); },
+  EXPECT_THAT(reference::Call([&] { solve_lyapunov(stable, MatrixXd::Identity(3, 3)); }),
               ThrowsMessage<InvalidInput>(HasSubstr("2 x 2 and 3 x 3")));
   EXPECT_THROW(solve_lyapunov(MatrixXd::Ones(2, 3), stable), InvalidInput);
   EXPECT_THROW(solve_lyapunov(MatrixXd(0, 0), MatrixXd(0, 0)), InvalidInput);

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "control/riccati_solution.hpp"
+#include "refused_call.hpp"
 #include <boresight/control/equations/riccati.hpp>
 #include <boresight/numerics/error.hpp>
 
@@ -24,23 +25,23 @@ TEST(Riccati, RefusesModesOnTheBoundaryThatNoWeightSees) {
                          {}};
   problem.a << 0.0, 3.0, 0.0, -3.0, 0.0, 0.0, 0.0, 0.0, -1.0;
   problem.q(2, 2) = 1.0;
-  EXPECT_THAT([&] { solve_riccati(problem); },
+  EXPECT_THAT(reference::Call([&] { solve_riccati(problem); }),
               ThrowsMessage<NumericalFailure>(
                   AllOf(HasSubstr("(A, Q) is not detectable"), HasSubstr("+- 3 j"))));
   problem.q.setIdentity();
   expect_solution(problem, false, solve_riccati(problem));
   problem.b.topRows(2).setZero();
-  EXPECT_THAT([&] { solve_riccati(problem); },
+  EXPECT_THAT(reference::Call([&] { solve_riccati(problem); }),
               ThrowsMessage<NumericalFailure>(
                   AllOf(HasSubstr("(A, B) is not stabilisable"), HasSubstr("+- 3 j"))));
   // Sampled: the same on the unit circle.
   problem.a << 0.6, 0.8, 0.0, -0.8, 0.6, 0.0, 0.0, 0.0, 0.3;
-  EXPECT_THAT([&] { solve_discrete_riccati(problem); },
+  EXPECT_THAT(reference::Call([&] { solve_discrete_riccati(problem); }),
               ThrowsMessage<NumericalFailure>(
                   AllOf(HasSubstr("solve_discrete_riccati: (A, B)"), HasSubstr("0.6 +- 0.8 j"))));
   problem.b.setOnes();
   problem.q.topLeftCorner(2, 2).setZero();
-  EXPECT_THAT([&] { solve_discrete_riccati(problem); },
+  EXPECT_THAT(reference::Call([&] { solve_discrete_riccati(problem); }),
               ThrowsMessage<NumericalFailure>(HasSubstr("(A, Q) is not detectable")));
 }
 
@@ -51,8 +52,9 @@ TEST(Riccati, RefusesShapesNumbersAndWeights) {
                             MatrixXd::Identity(1, 1),
                             {}};
   const auto expect_refusal = [](const RiccatiProblem& problem, const char* message) {
-    EXPECT_THAT([&] { solve_riccati(problem); }, ThrowsMessage<InvalidInput>(HasSubstr(message)));
-    EXPECT_THAT([&] { solve_discrete_riccati(problem); },
+    EXPECT_THAT(reference::Call([&] { solve_riccati(problem); }),
+                ThrowsMessage<InvalidInput>(HasSubstr(message)));
+    EXPECT_THAT(reference::Call([&] { solve_discrete_riccati(problem); }),
                 ThrowsMessage<InvalidInput>(HasSubstr(message)));
   };
   RiccatiProblem bad = good;

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "control/reference_loop.hpp"
+#include "refused_call.hpp"
 #include <boresight/control/loops/closed_loop.hpp>
 #include <boresight/control/loops/loop_evaluator.hpp>
 #include <boresight/numerics/angles.hpp>
@@ -312,10 +313,10 @@ TEST(LoopEvaluator, RefusesGridsThatDoNotFit) {
         plant, frequency,
         {.delay = 0.03, .noise = reference::sensor_noise(), .wind_spectrum = spectrum});
   };
-  EXPECT_THAT([&] { make(w, w.head(4)); },
+  EXPECT_THAT(reference::Call([&] { make(w, w.head(4)); }),
               ThrowsMessage<InvalidInput>(HasSubstr("as many wind values as frequencies")));
   EXPECT_THROW(make(w.head(2), w.head(2)), InvalidInput);
-  EXPECT_THAT([&] { make(w.reverse(), w); },
+  EXPECT_THAT(reference::Call([&] { make(w.reverse(), w); }),
               ThrowsMessage<InvalidInput>(HasSubstr("rising frequencies")));
   EXPECT_THROW(make(w - 1.0, w), InvalidInput);
   auto evaluator = make(w, w);

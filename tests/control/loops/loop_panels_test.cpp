@@ -8,6 +8,7 @@
 
 #include "control/reference_loop.hpp"
 #include "peer_loop.hpp"
+#include "refused_call.hpp"
 #include <boresight/control/analysis/peak_gain.hpp>
 #include <boresight/control/analysis/spectral_rms.hpp>
 #include <boresight/control/equations/lyapunov.hpp>
@@ -388,21 +389,21 @@ TEST(LoopPanels, RefuseBandsAndTolerancesThatMakeNoSense) {
     change(quadrature);
     return antenna_evaluator(quadrature).frequencies_used();
   };
-  EXPECT_THAT([&] { made_with([](auto& q) {
-                      q.analysis = {0.0, 1.0};
-                    }); },
+  EXPECT_THAT(reference::Call([&] { made_with([](auto& q) {
+                                      q.analysis = {0.0, 1.0};
+                                    }); }),
               ThrowsMessage<InvalidInput>(HasSubstr("0 < lowest < highest, found 0 and 1 Hz")));
-  EXPECT_THAT([&] { made_with([](auto& q) {
-                      q.analysis = {2.0, 1.0};
-                    }); },
+  EXPECT_THAT(reference::Call([&] { made_with([](auto& q) {
+                                      q.analysis = {2.0, 1.0};
+                                    }); }),
               ThrowsMessage<InvalidInput>(HasSubstr("analysis band")));
-  EXPECT_THAT([&] { made_with([](auto& q) {
-                      q.band = {200.0, 300.0};
-                    }); },
+  EXPECT_THAT(reference::Call([&] { made_with([](auto& q) {
+                                      q.band = {200.0, 300.0};
+                                    }); }),
               ThrowsMessage<InvalidInput>(HasSubstr("meets the analysis band")));
-  EXPECT_THAT([&] { made_with([](auto& q) { q.tolerance = 0.0; }); },
+  EXPECT_THAT(reference::Call([&] { made_with([](auto& q) { q.tolerance = 0.0; }); }),
               ThrowsMessage<InvalidInput>(HasSubstr("positive tolerances")));
-  EXPECT_THAT([&] { made_with([](auto& q) { q.widest_panel = -1.0; }); },
+  EXPECT_THAT(reference::Call([&] { made_with([](auto& q) { q.widest_panel = -1.0; }); }),
               ThrowsMessage<InvalidInput>(HasSubstr("positive tolerances")));
   const auto in_no_wind = [] {
     return LoopEvaluator(plant::PointResponse(reference::antenna()),
@@ -410,7 +411,8 @@ TEST(LoopPanels, RefuseBandsAndTolerancesThatMakeNoSense) {
                           .wind_spectrum = [](double) { return std::nan(""); },
                           .quadrature = reference_quadrature()});
   };
-  EXPECT_THAT([&] { in_no_wind(); }, ThrowsMessage<NumericalFailure>(HasSubstr("not finite at")));
+  EXPECT_THAT(reference::Call([&] { in_no_wind(); }),
+              ThrowsMessage<NumericalFailure>(HasSubstr("not finite at")));
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include "control/reference_loop.hpp"
 #include "random_numbers.hpp"
 #include "reference_values.hpp"
+#include "refused_call.hpp"
 #include <boresight/control/controllers/sampled_law.hpp>
 #include <boresight/control/loops/antenna_in_wind.hpp>
 #include <boresight/control/lqg/lqg.hpp>
@@ -325,7 +326,8 @@ TEST(Lqg, RefusesWhatItCannotSolve) {
   const auto refused = [](auto change, const char* why) {
     LqgProblem problem = problem_of(period);
     change(problem);
-    EXPECT_THAT([&] { lqg(problem); }, ThrowsMessage<InvalidInput>(HasSubstr(why)));
+    EXPECT_THAT(reference::Call([&] { lqg(problem); }),
+                ThrowsMessage<InvalidInput>(HasSubstr(why)));
   };
   refused([](auto& p) { p.commands = {"force"}; },
           "expected each command to be one of torque, wind, found 'force'");
@@ -348,16 +350,15 @@ TEST(Lqg, RefusesWhatItCannotSolve) {
         p.computation_delay = 0.0;
       },
       "reaches a measured output without delay");
-  EXPECT_THAT([] { noise_effort_lqg(problem_of(period), 0.0); },
+  EXPECT_THAT(reference::Call([] { noise_effort_lqg(problem_of(period), 0.0); }),
               ThrowsMessage<InvalidInput>(HasSubstr("expected a noise_effort_weight above 0")));
-  EXPECT_THAT(
-      [] {
-        LqgProblem problem = problem_of(period);
-        problem.commands.emplace_back("wind");
-        problem.command_weight["wind"] = 1.0;
-        noise_effort_lqg(problem, 1.0);
-      },
-      ThrowsMessage<InvalidInput>(HasSubstr("expected one command, found 2")));
+  EXPECT_THAT(reference::Call([] {
+                LqgProblem problem = problem_of(period);
+                problem.commands.emplace_back("wind");
+                problem.command_weight["wind"] = 1.0;
+                noise_effort_lqg(problem, 1.0);
+              }),
+              ThrowsMessage<InvalidInput>(HasSubstr("expected one command, found 2")));
 }
 
 TEST(AntennaInWind, HearsOnlyTheSensorsThatTheLawTakes) {

@@ -9,6 +9,7 @@
 #include <gtest/gtest.h>
 
 #include "design/reference_problem.hpp"
+#include "refused_call.hpp"
 #include <boresight/control/loops/loop_goals.hpp>
 #include <boresight/design/ensembles/plant_ensemble.hpp>
 #include <boresight/design/tuning/design_study.hpp>
@@ -65,7 +66,7 @@ TEST(ReferenceEnsemble, HoldsThirtyPlantsWithinTheirRanges) {
   EXPECT_NE(reference_ensemble(problem, 2)[9].name, members[9].name);
   TrackingProblem tight = problem;
   tight.plant.drive.leakage_rate = 0.0;
-  EXPECT_THAT([&] { reference_ensemble(tight, 1); },
+  EXPECT_THAT(reference::Call([&] { reference_ensemble(tight, 1); }),
               ThrowsMessage<InvalidInput>(HasSubstr("leakage rate above 0, found 0")));
 }
 
@@ -325,7 +326,9 @@ TEST(HardGoals, RefuseWhatNoLoopOrEveryLoopMeets) {
   const auto refuses = [](const std::function<void(HardGoals&)>& change, const char* text) {
     HardGoals goals;
     change(goals);
-    EXPECT_THAT([&] { tune(reference::tracking_problem(), LoopStructure::pi(), goals, quick()); },
+    EXPECT_THAT(reference::Call([&] {
+                  tune(reference::tracking_problem(), LoopStructure::pi(), goals, quick());
+                }),
                 ThrowsMessage<InvalidInput>(HasSubstr(text)));
   };
   refuses([](HardGoals& goals) { goals.sensitivity_peak[1] = 1.0; }, "above 1 and finite, found 1");
@@ -337,7 +340,8 @@ TEST(HardGoals, RefuseWhatNoLoopOrEveryLoopMeets) {
   refuses([](HardGoals& goals) { goals.crest_factor = 0.0; }, "crest_factor above 0");
   TuningOptions options = quick();
   options.soft_goal.quantile = 1.5;
-  EXPECT_THAT([&] { tune(reference::tracking_problem(), LoopStructure::pi(), {}, options); },
+  EXPECT_THAT(reference::Call(
+                  [&] { tune(reference::tracking_problem(), LoopStructure::pi(), {}, options); }),
               ThrowsMessage<InvalidInput>(HasSubstr("quantile above 0 and at most 1, found 1.5")));
 }
 
@@ -357,10 +361,10 @@ TEST(Climate, IsTheExpectationOverItsWinds) {
   auto adaptive = make_adaptive_evaluator(problem, WindTable(problem));
   EXPECT_LT(relative_error(adaptive.evaluate(law, false).wind_variance, expected), 1e-5);
   problem.climate[0].weight = 0.4;
-  EXPECT_THAT([&] { WindTable table(problem); },
+  EXPECT_THAT(reference::Call([&] { WindTable table(problem); }),
               ThrowsMessage<InvalidInput>(HasSubstr("sum to 1, found 0.9")));
   problem.climate[0].weight = -0.4;
-  EXPECT_THAT([&] { make_evaluator(problem); },
+  EXPECT_THAT(reference::Call([&] { make_evaluator(problem); }),
               ThrowsMessage<InvalidInput>(HasSubstr("0 or more, found -0.4")));
 }
 

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "design/reference_problem.hpp"
+#include "refused_call.hpp"
 #include <boresight/control/loops/closed_loop.hpp>
 #include <boresight/design/ensembles/held_gains_evaluator.hpp>
 #include <boresight/numerics/error.hpp>
@@ -181,14 +182,14 @@ TEST(HeldGainsEvaluator, WeighsTheClimatesWinds) {
 TEST(HeldGainsEvaluator, RefusesWhatItCannotJudge) {
   const auto problem = reference::tracking_problem();
   const auto law = reference::cautious_law();
-  EXPECT_THAT([&] { HeldGainsEvaluator(problem, law, {}, {.tolerance = 0.0}); },
+  EXPECT_THAT(reference::Call([&] { HeldGainsEvaluator(problem, law, {}, {.tolerance = 0.0}); }),
               testing::ThrowsMessage<InvalidInput>(
                   "HeldGainsEvaluator: expected a positive tolerance and peak, found 0 and 4"));
   EXPECT_THROW(HeldGainsEvaluator(problem, {law.structure, {1.0}}, {}), InvalidInput);
   HeldGainsEvaluator held(problem, law, {});
   auto broken = problem.plant;
   broken.drive.oil_stiffness = std::nan("");
-  EXPECT_THAT([&] { held.evaluate(broken); },
+  EXPECT_THAT(reference::Call([&] { held.evaluate(broken); }),
               testing::ThrowsMessage<NumericalFailure>(
                   "HeldGainsEvaluator: the plant's response is not finite"));
 }

@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "random_numbers.hpp"
+#include "refused_call.hpp"
 #include <boresight/design/ensembles/monte_carlo_statistics.hpp>
 #include <boresight/numerics/error.hpp>
 
@@ -49,7 +50,7 @@ TEST(Probability, KnowsTheClosedFormsAtBothEnds) {
   EXPECT_EQ(design::probability(100, 100).upper, 1.0);
   EXPECT_EQ(design::probability(0, 0).upper, 1.0);
   EXPECT_THAT(
-      [] { design::probability(3, 2); },
+      reference::Call([] { design::probability(3, 2); }),
       testing::ThrowsMessage<InvalidInput>("probability: expected at most 2 hits, found 3"));
 }
 
@@ -104,7 +105,7 @@ TEST(Summary, SaysWhereTheDrawsAreTooFew) {
   EXPECT_NEAR(design::summarise({1e9, 1e9 + 1.0, 1e9 + 2.0}, {}).standard_deviation.value, 1.0,
               1e-6);
   EXPECT_THROW(design::summarise({1.0}, {0.0}), InvalidInput);
-  EXPECT_THAT([] { design::summarise({std::nan("")}, {0.5}); },
+  EXPECT_THAT(reference::Call([] { design::summarise({std::nan("")}, {0.5}); }),
               testing::ThrowsMessage<InvalidInput>("summarise: expected finite values, found nan"));
 }
 

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "design/reference_problem.hpp"
+#include "refused_call.hpp"
 #include <boresight/control/loops/closed_loop.hpp>
 #include <boresight/design/ensembles/monte_carlo.hpp>
 #include <boresight/design/tuning/design_study.hpp>
@@ -175,7 +176,7 @@ TEST(MonteCarlo, SaysWhichPlantFailed) {
     return plant;
   };
   MonteCarloRun run(broken);
-  EXPECT_THAT([&] { run.work_on(run.missing_blocks(), {.threads = 2}); },
+  EXPECT_THAT(reference::Call([&] { run.work_on(run.missing_blocks(), {.threads = 2}); }),
               testing::ThrowsMessage<NumericalFailure>(testing::HasSubstr("plant 123: ")));
   EXPECT_FALSE(run.whole(1));
   EXPECT_THROW(MonteCarloRun(study(0)), InvalidInput);

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "design/reference_problem.hpp"
+#include "refused_call.hpp"
 #include <boresight/control/analysis/peak_gain.hpp>
 #include <boresight/control/controllers/sampled_law.hpp>
 #include <boresight/control/loops/antenna_in_wind.hpp>
@@ -213,28 +214,27 @@ TEST(SampledSetting, TakesTorqueWithoutStatedNoiseForNextToExact) {
 TEST(PointingLimit, RefusesWhatItCannotJudge) {
   TrackingProblem problem = problem_with_torque_noise();
   problem.noise.tachometer_rms = 0.0;
-  EXPECT_THAT([&] { pointing_limit(problem, {}, {}, {}); },
+  EXPECT_THAT(reference::Call([&] { pointing_limit(problem, {}, {}, {}); }),
               ThrowsMessage<InvalidInput>(HasSubstr("expected noise of the tachometer above 0")));
   problem = problem_with_torque_noise();
-  EXPECT_THAT([&] { pointing_limit(problem, {}, {}, {}, {.sample_time = 0.0}); },
+  EXPECT_THAT(reference::Call([&] { pointing_limit(problem, {}, {}, {}, {.sample_time = 0.0}); }),
               ThrowsMessage<InvalidInput>(HasSubstr("expected a sample time above 0, found 0 s")));
   NamedLaw law = tuned_laws().front();
   law.law.gains.pop_back();
-  EXPECT_THAT([&] { pointing_limit(problem, {}, {}, {law}); },
+  EXPECT_THAT(reference::Call([&] { pointing_limit(problem, {}, {}, {law}); }),
               ThrowsMessage<InvalidInput>(HasSubstr("expected 5 gains")));
   const auto filter = fit_wind_filter(problem);
   const Eigen::ArrayXd some = Eigen::ArrayXd::LinSpaced(30, 0.1, 150.0);
   const SampledSetting one("one", problem.plant, filter, problem.noise, 0.02, some);
   const SampledSetting two("two", problem.plant, filter, problem.noise, 0.02, 1.01 * some);
-  EXPECT_THAT([&] { search_limited_lqg(one, {.sensitivity_peak = 1.0}); },
+  EXPECT_THAT(reference::Call([&] { search_limited_lqg(one, {.sensitivity_peak = 1.0}); }),
               ThrowsMessage<InvalidInput>(HasSubstr("sensitivity_peak above 1")));
-  EXPECT_THAT([&] { search_robust_lqg(one, {}, {}, 1); },
+  EXPECT_THAT(reference::Call([&] { search_robust_lqg(one, {}, {}, 1); }),
               ThrowsMessage<InvalidInput>(HasSubstr("at least one plant")));
-  EXPECT_THAT(
-      [&] {
-        search_robust_lqg(one, {one, two}, {}, 1);
-      },
-      ThrowsMessage<InvalidInput>(HasSubstr("the same frequencies")));
+  EXPECT_THAT(reference::Call([&] {
+                search_robust_lqg(one, {one, two}, {}, 1);
+              }),
+              ThrowsMessage<InvalidInput>(HasSubstr("the same frequencies")));
 }
 
 }  // namespace

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include <boresight/design/ensembles/plant_members.hpp>
+#include "design/studies/demo_mission.hpp"
 #include <boresight/design/problem/mission.hpp>
 #include <boresight/numerics/angles.hpp>
 #include <boresight/numerics/error.hpp>
@@ -11,13 +11,7 @@
 namespace boresight::design {
 namespace {
 
-Mission demo_mission() {
-  Mission mission;
-  mission.antenna = plant::demo_antenna();
-  mission.wind.site = {1.1, 0.005, 0.1, 0.0, 10.0, 70.0, {}};
-  mission.wind.mean_speed = 10.0;
-  return mission;
-}
+using reference::demo_mission;
 
 TEST(Mission, ProblemIsOfItsAntennaAndOfAnyOther) {
   const Mission mission = demo_mission();
@@ -61,22 +55,6 @@ TEST(Mission, TightestBudgetIsTheLeastRms) {
   mission.budgets[0].rms = 2e-5;
   mission.budgets[1].rms = 1e-5;
   EXPECT_EQ(tightest_budget(mission), 1e-5);
-}
-
-TEST(PlantMembers, AreCornersAndAHypercubeThatRepeatsWithItsSeed) {
-  Mission mission = demo_mission();
-  const double leakage = mission.antenna.drive.leakage_rate;
-  mission.uncertainty.ranges = {{0.9, 1.1}, {0.8, 1.33}, {0.3 * leakage, leakage}, {0.0, 10.0}};
-  mission.uncertainty.draws = 8;
-  const auto members = plant_members(mission, 1);
-  ASSERT_EQ(members.size(), 14U);
-  const auto own = linear_plant(mission.antenna);
-  EXPECT_EQ(members[0].plant.drive.oil_stiffness, own.drive.oil_stiffness);
-  EXPECT_DOUBLE_EQ(members[4].plant.drive.oil_stiffness, 1.33 * own.drive.oil_stiffness);
-  EXPECT_DOUBLE_EQ(members[5].plant.drive.leakage_rate, 0.3 * leakage);
-  const auto again = plant_members(mission, 1), other = plant_members(mission, 2);
-  EXPECT_EQ(members[9].plant.drive.leakage_rate, again[9].plant.drive.leakage_rate);
-  EXPECT_NE(members[9].plant.drive.leakage_rate, other[9].plant.drive.leakage_rate);
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "random_numbers.hpp"
+#include "refused_call.hpp"
 #include <boresight/design/problem/pointing.hpp>
 #include <boresight/numerics/angles.hpp>
 #include <boresight/numerics/error.hpp>
@@ -38,7 +39,7 @@ TEST(HalfPowerBeamwidth, RefusesWhatHasNoBeam) {
   EXPECT_THROW(half_power_beamwidth(1.1, 32e9, -70.0), InvalidInput);
   EXPECT_THROW(half_power_beamwidth(1.1, std::nan(""), 70.0), InvalidInput);
   // 32 MHz for 32 GHz: a wavelength of 9.4 m still fits a 70-m dish, 3 MHz does not.
-  EXPECT_THAT([] { half_power_beamwidth(1.1, 3e6, 70.0); },
+  EXPECT_THAT(reference::Call([] { half_power_beamwidth(1.1, 3e6, 70.0); }),
               testing::ThrowsMessage<InvalidInput>(testing::HasSubstr("wavelength shorter")));
 }
 

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "random_numbers.hpp"
+#include "refused_call.hpp"
 #include <boresight/design/tuning/active_multipliers.hpp>
 #include <boresight/numerics/error.hpp>
 
@@ -73,7 +74,7 @@ TEST(ActiveMultipliers, SayWhereThereIsNoMinimum) {
   EXPECT_EQ(found.constraints[0], 0.0);
   EXPECT_NEAR(found.residual, 1.0, 1e-9);
   active.at_lower.pop_back();
-  EXPECT_THAT([&] { active_multipliers(active); },
+  EXPECT_THAT(reference::Call([&] { active_multipliers(active); }),
               ThrowsMessage<InvalidInput>(HasSubstr("bounds of 1 and 2")));
 }
 

@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "random_numbers.hpp"
+#include "refused_call.hpp"
 #include <boresight/design/tuning/feasible_search.hpp>
 #include <boresight/numerics/error.hpp>
 
@@ -277,33 +278,37 @@ TEST(FeasibleSearch, SaysWhatItExpects) {
   };
   ConstrainedProblem problem = two_discs();
   problem.upper = {1.0};
-  EXPECT_THAT(construct(problem), ThrowsMessage<InvalidInput>(HasSubstr("found 2 and 1")));
+  EXPECT_THAT(reference::Call(construct(problem)),
+              ThrowsMessage<InvalidInput>(HasSubstr("found 2 and 1")));
   problem.upper = {1.0, -5.0};
-  EXPECT_THAT(construct(problem), ThrowsMessage<InvalidInput>(HasSubstr("lower < upper")));
+  EXPECT_THAT(reference::Call(construct(problem)),
+              ThrowsMessage<InvalidInput>(HasSubstr("lower < upper")));
   problem.upper = {1.0, infinity};
-  EXPECT_THAT(construct(problem), ThrowsMessage<InvalidInput>(HasSubstr("finite bounds")));
+  EXPECT_THAT(reference::Call(construct(problem)),
+              ThrowsMessage<InvalidInput>(HasSubstr("finite bounds")));
   problem = two_discs();
   problem.objectives = 0;
-  EXPECT_THAT(construct(problem), ThrowsMessage<InvalidInput>(HasSubstr("one objective")));
+  EXPECT_THAT(reference::Call(construct(problem)),
+              ThrowsMessage<InvalidInput>(HasSubstr("one objective")));
   problem = two_discs();
   problem.evaluate = nullptr;
-  EXPECT_THAT(construct(problem), ThrowsMessage<InvalidInput>(HasSubstr("a callback")));
+  EXPECT_THAT(reference::Call(construct(problem)),
+              ThrowsMessage<InvalidInput>(HasSubstr("a callback")));
   FeasibleSearchOptions options;
   options.evaluations_per_run = 0;
-  EXPECT_THAT(construct(two_discs(), options),
+  EXPECT_THAT(reference::Call(construct(two_discs(), options)),
               ThrowsMessage<InvalidInput>(HasSubstr("at least 1 evaluation")));
   options = {};
   options.reserve = std::nan("");
-  EXPECT_THAT(construct(two_discs(), options),
+  EXPECT_THAT(reference::Call(construct(two_discs(), options)),
               ThrowsMessage<InvalidInput>(HasSubstr("of 0 or more")));
   FeasibleSearch search(two_discs());
-  EXPECT_THAT([&] { search.evaluate({1.0}); },
+  EXPECT_THAT(reference::Call([&] { search.evaluate({1.0}); }),
               ThrowsMessage<InvalidInput>(HasSubstr("2 variables, found 1")));
-  EXPECT_THAT(
-      [&] {
-        search.retreat({1.0, 1.0}, {1.0});
-      },
-      ThrowsMessage<InvalidInput>(HasSubstr("one size, found 2 and 1")));
+  EXPECT_THAT(reference::Call([&] {
+                search.retreat({1.0, 1.0}, {1.0});
+              }),
+              ThrowsMessage<InvalidInput>(HasSubstr("one size, found 2 and 1")));
 }
 
 }  // namespace

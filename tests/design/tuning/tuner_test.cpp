@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "design/reference_problem.hpp"
+#include "refused_call.hpp"
 #include <boresight/control/analysis/step_characteristics.hpp>
 #include <boresight/design/tuning/design_study.hpp>
 #include <boresight/design/tuning/tuner.hpp>
@@ -281,7 +282,7 @@ TEST(Tune, RefusesOptionsBelowOne) {
   for (const auto member : {&TuningOptions::starts, &TuningOptions::evaluations_per_start}) {
     TuningOptions options;
     options.*member = 0;
-    EXPECT_THAT([&] { tune(coarse_problem(), LoopStructure::pi(), {}, options); },
+    EXPECT_THAT(reference::Call([&] { tune(coarse_problem(), LoopStructure::pi(), {}, options); }),
                 ThrowsMessage<InvalidInput>(HasSubstr("at least 1 starts and 1 evaluation")));
   }
 }

@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "reference_antenna.hpp"
+#include "refused_call.hpp"
 #include <boresight/identification/campaign/inertia_methods.hpp>
 #include <boresight/numerics/angles.hpp>
 #include <boresight/numerics/error.hpp>
@@ -143,7 +144,7 @@ TEST(IdentifyInertia, LeavesOutMethodsWithoutEvidence) {
   mass_only.impulse.clear();
   EXPECT_EQ(identify_inertia(mass_only).methods.size(), 2u);
   mass_only.antenna.clear();
-  EXPECT_THAT([&] { identify_inertia(mass_only); },
+  EXPECT_THAT(reference::Call([&] { identify_inertia(mass_only); }),
               ThrowsMessage<InvalidInput>(HasSubstr("at least one antenna inertia")));
 }
 
@@ -220,16 +221,14 @@ TEST(Reconcile, LeavesTheRatioOpenWhereTheIntervalReachesTheMotors) {
 }
 
 TEST(Reconcile, RefusesOneEstimateOrOneWithoutUncertainty) {
-  EXPECT_THAT(
-      [] {
-        reconcile({{1.0, 0.1}}, 1.2);
-      },
-      ThrowsMessage<InvalidInput>(HasSubstr("at least 2 estimates, found 1")));
-  EXPECT_THAT(
-      [] {
-        reconcile({{1.0, 0.1}, {1.0, 0.0}}, 1.2);
-      },
-      ThrowsMessage<InvalidInput>(HasSubstr("positive uncertainties")));
+  EXPECT_THAT(reference::Call([] {
+                reconcile({{1.0, 0.1}}, 1.2);
+              }),
+              ThrowsMessage<InvalidInput>(HasSubstr("at least 2 estimates, found 1")));
+  EXPECT_THAT(reference::Call([] {
+                reconcile({{1.0, 0.1}, {1.0, 0.0}}, 1.2);
+              }),
+              ThrowsMessage<InvalidInput>(HasSubstr("positive uncertainties")));
   EXPECT_THROW(reconcile({{1.0, 0.1}, {1.0, std::nan("")}}, 1.2), InvalidInput);
 }
 

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "identification/prescribed_motion.hpp"
+#include "refused_call.hpp"
 #include <boresight/identification/friction/friction_curve_fit.hpp>
 #include <boresight/numerics/error.hpp>
 
@@ -145,22 +146,21 @@ TEST(RemainingGainErrors, AreThoseThatDoNotActOnTheCommonLevel) {
 TEST(FrictionCurveFit, NamesWhatIsMissing) {
   PrescribedMotion drive;
   auto campaign = drive.campaign();
-  EXPECT_THAT(
-      [&] {
-        fit_friction_curve(campaign, {0.0, 0.1});
-      },
-      ThrowsMessage<InvalidInput>(HasSubstr("positive inertia and uncertainty")));
+  EXPECT_THAT(reference::Call([&] {
+                fit_friction_curve(campaign, {0.0, 0.1});
+              }),
+              ThrowsMessage<InvalidInput>(HasSubstr("positive inertia and uncertainty")));
   FrictionCurveOptions options;
   options.correlation_time = 0.0;
-  EXPECT_THAT([&] { fit_friction_curve(campaign, start, options); },
+  EXPECT_THAT(reference::Call([&] { fit_friction_curve(campaign, start, options); }),
               ThrowsMessage<InvalidInput>(HasSubstr("positive correlation time")));
   campaign.records.clear();
-  EXPECT_THAT([&] { fit_friction_curve(campaign, start); },
+  EXPECT_THAT(reference::Call([&] { fit_friction_curve(campaign, start); }),
               ThrowsMessage<NumericalFailure>(HasSubstr("found 0; add constant-speed")));
   campaign.records = {drive.record(
       "one way", TestKind::valve_steps, 40.0, [](double) { return 3.0; },
       [](double) { return 0.0; })};
-  EXPECT_THAT([&] { fit_friction_curve(campaign, start); },
+  EXPECT_THAT(reference::Call([&] { fit_friction_curve(campaign, start); }),
               ThrowsMessage<NumericalFailure>(HasSubstr("all one way")));
 }
 

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "identification/prescribed_motion.hpp"
+#include "refused_call.hpp"
 #include <boresight/identification/friction/friction_tests.hpp>
 #include <boresight/numerics/error.hpp>
 #include <boresight/numerics/normal_numbers.hpp>
@@ -126,18 +127,16 @@ TEST(ConstantSpeedTests, RefusesACampaignWithoutThem) {
   PrescribedMotion drive;
   auto campaign = drive.campaign();
   campaign.records = {drive.fast_ramp()};
-  EXPECT_THAT(
-      [&] {
-        constant_speed_tests(campaign, {1.8, 0.1});
-      },
-      ThrowsMessage<NumericalFailure>(HasSubstr("record a bipolar square wave")));
+  EXPECT_THAT(reference::Call([&] {
+                constant_speed_tests(campaign, {1.8, 0.1});
+              }),
+              ThrowsMessage<NumericalFailure>(HasSubstr("record a bipolar square wave")));
   FrictionTestOptions options;
   options.settled_share = 0.0;
-  EXPECT_THAT(
-      [&] {
-        constant_speed_tests(campaign, {1.8, 0.1}, options);
-      },
-      ThrowsMessage<InvalidInput>(HasSubstr("positive settled share")));
+  EXPECT_THAT(reference::Call([&] {
+                constant_speed_tests(campaign, {1.8, 0.1}, options);
+              }),
+              ThrowsMessage<InvalidInput>(HasSubstr("positive settled share")));
 }
 
 TEST(SlowRampTests, FindTheTorqueAtBreakaway) {
@@ -160,11 +159,11 @@ TEST(SlowRampTests, RefusesARampThatNeverRests) {
   auto campaign = drive.campaign();
   campaign.records = {drive.constant_speed(2.0)};
   campaign.records[0].test = TestKind::slow_ramp;
-  EXPECT_THAT([&] { slow_ramp_tests(campaign); },
+  EXPECT_THAT(reference::Call([&] { slow_ramp_tests(campaign); }),
               ThrowsMessage<NumericalFailure>(HasSubstr("found 0 up and 0 down")));
   FrictionTestOptions options;
   options.rest_share = 1.0;
-  EXPECT_THAT([&] { slow_ramp_tests(campaign, options); },
+  EXPECT_THAT(reference::Call([&] { slow_ramp_tests(campaign, options); }),
               ThrowsMessage<InvalidInput>(HasSubstr("rest share between 0 and 1")));
 }
 

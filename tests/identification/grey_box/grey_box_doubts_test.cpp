@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "identification/synthetic_drive.hpp"
+#include "refused_call.hpp"
 #include <boresight/identification/grey_box/grey_box.hpp>
 #include <boresight/numerics/error.hpp>
 
@@ -166,7 +167,7 @@ TEST(GreyBoxParameters, TakeNoGearsForKnownAndABulkModulusForWhatItIs) {
   EXPECT_FALSE(guessed.list()[P::bulk_modulus].from_drawings);
   EXPECT_EQ(guessed.list()[P::bulk_modulus].prior, 1.3e9);
   campaign.knowledge.gear_inertia = {-0.1, 0.0};
-  EXPECT_THAT([&] { GreyBoxParameters(campaign, {synthetic::glance()}); },
+  EXPECT_THAT(reference::Call([&] { GreyBoxParameters(campaign, {synthetic::glance()}); }),
               ThrowsMessage<InvalidInput>(HasSubstr("gear inertia")));
 }
 

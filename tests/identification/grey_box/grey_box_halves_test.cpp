@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "random_numbers.hpp"
+#include "refused_call.hpp"
 #include <boresight/identification/grey_box/grey_box_hydraulics.hpp>
 #include <boresight/identification/grey_box/grey_box_mechanics.hpp>
 #include <boresight/numerics/error.hpp>
@@ -196,7 +197,7 @@ TEST(MechanicalStepper, HoldsStillBelowBreakaway) {
 
 TEST(MechanicalStepper, RefusesCoefficientsThatAreTooFew) {
   EXPECT_THAT(
-      [] { MechanicalStepper(Vector::Ones(3), 0.01, false); },
+      reference::Call([] { MechanicalStepper(Vector::Ones(3), 0.01, false); }),
       ThrowsMessage<InvalidInput>(HasSubstr("expected 15 coefficients and 2 for each mode")));
 }
 
@@ -277,8 +278,9 @@ TEST(PredictPressures, RefusesARecordWithoutValve) {
   GreyBoxRecord record = moving_record(20);
   record.valve.resize(0);
   Vector errors;
-  EXPECT_THAT([&] { predict_pressures(record, units, hydraulic(), errors, nullptr); },
-              ThrowsMessage<InvalidInput>(HasSubstr("expected a valve command at the 20 samples")));
+  EXPECT_THAT(
+      reference::Call([&] { predict_pressures(record, units, hydraulic(), errors, nullptr); }),
+      ThrowsMessage<InvalidInput>(HasSubstr("expected a valve command at the 20 samples")));
 }
 
 }  // namespace

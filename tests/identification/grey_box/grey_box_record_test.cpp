@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "identification/synthetic_drive.hpp"
+#include "refused_call.hpp"
 #include <boresight/identification/grey_box/grey_box_record.hpp>
 #include <boresight/numerics/error.hpp>
 
@@ -115,23 +116,22 @@ TEST(PrepareRecords, WhatIsNotValidDoesNotCountAndPredictionStartsAfresh) {
 TEST(PrepareRecords, RefusesWhatDoesNotFit) {
   DriveRecord r = waves();
   r.motor_rate.values(7) = std::numeric_limits<double>::quiet_NaN();
-  EXPECT_THAT([&] { prepare_records(with(r)); },
+  EXPECT_THAT(reference::Call([&] { prepare_records(with(r)); }),
               ThrowsMessage<InvalidInput>(
                   HasSubstr("expected 4000 finite values in 'motor_rate' of record 'waves'")));
   r = waves();
   r.inlet_pressure[1].values.conservativeResize(3999);
   EXPECT_THAT(
-      [&] { prepare_records(with(r)); },
+      reference::Call([&] { prepare_records(with(r)); }),
       ThrowsMessage<InvalidInput>(HasSubstr("in 'pressure' of record 'waves', found 3999")));
   r = waves();
   r.sample_time = 0.0;
-  EXPECT_THAT([&] { prepare_records(with(r)); },
+  EXPECT_THAT(reference::Call([&] { prepare_records(with(r)); }),
               ThrowsMessage<InvalidInput>(HasSubstr("expected a positive sample time")));
-  EXPECT_THAT(
-      [&] {
-        prepare_records(with(waves()), {0.0, 1.0});
-      },
-      ThrowsMessage<InvalidInput>(HasSubstr("expected a positive sample rate")));
+  EXPECT_THAT(reference::Call([&] {
+                prepare_records(with(waves()), {0.0, 1.0});
+              }),
+              ThrowsMessage<InvalidInput>(HasSubstr("expected a positive sample rate")));
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 
 #include "identification/synthetic_drive.hpp"
 #include "random_numbers.hpp"
+#include "refused_call.hpp"
 #include <boresight/identification/grey_box/grey_box.hpp>
 #include <boresight/identification/grey_box/grey_box_hold_out.hpp>
 #include <boresight/identification/grey_box/grey_box_mechanics.hpp>
@@ -259,25 +260,25 @@ TEST(FitGreyBox, IntervalsHoldOverAFamilyOfDrives) {
 TEST(FitGreyBox, RefusesAndStopsAsAsked) {
   auto options = quick();
   options.draws = 10;
-  EXPECT_THAT([&] { fit_grey_box(reference_campaign(), bulk, options); },
+  EXPECT_THAT(reference::Call([&] { fit_grey_box(reference_campaign(), bulk, options); }),
               ThrowsMessage<InvalidInput>(HasSubstr("at least 100 draws")));
   options = quick();
   options.progress = [](const std::string&, double share) { return share < 0.3; };
-  EXPECT_THAT([&] { fit_grey_box(reference_campaign(), bulk, options); },
+  EXPECT_THAT(reference::Call([&] { fit_grey_box(reference_campaign(), bulk, options); }),
               ThrowsMessage<Interrupted>(HasSubstr("stopped as asked")));
   Campaign empty = reference_campaign();
   empty.records.clear();
-  EXPECT_THAT([&] { fit_grey_box(empty, bulk, quick()); },
+  EXPECT_THAT(reference::Call([&] { fit_grey_box(empty, bulk, quick()); }),
               ThrowsMessage<InvalidInput>(HasSubstr("at least one record")));
   Campaign still = reference_campaign();
   for (auto& record : still.records) record.motor_rate.values.setZero();
-  EXPECT_THAT([&] { fit_grey_box(still, bulk, quick()); },
+  EXPECT_THAT(reference::Call([&] { fit_grey_box(still, bulk, quick()); }),
               ThrowsMessage<InvalidInput>(HasSubstr("records that move")));
   Campaign unknown = reference_campaign();
   unknown.knowledge.volume_2.value = 0.0;
-  EXPECT_THAT([&] { fit_grey_box(unknown, bulk, quick()); },
+  EXPECT_THAT(reference::Call([&] { fit_grey_box(unknown, bulk, quick()); }),
               ThrowsMessage<InvalidInput>(HasSubstr("expected a positive volume of side 2")));
-  EXPECT_THAT([] { static_cast<void>(reference_result().quantity("colour")); },
+  EXPECT_THAT(reference::Call([] { static_cast<void>(reference_result().quantity("colour")); }),
               ThrowsMessage<InvalidInput>(HasSubstr("'colour' is not among the quantities")));
 }
 
@@ -317,7 +318,7 @@ TEST(RankTests, RanksByWhatATestWouldTeach) {
   EXPECT_LT(ranked[0].remaining[5], 0.9);
   EXPECT_GT(slowly->remaining[5], ranked[0].remaining[5]);
   EXPECT_TRUE(slowly->done_before);
-  EXPECT_THAT([&] { rank_tests(result, slow, "colour"); },
+  EXPECT_THAT(reference::Call([&] { rank_tests(result, slow, "colour"); }),
               ThrowsMessage<InvalidInput>(HasSubstr("is not among the quantities")));
 }
 
@@ -339,8 +340,9 @@ TEST(ValidateDrive, DrivenByTheValveAloneDoesWhatWasRecorded) {
   EXPECT_GT(drawn.rate_error, 3.0 * good.rate_error);
   GreyBoxRecord blind = steps;
   blind.valve.resize(0);
-  EXPECT_THAT([&] { validate_drive(result.model.at(0), result.posterior.point, blind); },
-              ThrowsMessage<InvalidInput>(HasSubstr("has no valve command")));
+  EXPECT_THAT(
+      reference::Call([&] { validate_drive(result.model.at(0), result.posterior.point, blind); }),
+      ThrowsMessage<InvalidInput>(HasSubstr("has no valve command")));
 }
 
 TEST(HoldOutRecord, ForetellsATestThatWasNotFitted) {
@@ -348,7 +350,7 @@ TEST(HoldOutRecord, ForetellsATestThatWasNotFitted) {
   EXPECT_LT(held.error.rate_error, 0.02);
   EXPECT_LT(held.error.torque_error, 0.03);
   EXPECT_EQ(held.simulated.samples(), held.recorded.samples());
-  EXPECT_THAT([] { hold_out_record(reference_campaign(), "none", bulk, quick()); },
+  EXPECT_THAT(reference::Call([] { hold_out_record(reference_campaign(), "none", bulk, quick()); }),
               ThrowsMessage<InvalidInput>(HasSubstr("no record of the campaign is named 'none'")));
 }
 

@@ -5,6 +5,7 @@
 
 #include "identification/prescribed_motion.hpp"
 #include "random_numbers.hpp"
+#include "refused_call.hpp"
 #include <boresight/identification/impulse/impulse_momentum.hpp>
 #include <boresight/numerics/error.hpp>
 
@@ -45,7 +46,7 @@ TEST(RampWindows, RunFromZeroToThePlateauAndAsLongFromItsEnd) {
   EXPECT_EQ(second.last - second.first, first.last - first.first);
   EXPECT_TRUE(two[0].accelerating);
   EXPECT_FALSE(two[1].accelerating);
-  EXPECT_THAT([&] { ramp_windows(campaign, 6); },
+  EXPECT_THAT(reference::Call([&] { ramp_windows(campaign, 6); }),
               ThrowsMessage<InvalidInput>(HasSubstr("expected one of 6 records, found number 6")));
 }
 
@@ -73,7 +74,7 @@ TEST(ImpulseWindows, KeepClearOfClippedSamplesAndOfReversals) {
   }
   ImpulseWindowOptions options;
   options.smallest_change = 0.0;
-  EXPECT_THAT([&] { impulse_windows(campaign, options); },
+  EXPECT_THAT(reference::Call([&] { impulse_windows(campaign, options); }),
               ThrowsMessage<InvalidInput>(HasSubstr("positive smallest change")));
 }
 
@@ -201,20 +202,20 @@ TEST(ImpulseMomentum, IntervalsHoldOverDrawnInstruments) {
 
 TEST(ImpulseMomentum, NamesWhatItCannotUse) {
   Campaign campaign;
-  EXPECT_THAT([&] { impulse_momentum(campaign); },
+  EXPECT_THAT(reference::Call([&] { impulse_momentum(campaign); }),
               ThrowsMessage<InvalidInput>(HasSubstr("campaign with records, found none")));
   campaign = PrescribedMotion{}.campaign();
   campaign.records[2].inlet_pressure.pop_back();
-  EXPECT_THAT([&] { impulse_momentum(campaign); },
+  EXPECT_THAT(reference::Call([&] { impulse_momentum(campaign); }),
               ThrowsMessage<InvalidInput>(HasSubstr("same 2 motors in every record")));
   campaign = PrescribedMotion{}.campaign();
   ImpulseMomentumOptions options;
   options.draws = 10;
-  EXPECT_THAT([&] { impulse_momentum(campaign, options); },
+  EXPECT_THAT(reference::Call([&] { impulse_momentum(campaign, options); }),
               ThrowsMessage<InvalidInput>(HasSubstr("at least 20 draws")));
   campaign.records = {PrescribedMotion{}.slow_ramp()};
   campaign.records[0].test = TestKind::other;
-  EXPECT_THAT([&] { impulse_momentum(campaign); },
+  EXPECT_THAT(reference::Call([&] { impulse_momentum(campaign); }),
               ThrowsMessage<NumericalFailure>(HasSubstr("record a fast ramp")));
 }
 

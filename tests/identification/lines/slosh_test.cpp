@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "refused_call.hpp"
 #include <boresight/identification/lines/slosh.hpp>
 #include <boresight/numerics/angles.hpp>
 #include <boresight/numerics/error.hpp>
@@ -216,17 +217,17 @@ TEST(IdentifySlosh, RefusesRecordsThatShowNoRinging) {
       }
     }
   }
-  EXPECT_THAT([&] { identify_slosh(record, rig.knowledge()); },
+  EXPECT_THAT(reference::Call([&] { identify_slosh(record, rig.knowledge()); }),
               ThrowsMessage<NumericalFailure>(HasSubstr("no line of record 'rig' rings")));
   record = rig.record();
   record.sample_time = 0.02;
-  EXPECT_THAT([&] { identify_slosh(record, rig.knowledge()); },
+  EXPECT_THAT(reference::Call([&] { identify_slosh(record, rig.knowledge()); }),
               ThrowsMessage<InvalidInput>(HasSubstr("has 50 samples/s; lines whose slosh")));
   record.inlet_pressure.clear();
   record.outlet_pressure.clear();
-  EXPECT_THAT([&] { identify_slosh(record, rig.knowledge()); },
+  EXPECT_THAT(reference::Call([&] { identify_slosh(record, rig.knowledge()); }),
               ThrowsMessage<InvalidInput>(HasSubstr("found 0 ports")));
-  EXPECT_THAT([&] { slosh_events(rig.record(), 0.0, 10.0); },
+  EXPECT_THAT(reference::Call([&] { slosh_events(rig.record(), 0.0, 10.0); }),
               ThrowsMessage<InvalidInput>(HasSubstr("found 0 .. 10 Hz")));
 }
 

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "identification/prescribed_motion.hpp"
+#include "refused_call.hpp"
 #include <boresight/identification/records/integrated_motion.hpp>
 #include <boresight/numerics/error.hpp>
 #include <boresight/numerics/normal_numbers.hpp>
@@ -62,21 +63,19 @@ TEST(IntegrateMotion, RefusesWhatIsNoWindow) {
   for (const MotionWindow& window :
        {MotionWindow{-1, 10, 0}, MotionWindow{5, 5, 0}, MotionWindow{0, 801, 0},
         MotionWindow{0, 10, 6}, MotionWindow{0, 10, -1}}) {
-    EXPECT_THAT([&] { integrate_motion(record, window); },
+    EXPECT_THAT(reference::Call([&] { integrate_motion(record, window); }),
                 ThrowsMessage<InvalidInput>(HasSubstr("of record 'polynomial'")));
   }
-  EXPECT_THAT(
-      [&] {
-        integrate_motion(record, {0, 10, 0}, 0.0);
-      },
-      ThrowsMessage<InvalidInput>(HasSubstr("positive group and sample times")));
+  EXPECT_THAT(reference::Call([&] {
+                integrate_motion(record, {0, 10, 0}, 0.0);
+              }),
+              ThrowsMessage<InvalidInput>(HasSubstr("positive group and sample times")));
   auto uneven = record;
   uneven.outlet_pressure[1].values.conservativeResize(5);
-  EXPECT_THAT(
-      [&] {
-        integrate_motion(uneven, {0, 10, 0});
-      },
-      ThrowsMessage<InvalidInput>(HasSubstr("found a pressure of 5")));
+  EXPECT_THAT(reference::Call([&] {
+                integrate_motion(uneven, {0, 10, 0});
+              }),
+              ThrowsMessage<InvalidInput>(HasSubstr("found a pressure of 5")));
 }
 
 TEST(IntegrateOverSpeed, OfALineIsTheChangeOfSpeedTimesTheAcceleration) {
@@ -108,11 +107,10 @@ TEST(IntegrateOverSpeed, FrictionCancelsOverAClosedPathPassedAtUnequalAccelerati
 }
 
 TEST(IntegrateOverSpeed, RefusesASmoothingLongerThanTheWindow) {
-  EXPECT_THAT(
-      [] {
-        integrate_over_speed(polynomial(3.0, 0.0), {0, 20, 0}, 1.0, 1.2, 1.0);
-      },
-      ThrowsMessage<InvalidInput>(HasSubstr("positive smoothing time and a window of ")));
+  EXPECT_THAT(reference::Call([] {
+                integrate_over_speed(polynomial(3.0, 0.0), {0, 20, 0}, 1.0, 1.2, 1.0);
+              }),
+              ThrowsMessage<InvalidInput>(HasSubstr("positive smoothing time and a window of ")));
 }
 
 TEST(UsableSamples, LeavesAGuardAboutClippedAndMissingOnes) {

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "identification/swinging_record.hpp"
+#include "refused_call.hpp"
 #include <boresight/numerics/error.hpp>
 
 namespace boresight::identification {
@@ -284,7 +285,7 @@ TEST(CleanRecord, RefusesAShortRecord) {
 TEST(CleanRecord, RefusesARecordWithoutMotors) {
   RawRecord raw = healthy();
   raw.outlet.pop_back();
-  EXPECT_THAT([&] { clean_record(raw); },
+  EXPECT_THAT(reference::Call([&] { clean_record(raw); }),
               testing::ThrowsMessage<InvalidInput>(HasSubstr("clean_record: record 'swing'")));
 }
 

@@ -5,6 +5,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "refused_call.hpp"
 #include <boresight/identification/resonance/hydraulic_resonance.hpp>
 #include <boresight/identification/resonance/ring_inertia.hpp>
 #include <boresight/numerics/angles.hpp>
@@ -197,13 +198,13 @@ TEST(DriveResponse, OfSignsThatDoNotBelongTogetherIsRefused) {
   const LinearDrive drive;
   auto record = drive.record(chirp, 60.0, 1.0);
   std::swap(record.inlet_pressure, record.outlet_pressure);
-  EXPECT_THAT([&] { drive_response(record, drive.campaign()); },
+  EXPECT_THAT(reference::Call([&] { drive_response(record, drive.campaign()); }),
               ThrowsMessage<NumericalFailure>(HasSubstr("torque and rate do not belong together")));
   record.motor_rate.values.setZero();
-  EXPECT_THAT([&] { drive_response(record, drive.campaign()); },
+  EXPECT_THAT(reference::Call([&] { drive_response(record, drive.campaign()); }),
               ThrowsMessage<NumericalFailure>(HasSubstr("moves one way for")));
   record.outlet_pressure.clear();
-  EXPECT_THAT([&] { drive_response(record, drive.campaign()); },
+  EXPECT_THAT(reference::Call([&] { drive_response(record, drive.campaign()); }),
               ThrowsMessage<InvalidInput>(HasSubstr("found 1 and 0")));
 }
 
@@ -242,7 +243,7 @@ TEST(StepRings, LeaveOutStepsWhereTheDriveTurnsOrIsNotMeasured) {
       drive.record([](double t) { return std::fmod(t, 11.0) < 5.5 ? 9.0 : -9.0; }, 40.0, 1.0);
   StepRingOptions options;
   options.expected_frequency = 0.86;
-  EXPECT_THAT([&] { fit_step_rings(record, drive.campaign(), 52.0, options); },
+  EXPECT_THAT(reference::Call([&] { fit_step_rings(record, drive.campaign(), 52.0, options); }),
               ThrowsMessage<NumericalFailure>(HasSubstr("the drive is not moving one way")));
   record = drive.record(steps, 40.0, 1.0);
   record.motor_rate.valid.assign(static_cast<std::size_t>(record.samples()), true);
@@ -250,7 +251,7 @@ TEST(StepRings, LeaveOutStepsWhereTheDriveTurnsOrIsNotMeasured) {
   const auto rings = fit_step_rings(record, drive.campaign(), 52.0, options);
   EXPECT_THAT(rings.notes, testing::Contains(HasSubstr("the rate is not valid throughout")));
   options.expected_frequency = 0.0;
-  EXPECT_THAT([&] { fit_step_rings(record, drive.campaign(), 52.0, options); },
+  EXPECT_THAT(reference::Call([&] { fit_step_rings(record, drive.campaign(), 52.0, options); }),
               ThrowsMessage<InvalidInput>(HasSubstr("found 0 Hz and 52 N m/rad")));
 }
 
@@ -278,7 +279,7 @@ TEST(RingInertia, TellsApartWhatTheSimpleFormulaMixes) {
   EXPECT_LT(interval.lower, truth);
   EXPECT_GT(interval.upper, truth);
   EXPECT_GT(interval.standard_uncertainty, 0.005 * truth);  // the stiffness alone is 0.6 %
-  EXPECT_THAT([&] { by(ResonanceReading::impedance); },
+  EXPECT_THAT(reference::Call([&] { by(ResonanceReading::impedance); }),
               ThrowsMessage<InvalidInput>(HasSubstr("a reading of rings")));
 
   options.friction_slope = numerics::Uncertain{2.3, 0.1};
@@ -286,8 +287,9 @@ TEST(RingInertia, TellsApartWhatTheSimpleFormulaMixes) {
   const double orifices = rings[0].total_loss_rate - rings[0].leakage_rate;
   EXPECT_NEAR(leakage.value, 1.1 - orifices, 0.08);
   options.friction_slope.reset();
-  EXPECT_THAT([&] { leakage_from_damping(rings, stiffness, campaign.knowledge, options); },
-              ThrowsMessage<InvalidInput>(HasSubstr("and no slope")));
+  EXPECT_THAT(
+      reference::Call([&] { leakage_from_damping(rings, stiffness, campaign.knowledge, options); }),
+      ThrowsMessage<InvalidInput>(HasSubstr("and no slope")));
 }
 
 TEST(TorqueSpectrum, KnowsAHarmonicOfTheExcitation) {
@@ -333,7 +335,7 @@ TEST(TorqueSpectrum, DoesNotCallAPeakBetweenHarmonicsOne) {
   knowledge.locked_rotor_frequencies.push_back({drive.frequency(), 0.01});
   const auto excluded = torque_spectrum(record, knowledge, options);
   EXPECT_THAT(excluded.notes, testing::Contains(HasSubstr("the structure has a mode at")));
-  EXPECT_THAT([&] { torque_spectrum(record, knowledge, {}); },
+  EXPECT_THAT(reference::Call([&] { torque_spectrum(record, knowledge, {}); }),
               ThrowsMessage<InvalidInput>(HasSubstr("found 0 Hz and 60 s")));
 }
 
@@ -453,7 +455,7 @@ TEST(IdentifyResonance, RefusesDrawingsWithoutAnInertia) {
   const LinearDrive drive;
   auto campaign = drive.campaign();
   campaign.knowledge.motor_inertia.value = -10.0;
-  EXPECT_THAT([&] { identify_resonance(campaign, drive.bulk_modulus()); },
+  EXPECT_THAT(reference::Call([&] { identify_resonance(campaign, drive.bulk_modulus()); }),
               ThrowsMessage<InvalidInput>(HasSubstr("inertias above 0")));
 }
 

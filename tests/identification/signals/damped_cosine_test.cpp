@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "refused_call.hpp"
 #include <boresight/identification/signals/damped_cosine.hpp>
 #include <boresight/numerics/angles.hpp>
 #include <boresight/numerics/error.hpp>
@@ -169,7 +170,7 @@ TEST(FitDampedCosines, RefusesWhatItCannotFit) {
   const MatrixXd x = ring(400, slow, {1.0, 0.0});
   const auto refused = [](const MatrixXd& signal, double step, const std::vector<RingPole>& starts,
                           const char* message) {
-    EXPECT_THAT([&] { fit_damped_cosines(signal, step, starts); },
+    EXPECT_THAT(reference::Call([&] { fit_damped_cosines(signal, step, starts); }),
                 ThrowsMessage<InvalidInput>(HasSubstr(message)));
   };
   refused(x, dt, {}, "found 0 starts and 400 samples");
@@ -179,7 +180,7 @@ TEST(FitDampedCosines, RefusesWhatItCannotFit) {
   refused(x, dt, {{2.0, -1.0}}, "that do not grow, found 2 Hz, decay -1 1/s");
   refused(MatrixXd(400, 0), dt, {slow}, "found 0 channels");
   refused(MatrixXd::Constant(400, 1, INFINITY), dt, {slow}, "not all finite");
-  EXPECT_THAT([&] { ring_starts(x, dt, 1, 5.0, 2.0); },
+  EXPECT_THAT(reference::Call([&] { ring_starts(x, dt, 1, 5.0, 2.0); }),
               ThrowsMessage<InvalidInput>(HasSubstr("found 5 .. 2 Hz and 1")));
 }
 

@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "refused_call.hpp"
 #include <boresight/identification/signals/spectral_peaks.hpp>
 #include <boresight/identification/signals/spectrum.hpp>
 #include <boresight/numerics/error.hpp>
@@ -124,16 +125,16 @@ TEST(RepetitionPeriod, IsNotADoubleOrAFaultOfNoise) {
 }
 
 TEST(SpectralPeaks, RefuseWhatIsNoSpectrum) {
-  EXPECT_THAT([] { spectral_peaks(axis, VectorXd::Ones(4)); },
+  EXPECT_THAT(reference::Call([] { spectral_peaks(axis, VectorXd::Ones(4)); }),
               ThrowsMessage<InvalidInput>(HasSubstr("found 501 frequencies and 4 powers")));
-  EXPECT_THAT([] { spectral_peaks(axis, -VectorXd::Ones(501)); },
+  EXPECT_THAT(reference::Call([] { spectral_peaks(axis, -VectorXd::Ones(501)); }),
               ThrowsMessage<InvalidInput>(HasSubstr("finite and not negative")));
-  EXPECT_THAT([] { spectral_peaks(axis.cwiseAbs2(), VectorXd::Ones(501)); },
+  EXPECT_THAT(reference::Call([] { spectral_peaks(axis.cwiseAbs2(), VectorXd::Ones(501)); }),
               ThrowsMessage<InvalidInput>(HasSubstr("expected evenly spaced frequencies")));
   std::vector<SpectralPeak> peaks(1);
-  EXPECT_THAT([&] { label_harmonics(peaks, 0.0, 1.0); },
+  EXPECT_THAT(reference::Call([&] { label_harmonics(peaks, 0.0, 1.0); }),
               ThrowsMessage<InvalidInput>(HasSubstr("positive period and tolerance, found 0 s")));
-  EXPECT_THAT([] { repetition_period(VectorXd::Ones(3), 0.1); },
+  EXPECT_THAT(reference::Call([] { repetition_period(VectorXd::Ones(3), 0.1); }),
               ThrowsMessage<InvalidInput>(HasSubstr("at least 16 finite samples")));
 }
 

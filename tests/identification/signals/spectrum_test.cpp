@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "refused_call.hpp"
 #include <boresight/identification/signals/frequency_response_estimate.hpp>
 #include <boresight/identification/signals/spectrum.hpp>
 #include <boresight/numerics/angles.hpp>
@@ -139,7 +140,7 @@ TEST(SpectralMatrix, OverlappingSegmentsAreWorthLessThanTheirNumber) {
 TEST(SpectralMatrix, RefusesWhatItCannotDo) {
   const auto refused = [](const MatrixXd& x, const SpectrumOptions& options,
                           const std::vector<bool>& valid, const char* message) {
-    EXPECT_THAT([&] { spectral_matrix(x, dt, options, valid); },
+    EXPECT_THAT(reference::Call([&] { spectral_matrix(x, dt, options, valid); }),
                 ThrowsMessage<InvalidInput>(HasSubstr(message)));
   };
   SpectrumOptions options;
@@ -151,7 +152,8 @@ TEST(SpectralMatrix, RefusesWhatItCannotDo) {
   options = {};
   options.overlap = 0.95;
   refused(MatrixXd::Zero(100, 1), options, {}, "an overlap of 0 .. 0.9, found 100 and 0.95");
-  EXPECT_THAT([] { spectral_matrix(MatrixXd::Zero(100, 1), dt, {}, std::vector<bool>(100)); },
+  EXPECT_THAT(reference::Call(
+                  [] { spectral_matrix(MatrixXd::Zero(100, 1), dt, {}, std::vector<bool>(100)); }),
               ThrowsMessage<NumericalFailure>(HasSubstr("all 1 segments of 100 samples")));
 }
 
@@ -250,11 +252,12 @@ TEST(FrequencyResponseEstimate, OfOneSegmentKnowsNoUncertainty) {
 
 TEST(FrequencyResponseEstimate, RefusesChannelsAndRatiosThatAreNone) {
   const auto spectra = spectral_matrix(noise(100, 14), dt);
-  EXPECT_THAT([&] { frequency_response_estimate(spectra, 0, 1); },
+  EXPECT_THAT(reference::Call([&] { frequency_response_estimate(spectra, 0, 1); }),
               ThrowsMessage<InvalidInput>(HasSubstr("expected channels below 1, found 1")));
-  EXPECT_THAT([&] { referenced_response_estimate(spectra, -1, 0, 0); },
+  EXPECT_THAT(reference::Call([&] { referenced_response_estimate(spectra, -1, 0, 0); }),
               ThrowsMessage<InvalidInput>(HasSubstr("expected channels below 1, found -1")));
-  EXPECT_THAT([&] { frequency_response_estimate(spectra, 0, 0, ResponseEstimator::hv, 0.0); },
+  EXPECT_THAT(reference::Call(
+                  [&] { frequency_response_estimate(spectra, 0, 0, ResponseEstimator::hv, 0.0); }),
               ThrowsMessage<InvalidInput>(HasSubstr("positive ratio of noise powers, found 0")));
 }
 

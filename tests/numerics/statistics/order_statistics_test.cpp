@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "random_numbers.hpp"
+#include "refused_call.hpp"
 #include <boresight/numerics/error.hpp>
 #include <boresight/numerics/statistics/order_statistics.hpp>
 
@@ -21,7 +22,7 @@ TEST(Median, IsTheMiddleOneInAnyOrder) {
   EXPECT_EQ(median(std::vector<double>{4.0, 1.0, 3.0, 2.0}), 3.0);
   EXPECT_EQ(median(std::vector<double>{7.0}), 7.0);
   EXPECT_EQ(median(Eigen::VectorXd(Eigen::Vector3d(5.0, -1.0, 0.0))), 0.0);
-  EXPECT_THAT([] { median(std::vector<double>()); },
+  EXPECT_THAT(reference::Call([] { median(std::vector<double>()); }),
               ThrowsMessage<InvalidInput>(HasSubstr("at least one value")));
 }
 
@@ -35,7 +36,7 @@ TEST(Quantile, LiesStraightBetweenNeighbours) {
   EXPECT_EQ(quantile(std::vector<double>{5.0}, 0.3), 5.0);
   constexpr double infinity = std::numeric_limits<double>::infinity();
   EXPECT_EQ(quantile(std::vector<double>{1.0, infinity, infinity}, 0.8), infinity);
-  EXPECT_THAT([&] { quantile(rising, 97.5); },
+  EXPECT_THAT(reference::Call([&] { quantile(rising, 97.5); }),
               ThrowsMessage<InvalidInput>(HasSubstr("share within [0, 1], found 3 and 97.5")));
   EXPECT_THROW(quantile(std::vector<double>(), 0.5), InvalidInput);
 }

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "refused_call.hpp"
 #include <boresight/numerics/error.hpp>
 #include <boresight/numerics/statistics/pooled_mean.hpp>
 
@@ -34,13 +35,12 @@ TEST(PooledMean, OfEstimatesThatDoNotAgreeRestsOnTheirScatter) {
 }
 
 TEST(PooledMean, RefusesNoneAndTheUncertaintyOfCertainty) {
-  EXPECT_THAT([] { pooled_mean({}); },
+  EXPECT_THAT(reference::Call([] { pooled_mean({}); }),
               ThrowsMessage<InvalidInput>(HasSubstr("expected at least one estimate")));
-  EXPECT_THAT(
-      [] {
-        pooled_mean({{1.0, 0.0}});
-      },
-      ThrowsMessage<InvalidInput>(HasSubstr("positive uncertainties, found 1 +- 0")));
+  EXPECT_THAT(reference::Call([] {
+                pooled_mean({{1.0, 0.0}});
+              }),
+              ThrowsMessage<InvalidInput>(HasSubstr("positive uncertainties, found 1 +- 0")));
 }
 
 }  // namespace

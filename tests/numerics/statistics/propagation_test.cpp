@@ -5,6 +5,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "refused_call.hpp"
 #include <boresight/numerics/error.hpp>
 #include <boresight/numerics/statistics/propagation.hpp>
 
@@ -135,18 +136,16 @@ TEST(Propagate, DoesNotDependOnTheUnit) {
 
 TEST(Propagate, NamesTheInputItRefuses) {
   const std::vector<numerics::PropagationTarget> targets{{"x", [](Point x) { return x[0]; }}};
-  EXPECT_THAT(
-      [&] {
-        numerics::propagate({{"length", -1.0, 0.1}}, targets);
-      },
-      ThrowsMessage<InvalidInput>(HasSubstr("'length'")));
+  EXPECT_THAT(reference::Call([&] {
+                numerics::propagate({{"length", -1.0, 0.1}}, targets);
+              }),
+              ThrowsMessage<InvalidInput>(HasSubstr("'length'")));
   EXPECT_THROW(numerics::propagate({{"x", 1.0, -0.1}}, targets), InvalidInput);
   EXPECT_THROW(numerics::propagate({{"x", std::nan(""), 0.1}}, targets), InvalidInput);
-  EXPECT_THAT(
-      [&] {
-        numerics::propagate({{"x", 1.0, 0.1}}, targets, {99, 1});
-      },
-      ThrowsMessage<InvalidInput>(HasSubstr("at least 100 draws")));
+  EXPECT_THAT(reference::Call([&] {
+                numerics::propagate({{"x", 1.0, 0.1}}, targets, {99, 1});
+              }),
+              ThrowsMessage<InvalidInput>(HasSubstr("at least 100 draws")));
 }
 
 }  // namespace

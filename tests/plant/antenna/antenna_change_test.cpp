@@ -5,6 +5,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "refused_call.hpp"
 #include <boresight/numerics/error.hpp>
 #include <boresight/plant/antenna/antenna_change.hpp>
 
@@ -73,17 +74,20 @@ TEST(AntennaChange, RefusesWhatWouldChangeNothing) {
   const auto refused = [](std::vector<AntennaChange> changes) {
     return [changes] { with(changes); };
   };
-  EXPECT_THAT(refused({set_to("at_shaft.oil_stiffness", 80.0), set_to("oil.bulk_modulus", 1e9)}),
+  EXPECT_THAT(reference::Call(refused(
+                  {set_to("at_shaft.oil_stiffness", 80.0), set_to("oil.bulk_modulus", 1e9)})),
               ThrowsMessage<InvalidInput>(HasSubstr("at_shaft.oil_stiffness")));
-  EXPECT_THAT(refused({set_to("at_shaft.motor_inertia", 1.0), set_to("motor.flywheel_disks", 0.0)}),
+  EXPECT_THAT(reference::Call(refused(
+                  {set_to("at_shaft.motor_inertia", 1.0), set_to("motor.flywheel_disks", 0.0)})),
               ThrowsMessage<InvalidInput>(HasSubstr("at_shaft.motor_inertia")));
-  EXPECT_THAT(refused({set_to("oil.viscosity", 1.0)}),
+  EXPECT_THAT(reference::Call(refused({set_to("oil.viscosity", 1.0)})),
               ThrowsMessage<InvalidInput>(HasSubstr("oil.viscosity")));
-  EXPECT_THAT(refused({set_to("structure.mode[4].frequency", 9.0)}),
+  EXPECT_THAT(reference::Call(refused({set_to("structure.mode[4].frequency", 9.0)})),
               ThrowsMessage<InvalidInput>(HasSubstr("mode[4]")));
-  EXPECT_THAT(refused({set_to("structure.frequencies", 2.0)}),
+  EXPECT_THAT(reference::Call(refused({set_to("structure.frequencies", 2.0)})),
               ThrowsMessage<InvalidInput>(HasSubstr("factor")));
-  EXPECT_THAT(refused({set_to("oil.bulk_modulus", std::numeric_limits<double>::infinity())}),
+  EXPECT_THAT(reference::Call(
+                  refused({set_to("oil.bulk_modulus", std::numeric_limits<double>::infinity())})),
               ThrowsMessage<InvalidInput>(HasSubstr("finite")));
 }
 

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "reference_antenna.hpp"
+#include "refused_call.hpp"
 #include <boresight/numerics/angles.hpp>
 #include <boresight/numerics/eigenvalues.hpp>
 #include <boresight/numerics/error.hpp>
@@ -247,7 +248,8 @@ TEST(ToStateSpace, RefusesParametersWithoutMeaning) {
     for (const double bad : {-1.0, std::nan(""), std::numeric_limits<double>::infinity()}) {
       AntennaPlant plant = reference::antenna();
       change(plant) = bad;
-      EXPECT_THAT([&] { to_state_space(plant); }, ThrowsMessage<InvalidInput>(HasSubstr(message)));
+      EXPECT_THAT(reference::Call([&] { to_state_space(plant); }),
+                  ThrowsMessage<InvalidInput>(HasSubstr(message)));
     }
   };
   refused([](AntennaPlant& p) -> double& { return p.drive.oil_stiffness; }, "oil stiffness");
@@ -267,7 +269,7 @@ TEST(MakeStructure, RefusesSharesAndFrequenciesThatDoNotFit) {
   const auto refused = [](auto change, const char* message) {
     StructureSpecification specification = reference::structure();
     change(specification);
-    EXPECT_THAT([&] { make_structure(specification); },
+    EXPECT_THAT(reference::Call([&] { make_structure(specification); }),
                 ThrowsMessage<InvalidInput>(HasSubstr(message)));
   };
   refused([](auto& s) { s.modes[0].inertia_fraction = 0.75; }, "sum to less than 1, found 1");

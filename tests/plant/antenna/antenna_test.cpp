@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "reference_antenna.hpp"
+#include "refused_call.hpp"
 #include <boresight/numerics/error.hpp>
 #include <boresight/plant/antenna/antenna.hpp>
 
@@ -81,18 +82,20 @@ TEST(Antenna, NamesTheNumberThatNoAntennaHas) {
     spoil(antenna);
     return [antenna] { validate(antenna); };
   };
-  EXPECT_THAT(refused([](Antenna& one) { one.inertia = 0.0; }),
+  EXPECT_THAT(reference::Call(refused([](Antenna& one) { one.inertia = 0.0; })),
               ThrowsMessage<InvalidInput>(HasSubstr("inertia")));
-  EXPECT_THAT(
-      refused([](Antenna& one) { one.dead_time = std::numeric_limits<double>::quiet_NaN(); }),
-      ThrowsMessage<InvalidInput>(HasSubstr("dead time")));
-  EXPECT_THAT(refused([](Antenna& one) { one.drive.leakage_rate = -1.0; }),
+  EXPECT_THAT(reference::Call(refused(
+                  [](Antenna& one) { one.dead_time = std::numeric_limits<double>::quiet_NaN(); })),
+              ThrowsMessage<InvalidInput>(HasSubstr("dead time")));
+  EXPECT_THAT(reference::Call(refused([](Antenna& one) { one.drive.leakage_rate = -1.0; })),
               ThrowsMessage<InvalidInput>(HasSubstr("leakage rate")));
-  EXPECT_THAT(refused([](Antenna& one) { one.structure.locked_rotor_frequency = 3.0; }),
-              ThrowsMessage<InvalidInput>(HasSubstr("locked-rotor frequency")));
-  EXPECT_THAT(refused([](Antenna& one) { one.gear_train.stages.front().driving_teeth = 0.0; }),
+  EXPECT_THAT(
+      reference::Call(refused([](Antenna& one) { one.structure.locked_rotor_frequency = 3.0; })),
+      ThrowsMessage<InvalidInput>(HasSubstr("locked-rotor frequency")));
+  EXPECT_THAT(reference::Call(
+                  refused([](Antenna& one) { one.gear_train.stages.front().driving_teeth = 0.0; })),
               ThrowsMessage<InvalidInput>(HasSubstr("tooth counts")));
-  EXPECT_THAT(refused([](Antenna& one) { one.hydraulics.bulk_modulus = 0.0; }),
+  EXPECT_THAT(reference::Call(refused([](Antenna& one) { one.hydraulics.bulk_modulus = 0.0; })),
               ThrowsMessage<InvalidInput>(HasSubstr("bulk modulus")));
 }
 

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "reference_antenna.hpp"
+#include "refused_call.hpp"
 #include <boresight/numerics/angles.hpp>
 #include <boresight/numerics/error.hpp>
 #include <boresight/plant/antenna/gear_train.hpp>
@@ -41,7 +42,7 @@ TEST(DiskInertia, GivesTheRowsOfTable1) {
 
 TEST(DiskInertia, RefusesWhatNoDiskHas) {
   for (const double bad : {0.0, -1.0, std::nan(""), std::numeric_limits<double>::infinity()}) {
-    EXPECT_THAT([&] { disk_inertia(bad, 1.0, steel); },
+    EXPECT_THAT(reference::Call([&] { disk_inertia(bad, 1.0, steel); }),
                 ThrowsMessage<InvalidInput>(HasSubstr("disk_inertia: expected positive")));
     EXPECT_THROW(disk_inertia(1.0, bad, steel), InvalidInput);
     EXPECT_THROW(disk_inertia(1.0, 1.0, bad), InvalidInput);
@@ -59,18 +60,16 @@ TEST(GearRatio, IsTheProductOfTheStages) {
 }
 
 TEST(GearRatio, NamesTheStageItRefuses) {
-  EXPECT_THAT(
-      [] {
-        gear_ratio({{10, 1}, {10, 0}});
-      },
-      ThrowsMessage<InvalidInput>(HasSubstr("stage 2, found 10/0")));
+  EXPECT_THAT(reference::Call([] {
+                gear_ratio({{10, 1}, {10, 0}});
+              }),
+              ThrowsMessage<InvalidInput>(HasSubstr("stage 2, found 10/0")));
   EXPECT_THROW(gear_ratio({{-10, 1}}), InvalidInput);
   EXPECT_THROW(gear_ratio({{std::nan(""), 1}}), InvalidInput);
-  EXPECT_THAT(
-      [] {
-        gear_ratio({{10, 1}}, 2);
-      },
-      ThrowsMessage<InvalidInput>(HasSubstr("at most 1 stages, found 2")));
+  EXPECT_THAT(reference::Call([] {
+                gear_ratio({{10, 1}}, 2);
+              }),
+              ThrowsMessage<InvalidInput>(HasSubstr("at most 1 stages, found 2")));
 }
 
 TEST(ReflectedInertia, GivesTheRowsOfTable3) {

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "reference_antenna.hpp"
+#include "refused_call.hpp"
 #include <boresight/numerics/angles.hpp>
 #include <boresight/numerics/error.hpp>
 #include <boresight/plant/antenna/hydraulics.hpp>
@@ -54,7 +55,8 @@ TEST(OilStiffness, NamesTheArgumentItRefuses) {
     for (const double bad : {0.0, -1.0, std::nan("")}) {
       HydraulicDrive drive = reference::hydraulic_drive();
       drive.*member = bad;
-      EXPECT_THAT([&] { oil_stiffness(drive); }, ThrowsMessage<InvalidInput>(HasSubstr(name)));
+      EXPECT_THAT(reference::Call([&] { oil_stiffness(drive); }),
+                  ThrowsMessage<InvalidInput>(HasSubstr(name)));
     }
   };
   refuses(&HydraulicDrive::motor_count, "motor count");
@@ -105,19 +107,19 @@ TEST(HydraulicDamping, MovesOppositelyToFrequencyWithLeakageAlone) {
 }
 
 TEST(Hydraulics, NamesWhatItRefuses) {
-  EXPECT_THAT([] { bulk_modulus_from_slosh(-1, 40, 850); },
+  EXPECT_THAT(reference::Call([] { bulk_modulus_from_slosh(-1, 40, 850); }),
               ThrowsMessage<InvalidInput>(HasSubstr("line length, found -1")));
-  EXPECT_THAT([] { bulk_modulus_from_slosh(1, 0, 850); },
+  EXPECT_THAT(reference::Call([] { bulk_modulus_from_slosh(1, 0, 850); }),
               ThrowsMessage<InvalidInput>(HasSubstr("slosh frequency")));
-  EXPECT_THAT([] { slosh_frequency(1, 1e9, std::nan("")); },
+  EXPECT_THAT(reference::Call([] { slosh_frequency(1, 1e9, std::nan("")); }),
               ThrowsMessage<InvalidInput>(HasSubstr("density")));
-  EXPECT_THAT([] { hydraulic_frequency(1, 0); },
+  EXPECT_THAT(reference::Call([] { hydraulic_frequency(1, 0); }),
               ThrowsMessage<InvalidInput>(HasSubstr("reflected inertia")));
-  EXPECT_THAT([] { inertia_from_resonance(0, 1); },
+  EXPECT_THAT(reference::Call([] { inertia_from_resonance(0, 1); }),
               ThrowsMessage<InvalidInput>(HasSubstr("oil stiffness")));
-  EXPECT_THAT([] { inertia_from_resonance(1, 0); },
+  EXPECT_THAT(reference::Call([] { inertia_from_resonance(1, 0); }),
               ThrowsMessage<InvalidInput>(HasSubstr("frequency")));
-  EXPECT_THAT([] { hydraulic_damping(1, -1, 1, 1); },
+  EXPECT_THAT(reference::Call([] { hydraulic_damping(1, -1, 1, 1); }),
               ThrowsMessage<InvalidInput>(HasSubstr("hydraulic_damping")));
 }
 

@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "reference_antenna.hpp"
+#include "refused_call.hpp"
 #include <boresight/numerics/angles.hpp>
 #include <boresight/numerics/eigenvalues.hpp>
 #include <boresight/numerics/error.hpp>
@@ -216,7 +217,7 @@ TEST(ModeOfOil, IsAnotherThanTheHydraulicOneOnASoftGearSpring) {
 }
 
 TEST(HydraulicMode, NeedsAModeThatMovesTheOil) {
-  EXPECT_THAT([] { hydraulic_mode({}); },
+  EXPECT_THAT(reference::Call([] { hydraulic_mode({}); }),
               ThrowsMessage<NumericalFailure>(HasSubstr("no mode of the plant")));
 }
 

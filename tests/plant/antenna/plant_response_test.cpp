@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "reference_antenna.hpp"
+#include "refused_call.hpp"
 #include <boresight/numerics/angles.hpp>
 #include <boresight/numerics/eigenvalues.hpp>
 #include <boresight/numerics/error.hpp>
@@ -147,7 +148,7 @@ TEST(FrequencyGrid, CoversEveryLightlyDampedPole) {
 
 TEST(FrequencyGrid, RefusesAnEmptyBand) {
   const AntennaPlant plant = reference::antenna();
-  EXPECT_THAT([&] { frequency_grid(plant, 1.0, 0.5, 100); },
+  EXPECT_THAT(reference::Call([&] { frequency_grid(plant, 1.0, 0.5, 100); }),
               testing::ThrowsMessage<InvalidInput>(testing::HasSubstr("frequency_grid")));
   EXPECT_THROW(frequency_grid(plant, 0.0, 1.0, 100), InvalidInput);
   EXPECT_THROW(frequency_grid(plant, 0.1, 1.0, 0), InvalidInput);

@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "random_stable_system.hpp"
+#include "refused_call.hpp"
 #include <boresight/numerics/error.hpp>
 #include <boresight/numerics/matrix_exponential.hpp>
 #include <boresight/plant/integration/exponential_collocation.hpp>
@@ -245,7 +246,8 @@ TEST(ExponentialCollocation, DampsWhatIsStiffAsRadauDoes) {
 TEST(ExponentialCollocation, NamesWhatItRefuses) {
   const ExponentialCollocation lag(scalar_system(-1.0), highest_modal_condition);
   for (const double bad : {0.0, -1.0, std::nan("")}) {
-    EXPECT_THAT([&] { lag.step(bad); }, ThrowsMessage<InvalidInput>(HasSubstr("a step above 0")));
+    EXPECT_THAT(reference::Call([&] { lag.step(bad); }),
+                ThrowsMessage<InvalidInput>(HasSubstr("a step above 0")));
   }
   for (const double largest_condition : {1e8, 0.0}) {
     EXPECT_THROW(ExponentialCollocation(scalar_system(5.0), largest_condition).step(1e3),
@@ -253,21 +255,21 @@ TEST(ExponentialCollocation, NamesWhatItRefuses) {
   }
   FeedbackSystem system = scalar_system(-1.0);
   system.linear.d(0, 0) = 0.5;
-  EXPECT_THAT([&] { feedback_matrices(system); },
+  EXPECT_THAT(reference::Call([&] { feedback_matrices(system); }),
               ThrowsMessage<InvalidInput>(HasSubstr("found 'z' = 0.5 'n'")));
   system = scalar_system(-1.0);
   system.channel_inputs = 3;
-  EXPECT_THAT([&] { feedback_matrices(system); },
+  EXPECT_THAT(reference::Call([&] { feedback_matrices(system); }),
               ThrowsMessage<InvalidInput>(HasSubstr("at most 1 channel outputs and 2")));
   system.channel_inputs = 2;
-  EXPECT_THAT([&] { feedback_matrices(system); },
+  EXPECT_THAT(reference::Call([&] { feedback_matrices(system); }),
               ThrowsMessage<InvalidInput>(HasSubstr("1 outputs and 2 inputs, found 1 and 1")));
   system.channels = nullptr;
-  EXPECT_THAT([&] { feedback_matrices(system); },
+  EXPECT_THAT(reference::Call([&] { feedback_matrices(system); }),
               ThrowsMessage<InvalidInput>(HasSubstr("found none")));
   system = scalar_system(-1.0);
   system.linear.sample_time = 0.1;
-  EXPECT_THAT([&] { feedback_matrices(system); },
+  EXPECT_THAT(reference::Call([&] { feedback_matrices(system); }),
               ThrowsMessage<InvalidInput>(HasSubstr("sample time of 0.1 s")));
 }
 

@@ -8,6 +8,7 @@
 
 #include "random_stable_system.hpp"
 #include "reference_values.hpp"
+#include "refused_call.hpp"
 #include <boresight/numerics/error.hpp>
 #include <boresight/plant/integration/fast_integrator.hpp>
 #include <boresight/plant/integration/feedback_ode.hpp>
@@ -326,14 +327,15 @@ TEST(FastIntegrator, NamesTimeAndChannelOfAFailure) {
         dn_dz(0, 0) = 0.5e-3 / std::sqrt(z[0]);
       },
       0.0, 12);
-  EXPECT_THAT([&] { root.simulate(u, y); },
+  EXPECT_THAT(reference::Call([&] { root.simulate(u, y); }),
               ThrowsMessage<NumericalFailure>(
                   AllOf(HasSubstr("'valve' is not finite"), HasSubstr("t = 1.0"))));
-  EXPECT_THAT([&] { root.simulate(u, y); }, ThrowsMessage<InvalidInput>(HasSubstr("start_from")));
+  EXPECT_THAT(reference::Call([&] { root.simulate(u, y); }),
+              ThrowsMessage<InvalidInput>(HasSubstr("start_from")));
   root.start_from(Eigen::VectorXd::Constant(1, 100.0));
   EXPECT_NO_THROW(root.simulate(u, y));
   root.start_from(Eigen::VectorXd::Constant(1, -1.0), 7.0);
-  EXPECT_THAT([&] { root.simulate(u, y); },
+  EXPECT_THAT(reference::Call([&] { root.simulate(u, y); }),
               ThrowsMessage<NumericalFailure>(
                   AllOf(HasSubstr("'valve' is not finite"), HasSubstr("t = 7 s"))));
   // Coulomb friction as a jump.
@@ -356,7 +358,7 @@ TEST(FastIntegrator, NamesTimeAndChannelOfAFailure) {
         dn_dz(0, 0) = -100.0 / std::pow(std::cosh(100.0 * z[0] - 95.0), 2);
       },
       0.0, 0);
-  EXPECT_THAT([&] { coarse.simulate(u, y); },
+  EXPECT_THAT(reference::Call([&] { coarse.simulate(u, y); }),
               ThrowsMessage<NumericalFailure>(
                   AllOf(HasSubstr("the error in 'gap'"), HasSubstr("finer rung than 0"))));
   auto runaway = integrator_of(
@@ -366,7 +368,7 @@ TEST(FastIntegrator, NamesTimeAndChannelOfAFailure) {
       },
       5000.0, 3);
   Eigen::MatrixXd nothing(3, 0);
-  EXPECT_THAT([&] { runaway.simulate(u.topRows(3), nothing); },
+  EXPECT_THAT(reference::Call([&] { runaway.simulate(u.topRows(3), nothing); }),
               ThrowsMessage<NumericalFailure>(HasSubstr("overflows near t = 0.1")));
 }
 
@@ -376,7 +378,7 @@ TEST(FastIntegrator, NamesWhatItRefuses) {
   const auto refused = [&](auto change, const char* words) {
     FastIntegratorOptions options = options_of(0.1, 1e-6);
     change(options);
-    EXPECT_THAT([&] { FastIntegrator(system, options); },
+    EXPECT_THAT(reference::Call([&] { FastIntegrator(system, options); }),
                 ThrowsMessage<InvalidInput>(HasSubstr(words)));
   };
   refused([](auto& o) { o.interval = 0.0; }, "an interval above 0, found 0 s");
@@ -389,20 +391,22 @@ TEST(FastIntegrator, NamesWhatItRefuses) {
 
   FastIntegrator integrator(system, options_of(0.1, 1e-6));
   Eigen::MatrixXd y(5, 2);
-  EXPECT_THAT([&] { integrator.simulate(Eigen::MatrixXd::Ones(5, 1), y, foh); },
+  EXPECT_THAT(reference::Call([&] { integrator.simulate(Eigen::MatrixXd::Ones(5, 1), y, foh); }),
               ThrowsMessage<InvalidInput>(HasSubstr("found 5 x 1 for 5 x 2")));
   EXPECT_THROW(integrator.simulate(Eigen::MatrixXd::Ones(6, 1), y, zoh), InvalidInput);
-  EXPECT_THAT([&] { integrator.advance(Eigen::VectorXd::Ones(2), Eigen::VectorXd::Ones(1)); },
+  EXPECT_THAT(reference::Call(
+                  [&] { integrator.advance(Eigen::VectorXd::Ones(2), Eigen::VectorXd::Ones(1)); }),
               ThrowsMessage<InvalidInput>(HasSubstr("1 finite inputs")));
   const Eigen::VectorXd gap = Eigen::VectorXd::Constant(1, std::nan(""));
-  EXPECT_THAT([&] { integrator.advance(gap, gap); },
+  EXPECT_THAT(reference::Call([&] { integrator.advance(gap, gap); }),
               ThrowsMessage<InvalidInput>(HasSubstr("not all finite")));
-  EXPECT_THAT([&] { integrator.start_from(gap); },
+  EXPECT_THAT(reference::Call([&] { integrator.start_from(gap); }),
               ThrowsMessage<InvalidInput>(HasSubstr("not all finite")));
   FeedbackOde ode(system);
-  EXPECT_THAT([&] { ode.drive(0.0, gap, 1.0, gap); },
+  EXPECT_THAT(reference::Call([&] { ode.drive(0.0, gap, 1.0, gap); }),
               ThrowsMessage<InvalidInput>(HasSubstr("1 finite inputs")));
-  EXPECT_THAT([&] { ode.drive(1.0, Eigen::VectorXd::Ones(1), 1.0, Eigen::VectorXd::Ones(1)); },
+  EXPECT_THAT(reference::Call(
+                  [&] { ode.drive(1.0, Eigen::VectorXd::Ones(1), 1.0, Eigen::VectorXd::Ones(1)); }),
               ThrowsMessage<InvalidInput>(HasSubstr("two times that differ")));
 }
 

@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "plant/ode_systems.hpp"
+#include "refused_call.hpp"
 #include <boresight/numerics/error.hpp>
 #include <boresight/plant/integration/ode_integrator.hpp>
 
@@ -107,7 +108,7 @@ TEST(OdeIntegrator, NamesWhatIsNotFinite) {
     system.*c.member =
         late([&](Eigen::Ref<Eigen::MatrixXd>& values) { values(c.row, c.column) = nan; });
     OdeIntegrator integrator = integrator_of(system);
-    EXPECT_THAT([&] { integrator.advance(3.0); },
+    EXPECT_THAT(reference::Call([&] { integrator.advance(3.0); }),
                 ThrowsMessage<NumericalFailure>(AllOf(HasSubstr(c.words), HasSubstr("at t = 0.5"),
                                                       HasSubstr("from 0 s to 3 s"))))
         << c.words;
@@ -118,7 +119,7 @@ TEST(OdeIntegrator, NamesWhatIsNotFinite) {
     dx(0, 0) = std::numeric_limits<double>::infinity();
   };
   OdeIntegrator integrator = integrator_of(system);
-  EXPECT_THAT([&] { integrator.advance(3.0); },
+  EXPECT_THAT(reference::Call([&] { integrator.advance(3.0); }),
               ThrowsMessage<NumericalFailure>(HasSubstr("rate(0) is inf at t = 0 s")));
 }
 
@@ -145,7 +146,7 @@ TEST(OdeIntegrator, TriesASmallerStepWhereTheSystemIsNotDefined) {
   integrator.advance(0.999, Approach::stop_exactly);
   EXPECT_GT(system.refused, 0);
   EXPECT_NEAR(std::sqrt(integrator.state()(0)), 1e-3, 0.05);
-  EXPECT_THAT([&] { integrator.advance(3.0); },
+  EXPECT_THAT(reference::Call([&] { integrator.advance(3.0); }),
               ThrowsMessage<NumericalFailure>(HasSubstr("(0) is")));
 }
 
@@ -154,7 +155,7 @@ TEST(OdeIntegrator, StopsAtTheCapOfSteps) {
   options.most_steps = 50;
   const Linear system = oscillator(1.0);
   OdeIntegrator integrator(system, 0.0, vector({1.0, 0.0}), options);
-  EXPECT_THAT([&] { integrator.advance(1000.0); },
+  EXPECT_THAT(reference::Call([&] { integrator.advance(1000.0); }),
               ThrowsMessage<NumericalFailure>(
                   AllOf(HasSubstr("mxstep steps taken"), HasSubstr("raise most_steps"))));
   EXPECT_EQ(integrator.time(), 0.0);
@@ -173,7 +174,7 @@ TEST(OdeIntegrator, SaysThatNoStepIsSmallEnough) {
   };
   const Runaway system;
   OdeIntegrator integrator(system, 0.0, vector({1.0}));
-  EXPECT_THAT([&] { integrator.advance(2.0); },
+  EXPECT_THAT(reference::Call([&] { integrator.advance(2.0); }),
               ThrowsMessage<NumericalFailure>(AllOf(HasSubstr("below the rounding of the time"),
                                                     HasSubstr("given up at 0.9999"),
                                                     HasSubstr("singularity"))));
@@ -185,7 +186,7 @@ TEST(OdeIntegrator, SaysThatTolerancesAreBelowRounding) {
   options.absolute_tolerance = vector({1e-20});
   const Linear system = oscillator(1.0);
   OdeIntegrator integrator(system, 0.0, vector({1.0, 0.0}), options);
-  EXPECT_THAT([&] { integrator.advance(1.0); },
+  EXPECT_THAT(reference::Call([&] { integrator.advance(1.0); }),
               ThrowsMessage<NumericalFailure>(
                   AllOf(HasSubstr("too much accuracy"), HasSubstr("raise relative_tolerance"))));
 }
@@ -196,21 +197,19 @@ TEST(OdeIntegrator, NeitherGoesBackNorNowhere) {
   integrator.advance(2.0);
   for (const double t : {1.5, nan, std::numeric_limits<double>::infinity()}) {
     EXPECT_THAT(
-        [&] { integrator.advance(t); },
+        reference::Call([&] { integrator.advance(t); }),
         ThrowsMessage<InvalidInput>(AllOf(HasSubstr("OdeIntegrator::advance"), HasSubstr("2 s"))));
   }
-  EXPECT_THAT([&] { integrator.restart(vector({1.0})); },
+  EXPECT_THAT(reference::Call([&] { integrator.restart(vector({1.0})); }),
               ThrowsMessage<InvalidInput>(HasSubstr("length 2, found 1")));
-  EXPECT_THAT(
-      [&] {
-        integrator.restart(vector({1.0, nan}));
-      },
-      ThrowsMessage<InvalidInput>(HasSubstr("not finite")));
-  EXPECT_THAT(
-      [&] {
-        integrator.restart(vector({1.0, 0.0}), Eigen::MatrixXd::Zero(2, 1));
-      },
-      ThrowsMessage<InvalidInput>(HasSubstr("0 x 0, found 2 x 1")));
+  EXPECT_THAT(reference::Call([&] {
+                integrator.restart(vector({1.0, nan}));
+              }),
+              ThrowsMessage<InvalidInput>(HasSubstr("not finite")));
+  EXPECT_THAT(reference::Call([&] {
+                integrator.restart(vector({1.0, 0.0}), Eigen::MatrixXd::Zero(2, 1));
+              }),
+              ThrowsMessage<InvalidInput>(HasSubstr("0 x 0, found 2 x 1")));
 }
 
 TEST(OdeIntegrator, RefusesOptionsThatDoNotFit) {
@@ -219,11 +218,10 @@ TEST(OdeIntegrator, RefusesOptionsThatDoNotFit) {
     OdeOptions options;
     options.sensitivities = true;
     spoil(options);
-    EXPECT_THAT(
-        [&] {
-          OdeIntegrator(system, 0.0, vector({1.0, 2.0}), options);
-        },
-        ThrowsMessage<InvalidInput>(HasSubstr(words)));
+    EXPECT_THAT(reference::Call([&] {
+                  OdeIntegrator(system, 0.0, vector({1.0, 2.0}), options);
+                }),
+                ThrowsMessage<InvalidInput>(HasSubstr(words)));
   };
   refusal([](OdeOptions& o) { o.relative_tolerance = -1e-6; }, "relative_tolerance");
   refusal([](OdeOptions& o) { o.relative_tolerance = nan; }, "relative_tolerance");
@@ -243,25 +241,22 @@ TEST(OdeIntegrator, RefusesOptionsThatDoNotFit) {
   OdeOptions options;
   options.sensitivities = true;
   const Linear plain = oscillator(1.0);
-  EXPECT_THAT(
-      [&] {
-        OdeIntegrator(plain, 0.0, vector({1.0, 0.0}), options);
-      },
-      ThrowsMessage<InvalidInput>(HasSubstr("a system with parameters")));
-  EXPECT_THAT([&] { OdeIntegrator(plain, 0.0, vector({1.0})); },
+  EXPECT_THAT(reference::Call([&] {
+                OdeIntegrator(plain, 0.0, vector({1.0, 0.0}), options);
+              }),
+              ThrowsMessage<InvalidInput>(HasSubstr("a system with parameters")));
+  EXPECT_THAT(reference::Call([&] { OdeIntegrator(plain, 0.0, vector({1.0})); }),
               ThrowsMessage<InvalidInput>(HasSubstr("length 2, found 1")));
-  EXPECT_THAT(
-      [&] {
-        OdeIntegrator(plain, nan, vector({1.0, 0.0}));
-      },
-      ThrowsMessage<InvalidInput>(HasSubstr("start time")));
-  EXPECT_THAT(
-      [&] {
-        OdeIntegrator(plain, 0.0, vector({nan, 0.0}));
-      },
-      ThrowsMessage<InvalidInput>(HasSubstr("not finite")));
+  EXPECT_THAT(reference::Call([&] {
+                OdeIntegrator(plain, nan, vector({1.0, 0.0}));
+              }),
+              ThrowsMessage<InvalidInput>(HasSubstr("start time")));
+  EXPECT_THAT(reference::Call([&] {
+                OdeIntegrator(plain, 0.0, vector({nan, 0.0}));
+              }),
+              ThrowsMessage<InvalidInput>(HasSubstr("not finite")));
   const Linear empty(Eigen::MatrixXd(0, 0), Eigen::VectorXd(0));
-  EXPECT_THAT([&] { OdeIntegrator(empty, 0.0, Eigen::VectorXd(0)); },
+  EXPECT_THAT(reference::Call([&] { OdeIntegrator(empty, 0.0, Eigen::VectorXd(0)); }),
               ThrowsMessage<InvalidInput>(HasSubstr("a system with states")));
 }
 

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "random_numbers.hpp"
+#include "refused_call.hpp"
 #include <boresight/numerics/eigenvalues.hpp>
 #include <boresight/numerics/error.hpp>
 #include <boresight/numerics/matrix_exponential.hpp>
@@ -83,10 +84,11 @@ TEST(PropagatedCovariance, OfPolesFastAgainstTheTimeIsTheSteadyState) {
 }
 
 TEST(PropagatedCovariance, RefusesWhatHasNoMeaning) {
-  EXPECT_THAT([] { propagate_covariance(one(1.0), one(1.0), one(1.0), 0.0); },
+  EXPECT_THAT(reference::Call([] { propagate_covariance(one(1.0), one(1.0), one(1.0), 0.0); }),
               ThrowsMessage<InvalidInput>(HasSubstr("found 0 s")));
-  EXPECT_THAT([] { propagate_covariance(one(1.0), Eigen::MatrixXd(2, 2), one(1.0), 1.0); },
-              ThrowsMessage<InvalidInput>(HasSubstr("2 x 2")));
+  EXPECT_THAT(
+      reference::Call([] { propagate_covariance(one(1.0), Eigen::MatrixXd(2, 2), one(1.0), 1.0); }),
+      ThrowsMessage<InvalidInput>(HasSubstr("2 x 2")));
   EXPECT_THROW(propagate_covariance(one(std::nan("")), one(1.0), one(1.0), 1.0), InvalidInput);
   EXPECT_THROW(propagate_covariance(one(1e4), one(1.0), one(1.0), 1.0), NumericalFailure);
   EXPECT_EQ(

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "random_systems.hpp"
+#include "refused_call.hpp"
 #include <boresight/numerics/error.hpp>
 #include <boresight/plant/linear/interconnection.hpp>
 
@@ -53,13 +54,12 @@ TEST(Subsystem, PicksAndReordersSignalsByName) {
   }
   EXPECT_THAT(some.inputs, ElementsAre("c", "a"));
   EXPECT_EQ(some.states, all.states);
-  EXPECT_THAT([&] { subsystem(all, {"d"}, {"y"}); },
+  EXPECT_THAT(reference::Call([&] { subsystem(all, {"d"}, {"y"}); }),
               ThrowsMessage<InvalidInput>(HasSubstr("inputs among a, b, c, found 'd'")));
-  EXPECT_THAT(
-      [&] {
-        subsystem(all, {"a"}, {"y", "y"});
-      },
-      ThrowsMessage<InvalidInput>(HasSubstr("the output 'y' is given twice")));
+  EXPECT_THAT(reference::Call([&] {
+                subsystem(all, {"a"}, {"y", "y"});
+              }),
+              ThrowsMessage<InvalidInput>(HasSubstr("the output 'y' is given twice")));
   EXPECT_EQ(subsystem(all, {}, {"y"}).b.cols(), 0);
 }
 
@@ -71,16 +71,14 @@ TEST(Renamed, ChangesNamesOnly) {
   EXPECT_THAT(after.outputs, ElementsAre("y"));
   EXPECT_THAT(after.states, ElementsAre("x1", "rate"));
   EXPECT_EQ(after.a, before.a);
-  EXPECT_THAT(
-      [&] {
-        renamed(before, {{"v", "w"}});
-      },
-      ThrowsMessage<InvalidInput>(HasSubstr("found 'v'")));
-  EXPECT_THAT(
-      [&] {
-        renamed(before, {{"x1", "x2"}});
-      },
-      ThrowsMessage<InvalidInput>(HasSubstr("found 'x2' twice")));
+  EXPECT_THAT(reference::Call([&] {
+                renamed(before, {{"v", "w"}});
+              }),
+              ThrowsMessage<InvalidInput>(HasSubstr("found 'v'")));
+  EXPECT_THAT(reference::Call([&] {
+                renamed(before, {{"x1", "x2"}});
+              }),
+              ThrowsMessage<InvalidInput>(HasSubstr("found 'x2' twice")));
 }
 
 TEST(Series, MultipliesResponsesWhateverTheOrderOfTheSignals) {
@@ -95,7 +93,7 @@ TEST(Series, MultipliesResponsesWhateverTheOrderOfTheSignals) {
   }
   EXPECT_THAT(both.states, ElementsAre("f1", "f2", "f3", "s1", "s2"));
   EXPECT_THAT(
-      [&] { series(second, first); },
+      reference::Call([&] { series(second, first); }),
       ThrowsMessage<InvalidInput>(HasSubstr("input of the second systems among y, z, found 'u'")));
 }
 
@@ -112,16 +110,14 @@ TEST(Parallel, AddsResponsesOfSignalsOfOneName) {
   }
   EXPECT_EQ(both.inputs, one.inputs);
   EXPECT_EQ(both.outputs, one.outputs);
-  EXPECT_THAT(
-      [&] {
-        parallel(one, subsystem(two, {"v"}, {"y", "z"}));
-      },
-      ThrowsMessage<InvalidInput>(HasSubstr("found 'u'")));
-  EXPECT_THAT(
-      [&] {
-        parallel(subsystem(one, {"u", "v"}, {"y"}), two);
-      },
-      ThrowsMessage<InvalidInput>(HasSubstr("found 'z'")));
+  EXPECT_THAT(reference::Call([&] {
+                parallel(one, subsystem(two, {"v"}, {"y", "z"}));
+              }),
+              ThrowsMessage<InvalidInput>(HasSubstr("found 'u'")));
+  EXPECT_THAT(reference::Call([&] {
+                parallel(subsystem(one, {"u", "v"}, {"y"}), two);
+              }),
+              ThrowsMessage<InvalidInput>(HasSubstr("found 'z'")));
 }
 
 TEST(Feedback, HasTheClosedLoopsSixTransferMatrices) {
@@ -178,7 +174,7 @@ TEST(Feedback, OfSampledSystemsTakesAStaticGain) {
   StateSpace other = renamed(delay, {{"u", "y"}, {"y", "u"}, {"x", "other"}});
   EXPECT_EQ(feedback(delay, other).states.size(), 2u);
   other.sample_time = 0.02;
-  EXPECT_THAT([&] { feedback(delay, other); },
+  EXPECT_THAT(reference::Call([&] { feedback(delay, other); }),
               ThrowsMessage<InvalidInput>(
                   AllOf(HasSubstr("one sample time"), HasSubstr("0.01"), HasSubstr("0.02"))));
 }
@@ -187,7 +183,7 @@ TEST(Feedback, NamesWhatItRefuses) {
   const auto lag = rational({1.0}, {1.0, 1.0}, "u", "y", "lag");
   const auto refused = [&](const StateSpace& back, const FeedbackOptions& options,
                            const char* message) {
-    EXPECT_THAT([&] { feedback(lag, back, options); },
+    EXPECT_THAT(reference::Call([&] { feedback(lag, back, options); }),
                 ThrowsMessage<InvalidInput>(HasSubstr(message)));
   };
   refused(gain(1.0, "x", "u"), {}, "found 'x'");
@@ -202,7 +198,7 @@ TEST(Feedback, NamesWhatItRefuses) {
 
 TEST(Feedback, NamesTheAlgebraicLoopWithoutSolution) {
   const auto bold = rational({1.0, 2.0}, {1.0, 1.0}, "u", "y", "lead");
-  EXPECT_THAT([&] { feedback(bold, gain(-0.5, "y", "u")); },
+  EXPECT_THAT(reference::Call([&] { feedback(bold, gain(-0.5, "y", "u")); }),
               ThrowsMessage<NumericalFailure>(
                   AllOf(HasSubstr("feedback: the algebraic loop through"), HasSubstr("u (total)"),
                         HasSubstr("y"), HasSubstr("delay"))));
@@ -225,19 +221,18 @@ TEST(LowerFractionalTransformation, IsTheFormulaOfItsBlocks) {
                                                               inverse(identity(2) - p22 * gain_k) *
                                                               all.bottomLeftCorner(2, 2));
   }
-  EXPECT_THAT(
-      [&] {
-        lower_fractional_transformation(p, renamed(k, {{"m1", "m3"}}));
-      },
-      ThrowsMessage<InvalidInput>(HasSubstr("found 'm3'")));
-  EXPECT_THAT(
-      [&] {
-        lower_fractional_transformation(p, renamed(k, {{"u1", "u3"}}));
-      },
-      ThrowsMessage<InvalidInput>(HasSubstr("found 'u3'")));
+  EXPECT_THAT(reference::Call([&] {
+                lower_fractional_transformation(p, renamed(k, {{"m1", "m3"}}));
+              }),
+              ThrowsMessage<InvalidInput>(HasSubstr("found 'm3'")));
+  EXPECT_THAT(reference::Call([&] {
+                lower_fractional_transformation(p, renamed(k, {{"u1", "u3"}}));
+              }),
+              ThrowsMessage<InvalidInput>(HasSubstr("found 'u3'")));
   const auto through = static_gain(Eigen::MatrixXd::Ones(2, 2), {"w", "u"}, {"z", "y"});
-  EXPECT_THAT([&] { lower_fractional_transformation(through, gain(1.0, "y", "u")); },
-              ThrowsMessage<NumericalFailure>(HasSubstr("loop through u, y has no solution")));
+  EXPECT_THAT(
+      reference::Call([&] { lower_fractional_transformation(through, gain(1.0, "y", "u")); }),
+      ThrowsMessage<NumericalFailure>(HasSubstr("loop through u, y has no solution")));
 }
 
 }  // namespace

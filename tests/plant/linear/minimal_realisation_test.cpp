@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "random_systems.hpp"
+#include "refused_call.hpp"
 #include <boresight/numerics/eigenvalues.hpp>
 #include <boresight/numerics/error.hpp>
 #include <boresight/plant/linear/minimal_realisation.hpp>
@@ -148,7 +149,7 @@ TEST(MinimalRealisation, OfNothingIsNothing) {
   EXPECT_EQ(empty.system.c.rows(), 1);
   EXPECT_NEAR(empty.uncontrollable[0].real(), -1.0, 1e-15);
   for (const double bad : {-1e-3, 1.0, std::nan("")}) {
-    EXPECT_THAT([&] { minimal_realisation(gain, {.tolerance = bad}); },
+    EXPECT_THAT(reference::Call([&] { minimal_realisation(gain, {.tolerance = bad}); }),
                 ThrowsMessage<InvalidInput>(HasSubstr("tolerance between 0 and 1")));
   }
 }

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "random_numbers.hpp"
+#include "refused_call.hpp"
 #include <boresight/numerics/error.hpp>
 #include <boresight/plant/linear/modal_form.hpp>
 
@@ -79,7 +80,7 @@ TEST(ModalForm, RefusesAChainOfEqualPoles) {
   system.a(0, 1) = 1.0;
   EXPECT_THROW(modal_form(system), NumericalFailure);
   system.a(0, 0) = std::numeric_limits<double>::quiet_NaN();
-  EXPECT_THAT([&] { modal_form(system); },
+  EXPECT_THAT(reference::Call([&] { modal_form(system); }),
               testing::ThrowsMessage<InvalidInput>(testing::HasSubstr("not finite")));
 }
 

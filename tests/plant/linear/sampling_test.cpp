@@ -6,6 +6,7 @@
 
 #include "peer_family.hpp"
 #include "random_systems.hpp"
+#include "refused_call.hpp"
 #include <boresight/numerics/eigenvalues.hpp>
 #include <boresight/numerics/error.hpp>
 #include <boresight/plant/linear/sampling.hpp>
@@ -254,7 +255,7 @@ TEST(Sample, NamesWhatItRefuses) {
              tustin = SamplingMethod::tustin;
   const auto refused = [&](double period, SamplingMethod method, const SamplingOptions& options,
                            const char* message) {
-    EXPECT_THAT([&] { sample(lag, period, method, options); },
+    EXPECT_THAT(reference::Call([&] { sample(lag, period, method, options); }),
                 ThrowsMessage<InvalidInput>(HasSubstr(message)));
   };
   for (const double bad : {0.0, -0.1, std::nan(""), HUGE_VAL}) {
@@ -268,13 +269,12 @@ TEST(Sample, NamesWhatItRefuses) {
   refused(0.1, zoh, {0.0, {-0.1}}, "-0.1 s at the input 'u'");
   refused(0.1, zoh, {0.0, {1e9}}, "10000 samples at most");
   refused(0.1, zoh, {0.0, {std::nan("")}}, "at the input 'u'");
-  EXPECT_THAT([&] { sample(sample(lag, 0.1), 0.1); },
+  EXPECT_THAT(reference::Call([&] { sample(sample(lag, 0.1), 0.1); }),
               ThrowsMessage<InvalidInput>(HasSubstr("found one with a sample time of 0.1 s")));
-  EXPECT_THAT(
-      [] {
-        sample(rational({1.0}, {-20.0, 1.0}, "u", "y", "x"), 0.1, SamplingMethod::tustin);
-      },
-      ThrowsMessage<NumericalFailure>(HasSubstr("a pole at 20 1/s")));
+  EXPECT_THAT(reference::Call([] {
+                sample(rational({1.0}, {-20.0, 1.0}, "u", "y", "x"), 0.1, SamplingMethod::tustin);
+              }),
+              ThrowsMessage<NumericalFailure>(HasSubstr("a pole at 20 1/s")));
   EXPECT_THROW(sample(rational({1.0}, {-1e5, 1.0}, "u", "y", "x"), 0.1), NumericalFailure);
 }
 

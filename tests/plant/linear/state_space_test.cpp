@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "random_numbers.hpp"
+#include "refused_call.hpp"
 #include <boresight/numerics/eigenvalues.hpp>
 #include <boresight/numerics/error.hpp>
 #include <boresight/plant/linear/state_space.hpp>
@@ -61,16 +62,14 @@ TEST(Rational, HasTheResponseOfItsPolynomials) {
 TEST(Rational, NamesItsStatesAndRefusesWhatIsNotProper) {
   EXPECT_THAT(rational({1.0}, {1.0, 0.5, 2.0}, "in", "out", "lag").states,
               ElementsAre("lag.1", "lag.2"));
-  EXPECT_THAT(
-      [] {
-        rational({0.0, 0.0, 1.0}, {1.0, 1.0}, "in", "out", "lead");
-      },
-      ThrowsMessage<InvalidInput>(HasSubstr("'lead': expected a proper function")));
-  EXPECT_THAT(
-      [] {
-        rational({1.0}, {1.0, 0.0}, "in", "out", "lag");
-      },
-      ThrowsMessage<InvalidInput>(HasSubstr("leading denominator coefficient")));
+  EXPECT_THAT(reference::Call([] {
+                rational({0.0, 0.0, 1.0}, {1.0, 1.0}, "in", "out", "lead");
+              }),
+              ThrowsMessage<InvalidInput>(HasSubstr("'lead': expected a proper function")));
+  EXPECT_THAT(reference::Call([] {
+                rational({1.0}, {1.0, 0.0}, "in", "out", "lag");
+              }),
+              ThrowsMessage<InvalidInput>(HasSubstr("leading denominator coefficient")));
   EXPECT_THROW(rational({}, {}, "in", "out", "lag"), InvalidInput);
 }
 
@@ -132,45 +131,38 @@ TEST(Connect, NamesTheSignalItRefuses) {
     return static_gain(Eigen::MatrixXd::Constant(1, 1, value), {input}, {output});
   };
   const auto lag = rational({1.0}, {1.0, 1.0}, "u", "y", "lag");
-  EXPECT_THAT(
-      [&] {
-        connect({gain("a", "y"), gain("b", "y")}, {"a", "b"}, {"y"});
-      },
-      ThrowsMessage<InvalidInput>(HasSubstr("output names, found 'y' twice")));
-  EXPECT_THAT(
-      [&] {
-        connect({gain("a", "y"), gain("b", "z")}, {"a"}, {"y"});
-      },
-      ThrowsMessage<InvalidInput>(HasSubstr("nothing feeds the input 'b'")));
-  EXPECT_THAT(
-      [&] {
-        connect({gain("a", "y")}, {"a", "idle"}, {"y"});
-      },
-      ThrowsMessage<InvalidInput>(HasSubstr("external input 'idle'")));
-  EXPECT_THAT(
-      [&] {
-        connect({gain("a", "y"), gain("y", "z")}, {"a", "y"}, {"z"});
-      },
-      ThrowsMessage<InvalidInput>(HasSubstr("'y' is also an output")));
-  EXPECT_THAT([&] { connect({gain("a", "y")}, {"a"}, {"x"}); },
+  EXPECT_THAT(reference::Call([&] {
+                connect({gain("a", "y"), gain("b", "y")}, {"a", "b"}, {"y"});
+              }),
+              ThrowsMessage<InvalidInput>(HasSubstr("output names, found 'y' twice")));
+  EXPECT_THAT(reference::Call([&] {
+                connect({gain("a", "y"), gain("b", "z")}, {"a"}, {"y"});
+              }),
+              ThrowsMessage<InvalidInput>(HasSubstr("nothing feeds the input 'b'")));
+  EXPECT_THAT(reference::Call([&] {
+                connect({gain("a", "y")}, {"a", "idle"}, {"y"});
+              }),
+              ThrowsMessage<InvalidInput>(HasSubstr("external input 'idle'")));
+  EXPECT_THAT(reference::Call([&] {
+                connect({gain("a", "y"), gain("y", "z")}, {"a", "y"}, {"z"});
+              }),
+              ThrowsMessage<InvalidInput>(HasSubstr("'y' is also an output")));
+  EXPECT_THAT(reference::Call([&] { connect({gain("a", "y")}, {"a"}, {"x"}); }),
               ThrowsMessage<InvalidInput>(HasSubstr("found 'x'")));
-  EXPECT_THAT(
-      [&] {
-        connect({lag, rational({1.0}, {1.0, 2.0}, "u", "z", "lag")}, {"u"}, {"y"});
-      },
-      ThrowsMessage<InvalidInput>(HasSubstr("found 'lag.1' twice")));
-  EXPECT_THAT(
-      [&] {
-        connect({gain("a", "y")}, {"a", "a"}, {"y"});
-      },
-      ThrowsMessage<InvalidInput>(HasSubstr("found 'a' twice")));
+  EXPECT_THAT(reference::Call([&] {
+                connect({lag, rational({1.0}, {1.0, 2.0}, "u", "z", "lag")}, {"u"}, {"y"});
+              }),
+              ThrowsMessage<InvalidInput>(HasSubstr("found 'lag.1' twice")));
+  EXPECT_THAT(reference::Call([&] {
+                connect({gain("a", "y")}, {"a", "a"}, {"y"});
+              }),
+              ThrowsMessage<InvalidInput>(HasSubstr("found 'a' twice")));
   // y = u + r, u = y: no solution.
   const auto sum = static_gain(Eigen::MatrixXd::Ones(1, 2), {"u", "r"}, {"y"});
-  EXPECT_THAT(
-      [&] {
-        connect({sum, gain("y", "u")}, {"r"}, {"y"});
-      },
-      ThrowsMessage<NumericalFailure>(HasSubstr("connect: the matrix is singular")));
+  EXPECT_THAT(reference::Call([&] {
+                connect({sum, gain("y", "u")}, {"r"}, {"y"});
+              }),
+              ThrowsMessage<NumericalFailure>(HasSubstr("connect: the matrix is singular")));
   // With gain 1/2 it has one: y = 2 r.
   EXPECT_DOUBLE_EQ(connect({sum, gain("y", "u", 0.5)}, {"r"}, {"y"}).d(0, 0), 2.0);
 }
@@ -182,7 +174,8 @@ TEST(Validate, NamesTheMatrixThatDoesNotFit) {
   const auto refused = [&](auto change, const char* message) {
     StateSpace system = sound;
     change(system);
-    EXPECT_THAT([&] { validate(system); }, ThrowsMessage<InvalidInput>(HasSubstr(message)));
+    EXPECT_THAT(reference::Call([&] { validate(system); }),
+                ThrowsMessage<InvalidInput>(HasSubstr(message)));
   };
   refused([](StateSpace& s) { s.a = Eigen::MatrixXd::Zero(3, 2); }, "expected A as 3 x 3");
   refused([](StateSpace& s) { s.b = Eigen::MatrixXd::Zero(3, 1); }, "expected B as 3 x 2");
@@ -198,9 +191,9 @@ TEST(SignalIndex, FindsANameOrListsWhatThereIs) {
   const StateSpace system = random_system(random, 2, {"u", "v"}, {"y", "z"}, "x");
   EXPECT_EQ(input_index(system, "v"), 1);
   EXPECT_EQ(output_index(system, "y"), 0);
-  EXPECT_THAT([&] { input_index(system, "w"); },
+  EXPECT_THAT(reference::Call([&] { input_index(system, "w"); }),
               ThrowsMessage<InvalidInput>(HasSubstr("inputs u, v, found 'w'")));
-  EXPECT_THAT([&] { output_index(system, "w"); },
+  EXPECT_THAT(reference::Call([&] { output_index(system, "w"); }),
               ThrowsMessage<InvalidInput>(HasSubstr("outputs y, z, found 'w'")));
 }
 

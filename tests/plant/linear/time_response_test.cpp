@@ -5,6 +5,7 @@
 
 #include "peer_family.hpp"
 #include "random_systems.hpp"
+#include "refused_call.hpp"
 #include <boresight/numerics/eigenvalues.hpp>
 #include <boresight/numerics/error.hpp>
 #include <boresight/plant/linear/sampling.hpp>
@@ -213,28 +214,28 @@ TEST(LinearSimulation, OfADecayThroughTheSmallestNumbersEndsAtZero) {
 TEST(LinearSimulation, NamesWhatItRefuses) {
   const auto lag = rational({1.0}, {1.0, 1.0}, "u", "y", "x");
   for (const double bad : {0.0, -1.0, std::nan(""), HUGE_VAL}) {
-    EXPECT_THAT([&] { LinearSimulation(lag, bad); },
+    EXPECT_THAT(reference::Call([&] { LinearSimulation(lag, bad); }),
                 ThrowsMessage<InvalidInput>(HasSubstr("a step above 0")));
   }
-  EXPECT_THAT([&] { LinearSimulation(sample(lag, 0.1), 0.2); },
+  EXPECT_THAT(reference::Call([&] { LinearSimulation(sample(lag, 0.1), 0.2); }),
               ThrowsMessage<InvalidInput>(HasSubstr("the sample time of the system, 0.1 s")));
-  EXPECT_THAT([&] { LinearSimulation(sample(lag, 0.1), 0.1, {foh}); },
+  EXPECT_THAT(reference::Call([&] { LinearSimulation(sample(lag, 0.1), 0.1, {foh}); }),
               ThrowsMessage<InvalidInput>(HasSubstr("for continuous systems")));
   for (const double largest_condition : {1e8, none}) {
     LinearSimulation simulation(lag, 0.1, {zoh, largest_condition});
-    EXPECT_THAT([&] { simulation.simulate(Eigen::MatrixXd::Ones(5, 2)); },
+    EXPECT_THAT(reference::Call([&] { simulation.simulate(Eigen::MatrixXd::Ones(5, 2)); }),
                 ThrowsMessage<InvalidInput>(HasSubstr("found 5 x 2")));
     Eigen::MatrixXd gap = Eigen::MatrixXd::Ones(5, 1), y(4, 1);
     EXPECT_THROW(simulation.simulate(gap, y), InvalidInput);
     gap(3, 0) = std::nan("");
-    EXPECT_THAT([&] { simulation.simulate(gap); },
+    EXPECT_THAT(reference::Call([&] { simulation.simulate(gap); }),
                 ThrowsMessage<InvalidInput>(HasSubstr("not finite")));
-    EXPECT_THAT([&] { simulation.start_from(Eigen::VectorXd::Ones(2)); },
+    EXPECT_THAT(reference::Call([&] { simulation.start_from(Eigen::VectorXd::Ones(2)); }),
                 ThrowsMessage<InvalidInput>(HasSubstr("found 2")));
     EXPECT_THROW(simulation.start_from(Eigen::VectorXd::Constant(1, HUGE_VAL)), InvalidInput);
     LinearSimulation runaway(rational({1.0}, {-5.0, 1.0}, "u", "y", "x"), 0.1,
                              {zoh, largest_condition});
-    EXPECT_THAT([&] { runaway.simulate(Eigen::MatrixXd::Ones(2000, 1)); },
+    EXPECT_THAT(reference::Call([&] { runaway.simulate(Eigen::MatrixXd::Ones(2000, 1)); }),
                 ThrowsMessage<NumericalFailure>(HasSubstr("overflows within the record")));
     EXPECT_THROW(LinearSimulation(rational({1.0}, {-5.0, 1.0}, "u", "y", "x"), 1e3,
                                   {zoh, largest_condition}),

@@ -5,6 +5,7 @@
 
 #include "random_numbers.hpp"
 #include "reference_values.hpp"
+#include "refused_call.hpp"
 #include <boresight/numerics/eigenvalues.hpp>
 #include <boresight/numerics/error.hpp>
 #include <boresight/plant/linear/transfer_function.hpp>
@@ -144,7 +145,7 @@ TEST(ZerosPolesGain, OfIntegratorsAndDoublePolesIsExact) {
 TEST(ZerosPolesGain, NamesWhatItRefuses) {
   const auto refused = [](const Roots& zeros, const Roots& poles, double gain,
                           const char* message) {
-    EXPECT_THAT([&] { zeros_poles_gain(zeros, poles, gain, "u", "y", "lead"); },
+    EXPECT_THAT(reference::Call([&] { zeros_poles_gain(zeros, poles, gain, "u", "y", "lead"); }),
                 ThrowsMessage<InvalidInput>(HasSubstr(message)));
   };
   refused({-1.0, -2.0}, {-3.0}, 1.0, "'lead': expected no more zeros than poles");
@@ -153,7 +154,7 @@ TEST(ZerosPolesGain, NamesWhatItRefuses) {
   refused({}, {{-1.0, 2.0}, {-1.0, -2.1}}, 1.0, "no conjugate");
   refused({}, {std::nan("")}, 1.0, "a pole is not finite");
   refused({}, {-1.0}, HUGE_VAL, "gain is not finite");
-  EXPECT_THAT([] { zeros_poles_gain({}, {-1.0}, 1.0, "u", "y", "x", -1.0); },
+  EXPECT_THAT(reference::Call([] { zeros_poles_gain({}, {-1.0}, 1.0, "u", "y", "x", -1.0); }),
               ThrowsMessage<InvalidInput>(HasSubstr("sample time")));
 }
 

@@ -5,6 +5,7 @@
 
 #include "peer_family.hpp"
 #include "random_numbers.hpp"
+#include "refused_call.hpp"
 #include <boresight/numerics/error.hpp>
 #include <boresight/plant/modal/modal_system.hpp>
 
@@ -44,7 +45,8 @@ TEST(ModalSystem, NamesEachDefect) {
   const auto refuse = [](auto change, const char* message) {
     auto system = reference::peer_modal_system(3);
     change(system);
-    EXPECT_THAT([&] { validate(system); }, ThrowsMessage<InvalidInput>(HasSubstr(message)));
+    EXPECT_THAT(reference::Call([&] { validate(system); }),
+                ThrowsMessage<InvalidInput>(HasSubstr(message)));
   };
   refuse([](ModalSystem& s) { s.modes.frequency[1] = -2.0; },
          "expected mode 2 at 0 rad/s or above, found -2 rad/s");
@@ -77,7 +79,7 @@ TEST(ModalSystem, WithADeadTimeHasNoStateSpace) {
   auto system = reference::peer_modal_system(3);
   system.inputs.pop_back();
   system.dead_times.push_back({"u", "d", 0.01});
-  EXPECT_THAT([&] { to_state_space(system); },
+  EXPECT_THAT(reference::Call([&] { to_state_space(system); }),
               ThrowsMessage<InvalidInput>(HasSubstr("the dead time from 'u' to 'd'")));
 }
 

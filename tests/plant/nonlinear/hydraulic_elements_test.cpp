@@ -6,6 +6,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "refused_call.hpp"
 #include <boresight/numerics/error.hpp>
 #include <boresight/plant/nonlinear/hydraulic_elements.hpp>
 
@@ -111,21 +112,22 @@ TEST(ReliefValve, RestsBetweenItsStops) {
 TEST(HydraulicElements, RefuseWhatCannotBe) {
   constexpr double nan = std::numeric_limits<double>::quiet_NaN();
   EXPECT_THAT(
-      [] { orifice_coefficient(-1e-6, 0.6, 850.0); },
+      reference::Call([] { orifice_coefficient(-1e-6, 0.6, 850.0); }),
       ThrowsMessage<InvalidInput>(HasSubstr("an opening at least 0 and finite, found -1e-06")));
-  EXPECT_THAT([] { orifice_coefficient(1e-6, 0.0, 850.0); },
+  EXPECT_THAT(reference::Call([] { orifice_coefficient(1e-6, 0.0, 850.0); }),
               ThrowsMessage<InvalidInput>(HasSubstr("a discharge coefficient above 0")));
-  EXPECT_THAT([] { orifice_coefficient(1e-6, 0.6, nan); },
+  EXPECT_THAT(reference::Call([] { orifice_coefficient(1e-6, 0.6, nan); }),
               ThrowsMessage<InvalidInput>(HasSubstr("a density above 0 and finite, found nan")));
-  EXPECT_THAT([] { volume_stiffness(0.0, 1.0); },
+  EXPECT_THAT(reference::Call([] { volume_stiffness(0.0, 1.0); }),
               ThrowsMessage<InvalidInput>(HasSubstr("volume_stiffness: expected a bulk modulus")));
-  EXPECT_THAT([] { volume_stiffness(1e9, -1.0); },
+  EXPECT_THAT(reference::Call([] { volume_stiffness(1e9, -1.0); }),
               ThrowsMessage<InvalidInput>(HasSubstr("a volume above 0")));
   EXPECT_NO_THROW(validate(relief()));
   const auto refusal = [](const std::function<void(ReliefValve&)>& spoil, const char* words) {
     ReliefValve valve = relief();
     spoil(valve);
-    EXPECT_THAT([&] { validate(valve); }, ThrowsMessage<InvalidInput>(HasSubstr(words)));
+    EXPECT_THAT(reference::Call([&] { validate(valve); }),
+                ThrowsMessage<InvalidInput>(HasSubstr(words)));
   };
   refusal([](ReliefValve& v) { v.opening_pressure = 0.0; }, "opening_pressure over the tank's");
   refusal([](ReliefValve& v) { v.tank_pressure = nan; }, "tank_pressure");

@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "band_power.hpp"
+#include "refused_call.hpp"
 #include <boresight/numerics/error.hpp>
 #include <boresight/plant/wind/gust_spectrum.hpp>
 
@@ -130,12 +131,12 @@ TEST(GustSpectrum, DavenportsDragOfALogarithmicProfile) {
 
 TEST(GustSpectrum, RefusesParametersWithoutMeaning) {
   for (const double bad : {-0.1, std::nan(""), infinity}) {
-    EXPECT_THAT([&] { davenport_gusts(bad); },
+    EXPECT_THAT(reference::Call([&] { davenport_gusts(bad); }),
                 ThrowsMessage<InvalidInput>(HasSubstr("a surface_drag of at least 0")));
-    EXPECT_THAT([&] { von_karman_gusts(bad, 100.0); },
+    EXPECT_THAT(reference::Call([&] { von_karman_gusts(bad, 100.0); }),
                 ThrowsMessage<InvalidInput>(HasSubstr("a turbulence_intensity of at least 0")));
     EXPECT_THAT(
-        [&] { von_karman_gusts(0.1, bad); },
+        reference::Call([&] { von_karman_gusts(0.1, bad); }),
         ThrowsMessage<InvalidInput>(HasSubstr("von_karman_gusts: expected a length_scale")));
     EXPECT_THROW(kaimal_gusts(bad, 30.0), InvalidInput);
     EXPECT_THROW(kaimal_gusts(0.1, bad), InvalidInput);
@@ -146,16 +147,16 @@ TEST(GustSpectrum, RefusesParametersWithoutMeaning) {
     EXPECT_THROW(davenport_surface_drag(bad, 0.03), InvalidInput);
     EXPECT_THROW(davenport_surface_drag(10.0, bad), InvalidInput);
     for (const auto& gusts : all_kinds) {
-      EXPECT_THAT([&] { gust_spectrum(gusts, bad, 1.0); },
+      EXPECT_THAT(reference::Call([&] { gust_spectrum(gusts, bad, 1.0); }),
                   ThrowsMessage<InvalidInput>(HasSubstr("gust_spectrum: expected a mean_speed")));
-      EXPECT_THAT([&] { gust_spectrum(gusts, 10.0, bad); },
+      EXPECT_THAT(reference::Call([&] { gust_spectrum(gusts, 10.0, bad); }),
                   ThrowsMessage<InvalidInput>(HasSubstr("gust_spectrum: expected a frequency")));
       EXPECT_THROW(gust_variance(gusts, bad), InvalidInput);
     }
     EXPECT_THROW(davenport_spectrum(bad, 10.0, 1.0), InvalidInput);
   }
   EXPECT_THROW(davenport_surface_drag(0.02, 0.03), InvalidInput);
-  EXPECT_THAT([] { eurocode_turbulence_intensity(0.5, 1.0, 0.9); },
+  EXPECT_THAT(reference::Call([] { eurocode_turbulence_intensity(0.5, 1.0, 0.9); }),
               ThrowsMessage<InvalidInput>(HasSubstr("above the roughness_length of 1 m")));
   GustSpectrum none;
   none.kind = static_cast<GustSpectrumKind>(7);

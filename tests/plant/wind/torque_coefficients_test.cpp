@@ -7,6 +7,7 @@
 
 #include "random_numbers.hpp"
 #include "reference_antenna.hpp"
+#include "refused_call.hpp"
 #include <boresight/numerics/angles.hpp>
 #include <boresight/numerics/error.hpp>
 #include <boresight/plant/wind/torque_coefficients.hpp>
@@ -77,10 +78,10 @@ TEST(TorqueCoefficientTable, GoesOnRoundAFullCircle) {
 
 TEST(TorqueCoefficientTable, RefusesAttitudesItDoesNotHold) {
   const TorqueCoefficientTable table = plane_table();
-  EXPECT_THAT([&] { table.at(-31.0 * degree, 1.0); },
+  EXPECT_THAT(reference::Call([&] { table.at(-31.0 * degree, 1.0); }),
               ThrowsMessage<InvalidInput>(HasSubstr("expected a yaw of -0.52")));
   EXPECT_THROW(table.at(329.0 * degree, 1.0), InvalidInput);
-  EXPECT_THAT([&] { table.at(0.0, 9.0 * degree); },
+  EXPECT_THAT(reference::Call([&] { table.at(0.0, 9.0 * degree); }),
               ThrowsMessage<InvalidInput>(HasSubstr("expected an elevation of 0.17")));
   EXPECT_NO_THROW(table.at(0.0, 0.5 * std::numbers::pi + 1e-12));
   for (const double bad : {std::nan(""), std::numeric_limits<double>::infinity()}) {
@@ -96,7 +97,7 @@ TEST(TorqueCoefficientTable, RefusesTablesThatAreNone) {
   const Eigen::MatrixXd values = Eigen::MatrixXd::Zero(3, 2);
   const auto refused = [](const Eigen::VectorXd& x, const Eigen::VectorXd& y,
                           const Eigen::MatrixXd& z, const char* words) {
-    EXPECT_THAT([&] { TorqueCoefficientTable(x, y, z); },
+    EXPECT_THAT(reference::Call([&] { TorqueCoefficientTable(x, y, z); }),
                 ThrowsMessage<InvalidInput>(HasSubstr(words)));
   };
   refused({}, elevation, values, "at least 2 values of yaw, found 0");

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "reference_antenna.hpp"
+#include "refused_call.hpp"
 #include <boresight/numerics/angles.hpp>
 #include <boresight/numerics/error.hpp>
 #include <boresight/plant/wind/wind.hpp>
@@ -116,11 +117,11 @@ TEST(ShapingFilter, AsAStateSpaceHasItsSpectrum) {
 TEST(FitShapingFilter, RefusesTooFewPointsAndValuesThatAreNotPositive) {
   const Eigen::ArrayXd f = frequencies(7);
   const Eigen::ArrayXd s = Eigen::ArrayXd::Ones(7);
-  EXPECT_THAT([&] { fit_shaping_filter(f, s, 4); },
+  EXPECT_THAT(reference::Call([&] { fit_shaping_filter(f, s, 4); }),
               ThrowsMessage<InvalidInput>(HasSubstr("at least 8 points")));
   EXPECT_THROW(fit_shaping_filter(f, s, 0), InvalidInput);
   EXPECT_THROW(fit_shaping_filter(f, Eigen::ArrayXd::Ones(6), 1), InvalidInput);
-  EXPECT_THAT([&] { fit_shaping_filter(f, -s, 1); },
+  EXPECT_THAT(reference::Call([&] { fit_shaping_filter(f, -s, 1); }),
               ThrowsMessage<InvalidInput>(HasSubstr("positive finite")));
   EXPECT_THROW(fit_shaping_filter(-f, s, 1), InvalidInput);
   EXPECT_THROW(fit_shaping_filter(f, s * std::nan(""), 1), InvalidInput);

@@ -7,6 +7,7 @@
 
 #include "band_power.hpp"
 #include "reference_antenna.hpp"
+#include "refused_call.hpp"
 #include <boresight/numerics/angles.hpp>
 #include <boresight/numerics/error.hpp>
 #include <boresight/plant/wind/wind_record.hpp>
@@ -157,14 +158,14 @@ TEST(WindRecord, WithDirectionsFollowsTheTable) {
   // Where the table ends, it says so.
   const TorqueCoefficientTable front(yaw.head(2) / 2.0, elevation, values.topRows(2));
   record.direction.setLinSpaced(0.0, two_pi);
-  EXPECT_THAT([&] { wind_record_torque(record, site, front, pointing); },
+  EXPECT_THAT(reference::Call([&] { wind_record_torque(record, site, front, pointing); }),
               ThrowsMessage<InvalidInput>(HasSubstr("expected a yaw of")));
 }
 
 TEST(WindRecord, RefusesWhatNoAnemometerRecords) {
   const WindSite site = reference::wind_site();
   const auto refused = [&](const WindRecord& record, const char* words) {
-    EXPECT_THAT([&] { wind_record_torque(record, site); },
+    EXPECT_THAT(reference::Call([&] { wind_record_torque(record, site); }),
                 ThrowsMessage<InvalidInput>(HasSubstr(words)));
   };
   const Eigen::VectorXd speed = Eigen::VectorXd::Constant(5, 8.0);
@@ -183,11 +184,10 @@ TEST(WindRecord, RefusesWhatNoAnemometerRecords) {
   refused({0.1, speed, speed * std::nan("")}, "finite directions");
   const Eigen::VectorXd axis = Eigen::VectorXd::LinSpaced(2, 0.0, 1.0);
   const TorqueCoefficientTable table(axis, axis, Eigen::MatrixXd::Zero(2, 2));
-  EXPECT_THAT(
-      [&] {
-        wind_record_torque({0.1, speed, {}}, site, table, {});
-      },
-      ThrowsMessage<InvalidInput>(HasSubstr("a record with directions")));
+  EXPECT_THAT(reference::Call([&] {
+                wind_record_torque({0.1, speed, {}}, site, table, {});
+              }),
+              ThrowsMessage<InvalidInput>(HasSubstr("a record with directions")));
   EXPECT_THROW(wind_record_torque({0.1, speed, {}}, site, {static_cast<WindModel>(8), false}),
                InvalidInput);
 }

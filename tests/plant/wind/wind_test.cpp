@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "reference_antenna.hpp"
+#include "refused_call.hpp"
 #include <boresight/numerics/angles.hpp>
 #include <boresight/numerics/error.hpp>
 #include <boresight/plant/wind/wind.hpp>
@@ -258,8 +259,9 @@ TEST(WindSite, RefusesElementsWithoutMeaning) {
   const auto refused = [](double WindSite::*element, double value, const char* words) {
     WindSite site = reference::wind_site();
     site.*element = value;
-    EXPECT_THAT([&] { wind_torque_spectrum(site, WindModel::coherence, 10.0, 1.0); },
-                ThrowsMessage<InvalidInput>(HasSubstr(words)));
+    EXPECT_THAT(
+        reference::Call([&] { wind_torque_spectrum(site, WindModel::coherence, 10.0, 1.0); }),
+        ThrowsMessage<InvalidInput>(HasSubstr(words)));
     EXPECT_THROW(mean_wind_torque(site, 10.0), InvalidInput);
     EXPECT_THROW(wind_torque_sensitivity(site, 10.0), InvalidInput);
     EXPECT_THROW(wind_admittance(site, WindModel::uniform, 10.0, 1.0), InvalidInput);
@@ -283,7 +285,7 @@ TEST(WindSite, RefusesElementsWithoutMeaning) {
   refused(&WindSite::gradient_coefficient, infinity, "a gradient_coefficient that is finite");
   WindSite site = reference::wind_site();
   site.gusts = GustSpectrum{GustSpectrumKind::kaimal, 0.0, 0.1, 0.0};
-  EXPECT_THAT([&] { validate(site, "here"); },
+  EXPECT_THAT(reference::Call([&] { validate(site, "here"); }),
               ThrowsMessage<InvalidInput>(HasSubstr("here: expected a length_scale above 0")));
   EXPECT_THROW(wind_admittance(reference::wind_site(), static_cast<WindModel>(9), 10.0, 1.0),
                InvalidInput);
@@ -292,7 +294,7 @@ TEST(WindSite, RefusesElementsWithoutMeaning) {
 TEST(WindTorqueSpectrum, RefusesFrequenciesAndSpeedsWithoutMeaning) {
   const WindSite site = reference::wind_site();
   for (const double bad : {0.0, -1.0, std::nan(""), std::numeric_limits<double>::infinity()}) {
-    EXPECT_THAT([&] { wind_torque_spectrum(site, WindModel::uniform, bad, 1.0); },
+    EXPECT_THAT(reference::Call([&] { wind_torque_spectrum(site, WindModel::uniform, bad, 1.0); }),
                 ThrowsMessage<InvalidInput>(HasSubstr("wind_torque_spectrum")));
     EXPECT_THROW(wind_torque_spectrum(site, WindModel::uniform, 10.0, bad), InvalidInput);
   }

@@ -6,6 +6,7 @@
 
 #include "band_power.hpp"
 #include "reference_antenna.hpp"
+#include "refused_call.hpp"
 #include <boresight/numerics/angles.hpp>
 #include <boresight/numerics/error.hpp>
 #include <boresight/plant/linear/time_response.hpp>
@@ -199,7 +200,8 @@ TEST(WindTimeSeries, RefusesWhatItsPartsRefuse) {
   };
   EXPECT_NO_THROW(draw());
   site.coherence_decay = -8.0;
-  EXPECT_THAT(draw, ThrowsMessage<InvalidInput>(HasSubstr("a coherence_decay that is at least 0")));
+  EXPECT_THAT(reference::Call(draw),
+              ThrowsMessage<InvalidInput>(HasSubstr("a coherence_decay that is at least 0")));
   EXPECT_THROW(gust_series(site, speed, 10.0, 0.1), InvalidInput);
   site = reference::wind_site();
   EXPECT_THROW(gust_series(site, -1.0, 10.0, 0.1), InvalidInput);

@@ -23,7 +23,8 @@ function(boresight_sanitized_module name)
   target_include_directories(sanitized_${name} SYSTEM PRIVATE ${ARGN})
   # What the libraries allocate the tests free: by one and the same convention. Eigen would else align by
   # its own hand under the address sanitizer, whose memory is aligned as glibc's.
-  target_compile_definitions(sanitized_${name} PRIVATE EIGEN_MALLOC_ALREADY_ALIGNED=1)
+  target_compile_definitions(sanitized_${name} PRIVATE EIGEN_MALLOC_ALREADY_ALIGNED=1
+    _GLIBCXX_ASSERTIONS)
   target_compile_options(sanitized_${name} PRIVATE
     -O1 -g1 -UNDEBUG ${boresight_sanitizers} -fno-omit-frame-pointer -Wno-maybe-uninitialized -Werror)
   boresight_precompiled_headers(sanitized_${name} sanitized_numerics)

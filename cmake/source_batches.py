@@ -20,7 +20,7 @@ import sys
 
 # A declaration at the start of a line: the name before the first of (, =, {, [ and ;.
 DECLARED = re.compile(r"^(?!#|//|namespace\b|using namespace\b|\}|template\b|[A-Z_]+\()"
-                      r"[^\s][^({=;\[]*?(\w+)\s*[({=;\[]")
+                      r"(?:\[\[[^\]]*\]\]\s*)?[^\s][^({=;\[]*?(\w+)\s*[({=;\[]")
 TYPE = re.compile(r"^(?:struct|class|enum class|enum|union) (\w+)")
 # GoogleMock's matchers are declared by a macro, and classes are made of their names.
 MATCHER = re.compile(r"^MATCHER\w*\((\w+)")

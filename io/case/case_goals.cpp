@@ -56,10 +56,10 @@ void check_band(const TableReader& table, const GoalsEntry& goals) {
   }
 }
 
-const Range peak_range = Range::between(1.01, 100.0);
-const Range effort_range = Range::positive();
-const Range lowest_range = Range::between(1e-6, 1.0);
-const Range highest_range = Range::between(1.0, 1e4);
+constexpr Range peak_range = Range::between(1.01, 100.0);
+constexpr Range effort_range = Range::positive();
+constexpr Range lowest_range = Range::between(1e-6, 1.0);
+constexpr Range highest_range = Range::between(1.0, 1e4);
 
 }  // namespace
 

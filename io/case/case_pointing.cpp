@@ -14,7 +14,7 @@ namespace {
 
 constexpr double millidegrees = 180e3 / std::numbers::pi;  // of a radian
 // Of k (rad).
-const Range factor_range = Range::between(0.5, 2.0);
+constexpr Range factor_range = Range::between(0.5, 2.0);
 
 // k by a measured beamwidth.
 Quantity factor_by_beamwidth(TableReader& entry, const Quantity& beamwidth, double per_factor) {

@@ -53,10 +53,10 @@ struct Range {
   double maximum = 1e300;
   bool minimum_excluded = false;
 
-  static Range any() { return {}; }
-  static Range positive(double maximum = 1e300) { return {0.0, maximum, true}; }
-  static Range not_negative(double maximum = 1e300) { return {0.0, maximum, false}; }
-  static Range between(double minimum, double maximum) { return {minimum, maximum, false}; }
+  static constexpr Range any() noexcept { return {}; }
+  static constexpr Range positive(double maximum = 1e300) noexcept { return {0.0, maximum, true}; }
+  static constexpr Range not_negative(double maximum = 1e300) noexcept { return {0.0, maximum, false}; }
+  static constexpr Range between(double minimum, double maximum) noexcept { return {minimum, maximum, false}; }
 };
 
 }  // namespace boresight::io

@@ -24,12 +24,14 @@ class Reader : public Base {
 std::vector<double> read(int from) {
   return {};
 }
+[[noreturn]] void refuse(int what) {
+}
 MATCHER_P(IsNear, other, "") {
 }
 TEST(Suite, Name) {
 }
 """ + TAIL + "void exported() {}\n"
-assert local_names(declared) == {"limit", "Row", "Reader", "read", "IsNear"}, local_names(declared)
+assert local_names(declared) == {"limit", "Row", "Reader", "read", "refuse", "IsNear"}, local_names(declared)
 
 with tempfile.TemporaryDirectory() as name:
     folder = pathlib.Path(name)

@@ -55,8 +55,12 @@ struct Range {
 
   static constexpr Range any() noexcept { return {}; }
   static constexpr Range positive(double maximum = 1e300) noexcept { return {0.0, maximum, true}; }
-  static constexpr Range not_negative(double maximum = 1e300) noexcept { return {0.0, maximum, false}; }
-  static constexpr Range between(double minimum, double maximum) noexcept { return {minimum, maximum, false}; }
+  static constexpr Range not_negative(double maximum = 1e300) noexcept {
+    return {0.0, maximum, false};
+  }
+  static constexpr Range between(double minimum, double maximum) noexcept {
+    return {minimum, maximum, false};
+  }
 };
 
 }  // namespace boresight::io

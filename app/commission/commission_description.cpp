@@ -119,19 +119,22 @@ void describe_compared(io::Visitor& v, const design::BandComparison& band) {
 void describe_comparison(io::Visitor& v, const ChannelComparison& channel) {
   const auto& comparison = channel.comparison;
   constexpr io::NumberForm known{.finite = true};
-  v.text("channel", channel.channel, "of both records");
-  v.text("unit", channel.unit, "of the channel");
+  v.text("channel", to_string(channel.quantity), "of both records");
+  v.text("unit", unit_of(channel.quantity), "of the channel");
   v.text_or_null("not_compared", channel.not_compared,
                  "why it could not be compared; its numbers then mean nothing");
   v.group("whole", "over all frequencies compared",
           [&] { describe_compared(v, comparison.whole); });
   v.list("bands", comparison.bands, "by rising frequency",
          [&](const design::BandComparison& band) { describe_compared(v, band); });
-  v.number("predicted_ratio", channel.predicted, unit::ratio,
-           "by the plan's first and last stage in the design wind");
-  v.number("predicted_ratio_lower", channel.predicted_lower, unit::ratio, "over the plants");
-  v.number("predicted_ratio_upper", channel.predicted_upper, unit::ratio, "over the plants");
-  v.flag("agrees", channel.predicted ? std::optional(channel.agrees) : std::nullopt,
+  const auto& predicted = channel.predicted;
+  v.number("predicted_ratio", predicted ? std::optional(predicted->value) : std::nullopt,
+           unit::ratio, "by the plan's first and last stage in the design wind");
+  v.number("predicted_ratio_lower", predicted ? std::optional(predicted->lower) : std::nullopt,
+           unit::ratio, "over the plants");
+  v.number("predicted_ratio_upper", predicted ? std::optional(predicted->upper) : std::nullopt,
+           unit::ratio, "over the plants");
+  v.flag("agrees", predicted ? std::optional(agrees(comparison, *predicted)) : std::nullopt,
          "whether the two intervals meet");
   v.numbers("frequency", comparison.frequency, unit::hertz, "of the densities", known);
   const io::KeyUnit density{.suffix = "per_Hz"};

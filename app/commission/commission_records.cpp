@@ -1,4 +1,5 @@
-#include <algorithm>
+#include <optional>
+#include <utility>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -9,8 +10,6 @@
 
 namespace boresight::app {
 namespace {
-
-using identification::Signal;
 
 const identification::DriveRecord& find_record(const std::vector<io::LoadedRecord>& records,
                                                const std::string& name) {
@@ -25,36 +24,6 @@ const identification::DriveRecord& find_record(const std::vector<io::LoadedRecor
   }
   throw InvalidInput(fmt::format("commission: expected a record of the case, {}, found '{}'",
                                  fmt::join(known, ", "), name));
-}
-
-std::vector<bool> both(const std::vector<bool>& one, const std::vector<bool>& other) {
-  if (one.empty()) return other;
-  std::vector<bool> result = one;
-  for (std::size_t i = 0; i < other.size(); ++i) result[i] = result[i] && other[i];
-  return result;
-}
-
-design::RecordedChannel channel(const Eigen::VectorXd& values, const std::vector<bool>& valid,
-                                double sample_time) {
-  return {values, valid, sample_time};
-}
-
-design::RecordedChannel torque_of(const identification::DriveRecord& record,
-                                  const identification::DriveKnowledge& knowledge) {
-  std::vector<bool> valid;
-  for (const auto& signal : record.inlet_pressure) valid = both(valid, signal.valid);
-  for (const auto& signal : record.outlet_pressure) valid = both(valid, signal.valid);
-  return channel(identification::recorded_torque(record, knowledge), valid, record.sample_time);
-}
-
-design::RecordedChannel rate_error(const identification::DriveRecord& record,
-                                   const Signal& command) {
-  return channel(record.motor_rate.values - command.values,
-                 both(record.motor_rate.valid, command.valid), record.sample_time);
-}
-
-design::RecordedChannel of(const Signal& signal, double sample_time) {
-  return channel(signal.values, signal.valid, sample_time);
 }
 
 }  // namespace
@@ -77,31 +46,8 @@ std::vector<ChannelComparison> compare_case_records(const io::Case& antenna,
   io::CampaignNotes notes;
   const auto knowledge = drive_knowledge(antenna, notes);
   std::vector<ChannelComparison> result;
-  const auto add = [&](const char* name, const char* unit, const design::RecordedChannel& one,
-                       const design::RecordedChannel& other) {
-    ChannelComparison comparison;
-    comparison.channel = name;
-    comparison.unit = unit;
-    try {
-      comparison.comparison = design::compare_records(one, other);
-    } catch (const NumericalFailure& failure) {
-      // Clipped too often; other channels may serve.
-      comparison.not_compared = failure.what();
-    }
-    result.push_back(std::move(comparison));
-  };
-  if (first.rate_command && second.rate_command) {
-    add("motor rate less its command", "rad/s", rate_error(first, *first.rate_command),
-        rate_error(second, *second.rate_command));
-  }
-  add("motor rate", "rad/s", of(first.motor_rate, first.sample_time),
-      of(second.motor_rate, second.sample_time));
-  if (!first.inlet_pressure.empty() && !second.inlet_pressure.empty()) {
-    add("torque", "N.m", torque_of(first, knowledge), torque_of(second, knowledge));
-  }
-  if (first.valve_command && second.valve_command) {
-    add("valve command", "rad/s", of(*first.valve_command, first.sample_time),
-        of(*second.valve_command, second.sample_time));
+  for (auto& compared : design::compare_drive_records(first, second, knowledge)) {
+    result.push_back({std::move(compared), std::nullopt});
   }
   return result;
 }

@@ -10,14 +10,10 @@
 #include <boresight/app/redesign/assumed_inputs.hpp>
 #include <boresight/app/redesign/sections.hpp>
 #include <boresight/app/report/sky_units.hpp>
-#include <boresight/app/simulate/time_domain.hpp>
 #include <boresight/app/tune/gains_at_bounds.hpp>
 #include <boresight/app/tune/structure_option.hpp>
-#include <boresight/design/studies/controller_study.hpp>
+#include <boresight/design/studies/commission_study.hpp>
 #include <boresight/io/case/drive_numbers.hpp>
-#include <boresight/io/case/mission_of.hpp>
-#include <boresight/io/case/plant_numbers.hpp>
-#include <boresight/io/case/present_gains.hpp>
 #include <boresight/io/units/wording.hpp>
 #include <boresight/numerics/angles.hpp>
 #include <boresight/numerics/error.hpp>
@@ -27,14 +23,6 @@ namespace {
 
 using design::PlantBand;
 using design::StageKind;
-
-// Of the valve's stroke and the supply's torque that a step takes at most.
-constexpr double step_share = 0.2;
-// A move that any antenna makes: a twentieth of the slew rate, reached in two seconds.
-constexpr double move_share = 0.05;
-constexpr double move_ramp = 2.0;
-// Steps of commands are no larger than this at the sky.
-constexpr double largest_angle_step = 100.0 * millidegree;
 
 std::string structure_of_gains(const CommissionOptions& options) {
   return options.structure.empty() ? "DPF" : options.structure;
@@ -92,10 +80,9 @@ control::ControlLaw recommended(const io::DesignedAntenna& designed,
   }
   design::ControllerStudy study = study_controllers(designed.mission, designed.ensemble, tuning);
   if (options.interrupted && options.interrupted()) throw Interrupted("interrupted by the user");
-  // One that limit-cycles is planned for with a warning. The stages are for every plant: a nominal
-  // design will not do.
-  const TunedLaw* law = recommended_or(study, design::Fitness::lost_in_wind);
-  if (law == nullptr || law->tuned_for != TunedFor::robust || !law->goals_met) {
+  // One that limit-cycles is planned for with a warning.
+  const TunedLaw* law = commissionable(study);
+  if (law == nullptr) {
     report.structure = fmt::format("{}", fmt::join(study.tuned.structures, ", "));
     const auto shortfalls = section_of(designed.antenna, std::move(study.tuned)).shortfalls;
     throw InfeasibleRequirement(fmt::format(
@@ -107,28 +94,6 @@ control::ControlLaw recommended(const io::DesignedAntenna& designed,
   report.structure = law->structure;
   report.bounds = about_bounds(study.tuned, io::GainUnits(designed.antenna), {law});
   return law->design.tuning.law;
-}
-
-// 1, 2 or 5 times a power of ten, no larger.
-double round_down(double value) {
-  const double decade = std::pow(10.0, std::floor(std::log10(value)));
-  for (const double step : {5.0, 2.0}) {
-    if (step * decade <= value * (1.0 + 1e-12)) return step * decade;
-  }
-  return decade;
-}
-
-// In rad/s or rad at the sky, a round number of mdeg.
-double step_of(const io::Case& antenna, const design::CommissioningStage& stage) {
-  const double by_valve =
-      step_share * largest_demand(antenna) / stage.expected.largest_demand.largest;
-  const double by_torque =
-      step_share * supply_torque(antenna) / stage.expected.largest_torque.largest;
-  const double largest =
-      stage.law.position_open ? step_share * antenna.drive.slew_rate.value : largest_angle_step;
-  const double step =
-      std::min({by_valve / io::gear_ratio(antenna), by_torque / io::gear_ratio(antenna), largest});
-  return std::isfinite(step) ? millidegree * round_down(step / millidegree) : std::nan("");
 }
 
 std::string range(const PlantBand& band, double unit, int digits) {
@@ -252,15 +217,16 @@ std::vector<StageGain> acting_gains(const io::Case& antenna, const design::Stage
   return gains;
 }
 
-std::vector<StageSheet> make_sheets(const io::Case& antenna, const CommissionReport& report) {
+std::vector<StageSheet> make_sheets(const io::Case& antenna, const CommissionReport& report,
+                                    const std::vector<double>& steps) {
   std::vector<StageSheet> sheets;
   sheets.reserve(report.plan.stages.size());
-  for (const auto& stage : report.plan.stages) {
+  for (std::size_t i = 0; i < report.plan.stages.size(); ++i) {
     const StageSheet* before = sheets.empty() ? nullptr : &sheets.back();
     StageSheet sheet;
-    sheet.stage = stage;
-    sheet.gains = acting_gains(antenna, stage.law, before);
-    sheet.step = step_of(antenna, stage);
+    sheet.stage = report.plan.stages[i];
+    sheet.gains = acting_gains(antenna, sheet.stage.law, before);
+    sheet.step = steps[i];
     describe_check(antenna, sheet);
     describe_abort(antenna, sheet, report);
     describe_way_back(before, sheet);
@@ -269,46 +235,16 @@ std::vector<StageSheet> make_sheets(const io::Case& antenna, const CommissionRep
   return sheets;
 }
 
-// What the plan says the ratio of rms should be, if it knows what the antenna runs on now.
-void predict(const design::CommissioningPlan& plan, ChannelComparison& channel) {
-  if (!channel.not_compared.empty() || plan.stages.front().kind != StageKind::as_found) return;
-  const auto& first = plan.stages.front().expected;
-  const auto& last = plan.stages.back().expected;
-  const auto set = [&](const PlantBand& before, const PlantBand& after) {
-    if (!std::isfinite(before.upper) || !std::isfinite(after.upper)) return;
-    channel.predicted = after.nominal / before.nominal;
-    channel.predicted_lower = after.lower / before.upper;
-    channel.predicted_upper = after.upper / before.lower;
-    channel.agrees = channel.comparison.whole.lower <= after.upper / before.lower &&
-                     after.lower / before.upper <= channel.comparison.whole.upper;
-  };
-  if (channel.channel == "motor rate") set(first.windy_tachometer, last.windy_tachometer);
-  if (channel.channel == "torque") set(first.windy_torque, last.windy_torque);
-  if (channel.channel == "valve command") set(first.windy_valve, last.windy_valve);
-}
-
-// The linear plant of the stages does not know friction. In still air: the wind is theirs.
-std::optional<double> hunting_beyond_budget(const design::Mission& mission,
-                                            const design::TrackingProblem& problem,
-                                            const control::ControlLaw& law, std::uint64_t seed) {
-  auto options = comparison_options(mission, seed);
-  options.wind_duration = 1.0;
-  const auto run = run_in_time_domain(mission, problem, law, options);
-  if (!run || design::holds_still(run->hunting, options.settled_error)) return std::nullopt;
-  return design::hunting_seen(run->hunting) ? design::hunting_amplitude(run->hunting)
-                                            : std::numeric_limits<double>::infinity();
-}
-
 void conclude_plan(const CommissionReport& report, const io::Case& antenna,
                    std::vector<std::string>& sentences) {
-  if (report.hunting) {
+  if (report.limit_cycle) {
     sentences.push_back(fmt::format(
         "On the nonlinear antenna {} {}: the stages are those of linear loops. Measure the "
         "friction before this law is set, or plan for another.",
         report.structure,
-        std::isfinite(*report.hunting)
+        std::isfinite(*report.limit_cycle)
             ? fmt::format("hunts by +-{:.2f} mdeg, beyond the tightest budget",
-                          *report.hunting / millidegree)
+                          *report.limit_cycle / millidegree)
             : std::string("does not complete a run in still air")));
   }
   sentences.insert(sentences.end(), report.bounds.begin(), report.bounds.end());
@@ -360,14 +296,15 @@ std::vector<std::string> conclude(const CommissionReport& report, const io::Case
     const auto& whole = channel.comparison.whole;
     std::string sentence = fmt::format(
         "{}, {:.3g} to {:.3g} Hz: rms after is {:.3g} times that before ({:.3g} to {:.3g}): {}.",
-        channel.channel, whole.lowest, whole.highest, whole.ratio, whole.lower, whole.upper,
-        to_string(whole.change));
+        to_string(channel.quantity), whole.lowest, whole.highest, whole.ratio, whole.lower,
+        whole.upper, to_string(whole.change));
     sentence[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(sentence[0])));
-    if (channel.predicted && channel.predicted_lower && channel.predicted_upper) {
+    if (channel.predicted) {
+      const auto& predicted = *channel.predicted;
       sentence +=
           fmt::format(" The plan predicts {:.3g} ({:.3g} to {:.3g}) in the design wind: {}.",
-                      *channel.predicted, *channel.predicted_lower, *channel.predicted_upper,
-                      channel.agrees ? "they agree" : "they do not agree");
+                      predicted.value, predicted.lower, predicted.upper,
+                      agrees(channel.comparison, predicted) ? "they agree" : "they do not agree");
     }
     sentences.push_back(std::move(sentence));
   }
@@ -385,7 +322,6 @@ CommissionReport plan_commission(const io::DesignedAntenna& designed,
         "commission: expected both --before and --after, or neither: one record alone shows no "
         "change");
   }
-  const design::TrackingProblem problem = tracking_problem(designed.mission);
   CommissionReport report;
   report.case_path = antenna.path;
   report.title = antenna.title;
@@ -395,9 +331,9 @@ CommissionReport plan_commission(const io::DesignedAntenna& designed,
   report.structure = report.tuned ? options.structure : structure_of_gains(options);
   report.ensemble_source = to_string(ensemble.source);
   report.ensemble_size = ensemble.members.size();
-  report.wind_speed = problem.wind.mean_speed;
+  report.wind_speed = designed.mission.wind.mean_speed;
   report.wind_model = antenna.wind.model;
-  report.gear_ratio = problem.gear_ratio;
+  report.gear_ratio = gear_ratio(designed.mission.antenna);
   report.before = options.before;
   report.after = options.after;
   report.assumed = assumed_inputs(antenna, {.valve_stroke = true});
@@ -409,16 +345,12 @@ CommissionReport plan_commission(const io::DesignedAntenna& designed,
       progress("planning", done, all);
     };
   }
-  const double rate = move_share * antenna.drive.slew_rate.value * problem.gear_ratio;
-  report.move = {rate, rate / move_ramp};
+  report.move = design::commissioning_move(designed.mission);
   if (!options.structure.empty()) io::loop_structure(antenna, options.structure);
   if (!options.before.empty()) {
     report.comparisons =
         compare_case_records(antenna, options.before, options.after, options.threads);
   }
-  std::optional<control::ControlLaw> found;
-  const auto& present = designed.mission.present_controllers;
-  if (!present.empty()) found = present.front().law;
   // What the records say of work that is done does not hang on a plan.
   const auto without_plan = [&](const std::exception& error) {
     if (report.comparisons.empty()) throw;
@@ -428,11 +360,14 @@ CommissionReport plan_commission(const io::DesignedAntenna& designed,
   try {
     const control::ControlLaw target =
         report.tuned ? recommended(designed, options, report) : given_law(antenna, options);
-    report.plan = design::plan_commissioning(problem, ensemble.members, found, target, report.move,
-                                             report.options);
-    for (auto& channel : report.comparisons) predict(report.plan, channel);
-    report.sheets = make_sheets(antenna, report);
-    report.hunting = hunting_beyond_budget(designed.mission, problem, target, options.seed);
+    const design::CommissionStudy study =
+        study_commission(designed.mission, ensemble, target, report.options, options.seed);
+    report.plan = study.plan;
+    report.limit_cycle = study.limit_cycle;
+    for (auto& channel : report.comparisons) {
+      channel.predicted = predicted_ratio(report.plan, channel.quantity);
+    }
+    report.sheets = make_sheets(antenna, report, study.steps);
   } catch (const InfeasibleRequirement& error) {
     without_plan(error);
   } catch (const NumericalFailure& error) {

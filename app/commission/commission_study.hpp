@@ -11,7 +11,7 @@
 #include <boresight/app/document/document.hpp>
 #include <boresight/app/figures/figure.hpp>
 #include <boresight/design/commissioning/commissioning.hpp>
-#include <boresight/design/commissioning/commissioning_records.hpp>
+#include <boresight/design/commissioning/drive_record_comparison.hpp>
 #include <boresight/io/campaign/designed_antenna.hpp>
 
 namespace boresight::io {
@@ -55,18 +55,9 @@ struct StageSheet {
   std::string way_back;  // how
 };
 
-/// One channel of two records of the case.
-struct ChannelComparison {
-  std::string channel;  // "motor rate less its command", "motor rate", "torque", "valve command"
-  std::string unit;     // "rad/s", "N.m"
-  /// Why it could not be compared; empty if it was.
-  std::string not_compared;
-  design::RecordComparison comparison;
-  /// Of the rms, after over before, that the plan's first and last stage predict in the design
-  /// wind, and over the plants; none where the gains found are not known or the channel is not
-  /// predicted.
-  std::optional<double> predicted, predicted_lower, predicted_upper;
-  bool agrees = false;  // the two intervals meet
+/// One quantity of two records of the case.
+struct ChannelComparison : design::QuantityComparison {
+  std::optional<design::RatioBand> predicted;  // predicted_ratio of the plan
 };
 
 struct CommissionReport {
@@ -86,10 +77,7 @@ struct CommissionReport {
   /// is one.
   std::exception_ptr failure;
   std::string no_plan;
-  /// Beam amplitude (rad) by which the law hunts on the nonlinear antenna, where that is beyond the
-  /// tightest budget, infinite if it did not complete a run without wind; none where it is not, or
-  /// the case has no [simulation].
-  std::optional<double> hunting;
+  std::optional<double> limit_cycle;  // CommissionStudy::limit_cycle
   /// What is to be known of gains of a tuned law that ended at a bound of their search.
   std::vector<std::string> bounds;
   std::vector<StageSheet> sheets;

@@ -72,12 +72,14 @@ Document comparison_part(const CommissionReport& report) {
       heading(fmt::format("Before and after: '{}' and '{}'", report.before, report.after));
   for (const auto& channel : report.comparisons) {
     if (!channel.not_compared.empty()) {
-      text += wrapped(
-          fmt::format("{}: cannot be compared: {}", channel.channel, channel.not_compared), "  ");
+      text += wrapped(fmt::format("{}: cannot be compared: {}", to_string(channel.quantity),
+                                  channel.not_compared),
+                      "  ");
       continue;
     }
-    Rows rows{{channel.channel, "Hz", "before " + channel.unit, "after " + channel.unit, "ratio",
-               "from", "to", "freedom before", "after", "verdict"}};
+    const std::string unit(unit_of(channel.quantity));
+    Rows rows{{std::string(to_string(channel.quantity)), "Hz", "before " + unit, "after " + unit,
+               "ratio", "from", "to", "freedom before", "after", "verdict"}};
     const auto add = [&](const design::BandComparison& band, const std::string& name) {
       rows.push_back({name, fmt::format("{:.3g} .. {:.3g}", band.lowest, band.highest),
                       fmt::format("{:.4g}", band.rms_before), fmt::format("{:.4g}", band.rms_after),

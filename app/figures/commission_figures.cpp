@@ -173,14 +173,14 @@ std::vector<Figure> comparisons(const CommissionReport& report) {
     const auto& compared = channel.comparison;
     if (!channel.not_compared.empty() || compared.frequency.size() < 2) continue;
     Figure figure = make_figure(
-        figure_id("compared " + channel.channel),
+        figure_id(fmt::format("compared {}", to_string(channel.quantity))),
         fmt::format("Before and after: '{}' and '{}'", report.before, report.after),
-        fmt::format("Before and after: {}", channel.channel),
+        fmt::format("Before and after: {}", to_string(channel.quantity)),
         "Spectral densities of the two records and the ratio of their rms by band with 95 % "
         "intervals, for stationary records under the same disturbance.",
         make_axis("frequency", "Hz", AxisScale::logarithmic));
-    FigurePanel density = make_panel(
-        make_axis("density", fmt::format("({})2/Hz", channel.unit), AxisScale::logarithmic));
+    FigurePanel density = make_panel(make_axis(
+        "density", fmt::format("({})2/Hz", unit_of(channel.quantity)), AxisScale::logarithmic));
     density.series = {
         make_series("before", SeriesStyle::line, compared.frequency, compared.density_before),
         make_series("after", SeriesStyle::dashed, compared.frequency, compared.density_after)};

@@ -105,6 +105,7 @@ const TunedLaw* recommended_or(const ControllerStudy& study, Fitness accepted) {
   if (study.time_domain && accepted >= Fitness::lost_in_wind) {
     return shown_law(study.tuned, &*study.time_domain);
   }
+  if (study.tuned.wind_speeds.empty()) return nullptr;
   return recommended_at(study.tuned, study.tuned.wind_speeds.front(), true, {.accepted = accepted});
 }
 

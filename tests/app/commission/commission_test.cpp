@@ -154,7 +154,7 @@ TEST(Commission, ComparesTwoRecordsOfTheCase) {
     EXPECT_LT(channel.comparison.whole.lower, channel.comparison.whole.ratio);
     EXPECT_LT(channel.comparison.whole.ratio, channel.comparison.whole.upper);
     EXPECT_GE(channel.comparison.bands.size(), 3U);
-    if (channel.channel == "motor rate") {
+    if (channel.quantity == design::ComparedQuantity::motor_rate) {
       EXPECT_EQ(channel.comparison.whole.change, design::Change::worse);
     }
   }

@@ -1,0 +1,82 @@
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <boresight/design/studies/commission_study.hpp>
+#include <boresight/numerics/angles.hpp>
+#include <boresight/plant/nonlinear/drive_capability.hpp>
+
+namespace boresight::design {
+namespace {
+
+constexpr double step_share = 0.2;
+constexpr double move_share = 0.05;
+constexpr double move_ramp = 2.0;  // s
+constexpr double largest_angle_step = 100.0 * millidegree;
+
+// 1, 2 or 5 times a power of ten, no larger.
+double round_down(double value) {
+  const double decade = std::pow(10.0, std::floor(std::log10(value)));
+  for (const double step : {5.0, 2.0}) {
+    if (step * decade <= value * (1.0 + 1e-12)) return step * decade;
+  }
+  return decade;
+}
+
+double step_of(const plant::Antenna& antenna, const CommissioningStage& stage) {
+  const double by_valve =
+      step_share * plant::largest_demand(antenna) / stage.expected.largest_demand.largest;
+  const double by_torque =
+      step_share * plant::supply_torque(antenna) / stage.expected.largest_torque.largest;
+  const double largest =
+      stage.law.position_open ? step_share * antenna.drive.slew_rate : largest_angle_step;
+  const double step = std::min(
+      {plant::motor_to_sky(antenna, by_valve), plant::motor_to_sky(antenna, by_torque), largest});
+  return std::isfinite(step) ? millidegree * round_down(step / millidegree)
+                             : std::numeric_limits<double>::quiet_NaN();
+}
+
+// The linear plant of the stages does not know friction. In still air: the wind is theirs.
+std::optional<double> limit_cycle_beyond_budget(const Mission& mission,
+                                                const TrackingProblem& problem,
+                                                const control::ControlLaw& law,
+                                                std::uint64_t seed) {
+  auto options = comparison_options(mission, seed);
+  options.wind_duration = 1.0;
+  const auto run = run_in_time_domain(mission, problem, law, options);
+  if (!run || holds_still(run->hunting, options.settled_error)) return std::nullopt;
+  return hunting_seen(run->hunting) ? hunting_amplitude(run->hunting)
+                                    : std::numeric_limits<double>::infinity();
+}
+
+}  // namespace
+
+const TunedLaw* commissionable(const ControllerStudy& study) {
+  const TunedLaw* law = recommended_or(study, Fitness::lost_in_wind);
+  return law != nullptr && law->tuned_for == TunedFor::robust && law->goals_met ? law : nullptr;
+}
+
+CommandedMove commissioning_move(const Mission& mission) {
+  const double rate =
+      plant::sky_to_motor(mission.antenna, move_share * mission.antenna.drive.slew_rate);
+  return {rate, rate / move_ramp};
+}
+
+CommissionStudy study_commission(const Mission& mission, const PlantEnsemble& ensemble,
+                                 const control::ControlLaw& target,
+                                 const CommissioningOptions& options, std::uint64_t seed) {
+  CommissionStudy study;
+  study.problem = tracking_problem(mission);
+  study.move = commissioning_move(mission);
+  std::optional<control::ControlLaw> found;
+  if (!mission.present_controllers.empty()) found = mission.present_controllers.front().law;
+  study.plan =
+      plan_commissioning(study.problem, ensemble.members, found, target, study.move, options);
+  for (const auto& stage : study.plan.stages) {
+    study.steps.push_back(step_of(mission.antenna, stage));
+  }
+  study.limit_cycle = limit_cycle_beyond_budget(mission, study.problem, target, seed);
+  return study;
+}
+
+}  // namespace boresight::design

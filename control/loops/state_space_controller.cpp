@@ -181,7 +181,7 @@ ControlledPoint ControlledAntenna::at(double frequency) {
     const double half = 0.5 * frequency * sample_time_;
     s = std::polar(1.0, 2.0 * half);
     const double hold = half < 1e-8 ? 1.0 : std::sin(half) / half;
-    to_valve = std::polar(hold, -3.0 * half);  // hold, one sample of computation
+    to_valve = hold * std::polar(1.0, -3.0 * half);  // hold, one sample of computation
     if (!sampled_plant_->evaluate(s, sampled_response_)) sampled_response_.setConstant(nothing);
     for (std::size_t k = 0; k < command.size(); ++k) {
       command.at(k) = sampled_response_(static_cast<Eigen::Index>(k), 0) / s;

@@ -30,23 +30,22 @@ std::string not_worth_paying(const EvaluateSection& section, const DecisionSecti
   const std::size_t choice = worth_its_cost(section, decision);
   const Candidate& best = section.candidates[decision.candidates[decision.best].candidate];
   if (choice == decision.best || !best.feasible()) return "";
-  const auto& options = decision.statistics.options;
+  const auto weighed = weighed_losses(section, decision);
   return fmt::format(
-      "{} is {:.1f} % better than {} on average, too little to pay for: {}.",
+      "{} is {:.1f} % better than {} {}, too little to pay for: {}.",
       name_of(section, decision, decision.best),
-      100.0 * (1.0 - options[decision.best].mean / options[choice].mean),
-      name_of(section, decision, choice),
+      100.0 * (1.0 - weighed.losses[decision.best] / weighed.losses[choice]),
+      name_of(section, decision, choice), weighed_phrase(weighed.by),
       section.candidates[decision.candidates[choice].candidate].path.empty()
           ? "no proposal is worth its cost"
           : fmt::format("of these {} is worth its cost", name_of(section, decision, choice)));
 }
 
-// The place of the least mean of all where it is of one that is not fit to be chosen.
+// The place of the least rms of all where it is of one that is not fit to be chosen.
 std::optional<std::size_t> unfit_least(const EvaluateSection& section,
                                        const DecisionSection& decision) {
-  const auto& options = decision.statistics.options;
-  const auto least = std::ranges::min_element(options, {}, &design::OptionStatistics::mean);
-  const auto place = static_cast<std::size_t>(least - options.begin());
+  const auto losses = weighed_losses(section, decision).losses;
+  const auto place = static_cast<std::size_t>(std::ranges::min_element(losses) - losses.begin());
   if (section.candidates[decision.candidates[place].candidate].feasible()) return std::nullopt;
   return place;
 }
@@ -54,13 +53,17 @@ std::optional<std::size_t> unfit_least(const EvaluateSection& section,
 // What choosing it loses, and whether any other may be taken in its place.
 std::string regret(const EvaluateSection& section, const DecisionSection& decision) {
   const auto& options = decision.statistics.options;
+  const auto weighed = weighed_losses(section, decision);
   if (const auto least = unfit_least(section, decision)) {
     return fmt::format(
-        " Over the draws {} has the least mean of all, {:.4f} mdeg, but {} and is left out: the "
+        " Over the draws {} has the least rms of all, {:.4f} mdeg {}, but {} and is left out: the "
         "chances to be the best and the regrets above count it, and say nothing of those fit to be "
         "chosen.",
-        name_of(section, decision, *least), options[*least].mean,
+        name_of(section, decision, *least), weighed.losses[*least], weighed_phrase(weighed.by),
         why_not(section.candidates[decision.candidates[*least].candidate]));
+  }
+  if (!std::isfinite(options[decision.best].expected_regret)) {
+    return " Each that is fit is unstable on some draws: means and regrets over them are infinite.";
   }
   const auto counted = unfit_but_counted(section, decision);
   return fmt::format(" Choosing it loses {:.4f} mdeg on average against whoever knew the plant{}.",
@@ -88,20 +91,24 @@ std::string probabilities(const EvaluateSection& section, const DecisionSection&
   }
   if (section.candidates[decision.candidates[decision.second].candidate].feasible()) {
     parts.push_back(fmt::format(
-        "better than {} with probability {}, by {:.4f} +- {:.4f} mdeg on average",
-        name_of(section, decision, decision.second), share(better), gain, pair.gain_error));
+        "better than {} with probability {}{}", name_of(section, decision, decision.second),
+        share(better),
+        std::isfinite(gain)
+            ? fmt::format(", by {:.4f} +- {:.4f} mdeg on average", gain, pair.gain_error)
+            : std::string()));
   }
   return parts.empty() ? "" : fmt::format("; it is {}", fmt::join(parts, " and "));
 }
 
 std::string chances(const EvaluateSection& section, const DecisionSection& decision) {
-  const auto& options = decision.statistics.options;
+  const auto weighed = weighed_losses(section, decision);
+  const double least = weighed.losses[decision.best];
   const Candidate& best = section.candidates[decision.candidates[decision.best].candidate];
   if (!best.feasible()) {
     return fmt::format(
-        "Nothing is to be chosen by the {} draws: {} has the least mean rms with the gains held, "
-        "{:.4f} mdeg, but {}.",
-        decision.draws, best.name, options[decision.best].mean, why_not(best));
+        "Nothing is to be chosen by the {} draws: {} has the least rms with the gains held, {:.4f} "
+        "mdeg {}, but {}.",
+        decision.draws, best.name, least, weighed_phrase(weighed.by), why_not(best));
   }
   const auto pair = std::ranges::find_if(decision.statistics.pairs, [&](const auto& one) {
     return (one.first == decision.best && one.second == decision.second) ||
@@ -112,8 +119,8 @@ std::string chances(const EvaluateSection& section, const DecisionSection& decis
     return !section.candidates[one.candidate].feasible();
   });
   std::string text = fmt::format(
-      "Least mean rms with the gains held{}: {}, {:.4f} mdeg{}.{}",
-      some_unfit ? ", of those fit to be chosen" : "", best.name, options[decision.best].mean,
+      "Least rms with the gains held{}: {}, {:.4f} mdeg {}{}.{}",
+      some_unfit ? ", of those fit to be chosen" : "", best.name, least, weighed_phrase(weighed.by),
       probabilities(section, decision, *pair), regret(section, decision));
   text += fmt::format(
       " The intervals are those of {} draws ({}); another view of what is uncertain may move the "

@@ -245,11 +245,33 @@ std::string ended_at_bounds(const EvaluateSection& section) {
 
 }  // namespace
 
+design::WeighedLosses weighed_losses(const EvaluateSection& section,
+                                     const DecisionSection& decision) {
+  std::vector<bool> fit;
+  for (const auto& one : decision.candidates) {
+    fit.push_back(section.candidates[one.candidate].feasible());
+  }
+  return design::weigh_losses(decision.statistics.options, fit);
+}
+
+std::string_view weighed_phrase(design::WeighedBy measure) {
+  switch (measure) {
+    case design::WeighedBy::mean:
+      return "on average";
+    case design::WeighedBy::upper_quantile:
+      return "at the 95 % quantile";
+    case design::WeighedBy::median:
+      return "at the median";
+  }
+  return "";
+}
+
 std::size_t worth_its_cost(const EvaluateSection& section, const DecisionSection& decision) {
+  const auto weighed = weighed_losses(section, decision);
   std::vector<design::PricedOption> priced;
-  for (std::size_t i = 0; i < decision.statistics.options.size(); ++i) {
+  for (std::size_t i = 0; i < weighed.losses.size(); ++i) {
     const Candidate& candidate = section.candidates[decision.candidates[i].candidate];
-    priced.push_back({candidate.feasible(), candidate.cost, decision.statistics.options[i].mean});
+    priced.push_back({candidate.feasible(), candidate.cost, weighed.losses[i]});
   }
   return design::worth_its_cost(priced, decision.best);
 }

@@ -59,6 +59,12 @@ struct EvaluateSection {
   std::vector<std::string> not_run;  // what an interrupt left out
 };
 
+/// design::weigh_losses of the decision's candidates.
+design::WeighedLosses weighed_losses(const EvaluateSection& section,
+                                     const DecisionSection& decision);
+/// "on average", "at the 95 % quantile", "at the median": behind an rms or a change of it.
+std::string_view weighed_phrase(design::WeighedBy measure);
+
 /// design::worth_its_cost of the decision's candidates, as a place in `decision.candidates`.
 std::size_t worth_its_cost(const EvaluateSection& section, const DecisionSection& decision);
 

@@ -149,13 +149,14 @@ namespace {
 // Whether there are several candidates to choose from, and no two of their means over the draws
 // differ by what decides anything.
 bool all_alike(const EvaluateSection& section, const DecisionSection& draws) {
+  const auto losses = weighed_losses(section, draws).losses;
   double least = HUGE_VAL, largest = 0.0;
   int fit = 0;
   for (std::size_t i = 0; i < draws.candidates.size(); ++i) {
     if (!section.candidates[draws.candidates[i].candidate].feasible()) continue;
     ++fit;
-    least = std::min(least, draws.statistics.options[i].mean);
-    largest = std::max(largest, draws.statistics.options[i].mean);
+    least = std::min(least, losses[i]);
+    largest = std::max(largest, losses[i]);
   }
   return fit > 1 && largest < (1.0 + negligible_change) * least;
 }
@@ -173,8 +174,11 @@ std::vector<std::string> decision(const EvaluateSection& section) {
     const Candidate& best = section.candidates[draws.candidates[draws.best].candidate];
     const auto& options = draws.statistics.options;
     const std::string currency = section.currency.empty() ? "of cost" : section.currency;
-    const std::string mean = fmt::format("{:.3f} mdeg rms on average over {} draws in {:.3g} m/s",
-                                         options[choice].mean, draws.draws, section.wind_speed);
+    const auto weighed = weighed_losses(section, draws);
+    const std::string mean = fmt::format("{:.3f} mdeg rms {} {} {} draws in {:.3g} m/s",
+                                         weighed.losses[choice], weighed_phrase(weighed.by),
+                                         weighed.by == design::WeighedBy::mean ? "over" : "of",
+                                         draws.draws, section.wind_speed);
     const bool fit = chosen.feasible();
     const std::string yet = none.empty() ? "Nothing is to be chosen yet." : none;
     std::string text =
@@ -188,7 +192,7 @@ std::vector<std::string> decision(const EvaluateSection& section) {
                                       : std::string("at a cost that its file does not state"));
     if (fit && choice != draws.best && best.feasible()) {
       text += fmt::format("; {} lowers that by {:.1f} %, too little to pay {}for", best.name,
-                          100.0 * (1.0 - options[draws.best].mean / options[choice].mean),
+                          100.0 * (1.0 - weighed.losses[draws.best] / weighed.losses[choice]),
                           best.cost ? fmt::format("{:g} {} ", *best.cost, currency) : "");
     }
     sentences.push_back(text + ".");

@@ -110,16 +110,19 @@ class Decision {
     found_.statistics = compare_options(rms_);
     find_front_shares();
     const auto& options = found_.statistics.options;
+    std::vector<bool> fit;
+    for (std::size_t i = 0; i < options.size(); ++i) fit.push_back(candidate(i).feasible());
+    const WeighedLosses weighed = weigh_losses(options, fit);
+    found_.weighed_by = weighed.by;
     std::vector<std::size_t> order(options.size());
     for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
-    std::ranges::stable_sort(order, {}, [&](std::size_t i) {
-      return std::pair(!candidate(i).feasible(), options[i].mean);
-    });
+    std::ranges::stable_sort(order, {},
+                             [&](std::size_t i) { return std::pair(!fit[i], weighed.losses[i]); });
     found_.best = order[0];
     found_.second = order[1];
     std::vector<PricedOption> priced;
     for (std::size_t i = 0; i < options.size(); ++i) {
-      priced.push_back({candidate(i).feasible(), candidate(i).cost, options[i].mean});
+      priced.push_back({fit[i], candidate(i).cost, weighed.losses[i]});
     }
     found_.worth = worth_its_cost(priced, found_.best);
   }
@@ -237,15 +240,15 @@ double cost_of(const PricedOption& option) {
 std::size_t worth_its_cost(const std::vector<PricedOption>& options, std::size_t best) {
   double least = std::numeric_limits<double>::infinity();
   for (const auto& option : options) {
-    if (option.fit) least = std::min(least, option.mean_rms);
+    if (option.fit) least = std::min(least, option.loss);
   }
   std::size_t choice = best;
   bool chosen = false;
   for (std::size_t i = 0; i < options.size(); ++i) {
-    if (!options[i].fit || !(options[i].mean_rms <= (1.0 + negligible_change) * least)) continue;
+    if (!options[i].fit || !(options[i].loss <= (1.0 + negligible_change) * least)) continue;
     const double cost = cost_of(options[i]), least_cost = cost_of(options[choice]);
     const bool cheaper = cost < least_cost;
-    const bool better = cost == least_cost && options[i].mean_rms < options[choice].mean_rms;
+    const bool better = cost == least_cost && options[i].loss < options[choice].loss;
     if (!chosen || cheaper || better) choice = i;
     chosen = true;
   }

@@ -10,6 +10,7 @@
 #include <boresight/design/decisions/decision_statistics.hpp>
 #include <boresight/design/decisions/test_value.hpp>
 #include <boresight/design/decisions/tornado.hpp>
+#include <boresight/design/decisions/weighed_losses.hpp>
 #include <boresight/design/ensembles/plant_distribution.hpp>
 #include <boresight/design/ensembles/plant_ensemble.hpp>
 #include <boresight/design/problem/mission.hpp>
@@ -155,7 +156,9 @@ struct ProposalDecision {
   /// Of draws in which it is on the front of cost and rms; NaN without a cost.
   std::vector<double> front_shares;
   std::vector<UncertainInput> uncertain;  // that vary
-  /// The two of least expected rms, as places in `candidates`; any that is fit to be chosen comes
+  /// What the choice is made by, weigh_losses of the options.
+  WeighedBy weighed_by = WeighedBy::mean;
+  /// The two of least loss by that, as places in `candidates`; any that is fit to be chosen comes
   /// before those that are not.
   std::size_t best = 0, second = 0;
   /// worth_its_cost, as a place in `candidates`.
@@ -179,12 +182,12 @@ struct ProposalDecision {
 struct PricedOption {
   bool fit = false;  // meets every goal
   std::optional<double> cost;
-  double mean_rms = 0.0;  // over the draws
+  double loss = 0.0;  // weigh_losses
 };
 
-/// The place of the one to choose: of those that are fit the cheapest whose mean rms lies within
+/// The place of the one to choose: of those that are fit the cheapest whose loss lies within
 /// negligible_change of the least of them, one without a cost counting as dearer than any; of equal
-/// cost the one of less rms. `best` if none is fit.
+/// cost the one of less loss. `best` if none is fit.
 std::size_t worth_its_cost(const std::vector<PricedOption>& options, std::size_t best);
 
 /// Plants that may be the true one, whatever a proposal makes of the antenna.

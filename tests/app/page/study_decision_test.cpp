@@ -367,6 +367,20 @@ TEST(EvaluateDecision, PaysForNothingNegligible) {
   EXPECT_THAT(conclude(section), Contains(HasSubstr("no proposal is worth its cost")));
 }
 
+// Of infinite means the cheapest is as good as any: what 95 % of the draws keep within tells more.
+TEST(EvaluateDecision, WeighsWhatIsUnstableOnSomeDrawsByWhatTheOthersKeep) {
+  auto section = proposals_of({{0.0, HUGE_VAL}, {20.0, HUGE_VAL}});
+  ASSERT_TRUE(section.decision);
+  auto& options = section.decision->statistics.options;
+  options[0].quantiles = {{0.5, 0.5, 0.5, 0.5}, {0.95, 0.9, 0.9, 0.9}};
+  options[1].quantiles = {{0.5, 0.4, 0.4, 0.4}, {0.95, 0.6, 0.6, 0.6}};
+  section.decision->best = 1;
+  EXPECT_EQ(worth_its_cost(section, *section.decision), 1U);
+  EXPECT_THAT(decision(section).front(),
+              AllOf(HasSubstr("Choose proposal 1: 0.600 mdeg rms at the 95 % quantile of"),
+                    Not(HasSubstr("inf"))));
+}
+
 TEST(EvaluateDecision, ChoosesTheCheapestOfThoseAlike) {
   const auto section = proposals_of({{0.0, 0.64}, {60.0, 0.426}, {420.0, 0.42}});
   ASSERT_TRUE(section.decision);
@@ -445,7 +459,7 @@ TEST(EvaluateDecision, ChoosesNothingThatHunts) {
   const auto sentences = conclude(section);
   EXPECT_EQ(sentences.front(), none);
   EXPECT_THAT(sentences,
-              Each(AllOf(Not(HasSubstr("nothing lowers it")), Not(HasSubstr("Least mean rms")))));
+              Each(AllOf(Not(HasSubstr("nothing lowers it")), Not(HasSubstr("Least rms")))));
 }
 
 TEST(EvaluateDecision, NamesTheTestThatIsWorthItsTime) {

@@ -24,8 +24,8 @@ ProposedDesign candidate_of(const std::string& name, double first, double second
 }
 
 // One plant for all, so that means over the draws go as the factors of the laws.
-std::optional<ProposalDecision> decided(const std::vector<ProposedDesign>& candidates) {
-  static const Mission mission = reference::uncertain_mission();
+std::optional<ProposalDecision> decided(const std::vector<ProposedDesign>& candidates,
+                                        const Mission& mission = reference::uncertain_mission()) {
   ProposalOptions options;
   options.draws = 100;
   return decide(candidates, mission.antenna, {candidates.size(), &mission},
@@ -82,6 +82,23 @@ TEST(Decide, PutsWhatIsFitFirst) {
   EXPECT_EQ(decision->worth, 0U);
   EXPECT_EQ(decision->tests_not_valued, TestsNotValued::fewer_than_two_fit);
   EXPECT_FALSE(decision->tests);
+}
+
+// Unstable on some draws, both have infinite means: that of less rms is chosen, not the first.
+TEST(Decide, TellsApartWhatIsUnstableOnSomeDraws) {
+  Mission mission = reference::uncertain_mission();
+  mission.uncertainty.ranges.structure_frequency.lower = 0.3;
+  mission.uncertainty.ranges.oil_stiffness.lower = 0.05;
+  auto cheap = candidate_of("as it is", 1.0, 1.0, 0), dear = candidate_of("better", 0.9, 0.9, 0);
+  cheap.cost = 0.0;
+  dear.cost = 1.0;
+  const auto decision = decided({cheap, dear}, mission);
+  ASSERT_TRUE(decision);
+  for (const auto& one : decision->candidates) EXPECT_GT(one.unstable.value, 0.0);
+  EXPECT_EQ(decision->statistics.options[1].mean, std::numeric_limits<double>::infinity());
+  EXPECT_NE(decision->weighed_by, WeighedBy::mean);
+  EXPECT_EQ(decision->best, 1U);
+  EXPECT_EQ(decision->worth, 1U);
 }
 
 TEST(WorthItsCost, IsTheCheapestWithinWhatDecidesNothing) {

@@ -5,11 +5,16 @@
 
 namespace boresight::app {
 
-void describe_origin(io::Visitor& v, std::string_view command) {
+void describe_origin(io::Visitor& v, std::string_view command,
+                     std::span<const std::string_view> commands) {
   v.constant("program", "boresight", "Always boresight.");
   v.text("version", BORESIGHT_VERSION, "Version of the program.",
          {.pattern = R"(^[0-9]+\.[0-9]+\.[0-9]+$)"});
-  v.constant("command", command, "The command.");
+  if (commands.empty()) {
+    v.constant("command", command, "The command.");
+  } else {
+    v.word("command", command, commands, "The command.");
+  }
 }
 
 void describe_case(io::Visitor& v, std::string_view path, std::string_view title,

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <span>
 #include <string_view>
 #include <vector>
 
@@ -17,8 +18,10 @@ inline constexpr std::string_view schema_comment =
     "A key that holds a number ends in its unit: _1 (none), _N_m, _mdeg, ... Counts are whole "
     "numbers and have none. null stands for what is infinite, undefined or not there.";
 
-/// The keys that begin a report: "program", "version", "command".
-void describe_origin(io::Visitor& v, std::string_view command);
+/// The keys that begin a report: "program", "version", "command", which is one of `commands` where
+/// the report is that of several.
+void describe_origin(io::Visitor& v, std::string_view command,
+                     std::span<const std::string_view> commands = {});
 /// "case": the file, its title and axis.
 void describe_case(io::Visitor& v, std::string_view path, std::string_view title,
                    std::string_view axis);

@@ -4,7 +4,10 @@
 
 #include <boresight/app/document/document.hpp>
 #include <boresight/app/evaluate/evaluate_section.hpp>
-#include <boresight/app/report/json_design.hpp>
+
+namespace boresight::io {
+class Visitor;
+}
 
 namespace boresight::app {
 
@@ -16,7 +19,10 @@ std::string heading_of(const DecisionSection& decision);
 Document document_of(const EvaluateSection& section);
 /// Its part about chances, regrets and tests.
 Document document_of(const EvaluateSection& section, const DecisionSection& decision);
-Json evaluate_json(const EvaluateSection& section);
-Json decision_json(const EvaluateSection& section, const DecisionSection& decision);
+
+/// "evaluated" of docs/report.schema.json, and its "decision".
+void describe(io::Visitor& v, const EvaluateSection& section);
+void describe_decision(io::Visitor& v, const EvaluateSection& section,
+                       const DecisionSection& decision);
 
 }  // namespace boresight::app

@@ -67,8 +67,7 @@ void describe_point(io::Visitor& v, const MatchingPoint& point) {
 }
 
 void describe_series(io::Visitor& v, const MatchingSection& section, const MatchingSeries& series) {
-  v.word("structure", control::to_string(series.structure), {"PI without lag", "PI with lag"},
-         "Loop structure.");
+  v.text("structure", control::to_string(series.structure), "Loop structure.");
   v.text("friction", friction_text(series), "Which friction.");
   v.number("viscous_friction", series.viscous_friction, {.suffix = "N_m_s_per_rad"},
            "Slope of that friction.", {.finite = true});

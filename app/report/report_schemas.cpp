@@ -1,28 +1,22 @@
+#include <algorithm>
+#include <set>
+#include <string>
+#include <string_view>
+#include <vector>
+
 #include <fmt/format.h>
 
 #include <boresight/app/benchmark/benchmark_report.hpp>
 #include <boresight/app/commission/commission_study.hpp>
-#include <boresight/app/figures/figure_description.hpp>
 #include <boresight/app/montecarlo/montecarlo_study.hpp>
-#include <boresight/app/report/audit_description.hpp>
 #include <boresight/app/report/common_description.hpp>
-#include <boresight/app/report/identification_description.hpp>
-#include <boresight/app/report/linear_models_description.hpp>
-#include <boresight/app/report/match_report.hpp>
-#include <boresight/app/report/measured_report.hpp>
-#include <boresight/app/report/redesign_description.hpp>
+#include <boresight/app/report/report_description.hpp>
 #include <boresight/app/report/report_schemas.hpp>
 #include <boresight/app/report/schema_writer.hpp>
-#include <boresight/app/report/tune_description.hpp>
 #include <boresight/app/simulate/simulation_report.hpp>
-#include <boresight/io/campaign/campaign_description.hpp>
 #include <boresight/io/case/field.hpp>
-#include <boresight/io/description/design_results.hpp>
-#include <boresight/io/description/pointing_limit_results.hpp>
-#include <boresight/io/description/time_domain_results.hpp>
 #include <boresight/io/units/wording.hpp>
 #include <boresight/numerics/error.hpp>
-#include <boresight/report_schema_base.hpp>
 
 namespace boresight::app {
 namespace {
@@ -40,43 +34,68 @@ Json stages_or_reason() {
   return Json::array({condition});
 }
 
-// The parts of the report of redesign and its parts that are described, each defined by its name.
-struct DescribedParts {};
+// Which sections the report of a command has: all of `required` if it ran to its end (any one of
+// them where `any` is set), others of `possible`.
+struct CommandSections {
+  std::string_view command;
+  std::vector<std::string_view> required;
+  std::vector<std::string_view> possible;
+  bool any = false;
+};
 
-void describe(io::Visitor& v, const DescribedParts& /*parts*/) {
-  v.object("design", design::Design{}, "");
-  v.object("ensemble", design::EnsembleResult{}, "");
-  v.object("audit", AuditReport{}, "");
-  v.object("campaign", io::CampaignSection{}, "");
-  v.object("identification", IdentificationSection{}, "");
-  v.object("plant", PlantSection{}, "");
-  v.object("measured_tuning", MeasuredTuneSection{}, "");
-  v.object("limit", design::PointingLimit{}, "");
-  v.object("matched", MatchSection{}, "");
-  v.object("tuning", TuningSection{}, "");
-  v.object("tuned", TuneSection{}, "");
-  v.object("time_domain", design::TimeDomainStudy{}, "");
-  v.object("compared_run", design::NonlinearVerification{}, "");
-  v.object("linear_models", LinearModels{}, "");
-  describe_figures(v, {});
+const std::vector<CommandSections>& sections_of_commands() {
+  static const std::vector<CommandSections> sections{
+      {"redesign",
+       {"identification", "audit", "plant", "tuning", "choices", "matching"},
+       {"campaign", "time_domain", "linear_models", "card"}},
+      {"audit", {"audit"}, {}},
+      {"identify", {"identification"}, {"campaign"}},
+      {"model", {"plant"}, {"linear_models"}},
+      {"tune", {"tuned", "measured_tuning"}, {"time_domain", "limit", "linear_models"}, true},
+      {"match", {"matched"}, {}},
+      {"evaluate", {"evaluated"}, {}}};
+  return sections;
 }
 
-// Members of the report itself; what they refer to is among the parts.
-Json described_members() {
-  SchemaWriter writer;
-  describe_case(writer, {}, {}, {});
-  describe_choices(writer, {});
-  describe_matching(writer, {});
-  describe_assumed(writer, {});
-  return writer.take().at("properties");
+Json is_command(std::string_view command) {
+  return {{"command", {{"const", command}}}};
 }
 
-Json report_schema_with_parts() {
-  SchemaWriter writer;
-  describe(writer, DescribedParts{});
-  Json schema = Json::parse(report_schema_base);
-  schema["properties"].update(described_members());
-  schema["$defs"].update(writer.take().at("$defs"));
+Json report_conditions() {
+  std::set<std::string_view> all;
+  for (const auto& of : sections_of_commands()) {
+    all.insert(of.required.begin(), of.required.end());
+    all.insert(of.possible.begin(), of.possible.end());
+  }
+  Json conditions = Json::array();
+  for (const auto& of : sections_of_commands()) {
+    Json required{{"required", of.required}};
+    if (of.any) {
+      required = {{"anyOf", Json::array()}};
+      for (const auto section : of.required) {
+        required["anyOf"].push_back({{"required", Json::array({section})}});
+      }
+    }
+    Json whole = is_command(of.command);
+    whole["interrupted"] = {{"const", false}};
+    conditions.push_back({{"if", {{"properties", whole}}}, {"then", required}});
+    Json others;
+    for (const auto section : all) {
+      const auto listed = [&](const std::vector<std::string_view>& list) {
+        return std::find(list.begin(), list.end(), section) != list.end();
+      };
+      if (!listed(of.required) && !listed(of.possible)) others[std::string(section)] = false;
+    }
+    conditions.push_back(
+        {{"if", {{"properties", is_command(of.command)}}}, {"then", {{"properties", others}}}});
+  }
+  return conditions;
+}
+
+Json report_schema_with_conditions() {
+  Json schema = schema_of<Report>(
+      {"Boresight report", schema_comment, "Report of one command of Boresight (--json)."},
+      report_conditions());
   // A law's models are there together.
   schema["$defs"]["linear_models"]["dependentRequired"] = {
       {"law", {"dead_time_s", "controller", "sampled_controller"}}};
@@ -100,7 +119,7 @@ Json schema_named(std::string_view name) {
         {"Report of boresight montecarlo", schema_comment,
          "Report of boresight montecarlo (--json): docs/monte-carlo.md."});
   }
-  if (name == "report") return report_schema_with_parts();
+  if (name == "report") return report_schema_with_conditions();
   if (name == "simulation") {
     return schema_of<SimulationReport>(
         {"Boresight simulation report", schema_comment, "Report of boresight simulate (--json)."});

@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <boresight/app/report/json_writer.hpp>
 #include <boresight/app/report/wind_mast.hpp>
 #include <boresight/io/description/wind_mast_description.hpp>
 
@@ -35,10 +34,6 @@ std::string conclude_mast(const io::WindMast& mast) {
       "said: "
       "divided by {:.4g} they are those on the case's mast of {:g} m.",
       mast.dish_height, mast.speed_ratio, mast.height);
-}
-
-nlohmann::ordered_json mast_json(const io::WindMast& mast) {
-  return json_of(mast);
 }
 
 }  // namespace boresight::app

@@ -3,8 +3,6 @@
 #include <optional>
 #include <string>
 
-#include <nlohmann/json_fwd.hpp>
-
 #include <boresight/io/case/case_file.hpp>
 
 namespace boresight::app {
@@ -22,8 +20,5 @@ std::string mast_column(const std::optional<io::WindMast>& mast);
 
 /// For the head of conclusions, that speeds are those at the dish and what makes them the mast's.
 std::string conclude_mast(const io::WindMast& mast);
-
-/// "wind_mast" of docs/report.schema.json.
-nlohmann::ordered_json mast_json(const io::WindMast& mast);
 
 }  // namespace boresight::app

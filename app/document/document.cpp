@@ -54,6 +54,10 @@ Document wrapped(std::string_view paragraph, std::string_view indent, std::strin
   return {{Paragraph{std::string(paragraph), std::string(indent), std::string(hanging)}}};
 }
 
+Document labelled(std::string_view label, std::string_view paragraph, std::size_t width) {
+  return {{Paragraph{std::string(paragraph), "  ", std::string(width, ' '), std::string(label)}}};
+}
+
 Document table(std::vector<std::vector<std::string>> rows, std::string_view alignment,
                std::size_t header_rows) {
   return {{Table{std::move(rows), std::string(alignment), header_rows}}};

@@ -22,11 +22,12 @@ struct Subheading {
 };
 
 /// Running text, broken at blanks; on a terminal each line behind `indent`, all but the first
-/// behind `hanging` too.
+/// behind `hanging` too, in whose columns the first has the `label`.
 struct Paragraph {
   std::string text;
   std::string indent;
   std::string hanging;
+  std::string label = {};
 };
 
 /// Rows of cells, of which the first `header_rows` name the columns. A row may have fewer cells
@@ -63,6 +64,8 @@ Document heading(std::string_view title);
 Document subheading(std::string_view title, std::string_view indent = "  ");
 Document wrapped(std::string_view paragraph, std::string_view indent,
                  std::string_view hanging = {});
+/// A paragraph behind a label, its lines aligned behind `width` columns.
+Document labelled(std::string_view label, std::string_view paragraph, std::size_t width);
 Document table(std::vector<std::vector<std::string>> rows, std::string_view alignment = "l",
                std::size_t header_rows = 1);
 Document verbatim(std::string_view text);

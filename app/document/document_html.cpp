@@ -49,6 +49,11 @@ class Elements {
   void operator()(const Paragraph& paragraph) {
     if (paragraph.text.find_first_not_of(blank) == std::string::npos) return;
     constexpr std::size_t usual = 2;
+    if (!paragraph.label.empty()) {
+      line(fmt::format("<p>{} {}</p>", tagged("strong", "", paragraph.label),
+                       escaped_html(paragraph.text)));
+      return;
+    }
     line(tagged("p", paragraph.indent.size() > usual ? " class=\"nested\"" : "", paragraph.text));
   }
 

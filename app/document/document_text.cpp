@@ -22,6 +22,7 @@ void append(std::string& text, const Paragraph& block) {
   constexpr std::size_t width = 108;
   std::string_view paragraph = block.text;
   std::string line = block.indent;
+  if (!block.label.empty()) line += fmt::format("{:<{}}", block.label, block.hanging.size());
   bool empty = true;
   while (!paragraph.empty()) {
     const std::size_t end = std::min(paragraph.find(' '), paragraph.size());
@@ -43,7 +44,7 @@ void append(std::string& text, const Paragraph& block) {
 
 void append(std::string& text, const Subheading& subheading) {
   text += '\n';
-  append(text, Paragraph{subheading.title, subheading.indent, {}});
+  append(text, Paragraph{subheading.title, subheading.indent, {}, {}});
 }
 
 void append(std::string& text, const Table& table) {

@@ -158,6 +158,13 @@ std::string header_html(const Page& page) {
   html +=
       "<div class=\"decision\" role=\"region\" aria-labelledby=\"decision\">"
       "<h2 id=\"decision\">The decision</h2>\n";
+  if (!page.card.empty()) html += "<table class=\"card\">\n";
+  for (const auto& line : page.card) {
+    html +=
+        fmt::format("<tr><th scope=\"row\">{}</th><td>{} <span>{}</span></td></tr>\n",
+                    escaped_html(line.label), escaped_html(line.text), escaped_html(line.evidence));
+  }
+  if (!page.card.empty()) html += "</table>\n";
   for (const auto& sentence : page.decision) {
     html += fmt::format("<p>{}</p>\n", escaped_html(sentence));
   }

@@ -7,6 +7,7 @@
 
 #include <boresight/app/document/document.hpp>
 #include <boresight/app/figures/figure.hpp>
+#include <boresight/app/report/redesign_card.hpp>
 #include <boresight/io/files/input_files.hpp>
 
 namespace boresight::app {
@@ -18,6 +19,8 @@ struct Page {
   std::string axis;
   std::uint64_t seed = 1;
   bool interrupted = false;
+  /// A redesign's card, before the decision in a few sentences.
+  std::vector<CardLine> card;
   /// The decision, in a few sentences.
   std::vector<std::string> decision;
   /// What it rests on or leaves open, smaller below it.

@@ -4,6 +4,7 @@
 #include <boresight/app/page/decision.hpp>
 #include <boresight/app/page/report_page.hpp>
 #include <boresight/app/report/json_writer.hpp>
+#include <boresight/app/report/redesign_card.hpp>
 #include <boresight/app/report/text_report.hpp>
 #include <boresight/io/description/what_if_description.hpp>
 
@@ -29,6 +30,8 @@ Page common(const AnyReport& report, std::string command) {
 Page page_of(const Report& report) {
   Page page = common(report, report.command);
   page.interrupted = report.interrupted;
+  page.card = redesign_card(report);
+  page.document = document_without_card(report);
   page.reservations = reservations(report);
   if (report.matched && report.matched->what_if) {
     page.what_if = json_of(*report.matched->what_if).dump();

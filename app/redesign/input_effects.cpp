@@ -238,8 +238,8 @@ std::string range_text(const InputEffect& effect) {
                      mdeg(effect.high_rms), over);
 }
 
-// What friction alone adds to the simulated rms (rad), where that is a telling change of the linear
-// one; 0 elsewhere.
+}  // namespace
+
 double telling_friction(const std::optional<TimeDomainSection>& time_domain, double rms) {
   if (!time_domain) return 0.0;
   for (const auto& one : time_domain->result.wind.influences) {
@@ -248,8 +248,6 @@ double telling_friction(const std::optional<TimeDomainSection>& time_domain, dou
   }
   return 0.0;
 }
-
-}  // namespace
 
 double InputEffect::change(double rms) const {
   if (!std::isfinite(low_rms) || !std::isfinite(high_rms)) {

@@ -45,9 +45,12 @@ std::vector<InputEffect> input_effects(const io::Case& antenna, const control::C
                                        const design::HardGoals& goals, double rms, std::size_t most,
                                        unsigned threads);
 
+/// What friction alone adds to the simulated rms (rad), where that is a telling_change of `rms`,
+/// the linear one; 0 elsewhere.
+double telling_friction(const std::optional<TimeDomainSection>& time_domain, double rms);
+
 /// Which of them to measure first, in a sentence; empty where none changes the rms by what decides
-/// anything. And that friction is to be measured, where it alone adds a telling_change of `rms`,
-/// the linear one, on the nonlinear antenna.
+/// anything. And that friction is to be measured, with a telling_friction.
 std::string measure_first(const std::vector<InputEffect>& effects, double rms,
                           const std::optional<TimeDomainSection>& time_domain = std::nullopt);
 

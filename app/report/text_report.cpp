@@ -6,6 +6,7 @@
 #include <boresight/app/report/evaluate_report.hpp>
 #include <boresight/app/report/match_report.hpp>
 #include <boresight/app/report/measured_report.hpp>
+#include <boresight/app/report/redesign_card.hpp>
 #include <boresight/app/report/text_limit.hpp>
 #include <boresight/app/report/text_report.hpp>
 
@@ -34,10 +35,17 @@ Document document_of(const std::vector<io::Quantity>& assumed) {
   return text + table(rows, "llll");
 }
 
-Document document_of(const Report& report) {
+namespace {
+
+Document opening_of(const Report& report) {
   Document text =
       report_title(report.command, report.title, report.axis, report.case_path, report.seed);
   if (report.interrupted) text += "INTERRUPTED: what follows is whole, the rest is missing.\n";
+  return text;
+}
+
+Document sections_of(const Report& report) {
+  Document text;
   if (report.campaign) text += document_of(*report.campaign);
   if (report.identification && (!report.campaign || rests_on_tests(*report.identification))) {
     text += document_of(*report.identification);
@@ -70,6 +78,18 @@ Document document_of(const Report& report) {
     for (const auto& sentence : report.conclusions) text += wrapped(sentence, "  ") + "\n";
   }
   return text;
+}
+
+}  // namespace
+
+Document document_of(const Report& report) {
+  Document text = opening_of(report);
+  if (const auto card = redesign_card(report); !card.empty()) text += "\n" + document_of(card);
+  return text + sections_of(report);
+}
+
+Document document_without_card(const Report& report) {
+  return opening_of(report) + sections_of(report);
 }
 
 std::string to_text(const Report& report) {

@@ -1,0 +1,55 @@
+#include <array>
+#include <string_view>
+
+#include <boresight/app/redesign/next_test.hpp>
+#include <boresight/app/report/influences.hpp>
+
+namespace boresight::app {
+namespace {
+
+constexpr std::string_view friction_test =
+    "constant-speed runs at six rates, both ways (6 min of antenna time)";
+constexpr std::string_view mode_shapes =
+    "mode shapes from the structural model (modes_file); no antenna time";
+constexpr std::string_view valve_steps =
+    "valve steps about a constant speed (80 s of antenna time)";
+constexpr std::string_view still_air =
+    "encoder, tachometer and pressures at rest in still air (5 min of antenna time)";
+
+// What the number's key begins with, and the test that measures it. The first that fits.
+struct TestOfKey {
+  std::string_view part, test;
+};
+constexpr std::array<TestOfKey, 16> tests{
+    {{".wind_fraction", mode_shapes},
+     {"_wind_fraction", mode_shapes},
+     {".beam_weight", mode_shapes},
+     {"_beam_weight", mode_shapes},
+     {"structure.", "valve sine sweep, 0.1 to 8 Hz (2 min of antenna time)"},
+     {"locked_rotor", "valve sine sweep, 0.1 to 8 Hz, and one with the motors braked (4 min)"},
+     {"friction", friction_test},
+     {"leakage", valve_steps},
+     {"oil.", "sudden valve opening and closing with pressures recorded (10 s of antenna time)"},
+     {"drive.", valve_steps},
+     {"wind.", "encoder error and wind speed for an hour in wind; compare their spectra"},
+     {"sensor", still_air},
+     {"noise", still_air},
+     {"controller.", "step of the valve command, read back by the computer (1 min)"},
+     {"inertia", "fast triangle to the valve (82 s), beside constant-speed runs for friction"},
+     {"", "measure it, or obtain its source"}}};
+
+}  // namespace
+
+std::optional<NextTest> next_test(const std::vector<InputEffect>& effects, double rms,
+                                  const std::optional<TimeDomainSection>& time_domain) {
+  if (!effects.empty() && effects.front().change(rms) >= negligible_change) {
+    const std::string& key = effects.front().quantity.key;
+    for (const auto& one : tests) {
+      if (key.find(one.part) != std::string::npos) return NextTest{key, std::string(one.test)};
+    }
+  }
+  if (telling_friction(time_domain, rms) > 0.0) return NextTest{"", std::string(friction_test)};
+  return std::nullopt;
+}
+
+}  // namespace boresight::app

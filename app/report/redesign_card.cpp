@@ -1,0 +1,330 @@
+#include <algorithm>
+#include <cmath>
+#include <string_view>
+#include <utility>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <boresight/app/redesign/assumed_inputs.hpp>
+#include <boresight/app/redesign/choice_verdicts.hpp>
+#include <boresight/app/redesign/matching_verdict.hpp>
+#include <boresight/app/redesign/needed_budgets.hpp>
+#include <boresight/app/redesign/next_test.hpp>
+#include <boresight/app/report/influences.hpp>
+#include <boresight/app/report/redesign_card.hpp>
+#include <boresight/design/decisions/confidence.hpp>
+#include <boresight/numerics/angles.hpp>
+
+namespace boresight::app {
+namespace {
+
+using design::Confidence;
+using design::Doubt;
+
+constexpr std::string_view loops = "Tuned loops", in_time = "In the time domain",
+                           matching = "Inertia matching", inertia = "Inertia at the motor shaft",
+                           audited = "Audit", inputs = "Assumed inputs";
+
+std::string mdeg(double angle) {
+  return fmt::format("{:.3f}", angle / millidegree);
+}
+
+bool robust(const TuningSection& section) {
+  return section.tuned_for == design::TunedFor::robust && section.ensemble &&
+         section.ensemble->within_goals == static_cast<int>(section.ensemble->members.size());
+}
+
+bool simulated(const Report& report) {
+  return report.time_domain && std::isfinite(report.time_domain->result.wind.beam_rms);
+}
+
+bool within_budget(const Report& report) {
+  return !report.time_domain || not_still(*report.time_domain).empty();
+}
+
+bool inertias_agree(const Report& report) {
+  if (report.campaign) return report.campaign->contradiction.empty();
+  return !report.identification || !report.identification->reconciled ||
+         !report.identification->reconciled->contradictory();
+}
+
+design::ConfidenceGrade confidence(const Report& report, const TuningSection& section) {
+  design::Evidence evidence;
+  evidence.verified = section.design.usable();
+  evidence.robust = robust(section);
+  evidence.simulated = simulated(report);
+  evidence.within_budget = within_budget(report);
+  evidence.plant_identified = report.campaign && report.campaign->grey_box;
+  evidence.inertias_agree = inertias_agree(report);
+  evidence.resonance_agrees = !report.resonance || !report.resonance->contradicts();
+  evidence.verdict_depends_on_interpretation = !other_choices_text(report, section).empty() ||
+                                               !other_attitudes_text(report, section).empty() ||
+                                               !guessed_shares_text(report, section).empty();
+  if (!section.input_effects.empty()) {
+    evidence.largest_effect = section.input_effects.front().change(section.design.beam_rms);
+  }
+  return design::grade(evidence);
+}
+
+std::string_view reason(Doubt doubt) {
+  switch (doubt) {
+    case Doubt::not_verified:
+      return "no controller meets the constraints";
+    case Doubt::not_robust:
+      return "constraints violated within the uncertainty set";
+    case Doubt::not_simulated:
+      return "not shown on the nonlinear antenna";
+    case Doubt::limit_cycle:
+      return "limit cycle beyond the budget";
+    case Doubt::inertias_disagree:
+      return "inertia estimates contradict";
+    case Doubt::resonance_disagrees:
+      return "resonance contradicts the plant";
+    case Doubt::interpretation_decides:
+      return "assumed inputs decide";
+    case Doubt::plant_not_identified:
+      return "no records";
+    case Doubt::input_decides:
+      return "one input moves the rms by over a fifth";
+  }
+  return "";
+}
+
+CardLine controller_line(const Report& report, const TuningSection& section) {
+  if (!section.design.usable()) {
+    return {"Controller", "none: no controller found meets every constraint of the case",
+            std::string(loops)};
+  }
+  const auto& law = section.design.tuning.law;
+  const auto values = section.gain_units.texts(law);
+  std::vector<std::string> gains;
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    gains.push_back(fmt::format("{} = {}", law.structure.gains()[i].symbol, values[i]));
+  }
+  const bool install = robust(section) && simulated(report) && within_budget(report);
+  const bool sure = confidence(report, section).grade != Confidence::low;
+  return {!install ? "Do not load"
+          : sure   ? "Load"
+                   : "Recommended",
+          fmt::format("{} ({}): {}", section.name, to_string(section.tuned_for),
+                      fmt::join(gains, ", ")),
+          std::string(loops)};
+}
+
+CardLine pointing_line(const Report& report, const TuningSection& section) {
+  const auto tightest = std::ranges::min_element(
+      section.budgets, {}, [](const BudgetResult& one) { return one.budget.rms; });
+  std::string text =
+      simulated(report) ? fmt::format("{} mdeg rms in {:.3g} m/s wind, simulated ({} linear)",
+                                      mdeg(report.time_domain->result.wind.beam_rms),
+                                      report.time_domain->wind_speed, mdeg(section.design.beam_rms))
+                        : fmt::format("{} mdeg rms in {:.3g} m/s wind, linear plant, not simulated",
+                                      mdeg(section.design.beam_rms), section.design_speed);
+  if (tightest != section.budgets.end()) {
+    text += fmt::format("; budget {}", mdeg(tightest->budget.rms));
+  }
+  return {"Error per axis", text, std::string(simulated(report) ? in_time : loops)};
+}
+
+CardLine present_line(const TuningSection& section) {
+  if (section.present.empty()) {
+    return {"Gains of today", "not in the case ([gains]): no comparison", std::string(loops)};
+  }
+  const auto& present = section.present.front();
+  if (present.design.tuning.status == design::TuningStatus::unstable) {
+    return {"Gains of today",
+            fmt::format("{}: unstable on the plant of the case; check the case", present.structure),
+            std::string(loops)};
+  }
+  return {"Gains of today",
+          fmt::format("{}: {} mdeg rms, linear plant{}", present.structure,
+                      mdeg(present.design.beam_rms),
+                      present.design.verification.passed ? "" : "; constraints violated"),
+          std::string(loops)};
+}
+
+// The three that matter first: required ones before others, the tightest before wider ones.
+CardLine budget_line(const TuningSection& section) {
+  constexpr std::size_t shown = 3;
+  std::vector<BudgetResult> order = section.budgets;
+  std::ranges::stable_sort(order, {}, [](const BudgetResult& one) {
+    return std::pair(!one.budget.wind_speed.has_value(), one.budget.rms);
+  });
+  if (order.size() > shown) order.resize(shown);
+  std::vector<std::string> budgets;
+  for (const auto& result : order) {
+    const double reached = reached_wind_speed(section, result);
+    std::string text = fmt::format("{} {} {}", result.budget.band, mdeg(result.budget.rms),
+                                   !(reached > 0.0)         ? std::string("in no wind")
+                                   : std::isfinite(reached) ? fmt::format("to {:.1f} m/s", reached)
+                                                            : std::string("in every wind"));
+    if (result.budget.wind_speed) {
+      text += fmt::format(" (required {:.3g}{})", *result.budget.wind_speed,
+                          result.plants_met && section.ensemble
+                              ? fmt::format(", on {} of {} models", *result.plants_met,
+                                            section.ensemble->members.size())
+                              : "");
+    }
+    budgets.push_back(std::move(text));
+  }
+  return {"Budgets (mdeg)",
+          budgets.empty() ? "the case states none ([[pointing.budget]])"
+                          : fmt::format("{}", fmt::join(budgets, "; ")),
+          std::string(loops)};
+}
+
+CardLine stability_line(const TuningSection& section) {
+  const auto& design = section.design;
+  double peak = 0.0, phase = 180.0, gain = HUGE_VAL;
+  for (const auto& one : design.verification.peaks) peak = std::max(peak, one.upper);
+  for (const auto& margins : design.margins) {
+    phase = std::min(phase, margins.phase_margin_deg);
+    gain = std::min(gain, margins.increasing_gain_margin);
+  }
+  std::string text = fmt::format("Ms {:.2f}, phase {:.0f} deg", peak, phase);
+  if (std::isfinite(gain)) text += fmt::format(", gain {:.1f} dB", 20.0 * std::log10(gain));
+  text += " (worst)";
+  if (section.ensemble) {
+    text += fmt::format("; constraints met on {} of {} models", section.ensemble->within_goals,
+                        section.ensemble->members.size());
+  }
+  return {"Margins", text, std::string(loops)};
+}
+
+CardLine limit_cycle_line(const TimeDomainSection& section) {
+  std::vector<std::string> parts;
+  for (const auto& run : section.result.hunting) {
+    const std::string at = run.rate == 0.0 ? "at rest" : "while tracking";
+    if (run.status != design::RunStatus::complete) {
+      parts.push_back("not shown " + at);
+    } else if (run.limit_cycle) {
+      parts.push_back(fmt::format("+-{:.2f} mdeg {}", run.beam_amplitude / millidegree, at));
+    } else {
+      parts.push_back("none " + at);
+    }
+  }
+  std::string text = fmt::format("{}", fmt::join(parts, ", "));
+  if (!not_still(section).empty()) text += ": BEYOND the tightest budget";
+  if (const auto& reversal = section.result.reversal;
+      reversal && reversal->status == design::RunStatus::complete) {
+    text += fmt::format("; velocity reversal {:.1f} mdeg", reversal->beam_error / millidegree);
+  }
+  return {"Limit cycle", text, std::string(in_time)};
+}
+
+CardLine flywheel_line(const MatchingSection& section) {
+  const std::string evidence(matching);
+  if (section.rows.size() < 2) return {"Flywheels", "not compared", evidence};
+  const MatchingVerdict verdict(section);
+  if (verdict.unusable() > 0) {
+    return {"Flywheels", "no verdict: constraints are missed at some inertias", evidence};
+  }
+  const MatchingSeries& series = section.series.front();
+  const std::size_t end = verdict.better_end(), built = verdict.built();
+  const auto at = [&](const MatchingSeries& one, std::size_t row) {
+    return mdeg(one.designs[row].beam_rms);
+  };
+  std::string text = fmt::format("{} {} mdeg, {} as built {}", section.rows[end].label,
+                                 at(series, end), section.rows[built].label, at(series, built));
+  const bool better = verdict.change(series, end) < -negligible_change;
+  if (verdict.flat() || (!better && !verdict.friction_decides())) {
+    return {"Flywheels", "keep: " + text, evidence};
+  }
+  if (const MatchingSeries* other = verdict.other_friction();
+      other != nullptr && verdict.friction_decides()) {
+    return {"Flywheels",
+            fmt::format("keep until friction is measured: {}; {} and {} with the {}", text,
+                        at(*other, end), at(*other, built), other->friction),
+            evidence};
+  }
+  return {"Flywheels", fmt::format("change: {}; confirm by `boresight evaluate`", text), evidence};
+}
+
+// What is to be settled before anything is built on the result.
+CardLine settle_line(const Report& report) {
+  std::vector<std::string> open;
+  std::string_view evidence = audited;
+  if (report.resonance && report.resonance->contradicts()) {
+    evidence = inertia;
+    open.push_back(fmt::format("resonance {:.3g} Hz measured, {:.3g} Hz expected",
+                               report.resonance->measured, report.resonance->expected));
+  }
+  if (!inertias_agree(report)) {
+    evidence = inertia;
+    std::string text = "reflected inertia";
+    if (report.identification && !report.identification->inertia.methods.empty()) {
+      const auto [least, most] =
+          std::ranges::minmax(report.identification->inertia.methods, {},
+                              [](const auto& method) { return method.reflected_inertia.value; });
+      text += fmt::format(" {:.3f} to {:.3f} kg m2 by method", least.reflected_inertia.value,
+                          most.reflected_inertia.value);
+    }
+    open.push_back(std::move(text));
+  }
+  if (report.audit && !report.audit->findings.empty()) {
+    open.push_back(fmt::format("{} of {} printed numbers inconsistent",
+                               report.audit->findings.size(), report.audit->checked));
+  }
+  return {"Settle first", open.empty() ? "nothing" : fmt::format("{}", fmt::join(open, "; ")),
+          std::string(evidence)};
+}
+
+CardLine test_line(const Report& report, const TuningSection& section) {
+  const auto test = next_test(section.input_effects, section.design.beam_rms, report.time_domain);
+  if (!test) {
+    return {"Next test", "none would change the result by what decides anything",
+            std::string(loops)};
+  }
+  if (test->key.empty()) {
+    return {"Next test", test->test + ": friction decides the simulated rms", std::string(in_time)};
+  }
+  const auto& effect = section.input_effects.front();
+  const auto rms = [](double value) {
+    return std::isfinite(value) ? mdeg(value) : std::string("unstable");
+  };
+  return {"Next test",
+          fmt::format("{}: {} moves the rms from {} to {} mdeg", test->test, test->key,
+                      rms(effect.low_rms), rms(effect.high_rms)),
+          std::string(loops)};
+}
+
+CardLine confidence_line(const Report& report, const TuningSection& section) {
+  const auto found = confidence(report, section);
+  std::vector<std::string_view> reasons;
+  for (const Doubt doubt : found.doubts) reasons.push_back(reason(doubt));
+  std::string text(to_string(found.grade));
+  if (!reasons.empty()) text += fmt::format(": {}", fmt::join(reasons, "; "));
+  return {"Confidence", text, std::string(inputs)};
+}
+
+}  // namespace
+
+std::vector<CardLine> redesign_card(const Report& report) {
+  if (!report.tuning) return {};
+  const TuningSection& section = *report.tuning;
+  std::vector<CardLine> card{controller_line(report, section)};
+  if (section.design.usable()) {
+    card.push_back(pointing_line(report, section));
+    card.push_back(present_line(section));
+    card.push_back(budget_line(section));
+    card.push_back(stability_line(section));
+    if (report.time_domain) card.push_back(limit_cycle_line(*report.time_domain));
+  }
+  if (report.matching) card.push_back(flywheel_line(*report.matching));
+  card.push_back(settle_line(report));
+  card.push_back(test_line(report, section));
+  card.push_back(confidence_line(report, section));
+  return card;
+}
+
+Document document_of(const std::vector<CardLine>& card) {
+  constexpr std::size_t width = 16;
+  Document text;
+  for (const auto& line : card) {
+    text += labelled(line.label, fmt::format("{} [{}]", line.text, line.evidence), width);
+  }
+  return text;
+}
+
+}  // namespace boresight::app

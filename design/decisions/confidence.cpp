@@ -1,0 +1,37 @@
+#include <boresight/design/decisions/confidence.hpp>
+
+namespace boresight::design {
+
+std::string_view to_string(Confidence confidence) {
+  switch (confidence) {
+    case Confidence::low:
+      return "low";
+    case Confidence::moderate:
+      return "moderate";
+    case Confidence::high:
+      return "high";
+  }
+  return "";
+}
+
+ConfidenceGrade grade(const Evidence& evidence) {
+  ConfidenceGrade result;
+  const auto doubt = [&](bool holds, Doubt reason) {
+    if (holds) result.doubts.push_back(reason);
+  };
+  doubt(!evidence.verified, Doubt::not_verified);
+  doubt(!evidence.robust, Doubt::not_robust);
+  doubt(!evidence.simulated, Doubt::not_simulated);
+  doubt(!evidence.within_budget, Doubt::limit_cycle);
+  doubt(!evidence.inertias_agree, Doubt::inertias_disagree);
+  doubt(!evidence.resonance_agrees, Doubt::resonance_disagrees);
+  doubt(evidence.verdict_depends_on_interpretation, Doubt::interpretation_decides);
+  doubt(!evidence.plant_identified, Doubt::plant_not_identified);
+  doubt(!(evidence.largest_effect <= telling_effect), Doubt::input_decides);
+  if (result.doubts.empty()) return result;
+  result.grade =
+      result.doubts.front() < Doubt::plant_not_identified ? Confidence::low : Confidence::moderate;
+  return result;
+}
+
+}  // namespace boresight::design

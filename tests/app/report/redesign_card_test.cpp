@@ -1,0 +1,172 @@
+#include <string>
+#include <vector>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <boresight/app/document/document_text.hpp>
+#include <boresight/app/report/redesign_card.hpp>
+#include <boresight/numerics/angles.hpp>
+
+namespace boresight::app {
+namespace {
+
+using testing::AllOf;
+using testing::HasSubstr;
+using testing::IsEmpty;
+using testing::Not;
+using testing::StartsWith;
+
+design::Design design_of(double rms_mdeg) {
+  design::Design design;
+  design.tuning.status = design::TuningStatus::optimal;
+  design.tuning.law = {control::LoopStructure::named("PI-0"), {0.15, 0.4, 8.0, 0.15}};
+  design.verification.passed = true;
+  design.beam_rms = rms_mdeg * millidegree;
+  return design;
+}
+
+// A robust controller that was simulated, on 30 plant models.
+Report report_of_test() {
+  Report report;
+  report.command = "redesign";
+  auto& section = report.tuning.emplace();
+  section.name = "PI-0";
+  section.tuned_for = design::TunedFor::robust;
+  section.design = design_of(0.5);
+  section.design_speed = 10.0;
+  auto& ensemble = section.ensemble.emplace();
+  ensemble.members.resize(30);
+  ensemble.stable = ensemble.within_goals = 30;
+  auto& run = report.time_domain.emplace();
+  run.wind_speed = 10.0;
+  run.result.wind.beam_rms = 0.52 * millidegree;
+  run.options.settled_error = millidegree;
+  return report;
+}
+
+std::string line_of(const Report& report, const std::string& label) {
+  for (const auto& line : redesign_card(report)) {
+    if (line.label == label) return line.text;
+  }
+  return "";
+}
+
+TEST(RedesignCard, LoadsWhatIsRobustAndSimulated) {
+  const Report report = report_of_test();
+  EXPECT_THAT(line_of(report, "Load"),
+              AllOf(StartsWith("PI-0 (robust): kr = 0.15"), HasSubstr("kp = 8")));
+  EXPECT_THAT(line_of(report, "Error per axis"),
+              StartsWith("0.520 mdeg rms in 10 m/s wind, simulated (0.500 linear)"));
+  EXPECT_THAT(line_of(report, "Margins"), HasSubstr("; constraints met on 30 of 30 models"));
+}
+
+TEST(RedesignCard, DoesNotLoadWhatBreaksAConstraintOrWasNotSimulated) {
+  Report report = report_of_test();
+  report.tuning->ensemble->within_goals = 24;
+  EXPECT_THAT(line_of(report, "Do not load"), StartsWith("PI-0"));
+  EXPECT_THAT(line_of(report, "Confidence"),
+              StartsWith("low: constraints violated within the uncertainty set"));
+  report = report_of_test();
+  report.time_domain.reset();
+  EXPECT_THAT(line_of(report, "Do not load"), StartsWith("PI-0"));
+  EXPECT_THAT(line_of(report, "Error per axis"), HasSubstr("not simulated"));
+  report = report_of_test();
+  report.tuning->design.tuning.status = design::TuningStatus::infeasible;
+  EXPECT_THAT(line_of(report, "Controller"), StartsWith("none"));
+  EXPECT_EQ(line_of(report, "Error per axis"), "");
+  EXPECT_THAT(redesign_card(Report{}), IsEmpty());
+}
+
+TEST(RedesignCard, ComparesWithTheGainsOfToday) {
+  Report report = report_of_test();
+  EXPECT_THAT(line_of(report, "Gains of today"), HasSubstr("[gains]"));
+  report.tuning->present = {{"DPF", design_of(0.7)}};
+  EXPECT_EQ(line_of(report, "Gains of today"), "DPF: 0.700 mdeg rms, linear plant");
+  report.tuning->present[0].design.tuning.status = design::TuningStatus::unstable;
+  EXPECT_THAT(line_of(report, "Gains of today"), HasSubstr("unstable on the plant of the case"));
+}
+
+TEST(RedesignCard, StatesUpToWhichWindBudgetsAreMet) {
+  Report report = report_of_test();
+  design::BudgetResult required;
+  required.budget.band = "Ka";
+  required.budget.rms = 0.6 * millidegree;
+  required.budget.wind_speed = 12.0;
+  required.wind_speed_limit = 11.2;
+  required.plants_met = 7;
+  report.tuning->budgets = {required};
+  EXPECT_EQ(line_of(report, "Budgets (mdeg)"),
+            "Ka 0.600 to 11.2 m/s (required 12, on 7 of 30 models)");
+  EXPECT_THAT(line_of(report, "Error per axis"), HasSubstr("; budget 0.600"));
+}
+
+MatchingSection flywheels(const std::vector<std::vector<double>>& rms) {
+  MatchingSection section;
+  section.rows = {{.disks = 0.0, .label = "0 disks"},
+                  {.disks = 24.0, .label = "24 disks", .as_built = true}};
+  for (std::size_t i = 0; i < rms.size(); ++i) {
+    MatchingSeries series{i == 0 ? "linear plant" : "slope at tracking rate",
+                          1.0 + static_cast<double>(i),
+                          control::LoopStructure::pi(),
+                          {}};
+    for (const double one : rms[i]) series.designs.push_back(design_of(one));
+    section.series.push_back(std::move(series));
+  }
+  return section;
+}
+
+TEST(RedesignCard, ChangesFlywheelsOnlyForWhatDecides) {
+  Report report = report_of_test();
+  report.matching = flywheels({{0.499, 0.5}});
+  EXPECT_THAT(line_of(report, "Flywheels"),
+              StartsWith("keep: 0 disks 0.499 mdeg, 24 disks as built 0.500"));
+  report.matching = flywheels({{0.6, 0.5}});
+  EXPECT_THAT(line_of(report, "Flywheels"), StartsWith("keep: "));
+  report.matching = flywheels({{0.4, 0.5}});
+  EXPECT_THAT(line_of(report, "Flywheels"),
+              AllOf(StartsWith("change: 0 disks 0.400 mdeg, 24 disks as built 0.500"),
+                    HasSubstr("boresight evaluate")));
+  report.matching = flywheels({{0.4, 0.5}, {0.47, 0.471}});
+  EXPECT_THAT(line_of(report, "Flywheels"),
+              AllOf(StartsWith("keep until friction is measured"),
+                    HasSubstr("; 0.470 and 0.471 with the slope at tracking rate")));
+}
+
+TEST(RedesignCard, NamesTheTestThatMeasuresWhatTheRmsDependsOn) {
+  Report report = report_of_test();
+  EXPECT_THAT(line_of(report, "Next test"), StartsWith("none"));
+  InputEffect effect;
+  effect.quantity.key = "drive.viscous_friction";
+  effect.low_rms = 0.6 * millidegree;
+  effect.high_rms = 0.4 * millidegree;
+  report.tuning->input_effects = {effect};
+  EXPECT_EQ(line_of(report, "Next test"),
+            "constant-speed runs at six rates, both ways (6 min of antenna time): "
+            "drive.viscous_friction moves the rms from 0.600 to 0.400 mdeg");
+  report.tuning->input_effects[0].quantity.key = "structure.mode[0].wind_fraction";
+  EXPECT_THAT(line_of(report, "Next test"), StartsWith("mode shapes"));
+}
+
+TEST(RedesignCard, SaysWhatContradictsBeforeAnythingIsBuilt) {
+  Report report = report_of_test();
+  EXPECT_EQ(line_of(report, "Settle first"), "nothing");
+  auto& resonance = report.resonance.emplace();
+  resonance.measured = 0.97;
+  resonance.expected = 0.75;
+  resonance.standard_uncertainty = 0.02;
+  EXPECT_THAT(line_of(report, "Settle first"),
+              HasSubstr("resonance 0.97 Hz measured, 0.75 Hz expected"));
+  EXPECT_THAT(line_of(report, "Confidence"), HasSubstr("contradicts the plant"));
+  // Where the verdict itself may be wrong nothing is to be loaded yet.
+  EXPECT_EQ(line_of(report, "Load"), "");
+  EXPECT_THAT(line_of(report, "Recommended"), StartsWith("PI-0"));
+}
+
+TEST(RedesignCard, AlignsItsLinesBehindTheLabels) {
+  const std::string text = to_text(document_of({{"Load", "PI (robust)", "Tuned loops"}}));
+  EXPECT_EQ(text, "  Load            PI (robust) [Tuned loops]\n");
+}
+
+}  // namespace
+}  // namespace boresight::app

@@ -5,6 +5,7 @@
 
 #include <boresight/app/commission/commission_study.hpp>
 #include <boresight/app/document/document_text.hpp>
+#include <boresight/app/report/decision.hpp>
 #include <boresight/app/report/sky_units.hpp>
 #include <boresight/app/report/text_report.hpp>
 #include <boresight/numerics/angles.hpp>
@@ -154,6 +155,7 @@ Document plan_part(const CommissionReport& report) {
 Document document_of(const CommissionReport& report) {
   Document text =
       report_title("commission", report.title, report.axis, report.case_path, report.seed);
+  text += lead(decision(report));
   text += heading("Commissioning plan for " + report.structure);
   text += report.failure == nullptr ? plan_part(report) : wrapped("None: " + report.no_plan, "  ");
   text += comparison_part(report);

@@ -54,8 +54,11 @@ Document wrapped(std::string_view paragraph, std::string_view indent, std::strin
   return {{Paragraph{std::string(paragraph), std::string(indent), std::string(hanging)}}};
 }
 
-Document labelled(std::string_view label, std::string_view paragraph, std::size_t width) {
-  return {{Paragraph{std::string(paragraph), "  ", std::string(width, ' '), std::string(label)}}};
+Document lead(const std::vector<std::string>& sentences) {
+  if (sentences.empty()) return {};
+  Lead all;
+  for (const auto& sentence : sentences) all.paragraphs.push_back({sentence, "  ", "", ""});
+  return {{std::move(all)}};
 }
 
 Document table(std::vector<std::vector<std::string>> rows, std::string_view alignment,

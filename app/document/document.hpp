@@ -44,7 +44,13 @@ struct Verbatim {
   std::string text;
 };
 
-using Block = std::variant<Heading, Subheading, Paragraph, Table, Verbatim>;
+/// The decision, which a terminal shows between title and sections, a page in its own box: not
+/// where it stands here.
+struct Lead {
+  std::vector<Paragraph> paragraphs;
+};
+
+using Block = std::variant<Heading, Subheading, Paragraph, Table, Verbatim, Lead>;
 
 /// What a report says, apart from how it is shown: to_text (document_text.hpp) is for a terminal,
 /// to_html (document_html.hpp) for a page. Strings added to it are verbatim.
@@ -64,8 +70,8 @@ Document heading(std::string_view title);
 Document subheading(std::string_view title, std::string_view indent = "  ");
 Document wrapped(std::string_view paragraph, std::string_view indent,
                  std::string_view hanging = {});
-/// A paragraph behind a label, its lines aligned behind `width` columns.
-Document labelled(std::string_view label, std::string_view paragraph, std::size_t width);
+/// The decision in sentences; nothing without any.
+Document lead(const std::vector<std::string>& sentences);
 Document table(std::vector<std::vector<std::string>> rows, std::string_view alignment = "l",
                std::size_t header_rows = 1);
 Document verbatim(std::string_view text);

@@ -49,11 +49,6 @@ class Elements {
   void operator()(const Paragraph& paragraph) {
     if (paragraph.text.find_first_not_of(blank) == std::string::npos) return;
     constexpr std::size_t usual = 2;
-    if (!paragraph.label.empty()) {
-      line(fmt::format("<p>{} {}</p>", tagged("strong", "", paragraph.label),
-                       escaped_html(paragraph.text)));
-      return;
-    }
     line(tagged("p", paragraph.indent.size() > usual ? " class=\"nested\"" : "", paragraph.text));
   }
 
@@ -72,6 +67,9 @@ class Elements {
     for (std::size_t i = header_rows; i < table.rows.size(); ++i) add_row(table, i, columns);
     html_ += "</tbody>\n</table></div>\n";
   }
+
+  // A page shows it in its own box.
+  void operator()(const Lead& /*lead*/) {}
 
   void operator()(const Verbatim& verbatim) {
     const std::string_view text = verbatim.text;

@@ -68,6 +68,11 @@ void append(std::string& text, const Table& table) {
   }
 }
 
+void append(std::string& text, const Lead& lead) {
+  text += '\n';
+  for (const auto& paragraph : lead.paragraphs) append(text, paragraph);
+}
+
 void append(std::string& text, const Verbatim& verbatim) {
   text += verbatim.text;
 }

@@ -6,6 +6,7 @@
 
 #include <boresight/app/document/document_text.hpp>
 #include <boresight/app/montecarlo/montecarlo_study.hpp>
+#include <boresight/app/report/decision.hpp>
 #include <boresight/app/report/loss_wording.hpp>
 #include <boresight/app/report/sky_units.hpp>
 #include <boresight/app/report/text_report.hpp>
@@ -179,6 +180,7 @@ Document document_of(const MonteCarloSection& section) {
     text += fmt::format("INTERRUPTED: {} of {} plants were judged; what follows is of these.\n",
                         section.plants, section.plants_asked);
   }
+  text += lead(decision(section));
   text += heading("Law and plants");
   text += wrapped(fmt::format("{}: {}.", section.structure, section.law_source), "  ");
   Rows gains{{"gain", "value"}};

@@ -1,8 +1,8 @@
 #include <utility>
 
 #include <boresight/app/montecarlo/montecarlo_study.hpp>
-#include <boresight/app/page/decision.hpp>
 #include <boresight/app/page/report_page.hpp>
+#include <boresight/app/report/decision.hpp>
 #include <boresight/app/report/json_writer.hpp>
 #include <boresight/app/report/redesign_card.hpp>
 #include <boresight/app/report/text_report.hpp>
@@ -31,7 +31,6 @@ Page page_of(const Report& report) {
   Page page = common(report, report.command);
   page.interrupted = report.interrupted;
   page.card = redesign_card(report);
-  page.document = document_without_card(report);
   page.reservations = reservations(report);
   if (report.matched && report.matched->what_if) {
     page.what_if = json_of(*report.matched->what_if).dump();

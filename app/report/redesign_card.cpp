@@ -320,11 +320,12 @@ std::vector<CardLine> redesign_card(const Report& report) {
 
 Document document_of(const std::vector<CardLine>& card) {
   constexpr std::size_t width = 16;
-  Document text;
+  Lead lead;
   for (const auto& line : card) {
-    text += labelled(line.label, fmt::format("{} [{}]", line.text, line.evidence), width);
+    lead.paragraphs.push_back({fmt::format("{} [{}]", line.text, line.evidence), "  ",
+                               std::string(width, ' '), line.label});
   }
-  return text;
+  return {{std::move(lead)}};
 }
 
 }  // namespace boresight::app

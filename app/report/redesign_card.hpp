@@ -19,7 +19,7 @@ struct CardLine {
 /// sections. Empty without a tuned controller.
 std::vector<CardLine> redesign_card(const Report& report);
 
-/// The card for a terminal.
+/// The card as the report's Lead.
 Document document_of(const std::vector<CardLine>& card);
 
 }  // namespace boresight::app

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <boresight/app/document/document_text.hpp>
+#include <boresight/app/report/decision.hpp>
 #include <boresight/app/report/evaluate_report.hpp>
 #include <boresight/app/report/match_report.hpp>
 #include <boresight/app/report/measured_report.hpp>
@@ -83,13 +84,9 @@ Document sections_of(const Report& report) {
 }  // namespace
 
 Document document_of(const Report& report) {
-  Document text = opening_of(report);
-  if (const auto card = redesign_card(report); !card.empty()) text += "\n" + document_of(card);
-  return text + sections_of(report);
-}
-
-Document document_without_card(const Report& report) {
-  return opening_of(report) + sections_of(report);
+  const auto card = redesign_card(report);
+  return opening_of(report) + (card.empty() ? lead(decision(report)) : document_of(card)) +
+         sections_of(report);
 }
 
 std::string to_text(const Report& report) {

@@ -7,10 +7,8 @@
 
 namespace boresight::app {
 
-/// The whole report, angles at the sky in mdeg; without the card of a redesign, which a page has
-/// elsewhere; and as text for a terminal.
+/// The whole report, the decision first, angles at the sky in mdeg; and as text for a terminal.
 Document document_of(const Report& report);
-Document document_without_card(const Report& report);
 std::string to_text(const Report& report);
 
 // One function a section; each begins with its heading.

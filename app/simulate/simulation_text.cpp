@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <boresight/app/document/document_text.hpp>
+#include <boresight/app/report/decision.hpp>
 #include <boresight/app/report/sky_units.hpp>
 #include <boresight/app/report/text_report.hpp>
 #include <boresight/app/simulate/simulation_report.hpp>
@@ -120,6 +121,7 @@ Document limits_part(const SimulationReport& report) {
 Document document_of(const SimulationReport& report) {
   Document text =
       report_title("simulate", report.title, report.axis, report.case_path, report.seed);
+  text += lead(decision(report));
   text += heading("What was run");
   for (const auto& record : report.drive) {
     text += wrapped(fmt::format("{}: {}", record.test, record.description), "  ", "  ");

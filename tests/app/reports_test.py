@@ -8,4 +8,4 @@ import unittest
 
 if __name__ == "__main__":
     # Named here: without names and a module unittest looks for tests in the working folder.
-    unittest.main(module=None, argv=[sys.argv[0], "json_schema_test", "report_figures_test"])
+    unittest.main(module=None, argv=[sys.argv[0], "json_schema_test", "redesign_card_test", "report_figures_test"])

@@ -9,10 +9,10 @@
 
 #include "io/edited_case.hpp"
 #include <boresight/app/document/document_text.hpp>
-#include <boresight/app/page/decision.hpp>
 #include <boresight/app/redesign/choices.hpp>
 #include <boresight/app/redesign/resonance_verdict.hpp>
 #include <boresight/app/redesign/sections.hpp>
+#include <boresight/app/report/decision.hpp>
 #include <boresight/app/report/text_report.hpp>
 #include <boresight/io/case/antenna_of.hpp>
 #include <boresight/io/case/member_ranges.hpp>

@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <boresight/app/document/document_text.hpp>
-#include <boresight/app/page/decision.hpp>
+#include <boresight/app/report/decision.hpp>
 #include <boresight/app/report/text_report.hpp>
 
 namespace boresight::app {

@@ -165,7 +165,7 @@ TEST(RedesignCard, SaysWhatContradictsBeforeAnythingIsBuilt) {
 
 TEST(RedesignCard, AlignsItsLinesBehindTheLabels) {
   const std::string text = to_text(document_of({{"Load", "PI (robust)", "Tuned loops"}}));
-  EXPECT_EQ(text, "  Load            PI (robust) [Tuned loops]\n");
+  EXPECT_EQ(text, "\n  Load            PI (robust) [Tuned loops]\n");
 }
 
 }  // namespace

@@ -10,10 +10,10 @@
 #include <gtest/gtest.h>
 
 #include <boresight/app/document/document_text.hpp>
-#include <boresight/app/page/decision.hpp>
 #include <boresight/app/redesign/matching_verdict.hpp>
 #include <boresight/app/redesign/needed_budgets.hpp>
 #include <boresight/app/redesign/tuning_verdict.hpp>
+#include <boresight/app/report/decision.hpp>
 #include <boresight/app/report/sky_units.hpp>
 #include <boresight/app/report/text_report.hpp>
 #include <boresight/app/report/wind_mast.hpp>

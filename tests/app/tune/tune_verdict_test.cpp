@@ -8,8 +8,8 @@
 #include <gtest/gtest.h>
 
 #include <boresight/app/document/document_text.hpp>
-#include <boresight/app/page/study_decision.hpp>
 #include <boresight/app/report/sky_units.hpp>
+#include <boresight/app/report/study_decision.hpp>
 #include <boresight/app/report/text_report.hpp>
 #include <boresight/app/tune/gains_at_bounds.hpp>
 #include <boresight/app/tune/tune_study.hpp>

@@ -7,9 +7,9 @@
 #include <gtest/gtest.h>
 
 #include <boresight/app/match/match_conclusions.hpp>
-#include <boresight/app/page/decision.hpp>
-#include <boresight/app/page/study_decision.hpp>
+#include <boresight/app/report/decision.hpp>
 #include <boresight/app/report/sky_units.hpp>
+#include <boresight/app/report/study_decision.hpp>
 
 namespace boresight::app {
 namespace {

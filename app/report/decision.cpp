@@ -4,11 +4,11 @@
 
 #include <fmt/format.h>
 
-#include <boresight/app/page/decision.hpp>
-#include <boresight/app/page/study_decision.hpp>
 #include <boresight/app/redesign/assumed_inputs.hpp>
 #include <boresight/app/redesign/matching_verdict.hpp>
 #include <boresight/app/redesign/tuning_verdict.hpp>
+#include <boresight/app/report/decision.hpp>
+#include <boresight/app/report/study_decision.hpp>
 #include <boresight/app/tune/gains_at_bounds.hpp>
 #include <boresight/app/tune/tune_verdict.hpp>
 

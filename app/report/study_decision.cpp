@@ -7,12 +7,12 @@
 #include <boresight/app/evaluate/pairs_by_structure.hpp>
 #include <boresight/app/evaluate/unfit_candidates.hpp>
 #include <boresight/app/match/match_conclusions.hpp>
-#include <boresight/app/page/decision.hpp>
-#include <boresight/app/page/study_decision.hpp>
 #include <boresight/app/report/climate_wording.hpp>
+#include <boresight/app/report/decision.hpp>
 #include <boresight/app/report/influences.hpp>
 #include <boresight/app/report/present_gains.hpp>
 #include <boresight/app/report/sky_units.hpp>
+#include <boresight/app/report/study_decision.hpp>
 #include <boresight/app/report/wind_mast.hpp>
 #include <boresight/app/tune/tune_study.hpp>
 #include <boresight/app/tune/tune_verdict.hpp>

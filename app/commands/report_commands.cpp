@@ -23,7 +23,6 @@
 #include <boresight/design/problem/pointing_budget.hpp>
 #include <boresight/io/campaign/campaign_identification.hpp>
 #include <boresight/io/campaign/designed_antenna.hpp>
-#include <boresight/io/campaign/identified_case.hpp>
 #include <boresight/io/case/mission_of.hpp>
 #include <boresight/io/files/write_atomically.hpp>
 
@@ -57,20 +56,18 @@ void fill_identification(const io::Case& antenna, const StudyOptions& options, R
   report.figures = record_figures(report.campaign->notes, traces);
 }
 
-// The tuned law on other plants that may be the true one: those that the records leave open,
-// without records those of the case.
-void judge_on_ensemble(const io::Case& antenna, const design::Mission& designed,
-                       const StudyOptions& options,
-                       const std::optional<io::CampaignSection>& campaign, TuningSection& section) {
-  constexpr std::size_t drawn_plants = 200;
-  const bool recorded = campaign && campaign->grey_box;
-  const auto members = recorded
-                           ? identified_ensemble(antenna, campaign->grey_box->draws, drawn_plants)
-                           : plant_members(designed, options.seed);
-  evaluate_on(members, options.threads, section);
+// The recommended controller, gains fixed, on the ensemble that it was tuned on; of records on more
+// draws of the same distribution.
+void evaluate_on_ensemble(const io::DesignedAntenna& plant, const StudyOptions& options,
+                          TuningSection& section) {
+  constexpr std::size_t draws = 200;
+  evaluate_on(plant.from_records
+                  ? io::drawn_members(plant.mission, plant.distribution, options.seed, draws)
+                  : plant.ensemble.members,
+              options.threads, section);
   if (!section.ensemble) return;
   section.ensemble_source =
-      recorded ? "drawn from what the records leave open" : "of the case's ensemble";
+      plant.from_records ? "drawn from what the records leave open" : "of the case's ensemble";
 }
 
 void fill_redesign(const io::Case& antenna, const StudyOptions& options, Report& report) {
@@ -88,9 +85,7 @@ void fill_redesign(const io::Case& antenna, const StudyOptions& options, Report&
   report.assumed = assumed_inputs(designed);
   redesign(plant, options, report);
   if (report.time_domain) report.assumed = assumed_inputs(designed, {.time_runs = true});
-  if (report.tuning) {
-    judge_on_ensemble(antenna, plant.mission, options, report.campaign, *report.tuning);
-  }
+  if (report.tuning) evaluate_on_ensemble(plant, options, *report.tuning);
   report.conclusions = conclude(report);
 }
 

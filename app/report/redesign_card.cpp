@@ -30,9 +30,9 @@ std::string mdeg(double angle) {
   return fmt::format("{:.3f}", angle / millidegree);
 }
 
+// On the ensemble that it was tuned on: of records there may be more draws in `ensemble`.
 bool robust(const TuningSection& section) {
-  return section.tuned_for == design::TunedFor::robust && section.ensemble &&
-         section.ensemble->within_goals == static_cast<int>(section.ensemble->members.size());
+  return section.tuned_for == design::TunedFor::robust && section.goals_met;
 }
 
 bool simulated(const Report& report) {

@@ -107,6 +107,7 @@ RecommendedDesign recommended_design(const Mission& mission, const TunedLaw& row
   section.structure = row.design.tuning.law.structure;
   section.name = row.structure;
   section.tuned_for = row.tuned_for;
+  section.goals_met = row.goals_met;
   section.design = row.design;
   section.goals = constraints(mission);
   for (std::size_t i = 0; i < repeated.size(); ++i) {

@@ -25,6 +25,7 @@ struct RecommendedDesign {
   control::LoopStructure structure;
   std::string name;  // of the structure, as the user has it
   TunedFor tuned_for = TunedFor::nominal;
+  bool goals_met = false;   // TunedLaw::goals_met
   TrackingProblem problem;  // what was tuned
   HardGoals goals;
   Design design;

@@ -9,6 +9,19 @@
 
 namespace boresight::io {
 
+std::vector<design::EnsembleMember> drawn_members(const design::Mission& mission,
+                                                  const design::PlantDistribution& distribution,
+                                                  std::uint64_t seed, std::size_t count) {
+  std::vector<design::EnsembleMember> members;
+  members.reserve(count);
+  for (std::size_t i = 0; i < count; ++i) {
+    members.push_back(
+        {fmt::format("draw {}", i + 1),
+         linear_plant(changed(mission.antenna, changes_of(distribution.draw(seed, i))))});
+  }
+  return members;
+}
+
 DesignedAntenna designed_antenna(const Case& stated, const std::optional<CampaignSection>& campaign,
                                  std::uint64_t seed) {
   if (!campaign || !campaign->grey_box) {
@@ -23,12 +36,8 @@ DesignedAntenna designed_antenna(const Case& stated, const std::optional<Campaig
   design::Mission mission = mission_of(identified);
   const auto distribution =
       design::PlantDistribution::of_records(mission, campaign->grey_box->draws);
-  design::PlantEnsemble ensemble{design::EnsembleSource::records, {}};
-  for (std::size_t i = 0; i < members; ++i) {
-    ensemble.members.push_back(
-        {fmt::format("draw {}", i + 1),
-         linear_plant(changed(mission.antenna, changes_of(distribution.draw(seed, i))))});
-  }
+  design::PlantEnsemble ensemble{design::EnsembleSource::records,
+                                 drawn_members(mission, distribution, seed, members)};
   return {identified, std::move(mission), std::move(ensemble), distribution, true};
 }
 

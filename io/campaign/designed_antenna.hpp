@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <functional>
 #include <optional>
+#include <vector>
 
 #include <boresight/design/ensembles/plant_distribution.hpp>
 #include <boresight/io/campaign/campaign_section.hpp>
@@ -20,6 +21,12 @@ struct DesignedAntenna {
   design::PlantDistribution distribution;
   bool from_records = false;  // else the case as stated
 };
+
+/// The first so many draws of a distribution, "draw 1" and so on: of records a designed ensemble
+/// has the first of the same. @throws InvalidInput as plant::changed and plant::linear_plant.
+std::vector<design::EnsembleMember> drawn_members(const design::Mission& mission,
+                                                  const design::PlantDistribution& distribution,
+                                                  std::uint64_t seed, std::size_t count);
 
 /// What a case's identification makes of it; none: the case as stated. @throws as with_identified.
 DesignedAntenna designed_antenna(const Case& stated, const std::optional<CampaignSection>& campaign,

@@ -92,20 +92,4 @@ Case with_identified(const Case& antenna, const identification::DriveEstimate& e
   return identified;
 }
 
-std::vector<design::EnsembleMember> identified_ensemble(
-    const Case& antenna, const std::vector<identification::DriveEstimate>& draws,
-    std::size_t count) {
-  const plant::Antenna own = antenna_of(antenna);
-  std::vector<design::EnsembleMember> members;
-  for (std::size_t i = 0; i < draws.size() && members.size() < count; ++i) {
-    try {
-      members.push_back({fmt::format("draw {}", i + 1),
-                         linear_plant(changed(own, identified_changes(own, draws[i])))});
-    } catch (const NumericalFailure&) {
-      continue;
-    }
-  }
-  return members;
-}
-
 }  // namespace boresight::io

@@ -1,9 +1,5 @@
 #pragma once
 
-#include <optional>
-#include <vector>
-
-#include <boresight/design/ensembles/plant_ensemble.hpp>
 #include <boresight/identification/grey_box/grey_box.hpp>
 #include <boresight/io/case/case_file.hpp>
 
@@ -17,11 +13,5 @@ namespace boresight::io {
 /// @throws NumericalFailure for an estimate that leaves the antenna no inertia, and for one that
 /// the records' contradiction with the case makes none (DriveEstimate::contradicted).
 Case with_identified(const Case& antenna, const identification::DriveEstimate& estimate);
-
-/// Plants of the identified distribution, at most `count`, named "draw 1" and so on. Draws that
-/// leave the antenna no inertia are passed over.
-std::vector<design::EnsembleMember> identified_ensemble(
-    const Case& antenna, const std::vector<identification::DriveEstimate>& draws,
-    std::size_t count);
 
 }  // namespace boresight::io

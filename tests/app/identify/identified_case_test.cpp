@@ -4,9 +4,11 @@
 #include <gtest/gtest.h>
 
 #include <boresight/app/redesign/assumed_inputs.hpp>
+#include <boresight/io/campaign/designed_antenna.hpp>
 #include <boresight/io/campaign/identified_case.hpp>
 #include <boresight/io/case/antenna_of.hpp>
 #include <boresight/io/case/drive_numbers.hpp>
+#include <boresight/io/case/mission_of.hpp>
 #include <boresight/io/case/plant_numbers.hpp>
 #include <boresight/numerics/error.hpp>
 
@@ -75,17 +77,25 @@ TEST(IdentifiedCase, RefusesAnInertiaThatLeavesNoAntenna) {
   EXPECT_THROW(with_identified(antenna, found), NumericalFailure);
 }
 
-TEST(IdentifiedEnsemble, HasAPlantForEveryDrawThatLeavesAnAntenna) {
+// Of all commands the ensemble is drawn from one distribution: a designed ensemble has its first
+// draws.
+TEST(DrawnMembers, BeginWithThoseThatAControllerIsTunedOn) {
   const io::Case antenna = seventy_metres();
-  std::vector<identification::DriveEstimate> draws(3, estimate());
-  draws[1].inertia = 1.0;
-  draws[2].oil_stiffness = 55.0;
-  const auto members = identified_ensemble(antenna, draws, 10);
-  ASSERT_EQ(members.size(), 2u);
-  EXPECT_EQ(members[0].name, "draw 1");
-  EXPECT_EQ(members[1].name, "draw 3");
-  EXPECT_NEAR(members[1].plant.drive.oil_stiffness, 55.0, 1e-10);
-  EXPECT_EQ(identified_ensemble(antenna, draws, 1).size(), 1u);
+  std::vector<identification::DriveEstimate> draws(40, estimate());
+  for (std::size_t i = 0; i < draws.size(); ++i) {
+    draws[i].oil_stiffness *= 1.0 + 0.001 * static_cast<double>(i);
+  }
+  const design::Mission mission = mission_of(with_identified(antenna, estimate()));
+  const auto distribution = design::PlantDistribution::of_records(mission, draws);
+  const auto few = io::drawn_members(mission, distribution, 1, 2);
+  const auto more = io::drawn_members(mission, distribution, 1, 5);
+  ASSERT_EQ(few.size(), 2U);
+  ASSERT_EQ(more.size(), 5U);
+  EXPECT_EQ(more[4].name, "draw 5");
+  for (std::size_t i = 0; i < few.size(); ++i) {
+    EXPECT_EQ(few[i].plant.drive.oil_stiffness, more[i].plant.drive.oil_stiffness);
+  }
+  EXPECT_NE(more[3].plant.drive.oil_stiffness, more[4].plant.drive.oil_stiffness);
 }
 
 }  // namespace

@@ -219,6 +219,15 @@ std::vector<std::string> decision(const EvaluateSection& section) {
     if (auto cause = law_or_hardware(section, draws, choice); fit && !cause.empty()) {
       sentences.push_back(std::move(cause));
     }
+  } else if (section.candidates.size() == 1 && section.candidates.front().chosen) {
+    const Candidate& only = section.candidates.front();
+    const CandidateLaw& law = only.laws[*only.chosen];
+    if (!std::isfinite(law.compared_rms())) return sentences;
+    sentences.push_back(fmt::format(
+        "Nothing to compare it with: {} points within {:.3f} mdeg rms over {} plant models in "
+        "{:.3g} m/s with {}{}.",
+        only.name, mdeg(law.compared_rms()), section.ensemble_size, section.wind_speed,
+        law.structure, law.usable() ? "" : ", which is not fit to be chosen"));
   }
   std::string front;
   double before = HUGE_VAL;

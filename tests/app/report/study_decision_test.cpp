@@ -381,6 +381,15 @@ TEST(EvaluateDecision, WeighsWhatIsUnstableOnSomeDrawsByWhatTheOthersKeep) {
                     Not(HasSubstr("inf"))));
 }
 
+TEST(EvaluateDecision, StatesWhatTheAntennaDoesWithoutProposals) {
+  auto section = proposals_of({{0.0, 0.5133}});
+  section.decision.reset();
+  section.ensemble_size = 30;
+  section.wind_speed = 10.0;
+  EXPECT_THAT(decision(section).front(),
+              HasSubstr("points within 0.513 mdeg rms over 30 plant models in 10 m/s"));
+}
+
 TEST(EvaluateDecision, ChoosesTheCheapestOfThoseAlike) {
   const auto section = proposals_of({{0.0, 0.64}, {60.0, 0.426}, {420.0, 0.42}});
   ASSERT_TRUE(section.decision);

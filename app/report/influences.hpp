@@ -4,6 +4,7 @@
 #include <utility>
 #include <vector>
 
+#include <boresight/design/decisions/confidence.hpp>
 #include <boresight/design/decisions/negligible_change.hpp>
 
 namespace boresight::app {
@@ -11,7 +12,7 @@ namespace boresight::app {
 using design::negligible_change;
 
 /// A change of the rms above this share is worth a sentence wherever it comes from.
-inline constexpr double telling_change = 0.2;
+inline constexpr double telling_change = design::telling_effect;
 
 /// What moves the rms, beside what a study is about.
 class Influences {

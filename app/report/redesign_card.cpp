@@ -30,17 +30,8 @@ std::string mdeg(double angle) {
   return fmt::format("{:.3f}", angle / millidegree);
 }
 
-// On the ensemble that it was tuned on: of records there may be more draws in `ensemble`.
-bool robust(const TuningSection& section) {
-  return section.tuned_for == design::TunedFor::robust && section.goals_met;
-}
-
 bool simulated(const Report& report) {
   return report.time_domain && std::isfinite(report.time_domain->result.wind.beam_rms);
-}
-
-bool within_budget(const Report& report) {
-  return !report.time_domain || not_still(*report.time_domain).empty();
 }
 
 bool inertias_agree(const Report& report) {
@@ -51,10 +42,8 @@ bool inertias_agree(const Report& report) {
 
 design::ConfidenceGrade confidence(const Report& report, const TuningSection& section) {
   design::Evidence evidence;
-  evidence.verified = section.design.usable();
-  evidence.robust = robust(section);
+  evidence.fitness = section.fitness;
   evidence.simulated = simulated(report);
-  evidence.within_budget = within_budget(report);
   evidence.plant_identified = report.campaign && report.campaign->grey_box;
   evidence.inertias_agree = inertias_agree(report);
   evidence.resonance_agrees = !report.resonance || !report.resonance->contradicts();
@@ -76,7 +65,7 @@ std::string_view reason(Doubt doubt) {
     case Doubt::not_simulated:
       return "not shown on the nonlinear antenna";
     case Doubt::limit_cycle:
-      return "limit cycle beyond the budget";
+      return "limit cycle beyond the budget, or not shown";
     case Doubt::inertias_disagree:
       return "inertia estimates contradict";
     case Doubt::resonance_disagrees:
@@ -91,6 +80,24 @@ std::string_view reason(Doubt doubt) {
   return "";
 }
 
+// Of a controller that meets its constraints on the plant of the case.
+std::string_view deficiency(design::Fitness fitness) {
+  switch (fitness) {
+    case design::Fitness::misses_budget:
+      return ", misses a required budget";
+    case design::Fitness::misses_member:
+      return ", violates constraints within the uncertainty set";
+    case design::Fitness::not_shown:
+      return ", not shown to be free of limit cycles";
+    case design::Fitness::limit_cycle:
+      return ", limit-cycles beyond the tightest budget";
+    case design::Fitness::lost_in_wind:
+      return ", lost in simulated wind";
+    default:
+      return "";
+  }
+}
+
 CardLine controller_line(const Report& report, const TuningSection& section) {
   if (!section.design.usable()) {
     return {"Controller", "none: no controller found meets every constraint of the case",
@@ -102,13 +109,13 @@ CardLine controller_line(const Report& report, const TuningSection& section) {
   for (std::size_t i = 0; i < values.size(); ++i) {
     gains.push_back(fmt::format("{} = {}", law.structure.gains()[i].symbol, values[i]));
   }
-  const bool install = robust(section) && simulated(report) && within_budget(report);
+  const bool fit = section.fitness == design::Fitness::fit;
   const bool sure = confidence(report, section).grade != Confidence::low;
-  return {!install ? "Do not load"
-          : sure   ? "Load"
-                   : "Recommended",
-          fmt::format("{} ({}): {}", section.name, to_string(section.tuned_for),
-                      fmt::join(gains, ", ")),
+  return {!fit    ? "Do not load"
+          : !sure ? "Recommended"
+                  : "Load",
+          fmt::format("{} ({}{}): {}", section.name, to_string(section.tuned_for),
+                      deficiency(section.fitness), fmt::join(gains, ", ")),
           std::string(loops)};
 }
 

@@ -19,10 +19,11 @@ ConfidenceGrade grade(const Evidence& evidence) {
   const auto doubt = [&](bool holds, Doubt reason) {
     if (holds) result.doubts.push_back(reason);
   };
-  doubt(!evidence.verified, Doubt::not_verified);
-  doubt(!evidence.robust, Doubt::not_robust);
+  const Fitness fitness = evidence.fitness;
+  doubt(fitness >= Fitness::misses_nominal, Doubt::not_verified);
+  doubt(fitness == Fitness::misses_member, Doubt::not_robust);
   doubt(!evidence.simulated, Doubt::not_simulated);
-  doubt(!evidence.within_budget, Doubt::limit_cycle);
+  doubt(fitness == Fitness::limit_cycle || fitness == Fitness::not_shown, Doubt::limit_cycle);
   doubt(!evidence.inertias_agree, Doubt::inertias_disagree);
   doubt(!evidence.resonance_agrees, Doubt::resonance_disagrees);
   doubt(evidence.verdict_depends_on_interpretation, Doubt::interpretation_decides);

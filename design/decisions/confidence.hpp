@@ -3,14 +3,14 @@
 #include <string_view>
 #include <vector>
 
+#include <boresight/design/decisions/assessment.hpp>
+
 namespace boresight::design {
 
 /// What a recommended controller rests on.
 struct Evidence {
-  bool verified = false;      // constraints on the nominal plant, by independent code
-  bool robust = false;        // every constraint on every ensemble member
-  bool simulated = false;     // on the nonlinear antenna, the run in wind completed
-  bool within_budget = true;  // limit cycles within the tightest pointing budget, where simulated
+  Fitness fitness = Fitness::unstable;
+  bool simulated = false;         // on the nonlinear antenna, the run in wind completed
   bool plant_identified = false;  // from records, instead of from drawings
   bool inertias_agree = true;     // independent estimates of the reflected inertia
   bool resonance_agrees = true;   // the measured hydraulic frequency, with that of the plant
@@ -28,7 +28,7 @@ enum class Doubt {
   not_verified,
   not_robust,
   not_simulated,
-  limit_cycle,
+  limit_cycle,  // beyond the tightest budget, or not shown that there is none
   inertias_disagree,
   resonance_disagrees,
   interpretation_decides,
@@ -44,8 +44,9 @@ struct ConfidenceGrade {
 /// From which relative change of the rms one uncertain number counts as a doubt.
 inline constexpr double telling_effect = 0.2;
 
-/// Low with any doubt up to interpretation_decides: then the verdict itself may be wrong. Moderate
-/// with one of the others only: the figures may be off.
+/// Of the fitness that deficiency which decides it; a missed budget is none that makes a result
+/// less sure. Low with any doubt up to interpretation_decides: then the verdict itself may be
+/// wrong. Moderate with one of the others only: the figures may be off.
 ConfidenceGrade grade(const Evidence& evidence);
 
 }  // namespace boresight::design

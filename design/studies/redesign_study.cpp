@@ -107,7 +107,6 @@ RecommendedDesign recommended_design(const Mission& mission, const TunedLaw& row
   section.structure = row.design.tuning.law.structure;
   section.name = row.structure;
   section.tuned_for = row.tuned_for;
-  section.goals_met = row.goals_met;
   section.design = row.design;
   section.goals = constraints(mission);
   for (std::size_t i = 0; i < repeated.size(); ++i) {
@@ -235,6 +234,7 @@ RedesignStudy redesign(const Mission& mission, const PlantEnsemble& ensemble,
   RedesignStudy result;
   result.recommended =
       recommended_design(mission, best, task.seed, {designs.begin(), first_alternative});
+  result.recommended.fitness = fitness(assessment_of(study.tuned, best));
   std::vector<Design> other(first_alternative, first_row);
   improve_along(alternatives, other);
   for (std::size_t i = 0; i < other.size(); ++i) {

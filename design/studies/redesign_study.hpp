@@ -25,8 +25,8 @@ struct RecommendedDesign {
   control::LoopStructure structure;
   std::string name;  // of the structure, as the user has it
   TunedFor tuned_for = TunedFor::nominal;
-  bool goals_met = false;   // TunedLaw::goals_met
-  TrackingProblem problem;  // what was tuned
+  Fitness fitness = Fitness::unstable;  // of its assessment_of, by which it was recommended
+  TrackingProblem problem;              // what was tuned
   HardGoals goals;
   Design design;
   /// Gains that the antenna runs on now, evaluated on the same plant.

@@ -1,4 +1,5 @@
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <gmock/gmock.h>
@@ -33,7 +34,7 @@ Report report_of_test() {
   auto& section = report.tuning.emplace();
   section.name = "PI-0";
   section.tuned_for = design::TunedFor::robust;
-  section.goals_met = true;
+  section.fitness = design::Fitness::fit;
   section.design = design_of(0.5);
   section.design_speed = 10.0;
   auto& ensemble = section.ensemble.emplace();
@@ -62,21 +63,35 @@ TEST(RedesignCard, LoadsWhatIsRobustAndSimulated) {
   EXPECT_THAT(line_of(report, "Margins"), HasSubstr("; constraints met on 30 of 30 models"));
 }
 
-TEST(RedesignCard, DoesNotLoadWhatBreaksAConstraintOrWasNotSimulated) {
+// What recommend() calls unfit is not loaded, and the card says why.
+TEST(RedesignCard, DoesNotLoadWhatIsUnfit) {
   Report report = report_of_test();
-  report.tuning->goals_met = false;
-  EXPECT_THAT(line_of(report, "Do not load"), StartsWith("PI-0"));
+  using design::Fitness;
+  for (const auto& [fitness, why] : std::vector<std::pair<Fitness, std::string>>{
+           {Fitness::misses_budget, "misses a required budget"},
+           {Fitness::misses_member, "violates constraints within the uncertainty set"},
+           {Fitness::not_shown, "not shown to be free of limit cycles"},
+           {Fitness::limit_cycle, "limit-cycles beyond the tightest budget"},
+           {Fitness::lost_in_wind, "lost in simulated wind"}}) {
+    report.tuning->fitness = fitness;
+    EXPECT_THAT(line_of(report, "Do not load"), StartsWith("PI-0 (robust, " + why + "): kr = "));
+  }
+  report.tuning->fitness = Fitness::misses_member;
   EXPECT_THAT(line_of(report, "Confidence"),
               StartsWith("low: constraints violated within the uncertainty set"));
-  report = report_of_test();
-  report.time_domain.reset();
-  EXPECT_THAT(line_of(report, "Do not load"), StartsWith("PI-0"));
-  EXPECT_THAT(line_of(report, "Error per axis"), HasSubstr("not simulated"));
-  report = report_of_test();
   report.tuning->design.tuning.status = design::TuningStatus::infeasible;
   EXPECT_THAT(line_of(report, "Controller"), StartsWith("none"));
   EXPECT_EQ(line_of(report, "Error per axis"), "");
   EXPECT_THAT(redesign_card(Report{}), IsEmpty());
+}
+
+// Without [simulation] the other commands recommend it too: by linear loops.
+TEST(RedesignCard, SaysThatAControllerWasNotSimulated) {
+  Report report = report_of_test();
+  report.time_domain.reset();
+  EXPECT_THAT(line_of(report, "Recommended"), StartsWith("PI-0"));
+  EXPECT_THAT(line_of(report, "Error per axis"), HasSubstr("not simulated"));
+  EXPECT_THAT(line_of(report, "Confidence"), StartsWith("low: not shown on the nonlinear antenna"));
 }
 
 TEST(RedesignCard, ComparesWithTheGainsOfToday) {

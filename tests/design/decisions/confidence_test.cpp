@@ -13,7 +13,8 @@ using testing::IsEmpty;
 
 Evidence sound() {
   Evidence evidence;
-  evidence.verified = evidence.robust = evidence.simulated = evidence.plant_identified = true;
+  evidence.fitness = Fitness::fit;
+  evidence.simulated = evidence.plant_identified = true;
   return evidence;
 }
 
@@ -38,6 +39,13 @@ TEST(Confidence, IsModerateWhereFiguresMayBeOff) {
   }
 }
 
+// That it is missed is as sure as that it is met.
+TEST(Confidence, IsNotLessOfAControllerThatMissesABudget) {
+  Evidence evidence = sound();
+  evidence.fitness = Fitness::misses_budget;
+  EXPECT_EQ(grade(evidence).grade, Confidence::high);
+}
+
 TEST(Confidence, IsLowWhereTheVerdictMayBeWrong) {
   const auto is_low = [](auto spoil, Doubt reason) {
     Evidence evidence = sound();
@@ -45,10 +53,13 @@ TEST(Confidence, IsLowWhereTheVerdictMayBeWrong) {
     EXPECT_EQ(grade(evidence).grade, Confidence::low);
     EXPECT_THAT(grade(evidence).doubts, ElementsAre(reason));
   };
-  is_low([](Evidence& e) { e.verified = false; }, Doubt::not_verified);
-  is_low([](Evidence& e) { e.robust = false; }, Doubt::not_robust);
+  for (const auto fitness : {Fitness::misses_nominal, Fitness::unverified, Fitness::unstable}) {
+    is_low([&](Evidence& e) { e.fitness = fitness; }, Doubt::not_verified);
+  }
+  is_low([](Evidence& e) { e.fitness = Fitness::misses_member; }, Doubt::not_robust);
   is_low([](Evidence& e) { e.simulated = false; }, Doubt::not_simulated);
-  is_low([](Evidence& e) { e.within_budget = false; }, Doubt::limit_cycle);
+  is_low([](Evidence& e) { e.fitness = Fitness::limit_cycle; }, Doubt::limit_cycle);
+  is_low([](Evidence& e) { e.fitness = Fitness::not_shown; }, Doubt::limit_cycle);
   is_low([](Evidence& e) { e.inertias_agree = false; }, Doubt::inertias_disagree);
   is_low([](Evidence& e) { e.resonance_agrees = false; }, Doubt::resonance_disagrees);
   is_low([](Evidence& e) { e.verdict_depends_on_interpretation = true; },
@@ -57,8 +68,7 @@ TEST(Confidence, IsLowWhereTheVerdictMayBeWrong) {
 
 TEST(Confidence, ListsEveryDoubt) {
   EXPECT_THAT(grade(Evidence{}).doubts,
-              ElementsAre(Doubt::not_verified, Doubt::not_robust, Doubt::not_simulated,
-                          Doubt::plant_not_identified));
+              ElementsAre(Doubt::not_verified, Doubt::not_simulated, Doubt::plant_not_identified));
 }
 
 }  // namespace

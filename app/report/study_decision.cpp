@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -126,10 +127,29 @@ Sentences decide_inertia(const MatchSection& section, bool others_hunt) {
 
 }  // namespace
 
+namespace {
+
+// The one controller that every command recommends for the motors as built.
+std::string recommended_first(const design::TuningStudy& study) {
+  const TunedLaw* law = recommended_law(study);
+  if (law == nullptr) return "No controller is recommended: none that was tuned is fit.";
+  const bool simulated = law->in_time && std::isfinite(law->in_time->beam_rms);
+  return fmt::format("Recommended: {}, {:.3f} mdeg rms per axis in {:.3g} m/s wind, {}.",
+                     name_and_purpose(*law),
+                     mdeg(simulated ? law->in_time->beam_rms : law->beam_rms), law->wind_speed,
+                     simulated ? fmt::format("simulated ({:.3f} linear)", mdeg(law->beam_rms))
+                               : std::string("linear plant, not simulated"));
+}
+
+}  // namespace
+
 std::vector<std::string> decision(const MatchSection& section) {
   MatchSection kept = section;
   std::erase_if(kept.series, [&](const MatchSeries& series) { return hunts(section, series); });
   Sentences sentences = decide_inertia(kept, kept.series.size() < section.series.size());
+  if (section.tuned_as_built) {
+    sentences.insert(sentences.begin(), "As built: " + recommended_first(*section.tuned_as_built));
+  }
   for (const auto& series : section.series) {
     if (!series.best || !hunts(section, series) || kept.series.empty()) continue;
     const auto runs = hunting_of(section, series);
@@ -253,7 +273,8 @@ std::vector<std::string> decision(const TuneSection& section,
                                   const std::optional<TimeDomainSection>& time_domain,
                                   const std::optional<design::PointingLimit>& limit) {
   const TunedLaw* best = best_law(section);
-  Sentences sentences = unstable_now(section);
+  Sentences sentences{recommended_first(section)};
+  std::ranges::move(unstable_now(section), std::back_inserter(sentences));
   if (best == nullptr) {
     sentences.emplace_back("No law that was tuned meets the hard goals of this case.");
     return sentences;

@@ -316,7 +316,7 @@ TEST(RecommendedLaw, IsTheOneThatTheTimeDomainChooses) {
   section.laws[1].in_time->still = false;
   EXPECT_EQ(recommended_law(section, 12.0), nullptr);
   EXPECT_THAT(conclude(section), Each(Not(HasSubstr("recommended"))));
-  EXPECT_THAT(decision(section, {}, {}).front(), Not(HasSubstr("meets need")));
+  EXPECT_THAT(decision(section, {}, {}), Each(Not(HasSubstr("meets need"))));
   // Where none ran, the linear plant's best is.
   for (auto& law : section.laws) law.in_time.reset();
   EXPECT_EQ(recommended_law(section, 12.0), &section.laws[2]);
@@ -351,20 +351,23 @@ TEST(RecommendedLaw, IsTheOneOfEveryConclusion) {
                "antenna 2.1552 mdeg, and meets it on 27 of 30 plants; LL (robust) meets it on 28, "
                "but hunts by +-0.4375 mdeg rather than +-0.4246, and has a corner beyond half the "
                "sampling rate, where it does nothing."));
-  EXPECT_THAT(decision(section, {}, {}).front(),
+  EXPECT_THAT(decision(section, {}, {}).at(1),
               AllOf(StartsWith("On the linear plant DPF+C is best"),
                     HasSubstr("; there PI (robust), the law recommended, meets need (Ka) up to")));
+  EXPECT_EQ(decision(section, {}, {}).front(),
+            "Recommended: PI (robust), 2.155 mdeg rms per axis in 12 m/s wind, simulated (2.128 "
+            "linear).");
   // Another law is worth a word only where it meets the budget on more plants.
   section.laws[1].ensemble = ensemble_with(27);
   EXPECT_THAT(conclude(section), Contains(EndsWith("and meets it on 27 of 30 plants.")));
   // The linear plant's best is not the one recommended though it does not hunt.
   section.laws[1].beam_rms = 2.12 * millidegree;
   section.laws.pop_back();
-  EXPECT_THAT(decision(section, {}, {}).front(),
+  EXPECT_THAT(decision(section, {}, {}).at(1),
               AllOf(StartsWith("On the linear plant LL is best"),
                     HasSubstr("; there PI (robust), the law recommended, meets need")));
   section.laws[1].beam_rms = 2.13 * millidegree;
-  EXPECT_THAT(decision(section, {}, {}).front(),
+  EXPECT_THAT(decision(section, {}, {}).at(1),
               AllOf(StartsWith("On the linear plant PI is best"), HasSubstr("; it meets need")));
 }
 

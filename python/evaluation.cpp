@@ -104,7 +104,7 @@ std::optional<Candidate> worth_its_cost(const Evaluation& evaluation) {
   const app::EvaluateSection& section = evaluation.section();
   if (!section.decision) return std::nullopt;
   const auto& decision = *section.decision;
-  return section.candidates[decision.candidates[app::worth_its_cost(section, decision)].candidate];
+  return section.candidates[decision.candidates[decision.worth].candidate];
 }
 
 }  // namespace

@@ -27,15 +27,15 @@ const std::string& name_of(const EvaluateSection& section, const DecisionSection
 
 // What of the choice by the least mean is not worth paying for.
 std::string not_worth_paying(const EvaluateSection& section, const DecisionSection& decision) {
-  const std::size_t choice = worth_its_cost(section, decision);
+  const std::size_t choice = decision.worth;
   const Candidate& best = section.candidates[decision.candidates[decision.best].candidate];
   if (choice == decision.best || !best.feasible()) return "";
-  const auto weighed = weighed_losses(section, decision);
+  const auto& ranking = decision.ranking;
   return fmt::format(
       "{} is {:.1f} % better than {} {}, too little to pay for: {}.",
       name_of(section, decision, decision.best),
-      100.0 * (1.0 - weighed.losses[decision.best] / weighed.losses[choice]),
-      name_of(section, decision, choice), weighed_phrase(weighed.by),
+      100.0 * (1.0 - ranking.losses[decision.best] / ranking.losses[choice]),
+      name_of(section, decision, choice), measure_phrase(ranking.measure),
       section.candidates[decision.candidates[choice].candidate].path.empty()
           ? "no proposal is worth its cost"
           : fmt::format("of these {} is worth its cost", name_of(section, decision, choice)));
@@ -44,7 +44,7 @@ std::string not_worth_paying(const EvaluateSection& section, const DecisionSecti
 // The place of the least rms of all where it is of one that is not fit to be chosen.
 std::optional<std::size_t> unfit_least(const EvaluateSection& section,
                                        const DecisionSection& decision) {
-  const auto losses = weighed_losses(section, decision).losses;
+  const auto& losses = decision.ranking.losses;
   const auto place = static_cast<std::size_t>(std::ranges::min_element(losses) - losses.begin());
   if (section.candidates[decision.candidates[place].candidate].feasible()) return std::nullopt;
   return place;
@@ -53,13 +53,13 @@ std::optional<std::size_t> unfit_least(const EvaluateSection& section,
 // What choosing it loses, and whether any other may be taken in its place.
 std::string regret(const EvaluateSection& section, const DecisionSection& decision) {
   const auto& options = decision.statistics.options;
-  const auto weighed = weighed_losses(section, decision);
+  const auto& ranking = decision.ranking;
   if (const auto least = unfit_least(section, decision)) {
     return fmt::format(
         " Over the draws {} has the least rms of all, {:.4f} mdeg {}, but {} and is left out: the "
         "chances to be the best and the regrets above count it, and say nothing of those fit to be "
         "chosen.",
-        name_of(section, decision, *least), weighed.losses[*least], weighed_phrase(weighed.by),
+        name_of(section, decision, *least), ranking.losses[*least], measure_phrase(ranking.measure),
         why_not(section.candidates[decision.candidates[*least].candidate]));
   }
   if (!std::isfinite(options[decision.best].expected_regret)) {
@@ -101,14 +101,14 @@ std::string probabilities(const EvaluateSection& section, const DecisionSection&
 }
 
 std::string chances(const EvaluateSection& section, const DecisionSection& decision) {
-  const auto weighed = weighed_losses(section, decision);
-  const double least = weighed.losses[decision.best];
+  const auto& ranking = decision.ranking;
+  const double least = ranking.losses[decision.best];
   const Candidate& best = section.candidates[decision.candidates[decision.best].candidate];
   if (!best.feasible()) {
     return fmt::format(
         "Nothing is to be chosen by the {} draws: {} has the least rms with the gains held, {:.4f} "
         "mdeg {}, but {}.",
-        decision.draws, best.name, least, weighed_phrase(weighed.by), why_not(best));
+        decision.draws, best.name, least, measure_phrase(ranking.measure), why_not(best));
   }
   const auto pair = std::ranges::find_if(decision.statistics.pairs, [&](const auto& one) {
     return (one.first == decision.best && one.second == decision.second) ||
@@ -118,10 +118,11 @@ std::string chances(const EvaluateSection& section, const DecisionSection& decis
   const bool some_unfit = std::ranges::any_of(decision.candidates, [&](const auto& one) {
     return !section.candidates[one.candidate].feasible();
   });
-  std::string text = fmt::format(
-      "Least rms with the gains held{}: {}, {:.4f} mdeg {}{}.{}",
-      some_unfit ? ", of those fit to be chosen" : "", best.name, least, weighed_phrase(weighed.by),
-      probabilities(section, decision, *pair), regret(section, decision));
+  std::string text =
+      fmt::format("Least rms with the gains held{}: {}, {:.4f} mdeg {}{}.{}",
+                  some_unfit ? ", of those fit to be chosen" : "", best.name, least,
+                  measure_phrase(ranking.measure), probabilities(section, decision, *pair),
+                  regret(section, decision));
   text += fmt::format(
       " The intervals are those of {} draws ({}); another view of what is uncertain may move the "
       "probabilities farther than that.",

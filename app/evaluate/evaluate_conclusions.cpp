@@ -245,35 +245,16 @@ std::string ended_at_bounds(const EvaluateSection& section) {
 
 }  // namespace
 
-design::WeighedLosses weighed_losses(const EvaluateSection& section,
-                                     const DecisionSection& decision) {
-  std::vector<bool> fit;
-  for (const auto& one : decision.candidates) {
-    fit.push_back(section.candidates[one.candidate].feasible());
-  }
-  return design::weigh_losses(decision.statistics.options, fit);
-}
-
-std::string_view weighed_phrase(design::WeighedBy measure) {
+std::string_view measure_phrase(design::LossMeasure measure) {
   switch (measure) {
-    case design::WeighedBy::mean:
+    case design::LossMeasure::mean:
       return "on average";
-    case design::WeighedBy::upper_quantile:
+    case design::LossMeasure::quantile_95:
       return "at the 95 % quantile";
-    case design::WeighedBy::median:
+    case design::LossMeasure::median:
       return "at the median";
   }
   return "";
-}
-
-std::size_t worth_its_cost(const EvaluateSection& section, const DecisionSection& decision) {
-  const auto weighed = weighed_losses(section, decision);
-  std::vector<design::PricedOption> priced;
-  for (std::size_t i = 0; i < weighed.losses.size(); ++i) {
-    const Candidate& candidate = section.candidates[decision.candidates[i].candidate];
-    priced.push_back({candidate.feasible(), candidate.cost, weighed.losses[i]});
-  }
-  return design::worth_its_cost(priced, decision.best);
 }
 
 std::vector<std::string> conclude(const EvaluateSection& section) {

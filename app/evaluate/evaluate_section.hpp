@@ -2,6 +2,7 @@
 
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <boresight/design/studies/proposal_study.hpp>
@@ -59,14 +60,8 @@ struct EvaluateSection {
   std::vector<std::string> not_run;  // what an interrupt left out
 };
 
-/// design::weigh_losses of the decision's candidates.
-design::WeighedLosses weighed_losses(const EvaluateSection& section,
-                                     const DecisionSection& decision);
 /// "on average", "at the 95 % quantile", "at the median": behind an rms or a change of it.
-std::string_view weighed_phrase(design::WeighedBy measure);
-
-/// design::worth_its_cost of the decision's candidates, as a place in `decision.candidates`.
-std::size_t worth_its_cost(const EvaluateSection& section, const DecisionSection& decision);
+std::string_view measure_phrase(design::LossMeasure measure);
 
 /// A few paragraphs that say what the section means, with its conditions.
 std::vector<std::string> conclude(const EvaluateSection& section);

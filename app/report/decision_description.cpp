@@ -189,9 +189,9 @@ void describe_decision(io::Visitor& v, const EvaluateSection& section,
                   "Of the two chosen ones those that were tuned for both; empty without such.",
                   [&](const SameStructure& same) { describe_same_structure(v, same); });
          });
-  v.word("weighed_by", to_string(decision.weighed_by),
-         {to_string(design::WeighedBy::mean), to_string(design::WeighedBy::upper_quantile),
-          to_string(design::WeighedBy::median)},
+  v.word("ranked_by", to_string(decision.ranking.measure),
+         {to_string(design::LossMeasure::mean), to_string(design::LossMeasure::quantile_95),
+          to_string(design::LossMeasure::median)},
          "What the choice is made by: the mean rms; where each that is fit is unstable on some "
          "draw, the rms that 95 % of the draws do not exceed, or the median.");
   v.text("least_mean_rms", name(decision.best),

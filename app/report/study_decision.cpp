@@ -169,7 +169,7 @@ namespace {
 // Whether there are several candidates to choose from, and no two of their means over the draws
 // differ by what decides anything.
 bool all_alike(const EvaluateSection& section, const DecisionSection& draws) {
-  const auto losses = weighed_losses(section, draws).losses;
+  const auto& losses = draws.ranking.losses;
   double least = HUGE_VAL, largest = 0.0;
   int fit = 0;
   for (std::size_t i = 0; i < draws.candidates.size(); ++i) {
@@ -188,17 +188,18 @@ std::vector<std::string> decision(const EvaluateSection& section) {
   const std::string none = none_chosen(section);
   if (section.decision && !section.candidates.empty()) {
     const DecisionSection& draws = *section.decision;
-    const std::size_t choice = worth_its_cost(section, draws);
+    const std::size_t choice = draws.worth;
     const auto& place = draws.candidates[choice];
     const Candidate& chosen = section.candidates[place.candidate];
     const Candidate& best = section.candidates[draws.candidates[draws.best].candidate];
     const auto& options = draws.statistics.options;
     const std::string currency = section.currency.empty() ? "of cost" : section.currency;
-    const auto weighed = weighed_losses(section, draws);
-    const std::string mean = fmt::format("{:.3f} mdeg rms {} {} {} draws in {:.3g} m/s",
-                                         weighed.losses[choice], weighed_phrase(weighed.by),
-                                         weighed.by == design::WeighedBy::mean ? "over" : "of",
-                                         draws.draws, section.wind_speed);
+    const auto& ranking = draws.ranking;
+    const std::string mean =
+        fmt::format("{:.3f} mdeg rms {} {} {} draws in {:.3g} m/s", ranking.losses[choice],
+                    measure_phrase(ranking.measure),
+                    ranking.measure == design::LossMeasure::mean ? "over" : "of", draws.draws,
+                    section.wind_speed);
     const bool fit = chosen.feasible();
     const std::string yet = none.empty() ? "Nothing is to be chosen yet." : none;
     std::string text =
@@ -212,7 +213,7 @@ std::vector<std::string> decision(const EvaluateSection& section) {
                                       : std::string("at a cost that its file does not state"));
     if (fit && choice != draws.best && best.feasible()) {
       text += fmt::format("; {} lowers that by {:.1f} %, too little to pay {}for", best.name,
-                          100.0 * (1.0 - weighed.losses[draws.best] / weighed.losses[choice]),
+                          100.0 * (1.0 - ranking.losses[draws.best] / ranking.losses[choice]),
                           best.cost ? fmt::format("{:g} {} ", *best.cost, currency) : "");
     }
     sentences.push_back(text + ".");

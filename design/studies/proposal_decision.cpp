@@ -109,22 +109,7 @@ class Decision {
     }
     found_.statistics = compare_options(rms_);
     find_front_shares();
-    const auto& options = found_.statistics.options;
-    std::vector<bool> fit;
-    for (std::size_t i = 0; i < options.size(); ++i) fit.push_back(candidate(i).feasible());
-    const WeighedLosses weighed = weigh_losses(options, fit);
-    found_.weighed_by = weighed.by;
-    std::vector<std::size_t> order(options.size());
-    for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
-    std::ranges::stable_sort(order, {},
-                             [&](std::size_t i) { return std::pair(!fit[i], weighed.losses[i]); });
-    found_.best = order[0];
-    found_.second = order[1];
-    std::vector<PricedOption> priced;
-    for (std::size_t i = 0; i < options.size(); ++i) {
-      priced.push_back({fit[i], candidate(i).cost, weighed.losses[i]});
-    }
-    found_.worth = worth_its_cost(priced, found_.best);
+    rank_candidates(candidates_, found_);
   }
 
   void hold_structures_apart() {
@@ -253,6 +238,23 @@ std::size_t worth_its_cost(const std::vector<PricedOption>& options, std::size_t
     chosen = true;
   }
   return choice;
+}
+
+void rank_candidates(const std::vector<ProposedDesign>& candidates, ProposalDecision& decision) {
+  std::vector<bool> fit;
+  for (const auto& one : decision.candidates) fit.push_back(candidates[one.candidate].feasible());
+  decision.ranking = ranking_losses(decision.statistics.options, fit);
+  const auto& losses = decision.ranking.losses;
+  std::vector<PricedOption> priced;
+  std::vector<std::size_t> order;
+  for (std::size_t i = 0; i < losses.size(); ++i) {
+    priced.push_back({fit[i], candidates[decision.candidates[i].candidate].cost, losses[i]});
+    order.push_back(i);
+  }
+  std::ranges::stable_sort(order, {}, [&](std::size_t i) { return std::pair(!fit[i], losses[i]); });
+  decision.best = order.front();
+  decision.second = order.size() > 1 ? order[1] : order.front();
+  decision.worth = worth_its_cost(priced, decision.best);
 }
 
 std::optional<ProposalDecision> decide(const std::vector<ProposedDesign>& candidates,

@@ -8,9 +8,9 @@
 #include <vector>
 
 #include <boresight/design/decisions/decision_statistics.hpp>
+#include <boresight/design/decisions/ranking_losses.hpp>
 #include <boresight/design/decisions/test_value.hpp>
 #include <boresight/design/decisions/tornado.hpp>
-#include <boresight/design/decisions/weighed_losses.hpp>
 #include <boresight/design/ensembles/plant_distribution.hpp>
 #include <boresight/design/ensembles/plant_ensemble.hpp>
 #include <boresight/design/problem/mission.hpp>
@@ -156,8 +156,7 @@ struct ProposalDecision {
   /// Of draws in which it is on the front of cost and rms; NaN without a cost.
   std::vector<double> front_shares;
   std::vector<UncertainInput> uncertain;  // that vary
-  /// What the choice is made by, weigh_losses of the options.
-  WeighedBy weighed_by = WeighedBy::mean;
+  RankingLosses ranking;                  // ranking_losses of the options
   /// The two of least loss by that, as places in `candidates`; any that is fit to be chosen comes
   /// before those that are not.
   std::size_t best = 0, second = 0;
@@ -182,13 +181,17 @@ struct ProposalDecision {
 struct PricedOption {
   bool fit = false;  // meets every goal
   std::optional<double> cost;
-  double loss = 0.0;  // weigh_losses
+  double loss = 0.0;  // ranking_losses
 };
 
 /// The place of the one to choose: of those that are fit the cheapest whose loss lies within
 /// negligible_change of the least of them, one without a cost counting as dearer than any; of equal
 /// cost the one of less loss. `best` if none is fit.
 std::size_t worth_its_cost(const std::vector<PricedOption>& options, std::size_t best);
+
+/// Sets ranking, best, second and worth by the statistics of a decision; `candidates` as the study
+/// has them.
+void rank_candidates(const std::vector<ProposedDesign>& candidates, ProposalDecision& decision);
 
 /// Plants that may be the true one, whatever a proposal makes of the antenna.
 struct PlantUncertainty {

@@ -231,6 +231,8 @@ EvaluateSection drawn(const std::vector<Drawn>& all, std::size_t best, std::size
   pair.first = best;
   pair.second = second;
   section.decision = std::move(draws);
+  design::rank_candidates({section.candidates.begin(), section.candidates.end()},
+                          *section.decision);
   return section;
 }
 

@@ -96,7 +96,7 @@ TEST(Decide, TellsApartWhatIsUnstableOnSomeDraws) {
   ASSERT_TRUE(decision);
   for (const auto& one : decision->candidates) EXPECT_GT(one.unstable.value, 0.0);
   EXPECT_EQ(decision->statistics.options[1].mean, std::numeric_limits<double>::infinity());
-  EXPECT_NE(decision->weighed_by, WeighedBy::mean);
+  EXPECT_NE(decision->ranking.measure, LossMeasure::mean);
   EXPECT_EQ(decision->best, 1U);
   EXPECT_EQ(decision->worth, 1U);
 }

@@ -6,16 +6,16 @@
 
 namespace boresight::design {
 
-/// What of an option's distribution of losses a choice is made by.
-enum class WeighedBy {
+/// What of an option's distribution of losses options are ranked by.
+enum class LossMeasure {
   mean,
-  upper_quantile,  // that 95 % of the draws do not exceed
+  quantile_95,  // that 95 % of the draws do not exceed
   median,
 };
-std::string_view to_string(WeighedBy measure);
+std::string_view to_string(LossMeasure measure);
 
-struct WeighedLosses {
-  WeighedBy by = WeighedBy::mean;
+struct RankingLosses {
+  LossMeasure measure = LossMeasure::mean;
   std::vector<double> losses;  // one an option
 };
 
@@ -24,7 +24,7 @@ struct WeighedLosses {
 /// cheapest would be as good as any: then the loss that 95 % of the draws do not exceed, or where
 /// that is infinite for each of them too, the median. `fit`: one an option.
 /// @throws InvalidInput for sizes that differ.
-WeighedLosses weigh_losses(const std::vector<OptionStatistics>& options,
-                           const std::vector<bool>& fit);
+RankingLosses ranking_losses(const std::vector<OptionStatistics>& options,
+                             const std::vector<bool>& fit);
 
 }  // namespace boresight::design

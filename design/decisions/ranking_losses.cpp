@@ -2,7 +2,7 @@
 #include <cmath>
 #include <limits>
 
-#include <boresight/design/decisions/weighed_losses.hpp>
+#include <boresight/design/decisions/ranking_losses.hpp>
 #include <boresight/numerics/error.hpp>
 
 namespace boresight::design {
@@ -13,13 +13,13 @@ double quantile_at(const OptionStatistics& option, double share) {
   return found == option.quantiles.end() ? std::numeric_limits<double>::infinity() : found->value;
 }
 
-double loss_of(const OptionStatistics& option, WeighedBy measure) {
+double loss_of(const OptionStatistics& option, LossMeasure measure) {
   switch (measure) {
-    case WeighedBy::mean:
+    case LossMeasure::mean:
       return option.mean;
-    case WeighedBy::upper_quantile:
+    case LossMeasure::quantile_95:
       return quantile_at(option, 0.95);
-    case WeighedBy::median:
+    case LossMeasure::median:
       return quantile_at(option, 0.5);
   }
   return std::numeric_limits<double>::infinity();
@@ -27,40 +27,40 @@ double loss_of(const OptionStatistics& option, WeighedBy measure) {
 
 }  // namespace
 
-std::string_view to_string(WeighedBy measure) {
+std::string_view to_string(LossMeasure measure) {
   switch (measure) {
-    case WeighedBy::mean:
+    case LossMeasure::mean:
       return "mean";
-    case WeighedBy::upper_quantile:
+    case LossMeasure::quantile_95:
       return "quantile_95";
-    case WeighedBy::median:
+    case LossMeasure::median:
       return "median";
   }
   return "";
 }
 
-WeighedLosses weigh_losses(const std::vector<OptionStatistics>& options,
-                           const std::vector<bool>& fit) {
+RankingLosses ranking_losses(const std::vector<OptionStatistics>& options,
+                             const std::vector<bool>& fit) {
   if (options.size() != fit.size()) {
-    throw InvalidInput("weigh_losses: expected for each option whether it is fit");
+    throw InvalidInput("ranking_losses: expected for each option whether it is fit");
   }
   const bool none_fit = std::ranges::find(fit, true) == fit.end();
-  const auto decides = [&](WeighedBy measure) {
+  const auto decides = [&](LossMeasure measure) {
     for (std::size_t i = 0; i < options.size(); ++i) {
       if ((fit[i] || none_fit) && std::isfinite(loss_of(options[i], measure))) return true;
     }
     return false;
   };
-  WeighedLosses weighed;
-  weighed.by = WeighedBy::median;
-  for (const WeighedBy measure : {WeighedBy::mean, WeighedBy::upper_quantile}) {
+  RankingLosses ranking;
+  ranking.measure = LossMeasure::median;
+  for (const LossMeasure measure : {LossMeasure::mean, LossMeasure::quantile_95}) {
     if (decides(measure)) {
-      weighed.by = measure;
+      ranking.measure = measure;
       break;
     }
   }
-  for (const auto& option : options) weighed.losses.push_back(loss_of(option, weighed.by));
-  return weighed;
+  for (const auto& option : options) ranking.losses.push_back(loss_of(option, ranking.measure));
+  return ranking;
 }
 
 }  // namespace boresight::design

@@ -136,7 +136,7 @@ Document nonlinear_part(const TimeDomainSection& section, const char* friction) 
   text += fmt::format(
       "One record of the design wind on the nonlinear antenna: {:.4g} mdeg rms, {:.4g} predicted "
       "by "
-      "the linear loop. Sampled every {:g} s; friction as {}.",
+      "the linear loop. Sampled every {:g} s; friction {}.",
       section.result.wind.beam_rms / millidegree, section.result.wind.predicted_rms / millidegree,
       section.sample_time, friction);
   return wrapped(text, "  ", "  ");
@@ -150,8 +150,8 @@ Document comparison_part(const BenchmarkReport& report) {
                     row.other ? value(*row.other, "{:.5g}") : "-",
                     both ? value(*row.own / *row.other, "{:.4f}") : "-"});
   }
-  return heading("Beside another score sheet") + wrapped(report.compared_with, "  ", "  ") + "\n" +
-         table(rows);
+  return heading("Beside another score sheet") +
+         essential(wrapped(report.compared_with, "  ", "  ") + "\n" + table(rows));
 }
 
 }  // namespace
@@ -183,12 +183,12 @@ Document document_of(const BenchmarkReport& report) {
           report.attitudes_text, report.rms_band.lowest, report.rms_band.highest),
       "  ", "  ");
   if (!score.stable) {
-    text += wrapped(
+    text += essential(wrapped(
         fmt::format(
             "The closed loop is UNSTABLE: slowest pole at {:+.4g} 1/s (dead time exact). An "
             "unstable loop has no score.",
             score.abscissa),
-        "  ", "  ");
+        "  ", "  "));
     if (report.present_gains && report.controller.law) {
       text += wrapped(unstable_present_gains(report.controller.law->structure.name()), "  ", "  ");
     }
@@ -207,16 +207,16 @@ Document document_of(const BenchmarkReport& report) {
                         score.worst.lower * per_meganewton, score.worst.upper * per_meganewton)
           : fmt::format("at least {:.6g} mdeg/(MN m), no upper bound certified",
                         score.worst.lower * per_meganewton);
-  text += wrapped(
+  text += essential(wrapped(
       fmt::format("Worst frequency {:.4g} Hz: {}; that is {:.3g} times the structure's own bending "
                   "with the encoder held, {:.4g} mdeg/(MN m). Static: {:.4g} mdeg/(MN m).",
                   score.worst.frequency / two_pi, bracket,
                   score.worst.lower / score.encoder_held_compliance,
                   score.encoder_held_compliance * per_meganewton,
                   score.static_compliance * per_meganewton),
-      "  ", "  ");
+      "  ", "  "));
   text += heading("Margins");
-  text += margins_part(score);
+  text += essential(margins_part(score));
   text += heading("Wind");
   text += wrapped(
       fmt::format("At the design wind: beam {:.4g} mdeg rms ({:.4g} by Lyapunov equations with the "
@@ -227,7 +227,7 @@ Document document_of(const BenchmarkReport& report) {
                   score.valve_effort, report.goals.valve_effort),
       "  ", "  ");
   if (score.reference) text += reference_part(report);
-  if (!score.winds.empty()) text += "\n" + ladder_part(score.winds);
+  if (!score.winds.empty()) text += "\n" + essential(ladder_part(score.winds));
   if (!score.budget_speeds.empty()) {
     std::vector<std::vector<std::string>> rows{{"budget", "rms mdeg", "met up to"}};
     for (std::size_t i = 0; i < score.budget_speeds.size(); ++i) {
@@ -235,24 +235,25 @@ Document document_of(const BenchmarkReport& report) {
                       value(report.budgets[i].rms / millidegree, "{:.3f}"),
                       limit_text(score.budget_speeds[i])});
     }
-    text += "\n" + table(rows);
+    text += essential("\n" + table(rows));
   }
   if (score.ensemble) {
     const auto& ensemble = *score.ensemble;
     text += heading("Other plants");
-    text += wrapped(
+    text += essential(wrapped(
         fmt::format(
             "Of {} plants {}, {} are stable and {} keep peaks of |S| and valve effort within "
             "the goals; the largest beam rms of the stable ones is {:.4g} mdeg.",
             ensemble.members.size(), report.ensemble_source, ensemble.stable, ensemble.within_goals,
             ensemble.largest_rms / millidegree),
-        "  ", "  ");
+        "  ", "  "));
   }
   text += heading("Nonlinear antenna");
-  text += report.time_domain ? nonlinear_part(*report.time_domain, described(report))
-                             : wrapped("Not judged: " + report.no_time_domain + ".", "  ", "  ");
+  text += essential(report.time_domain
+                        ? nonlinear_part(*report.time_domain, described(report))
+                        : wrapped("Not judged: " + report.no_time_domain + ".", "  ", "  "));
   for (const auto& part : score.left_out) {
-    text += fmt::format("  Interrupted before: {}\n", part);
+    text += essential(verbatim(fmt::format("  Interrupted before: {}\n", part)));
   }
   if (!report.compared_with.empty()) text += comparison_part(report);
   return text + document_of(report.assumed);

@@ -123,7 +123,7 @@ namespace {
 
 int score(const BenchmarkArguments& arguments) {
   const BenchmarkReport report = benchmark_case(arguments, interrupt_requested);
-  arguments.outputs.deliver({.text = [&] { return to_text(report); },
+  arguments.outputs.deliver({.document = [&] { return document_of(report); },
                              .json = [&] { return to_json(report); },
                              .page = [&] { return page_of(report); }});
   if (report.interrupted) return interrupted;

@@ -21,7 +21,7 @@ int run(CommissionArguments arguments) {
   watch_for_interrupt();
   try {
     const CommissionReport report = commission_case(arguments, interrupt_requested);
-    arguments.outputs.deliver({.text = [&] { return to_text(report); },
+    arguments.outputs.deliver({.document = [&] { return document_of(report); },
                                .json = [&] { return to_json(report); },
                                .page = [&] { return page_of(report); }});
     if (report.failure) std::rethrow_exception(report.failure);

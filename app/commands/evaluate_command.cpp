@@ -31,7 +31,7 @@ int run(EvaluateArguments arguments) {
   watch_for_interrupt();
   Report report = evaluate_case(arguments, interrupt_requested);
   report.figures = report_figures(report);
-  arguments.outputs.deliver({.text = [&] { return to_text(report); },
+  arguments.outputs.deliver({.document = [&] { return document_of(report); },
                              .json = [&] { return to_json(report); },
                              .page = [&] { return page_of(report); }});
   if (report.interrupted) return interrupted;

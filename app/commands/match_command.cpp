@@ -85,7 +85,7 @@ int run(const Arguments& arguments) {
     report.matched->what_if = design::what_if(mission, *report.matched, table);
   }
   report.figures = report_figures(report);
-  arguments.outputs.deliver({.text = [&] { return to_text(report); },
+  arguments.outputs.deliver({.document = [&] { return document_of(report); },
                              .json = [&] { return to_json(report); },
                              .page = [&] { return page_of(report); }});
   if (report.interrupted) return interrupted;

@@ -28,7 +28,7 @@ int run(MonteCarloArguments arguments) {
   }
   const MonteCarloOutcome outcome = run_montecarlo(arguments, ranks, interrupt_requested);
   if (!arguments.csv_path.empty()) io::write_atomically(arguments.csv_path, to_csv(outcome));
-  arguments.outputs.deliver({.text = [&] { return to_text(outcome.section); },
+  arguments.outputs.deliver({.document = [&] { return document_of(outcome.section); },
                              .json = [&] { return to_json(outcome.section); },
                              .page = [&] { return page_of(outcome.section); }});
   return outcome.section.interrupted ? interrupted : done;

@@ -149,7 +149,7 @@ int run(const Command& command, const Arguments& arguments) {
     }
   }
   for (auto& figure : report_figures(report)) report.figures.push_back(std::move(figure));
-  arguments.outputs.deliver({.text = [&] { return to_text(report); },
+  arguments.outputs.deliver({.document = [&] { return document_of(report); },
                              .json = [&] { return to_json(report); },
                              .page = [&] { return page_of(report); },
                              .mat = mat_of(report)});

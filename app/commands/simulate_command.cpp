@@ -278,7 +278,7 @@ int run(SimulateArguments arguments) {
   arguments.threads = all_or(arguments.threads);
   watch_for_interrupt();
   const SimulateOutcome outcome = simulate_tests(arguments, interrupt_requested);
-  arguments.outputs.deliver({.text = [&] { return to_text(outcome.report); },
+  arguments.outputs.deliver({.document = [&] { return document_of(outcome.report); },
                              .json = [&] { return to_json(outcome.report); },
                              .page = [&] { return page_of(outcome.report); }});
   if (outcome.failure) std::rethrow_exception(outcome.failure);

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include <boresight/app/commands/subcommand.hpp>
+#include <boresight/app/document/document_text.hpp>
 #include <boresight/app/figures/figure_csv.hpp>
 #include <boresight/io/files/write_atomically.hpp>
 #include <boresight/numerics/error.hpp>
@@ -46,6 +47,8 @@ void add_case(CLI::App& command, std::string& path) {
 }
 
 void add_outputs(CLI::App& command, Outputs& outputs) {
+  command.add_flag("--details", outputs.details,
+                   "print every section of the report, not only the result");
   command.add_option("--json", outputs.json_path,
                      "also write the report as JSON to this file; '-' writes JSON only, to "
                      "standard output");
@@ -111,6 +114,17 @@ void Outputs::require_writable() const {
   if (!curves_folder.empty()) require_writable_folder(curves_folder);
 }
 
+std::string Outputs::printed(const Document& document) const {
+  const std::string whole = to_text(document);
+  if (details) return whole;
+  std::string text = to_text(short_form(document));
+  if (text.size() < whole.size()) {
+    text += fmt::format("\nAll sections: {} --details. With figures: --report FILE.html\n",
+                        command_line);
+  }
+  return text;
+}
+
 void Outputs::deliver(const Findings& findings) const {
   if (!mat_path.empty() && findings.mat) {
     io::write_atomically(mat_path, findings.mat());
@@ -128,7 +142,7 @@ void Outputs::deliver(const Findings& findings) const {
     fmt::print("{}", findings.json());
   } else {
     if (!json_path.empty()) io::write_atomically(json_path, findings.json());
-    if (!quiet()) fmt::print("{}", findings.text());
+    if (!quiet()) fmt::print("{}", printed(findings.document()));
   }
   if (std::fflush(stdout) != 0) throw InvalidInput("standard output: cannot be written to");
 }

@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include <boresight/app/document/document.hpp>
 #include <boresight/app/page/page.hpp>
 #include <boresight/io/files/write_atomically.hpp>
 
@@ -56,7 +57,8 @@ bool interrupt_requested();
 
 /// What a command found, in each form that may be asked for; made only if it is.
 struct Findings {
-  std::function<std::string()> text, json;
+  std::function<Document()> document;
+  std::function<std::string()> json;
   std::function<Page()> page;
   /// Linear models as a MAT file; empty where there are none.
   std::function<std::string()> mat = {};
@@ -68,15 +70,19 @@ struct Outputs {
   std::string report_path;    // of the page; empty: none
   std::string mat_path;       // of the linear models; empty: none
   std::string curves_folder;  // of the figures' points as CSV; empty: none
+  bool details = false;       // the whole text to standard output, not its short form
   std::string command_line;   // as it was given, for the page
 
   /// @throws InvalidInput if one of them cannot be written to. To be asked before the work, not
   /// after it.
   void require_writable() const;
-  /// The text to standard output unless quiet(), or the JSON for the path "-"; the rest where it is
-  /// asked for.
+  /// The text, or the short form of it, to standard output unless quiet(), or the JSON for the path
+  /// "-"; the rest where it is asked for.
   /// @throws InvalidInput if one cannot be written.
   void deliver(const Findings& findings) const;
+
+ private:
+  std::string printed(const Document& document) const;
 };
 
 /// The options that fill `outputs`: the same of every command.

@@ -118,7 +118,7 @@ int run(TuneArguments arguments) {
   watch_for_interrupt();
   Report report = tune_case(arguments, interrupt_requested);
   report.figures = report_figures(report);
-  arguments.outputs.deliver({.text = [&] { return to_text(report); },
+  arguments.outputs.deliver({.document = [&] { return document_of(report); },
                              .json = [&] { return to_json(report); },
                              .page = [&] { return page_of(report); },
                              .mat = mat_of(report)});

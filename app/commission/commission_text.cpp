@@ -91,7 +91,7 @@ Document comparison_part(const CommissionReport& report) {
     };
     add(channel.comparison.whole, "whole");
     for (const auto& band : channel.comparison.bands) add(band, "");
-    text += table(rows, "ll") + "\n";
+    text += essential(table(rows, "ll") + "\n");
   }
   return text +
          wrapped(
@@ -114,7 +114,7 @@ Document plan_part(const CommissionReport& report) {
       "  ");
   if (report.plan.detuning) {
     const bool known = report.plan.stages.front().kind == design::StageKind::as_found;
-    text += wrapped(
+    text += essential(wrapped(
         fmt::format(
             "{} The plan begins with the law's own without pressure feedback and "
             "compliance compensation, its {}position gain and position integral corner divided by "
@@ -124,7 +124,7 @@ Document plan_part(const CommissionReport& report) {
                   : "ASSUMED start: the case gives no gains as found ([gains]).",
             report.plan.rate_detuned ? "rate gain, " : "", *report.plan.detuning,
             report.options.sensitivity_limit),
-        "  ");
+        "  "));
   }
   for (const auto& remark : report.plan.remarks) text += wrapped(remark, "  ");
   text += wrapped(
@@ -136,7 +136,7 @@ Document plan_part(const CommissionReport& report) {
                   report.move.rate / (report.gear_ratio * millidegree),
                   report.move.rate / report.move.acceleration),
       "  ");
-  text += wrapped(
+  text += essential(wrapped(
       fmt::format(
           "A stage is passed when every value lies in its brackets, an rms within {:g} times them. "
           "Go back when one is beyond its abort limit: {:.0f} % of the step above the brackets for "
@@ -144,9 +144,9 @@ Document plan_part(const CommissionReport& report) {
           "of S would be {:g}. Between the two, find out why before going on.",
           report.options.rms_allowance, 100.0 * report.options.overshoot_allowance,
           report.options.rms_allowance, report.options.abort_peak),
-      "  ");
-  text += "\n" + overview(report);
-  text += heading("Stages (* changed against the stage before)") + sheets(report);
+      "  "));
+  text += "\n" + essential(overview(report));
+  text += heading("Stages (* changed against the stage before)") + essential(sheets(report));
   return text;
 }
 
@@ -157,7 +157,8 @@ Document document_of(const CommissionReport& report) {
       report_title("commission", report.title, report.axis, report.case_path, report.seed);
   text += lead(decision(report));
   text += heading("Commissioning plan for " + report.structure);
-  text += report.failure == nullptr ? plan_part(report) : wrapped("None: " + report.no_plan, "  ");
+  text += report.failure == nullptr ? plan_part(report)
+                                    : essential(wrapped("None: " + report.no_plan, "  "));
   text += comparison_part(report);
   text += heading("Conclusions");
   for (const auto& sentence : report.conclusions) text += wrapped("- " + sentence, "  ", "  ");

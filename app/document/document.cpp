@@ -16,11 +16,13 @@ Document& Document::operator+=(Document other) {
 Document& Document::operator+=(std::string_view verbatim) {
   if (verbatim.empty()) return *this;
   // Lines added one by one are one piece of text.
-  auto* last = blocks.empty() ? nullptr : std::get_if<Verbatim>(&blocks.back());
+  auto* last = blocks.empty() || blocks.back().essential
+                   ? nullptr
+                   : std::get_if<Verbatim>(&blocks.back().content);
   if (last != nullptr) {
     last->text += verbatim;
   } else {
-    blocks.emplace_back(Verbatim{std::string(verbatim)});
+    blocks.push_back({Verbatim{std::string(verbatim)}});
   }
   return *this;
 }
@@ -43,31 +45,53 @@ Document operator+(std::string_view verbatim, Document second) {
 }
 
 Document heading(std::string_view title) {
-  return {{Heading{std::string(title)}}};
+  return {{{Heading{std::string(title)}}}};
 }
 
 Document subheading(std::string_view title, std::string_view indent) {
-  return {{Subheading{std::string(title), std::string(indent)}}};
+  return {{{Subheading{std::string(title), std::string(indent)}}}};
 }
 
 Document wrapped(std::string_view paragraph, std::string_view indent, std::string_view hanging) {
-  return {{Paragraph{std::string(paragraph), std::string(indent), std::string(hanging)}}};
+  return {{{Paragraph{std::string(paragraph), std::string(indent), std::string(hanging)}}}};
 }
 
 Document lead(const std::vector<std::string>& sentences) {
   if (sentences.empty()) return {};
   Lead all;
   for (const auto& sentence : sentences) all.paragraphs.push_back({sentence, "  ", "", ""});
-  return {{std::move(all)}};
+  return {{{std::move(all)}}};
 }
 
 Document table(std::vector<std::vector<std::string>> rows, std::string_view alignment,
                std::size_t header_rows) {
-  return {{Table{std::move(rows), std::string(alignment), header_rows}}};
+  return {{{Table{std::move(rows), std::string(alignment), header_rows}}}};
 }
 
 Document verbatim(std::string_view text) {
-  return {{Verbatim{std::string(text)}}};
+  return {{{Verbatim{std::string(text)}}}};
+}
+
+Document essential(Document document) {
+  for (auto& block : document.blocks) block.essential = true;
+  return document;
+}
+
+Document short_form(const Document& document) {
+  Document text;
+  const Block* heading = nullptr;
+  bool in_section = false;
+  for (const auto& block : document.blocks) {
+    if (std::holds_alternative<Heading>(block.content)) {
+      heading = &block;
+      in_section = true;
+      continue;
+    }
+    if (in_section && !block.essential) continue;
+    if (heading != nullptr) text.blocks.push_back(*std::exchange(heading, nullptr));
+    text.blocks.push_back(block);
+  }
+  return text;
 }
 
 Document report_title(std::string_view command, std::string_view title, std::string_view axis,

@@ -50,7 +50,13 @@ struct Lead {
   std::vector<Paragraph> paragraphs;
 };
 
-using Block = std::variant<Heading, Subheading, Paragraph, Table, Verbatim, Lead>;
+using Content = std::variant<Heading, Subheading, Paragraph, Table, Verbatim, Lead>;
+
+struct Block {
+  Content content;
+  /// The short form of the document keeps it.
+  bool essential = false;
+};
 
 /// What a report says, apart from how it is shown: to_text (document_text.hpp) is for a terminal,
 /// to_html (document_html.hpp) for a page. Strings added to it are verbatim.
@@ -75,6 +81,11 @@ Document lead(const std::vector<std::string>& sentences);
 Document table(std::vector<std::vector<std::string>> rows, std::string_view alignment = "l",
                std::size_t header_rows = 1);
 Document verbatim(std::string_view text);
+/// The same blocks, which the short form keeps.
+Document essential(Document document);
+/// The short form: what stands before the first section, and of each section that has essential
+/// blocks its heading and those.
+Document short_form(const Document& document);
 /// The two lines that every report begins with; `seed` where the work draws numbers.
 Document report_title(std::string_view command, std::string_view title, std::string_view axis,
                       std::string_view case_path, std::optional<std::uint64_t> seed);

@@ -154,7 +154,7 @@ std::string escaped_html(std::string_view text) {
 
 std::string to_html(const Document& document, const AfterHeading& after_heading) {
   Elements page(after_heading);
-  for (const Block& block : document.blocks) std::visit(page, block);
+  for (const Block& block : document.blocks) std::visit(page, block.content);
   return page.finish();
 }
 

@@ -82,7 +82,7 @@ void append(std::string& text, const Verbatim& verbatim) {
 std::string to_text(const Document& document) {
   std::string text;
   for (const Block& block : document.blocks) {
-    std::visit([&](const auto& one) { append(text, one); }, block);
+    std::visit([&](const auto& one) { append(text, one); }, block.content);
   }
   return text;
 }

@@ -94,7 +94,7 @@ Document distributions_part(const MonteCarloSection& section) {
     add_distribution(rows, "price of one law, %", section.retuned->price, 0.01, 2);
   }
   Document text = heading("Distribution over the plants that are stable");
-  text += table(rows, "l");
+  text += essential(table(rows, "l"));
   text += wrapped(
       fmt::format("[ ]: 95 % intervals of the sampling alone, by {} stable plants; the "
                   "distribution that plants are drawn from is taken as it is. Losses: mean of two "
@@ -129,7 +129,7 @@ Document probabilities_part(const MonteCarloSection& section) {
   }
   rows.push_back({"all hard goals met", per_cent(section.all_goals_met)});
   Document text = heading("Probabilities");
-  text += table(rows, "l");
+  text += essential(table(rows, "l"));
   text += wrapped(
       fmt::format("Of {} plants, with 95 % intervals (Clopper and Pearson). A plant that is not "
                   "stable meets no budget; goals broken are those of stable plants, by more than "
@@ -187,7 +187,7 @@ Document document_of(const MonteCarloSection& section) {
   for (std::size_t i = 0; i < section.gains.size(); ++i) {
     gains.push_back({section.law.structure.gains()[i].name, section.gains[i]});
   }
-  text += table(gains, "ll");
+  text += essential(table(gains, "ll"));
   std::vector<std::string_view> names;
   for (const auto input : section.inputs) names.push_back(to_string(input));
   text += wrapped(fmt::format("{} plants, {}: {}.", section.plants, section.distribution,

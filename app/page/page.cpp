@@ -86,7 +86,7 @@ class FigurePlacer {
 std::string methods_html(const Document& document) {
   std::string rows;
   for (const auto& block : document.blocks) {
-    const auto* heading = std::get_if<Heading>(&block);
+    const auto* heading = std::get_if<Heading>(&block.content);
     if (heading == nullptr) continue;
     const SectionMethod method = method_of(heading->title);
     if (method.how.empty()) continue;
@@ -185,8 +185,9 @@ std::string script_html(std::string_view script) {
 // Without the lines before the first heading, which name what the page's header and its last
 // section do.
 Document sections_only(const Document& document) {
-  const auto first = std::ranges::find_if(
-      document.blocks, [](const Block& block) { return std::holds_alternative<Heading>(block); });
+  const auto first = std::ranges::find_if(document.blocks, [](const Block& block) {
+    return std::holds_alternative<Heading>(block.content);
+  });
   return {{first, document.blocks.end()}};
 }
 

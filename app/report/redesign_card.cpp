@@ -332,7 +332,7 @@ Document document_of(const std::vector<CardLine>& card) {
     lead.paragraphs.push_back({fmt::format("{} [{}]", line.text, line.evidence), "  ",
                                std::string(width, ' '), line.label});
   }
-  return {{std::move(lead)}};
+  return {{{std::move(lead)}}};
 }
 
 }  // namespace boresight::app

@@ -170,7 +170,7 @@ Document document_of(const AuditReport& report) {
   }
   page += subheading("Summary", "") + "\n";
   page += wrapped("What a number 'moves' is computed from the numbers as first printed.", "");
-  page += wrapped(audit_summary(report), "");
+  page += essential(wrapped(audit_summary(report), ""));
   return page;
 }
 

@@ -73,7 +73,7 @@ Document methods_part(const io::CampaignSection& section) {
     rows.push_back(row_of((row.of_the_paper ? "* " : "") + row.name, row.inertia,
                           row.motor_to_load_ratio, row.difference));
   }
-  text += table(rows, "lrrrrrr");
+  text += essential(table(rows, "lrrrrrr"));
   text += wrapped(
       "* the founding paper's own procedures. R = Jm/(J - Jm), all motors against everything else. "
       "Sigmas: difference over both standard uncertainties' root sum of squares.",
@@ -83,7 +83,8 @@ Document methods_part(const io::CampaignSection& section) {
     text += wrapped(fmt::format("{}: assumes {}. {}", row.name, row.assumes, row.why), "  ", "  ");
   }
   for (const auto& failure : section.failures) {
-    text += wrapped(fmt::format("{}: not done. {}", failure.method, failure.reason), "  ", "  ");
+    text += essential(
+        wrapped(fmt::format("{}: not done. {}", failure.method, failure.reason), "  ", "  "));
   }
   return text;
 }
@@ -201,7 +202,7 @@ Document contradictions_part(const io::CampaignSection& section) {
          std::abs(one.normalised) < 100.0 ? fmt::format("{:+.1f}", one.normalised) : "> 100",
          one.by});
   }
-  return text + table(rows, "llllrrrl");
+  return text + essential(table(rows, "llllrrrl"));
 }
 
 Document advice_part(const io::CampaignSection& section) {
@@ -299,7 +300,9 @@ Document method_notes_part(const io::CampaignSection& section) {
 
 Document document_of(const io::CampaignSection& section) {
   Document text = heading("What the records say of the drive");
-  for (const auto& sentence : section.not_identifiable) text += wrapped(sentence, "  ", "  ");
+  for (const auto& sentence : section.not_identifiable) {
+    text += essential(wrapped(sentence, "  ", "  "));
+  }
   if (!section.not_identifiable.empty()) text += "\n";
   text += reconciled_part(section);
   text += methods_part(section);

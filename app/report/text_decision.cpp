@@ -192,7 +192,7 @@ Document document_of(const EvaluateSection& section, const DecisionSection& deci
                   section.time_domain ? " times each law's factor of the nonlinear antenna" : "",
                   decision.source),
       "  ");
-  text += chances_table(section, decision) + "\n";
+  text += essential(chances_table(section, decision)) + "\n";
   text += wrapped(
       "Pairs: the chance that the first has the lower rms on the same plant, ties counted half, "
       "and by how much on average; dominance of its losses: in every draw, by every quantile "

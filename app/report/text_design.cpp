@@ -152,7 +152,7 @@ Document present_part(const TuningSection& section) {
     }
     rows.push_back(std::move(cells));
   }
-  return table(rows, "lrrrrrl") + "\n";
+  return essential(table(rows, "lrrrrrl") + "\n");
 }
 
 }  // namespace
@@ -168,7 +168,9 @@ std::string moved_text(const InputEffect& effect) {
 // What the law's rms owes to single numbers of the case.
 Document effects_part(const TuningSection& section) {
   if (section.input_effects.empty()) return {};
-  Document text = wrapped(
+  Document text =
+      essential(subheading("Rms with one input changed, gains fixed (* a range assumed)"));
+  text += wrapped(
       "One number of the case moved at a time, gains held: by its standard uncertainty, or by a "
       "tenth (marked *) where its value is assumed and the case gives none. A share of wind or "
       "beam "
@@ -187,7 +189,7 @@ Document effects_part(const TuningSection& section) {
     rows.push_back({quantity.key, std::string(to_string(quantity.basis)), quantity.text,
                     moved_text(effect), rms(effect.low_rms), rms(effect.high_rms)});
   }
-  return text + table(rows, "lllrrr");
+  return text + essential(table(rows, "lllrrr"));
 }
 
 std::string tuning_heading(const TuningSection& section) {
@@ -202,16 +204,17 @@ Document document_of(const TuningSection& section) {
   text += present_part(section);
   if (design.tuning.status == design::TuningStatus::unstable) {
     return text +
-           wrapped(fmt::format("No stable law among {} tried.", design.tuning.evaluations), "  ");
+           essential(wrapped(
+               fmt::format("No stable law among {} tried.", design.tuning.evaluations), "  "));
   }
   if (design.tuning.status == design::TuningStatus::infeasible) {
-    text +=
+    text += essential(
         wrapped(fmt::format("INFEASIBLE: no law of the search meets every hard goal. Shown is the "
                             "nearest; it exceeds its worst goal by {:.3g} %.",
                             100.0 * (design.tuning.worst_goal_ratio - 1.0)),
-                "  ");
+                "  "));
   }
-  text += gains_part(section) + "\n" + breaks_part(section) + "\n";
+  text += essential(gains_part(section) + "\n" + breaks_part(section) + "\n");
   text += wrapped(
       fmt::format("Beam rms {} mdeg at the sky (wind {}, sensor noise {}); noise-driven valve "
                   "command {:.3f} rad/s rms of {:g} allowed. Limited by: {}.{}",
@@ -299,7 +302,7 @@ Document document_of(const TuningSection& section) {
       rows.back().push_back(percent_of_time(section.climate, reached_wind_speed(section, result)));
     }
   }
-  text += table(rows, "lllrrrrrr");
+  text += essential(table(rows, "lllrrrrrr"));
   if (std::isfinite(section.supply_wind_speed)) {
     text +=
         wrapped(fmt::format("Gains held, supply torque not counted: at {:.1f} m/s the mean wind "

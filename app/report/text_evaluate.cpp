@@ -148,7 +148,7 @@ Document loop_table(const EvaluateSection& section) {
     cells.push_back(verdict(candidate));
     rows.push_back(std::move(cells));
   }
-  return table(rows, "ll") +
+  return essential(table(rows, "ll")) +
          wrapped(
              fmt::format(
                  "cost{}; linear: rms of the beam on the nominal plant by the spectrum; {}"
@@ -361,11 +361,12 @@ Document document_of(const EvaluateSection& section) {
                                 mdeg(law->compared_rms())));
   }
   if (!section.currency.empty()) {
-    text += "\n" +
-            wrapped(fmt::format("Front of cost ({}) and rms over the plants: {}.", section.currency,
-                                names.empty() ? "none, as none is fit to be chosen"
-                                              : fmt::format("{}", fmt::join(names, "; "))),
-                    "  ");
+    text += essential(
+        "\n" +
+        wrapped(fmt::format("Front of cost ({}) and rms over the plants: {}.", section.currency,
+                            names.empty() ? "none, as none is fit to be chosen"
+                                          : fmt::format("{}", fmt::join(names, "; "))),
+                "  "));
   }
   text += time_domain_table(section);
   if (section.decision) text += document_of(section, *section.decision);

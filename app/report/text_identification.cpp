@@ -110,7 +110,7 @@ Document document_of(const IdentificationSection& section) {
   const auto& inertia = section.inertia;
   Document text = heading(
       "Inertia at the motor shaft, by method (95 % intervals from the inputs' uncertainties)");
-  text += methods_table(section);
+  text += essential(methods_table(section));
   text += wrapped(
       "R = Jm/(J - Jm), all motors against everything else. What a method leaves out of its model "
       "(flexible antenna, efficiencies in the oil spring, friction law) is not in its interval.",
@@ -136,11 +136,11 @@ Document document_of(const IdentificationSection& section) {
     const auto& methods = inertia.methods.front();
     const auto impulses = std::ranges::count(inertia.methods, identification::MethodKind::impulse,
                                              &identification::InertiaMethod::kind);
-    text += "\n" + wrapped(reconciled_text(
-                               *section.reconciled,
-                               methods.reflected_inertia.value - methods.antenna_remainder.value,
-                               impulses),
-                           "  ");
+    text += "\n" + essential(wrapped(reconciled_text(*section.reconciled,
+                                                     methods.reflected_inertia.value -
+                                                         methods.antenna_remainder.value,
+                                                     impulses),
+                                     "  "));
   }
   text += heading("What the methods rest on");
   std::vector<std::vector<std::string>> rows{

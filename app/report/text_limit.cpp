@@ -64,7 +64,7 @@ Document document_of(const design::PointingLimit& limit) {
                                                : Row{law.name, "unstable"});
   }
   for (Row& row : rows) row.resize(rows.front().size(), "-");
-  text += table(rows, "l");
+  text += essential(table(rows, "l"));
   text += wrapped(
       fmt::format("Lower bound: {} mdeg. No linear controller of the same sensors, sampling and "
                   "delay whose noise drives the valve with at most {:g} rad/s is below it; the "

@@ -271,7 +271,7 @@ Document document_of(const MatchSection& section) {
                   section.settled ? " until none gained" : ", not settled", section.evaluations),
       "  ");
   text += "\n" + motors_part(section);
-  text += "\n" + rms_part(section);
+  text += "\n" + essential(rms_part(section));
   text += "\n" + best_part(section);
   text += "\n" + margins_part(section);
   text += time_part(section);

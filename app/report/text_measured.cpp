@@ -72,7 +72,7 @@ Document laws_part(const MeasuredTuneSection& section) {
                              : tuning.status == MeasuredTuningStatus::nominal ? "not confident"
                                                                               : "misses goals");
   }
-  return table(rows, "l") +
+  return essential(table(rows, "l")) +
          wrapped(
              "S: peak of the sensitivity as measured / within the confidence, with the loop cut "
              "at rate loop alone, valve command, position loop; *: at a frequency that was not "
@@ -131,7 +131,7 @@ Document document_of(const MeasuredTuneSection& section) {
   text += record_part(section) + "\n" + laws_part(section);
   text += heading("Gains, SI at the motor shaft");
   for (const auto& law : section.laws) {
-    if (has_law(law)) text += gains_part(law);
+    if (has_law(law)) text += essential(gains_part(law));
   }
   text += heading("What the verdicts rest on");
   for (const auto& law : section.laws) {

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -63,7 +64,10 @@ Document sections_of(const Report& report) {
       for (const auto& check : failing) text += wrapped(check.reasoning, "  ");
     }
   }
-  if (report.plant) text += document_of(*report.plant);
+  if (report.plant) {
+    Document plant = document_of(*report.plant);
+    text += report.command == "model" ? essential(std::move(plant)) : std::move(plant);
+  }
   if (report.tuning) text += document_of(*report.tuning);
   if (report.measured) text += document_of(*report.measured);
   if (report.tuned) text += document_of(*report.tuned);

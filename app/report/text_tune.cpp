@@ -157,17 +157,17 @@ Document pointing_part(const TuneSection& section) {
     cells.push_back(verdict(row));
     rows.push_back(std::move(cells));
   }
-  Document text = table(rows, "ll");
+  Document text = essential(table(rows, "ll"));
   if (section.wind_mast) text += wrapped(mast_in_words(*section.wind_mast), "  ");
   text += linear_alone_part(section);
   for (std::size_t i = 0; i < section.budgets.size(); ++i) {
     const auto& budget = section.budgets[i];
-    text += fmt::format("  ({}) {}, band {}, {}: {} mdeg, met up to that mean wind speed{}\n",
-                        i + 1, budget.name, budget.band, budget.convention, mdeg(budget.rms),
-                        budget.wind_speed
-                            ? fmt::format("; {:.3g} m/s{} asked for", *budget.wind_speed,
-                                          dish_and_mast(section.wind_mast, *budget.wind_speed))
-                            : "");
+    text += essential(verbatim(fmt::format(
+        "  ({}) {}, band {}, {}: {} mdeg, met up to that mean wind speed{}\n", i + 1, budget.name,
+        budget.band, budget.convention, mdeg(budget.rms),
+        budget.wind_speed ? fmt::format("; {:.3g} m/s{} asked for", *budget.wind_speed,
+                                        dish_and_mast(section.wind_mast, *budget.wind_speed))
+                          : "")));
   }
   if (!section.budgets.empty() && std::isfinite(section.supply_wind_speed)) {
     text += wrapped(fmt::format("Supply torque not counted: at {:.1f} m/s the mean wind takes all "
@@ -228,6 +228,7 @@ Document robustness_part(const TuneSection& section) {
 
 // One table a structure and wind speed: present gains, where there are any, and tuned ones.
 Document gains_part(const TuneSection& section) {
+  const TunedLaw* recommended = recommended_law(section);
   Document text;
   for (std::size_t i = 0; i < section.laws.size(); ++i) {
     const auto same = [&](const TunedLaw& row) {
@@ -251,9 +252,11 @@ Document gains_part(const TuneSection& section) {
         rows[k + 1].push_back(k < texts.size() ? texts[k] : "-");
       }
     }
-    text += subheading(fmt::format("{} at {:.3g} m/s", section.laws[i].structure,
-                                   section.laws[i].wind_speed)) +
-            table(rows, "ll");
+    Document part = subheading(fmt::format("{} at {:.3g} m/s", section.laws[i].structure,
+                                           section.laws[i].wind_speed)) +
+                    table(rows, "ll");
+    const bool best = recommended != nullptr && same(*recommended);
+    text += best ? essential(std::move(part)) : std::move(part);
   }
   return text;
 }

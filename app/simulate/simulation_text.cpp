@@ -116,13 +116,9 @@ Document limits_part(const SimulationReport& report) {
   return text;
 }
 
-}  // namespace
-
-Document document_of(const SimulationReport& report) {
-  Document text =
-      report_title("simulate", report.title, report.axis, report.case_path, report.seed);
-  text += lead(decision(report));
-  text += heading("What was run");
+// What ran, what it showed, which records there are and which are missing.
+Document runs_part(const SimulationReport& report) {
+  Document text = heading("What was run");
   for (const auto& record : report.drive) {
     text += wrapped(fmt::format("{}: {}", record.test, record.description), "  ", "  ");
   }
@@ -141,7 +137,16 @@ Document document_of(const SimulationReport& report) {
   if (!report.not_run.empty()) {
     text += wrapped(fmt::format("Not run: {}.", fmt::join(report.not_run, ", ")), "");
   }
-  return text + document_of(report.assumed);
+  return text;
+}
+
+}  // namespace
+
+Document document_of(const SimulationReport& report) {
+  Document text =
+      report_title("simulate", report.title, report.axis, report.case_path, report.seed);
+  text += lead(decision(report));
+  return text + essential(runs_part(report)) + document_of(report.assumed);
 }
 
 std::string to_text(const SimulationReport& report) {

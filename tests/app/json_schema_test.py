@@ -64,7 +64,7 @@ def tuned_case():
 
 @functools.lru_cache(maxsize=None)
 def run(command, case, threads=2, seed=1):
-    """Bytes of the JSON report, and the text report."""
+    """Bytes of the JSON report, and the whole text."""
     with tempfile.TemporaryDirectory() as folder:
         path = pathlib.Path(folder) / "report.json"
         case_path = f"cases/{case}/case.toml"
@@ -74,7 +74,7 @@ def run(command, case, threads=2, seed=1):
                                  encoding="utf-8")
         process = subprocess.run(
             [PROGRAM, command, str(case_path), *(PROPOSALS if command == "evaluate" else ()),
-             "--json", str(path), "--threads",
+             "--details", "--json", str(path), "--threads",
              str(threads), "--seed", str(seed), *(SMALL_MATCH if command == "match" else ())],
             cwd=SOURCE, capture_output=True, text=True, check=True)
         assert process.stderr == "", process.stderr

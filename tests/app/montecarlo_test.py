@@ -51,8 +51,8 @@ class Folder:
         (self.path / "case.toml").write_text(CASE + GAINS % gain + more, encoding="utf-8")
 
     def command(self, *arguments, name="one", program=PROGRAM):
-        return [program, "montecarlo", "case.toml", "--gains", "case", "--json", f"{name}.json",
-                "--csv", f"{name}.csv", *arguments]
+        return [program, "montecarlo", "case.toml", "--details", "--gains", "case",
+                "--json", f"{name}.json", "--csv", f"{name}.csv", *arguments]
 
     def run(self, *arguments, name="one", start=(), program=PROGRAM):
         return subprocess.run([*start, *self.command(*arguments, name=name, program=program)],

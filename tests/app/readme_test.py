@@ -21,6 +21,8 @@ def check(section, *arguments):
     shown = [line[4:].strip() for line in text.splitlines() if line.startswith("    ")]
     shown = [line for line in shown if line and not line.startswith("./dev")]
     missing = not_printed(shown, printed)
+    # Title, card of the result and 60 lines: what does not fit is for --details.
+    assert len(printed) <= 3 + 16 + 60, f"{arguments[0]} prints {len(printed)} lines"
     assert len(shown) > 5, f"README.md shows no output in {section}"
     assert not missing, "README.md shows what the program does not print:\n" + "\n".join(missing)
     return len(shown)

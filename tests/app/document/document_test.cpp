@@ -108,7 +108,7 @@ class StrictHtml {
 std::vector<std::string> cells_of(const Document& document) {
   std::vector<std::string> cells;
   for (const Block& block : document.blocks) {
-    const auto* table = std::get_if<Table>(&block);
+    const auto* table = std::get_if<Table>(&block.content);
     if (table == nullptr) continue;
     std::size_t columns = 0;
     for (const auto& row : table->rows) columns = std::max(columns, row.size());
@@ -164,7 +164,7 @@ TEST(DocumentText, ShowsTheDecisionThatAPageHasInItsBox) {
   EXPECT_EQ(to_text(decided), "title\n\n  Do this.\n  Not that.\n\nWhy\n---\n");
   EXPECT_THAT(to_html(decided), Not(HasSubstr("Do this")));
   EXPECT_EQ(to_text(lead({})), "");
-  const Document labelled{{Lead{{{"text that is long", "  ", "     ", "Load"}}}}};
+  const Document labelled{{{Lead{{{"text that is long", "  ", "     ", "Load"}}}}}};
   EXPECT_EQ(to_text(labelled), "\n  Load text that is long\n");
 }
 
@@ -188,6 +188,15 @@ TEST(Document, KeepsStringsAsTheyAre) {
   document += "";
   EXPECT_EQ(document.blocks.size(), 3U);
   EXPECT_EQ(to_text(document + verbatim("end")), "\n\nA\n-\n  (1) as is\n  (2) too\nend");
+}
+
+TEST(Document, ShortFormKeepsWhatIsEssential) {
+  const Document document = "title\n" + lead({"Do this."}) + heading("All of it") +
+                            wrapped("why", "  ") + heading("Gains") + essential(table({{"kr"}})) +
+                            "note\n" + essential(verbatim("sum\n")) + "more\n";
+  EXPECT_EQ(to_text(short_form(document)), "title\n\n  Do this.\n\nGains\n-----\n  kr\nsum\n");
+  EXPECT_EQ(to_text(document).find("note\nsum\nmore\n") != std::string::npos, true);
+  EXPECT_EQ(to_text(short_form(heading("All of it") + "note\n")), "");
 }
 
 TEST(DocumentHtml, WritesEachBlockAsWhatItIs) {
@@ -245,7 +254,7 @@ TEST(DocumentHtml, EscapesWhatCouldBeTakenForMarkup) {
 TEST(DocumentHtml, SaysAllThatTheTextSays) {
   Document document = real_report();
   std::erase_if(document.blocks,
-                [](const Block& one) { return std::holds_alternative<Lead>(one); });
+                [](const Block& one) { return std::holds_alternative<Lead>(one.content); });
   const StrictHtml page(to_html(document));
   EXPECT_GT(page.tags.at("table"), 4);
   EXPECT_EQ(std::set(page.ids.begin(), page.ids.end()).size(), page.ids.size());

@@ -6,10 +6,12 @@
 #include <pybind11/stl.h>
 
 #include <boresight/app/commands/subcommand.hpp>
-#include <boresight/app/simulate/drive_run.hpp>
-#include <boresight/app/simulate/position_run.hpp>
+#include <boresight/app/simulate/simulated_tests.hpp>
 #include <boresight/app/tune/chosen_controller.hpp>
+#include <boresight/design/simulation/drive_run.hpp>
 #include <boresight/io/campaign/designed_antenna.hpp>
+#include <boresight/io/case/tested_drive_of.hpp>
+#include <boresight/io/records/simulated_table.hpp>
 #include <boresight/numerics/error.hpp>
 #include <boresight/python/bindings.hpp>
 #include <boresight/python/interruptible.hpp>
@@ -25,8 +27,13 @@ struct Record {
   io::CsvTable table;
 };
 
+template <typename Section>
+Record record_of(Section section) {
+  return {section.test, std::move(section.description), section.sample_time, io::table_of(section)};
+}
+
 std::vector<Record> simulate(const io::Case& antenna, const std::string& test, std::uint64_t seed) {
-  const auto& known = app::simulated_test_names();
+  const auto& known = design::simulated_test_names();
   if (std::ranges::find(known, test) == known.end()) {
     throw InvalidInput(
         fmt::format("simulate: expected one of {}, found '{}'", fmt::join(known, ", "), test));
@@ -34,24 +41,22 @@ std::vector<Record> simulate(const io::Case& antenna, const std::string& test, s
   return interruptible([&](const StopRequest& stop) {
     const auto progress = [&stop](double) { return !stop(); };
     std::vector<Record> records;
-    for (const auto& one : app::drive_tests(antenna, test)) {
-      auto run = app::run_drive_test(antenna, one, seed, progress);
-      records.push_back(
-          {run.test, std::move(run.description), run.sample_time, std::move(run.record)});
+    if (const auto kind = design::drive_test_kind(test)) {
+      const auto drive = io::tested_drive_of(antenna);
+      for (const auto& one : design::drive_tests(drive, *kind)) {
+        records.push_back(
+            record_of(app::section_of(design::run_drive_test(drive, one, seed, progress))));
+      }
+      return records;
     }
-    if (records.empty()) {
-      const auto designed = io::designed_antenna(antenna, seed, app::all_or(0), stop);
-      design::TuneOptions options;
-      options.seed = seed;
-      options.threads = app::all_or(0);
-      options.interrupted = stop;
-      const auto chosen = app::recommended_controller(designed, options);
-      const app::SimulatedController controller{chosen.law, chosen.source};
-      auto run = test == "slew" ? app::run_slew(antenna, controller, seed, progress)
-                                : app::run_tracking(antenna, controller, seed, progress);
-      records.push_back(
-          {run.test, std::move(run.description), run.sample_time, std::move(run.record)});
-    }
+    const auto designed = io::designed_antenna(antenna, seed, app::all_or(0), stop);
+    design::TuneOptions options;
+    options.seed = seed;
+    options.threads = app::all_or(0);
+    options.interrupted = stop;
+    const auto chosen = app::recommended_controller(designed, options);
+    auto run = app::run_position_test(antenna, test, chosen.law, seed, progress);
+    records.push_back(record_of(app::section_of(std::move(run), antenna, chosen.source)));
     return records;
   });
 }

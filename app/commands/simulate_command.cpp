@@ -3,11 +3,9 @@
 #include <filesystem>
 #include <functional>
 #include <memory>
-#include <mutex>
 #include <optional>
 #include <set>
 #include <system_error>
-#include <type_traits>
 #include <variant>
 #include <vector>
 
@@ -21,17 +19,20 @@
 #include <boresight/app/redesign/assumed_inputs.hpp>
 #include <boresight/app/redesign/sections.hpp>
 #include <boresight/app/report/json_report.hpp>
-#include <boresight/app/simulate/antenna_tests.hpp>
+#include <boresight/app/simulate/simulated_tests.hpp>
 #include <boresight/app/tune/chosen_controller.hpp>
 #include <boresight/app/tune/structure_option.hpp>
+#include <boresight/design/simulation/drive_tests.hpp>
+#include <boresight/design/simulation/test_runs.hpp>
 #include <boresight/io/campaign/designed_antenna.hpp>
 #include <boresight/io/case/drive_numbers.hpp>
 #include <boresight/io/case/field.hpp>
+#include <boresight/io/case/tested_drive_of.hpp>
 #include <boresight/io/files/write_atomically.hpp>
 #include <boresight/io/records/record_mat_writer.hpp>
+#include <boresight/io/records/simulated_table.hpp>
 #include <boresight/io/units/wording.hpp>
 #include <boresight/numerics/error.hpp>
-#include <boresight/numerics/parallel_loop.hpp>
 
 namespace boresight::app {
 namespace {
@@ -49,7 +50,7 @@ std::filesystem::path make_folder(const std::string& folder) {
 }
 
 void check_tests(const std::vector<std::string>& tests) {
-  const auto& known = simulated_test_names();
+  const auto& known = design::simulated_test_names();
   for (const auto& test : tests) {
     if (std::ranges::find(known, test) == known.end()) {
       throw InvalidInput(fmt::format("simulate: expected tests out of {}, found {}{}",
@@ -81,25 +82,7 @@ SimulatedController controller_of(const io::Case& antenna, const SimulateArgumen
   return {std::move(recommended.law), std::move(recommended.source)};
 }
 
-using Record = std::variant<DriveRecord, PositionRecord>;
-
-// One record to make: of a test that may have several.
-struct Run {
-  std::string asked;  // as the command line names it
-  std::string name;   // of the file
-  std::function<Record(const RunProgress&)> make;
-};
-
-// What became of it.
-struct RunState {
-  std::optional<Record> record;
-  std::exception_ptr failure;
-  double done = 0.0;  // share
-  bool begun = false;
-  bool over = false;
-};
-
-// Runs the tests, several at a time, and keeps what the report says of them in their order.
+// Has the tests run, several at a time, and keeps what the report says of them in their order.
 class Campaign {
  public:
   Campaign(const SimulateArguments& arguments, const std::function<bool()>& interrupted)
@@ -119,8 +102,7 @@ class Campaign {
     arguments.outputs.require_writable();
     NonlinearInputs inputs{.time_runs = true};
     for (const auto& name : arguments.tests) add_runs(name, inputs);
-    for (const auto& run : runs_) io::require_writable(path_of(run));
-    states_.resize(runs_.size());
+    for (const auto& name : names_) io::require_writable(path_of(name.file));
     report_.assumed = assumed_inputs(antenna_, inputs);
   }
 
@@ -134,133 +116,108 @@ class Campaign {
         return {std::move(report_), nullptr};
       }
     }
-    // An error of the loop itself, such as of a full disk, is the failure of nobody's test.
-    numerics::for_each_index(runs_.size(), arguments_.threads,
-                             [this](std::size_t i) { run_one(i); });
+    const auto outcome =
+        design::run_tests(runs_, arguments_.threads,
+                          {interrupted_, [this](double share) { show(share); },
+                           [this](std::size_t run, design::TestRecord record) {
+                             std::visit([&](auto& made) { keep(run, made); }, record);
+                           }});
     std::set<std::string> begun;
     for (std::size_t i = 0; i < runs_.size(); ++i) {
-      if (states_[i].begun && i <= kept_) begun.insert(runs_[i].asked);
+      if (outcome.begun[i] && i <= outcome.kept) begun.insert(names_[i].asked);
     }
     for (const auto& name : arguments_.tests) {
       if (!begun.contains(name)) report_.not_run.push_back(name);
     }
-    report_.interrupted = report_.interrupted || (!failure_ && kept_ < runs_.size());
-    return {std::move(report_), failure_};
+    report_.interrupted = report_.interrupted || (!outcome.failure && outcome.kept < runs_.size());
+    if (outcome.failure) tell_failure(outcome);
+    return {std::move(report_), outcome.failure};
   }
 
  private:
+  // Of a test that may have several records.
+  struct RecordName {
+    std::string asked;  // as the command line names the test
+    std::string file;
+  };
+
   // The runs of a test, and which assumed inputs they rest on.
-  void add_runs(const std::string& name, NonlinearInputs& inputs) {
+  void add_runs(const std::string& test, NonlinearInputs& inputs) {
     const auto seed = arguments_.seed;
-    if (name == "tracking" || name == "slew") {
-      const auto make = name == "slew" ? run_slew : run_tracking;
+    const auto kind = design::drive_test_kind(test);
+    if (!kind) {
       under_position_loop_ = true;
-      runs_.push_back({name, name, [this, make, seed](const RunProgress& progress) -> Record {
-                         return make(antenna_, controller_, seed, progress);
-                       }});
+      names_.push_back({test, test});
+      runs_.emplace_back([this, test, seed](const design::RunProgress& progress) {
+        return run_position_test(antenna_, test, controller_.law, seed, progress);
+      });
       return;
     }
-    for (const auto& test : drive_tests(antenna_, name)) {
+    if (!drive_) drive_ = io::tested_drive_of(antenna_);
+    for (const auto& one : design::drive_tests(*drive_, *kind)) {
       // What follows the loop of the antenna's computer is written without a recorder's errors.
       inputs.recorder = true;
-      inputs.rate_loop = inputs.rate_loop || test.rate_loop_closed;
-      runs_.push_back({name, test.name, [this, test, seed](const RunProgress& progress) -> Record {
-                         return run_drive_test(antenna_, test, seed, progress);
-                       }});
+      inputs.rate_loop = inputs.rate_loop || one.rate_loop_closed;
+      names_.push_back({test, one.name});
+      runs_.emplace_back([this, one, seed](const design::RunProgress& progress) {
+        return design::run_drive_test(*drive_, one, seed, progress);
+      });
     }
   }
 
-  std::string path_of(const Run& run) const {
-    return (folder_ / fmt::format("{}.{}", run.name, arguments_.format)).string();
+  std::string path_of(const std::string& file) const {
+    return (folder_ / fmt::format("{}.{}", file, arguments_.format)).string();
   }
 
-  void run_one(std::size_t i) {
-    {
-      const std::lock_guard lock(mutex_);
-      if (failure_ || interrupted_()) return;
-      states_[i].begun = true;
-    }
-    std::optional<Record> record;
-    std::exception_ptr failure;
-    try {
-      record = runs_[i].make([this, i](double done) { return goes_on(i, done); });
-    } catch (const std::exception&) {
-      failure = std::current_exception();
-    }
-    const std::lock_guard lock(mutex_);
-    states_[i].record = std::move(record);
-    states_[i].failure = failure;
-    states_[i].over = true;
-    while (kept_ < runs_.size() && states_[kept_].over && !failure_) keep_next();
-  }
-
-  // One line for all on a terminal. A run ends early on request, and where one before it failed.
-  bool goes_on(std::size_t i, double done) {
-    const std::lock_guard lock(mutex_);
-    states_[i].done = done;
-    double sum = 0.0;
-    for (const auto& state : states_) sum += state.over ? 1.0 : state.done;
-    const auto part = static_cast<std::size_t>(sum / static_cast<double>(states_.size()) *
-                                               static_cast<double>(progress_parts));
+  // One line for all runs on a terminal.
+  void show(double share) {
+    const auto part = static_cast<std::size_t>(share * static_cast<double>(progress_parts));
     if (part > 0) line_.show(part, progress_parts);
-    return !failure_ && !interrupted_();
   }
 
-  // The record goes to its file, the rest into the report. After a failure the records before it
-  // are the user's all the same, and those behind it are left out, as if run one by one.
-  void keep_next() {
-    const Run& run = runs_[kept_];
-    RunState& state = states_[kept_];
-    if (!state.failure && state.record) {
-      try {
-        std::visit([&](auto& record) { keep(run, record); }, *state.record);
-        ++kept_;
-        return;
-      } catch (const std::exception&) {
-        state.failure = std::current_exception();
-      }
-    }
-    failure_ = state.failure;
-    report_.failed_test = run.name;
+  void tell_failure(const design::TestRunsOutcome& outcome) {
+    report_.failed_test = names_[outcome.kept].file;
     try {
-      std::rethrow_exception(failure_);
+      std::rethrow_exception(outcome.failure);
     } catch (const std::exception& error) {
       report_.failure = error.what();
     }
   }
 
-  template <typename MadeRecord>
-  void keep(const Run& run, MadeRecord& record) {
-    const auto path = path_of(run);
-    if constexpr (std::is_same_v<MadeRecord, DriveRecord>) {
-      report_.figures.push_back(drive_test_figure(
-          record, io::supply_torque(antenna_) / antenna_.drive.supply_pressure.value));
-    } else {
-      report_.figures.push_back(position_test_figure(record));
-    }
-    io::write_atomically(
-        path, arguments_.format == "mat" ? to_mat(record.record) : to_csv(record.record));
-    record.record = {};
+  void keep(std::size_t run, design::DriveTestRecord& record) {
+    auto section = section_of(std::move(record));
+    report_.figures.push_back(drive_test_figure(
+        section, io::supply_torque(antenna_) / antenna_.drive.supply_pressure.value));
+    write(run, section);
+    report_.drive.push_back(std::move(section));
+  }
+
+  void keep(std::size_t run, design::PositionTestRecord& record) {
+    auto section = section_of(std::move(record), antenna_, controller_.source);
+    report_.figures.push_back(position_test_figure(section));
+    write(run, section);
+    report_.position.push_back(std::move(section));
+  }
+
+  // The channels go to their file and are not kept.
+  void write(std::size_t run, design::SimulatedRecord& record) {
+    const auto path = path_of(names_[run].file);
+    const auto table = io::table_of(record);
+    io::write_atomically(path, arguments_.format == "mat" ? to_mat(table) : to_csv(table));
+    record.channels.clear();
     report_.written.push_back(path);
     report_.interrupted = report_.interrupted || !record.complete;
-    if constexpr (std::is_same_v<MadeRecord, DriveRecord>) {
-      report_.drive.push_back(std::move(record));
-    } else {
-      report_.position.push_back(std::move(record));
-    }
   }
 
   const SimulateArguments& arguments_;
   const std::function<bool()>& interrupted_;
   io::Case antenna_;
   std::filesystem::path folder_;
-  bool under_position_loop_ = false;  // any of the runs
-  SimulatedController controller_;    // theirs
-  std::vector<Run> runs_;
-  std::mutex mutex_;  // of all below
-  std::vector<RunState> states_;
-  std::size_t kept_ = 0;  // so many of the first are in the report
-  std::exception_ptr failure_;
+  std::optional<design::TestedDrive> drive_;  // of tests of the drive
+  bool under_position_loop_ = false;          // any of the runs
+  SimulatedController controller_;            // theirs
+  std::vector<RecordName> names_;             // one a run
+  std::vector<design::TestRun> runs_;
   SimulationReport report_;
   ProgressLine line_;
 };
@@ -293,7 +250,7 @@ Subcommand add_simulate(CLI::App& program) {
       "simulate", "run tests on the nonlinear antenna and write what its recorder would");
   add_case(*sub, arguments->case_path);
   sub->add_option("TEST", arguments->tests,
-                  fmt::format("what to run: {}", fmt::join(simulated_test_names(), ", ")))
+                  fmt::format("what to run: {}", fmt::join(design::simulated_test_names(), ", ")))
       ->required();
   add_outputs(*sub, arguments->outputs);
   sub->add_option("--folder", arguments->folder, "where records TEST.csv or TEST.mat are written")

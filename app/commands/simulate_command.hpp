@@ -13,7 +13,7 @@ namespace boresight::app {
 
 struct SimulateArguments {
   std::string case_path;
-  std::vector<std::string> tests;  // as simulated_test_names()
+  std::vector<std::string> tests;  // as design::simulated_test_names()
   std::string folder = ".";        // where records go
   std::string format = "csv";      // of the records: "csv" or "mat"
   Outputs outputs;

@@ -12,17 +12,17 @@
 namespace boresight::app {
 namespace {
 
-const io::CsvTable::Column* find(const io::CsvTable& table, std::string_view name) {
-  const auto found = std::ranges::find(table.columns, name, &io::CsvTable::Column::name);
-  return found == table.columns.end() ? nullptr : &*found;
+const design::SimulatedChannel* find(const design::SimulatedRecord& record, std::string_view name) {
+  const auto found = std::ranges::find(record.channels, name, &design::SimulatedChannel::name);
+  return found == record.channels.end() ? nullptr : &*found;
 }
 
-// Draws a column, if the record has it.
-void draw(const io::CsvTable& table, std::string_view name, const std::string& called,
+// Draws a channel, if the record has it.
+void draw(const design::SimulatedRecord& record, std::string_view name, const std::string& called,
           SeriesStyle style, FigurePanel& panel) {
-  const auto* column = find(table, name);
-  if (column == nullptr) return;
-  const auto curve = thinned(table.columns.front().values, column->values);
+  const auto* channel = find(record, name);
+  if (channel == nullptr) return;
+  const auto curve = thinned(record.channels.front().values, channel->values);
   panel.series.push_back(make_series(called, style, curve.x, curve.y));
 }
 
@@ -30,33 +30,34 @@ void keep(FigurePanel panel, Figure& figure) {
   if (!panel.series.empty()) figure.panels.push_back(std::move(panel));
 }
 
-std::string caption_of(const std::string& description, const io::CsvTable& table, bool complete) {
+std::string caption_of(const std::string& description, const design::SimulatedRecord& record) {
   return fmt::format(
       "{}; {} samples, least and largest value of every stretch that a pixel shows.{}", description,
-      table.columns.front().values.size(),
-      complete ? "" : " The run was interrupted: this is as far as it got.");
+      record.channels.front().values.size(),
+      record.complete ? "" : " The run was interrupted: this is as far as it got.");
 }
 
 // Torque of all motors: the mean of the motors' pressure differences times what it makes.
-void draw_torque(const io::CsvTable& table, double torque_per_pressure, FigurePanel& panel) {
-  Eigen::VectorXd sum = Eigen::VectorXd::Zero(table.columns.front().values.size());
+void draw_torque(const design::SimulatedRecord& record, double torque_per_pressure,
+                 FigurePanel& panel) {
+  Eigen::VectorXd sum = Eigen::VectorXd::Zero(record.channels.front().values.size());
   double motors = 0.0;
   for (int motor = 1;; ++motor) {
-    const auto* inlet = find(table, fmt::format("p{}_in", motor));
-    const auto* outlet = find(table, fmt::format("p{}_out", motor));
+    const auto* inlet = find(record, fmt::format("p{}_in", motor));
+    const auto* outlet = find(record, fmt::format("p{}_out", motor));
     if (inlet == nullptr || outlet == nullptr) break;
     sum += inlet->values - outlet->values;
     motors += 1.0;
   }
   if (motors == 0.0) return;
   const auto curve =
-      thinned(table.columns.front().values, sum * (megapascal * torque_per_pressure / motors));
+      thinned(record.channels.front().values, sum * (megapascal * torque_per_pressure / motors));
   panel.series.push_back(
       make_series("all motors, from the pressures", SeriesStyle::line, curve.x, curve.y));
 }
 
-void mark_starts(const DriveRecord& record, FigurePanel& panel) {
-  const auto* tachometer = find(record.record, "tach");
+void mark_starts(const DriveTestSection& record, FigurePanel& panel) {
+  const auto* tachometer = find(record, "tach");
   if (tachometer == nullptr) return;
   for (const bool upward : {true, false}) {
     const auto start = first_start(record.events, upward);
@@ -76,41 +77,38 @@ void mark_starts(const DriveRecord& record, FigurePanel& panel) {
 
 }  // namespace
 
-Figure drive_test_figure(const DriveRecord& record, double torque_per_pressure) {
-  const io::CsvTable& table = record.record;
+Figure drive_test_figure(const DriveTestSection& record, double torque_per_pressure) {
   Figure figure = make_figure(
       figure_id("simulated " + record.test), "Tests of the drive (true values, at the motor shaft)",
       fmt::format("Simulated test {}", record.test), "", make_axis("time", "s"));
-  if (table.columns.empty()) return figure;
+  if (record.channels.empty()) return figure;
   figure.caption =
-      caption_of(record.description + "; what the recorder of the nonlinear antenna shows", table,
-                 record.complete);
+      caption_of(record.description + "; what the recorder of the nonlinear antenna shows", record);
   FigurePanel rate = make_panel(make_axis("recorded", "V"));
-  draw(table, "tach", "tachometer", SeriesStyle::line, rate);
-  draw(table, "rate_command", "rate command", SeriesStyle::dashed, rate);
+  draw(record, "tach", "tachometer", SeriesStyle::line, rate);
+  draw(record, "rate_command", "rate command", SeriesStyle::dashed, rate);
   mark_starts(record, rate);
   keep(std::move(rate), figure);
   FigurePanel pressure = make_panel(make_axis("pressure, motor 1", "MPa"));
-  draw(table, "p1_in", "inlet", SeriesStyle::line, pressure);
-  draw(table, "p1_out", "outlet", SeriesStyle::dashed, pressure);
+  draw(record, "p1_in", "inlet", SeriesStyle::line, pressure);
+  draw(record, "p1_out", "outlet", SeriesStyle::dashed, pressure);
   keep(std::move(pressure), figure);
   FigurePanel torque = make_panel(make_axis("torque", "N.m"));
-  draw_torque(table, torque_per_pressure, torque);
+  draw_torque(record, torque_per_pressure, torque);
   keep(std::move(torque), figure);
   FigurePanel valve = make_panel(make_axis("valve command", "V"));
-  draw(table, "valve_command", "valve command", SeriesStyle::line, valve);
+  draw(record, "valve_command", "valve command", SeriesStyle::line, valve);
   keep(std::move(valve), figure);
   return figure;
 }
 
-Figure position_test_figure(const PositionRecord& record) {
-  const io::CsvTable& table = record.record;
+Figure position_test_figure(const PositionTestSection& record) {
   const bool slew = record.test == "slew";
   Figure figure =
       make_figure(figure_id("simulated " + record.test), "Position loop, at the sky (mdeg)",
                   fmt::format("Simulated {}", record.test), "", make_axis("time", "s"));
-  if (table.columns.empty()) return figure;
-  figure.caption = caption_of(record.description, table, record.complete);
+  if (record.channels.empty()) return figure;
+  figure.caption = caption_of(record.description, record);
   if (record.beam_rms) {
     figure.caption +=
         fmt::format(" Beam rms about its mean {:.3f} mdeg", *record.beam_rms / millidegree);
@@ -119,8 +117,8 @@ Figure position_test_figure(const PositionRecord& record) {
                                            : ".";
   }
   FigurePanel error = make_panel(make_axis("error at the sky", "mdeg"));
-  draw(table, "beam_error", "beam", SeriesStyle::line, error);
-  draw(table, "encoder_error", "encoder", SeriesStyle::dashed, error);
+  draw(record, "beam_error", "beam", SeriesStyle::line, error);
+  draw(record, "encoder_error", "encoder", SeriesStyle::dashed, error);
   if (slew) {
     for (const double limit : {-1.0, 1.0}) {
       error.lines.push_back(horizontal_line(limit, limit > 0.0 ? "settled within 1 mdeg" : ""));
@@ -129,16 +127,16 @@ Figure position_test_figure(const PositionRecord& record) {
   keep(std::move(error), figure);
   if (slew) {
     FigurePanel reference = make_panel(make_axis("command", "deg"));
-    draw(table, "reference", "command", SeriesStyle::line, reference);
+    draw(record, "reference", "command", SeriesStyle::line, reference);
     keep(std::move(reference), figure);
   }
   FigurePanel torque = make_panel(make_axis("torque at the motors", "N.m"));
-  draw(table, "motor_torque", "motors", SeriesStyle::line, torque);
-  draw(table, "wind_torque_at_motor", "wind", SeriesStyle::dashed, torque);
+  draw(record, "motor_torque", "motors", SeriesStyle::line, torque);
+  draw(record, "wind_torque_at_motor", "wind", SeriesStyle::dashed, torque);
   keep(std::move(torque), figure);
   FigurePanel rate = make_panel(make_axis("motor rate", "rad/s"));
-  draw(table, "motor_rate", "motors", SeriesStyle::line, rate);
-  draw(table, "valve_command", "valve command", SeriesStyle::dashed, rate);
+  draw(record, "motor_rate", "motors", SeriesStyle::line, rate);
+  draw(record, "valve_command", "valve command", SeriesStyle::dashed, rate);
   keep(std::move(rate), figure);
   return figure;
 }

@@ -1,19 +1,18 @@
 #pragma once
 
 #include <boresight/app/figures/figure.hpp>
-#include <boresight/app/simulate/drive_run.hpp>
-#include <boresight/app/simulate/position_run.hpp>
+#include <boresight/app/simulate/simulated_tests.hpp>
 
 namespace boresight::app {
 
 /// A drive test as its recorder would show it: tachometer with rate command, the first motor's port
 /// pressures, torque of all motors from them, valve command; first starts of sliding and clipped
 /// channels marked. `torque_per_pressure`: N m per Pa of every motor's pressure difference.
-/// To be made while the record still has its columns.
-Figure drive_test_figure(const DriveRecord& record, double torque_per_pressure);
+/// To be made while the record still has its channels.
+Figure drive_test_figure(const DriveTestSection& record, double torque_per_pressure);
 
 /// A run of the position loop: errors of encoder and beam with the limit of a slew, torque with the
 /// wind's, motor rate, valve command.
-Figure position_test_figure(const PositionRecord& record);
+Figure position_test_figure(const PositionTestSection& record);
 
 }  // namespace boresight::app

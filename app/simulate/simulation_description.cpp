@@ -14,9 +14,9 @@ constexpr io::NumberForm known{.finite = true};
 constexpr io::NumberForm known_positive{.least = 0.0, .finite = true};
 constexpr io::NumberForm positive{.least = 0.0};
 
-void describe_starts(io::Visitor& v, const std::vector<SlidingStart>& all) {
+void describe_starts(io::Visitor& v, const std::vector<plant::SlidingStart>& all) {
   constexpr std::size_t listed = 1000;
-  const std::vector<SlidingStart> first(
+  const std::vector<plant::SlidingStart> first(
       all.begin(), all.begin() + static_cast<std::ptrdiff_t>(std::min(listed, all.size())));
   v.count("sliding_start_count", all.size(), "Times the motor broke away from standstill.");
   v.list(
@@ -24,7 +24,7 @@ void describe_starts(io::Visitor& v, const std::vector<SlidingStart>& all) {
       "The first thousand of them, in order: after at least 0.1 s below a tenth of the friction "
       "curve's stribeck_rate, once the motor has turned by four times what the bristles bend at "
       "breakaway.",
-      [&](const SlidingStart& start) {
+      [&](const plant::SlidingStart& start) {
         v.number("time", start.time, unit::second, "When.", known_positive);
         v.word("direction", start.upward ? "up" : "down", {"up", "down"}, "Of the motion.");
         v.number("rate", start.rate, unit::radian_per_second, "Of the motor, in that direction.",
@@ -40,7 +40,7 @@ void describe_starts(io::Visitor& v, const std::vector<SlidingStart>& all) {
       {.most = listed});
 }
 
-void describe_sampled(io::Visitor& v, std::string_view key, const SampledEvent& event,
+void describe_sampled(io::Visitor& v, std::string_view key, const plant::SampledEvent& event,
                       std::string_view meaning) {
   v.group(key, meaning, [&] {
     v.defined_as("sampled_event", "Samples at which something held.");
@@ -50,7 +50,7 @@ void describe_sampled(io::Visitor& v, std::string_view key, const SampledEvent& 
   });
 }
 
-void describe_events(io::Visitor& v, const RunEvents& events) {
+void describe_events(io::Visitor& v, const plant::RunEvents& events) {
   v.group("events", "What happened.", [&] {
     v.defined_as("events",
                  "What happened, judged at the samples of the true motion: what comes and goes "
@@ -83,7 +83,7 @@ void describe_events(io::Visitor& v, const RunEvents& events) {
   });
 }
 
-void describe_drive(io::Visitor& v, const DriveRecord& record) {
+void describe_drive(io::Visitor& v, const DriveTestSection& record) {
   v.text("test", record.test, "Name, of its record too.");
   v.text("description", record.description, "What was done.");
   v.flag("complete", record.complete, "Not interrupted.");
@@ -100,7 +100,7 @@ void describe_drive(io::Visitor& v, const DriveRecord& record) {
   v.number("tachometer_at_limit", record.at_limit, unit::ratio,
            "Share of samples at the recorder's limit.", known_positive);
   v.list("clipped_channels", record.clipped, "Channels that left the recorder's range.",
-         [&](const ClippedChannel& channel) {
+         [&](const design::ClippedChannel& channel) {
            v.text("channel", channel.name, "Its name in the record.");
            v.count("samples", channel.samples, "At either end of the range.");
            v.number("first", channel.first, unit::second, "The first of them.", known_positive);
@@ -108,7 +108,7 @@ void describe_drive(io::Visitor& v, const DriveRecord& record) {
   describe_events(v, record.events);
 }
 
-void describe_position(io::Visitor& v, const PositionRecord& record) {
+void describe_position(io::Visitor& v, const PositionTestSection& record) {
   v.text("test", record.test, "Name, of its record too.");
   v.text("description", record.description, "What was done.");
   v.flag("complete", record.complete, "Not interrupted.");
@@ -143,9 +143,9 @@ void describe(io::Visitor& v, const SimulationReport& report) {
                    });
   v.texts("not_run", report.not_run, "Tests that were asked for after that.");
   v.list("drive_tests", report.drive, "Tests of the drive, true values at the motor shaft.",
-         [&](const DriveRecord& record) { describe_drive(v, record); });
+         [&](const DriveTestSection& record) { describe_drive(v, record); });
   v.list("position_tests", report.position, "Runs of the tuned position loop, at the sky.",
-         [&](const PositionRecord& record) { describe_position(v, record); });
+         [&](const PositionTestSection& record) { describe_position(v, record); });
   v.texts("records", report.written, "Files written.");
   describe_assumed(v, report.assumed);
   describe_figures(v, report.figures);

@@ -6,8 +6,7 @@
 
 #include <boresight/app/document/document.hpp>
 #include <boresight/app/figures/figure.hpp>
-#include <boresight/app/simulate/drive_run.hpp>
-#include <boresight/app/simulate/position_run.hpp>
+#include <boresight/app/simulate/simulated_tests.hpp>
 
 namespace boresight::io {
 class Visitor;
@@ -15,7 +14,7 @@ class Visitor;
 
 namespace boresight::app {
 
-/// What `boresight simulate` ran, in order; the tests' records without their columns, which are in
+/// What `boresight simulate` ran, in order; the tests' records without their channels, which are in
 /// the files written.
 struct SimulationReport {
   std::string case_path;
@@ -27,8 +26,8 @@ struct SimulationReport {
   std::string failure;
   std::string failed_test;
   std::vector<std::string> not_run;  // names of tests
-  std::vector<DriveRecord> drive;
-  std::vector<PositionRecord> position;
+  std::vector<DriveTestSection> drive;
+  std::vector<PositionTestSection> position;
   std::vector<std::string> written;  // paths of records
   std::vector<io::Quantity> assumed;
   std::vector<Figure> figures;

@@ -35,7 +35,7 @@ Document drive_part(const SimulationReport& report) {
 }
 
 // Seconds after the end of the slew's command.
-std::string settling_text(const PositionRecord& record) {
+std::string settling_text(const PositionTestSection& record) {
   if (record.settling_time) {
     return *record.settling_time > 0.0 ? fmt::format("{:.2f}", *record.settling_time) : "at once";
   }
@@ -84,12 +84,12 @@ Document breakaway_part(const SimulationReport& report) {
              "  ");
 }
 
-std::string share_of(const SampledEvent& event) {
+std::string share_of(const plant::SampledEvent& event) {
   if (event.samples == 0) return "-";
   return fmt::format("{:.3g} % from {:.3f}", 100.0 * event.share, event.first.value_or(0.0));
 }
 
-void add_limits(Rows& rows, const std::string& test, const RunEvents& events) {
+void add_limits(Rows& rows, const std::string& test, const plant::RunEvents& events) {
   rows.push_back({test, share_of(events.command_limit), share_of(events.stroke_limit),
                   share_of(events.slew_limit),
                   events.contact_losses == 0

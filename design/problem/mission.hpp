@@ -67,7 +67,10 @@ struct Mission {
   std::vector<WeightedWind> climate;
   std::vector<ClimatePart> climate_parts;
   std::optional<plant::TorqueCoefficientTable> torque_table;
+  /// A measured wind that the antenna is to track in; none: one drawn of the design wind.
   std::optional<plant::WindRecord> wind_record;
+  /// Where the dish points; with a torque table it gives a measured wind its coefficient.
+  std::optional<plant::DishDirection> pointing;
 
   std::vector<PointingBand> bands;
   std::vector<PointingBudget> budgets;

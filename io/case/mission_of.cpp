@@ -231,6 +231,10 @@ design::Mission mission_of(const Case& stated) {
   mission.climate_parts = stated.wind.climate_parts;
   mission.torque_table = stated.wind.torque_table;
   mission.wind_record = stated.wind.record;
+  const auto& dish = stated.antenna;
+  if (dish.azimuth && dish.elevation) {
+    mission.pointing = {dish.azimuth->value, dish.elevation->value};
+  }
   mission.bands = make_bands(stated);
   mission.budgets = make_budgets(stated);
   mission.objective = objective_of(stated.goals);

@@ -219,4 +219,14 @@ OperatingPoint trim(const NonlinearAntenna& antenna, const Trim& motion) {
   return SteadyMotion(airless, motion).solve();
 }
 
+Eigen::VectorXd state_held_by_friction(const NonlinearAntenna& antenna) {
+  const double offset = offset_torque(antenna.offset, 0.0).value;
+  if (std::abs(offset) >= antenna.friction.curve.breakaway_torque) {
+    return trim(antenna, {}).state;
+  }
+  Eigen::VectorXd state = state_at_rest(antenna);
+  state[AntennaStates::bristle] = -offset / antenna.friction.bristle_stiffness;
+  return state;
+}
+
 }  // namespace boresight::plant

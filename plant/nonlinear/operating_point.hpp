@@ -44,4 +44,9 @@ struct OperatingPoint {
 /// leaves the command undetermined.
 OperatingPoint trim(const NonlinearAntenna& antenna, const Trim& motion);
 
+/// The state of an antenna at rest that friction holds: the bristles bent by gravity's offset; or,
+/// where that would break them away, straight and the offset carried by the pressures.
+/// @throws as trim.
+Eigen::VectorXd state_held_by_friction(const NonlinearAntenna& antenna);
+
 }  // namespace boresight::plant

@@ -9,12 +9,12 @@
 
 #include <fmt/format.h>
 
-#include <boresight/app/simulate/recorder_filter.hpp>
 #include <boresight/identification/records/record_defects.hpp>
 #include <boresight/numerics/error.hpp>
 #include <boresight/numerics/normal_numbers.hpp>
 #include <boresight/plant/integration/feedback_interconnection.hpp>
 #include <boresight/plant/nonlinear/operating_point.hpp>
+#include <boresight/plant/nonlinear/recorder_filter.hpp>
 #include <boresight/plant/nonlinear/simulation.hpp>
 
 namespace boresight::coverage {
@@ -130,17 +130,6 @@ VectorXd wind_torque(const RandomDrive& drive, Index samples, double interval,
   return torque;
 }
 
-// At rest with the bristles bent by gravity's offset; or with the offset carried by the pressures.
-VectorXd state_held_by_friction(const plant::NonlinearAntenna& antenna) {
-  const double offset = plant::offset_torque(antenna.offset, 0.0).value;
-  if (std::abs(offset) >= antenna.friction.curve.breakaway_torque) {
-    return plant::trim(antenna, {}).state;
-  }
-  VectorXd state = plant::state_at_rest(antenna);
-  state[plant::AntennaStates::bristle] = -offset / antenna.friction.bristle_stiffness;
-  return state;
-}
-
 plant::NonlinearAntenna with_line_modes(plant::NonlinearAntenna antenna, int modes) {
   antenna.oil.modes_per_line = modes;
   return antenna;
@@ -159,7 +148,7 @@ class Bench {
         seed_(seed),
         open_(plant::to_feedback_system(antenna_)),
         closed_(plant::closed(open_, rate_loop(drive.integral_gain))),
-        start_(state_held_by_friction(antenna_)) {}
+        start_(plant::state_held_by_friction(antenna_)) {}
 
   identification::DriveRecord record(const DriveTest& test, std::uint64_t number,
                                      MeanPressure& mean) const;
@@ -175,12 +164,12 @@ class Bench {
 identification::DriveRecord Bench::record(const DriveTest& test, std::uint64_t number,
                                           MeanPressure& mean) const {
   const auto& system = test.closed ? closed_ : open_;
-  const app::LowPass filter{4, 0.35 / test.sample_time};
+  const plant::LowPass filter{4, 0.35 / test.sample_time};
   double fastest_line = 0.0;
   for (const auto& line : antenna_.oil.lines) {
     fastest_line = std::max(fastest_line, line.half_wave * antenna_.oil.modes_per_line);
   }
-  const Index stride = app::steps_per_sample(filter, test.sample_time, fastest_line);
+  const Index stride = plant::steps_per_sample(filter, test.sample_time, fastest_line);
   plant::SimulationPlan plan;
   plan.interval = test.sample_time / static_cast<double>(stride);
   plan.state = VectorXd::Zero(system.linear.a.rows());
@@ -200,7 +189,7 @@ identification::DriveRecord Bench::record(const DriveTest& test, std::uint64_t n
   const auto run = plant::simulate(system, plan);
 
   const auto recorded = [&](const VectorXd& signal) {
-    return app::filtered(filter, signal, plan.interval, stride);
+    return plant::filtered(filter, signal, plan.interval, stride);
   };
   identification::RawRecord raw;
   raw.name = test.name;

@@ -12,12 +12,12 @@
 #include "io/edited_case.hpp"
 #include <boresight/app/audit/case_graph.hpp>
 #include <boresight/app/audit/plausibility_checks.hpp>
-#include <boresight/app/simulate/nonlinear_model.hpp>
 #include <boresight/design/problem/drive_reach.hpp>
 #include <boresight/design/problem/static_bending.hpp>
 #include <boresight/io/case/antenna_of.hpp>
 #include <boresight/io/case/drive_numbers.hpp>
 #include <boresight/io/case/mission_of.hpp>
+#include <boresight/io/case/tested_drive_of.hpp>
 
 namespace boresight::app {
 namespace {

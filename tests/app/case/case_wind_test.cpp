@@ -11,12 +11,12 @@
 #include "io/edited_case.hpp"
 #include "scratch_folder.hpp"
 #include <boresight/app/report/wind_mast.hpp>
-#include <boresight/app/simulate/nonlinear_model.hpp>
-#include <boresight/app/simulate/position_run.hpp>
+#include <boresight/app/simulate/simulated_tests.hpp>
 #include <boresight/design/tuning/tuner.hpp>
 #include <boresight/io/case/case_file.hpp>
 #include <boresight/io/case/drive_numbers.hpp>
 #include <boresight/io/case/mission_of.hpp>
+#include <boresight/io/case/tested_drive_of.hpp>
 #include <boresight/io/units/unit_table.hpp>
 #include <boresight/numerics/angles.hpp>
 #include <boresight/numerics/error.hpp>
@@ -306,11 +306,12 @@ TEST(CaseWind, TracksInAMeasuredWind) {
   const io::Case antenna = edited_case(folder, edited);
   const auto loops = design::tune(make_problem(antenna), io::loop_structure(antenna, "PI"),
                                   make_goals(antenna), {});
-  const auto run = run_tracking(antenna, {loops.law, "tuned"}, 1, {});
+  const auto run =
+      section_of(run_position_test(antenna, "tracking", loops.law, 1, {}), antenna, "tuned");
   EXPECT_NEAR(run.duration, 66.0, 0.01);
   EXPECT_THAT(run.description, HasSubstr("wind.csv, mean 8"));
   // The torque in the record is 1/2 rho V^2 A D C at the motor, sample for sample.
-  const auto& torque = run.record.columns.back();
+  const auto& torque = run.channels.back();
   EXPECT_EQ(torque.name, "wind_torque_at_motor");
   const auto site = make_problem(antenna).wind.site;
   const double gear = io::gear_ratio(antenna);

@@ -116,14 +116,14 @@ TEST(BenchmarkFigures, PutTheComparedSheetBesideAndDrawNothingOfAnUnstableLoop) 
 }
 
 TEST(SimulationFigures, MakeTorqueOfTheMeanPressureDifference) {
-  DriveRecord record;
+  DriveTestSection record;
   record.test = "fast-ramp";
   record.sample_time = 0.01;
   const Eigen::VectorXd time = Eigen::VectorXd::LinSpaced(3, 0.0, 0.02);
   const Eigen::VectorXd one = Eigen::VectorXd::Ones(3);
-  record.record.columns = {{"time", "s", 3, time},          {"p1_in", "MPa", 3, 8.0 * one},
-                           {"p1_out", "MPa", 3, 4.0 * one}, {"p2_in", "MPa", 3, 7.0 * one},
-                           {"p2_out", "MPa", 3, 5.0 * one}, {"tach", "V", 3, time}};
+  record.channels = {{"time", "s", 3, time},          {"p1_in", "MPa", 3, 8.0 * one},
+                     {"p1_out", "MPa", 3, 4.0 * one}, {"p2_in", "MPa", 3, 7.0 * one},
+                     {"p2_out", "MPa", 3, 5.0 * one}, {"tach", "V", 3, time}};
   const Figure figure = drive_test_figure(record, 2e-5);
   expect_drawable({figure});
   ASSERT_EQ(figure.panels.size(), 3U);  // no valve command

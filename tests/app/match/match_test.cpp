@@ -9,12 +9,12 @@
 #include <boresight/app/document/document_text.hpp>
 #include <boresight/app/match/match_conclusions.hpp>
 #include <boresight/app/report/match_report.hpp>
-#include <boresight/app/simulate/nonlinear_model.hpp>
 #include <boresight/app/tune/structure_option.hpp>
 #include <boresight/io/case/antenna_of.hpp>
 #include <boresight/io/case/drive_numbers.hpp>
 #include <boresight/io/case/mission_of.hpp>
 #include <boresight/io/case/plant_numbers.hpp>
+#include <boresight/io/case/tested_drive_of.hpp>
 #include <boresight/numerics/error.hpp>
 #include <boresight/plant/antenna/antenna_change.hpp>
 

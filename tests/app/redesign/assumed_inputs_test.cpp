@@ -9,9 +9,9 @@
 #include "scratch_folder.hpp"
 #include <boresight/app/commands/simulate_command.hpp>
 #include <boresight/app/redesign/assumed_inputs.hpp>
-#include <boresight/app/simulate/nonlinear_model.hpp>
 #include <boresight/app/simulate/time_domain.hpp>
 #include <boresight/design/problem/drive_reach.hpp>
+#include <boresight/io/case/tested_drive_of.hpp>
 
 namespace boresight::app {
 namespace {

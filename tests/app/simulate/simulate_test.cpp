@@ -1,6 +1,5 @@
 #include <chrono>
 #include <csignal>
-#include <numbers>
 #include <sstream>
 #include <string>
 #include <thread>
@@ -11,17 +10,14 @@
 
 #include "app/program_run.hpp"
 #include "io/edited_case.hpp"
-#include <boresight/app/simulate/drive_run.hpp>
-#include <boresight/app/simulate/nonlinear_model.hpp>
-#include <boresight/app/simulate/position_run.hpp>
-#include <boresight/design/tuning/tuner.hpp>
-#include <boresight/io/case/mission_of.hpp>
-#include <boresight/io/records/csv_table.hpp>
+#include <boresight/app/simulate/simulated_tests.hpp>
+#include <boresight/numerics/angles.hpp>
 #include <boresight/numerics/error.hpp>
 
 namespace boresight::app {
 namespace {
 
+using testing::AllOf;
 using testing::HasSubstr;
 using testing::StartsWith;
 
@@ -29,141 +25,46 @@ io::Case reference_case() {
   return io::read_case(case_path("dss14-70m"));
 }
 
-TEST(CsvTable, IsWrittenAsARecorderWould) {
-  io::CsvTable table;
-  table.comments = {"a remark"};
-  table.columns = {{"time", "s", 3, Eigen::Vector2d(0.0, 0.005)},
-                   {"tach", "V", 1, Eigen::Vector2d(-1.25, 10.0)}};
-  EXPECT_EQ(to_csv(table), "# a remark\ntime [s],tach [V]\n0.000,-1.2\n0.005,10.0\n");
-  table.columns[1].values.resize(3);
-  EXPECT_THROW(to_csv(table), InvalidInput);
+TEST(SimulatedTests, SayWhichControllerMovedTheAntenna) {
+  const io::Case antenna = reference_case();
+  const control::ControlLaw law{control::LoopStructure::named("PI"), {0.15, 0.4, 2.6, 8.0, 0.15}};
+  const auto section =
+      section_of(run_position_test(antenna, "slew", law, 1, {}), antenna, "of a report");
+  EXPECT_THAT(section.description, AllOf(StartsWith("1 deg by PI with lag, of a report at up to "),
+                                         HasSubstr("deg/s and ")));
 }
 
-TEST(NonlinearModel, SpreadsTheLinesOverTheMotors) {
-  const auto model = make_nonlinear_antenna(reference_case());
-  ASSERT_EQ(model.oil.lines.size(), 4U);
-  EXPECT_DOUBLE_EQ(model.oil.lines.front().length, 13.11);
-  EXPECT_DOUBLE_EQ(model.oil.lines.back().length, 15.60);
-  EXPECT_NEAR(model.oil.lines[1].length, 13.94, 1e-9);
-  // 2000 psi on four motors.
-  EXPECT_NEAR(model.oil.supply_torque, 315.7, 0.1);
-  EXPECT_NEAR(tachometer_scale(reference_case()), 2.2621, 1e-4);
+TEST(SimulatedTests, SayWhatSlewingAsksOfADriveThatHasLess) {
+  design::PositionTestRecord record;
+  record.controller.structure = control::LoopStructure::named("PI");
+  record.slew =
+      design::SlewCourse{degree, 0.16 * degree, 0.1 * degree, 0.25 * degree, 0.2 * degree};
+  EXPECT_THAT(section_of(record, reference_case(), "tuned").description,
+              HasSubstr("; the case's slew rate of 0.25 deg/s is out of reach: against this "
+                        "friction the supply holds at most 0.2 deg/s"));
 }
 
-TEST(NonlinearModel, ScalesATachometerOnAnyShaft) {
+TEST(SimulatedTests, SayWhatWasDoneToTheDrive) {
+  design::DriveTestRecord record;
+  record.kind = design::DriveTestKind::constant_speed;
+  record.tachometer_volts = 0.5;
+  EXPECT_EQ(section_of(record).description,
+            "square wave of +-0.5 V of tachometer into the rate loop");
+}
+
+TEST(SimulatedTests, NameTheCaseWhoseSupplyCannotMoveTheAntenna) {
   io::Case antenna = reference_case();
-  ASSERT_TRUE(antenna.campaign.tachometer);
-  io::RecordedTachometerEntry& tachometer = *antenna.campaign.tachometer;
-  const double volts = 20.0 * std::numbers::pi / 157.0;  // rad/s of the shaft, a volt
-  tachometer.motor_teeth.reset();
-  tachometer.tachometer_teeth.reset();
-  tachometer.shaft = "motor";
-  EXPECT_NEAR(tachometer_scale(antenna), volts, 1e-12);
-  EXPECT_EQ(drive_tests(antenna, "slow-ramp").size(), 1U);
-  tachometer.shaft = "antenna";
-  EXPECT_NEAR(tachometer_scale(antenna) / volts, 28723.647, 1e-3);
-}
-
-TEST(DriveTests, NameWhatARecordNeedsBeforeAnythingRuns) {
-  const auto refusal = [](const auto& change, const std::string& test) -> std::string {
-    io::Case antenna = reference_case();
-    change(antenna);
-    try {
-      drive_tests(antenna, test);
-    } catch (const InvalidInput& error) {
-      return error.what();
-    }
-    return "taken";
-  };
-  const auto lines = [](io::Case& antenna) { antenna.campaign.lines.clear(); };
-  const auto table = [](io::Case& antenna) { antenna.campaign.tachometer.reset(); };
-  const auto volts = [](io::Case& antenna) { antenna.campaign.tachometer->voltage.reset(); };
-  const auto limit = [](io::Case& antenna) { antenna.campaign.tachometer->recorder_limit.reset(); };
-  EXPECT_THAT(refusal(lines, "slosh"), HasSubstr("expected an [[oil.line]] with its length"));
-  EXPECT_THAT(refusal(table, "slosh"), HasSubstr("expected a table [tachometer]"));
-  EXPECT_THAT(refusal(volts, "slow-ramp"), HasSubstr("expected tachometer.voltage"));
-  EXPECT_THAT(refusal(limit, "slow-ramp"), HasSubstr("expected tachometer.recorder_limit"));
-  for (const auto* test : {"tracking", "slew"}) {
-    EXPECT_EQ(refusal(lines, test), "taken");
-    EXPECT_EQ(refusal(table, test), "taken");
+  antenna.friction_curve.coulomb.value = 400.0;
+  antenna.friction_curve.breakaway.value = 400.0;
+  const control::ControlLaw law{control::LoopStructure::named("PI"), {0.15, 0.4, 2.6, 8.0, 0.15}};
+  try {
+    run_position_test(antenna, "slew", law, 1, {});
+    ADD_FAILURE() << "it slews";
+  } catch (const InfeasibleRequirement& error) {
+    EXPECT_THAT(error.what(), StartsWith(antenna.path + ": the supply cannot slew this antenna"));
   }
-}
-
-TEST(DriveTests, CommandsAreThoseOfThePaper) {
-  const io::Case antenna = reference_case();
-  const auto fast = drive_tests(antenna, "fast-ramp").front();
-  const double limit = 10.0 * tachometer_scale(antenna);
-  EXPECT_FALSE(fast.rate_loop_closed);
-  EXPECT_NEAR(fast.command.maxCoeff(), 1.5 * limit, 1e-9);
-  EXPECT_NEAR(fast.command.minCoeff(), -1.5 * limit, 1e-9);
-  EXPECT_NEAR(fast.command.sum(), 0.0, 1e-6);
-  EXPECT_EQ(drive_tests(antenna, "constant-speed").size(), 6U);
-  for (const auto& name : simulated_test_names()) {
-    for (const auto& test : drive_tests(antenna, name)) {
-      EXPECT_TRUE(test.command.allFinite()) << name;
-      EXPECT_LE(test.command.cwiseAbs().maxCoeff(), 150.0) << name;
-    }
-  }
-}
-
-TEST(DriveRun, FastRampLeavesTheRecordersRange) {
-  const io::Case antenna = reference_case();
-  auto test = drive_tests(antenna, "fast-ramp").front();
-  test.command.conservativeResize(test.command.size() / 4);  // one period and some
-  const auto run = run_drive_test(antenna, test, 1, {});
-  const auto& columns = run.record.columns;
-  ASSERT_EQ(columns.size(), 12U);
-  EXPECT_EQ(columns[9].name, "tach");
-  EXPECT_GT(run.at_limit, 0.02);
-  EXPECT_NEAR(columns[9].values.maxCoeff(), 10.0, 5e-3);
-  EXPECT_NEAR(columns[9].values.minCoeff(), -10.0, 5e-3);
-  EXPECT_GT(run.largest_rate, 10.0 * tachometer_scale(antenna));
-  EXPECT_GT(run.largest_torque, 69.49);  // the friction at speed
-  EXPECT_LT(run.largest_torque, 316.0);
-  for (std::size_t i = 1; i < 9; ++i) {
-    EXPECT_GT(columns[i].values.minCoeff(), 0.0) << columns[i].name;
-    EXPECT_LT(columns[i].values.maxCoeff(), 2000 * 6894.757e-6) << columns[i].name;
-  }
-}
-
-TEST(DriveRun, SlowMotionBreaksAwayAtTheStaticFriction) {
-  const io::Case antenna = reference_case();
-  auto test = drive_tests(antenna, "slow-ramp").front();
-  // The first quarter of a period: at rest, breakaway, sliding upwards.
-  test.command.conservativeResize(static_cast<Eigen::Index>(12.0 / test.sample_time));
-  const auto run = run_drive_test(antenna, test, 1, {});
-  // Between the Coulomb level and the breakaway's with what bends the bristles faster.
-  EXPECT_GT(run.static_friction, 10.33);
-  EXPECT_LT(run.static_friction, 1.2 * 16.83);
-  EXPECT_GT(run.largest_rate, 0.2);
-}
-
-TEST(DriveRun, EndsWhereItIsToldAndSaysSo) {
-  const io::Case antenna = reference_case();
-  const auto test = drive_tests(antenna, "slosh").front();
-  const auto run = run_drive_test(antenna, test, 1, [](double done) { return done < 0.3; });
-  EXPECT_FALSE(run.complete);
-  ASSERT_EQ(run.record.comments.size(), 1U);
-  EXPECT_THAT(run.record.comments.front(), StartsWith("incomplete: interrupted after"));
-  const auto samples = run.record.columns.front().values.size();
-  EXPECT_LT(samples, test.command.size());
-  EXPECT_GT(samples, test.command.size() / 4);
-}
-
-TEST(PositionRun, RunsOnTheControllerItIsGiven) {
-  const io::Case antenna = reference_case();
-  const auto structure = io::loop_structure(antenna, "PI");
-  SimulatedController given{
-      design::tune(make_problem(antenna), structure, make_goals(antenna), {}).law, "of a report"};
-  const auto same = run_slew(antenna, given, 1, {});
-  EXPECT_THAT(same.description, HasSubstr("by PI with lag, of a report"));
-  // Other gains move it otherwise.
-  const auto& gains = control::gain_descriptions(structure);
-  for (std::size_t i = 0; i < gains.size(); ++i) {
-    if (gains[i].name == "position gain") given.law.gains[i] *= 0.5;
-  }
-  const auto slower = run_slew(antenna, given, 1, {});
-  EXPECT_NE(slower.record.columns[2].values, same.record.columns[2].values);
+  antenna.simulation.reset();
+  EXPECT_THROW(run_position_test(antenna, "tracking", law, 1, {}), InvalidInput);
 }
 
 TEST(SimulateCommand, NamesTheGainsThatAreNotThere) {

@@ -85,5 +85,18 @@ TEST(MissionOf, ClimateWeighsTheCasesWind) {
   EXPECT_EQ(winds[0].wind.site.dish_diameter, stated.antenna.dish_diameter.value);
 }
 
+TEST(MissionOf, PointsWhereTheCaseSaysBoth) {
+  Case stated = reference();
+  EXPECT_FALSE(mission_of(stated).pointing);
+  stated.antenna.elevation = Quantity{};
+  stated.antenna.elevation->value = 0.5;
+  EXPECT_FALSE(mission_of(stated).pointing);
+  stated.antenna.azimuth = Quantity{};
+  stated.antenna.azimuth->value = 1.5;
+  const auto pointing = mission_of(stated).pointing.value_or(plant::DishDirection{});
+  EXPECT_EQ(pointing.azimuth, 1.5);
+  EXPECT_EQ(pointing.elevation, 0.5);
+}
+
 }  // namespace
 }  // namespace boresight::io

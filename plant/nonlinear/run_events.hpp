@@ -7,7 +7,7 @@
 #include <boresight/plant/nonlinear/nonlinear_antenna.hpp>
 #include <boresight/plant/nonlinear/simulation.hpp>
 
-namespace boresight::app {
+namespace boresight::plant {
 
 /// The motor leaving standstill.
 struct SlidingStart {
@@ -45,15 +45,15 @@ struct RunEvents {
   SampledEvent below_zero;  // the same below no pressure: oil would cavitate, the model's does not
   std::optional<double> lowest_pressure;  // Pa at any motor's port; none without lines
   std::optional<double> highest_pressure;
-  plant::FastIntegratorStatistics integrator;
+  FastIntegratorStatistics integrator;
 };
 
 /// `commands`: the valve command at the samples (rad/s); `interval` s between them.
 /// @throws InvalidInput for a run without the outputs of to_feedback_system(NonlinearAntenna).
-RunEvents events_of(const plant::NonlinearAntenna& antenna, const plant::SimulationResult& run,
+RunEvents events_of(const NonlinearAntenna& antenna, const SimulationResult& run,
                     const Eigen::VectorXd& commands, double interval);
 
 /// The first start of sliding in a direction that shows the breakaway; none if there is none.
 std::optional<SlidingStart> first_start(const RunEvents& events, bool upward);
 
-}  // namespace boresight::app
+}  // namespace boresight::plant

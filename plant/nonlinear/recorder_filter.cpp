@@ -4,20 +4,20 @@
 
 #include <fmt/format.h>
 
-#include <boresight/app/simulate/recorder_filter.hpp>
 #include <boresight/numerics/angles.hpp>
 #include <boresight/numerics/error.hpp>
 #include <boresight/plant/linear/time_response.hpp>
+#include <boresight/plant/nonlinear/recorder_filter.hpp>
 
-namespace boresight::app {
+namespace boresight::plant {
 namespace {
 
 using Eigen::Index;
 
 // Sections of second order, one behind the other, and one of first order if the order is odd.
-plant::StateSpace butterworth(const LowPass& filter) {
+StateSpace butterworth(const LowPass& filter) {
   const double corner = two_pi * filter.corner;
-  plant::StateSpace system;
+  StateSpace system;
   system.a = Eigen::MatrixXd::Zero(filter.order, filter.order);
   system.b = Eigen::MatrixXd::Zero(filter.order, 1);
   system.c = Eigen::MatrixXd::Zero(1, filter.order);
@@ -66,8 +66,8 @@ Eigen::VectorXd filtered(const LowPass& filter, const Eigen::VectorXd& signal, d
                          Index stride) {
   Eigen::VectorXd smooth = signal;
   if (filter.order > 0 && signal.size() > 0) {
-    plant::LinearSimulation low_pass(butterworth(filter), interval,
-                                     {.interpolation = plant::Interpolation::first_order_hold});
+    LinearSimulation low_pass(butterworth(filter), interval,
+                              {.interpolation = Interpolation::first_order_hold});
     const Eigen::MatrixXd about_start = signal.array() - signal[0];
     smooth = low_pass.simulate(about_start).col(0).array() + signal[0];
   }
@@ -76,4 +76,4 @@ Eigen::VectorXd filtered(const LowPass& filter, const Eigen::VectorXd& signal, d
   return samples;
 }
 
-}  // namespace boresight::app
+}  // namespace boresight::plant

@@ -3,9 +3,9 @@
 
 #include <fmt/format.h>
 
-#include <boresight/app/simulate/run_events.hpp>
+#include <boresight/plant/nonlinear/run_events.hpp>
 
-namespace boresight::app {
+namespace boresight::plant {
 namespace {
 
 using Eigen::Index;
@@ -26,8 +26,8 @@ SampledEvent sampled(Index samples, double interval, const Holds& holds) {
   return event;
 }
 
-std::vector<SlidingStart> sliding_starts(const plant::NonlinearAntenna& antenna,
-                                         const plant::SimulationResult& run, double interval) {
+std::vector<SlidingStart> sliding_starts(const NonlinearAntenna& antenna,
+                                         const SimulationResult& run, double interval) {
   const VectorXd rate = column(run, "motor_rate");
   const VectorXd angle = column(run, "motor_angle");
   const VectorXd friction = column(run, "friction_torque");
@@ -55,7 +55,7 @@ std::vector<SlidingStart> sliding_starts(const plant::NonlinearAntenna& antenna,
       ++slides;
     }
     if (slides == rate.size() || sign * rate[slides] <= 0.0) continue;
-    const double offset = plant::offset_torque(antenna.offset, angle[slides]).value;
+    const double offset = offset_torque(antenna.offset, angle[slides]).value;
     starts.push_back({interval * static_cast<double>(slides), sign > 0.0, sign * rate[slides],
                       sign * (friction[slides] - offset), torque[slides],
                       sign * rate[slides] <= antenna.friction.curve.stribeck_rate});
@@ -63,8 +63,8 @@ std::vector<SlidingStart> sliding_starts(const plant::NonlinearAntenna& antenna,
   return starts;
 }
 
-void add_pressures(RunEvents& events, const plant::NonlinearAntenna& antenna,
-                   const plant::SimulationResult& run, double interval) {
+void add_pressures(RunEvents& events, const NonlinearAntenna& antenna, const SimulationResult& run,
+                   double interval) {
   const std::size_t motors = antenna.oil.lines.size();
   if (motors == 0) return;
   VectorXd lowest = column(run, "inlet_pressure_1");
@@ -86,7 +86,7 @@ void add_pressures(RunEvents& events, const plant::NonlinearAntenna& antenna,
 
 }  // namespace
 
-RunEvents events_of(const plant::NonlinearAntenna& antenna, const plant::SimulationResult& run,
+RunEvents events_of(const NonlinearAntenna& antenna, const SimulationResult& run,
                     const VectorXd& commands, double interval) {
   RunEvents events;
   events.integrator = run.statistics;
@@ -125,4 +125,4 @@ std::optional<SlidingStart> first_start(const RunEvents& events, bool upward) {
   return *found;
 }
 
-}  // namespace boresight::app
+}  // namespace boresight::plant

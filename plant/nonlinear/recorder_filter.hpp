@@ -2,7 +2,7 @@
 
 #include <Eigen/Core>
 
-namespace boresight::app {
+namespace boresight::plant {
 
 /// The analog low-pass before a recorder's converter: Butterworth, of the given order and corner
 /// (Hz, 3 dB), gain 1 at rest.
@@ -22,4 +22,4 @@ Eigen::Index steps_per_sample(const LowPass& filter, double sample_time, double 
 Eigen::VectorXd filtered(const LowPass& filter, const Eigen::VectorXd& signal, double interval,
                          Eigen::Index stride);
 
-}  // namespace boresight::app
+}  // namespace boresight::plant

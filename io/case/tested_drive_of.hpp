@@ -1,0 +1,26 @@
+#pragma once
+
+#include <boresight/design/simulation/drive_tests.hpp>
+#include <boresight/io/case/case_file.hpp>
+
+/// What a case's antenna is simulated with.
+namespace boresight::io {
+
+/// @throws InvalidInput naming the table [simulation] if the case has none.
+void require_simulation(const Case& stated);
+
+/// The nonlinear antenna of antenna_of(stated).
+/// @throws InvalidInput as require_simulation, antenna_of and plant::nonlinear_antenna.
+plant::NonlinearAntenna make_nonlinear_antenna(const Case& stated);
+
+/// The recorder of the case's tests, the tachometer on a shaft of its own, the motor's or the
+/// antenna's.
+/// @throws InvalidInput naming what is missing: the table [recorder], the table [tachometer], its
+/// voltage or its recorder_limit.
+plant::Recorder recorder_of(const Case& stated);
+
+/// The drive as it is tested: its recorder reads pressures at the motors' ends of the oil lines.
+/// @throws InvalidInput as make_nonlinear_antenna and recorder_of, and without lines.
+design::TestedDrive tested_drive_of(const Case& stated);
+
+}  // namespace boresight::io

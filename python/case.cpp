@@ -27,7 +27,7 @@ const Quantity& quantity(const Case& antenna, const std::string& key) {
 
 Found audit(const Case& antenna) {
   Found found{report_of(antenna, "audit", 1)};
-  found.report.audit = app::audit(antenna);
+  found.report.audit = app::audit_report(antenna);
   return found;
 }
 

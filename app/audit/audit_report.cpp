@@ -1,32 +1,52 @@
 #include <algorithm>
+#include <stdexcept>
 #include <utility>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include <boresight/app/audit/audit_report.hpp>
-#include <boresight/app/audit/case_graph.hpp>
+#include <boresight/app/audit/check_sentences.hpp>
+#include <boresight/numerics/angles.hpp>
 
 namespace boresight::app {
+namespace {
 
-AuditReport audit(const io::Case& antenna) {
-  const design::AuditGraph graph = case_graph(antenna);
-  AuditReport report;
-  report.title = antenna.title;
-  report.findings = design::find_misprints(graph);
-  report.implausible = implausibilities(antenna, graph);
-  report.remarks = antenna.remarks;
-  for (std::size_t i = 0; i < graph.nodes().size(); ++i) {
-    const auto& statements = graph.node(i).statements;
-    const std::size_t before = report.checked;
-    for (std::size_t s = 0; s < statements.size(); ++s) {
-      const std::size_t forms = statements[s].forms.size();
-      // The first print of an input has nothing to be compared with but its other columns.
-      report.checked += graph.is_input(i) && s == 0 ? forms - 1 : forms;
-    }
-    if (report.checked > before) report.compared.push_back(graph.node(i).id);
+const CheckWording& wording_of(const design::PhysicalCheck& check) {
+  for (const auto wordings : {drive_wordings(), antenna_wordings()}) {
+    const auto found = std::ranges::find(wordings, check.id, &CheckWording::id);
+    if (found != wordings.end()) return *found;
   }
-  return report;
+  throw std::logic_error("no words for the check " + check.id);
+}
+
+std::vector<Implausibility> implausibilities(const io::Case& antenna,
+                                             const io::PhysicalChecks& physics) {
+  std::vector<Implausibility> found;
+  for (const design::PhysicalCheck& check : physics.checks) {
+    if (check.holds) continue;
+    const CheckWording& wording = wording_of(check);
+    found.push_back({std::string(wording.name), check.quantity,
+                     wording.sentence({check, antenna, physics}), check.numbers});
+    if (check.id != "structural_shares") continue;
+    for (design::CheckedNumber& bending : found.back().numbers) {
+      bending.value /= millidegree;
+      bending.unit = "mdeg";
+    }
+  }
+  return found;
+}
+
+}  // namespace
+
+AuditReport audit_report(const io::Case& antenna) {
+  io::CaseAudit found = io::audit(antenna);
+  return {antenna.title,
+          std::move(found.findings),
+          implausibilities(antenna, found.physics),
+          antenna.remarks,
+          found.checked,
+          std::move(found.compared)};
 }
 
 std::string failing_checks(const std::vector<Implausibility>& implausible) {

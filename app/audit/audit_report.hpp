@@ -3,30 +3,37 @@
 #include <string>
 #include <vector>
 
-#include <boresight/app/audit/plausibility.hpp>
-#include <boresight/design/audit/misprint_search.hpp>
-#include <boresight/io/case/case_file.hpp>
+#include <boresight/io/audit/case_audit.hpp>
 
 namespace boresight::app {
 
-/// What an audit of a case found.
+/// An input or result that contradicts physics or the rest of the case: a check of
+/// io::check_physics that fails, in words.
+struct Implausibility {
+  /// What the check looks at, in the words of audit_description.cpp: "wave speed".
+  std::string check;
+  /// The quantity, by id.
+  std::string id;
+  /// One sentence with the numbers in it.
+  std::string reasoning;
+  /// What it rests on; bending in mdeg.
+  std::vector<design::CheckedNumber> numbers;
+};
+
+/// What an audit of a case found, in words.
 struct AuditReport {
   std::string title;
   std::vector<design::Finding> findings;
   std::vector<Implausibility> implausible;
   /// The case writer's own, what no recomputation can find.
   std::vector<io::RemarkEntry> remarks;
-  /// Printed numbers that were compared with something.
+  /// As of io::CaseAudit.
   std::size_t checked = 0;
-  /// The quantities that they are of, by id, each once.
   std::vector<std::string> compared;
 };
 
-/// Recomputes every derived number the case prints and checks its inputs for plausibility. A case
-/// that [[stated]] ids name quantities it has no means to recompute is not refused: they are left
-/// out.
-/// @throws InvalidInput if two parts of the case bear the same name.
-AuditReport audit(const io::Case& antenna);
+/// io::audit of the case in words. @throws as that.
+AuditReport audit_report(const io::Case& antenna);
 
 /// How many physical checks fail and what they look at: "3 physical checks fail: wave speed (2),
 /// recorder limit".

@@ -72,7 +72,7 @@ void evaluate_on_ensemble(const io::DesignedAntenna& plant, const StudyOptions& 
 
 void fill_redesign(const io::Case& antenna, const StudyOptions& options, Report& report) {
   fill_identification(antenna, options, report);
-  report.audit = audit(antenna);
+  report.audit = audit_report(antenna);
   // With records the redesign is of the drive that they show, and is judged on what they leave
   // open.
   const io::DesignedAntenna plant = designed_antenna(antenna, report.campaign, options.seed);
@@ -95,7 +95,7 @@ const std::vector<Command>& commands() {
        fill_redesign, true},
       {"audit", "recompute every derived number the case states; list what does not follow",
        [](const io::Case& antenna, const StudyOptions&, Report& report) {
-         report.audit = audit(antenna);
+         report.audit = audit_report(antenna);
          if (antenna.campaign.records.empty()) return;
          report.conclusions.push_back(fmt::format(
              "The case has {} records, which an audit does not open: `boresight identify {}` lists "

@@ -56,7 +56,8 @@ void conclude_campaign(const io::CampaignSection& section,
 
 // The measured hydraulic frequency against the antenna's, and where they contradict each other what
 // has to give way.
-std::string resonance_text(const ResonanceVerdict& verdict, const IdentificationSection& section) {
+std::string resonance_text(const io::ResonanceVerdict& verdict,
+                           const IdentificationSection& section) {
   if (!verdict.contradicts()) return resonance_sentence(verdict);
   std::string text = resonance_warning(verdict);
   for (const auto& method : section.inertia.methods) {
@@ -75,7 +76,7 @@ std::string resonance_text(const ResonanceVerdict& verdict, const Identification
 }
 
 void conclude_identification(const IdentificationSection& section,
-                             const std::optional<ResonanceVerdict>& resonance,
+                             const std::optional<io::ResonanceVerdict>& resonance,
                              std::vector<std::string>& sentences) {
   if (resonance) sentences.push_back(resonance_text(*resonance, section));
   const auto& methods = section.inertia.methods;

@@ -4,65 +4,29 @@
 #include <string>
 
 #include <boresight/identification/campaign/inertia_methods.hpp>
-#include <boresight/io/campaign/designed_antenna.hpp>
-#include <boresight/io/case/case_file.hpp>
-#include <boresight/plant/antenna/antenna_plant.hpp>
+#include <boresight/io/audit/resonance_verdict.hpp>
 
 namespace boresight::app {
 
-/// The measured hydraulic frequency of a case against the resonating_mode of its flexible antenna.
-struct ResonanceVerdict {
-  double measured = 0.0;  // Hz
-  double expected = 0.0;  // Hz, of the flexible antenna
-  /// Standard uncertainty of their difference (Hz), to first order: of the reading, the oil
-  /// stiffness, the inertias of motors and antenna and the structure's frequencies.
-  double standard_uncertainty = 0.0;
-  double stated_bulk_modulus = 0.0;  // Pa, of the case, or the mean over its lines
-  /// Pa: bulk_modulus_for(measured).
-  std::optional<double> bulk_modulus = std::nullopt;
-  /// Oil stiffness of the plants that laws are held on (member_ranges), as factors on the case's.
-  double least_oil = 1.0, most_oil = 1.0;
-  bool of_oil = false;  // of the mode with most oil, as the case says
-  bool rigid = true;    // rings_as_rigid: an inertia may be read off it
-  /// The expected one, and plant::mode_of_oil.
-  plant::PlantMode mode = {}, oil_mode = {};
-
-  /// How many standard uncertainties the two are apart.
-  double deviation() const;
-  /// Whether that is more than 3.
-  bool contradicts() const;
-};
-
-/// Effective bulk modulus of the oil (Pa) at which the resonating_mode of the case's flexible
-/// antenna has that frequency (Hz), all else as in the case and the leakage rate as
-/// leakage_rate_at has it; nothing if none within a factor of 30 of the case's does, the nearest of
-/// several.
-std::optional<double> bulk_modulus_for(const io::Case& antenna, double frequency);
-
-/// Nothing for a case without a measured frequency.
-std::optional<ResonanceVerdict> resonance_verdict(const io::Case& antenna);
-/// The same of an antenna as stated; none where records show the drive.
-std::optional<ResonanceVerdict> resonance_verdict(const io::DesignedAntenna& designed);
-
 /// The oil_remark of the expected mode, and to make sure which was measured; empty without one and
 /// where the case says which.
-std::string which_was_measured(const ResonanceVerdict& verdict);
+std::string which_was_measured(const io::ResonanceVerdict& verdict);
 
 /// Both frequencies, how far they are apart, and the bulk modulus that would make the measured one;
 /// then which_was_measured.
-std::string resonance_sentence(const ResonanceVerdict& verdict);
+std::string resonance_sentence(const io::ResonanceVerdict& verdict);
 
 /// Where they contradict each other the same, and that no plant which laws are held on has that
 /// oil, if so; else empty.
-std::string resonance_warning(const std::optional<ResonanceVerdict>& verdict);
+std::string resonance_warning(const std::optional<io::ResonanceVerdict>& verdict);
 
 /// Why the methods have no inertia by the resonance, where it is not rigid; else empty.
-std::string unread_resonance(const std::optional<ResonanceVerdict>& verdict);
+std::string unread_resonance(const std::optional<io::ResonanceVerdict>& verdict);
 
 /// Ends a sentence on the range of inertia by methods, of which these give least and most: that the
 /// resonance's figure is of a rigid antenna, where it is one of them and the measured frequency
 /// does not contradict the flexible antenna. Else empty.
-std::string rigid_resonance_remark(const std::optional<ResonanceVerdict>& verdict,
+std::string rigid_resonance_remark(const std::optional<io::ResonanceVerdict>& verdict,
                                    const identification::InertiaMethod& least,
                                    const identification::InertiaMethod& most);
 

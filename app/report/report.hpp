@@ -122,7 +122,7 @@ struct Report {
   std::optional<AuditReport> audit;
   std::optional<io::CampaignSection> campaign;  // of cases with records
   std::optional<IdentificationSection> identification;
-  std::optional<ResonanceVerdict> resonance;  // measured without records of the drive
+  std::optional<io::ResonanceVerdict> resonance;  // measured without records of the drive
   std::optional<PlantSection> plant;
   std::optional<TuningSection> tuning;
   std::optional<MeasuredTuneSection> measured;   // of tune --measured

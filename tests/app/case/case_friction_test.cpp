@@ -8,8 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "io/edited_case.hpp"
-#include <boresight/app/audit/case_graph.hpp>
-#include <boresight/app/audit/plausibility.hpp>
+#include <boresight/app/audit/audit_report.hpp>
 #include <boresight/app/document/document_text.hpp>
 #include <boresight/app/identify/first_tests.hpp>
 #include <boresight/app/redesign/sections.hpp>
@@ -119,7 +118,7 @@ std::string model_of(const io::Case& antenna) {
 
 std::vector<Implausibility> of_the_curve(const io::Case& antenna) {
   std::vector<Implausibility> found;
-  for (const auto& one : implausibilities(antenna, case_graph(antenna))) {
+  for (const auto& one : audit_report(antenna).implausible) {
     if (one.id == "friction_curve.test") found.push_back(one);
   }
   return found;

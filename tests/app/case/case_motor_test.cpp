@@ -55,7 +55,7 @@ TEST(CaseMotor, FindsADisksInertiaByItsDimensions) {
 // What the audit says of a disk's inertia where its dimensions stand beside it.
 std::vector<design::Finding> of_the_disk(const io::Case& antenna) {
   std::vector<design::Finding> found;
-  for (const auto& one : audit(antenna).findings) {
+  for (const auto& one : audit_report(antenna).findings) {
     if (one.id == "motor.disk_inertia") found.push_back(one);
   }
   return found;
@@ -76,7 +76,7 @@ TEST(CaseMotor, KeepsAStatedInertiaBesideADisksDimensions) {
   EXPECT_EQ(same.motor.disk_inertia.value, 0.012358);
   EXPECT_EQ(same.motor.disk_inertia.key, "motor.disk_inertia");
   EXPECT_THAT(of_the_disk(same), testing::IsEmpty());
-  EXPECT_THAT(audit(same).compared, testing::Contains("motor.disk_inertia"));
+  EXPECT_THAT(audit_report(same).compared, testing::Contains("motor.disk_inertia"));
   // No result rests on its being of steel.
   EXPECT_EQ(assumed_inputs(same).size(), assumed_inputs(plain).size());
   const auto found = of_the_disk(with_length("25.4 mm"));
@@ -87,7 +87,7 @@ TEST(CaseMotor, KeepsAStatedInertiaBesideADisksDimensions) {
   EXPECT_NEAR(found[0].forms[0].would_be, 2.0 * 0.012358, 1e-12);
   EXPECT_THAT(of_the_disk(with_length("25.4 mm", "disk_density = \"3925 kg/m3\"\n")),
               testing::IsEmpty());
-  EXPECT_THAT(audit(plain).compared, testing::Not(testing::Contains("motor.disk_inertia")));
+  EXPECT_THAT(audit_report(plain).compared, testing::Not(testing::Contains("motor.disk_inertia")));
 }
 
 TEST(CaseMotor, FindsOneInertiaByTheOtherAndTheDisks) {

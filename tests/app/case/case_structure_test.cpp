@@ -10,8 +10,7 @@
 #include <gtest/gtest.h>
 
 #include "io/edited_case.hpp"
-#include <boresight/app/audit/case_graph.hpp>
-#include <boresight/app/audit/plausibility.hpp>
+#include <boresight/app/audit/audit_report.hpp>
 #include <boresight/app/document/document_text.hpp>
 #include <boresight/app/redesign/assumed_inputs.hpp>
 #include <boresight/app/redesign/choices.hpp>
@@ -81,7 +80,7 @@ EditedCase of_effective_fraction(const std::string& fraction) {
 }
 
 Implausibility found_in(const io::Case& antenna, const std::string& check) {
-  for (const auto& one : implausibilities(antenna, case_graph(antenna))) {
+  for (const auto& one : audit_report(antenna).implausible) {
     if (one.check == check) return one;
   }
   return {};

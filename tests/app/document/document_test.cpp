@@ -138,7 +138,8 @@ Document real_report() {
   report.identification = identify(antenna, {});
   report.plant = describe_plant(antenna);
   report.conclusions = {"Less <than> it & \"more\" isn't."};
-  return document_of(report) + document_of(audit(antenna)) + document_of(audit(antenna));
+  return document_of(report) + document_of(audit_report(antenna)) +
+         document_of(audit_report(antenna));
 }
 
 TEST(DocumentText, BreaksParagraphsAtBlanksWithin108Columns) {

@@ -7,7 +7,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "io/edited_case.hpp"
+#include "io/oil_case.hpp"
 #include <boresight/app/document/document_text.hpp>
 #include <boresight/app/redesign/choices.hpp>
 #include <boresight/app/redesign/resonance_verdict.hpp>
@@ -22,6 +22,7 @@
 namespace boresight::app {
 namespace {
 
+using io::with_oil;
 using testing::AllOf;
 using testing::Contains;
 using testing::Each;
@@ -32,43 +33,12 @@ using testing::IsEmpty;
 using testing::Not;
 using testing::StartsWith;
 
-// The 70-m antenna, its leakage by a flow, with a bulk modulus (Pa) and a measured frequency.
-io::Case with_oil(double bulk_modulus, const std::string& measured = "0.97 Hz") {
-  return io::parse_case(
-      EditedCase()
-          .replace("value = \"1229 MPa\"", fmt::format("value = \"{:.17g} Pa\"", bulk_modulus))
-          .replace("frequency = { value = \"0.97 Hz\"",
-                   fmt::format("frequency = {{ value = \"{}\"", measured))
-          .replace_line("leakage_rate = ",
-                        "leakage_flow = \"6 L/min\"\nleakage_pressure = \"10 MPa\"")
-          .text(),
-      "case.toml");
-}
-
-double hydraulic_frequency(const io::Case& antenna) {
-  return plant::hydraulic_mode(plant::plant_modes(make_plant(antenna))).frequency;
-}
-
 Report report_of(const io::Case& antenna) {
   Report report;
   report.command = "redesign";
   report.identification = identify(antenna, {});
   report.resonance = resonance_verdict(antenna);
   return report;
-}
-
-TEST(BulkModulusFor, MakesTheFrequencyOfTheFlexibleAntenna) {
-  const io::Case antenna = with_oil(1.229e9);
-  for (const double frequency : {0.5, 0.97, 1.1}) {
-    const auto modulus = bulk_modulus_for(antenna, frequency);
-    ASSERT_TRUE(modulus);
-    // Read anew: with that modulus the leakage rate is another too.
-    EXPECT_NEAR(hydraulic_frequency(with_oil(*modulus)), frequency, 2e-6);
-  }
-}
-
-TEST(BulkModulusFor, IsNoneWhereTheStructureIsSofter) {
-  EXPECT_FALSE(bulk_modulus_for(with_oil(1.229e9), 20.0));
 }
 
 TEST(ResonanceVerdict, SaysWhatContradictsAndWhichOilWouldNot) {
@@ -104,13 +74,13 @@ TEST(ResonanceVerdict, StandsFirstAmongConclusionsAndInTheDecision) {
 }
 
 TEST(ResonanceVerdict, WarnsWhereNoPlantHasTheOilThatWasMeasured) {
-  ResonanceVerdict verdict{.measured = 1.05,
-                           .expected = 1.73,
-                           .standard_uncertainty = 0.1,
-                           .stated_bulk_modulus = 1.24e9,
-                           .bulk_modulus = 0.361e9,
-                           .least_oil = 0.654,
-                           .most_oil = 1.346};
+  io::ResonanceVerdict verdict{.measured = 1.05,
+                               .expected = 1.73,
+                               .standard_uncertainty = 0.1,
+                               .stated_bulk_modulus = 1.24e9,
+                               .bulk_modulus = 0.361e9,
+                               .least_oil = 0.654,
+                               .most_oil = 1.346};
   const auto none = EndsWith(
       " The plants that laws are held on here have 0.654 to 1.35 times the case's oil stiffness, "
       "and that would be 0.291 times: none of them is the antenna that was measured.");
@@ -237,8 +207,8 @@ TEST(ResonatingMode, IsSaidByTheCase) {
 
 // Of 3 so many that both sides of the limit read "3" say nothing.
 TEST(ResonanceVerdict, TellsDeviationsAtTheLimitApart) {
-  const ResonanceVerdict below{.measured = 2.97, .expected = 0.0, .standard_uncertainty = 1.0};
-  const ResonanceVerdict above{.measured = 3.02, .expected = 0.0, .standard_uncertainty = 1.0};
+  const io::ResonanceVerdict below{.measured = 2.97, .expected = 0.0, .standard_uncertainty = 1.0};
+  const io::ResonanceVerdict above{.measured = 3.02, .expected = 0.0, .standard_uncertainty = 1.0};
   EXPECT_THAT(resonance_sentence(below), HasSubstr("(2.97 standard uncertainties apart)"));
   EXPECT_THAT(resonance_sentence(above), HasSubstr("(3.02 standard uncertainties apart)"));
 }

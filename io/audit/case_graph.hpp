@@ -3,14 +3,14 @@
 #include <boresight/design/audit/audit_graph.hpp>
 #include <boresight/io/case/case_file.hpp>
 
-namespace boresight::app {
+namespace boresight::io {
 
 /// Columns of a table printed in two systems of units.
 enum class UnitColumn { either = -1, metric = 0, inch_pound = 1 };
 
 /// The column a number with this text belongs to: inch-pound if its unit names an inch, foot,
 /// pound, slug or the like; either where both columns would print the same unit (Hz, V, rpm, 1).
-UnitColumn column_of(const std::string& text, io::Kind kind);
+UnitColumn column_of(const std::string& text, Kind kind);
 
 /// Every number of the case that others follow from or that follows from others, with what the
 /// case prints of it. The ids are those that [[stated]] takes, and for inputs:
@@ -23,6 +23,6 @@ UnitColumn column_of(const std::string& text, io::Kind kind);
 /// statement about it; so does a bulk modulus where there are lines to take it from. Teeth are
 /// exact. Formulas are the plant library's.
 /// @throws InvalidInput if two parts bear the same name.
-design::AuditGraph case_graph(const io::Case& antenna);
+design::AuditGraph case_graph(const Case& antenna);
 
-}  // namespace boresight::app
+}  // namespace boresight::io

@@ -61,7 +61,7 @@ Report tune_case(const TuneArguments& arguments, const std::function<bool()>& in
     if (!arguments.outputs.mat_path.empty()) {
       throw InvalidInput("tune: expected --mat with a model to write, found --measured");
     }
-    MeasuredStudyOptions study;
+    MeasuredTuneOptions study;
     study.record = arguments.measured_record;
     study.structures = arguments.structures;
     study.starts = arguments.starts;

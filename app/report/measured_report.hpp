@@ -4,7 +4,7 @@
 #include <vector>
 
 #include <boresight/app/document/document.hpp>
-#include <boresight/app/tune/measured_study.hpp>
+#include <boresight/app/tune/measured_section.hpp>
 
 namespace boresight::io {
 class Visitor;

@@ -13,7 +13,7 @@
 #include <boresight/app/redesign/input_effects.hpp>
 #include <boresight/app/redesign/resonance_verdict.hpp>
 #include <boresight/app/simulate/time_domain.hpp>
-#include <boresight/app/tune/measured_study.hpp>
+#include <boresight/app/tune/measured_section.hpp>
 #include <boresight/app/tune/tune_section.hpp>
 #include <boresight/design/ensembles/plant_ensemble.hpp>
 #include <boresight/design/limits/pointing_limit.hpp>

@@ -10,7 +10,7 @@
 #include <boresight/app/document/document_text.hpp>
 #include <boresight/app/report/json_writer.hpp>
 #include <boresight/app/report/measured_report.hpp>
-#include <boresight/app/tune/measured_study.hpp>
+#include <boresight/app/tune/measured_section.hpp>
 #include <boresight/control/loops/closed_loop.hpp>
 #include <boresight/io/case/drive_numbers.hpp>
 #include <boresight/io/case/mission_of.hpp>
@@ -24,14 +24,14 @@ using ::testing::HasSubstr;
 const std::string folder = BORESIGHT_SOURCE_DIR "/cases/dss14-70m";
 
 MeasuredTuneSection tuned(const std::string& case_path, const std::string& structure) {
-  MeasuredStudyOptions options;
+  MeasuredTuneOptions options;
   options.record = "valve-chirp";
   options.structures = {structure};
   options.starts = 5;
   return tune_measured(io::read_case(case_path), options);
 }
 
-TEST(MeasuredStudy, TunesOnTheChirpOfTheShippedCampaign) {
+TEST(MeasuredSection, TunesOnTheChirpOfTheShippedCampaign) {
   const auto section = tuned(folder + "/campaign.toml", "DPF");
   // The bias is a tenth of the stroke, the sweep 0.1 to 8 Hz.
   EXPECT_NEAR(section.mean_rate, 10.5, 1.0);
@@ -69,7 +69,7 @@ TEST(MeasuredStudy, TunesOnTheChirpOfTheShippedCampaign) {
 }
 
 // An encoder that turns with the motor, reversed and in degrees of the antenna.
-TEST(MeasuredStudy, TakesTheEncodersColumn) {
+TEST(MeasuredSection, TakesTheEncodersColumn) {
   const auto place = std::filesystem::temp_directory_path() / "boresight-measured-study";
   std::filesystem::create_directories(place / "records");
   std::ifstream in(folder + "/records/valve-chirp.csv");
@@ -110,9 +110,9 @@ TEST(MeasuredStudy, TakesTheEncodersColumn) {
   std::filesystem::remove_all(place);
 }
 
-TEST(MeasuredStudy, SaysWhichRecordWillDo) {
+TEST(MeasuredSection, SaysWhichRecordWillDo) {
   const auto message = [](const std::string& record, const std::string& structure) {
-    MeasuredStudyOptions options;
+    MeasuredTuneOptions options;
     options.record = record;
     options.structures = {structure};
     try {

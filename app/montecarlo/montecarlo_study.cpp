@@ -8,7 +8,6 @@
 
 #include <boresight/app/commands/progress_line.hpp>
 #include <boresight/app/figures/montecarlo_figures.hpp>
-#include <boresight/app/montecarlo/checkpoint.hpp>
 #include <boresight/app/montecarlo/montecarlo_study.hpp>
 #include <boresight/app/redesign/assumed_inputs.hpp>
 #include <boresight/app/redesign/resonance_verdict.hpp>
@@ -16,11 +15,10 @@
 #include <boresight/app/tune/chosen_controller.hpp>
 #include <boresight/app/tune/structure_option.hpp>
 #include <boresight/app/uncertainty/distribution_source.hpp>
+#include <boresight/design/studies/monte_carlo_study.hpp>
 #include <boresight/io/campaign/designed_antenna.hpp>
-#include <boresight/io/case/antenna_of.hpp>
-#include <boresight/io/case/mission_of.hpp>
 #include <boresight/io/case/present_gains.hpp>
-#include <boresight/io/files/input_files.hpp>
+#include <boresight/io/exchange/monte_carlo_checkpoint.hpp>
 #include <boresight/io/files/write_atomically.hpp>
 #include <boresight/numerics/error.hpp>
 
@@ -29,7 +27,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-// What plants are drawn from, shared with the function that makes them.
+// The antenna and what its plants are drawn from, which the outcome keeps.
 using Population = std::shared_ptr<const io::DesignedAntenna>;
 
 // Anything that goes wrong on one rank, on every one, by its kind. Kinds in the order of exit
@@ -86,27 +84,6 @@ void on_all(Ranks& ranks, Work work) {
 std::string content_of(const std::string& path) {
   std::ifstream file(path, std::ios::binary);
   return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
-}
-
-// What makes a run this one and no other. Its first plants hold what the case's other files say,
-// and the outcome of one what this program makes of it.
-std::string digest_of(const MonteCarloArguments& arguments,
-                      const design::PlantDistribution& distribution,
-                      const design::MonteCarlo& study) {
-  std::string all = fmt::format("{}\n{}\n{} {} {} {}\n{}", BORESIGHT_VERSION,
-                                content_of(arguments.case_path), arguments.seed, arguments.plants,
-                                arguments.retune, study.confirm_every, study.law.structure.name());
-  const auto add = [&](double number) { fmt::format_to(std::back_inserter(all), " {}", number); };
-  for (const double gain : study.law.gains) add(gain);
-  for (std::uint64_t index = 0; index < 8; ++index) {
-    for (const double value : distribution.draw(arguments.seed, index).values) add(value);
-  }
-  const auto outcome = design::MonteCarloJudge(study).judge(0);
-  add(outcome.beam_rms);
-  add(outcome.valve_effort);
-  add(outcome.worst_goal_ratio);
-  for (const double peak : outcome.sensitivity_peaks) add(peak);
-  return io::sha256_hex(all);
 }
 
 // Gains as bytes, so that every rank holds the same law to the last bit.
@@ -188,7 +165,9 @@ class Work {
         run_.work_on(mine, {.threads = arguments_.threads, .stop = interrupted_, .watch = {}});
       });
       std::erase_if(mine, [&](std::size_t block) { return !run_.whole(block); });
-      for (const auto& bytes : ranks_.gather(to_bytes(run_, mine))) put_blocks(bytes, run_);
+      for (const auto& bytes : ranks_.gather(io::to_bytes(run_, mine))) {
+        io::put_blocks(bytes, run_);
+      }
       on_all(ranks_, [&] {
         if (ranks_.first()) look(run_.plants_done());
       });
@@ -221,7 +200,7 @@ class Work {
   void save() {
     if (arguments_.checkpoint_path.empty() || !ranks_.first()) return;
     const auto start = Clock::now();
-    write_checkpoint(arguments_.checkpoint_path, digest_, run_);
+    io::write_checkpoint(arguments_.checkpoint_path, digest_, run_);
     saved_ = Clock::now();
     saving_ = saved_ - start;
   }
@@ -237,28 +216,12 @@ class Work {
   Clock::duration saving_{};
 };
 
-design::MonteCarlo make_study(const MonteCarloArguments& arguments, const Population& population,
-                              const control::ControlLaw& law) {
-  design::MonteCarlo study;
-  const design::Mission& mission = population->mission;
-  study.problem = tracking_problem(mission);
-  study.problem.climate = mission.climate;
-  study.law = law;
-  study.goals = constraints(mission);
-  study.plants = arguments.plants;
-  study.retune = arguments.retune;
-  study.retune_over_climate = mission.minimises_climate;
-  study.plant = [population, seed = arguments.seed](std::uint64_t index) {
-    return linear_plant(changed(population->mission.antenna,
-                                changes_of(population->distribution.draw(seed, index))));
-  };
-  return study;
-}
-
-// Law and case of a report; summarise() has the rest.
-MonteCarloSection new_section(const MonteCarloArguments& arguments, const io::Case& antenna,
-                              const design::MonteCarlo& study, const ChosenController& held) {
+// With law and case.
+MonteCarloSection section_of(design::MonteCarloSummary summary,
+                             const MonteCarloArguments& arguments, const io::Case& antenna,
+                             const design::MonteCarlo& study, const ChosenController& held) {
   MonteCarloSection section;
+  static_cast<design::MonteCarloSummary&>(section) = std::move(summary);
   section.case_path = arguments.case_path;
   section.title = antenna.title;
   section.axis = antenna.axis;
@@ -269,8 +232,6 @@ MonteCarloSection new_section(const MonteCarloArguments& arguments, const io::Ca
   section.gains = io::GainUnits(antenna).texts(held.law);
   section.wind_model = study.problem.wind.model;
   section.wind_speed = study.problem.wind.mean_speed;
-  for (const auto& band : make_bands(antenna)) section.losses.push_back({band, {}, {}});
-  for (const auto& budget : make_budgets(antenna)) section.budgets.push_back({budget, {}});
   section.assumed = assumed_inputs(antenna);
   return section;
 }
@@ -313,11 +274,14 @@ MonteCarloOutcome run_montecarlo(const MonteCarloArguments& arguments, Ranks& ra
   std::string digest;
   on_all(ranks, [&] {
     if (!ranks.first()) held = law_from(law_text, population->antenna);
-    study = make_study(arguments, population, held.law);
+    study = monte_carlo_of(
+        population->mission, population->distribution, held.law,
+        {.plants = arguments.plants, .seed = arguments.seed, .retune = arguments.retune});
     outcome.run = std::make_unique<design::MonteCarloRun>(study);
     if (arguments.checkpoint_path.empty() || !ranks.first()) return;
-    digest = digest_of(arguments, population->distribution, study);
-    if (read_checkpoint(arguments.checkpoint_path, digest, *outcome.run) > 0) {
+    digest = io::digest_of(BORESIGHT_VERSION, content_of(arguments.case_path), study,
+                           population->distribution, arguments.seed);
+    if (io::read_checkpoint(arguments.checkpoint_path, digest, *outcome.run) > 0) {
       fmt::print(stderr, "boresight: {} of {} plants taken up from {}\n",
                  outcome.run->plants_done(), arguments.plants, arguments.checkpoint_path);
     }
@@ -328,8 +292,9 @@ MonteCarloOutcome run_montecarlo(const MonteCarloArguments& arguments, Ranks& ra
   if (!ranks.first()) return outcome;
 
   MonteCarloSection& section = outcome.section;
-  section = new_section(arguments, population->antenna, study, held);
-  summarise(*outcome.run, *outcome.distribution, arguments.seed, section);
+  section = section_of(
+      summarise(*outcome.run, population->mission, *outcome.distribution, arguments.seed),
+      arguments, population->antenna, study, held);
   section.distribution = source_text(*outcome.distribution);
   section.conclusions = conclude(section);
   std::string warning = resonance_warning(resonance_verdict(*population));

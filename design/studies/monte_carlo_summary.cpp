@@ -165,13 +165,16 @@ void summarise_retuned(const Judged& judged, MonteCarloSummary& section) {
 
 }  // namespace
 
-void summarise(const MonteCarloRun& run, const PlantDistribution& distribution, std::uint64_t seed,
-               MonteCarloSummary& section) {
+MonteCarloSummary summarise(const MonteCarloRun& run, const Mission& mission,
+                            const PlantDistribution& distribution, std::uint64_t seed) {
   const MonteCarlo& study = run.study();
   const Judged judged(run, distribution, seed);
   if (judged.all().empty()) {
     throw Interrupted("montecarlo: interrupted before a block of plants was whole");
   }
+  MonteCarloSummary section;
+  for (const auto& band : mission.bands) section.losses.push_back({band, {}, {}});
+  for (const auto& budget : mission.budgets) section.budgets.push_back({budget, {}});
   section.plants_asked = study.plants;
   section.plants = judged.all().size();
   section.interrupted = section.plants < section.plants_asked;
@@ -186,6 +189,7 @@ void summarise(const MonteCarloRun& run, const PlantDistribution& distribution, 
   correlate(judged, section);
   find_worst(judged, section);
   if (study.retune) summarise_retuned(judged, section);
+  return section;
 }
 
 }  // namespace boresight::design

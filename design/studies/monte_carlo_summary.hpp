@@ -77,10 +77,10 @@ struct MonteCarloSummary {
   std::optional<Retuned> retuned;
 };
 
-/// Fills the summary with what the evaluated plants of a run amount to; of `losses` and `budgets`
-/// the bands and budgets are those it has.
+/// What the evaluated plants of a run amount to, against the mission's bands and budgets; the
+/// plants are the draws of that distribution and seed.
 /// @throws Interrupted where no block of plants is whole.
-void summarise(const MonteCarloRun& run, const PlantDistribution& distribution, std::uint64_t seed,
-               MonteCarloSummary& summary);
+MonteCarloSummary summarise(const MonteCarloRun& run, const Mission& mission,
+                            const PlantDistribution& distribution, std::uint64_t seed);
 
 }  // namespace boresight::design

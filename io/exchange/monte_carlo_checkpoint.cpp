@@ -7,12 +7,12 @@
 
 #include <fmt/format.h>
 
-#include <boresight/app/montecarlo/checkpoint.hpp>
+#include <boresight/io/exchange/monte_carlo_checkpoint.hpp>
 #include <boresight/io/files/input_files.hpp>
 #include <boresight/io/files/write_atomically.hpp>
 #include <boresight/numerics/error.hpp>
 
-namespace boresight::app {
+namespace boresight::io {
 namespace {
 
 using design::MonteCarloRun;
@@ -23,7 +23,7 @@ constexpr std::string_view first_line = "boresight montecarlo checkpoint 2\n";
 // A block's number, its outcomes (the last block filled up with empty ones), the digest of both.
 constexpr std::size_t number_size = sizeof(std::uint64_t);
 constexpr std::size_t outcomes_size = MonteCarloRun::block_size * sizeof(PlantOutcome);
-constexpr std::size_t digest_size = 64;  // io::sha256_hex
+constexpr std::size_t digest_size = 64;  // sha256_hex
 constexpr std::size_t record_size = number_size + outcomes_size + digest_size;
 // First line, digest of the run, its plants, digest of these.
 constexpr std::size_t header_size = first_line.size() + digest_size + number_size + digest_size;
@@ -50,6 +50,24 @@ std::vector<std::size_t> whole_blocks(const MonteCarloRun& run) {
 
 }  // namespace
 
+std::string digest_of(std::string_view version, std::string_view input,
+                      const design::MonteCarlo& study,
+                      const design::PlantDistribution& distribution, std::uint64_t seed) {
+  std::string all = fmt::format("{}\n{}\n{} {} {} {}\n{}", version, input, seed, study.plants,
+                                study.retune, study.confirm_every, study.law.structure.name());
+  const auto add = [&](double number) { fmt::format_to(std::back_inserter(all), " {}", number); };
+  for (const double gain : study.law.gains) add(gain);
+  for (std::uint64_t index = 0; index < 8; ++index) {
+    for (const double value : distribution.draw(seed, index).values) add(value);
+  }
+  const auto outcome = design::MonteCarloJudge(study).judge(0);
+  add(outcome.beam_rms);
+  add(outcome.valve_effort);
+  add(outcome.worst_goal_ratio);
+  for (const double peak : outcome.sensitivity_peaks) add(peak);
+  return sha256_hex(all);
+}
+
 std::string to_bytes(const MonteCarloRun& run, const std::vector<std::size_t>& blocks) {
   std::string bytes;
   bytes.reserve(blocks.size() * record_size);
@@ -63,7 +81,7 @@ std::string to_bytes(const MonteCarloRun& run, const std::vector<std::size_t>& b
     const std::size_t start = record.size();
     record.resize(start + outcomes_size);
     std::memcpy(record.data() + start, all.data(), outcomes_size);
-    bytes += record + io::sha256_hex(record);
+    bytes += record + sha256_hex(record);
   }
   return bytes;
 }
@@ -74,7 +92,7 @@ std::size_t put_blocks(std::string_view bytes, MonteCarloRun& run) {
     const std::string_view record = bytes.substr(0, record_size - digest_size);
     const std::uint64_t block = number_at(record, 0);
     const std::string_view digest = bytes.substr(record.size(), digest_size);
-    if (io::sha256_hex(record) != digest || block >= run.blocks()) continue;
+    if (sha256_hex(record) != digest || block >= run.blocks()) continue;
     std::array<PlantOutcome, MonteCarloRun::block_size> all{};
     std::memcpy(all.data(), record.data() + number_size, outcomes_size);
     const auto place = static_cast<std::size_t>(block);
@@ -88,8 +106,8 @@ void write_checkpoint(const std::string& path, std::string_view digest, const Mo
   std::string bytes(first_line);
   bytes += digest;
   append(bytes, run.study().plants);
-  bytes += io::sha256_hex(bytes);
-  io::write_atomically(path, bytes + to_bytes(run, whole_blocks(run)));
+  bytes += sha256_hex(bytes);
+  write_atomically(path, bytes + to_bytes(run, whole_blocks(run)));
 }
 
 std::size_t read_checkpoint(const std::string& path, std::string_view digest, MonteCarloRun& run) {
@@ -100,7 +118,7 @@ std::size_t read_checkpoint(const std::string& path, std::string_view digest, Mo
   const std::string_view all = bytes;
   const std::size_t checked = header_size - digest_size;
   if (!file || all.size() < header_size || !all.starts_with(first_line) ||
-      io::sha256_hex(all.substr(0, checked)) != all.substr(checked, digest_size)) {
+      sha256_hex(all.substr(0, checked)) != all.substr(checked, digest_size)) {
     throw InvalidInput(
         fmt::format("{}: expected a checkpoint of boresight montecarlo, found another file or one "
                     "whose beginning is damaged; remove it to begin anew",
@@ -116,4 +134,4 @@ std::size_t read_checkpoint(const std::string& path, std::string_view digest, Mo
   return put_blocks(all.substr(header_size), run);
 }
 
-}  // namespace boresight::app
+}  // namespace boresight::io

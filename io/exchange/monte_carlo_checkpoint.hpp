@@ -1,13 +1,23 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include <boresight/design/ensembles/monte_carlo.hpp>
+#include <boresight/design/ensembles/plant_distribution.hpp>
 
-namespace boresight::app {
+namespace boresight::io {
+
+/// What makes a run this one and no other, 64 hexadecimal digits: the program's version, the text
+/// of its case, seed, options and law; its first plants, which hold what the case's other files
+/// say, and the outcome of one, which holds what this program makes of it.
+/// @throws as design::MonteCarloJudge.
+std::string digest_of(std::string_view version, std::string_view input,
+                      const design::MonteCarlo& study,
+                      const design::PlantDistribution& distribution, std::uint64_t seed);
 
 /// The whole blocks of a run, as bytes: for a checkpoint or another rank.
 std::string to_bytes(const design::MonteCarloRun& run, const std::vector<std::size_t>& blocks);
@@ -16,7 +26,7 @@ std::string to_bytes(const design::MonteCarloRun& run, const std::vector<std::si
 /// is left out.
 std::size_t put_blocks(std::string_view bytes, design::MonteCarloRun& run);
 
-/// Writes a run's whole blocks with the digest of what was run (io::sha256_hex): the file is whole
+/// Writes a run's whole blocks with the digest of what was run (digest_of): the file is whole
 /// at any time, the one before or this one. @throws InvalidInput if it cannot be written.
 void write_checkpoint(const std::string& path, std::string_view digest,
                       const design::MonteCarloRun& run);
@@ -27,4 +37,4 @@ void write_checkpoint(const std::string& path, std::string_view digest,
 std::size_t read_checkpoint(const std::string& path, std::string_view digest,
                             design::MonteCarloRun& run);
 
-}  // namespace boresight::app
+}  // namespace boresight::io

@@ -1,0 +1,94 @@
+#include <limits>
+
+#include <gtest/gtest.h>
+
+#include "design/studies/held_law.hpp"
+#include <boresight/design/studies/monte_carlo_study.hpp>
+#include <boresight/numerics/angles.hpp>
+#include <boresight/numerics/error.hpp>
+
+namespace boresight::design {
+namespace {
+
+Mission mission_of_test() {
+  Mission mission = reference::uncertain_mission();
+  mission.bands = {{"X", 8.4e9, 0.03 * degree, ""}};
+  PointingBudget loose, tight;
+  loose.name = "loose";
+  loose.rms = 1.0;
+  tight.name = "tight";
+  tight.rms = std::numeric_limits<double>::min();
+  mission.budgets = {loose, tight};
+  return mission;
+}
+
+control::ControlLaw law_of_test() {
+  return reference::held_law("PI", 1.0).design.tuning.law;
+}
+
+// What one plant is given is its draw's, and the summary holds every plant.
+TEST(StudyMonteCarlo, EvaluatesTheControllerOnTheDrawsOfItsSeed) {
+  const Mission mission = mission_of_test();
+  const auto distribution = PlantDistribution::of_ranges(mission);
+  const MonteCarloOptions options{.plants = 150, .seed = 7};
+  const auto summary = study_monte_carlo(mission, distribution, law_of_test(), options);
+  EXPECT_FALSE(summary.interrupted);
+  EXPECT_EQ(summary.plants, 150U);
+  EXPECT_EQ(summary.stable + summary.unstable + summary.undecided, 150U);
+  ASSERT_GT(summary.stable, 0U);
+  EXPECT_EQ(summary.beam_rms.draws, summary.stable);
+  EXPECT_EQ(summary.inputs, distribution.inputs());
+  EXPECT_FALSE(summary.retuned);
+
+  const NotablePlant& worst = summary.worst.front();
+  EXPECT_EQ(worst.outcome.beam_rms, summary.beam_rms.largest);
+  EXPECT_EQ(worst.draw.values, distribution.draw(7, worst.index).values);
+  MonteCarloJudge alone(monte_carlo_of(mission, distribution, law_of_test(), options));
+  const auto plant = linear_plant(changed(mission.antenna, changes_of(worst.draw)));
+  EXPECT_EQ(alone.judge(plant, false).beam_rms, worst.outcome.beam_rms);
+}
+
+TEST(StudyMonteCarlo, SaysHowProbableItIsThatABudgetIsMet) {
+  const Mission mission = mission_of_test();
+  const auto distribution = PlantDistribution::of_ranges(mission);
+  const auto summary =
+      study_monte_carlo(mission, distribution, law_of_test(), {.plants = 100, .seed = 1});
+  ASSERT_EQ(summary.budgets.size(), 2U);
+  EXPECT_EQ(summary.budgets[0].budget.name, "loose");
+  EXPECT_EQ(summary.budgets[0].met.value, static_cast<double>(summary.stable) / 100.0);
+  EXPECT_EQ(summary.budgets[1].met.value, 0.0);
+  ASSERT_EQ(summary.losses.size(), 1U);
+  EXPECT_EQ(summary.losses[0].band.name, "X");
+  EXPECT_GT(summary.losses[0].loss.least, 0.0);
+  EXPECT_FALSE(summary.climate_rms);
+}
+
+TEST(StudyMonteCarlo, IsTheSameForAnyNumberOfThreads) {
+  const Mission mission = mission_of_test();
+  const auto distribution = PlantDistribution::of_ranges(mission);
+  MonteCarloOptions options{.plants = 250, .seed = 3};
+  const auto one = study_monte_carlo(mission, distribution, law_of_test(), options);
+  options.threads = 3;
+  const auto three = study_monte_carlo(mission, distribution, law_of_test(), options);
+  EXPECT_EQ(one.stable, three.stable);
+  EXPECT_EQ(one.beam_rms.mean.value, three.beam_rms.mean.value);
+  EXPECT_EQ(one.beam_rms.largest, three.beam_rms.largest);
+}
+
+TEST(StudyMonteCarlo, EndsWithWhatItHas) {
+  const Mission mission = mission_of_test();
+  const auto distribution = PlantDistribution::of_ranges(mission);
+  MonteCarloOptions options{.plants = 250, .seed = 3};
+  options.interrupted = [] { return true; };
+  EXPECT_THROW(study_monte_carlo(mission, distribution, law_of_test(), options), Interrupted);
+  MonteCarloRun run(monte_carlo_of(mission, distribution, law_of_test(), options));
+  run.work_on({1}, {});
+  const auto summary = summarise(run, mission, distribution, options.seed);
+  EXPECT_TRUE(summary.interrupted);
+  EXPECT_EQ(summary.plants, 100U);
+  EXPECT_EQ(summary.plants_asked, 250U);
+  EXPECT_GE(summary.worst.front().index, 100U);
+}
+
+}  // namespace
+}  // namespace boresight::design

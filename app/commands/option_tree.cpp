@@ -5,15 +5,15 @@
 #include <boresight/app/commands/manual_commands.hpp>
 #include <boresight/app/commands/option_tree.hpp>
 #include <boresight/app/report/report_schemas.hpp>
+#include <boresight/control/controllers/usual_structures.hpp>
 #include <boresight/design/simulation/drive_tests.hpp>
-#include <boresight/io/case/usual_structures.hpp>
 
 namespace boresight::app {
 namespace {
 
 // What the program knows of an option's values without a case.
 std::vector<std::string> known_words(const std::string& command, const std::string& option) {
-  if (option == "--structure") return io::usual_structures();
+  if (option == "--structure") return control::usual_structures();
   if (option == "TEST") return design::simulated_test_names();
   if (option == "SHELL") return completion_shells();
   if (option == "REPORT") return {described_reports().begin(), described_reports().end()};

@@ -19,6 +19,7 @@
 #include <boresight/io/campaign/designed_antenna.hpp>
 #include <boresight/io/case/present_gains.hpp>
 #include <boresight/io/exchange/monte_carlo_checkpoint.hpp>
+#include <boresight/io/exchange/reported_controller.hpp>
 #include <boresight/io/files/write_atomically.hpp>
 #include <boresight/numerics/error.hpp>
 
@@ -103,7 +104,7 @@ ChosenController law_from(const std::string& text, const io::Case& antenna) {
   std::istringstream lines(text);
   std::getline(lines, held.structure);
   std::getline(lines, held.source);
-  held.law.structure = structure_named(antenna, held.structure);
+  held.law.structure = io::structure_named(antenna, held.structure);
   // Streams do not read hexadecimal numbers.
   std::istringstream numbers(gains_text(text));
   for (std::string line; std::getline(numbers, line);) held.law.gains.push_back(std::stod(line));

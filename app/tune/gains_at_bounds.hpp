@@ -4,15 +4,11 @@
 #include <vector>
 
 #include <boresight/app/tune/tune_section.hpp>
+#include <boresight/design/studies/gains_at_bounds.hpp>
 
 namespace boresight::app {
 
-/// A law with a name for sentences, and the search that found it.
-struct SearchedLaw {
-  std::string name;
-  const design::TuningResult* tuning = nullptr;
-  double sample_time = 0.0;  // s, of the controller that runs it; 0: not known
-};
+using design::SearchedLaw;
 
 /// One sentence for each bound of the search that gains of tuned laws of a study end at, in the
 /// order of the laws; it names the laws. Behind it what corners_beyond_sampling says of that bound.

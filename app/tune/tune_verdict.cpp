@@ -11,13 +11,13 @@
 #include <boresight/app/report/loss_wording.hpp>
 #include <boresight/app/report/sky_units.hpp>
 #include <boresight/app/report/wind_mast.hpp>
-#include <boresight/app/tune/gains_at_bounds.hpp>
 #include <boresight/app/tune/laws_in_time.hpp>
 #include <boresight/app/tune/tune_study.hpp>
 #include <boresight/app/tune/tune_verdict.hpp>
 #include <boresight/control/controllers/sample_time.hpp>
 #include <boresight/design/problem/pointing.hpp>
 #include <boresight/design/problem/pointing_budget.hpp>
+#include <boresight/design/studies/gains_at_bounds.hpp>
 #include <boresight/io/case/drive_numbers.hpp>
 #include <boresight/io/case/plant_numbers.hpp>
 #include <boresight/numerics/angles.hpp>
@@ -79,9 +79,7 @@ std::string found_and_limit(const GoalRatio& goal, const design::HardGoals& goal
 
 // Whether one of its corners does nothing that a sampled controller can do.
 bool has_idle_corner(const TuneSection& section, const TunedLaw& row) {
-  const SearchedLaw searched{"", &row.design.tuning,
-                             control::sample_time_of(section.problem.delay)};
-  return !corners_beyond_sampling(searched).empty();
+  return ends_beyond_sampling(row.design.tuning, control::sample_time_of(section.problem.delay));
 }
 
 // Every goal that stands in the way, once.

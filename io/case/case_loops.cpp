@@ -7,10 +7,10 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <boresight/control/controllers/usual_structures.hpp>
 #include <boresight/io/case/case_sections.hpp>
 #include <boresight/io/case/drive_numbers.hpp>
 #include <boresight/io/case/field.hpp>
-#include <boresight/io/case/usual_structures.hpp>
 #include <boresight/io/units/wording.hpp>
 
 namespace boresight::io {
@@ -116,7 +116,7 @@ BlockEntry read_block(TableReader& table, std::map<std::string, int>& symbols) {
 }
 
 bool is_usual(const std::string& name) {
-  return std::ranges::any_of(usual_structures(), [&](const std::string& usual) {
+  return std::ranges::any_of(control::usual_structures(), [&](const std::string& usual) {
     return name == usual || name == control::LoopStructure::named(usual).name();
   });
 }
@@ -281,7 +281,8 @@ control::LoopStructure loop_structure(const Case& antenna, const std::string& na
     return bounded(control::LoopStructure::named(name).with_bounds_for(driven_load(antenna)),
                    antenna.tuning.bounds);
   }
-  std::vector<std::string_view> known(usual_structures().begin(), usual_structures().end());
+  std::vector<std::string_view> known(control::usual_structures().begin(),
+                                      control::usual_structures().end());
   for (const auto& entry : antenna.loops) known.push_back(entry.structure.name());
   throw InvalidInput(
       fmt::format("expected {}PI-0, PI, DPF, LL or FULL, with +N (notch) and +C (compliance "
@@ -292,7 +293,7 @@ control::LoopStructure loop_structure(const Case& antenna, const std::string& na
 
 std::vector<control::LoopStructure> usual_structures_with_lag(const Case& antenna) {
   std::vector<control::LoopStructure> usual;
-  for (const auto& name : usual_structures()) {
+  for (const auto& name : control::usual_structures()) {
     if (!name.starts_with("PI-0")) usual.push_back(loop_structure(antenna, name));
   }
   return usual;

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <boresight/control/controllers/usual_structures.hpp>
 #include <boresight/design/problem/pointing.hpp>
 #include <boresight/io/case/antenna_of.hpp>
 #include <boresight/io/case/guessed_shares.hpp>
@@ -10,7 +11,6 @@
 #include <boresight/io/case/mission_of.hpp>
 #include <boresight/io/case/plant_numbers.hpp>
 #include <boresight/io/case/present_gains.hpp>
-#include <boresight/io/case/usual_structures.hpp>
 #include <boresight/numerics/error.hpp>
 
 namespace boresight::io {

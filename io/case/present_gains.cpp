@@ -3,8 +3,8 @@
 
 #include <fmt/format.h>
 
+#include <boresight/control/controllers/usual_structures.hpp>
 #include <boresight/io/case/present_gains.hpp>
-#include <boresight/io/case/usual_structures.hpp>
 
 namespace boresight::io {
 namespace {

@@ -3,12 +3,11 @@
 #include <filesystem>
 #include <fstream>
 #include <limits>
-#include <map>
 #include <system_error>
+#include <utility>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-#include <nlohmann/json.hpp>
 
 #include <boresight/control/loops/state_space_controller.hpp>
 #include <boresight/io/case/table_reader.hpp>
@@ -249,45 +248,6 @@ control::ControlLaw law_from(TableReader& table, const Case& antenna) {
   return law;
 }
 
-GainsFile law_of_report(const std::string& text, const std::string& path, const Case& antenna,
-                        const std::string& structure) {
-  try {
-    const auto report = nlohmann::json::parse(text);
-    const nlohmann::json* row =
-        recommended_row(report.at("tuned").at("laws"), structure, design::Fitness::misses_member);
-    if (row == nullptr) {
-      throw InvalidInput(fmt::format(
-          "{}: expected a tuned law that meets its goals{}, found none", path,
-          structure.empty() ? "" : fmt::format(" of structure {}", in_quotes(structure))));
-    }
-    GainsFile file;
-    const auto name = row->at("structure").get<std::string>();
-    file.law.structure = loop_structure(antenna, name);
-    std::map<std::string, std::string> written;
-    for (const auto& gain : row->at("gains_as_written")) {
-      written[gain.at("symbol").get<std::string>()] = gain.at("value").get<std::string>();
-    }
-    for (const auto& block : file.law.structure.blocks()) {
-      for (std::size_t i = 0; i < block.gains.size(); ++i) {
-        const auto found = written.find(block.gains[i].symbol);
-        if (found == written.end()) {
-          throw InvalidInput(fmt::format("{}: expected a gain {} of {}, found none", path,
-                                         block.gains[i].symbol, in_quotes(name)));
-        }
-        file.law.gains.push_back(
-            parse_quantity(found->second, gain_kind(block.path, block.kind, i)).value);
-      }
-    }
-    control::validate(file.law);
-    file.description =
-        fmt::format("{}, {}, of {}", name, row->at("tuned_for").get<std::string>(), path);
-    return file;
-  } catch (const nlohmann::json::exception& error) {
-    throw InvalidInput(
-        fmt::format("{}: expected a report of `boresight tune`, found: {}", path, error.what()));
-  }
-}
-
 }  // namespace
 
 GainsFile read_gains_file(const std::string& path, const Case& antenna,
@@ -295,7 +255,9 @@ GainsFile read_gains_file(const std::string& path, const Case& antenna,
   const std::string text = content_of_file(path);
   const auto first = text.find_first_not_of(" \t\r\n");
   if (first != std::string::npos && text[first] == '{') {
-    return law_of_report(text, path, antenna, structure);
+    auto reported = written_controller_of_report(antenna, text, path, structure);
+    return {std::move(reported.law),
+            fmt::format("{}, {}, of {}", reported.structure, reported.tuned_for, path)};
   }
   TableReader file = TableReader::parse(text, path);
   GainsFile result;

@@ -65,8 +65,7 @@ std::string controller_mat(const plant::StateSpace& controller);
 std::string controller_json(const plant::StateSpace& controller);
 
 /// Gains from a file: TOML with the keys of [gains] (in that table or at the top), or the JSON
-/// report of `boresight tune`, from which recommended_row takes one that meets its constraints, of
-/// `structure` if that is not empty.
+/// report of `boresight tune`, of which written_controller_of_report.
 /// @throws InvalidInput naming the file.
 struct GainsFile {
   control::ControlLaw law;

@@ -1,6 +1,6 @@
-#include <boresight/io/case/usual_structures.hpp>
+#include <boresight/control/controllers/usual_structures.hpp>
 
-namespace boresight::io {
+namespace boresight::control {
 
 const std::vector<std::string>& usual_structures() {
   static const std::vector<std::string> names = [] {
@@ -13,11 +13,11 @@ const std::vector<std::string>& usual_structures() {
   return names;
 }
 
-std::string short_name(const control::LoopStructure& structure) {
+std::string short_name(const LoopStructure& structure) {
   for (const auto& name : usual_structures()) {
-    if (control::LoopStructure::named(name) == structure) return name;
+    if (LoopStructure::named(name) == structure) return name;
   }
   return structure.name();
 }
 
-}  // namespace boresight::io
+}  // namespace boresight::control

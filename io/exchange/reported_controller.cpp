@@ -1,0 +1,187 @@
+#include <algorithm>
+#include <fstream>
+#include <iterator>
+#include <map>
+#include <vector>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <boresight/control/controllers/usual_structures.hpp>
+#include <boresight/design/decisions/recommend.hpp>
+#include <boresight/io/case/case_tuning.hpp>
+#include <boresight/io/case/present_gains.hpp>
+#include <boresight/io/exchange/reported_controller.hpp>
+#include <boresight/io/files/input_files.hpp>
+#include <boresight/io/units/wording.hpp>
+#include <boresight/numerics/error.hpp>
+
+namespace boresight::io {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+// One of the "laws" of a report of `boresight tune` as design::recommend compares it.
+design::Assessment reported_assessment(const Json& row) {
+  constexpr double rad_per_mdeg = 1.7453292519943295e-5;
+  const bool robust = row.at("tuned_for") == "robust";
+  const auto& rms = row.at("beam_rms_mdeg");
+  design::Assessment result;
+  result.structure = row.at("structure").get<std::string>();
+  result.purpose = robust ? design::DesignPurpose::robust : design::DesignPurpose::nominal;
+  result.stable = result.verified = rms.is_number();
+  if (rms.is_number()) result.linear_rms = rms.get<double>() * rad_per_mdeg;
+  result.nominal_constraints_met = row.at("goals_met").get<bool>();
+  result.member_constraints_met = robust && result.nominal_constraints_met;
+  if (row.contains("gains_as_written")) result.parts = row.at("gains_as_written").size();
+  if (row.contains("design") && row.at("design").is_object()) {
+    result.verified = row.at("design").value("verified", true);
+  }
+  return result;
+}
+
+// Null if there is none.
+const Json* recommended_row(const Json& rows, const std::string& structure,
+                            design::Fitness accepted) {
+  // A report that states no wind speed is of one.
+  const auto wind_speed = [](const Json& row) {
+    return row.value("design_wind_speed_m_per_s", 0.0);
+  };
+  std::vector<double> speeds;
+  for (const auto& row : rows) {
+    const double speed = wind_speed(row);
+    bool known = false;
+    for (const double one : speeds) known = known || one == speed;
+    if (!known) speeds.push_back(speed);
+  }
+  for (const double speed : speeds) {
+    std::vector<const Json*> candidates;
+    std::vector<design::Assessment> assessments;
+    for (const auto& row : rows) {
+      if (wind_speed(row) != speed || row.at("tuned_for") == "present") continue;
+      if (!structure.empty() && row.at("structure") != structure) continue;
+      if (row.value("recommended", false)) return &row;
+      candidates.push_back(&row);
+      assessments.push_back(reported_assessment(row));
+    }
+    const auto winner = design::recommend(assessments, {.accepted = accepted}).winner;
+    if (winner) return candidates[*winner];
+  }
+  return nullptr;
+}
+
+[[noreturn]] void refuse(const std::string& path, const std::string& found) {
+  throw InvalidInput(
+      fmt::format("{}: expected a report of `boresight tune` or `redesign` in JSON with a law, "
+                  "found {}",
+                  path, found));
+}
+
+// The gains of a "design": numbers whose keys are the gains' names with blanks replaced and the
+// unit behind.
+control::ControlLaw read_law(const Case& antenna, const std::string& path, const Json& design,
+                             const std::string& structure) {
+  control::ControlLaw law{structure_named(antenna, structure), {}};
+  const Json gains = design.value("gains", Json::object());
+  for (const auto& description : law.structure.gains()) {
+    std::string key = description.name;
+    std::ranges::replace(key, ' ', '_');
+    const auto found = std::ranges::find_if(
+        gains.items(), [&](const auto& item) { return item.key().starts_with(key + "_"); });
+    if (found == gains.items().end() || !found.value().is_number()) {
+      refuse(path, fmt::format("no gain '{}' of {}", description.name, structure));
+    }
+    law.gains.push_back(found.value().template get<double>());
+  }
+  control::validate(law);
+  return law;
+}
+
+}  // namespace
+
+control::LoopStructure structure_named(const Case& antenna, const std::string& name) {
+  for (const auto& [short_name, law] : present_controllers(antenna)) {
+    if (law.structure.name() == name) return law.structure;
+  }
+  for (const auto& usual : control::usual_structures()) {
+    auto structure = loop_structure(antenna, usual);
+    if (structure.name() == name) return structure;
+  }
+  return loop_structure(antenna, name);
+}
+
+ReportedController controller_of_report(const Case& antenna, const std::string& path,
+                                        const std::string& structure) {
+  std::ifstream file(path, std::ios::binary);
+  const std::string text{std::istreambuf_iterator<char>(file), {}};
+  if (!file) refuse(path, "no file that can be read");
+  note_input(path, text);
+  try {
+    const Json report = Json::parse(text);
+    if (report.contains("tuned")) {
+      // What is held on samples may miss its goals.
+      const Json* best =
+          recommended_row(report.at("tuned").at("laws"), structure, design::Fitness::unverified);
+      if (best == nullptr) {
+        refuse(path, structure.empty() ? "none" : fmt::format("none of {}", structure));
+      }
+      const auto name = best->at("structure").get<std::string>();
+      return {read_law(antenna, path, best->at("design"), name), name,
+              best->at("tuned_for").get<std::string>()};
+    }
+    if (report.contains("tuning")) {
+      const Json& design = report.at("tuning").at("design");
+      const auto name = design.at("structure").get<std::string>();
+      if (!structure.empty() &&
+          loop_structure(antenna, structure) != structure_named(antenna, name)) {
+        refuse(path, fmt::format("only one of {}", name));
+      }
+      return {read_law(antenna, path, design, name), structure.empty() ? name : structure, ""};
+    }
+    refuse(path, "neither 'tuned' nor 'tuning'");
+  } catch (const nlohmann::json::exception& error) {
+    refuse(path, fmt::format("something else ({})", error.what()));
+  }
+}
+
+ReportedController written_controller_of_report(const Case& antenna, const std::string& text,
+                                                const std::string& path,
+                                                const std::string& structure) {
+  try {
+    const auto report = Json::parse(text);
+    const Json* row =
+        recommended_row(report.at("tuned").at("laws"), structure, design::Fitness::misses_member);
+    if (row == nullptr) {
+      throw InvalidInput(fmt::format(
+          "{}: expected a tuned law that meets its goals{}, found none", path,
+          structure.empty() ? "" : fmt::format(" of structure {}", in_quotes(structure))));
+    }
+    ReportedController found;
+    const auto name = row->at("structure").get<std::string>();
+    found.law.structure = loop_structure(antenna, name);
+    std::map<std::string, std::string> written;
+    for (const auto& gain : row->at("gains_as_written")) {
+      written[gain.at("symbol").get<std::string>()] = gain.at("value").get<std::string>();
+    }
+    for (const auto& block : found.law.structure.blocks()) {
+      for (std::size_t i = 0; i < block.gains.size(); ++i) {
+        const auto gain = written.find(block.gains[i].symbol);
+        if (gain == written.end()) {
+          throw InvalidInput(fmt::format("{}: expected a gain {} of {}, found none", path,
+                                         block.gains[i].symbol, in_quotes(name)));
+        }
+        found.law.gains.push_back(
+            parse_quantity(gain->second, gain_kind(block.path, block.kind, i)).value);
+      }
+    }
+    control::validate(found.law);
+    found.structure = name;
+    found.tuned_for = row->at("tuned_for").get<std::string>();
+    return found;
+  } catch (const nlohmann::json::exception& error) {
+    throw InvalidInput(
+        fmt::format("{}: expected a report of `boresight tune`, found: {}", path, error.what()));
+  }
+}
+
+}  // namespace boresight::io

@@ -1,0 +1,148 @@
+#include <algorithm>
+#include <string>
+#include <vector>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "io/edited_case.hpp"
+#include "scratch_folder.hpp"
+#include <boresight/io/exchange/reported_controller.hpp>
+#include <boresight/numerics/error.hpp>
+
+namespace boresight::io {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+Case antenna_of_test() {
+  return parse_case(EditedCase().text(), "case.toml");
+}
+
+// Gains "name_unit": `first`, twice that and so on.
+std::string design_of(const std::string& structure, double first) {
+  std::string text = R"({"structure": ")" + structure + R"(", "gains": {)";
+  double value = first;
+  for (auto gain : control::LoopStructure::named("PI-0").gains()) {
+    std::ranges::replace(gain.name, ' ', '_');
+    if (value != first) text += ", ";
+    text += "\"" + gain.name + "_SI\": " + std::to_string(value);
+    value += first;
+  }
+  return text + "}}";
+}
+
+struct Row {
+  std::string purpose = "robust";
+  double rms = 0.3;  // mdeg
+  bool meets = true;
+  double first_gain = 0.1;
+  std::string more = {};
+};
+
+std::string row_of(const Row& row) {
+  const std::string kr = std::to_string(row.first_gain);
+  return R"({"structure": "PI-0", "tuned_for": ")" + row.purpose +
+         R"(", "design_wind_speed_m_per_s": 10, "goals_met": )" + (row.meets ? "true" : "false") +
+         R"(, "beam_rms_mdeg": )" + std::to_string(row.rms) + row.more + R"(, "design": )" +
+         design_of("PI-0", row.first_gain) +
+         R"(, "gains_as_written": [{"symbol": "kr", "value": ")" + kr +
+         R"("}, {"symbol": "wi", "value": "0.127 Hz"}, {"symbol": "kp", "value": "0.2 1/s"},
+                {"symbol": "wip", "value": "0.02 rad/s"}]})";
+}
+
+std::string tune_report(const std::vector<Row>& rows) {
+  std::string text;
+  for (const Row& row : rows) text += (text.empty() ? "" : ",") + row_of(row);
+  return R"({"tuned": {"laws": [)" + text + "]}}";
+}
+
+double first_gain(const std::vector<Row>& rows) {
+  const ScratchFolder folder;
+  const std::string path = folder.write("report.json", tune_report(rows));
+  return controller_of_report(antenna_of_test(), path, "").law.gains.at(0);
+}
+
+TEST(ControllerOfReport, IsTheOneThatTheReportRecommends) {
+  EXPECT_EQ(first_gain({{.rms = 0.2, .first_gain = 0.1},
+                        {.rms = 0.3, .first_gain = 0.2, .more = R"(, "recommended": true)"}}),
+            0.2);
+}
+
+TEST(ControllerOfReport, IsTheRobustOneOfLeastRmsWhereNoneIsRecommended) {
+  EXPECT_EQ(first_gain({{.purpose = "nominal", .rms = 0.1, .first_gain = 0.1},
+                        {.rms = 0.3, .first_gain = 0.2},
+                        {.rms = 0.2, .meets = false, .first_gain = 0.3},
+                        {.rms = 0.25, .first_gain = 0.5}}),
+            0.5);
+  // One that misses its goals where no other is stable.
+  EXPECT_EQ(first_gain({{.purpose = "present", .rms = 0.1, .first_gain = 0.1},
+                        {.rms = 0.2, .meets = false, .first_gain = 0.3}}),
+            0.3);
+}
+
+TEST(ControllerOfReport, HasAllGainsOfItsDesign) {
+  const ScratchFolder folder;
+  const Case antenna = antenna_of_test();
+  const std::string path = folder.write("report.json", tune_report({{.first_gain = 0.125}}));
+  const auto found = controller_of_report(antenna, path, "PI-0");
+  EXPECT_EQ(found.law.structure, control::LoopStructure::named("PI-0"));
+  EXPECT_THAT(found.law.gains, ElementsAre(0.125, 0.25, 0.375, 0.5));
+  EXPECT_EQ(found.structure, "PI-0");
+  EXPECT_EQ(found.tuned_for, "robust");
+  // A report of one design has no purpose to name.
+  const std::string full = control::LoopStructure::named("PI-0").name();
+  const std::string one =
+      folder.write("redesign.json", R"({"tuning": {"design": )" + design_of(full, 0.25) + "}}");
+  const auto alone = controller_of_report(antenna, one, "");
+  EXPECT_THAT(alone.law.gains, ElementsAre(0.25, 0.5, 0.75, 1.0));
+  EXPECT_EQ(alone.structure, full);
+  EXPECT_EQ(alone.tuned_for, "");
+}
+
+TEST(ControllerOfReport, SaysWhatTheFileLacks) {
+  const ScratchFolder folder;
+  const Case antenna = antenna_of_test();
+  const auto refusal = [&](const std::string& text, const std::string& structure) -> std::string {
+    try {
+      controller_of_report(antenna, folder.write("report.json", text), structure);
+    } catch (const InvalidInput& error) {
+      return error.what();
+    }
+    return "taken";
+  };
+  EXPECT_THAT(refusal("title = 1", ""), HasSubstr("something else"));
+  EXPECT_THAT(refusal("{}", ""), HasSubstr("neither 'tuned' nor 'tuning'"));
+  EXPECT_THAT(refusal(tune_report({}), ""), HasSubstr("found none"));
+  EXPECT_THAT(refusal(tune_report({{}}), "DPF"), HasSubstr("none of DPF"));
+  EXPECT_THAT(refusal(R"({"tuning": {"design": {"structure": "PI-0"}}})", ""),
+              HasSubstr("no gain 'rate gain' of PI-0"));
+  EXPECT_THROW(controller_of_report(antenna, folder.file("none.json"), ""), InvalidInput);
+}
+
+TEST(WrittenControllerOfReport, TakesGainsInTheEngineersUnits) {
+  const Case antenna = antenna_of_test();
+  const auto found = written_controller_of_report(
+      antenna, tune_report({{.rms = 0.2, .meets = false, .first_gain = 0.4}, {.first_gain = 0.3}}),
+      "report.json", "");
+  ASSERT_EQ(found.law.gains.size(), 4U);
+  EXPECT_DOUBLE_EQ(found.law.gains[0], 0.3);
+  EXPECT_NEAR(found.law.gains[1], 6.283185307179586 * 0.127, 1e-12);
+  // What misses its goals is not taken.
+  EXPECT_THROW(written_controller_of_report(antenna, tune_report({{.meets = false}}), "r.json", ""),
+               InvalidInput);
+}
+
+TEST(StructureNamed, TakesFullAndShortNamesAndTheCasesOwn) {
+  const Case antenna = antenna_of_test();
+  const auto pi = loop_structure(antenna, "PI");
+  EXPECT_EQ(structure_named(antenna, "PI"), pi);
+  EXPECT_EQ(structure_named(antenna, pi.name()), pi);
+  const auto notched = loop_structure(antenna, "FULL+N+C");
+  EXPECT_EQ(structure_named(antenna, notched.name()).gains().size(), notched.gains().size());
+  EXPECT_THROW(structure_named(antenna, "PID"), InvalidInput);
+}
+
+}  // namespace
+}  // namespace boresight::io

@@ -96,12 +96,6 @@ struct CommissionReport {
 CommissionReport plan_commission(const io::DesignedAntenna& designed,
                                  const CommissionOptions& options);
 
-/// The comparison of two records of a case by its channels. @throws InvalidInput for a name that no
-/// usable record has.
-std::vector<ChannelComparison> compare_case_records(const io::Case& antenna,
-                                                    const std::string& before,
-                                                    const std::string& after, unsigned threads);
-
 /// The report, and as text for a terminal.
 Document document_of(const CommissionReport& report);
 std::string to_text(const CommissionReport& report);

@@ -267,6 +267,15 @@ PlantBand plant_band(double nominal, const std::vector<double>& values, double c
           std::max(upper, largest)};
 }
 
+double CommissioningPlan::largest_peak() const {
+  double largest = 0.0;
+  for (const CommissioningStage& stage : stages) {
+    if (stage.kind == StageKind::as_found) continue;
+    largest = std::max(largest, stage.expected.peak.largest);
+  }
+  return largest;
+}
+
 CommissioningPlan plan_commissioning(const TrackingProblem& problem,
                                      const std::vector<EnsembleMember>& members,
                                      const std::optional<control::ControlLaw>& found,

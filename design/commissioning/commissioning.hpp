@@ -72,6 +72,9 @@ struct StageExpectation {
   PlantBand still_encoder, still_tachometer, still_torque, still_valve;
   PlantBand windy_encoder, windy_tachometer, windy_torque, windy_valve;
   PlantBand beam_rms, move_error;
+
+  /// Whether every plant can do what the stage asks for: only the gains as found may not.
+  bool all_stable() const { return stable == plants; }
 };
 
 struct CommissioningStage {
@@ -94,6 +97,9 @@ struct CommissioningPlan {
   /// What the plan had to do otherwise than asked, a sentence each.
   std::vector<std::string> remarks;
   double largest_step = 0.0;  // the factor kept to; smaller than asked for where that was too much
+
+  /// Of |S| on any plant at any stage but that as found; 0 without stages.
+  double largest_peak() const;
 };
 
 /// Stages from `found` (nothing: not known) to `target`. Gains go along straight lines in their

@@ -49,7 +49,37 @@ std::optional<double> limit_cycle_beyond_budget(const Mission& mission,
                                     : std::numeric_limits<double>::infinity();
 }
 
+// Places of the gains that act.
+std::vector<std::size_t> acting_places(const StageLaw& stage) {
+  std::vector<std::size_t> places;
+  std::size_t place = 0;
+  for (const auto& block : stage.law.structure.blocks()) {
+    const bool outer =
+        block.path == control::LoopPath::position || block.path == control::LoopPath::compliance;
+    for (std::size_t i = 0; i < block.gains.size(); ++i, ++place) {
+      if (!outer || !stage.position_open) places.push_back(place);
+    }
+  }
+  return places;
+}
+
 }  // namespace
+
+std::vector<ActingGain> acting_gains(const StageLaw& stage, const StageLaw* before) {
+  const auto acted_before = before != nullptr ? acting_places(*before) : std::vector<std::size_t>{};
+  const auto same = [&](std::size_t place, std::size_t other) {
+    return before->law.structure.gains()[other].symbol ==
+               stage.law.structure.gains()[place].symbol &&
+           before->law.gains[other] == stage.law.gains[place];
+  };
+  std::vector<ActingGain> gains;
+  for (const std::size_t place : acting_places(stage)) {
+    const bool kept =
+        std::ranges::any_of(acted_before, [&](std::size_t other) { return same(place, other); });
+    gains.push_back({place, before != nullptr && !kept});
+  }
+  return gains;
+}
 
 const TunedLaw* commissionable(const ControllerStudy& study) {
   const TunedLaw* law = recommended_or(study, Fitness::lost_in_wind);

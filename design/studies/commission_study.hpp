@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <vector>
@@ -30,6 +31,18 @@ struct CommissionStudy {
 /// accepted, and tuned to meet every constraint on every plant that may be the true one. Null if
 /// there is none.
 const TunedLaw* commissionable(const ControllerStudy& study);
+
+/// A gain that acts in a stage: with the position loop open those of position and compliance path
+/// rest.
+struct ActingGain {
+  std::size_t place = 0;  // in the law's gains
+  /// Against the stage before: it has another value, or did not act.
+  bool changed = false;
+};
+
+/// The acting gains in the law's order. `before`: the stage before, null for the first, in which
+/// nothing is changed.
+std::vector<ActingGain> acting_gains(const StageLaw& stage, const StageLaw* before);
 
 /// The move by which the last stages are checked, which any antenna makes: a twentieth of the slew
 /// rate, reached in two seconds. At the motor.

@@ -143,22 +143,9 @@ TEST(Commission, RefusesWhatItCannotUse) {
   EXPECT_THAT(result.errors, HasSubstr("unstable on a plant that may be the true one"));
 }
 
-TEST(Commission, ComparesTwoRecordsOfTheCase) {
+// A plan that there is none of does not take the comparison with it.
+TEST(Commission, ComparesTwoRecordsOfTheCaseWithoutAPlan) {
   const io::Case antenna = io::read_case(BORESIGHT_SOURCE_DIR "/cases/dss14-70m/campaign.toml");
-  // Constant speeds of 0.25 V and 0.5 V: the faster one moves more, in every channel.
-  const auto channels =
-      compare_case_records(antenna, "constant-speed-0.25V", "constant-speed-0.5V", 1);
-  ASSERT_GE(channels.size(), 2U);
-  for (const auto& channel : channels) {
-    EXPECT_FALSE(channel.predicted.has_value());
-    EXPECT_LT(channel.comparison.whole.lower, channel.comparison.whole.ratio);
-    EXPECT_LT(channel.comparison.whole.ratio, channel.comparison.whole.upper);
-    EXPECT_GE(channel.comparison.bands.size(), 3U);
-    if (channel.quantity == design::ComparedQuantity::motor_rate) {
-      EXPECT_EQ(channel.comparison.whole.change, design::Change::worse);
-    }
-  }
-  // A plan that there is none of does not take the comparison with it.
   CommissionOptions options;
   options.gains = pressure_gains;
   options.gains[0] = "kr=60";
@@ -174,7 +161,8 @@ TEST(Commission, ComparesTwoRecordsOfTheCase) {
   const auto report = plan_commission(designed, options);
   ASSERT_TRUE(report.failure);
   EXPECT_THROW(std::rethrow_exception(report.failure), InfeasibleRequirement);
-  EXPECT_EQ(report.comparisons.size(), channels.size());
+  ASSERT_GE(report.comparisons.size(), 2U);
+  for (const auto& channel : report.comparisons) EXPECT_FALSE(channel.predicted.has_value());
   const std::string text = to_text(report);
   EXPECT_THAT(text, HasSubstr("None: "));
   EXPECT_THAT(text, HasSubstr("Before and after: 'constant-speed-0.25V'"));
@@ -182,18 +170,7 @@ TEST(Commission, ComparesTwoRecordsOfTheCase) {
   const auto json = nlohmann::json::parse(to_json(report));
   EXPECT_TRUE(json.at("no_plan").is_string());
   EXPECT_TRUE(json.at("stages").empty());
-  EXPECT_EQ(json.at("comparisons").size(), channels.size());
-
-  const auto refusal = [&](const std::string& before, const std::string& after) -> std::string {
-    try {
-      compare_case_records(antenna, before, after, 1);
-    } catch (const InvalidInput& error) {
-      return error.what();
-    }
-    return "nothing was thrown";
-  };
-  EXPECT_THAT(refusal("slosh", "slosh"), HasSubstr("found 'slosh' twice"));
-  EXPECT_THAT(refusal("slosh", "none"), HasSubstr("expected a record of the case"));
+  EXPECT_EQ(json.at("comparisons").size(), report.comparisons.size());
 }
 
 }  // namespace

@@ -1,4 +1,6 @@
 #include <cmath>
+#include <string>
+#include <vector>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -64,6 +66,30 @@ TEST(StudyCommission, BeginsWithThePresentControllerWhateverTheThreads) {
   ASSERT_EQ(one.steps.size(), two.steps.size());
   for (std::size_t i = 0; i < one.steps.size(); ++i) EXPECT_EQ(one.steps[i], two.steps[i]);
   EXPECT_EQ(one.limit_cycle.has_value(), two.limit_cycle.has_value());
+}
+
+TEST(ActingGains, AreThoseOfLoopsThatAreClosed) {
+  StageLaw open{reference::held_law("PI", 1.0).design.tuning.law, true, false};
+  StageLaw closed = open;
+  closed.position_open = false;
+  const auto symbols = [](const StageLaw& stage, const StageLaw* before, bool changed_only) {
+    std::vector<std::string> found;
+    for (const auto& gain : acting_gains(stage, before)) {
+      if (!changed_only || gain.changed) {
+        found.push_back(stage.law.structure.gains().at(gain.place).symbol);
+      }
+    }
+    return found;
+  };
+  using testing::ElementsAre;
+  EXPECT_THAT(symbols(open, nullptr, false), ElementsAre("kr", "wi", "wp"));
+  EXPECT_THAT(symbols(closed, nullptr, false), ElementsAre("kr", "wi", "wp", "kp", "wip"));
+  // The first stage changes nothing; the loop that is closed brings its gains.
+  EXPECT_TRUE(symbols(open, nullptr, true).empty());
+  EXPECT_THAT(symbols(closed, &open, true), ElementsAre("kp", "wip"));
+  open.law.gains[1] *= 2.0;
+  EXPECT_THAT(symbols(closed, &open, true), ElementsAre("wi", "kp", "wip"));
+  EXPECT_TRUE(symbols(closed, &closed, true).empty());
 }
 
 // Stages are for every plant: a nominal design will not do, nor one that breaks a constraint.

@@ -1,0 +1,217 @@
+#include <cctype>
+#include <cmath>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include <boresight/app/commission/commission_wording.hpp>
+#include <boresight/app/report/sky_units.hpp>
+#include <boresight/design/studies/commission_study.hpp>
+#include <boresight/io/case/drive_numbers.hpp>
+#include <boresight/io/case/present_gains.hpp>
+#include <boresight/numerics/angles.hpp>
+
+namespace boresight::app {
+namespace {
+
+using design::PlantBand;
+using design::StageKind;
+
+std::string range(const PlantBand& band, double unit, int digits) {
+  return fmt::format("{:.{}g} ({:.{}g} to {:.{}g})", band.nominal / unit, digits, band.lower / unit,
+                     digits, band.upper / unit, digits);
+}
+
+std::string percent(const PlantBand& band) {
+  return fmt::format("{:.1f} ({:.1f} to {:.1f}) %", 100.0 * band.nominal, 100.0 * band.lower,
+                     100.0 * band.upper);
+}
+
+std::string settling(const PlantBand& band) {
+  return std::isfinite(band.upper) ? "settles into 5 % in " + range(band, 1.0, 3) + " s"
+                                   : "settles slowly";
+}
+
+void describe_check(const io::Case& antenna, StageSheet& sheet) {
+  const auto& expected = sheet.stage.expected;
+  const double gear = io::gear_ratio(antenna);
+  const double sky = gear * millidegree;
+  if (!sheet.stage.expected.all_stable()) {
+    sheet.check = fmt::format("Nothing: as the plants have it, {} of {} are unstable.",
+                              expected.plants - expected.stable, expected.plants);
+    return;
+  }
+  const bool open = sheet.stage.law.position_open;
+  if (sheet.stage.kind == StageKind::feedforward) {
+    sheet.check = "Largest encoder error of the move: " + range(expected.move_error, sky, 3) +
+                  " mdeg. The step as in the stage before. ";
+  } else {
+    sheet.check = fmt::format(
+        "Step of the {} command of {:.3g} mdeg{} at the sky: rises (10 % to 90 %) in {} s, "
+        "overshoots by {}, {}. ",
+        open ? "rate" : "position", sheet.step / millidegree, open ? "/s" : "",
+        range(expected.rise_time, 1.0, 3), percent(expected.overshoot),
+        settling(expected.settling_time));
+  }
+  sheet.check += fmt::format("Crossover {} Hz. ", range(expected.crossover, two_pi, 3));
+  sheet.check +=
+      "In still air, rms of the valve command " + range(expected.still_valve, 1.0, 3) + " rad/s";
+  sheet.check += open
+                     ? ", of the tachometer " + range(expected.still_tachometer, 1.0, 3) + " rad/s."
+                     : ", of the encoder error " + range(expected.still_encoder, sky, 3) +
+                           " mdeg. Beam rms in the design wind " +
+                           range(expected.beam_rms, sky, 3) + " mdeg.";
+}
+
+void describe_abort(const io::Case& antenna, StageSheet& sheet, const CommissionReport& report) {
+  const auto& abort = sheet.stage.abort;
+  if (!sheet.stage.expected.all_stable()) {
+    sheet.abort =
+        "Not known: the plants say that these gains do not work, and the antenna runs on them.";
+    return;
+  }
+  sheet.abort = fmt::format(
+      "Overshoot above {:.0f} %, or in still air rms of the valve command above {:.3g} rad/s",
+      100.0 * abort.overshoot, abort.still_valve_rms);
+  if (!sheet.stage.law.position_open) {
+    sheet.abort += fmt::format(" or of the encoder error above {:.3g} mdeg",
+                               abort.still_encoder_rms / (io::gear_ratio(antenna) * millidegree));
+  }
+  sheet.abort += ", or any ringing that does not die out. ";
+  sheet.abort += std::isfinite(abort.gain_reserve)
+                     ? fmt::format(
+                           "The peak of S reaches {:g} on the worst plant ({}) with {:.2f} "
+                           "times this loop gain.",
+                           report.options.abort_peak, abort.worst_plant, abort.gain_reserve)
+                     : fmt::format(
+                           "The peak of S stays below {:g} on every plant even with 8 times "
+                           "this loop gain.",
+                           report.options.abort_peak);
+}
+
+void describe_way_back(const StageSheet* before, StageSheet& sheet) {
+  const auto kind = sheet.stage.kind;
+  if (before == nullptr || before->stage.kind == StageKind::as_found) {
+    sheet.way_back = "Brakes on, then the gains as found.";
+    if (before == nullptr) {
+      sheet.way_back = "Brakes on; nothing has been changed yet.";
+    } else if (!before->stage.expected.all_stable()) {
+      sheet.way_back =
+          "Brakes on. The gains as found only if the antenna did run on them, whatever the plants "
+          "say.";
+    }
+  } else if (kind == StageKind::feedforward) {
+    sheet.way_back = "Switch feedforward off: the loops are as they were.";
+  } else if (sheet.stage.law.position_open) {
+    sheet.way_back = "Rate command to zero, then the gains of the stage before.";
+  } else if (before->stage.law.position_open) {
+    sheet.way_back = "Open the position loop (rate command zero); the rate loop keeps its gains.";
+  } else {
+    sheet.way_back = "Open the position loop, set the gains of the stage before, close it again.";
+  }
+}
+
+std::vector<StageGain> stage_gains(const io::GainUnits& units, const design::StageLaw& stage,
+                                   const design::StageLaw* before) {
+  const auto texts = units.texts(stage.law);
+  std::vector<StageGain> gains;
+  for (const auto& [place, changed] : acting_gains(stage, before)) {
+    const auto& description = stage.law.structure.gains()[place];
+    gains.push_back(
+        {description.symbol, description.name, texts[place], stage.law.gains[place], changed});
+  }
+  return gains;
+}
+
+void conclude_plan(const CommissionReport& report, const io::Case& antenna,
+                   std::vector<std::string>& sentences) {
+  if (report.limit_cycle) {
+    sentences.push_back(fmt::format(
+        "On the nonlinear antenna {} {}: the stages are those of linear loops. Measure the "
+        "friction before this law is set, or plan for another.",
+        report.structure,
+        std::isfinite(*report.limit_cycle)
+            ? fmt::format("hunts by +-{:.2f} mdeg, beyond the tightest budget",
+                          *report.limit_cycle / millidegree)
+            : std::string("does not complete a run in still air")));
+  }
+  sentences.insert(sentences.end(), report.bounds.begin(), report.bounds.end());
+  const auto& first = report.plan.stages.front();
+  const auto& last = report.plan.stages.back();
+  const double sky = io::gear_ratio(antenna) * millidegree;
+  if (!first.expected.all_stable()) {
+    sentences.push_back(fmt::format(
+        "With the gains as found {} of {} plants are unstable, but the antenna runs on them: its "
+        "plant, or what a gain means, is not what the case says. Find out which (leakage, inertia, "
+        "units and definition of the gains) before any stage: all that follows rests on these "
+        "plants.",
+        first.expected.plants - first.expected.stable, first.expected.plants));
+  }
+  sentences.push_back(fmt::format(
+      "{} stages lead to {}; no gain changes by more than a factor of {:.3g} at once, and the peak "
+      "of S is at most {:.2f} on each of {} plants at every one of them.",
+      report.plan.stages.size() - (first.kind == StageKind::as_found ? 1 : 0), report.structure,
+      report.plan.largest_step, report.plan.largest_peak(), last.expected.plants));
+  if (first.kind == StageKind::as_found && std::isfinite(first.expected.beam_rms.upper)) {
+    sentences.push_back(fmt::format(
+        "Beam rms, one axis, at {:g} m/s ({} wind): {} mdeg as found, {} mdeg at the end.",
+        report.wind_speed, report.wind_model, range(first.expected.beam_rms, sky, 3),
+        range(last.expected.beam_rms, sky, 3)));
+  } else {
+    sentences.push_back(
+        fmt::format("Beam rms, one axis, at {:g} m/s ({} wind) at the end: {} mdeg.",
+                    report.wind_speed, report.wind_model, range(last.expected.beam_rms, sky, 3)));
+  }
+}
+
+}  // namespace
+
+std::vector<StageSheet> make_sheets(const io::Case& antenna, const CommissionReport& report,
+                                    const std::vector<double>& steps) {
+  const io::GainUnits units(antenna);
+  std::vector<StageSheet> sheets;
+  sheets.reserve(report.plan.stages.size());
+  for (std::size_t i = 0; i < report.plan.stages.size(); ++i) {
+    const StageSheet* before = sheets.empty() ? nullptr : &sheets.back();
+    StageSheet sheet;
+    sheet.stage = report.plan.stages[i];
+    sheet.gains =
+        stage_gains(units, sheet.stage.law, before != nullptr ? &before->stage.law : nullptr);
+    sheet.step = steps[i];
+    describe_check(antenna, sheet);
+    describe_abort(antenna, sheet, report);
+    describe_way_back(before, sheet);
+    sheets.push_back(std::move(sheet));
+  }
+  return sheets;
+}
+
+std::vector<std::string> conclude(const CommissionReport& report, const io::Case& antenna) {
+  std::vector<std::string> sentences;
+  if (report.failure == nullptr) {
+    conclude_plan(report, antenna, sentences);
+  } else {
+    sentences.push_back(
+        fmt::format("There is no plan for {}: {}", report.structure, report.no_plan));
+  }
+  for (const auto& channel : report.comparisons) {
+    if (!channel.not_compared.empty()) continue;
+    const auto& whole = channel.comparison.whole;
+    std::string sentence = fmt::format(
+        "{}, {:.3g} to {:.3g} Hz: rms after is {:.3g} times that before ({:.3g} to {:.3g}): {}.",
+        to_string(channel.quantity), whole.lowest, whole.highest, whole.ratio, whole.lower,
+        whole.upper, to_string(whole.change));
+    sentence[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(sentence[0])));
+    if (channel.predicted) {
+      const auto& predicted = *channel.predicted;
+      sentence +=
+          fmt::format(" The plan predicts {:.3g} ({:.3g} to {:.3g}) in the design wind: {}.",
+                      predicted.value, predicted.lower, predicted.upper,
+                      agrees(channel.comparison, predicted) ? "they agree" : "they do not agree");
+    }
+    sentences.push_back(std::move(sentence));
+  }
+  return sentences;
+}
+
+}  // namespace boresight::app

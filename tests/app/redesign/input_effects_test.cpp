@@ -6,7 +6,6 @@
 #include <utility>
 #include <vector>
 
-#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -14,8 +13,6 @@
 #include <boresight/app/redesign/input_effects.hpp>
 #include <boresight/app/report/sky_units.hpp>
 #include <boresight/design/tuning/design_study.hpp>
-#include <boresight/io/case/antenna_of.hpp>
-#include <boresight/io/case/drive_numbers.hpp>
 #include <boresight/io/case/mission_of.hpp>
 
 namespace boresight::app {
@@ -88,143 +85,6 @@ TEST(InputEffects, AreWhatTheClosedLoopSays) {
     EXPECT_EQ(few[i].quantity.key, effects[i].quantity.key);
     EXPECT_EQ(few[i].high_rms, effects[i].high_rms);
   }
-}
-
-TEST(InputEffects, LeaveOutWhatRecordsGave) {
-  io::Case antenna = io::read_case(case_path("dss14-70m"));
-  const design::Design design = tuned(antenna);
-  ASSERT_TRUE(design.usable());
-  const auto has_inertia = [&] {
-    const auto effects =
-        input_effects(antenna, design.tuning.law, make_goals(antenna), design.beam_rms, all, 2);
-    return std::ranges::any_of(
-        effects, [](const InputEffect& one) { return one.quantity.key == "antenna.inertia"; });
-  };
-  EXPECT_TRUE(has_inertia());
-  antenna.antenna.inertia.text.clear();
-  EXPECT_FALSE(has_inertia());
-}
-
-// Where the case states the gear train's stiffness, that is what is moved, by a tenth of it.
-TEST(InputEffects, MoveTheStiffnessThatTheCaseStates) {
-  const io::Case own = io::read_case(case_path("dss14-70m"));
-  const double stiffness =
-      make_plant(own).structure.gear_stiffness * std::pow(io::gear_ratio(own), 2);
-  const auto with = [](double of) {
-    return io::parse_case(
-        EditedCase()
-            .replace_line("locked_rotor_frequency",
-                          fmt::format("gear_stiffness = {{ value = \"{:.15g} N.m/rad\", basis = "
-                                      "\"assumed\", source = \"drawing\" }}",
-                                      of))
-            .text(),
-        "case.toml");
-  };
-  const io::Case antenna = with(stiffness);
-  const design::Design design = tuned(antenna);
-  ASSERT_TRUE(design.usable());
-  const auto effects =
-      input_effects(antenna, design.tuning.law, make_goals(antenna), design.beam_rms, all, 2);
-  const InputEffect& effect = effect_of(effects, "structure.gear_stiffness");
-  EXPECT_EQ(effect.quantity.kind, io::Kind::stiffness);
-  EXPECT_NEAR(effect.moved_by, 0.1 * stiffness, 1e-9 * stiffness);
-  const io::Case stiffer = with(1.1 * stiffness);
-  EXPECT_NEAR(
-      effect.high_rms,
-      design::assess(make_problem(stiffer), design.tuning.law, make_goals(stiffer)).beam_rms,
-      1e-5 * design.beam_rms);
-}
-
-TEST(InputEffects, KeepTheSumOfShares) {
-  const io::Case antenna = io::read_case(case_path("dss14-70m"));
-  const design::Design design = tuned(antenna);
-  ASSERT_TRUE(design.usable());
-  const auto effects =
-      input_effects(antenna, design.tuning.law, make_goals(antenna), design.beam_rms, all, 2);
-  // More of the beam on the lowest mode, less on all others.
-  const InputEffect& weight = effect_of(effects, "structure.mode[0].beam_weight");
-  io::Case heavier = antenna;
-  const double others = 1.0 - heavier.structure.modes[0].beam_weight.value;
-  const double most = weight.range.value().second;
-  const double left = (1.0 - most) / others;
-  heavier.structure.bull_gear_beam_weight.value *= left;
-  for (auto& mode : heavier.structure.modes) mode.beam_weight.value *= left;
-  heavier.structure.modes[0].beam_weight.value = most;
-  EXPECT_NEAR(
-      weight.high_rms,
-      design::assess(make_problem(heavier), design.tuning.law, make_goals(heavier)).beam_rms,
-      1e-5 * design.beam_rms);
-}
-
-// What the dish loses of the wind the light parts do not gain.
-TEST(InputEffects, GiveWhatAShareLosesToTheOthersInertias) {
-  const io::Case antenna = io::read_case(case_path("dss14-70m"));
-  const design::Design design = tuned(antenna);
-  ASSERT_TRUE(design.usable());
-  const auto effects =
-      input_effects(antenna, design.tuning.law, make_goals(antenna), design.beam_rms, all, 2);
-  const InputEffect& wind = effect_of(effects, "structure.mode[0].wind_fraction");
-  io::Case lighter = antenna;
-  auto& structure = lighter.structure;
-  const double lost = structure.modes[0].wind_fraction.value - wind.range.value().first;
-  ASSERT_GT(lost, 0.1);
-  const double others = 1.0 - structure.modes[0].inertia_fraction.value;
-  double bull_gear = 1.0;
-  for (auto& mode : structure.modes) {
-    bull_gear -= mode.inertia_fraction.value;
-    mode.wind_fraction.value += lost * mode.inertia_fraction.value / others;
-  }
-  structure.bull_gear_wind_fraction.value += lost * bull_gear / others;
-  structure.modes[0].wind_fraction.value = wind.range.value().first;
-  EXPECT_NEAR(
-      wind.low_rms,
-      design::assess(make_problem(lighter), design.tuning.law, make_goals(lighter)).beam_rms,
-      1e-5 * design.beam_rms);
-}
-
-TEST(InputEffects, MoveGuessedSharesToTheInertia) {
-  const io::Case antenna = io::parse_case(
-      EditedCase()
-          .replace("wind_fraction = { value = \"0.75\", basis = \"assumed\"",
-                   "wind_fraction = { value = \"0.75\", uncertainty = \"4 %\", basis = "
-                   "\"assumed\"")
-          .text(),
-      "case.toml");
-  const design::Design design = tuned(antenna);
-  ASSERT_TRUE(design.usable());
-  const auto effects =
-      input_effects(antenna, design.tuning.law, make_goals(antenna), design.beam_rms, all, 2);
-  const auto range = [&](const std::string& key) { return effect_of(effects, key).range; };
-  // 0.80 of the beam on 0.62 of the inertia, and 0.15 of the wind on 0.14: half of either is more.
-  EXPECT_NEAR(range("structure.mode[0].beam_weight").value().first, 0.4, 1e-12);
-  EXPECT_NEAR(range("structure.mode[0].beam_weight").value().second, 1.0, 1e-12);
-  EXPECT_NEAR(range("structure.mode[1].wind_fraction").value().first, 0.075, 1e-12);
-  // The bull gear has 0.13 of the inertia and no wind, and cannot have less.
-  EXPECT_EQ(range("structure.bull_gear_wind_fraction").value().first, 0.0);
-  EXPECT_NEAR(range("structure.bull_gear_wind_fraction").value().second, 0.13, 1e-12);
-  EXPECT_FALSE(range("structure.mode[0].wind_fraction"));
-  // A weight of -0.15 moves by a tenth.
-  EXPECT_FALSE(range("structure.mode[2].beam_weight"));
-}
-
-TEST(InputEffects, MoveTheLeakageRateThatAFlowMakes) {
-  const auto text = [](const std::string& volume) {
-    return EditedCase()
-        .replace("leakage_rate = { value = \"1.219 1/s\"",
-                 "leakage_pressure = \"7 MPa\"\nleakage_flow = { value = \"1.1 L/min\"")
-        .replace("volume_1 = { value = \"0.02455 m3\"", "volume_1 = { value = \"" + volume + "\"")
-        .text();
-  };
-  const io::Case antenna = io::parse_case(text("0.02455 m3"), "case.toml");
-  const design::Design design = tuned(antenna);
-  ASSERT_TRUE(design.usable());
-  const auto effects =
-      input_effects(antenna, design.tuning.law, make_goals(antenna), design.beam_rms, all, 2);
-  // Its uncertainty is 1 %.
-  const auto larger = make_problem(io::parse_case(text("0.0247955 m3"), "case.toml"));
-  EXPECT_NEAR(effect_of(effects, "oil.volume_1").high_rms,
-              design::assess(larger, design.tuning.law, make_goals(antenna)).beam_rms,
-              1e-5 * design.beam_rms);
 }
 
 TEST(InputEffects, SayWhatToMeasureFirst) {

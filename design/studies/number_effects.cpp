@@ -1,0 +1,57 @@
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+
+#include <boresight/design/ensembles/plant_ensemble.hpp>
+#include <boresight/design/studies/number_effects.hpp>
+#include <boresight/numerics/error.hpp>
+#include <boresight/numerics/parallel_loop.hpp>
+
+namespace boresight::design {
+namespace {
+
+// Not a number where the loop is unstable; nothing where there is no such antenna.
+std::optional<double> held_rms(const std::function<TrackingProblem()>& moved,
+                               const control::ControlLaw& law, const HardGoals& goals) {
+  try {
+    const TrackingProblem problem = moved();
+    return judge(problem, {{"moved", problem.plant}}, law, goals, 1).members.front().beam_rms;
+  } catch (const InvalidInput&) {
+    return std::nullopt;
+  }
+}
+
+}  // namespace
+
+double NumberEffect::change(double rms) const {
+  if (!std::isfinite(low_rms) || !std::isfinite(high_rms)) {
+    return std::numeric_limits<double>::infinity();
+  }
+  return std::max(std::abs(low_rms - rms), std::abs(high_rms - rms)) / rms;
+}
+
+std::vector<NumberEffect> number_effects(const std::vector<MovedNumber>& numbers,
+                                         const control::ControlLaw& law, const HardGoals& goals,
+                                         double rms, std::size_t most, unsigned threads) {
+  std::vector<std::optional<double>> held(2 * numbers.size());
+  numerics::for_each_index(held.size(), threads, [&](std::size_t job) {
+    const MovedNumber& number = numbers[job / 2];
+    held[job] = held_rms(job % 2 == 0 ? number.lower : number.upper, law, goals);
+  });
+  std::vector<NumberEffect> effects;
+  constexpr double worth_a_row = 1e-3;
+  for (std::size_t i = 0; i < numbers.size(); ++i) {
+    const auto &low = held[2 * i], &high = held[2 * i + 1];
+    if (!low || !high) continue;
+    const NumberEffect effect{i, *low, *high};
+    if (effect.change(rms) >= worth_a_row) effects.push_back(effect);
+  }
+  std::ranges::stable_sort(effects, [&](const NumberEffect& x, const NumberEffect& y) {
+    return x.change(rms) > y.change(rms);
+  });
+  if (effects.size() > most) effects.resize(most);
+  return effects;
+}
+
+}  // namespace boresight::design

@@ -34,8 +34,8 @@ bool held_with_more_stroke(plant::NonlinearAntenna model, double rate) {
   return attainable_rate(model, rate) >= rate;
 }
 
-void simulate(const Mission& mission, const TrackingProblem& problem,
-              const control::ControlLaw& law, TimeDomainStudy& section) {
+SimulatedLoop simulate(const Mission& mission, const TrackingProblem& problem,
+                       const control::ControlLaw& law, TimeDomainStudy& section) {
   auto loop = make_simulated_loop(problem, plant::nonlinear_antenna(mission.antenna), law);
   section.sample_time = loop.sample_time;
   loop.encoder_resolution = section.encoder_resolution * problem.gear_ratio;
@@ -44,6 +44,7 @@ void simulate(const Mission& mission, const TrackingProblem& problem,
   const double asked = section.options.limits.rate;
   section.slew_hangs_on_stroke = slew && slew->limits.rate < asked &&
                                  held_with_more_stroke(loop.antenna, asked * problem.gear_ratio);
+  return loop;
 }
 
 // Budgets required in this wind are held against the larger of both rms and the limit cycle.
@@ -87,7 +88,14 @@ std::optional<TimeDomainStudy> verify_in_time_domain(
   if (!mission.antenna.nonlinear) return std::nullopt;
   TimeDomainStudy section = plan(mission, problem, description, seed, threads);
   section.options.second_integrator = second == SecondIntegrator::cvodes;
-  simulate(mission, problem, law, section);
+  const SimulatedLoop loop = simulate(mission, problem, law, section);
+  const auto& options = section.options;
+  section.rms = simulated_rms(problem, loop,
+                              {.settling = options.settling,
+                               .duration = options.wind_duration,
+                               .tracking_rate = options.tracking_rate,
+                               .seed = seed,
+                               .threads = threads});
   return section;
 }
 

@@ -9,6 +9,7 @@
 #include <boresight/design/decisions/recommend.hpp>
 #include <boresight/design/problem/mission.hpp>
 #include <boresight/design/verification/nonlinear_verification.hpp>
+#include <boresight/design/verification/simulated_rms.hpp>
 
 namespace boresight::design {
 
@@ -21,6 +22,9 @@ struct TimeDomainStudy {
   double encoder_resolution = 0.0;
   NonlinearVerificationOptions options;
   NonlinearVerification result;
+  /// What several records of wind say of the rms, of which `result` has one; none of controllers
+  /// that were only compared.
+  std::optional<SimulatedRms> rms;
   /// The slew rate asked for is out of reach only for want of stroke: with twice of it it is not.
   bool slew_hangs_on_stroke = false;
   /// The controllers that this one was chosen from, itself included, influences not told apart;
@@ -42,9 +46,10 @@ enum class ChoiceDetail { compared, verified };
 
 /// Simulates a controller on a problem made of the mission: 300 s of wind with every influence
 /// switched off in turn, limit cycles, slow reversals and a slew of one degree at the mission's
-/// rate and 0.2 deg/s2, settled within the tightest pointing budget (1 mdeg without one). Some 2 s
-/// of computing on the 70-m antenna, over `threads`, and as much for a second integrator. None
-/// without Antenna::nonlinear. The same for any number of threads. @throws as verify_in_time.
+/// rate and 0.2 deg/s2, settled within the tightest pointing budget (1 mdeg without one); and the
+/// rms with its interval by simulated_rms. Some 4 s of computing on the 70-m antenna, over
+/// `threads`, and 2 s for a second integrator. None without Antenna::nonlinear. The same for any
+/// number of threads. @throws as verify_in_time.
 std::optional<TimeDomainStudy> verify_in_time_domain(
     const Mission& mission, const TrackingProblem& problem, const control::ControlLaw& law,
     std::string_view description, std::uint64_t seed, unsigned threads, SecondIntegrator second);

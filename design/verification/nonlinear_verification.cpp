@@ -10,10 +10,10 @@
 
 #include <boresight/design/problem/drive_reach.hpp>
 #include <boresight/design/verification/nonlinear_verification.hpp>
+#include <boresight/design/verification/wind_course.hpp>
 #include <boresight/numerics/angles.hpp>
 #include <boresight/numerics/error.hpp>
 #include <boresight/numerics/parallel_loop.hpp>
-#include <boresight/plant/wind/wind_time_series.hpp>
 
 namespace boresight::design {
 namespace {
@@ -93,26 +93,9 @@ class WindStudy {
   WindStudy(const TrackingProblem& problem, const SimulatedLoop& loop,
             const NonlinearVerificationOptions& options)
       : problem_(problem), loop_(loop), options_(options) {
-    const auto& wind = problem.wind;
-    const Index samples =
-        whole_samples(options.settling + options.wind_duration, loop.sample_time) + 1;
-    const double interval = loop.sample_time;
-    const double rate = options.tracking_rate * loop.gear_ratio;
-    const double mean = plant::mean_wind_torque(wind.site, wind.mean_speed) / loop.gear_ratio;
-    const double duration = interval * static_cast<double>(samples);
-    for (const std::uint64_t seed : options.seeds) {
-      const auto gusts = plant::synthesise_wind_torque(wind.site, wind.model, wind.mean_speed,
-                                                       duration, interval, seed);
-      LoopCourse course;
-      course.interval = interval;
-      course.reference =
-          VectorXd::LinSpaced(samples, 0.0, rate * interval * static_cast<double>(samples - 1));
-      course.reference_rate = VectorXd::Constant(samples, rate);
-      course.reference_acceleration = VectorXd::Zero(samples);
-      course.wind_torque =
-          ((gusts.uniform + gusts.gradient).array() / loop.gear_ratio + mean).head(samples);
-      courses_.push_back(std::move(course));
-    }
+    const WindCourses courses(problem, loop, options.tracking_rate * loop.gear_ratio,
+                              options.settling + options.wind_duration);
+    for (const std::uint64_t seed : options.seeds) courses_.push_back(courses.course(seed));
     if (options.explain) {
       for (const Influence influence : influences) {
         if (has(loop, influence)) switched_.push_back(influence);

@@ -148,7 +148,9 @@ bool feeds_torque_back(const control::ControlLaw& law) {
 void finish(LoopRun& run, const SimulatedLoop& loop, double interval) {
   const Index steps = run.result.values.rows();
   run.reference.conservativeResize(steps);
-  run.beam_error = (plant::column(run.result, "beam") - run.reference) / loop.gear_ratio;
+  run.beam_error = (plant::column(run.result, "beam") -
+                    plant::boresight_factor(loop.linear.structure) * run.reference) /
+                   loop.gear_ratio;
   run.encoder_error = (plant::column(run.result, "encoder") - run.reference) / loop.gear_ratio;
   if (!run.result.complete) {
     run.status = RunStatus::interrupted;

@@ -1,0 +1,96 @@
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include <boresight/control/loops/loop_evaluator.hpp>
+#include <boresight/design/verification/simulated_rms.hpp>
+#include <boresight/design/verification/wind_course.hpp>
+#include <boresight/numerics/angles.hpp>
+#include <boresight/numerics/error.hpp>
+#include <boresight/numerics/fourier_transform.hpp>
+#include <boresight/numerics/parallel_loop.hpp>
+#include <boresight/numerics/statistics/double_sampling.hpp>
+
+namespace boresight::design {
+namespace {
+
+using Eigen::ArrayXd;
+using Eigen::Index;
+using Eigen::VectorXd;
+
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+
+// |boresight / wind torque|^2 of the linear loop at the lines k/T, k = 1, 2, .., of a record of so
+// many samples, below half the sampling rate (rad^2/(N m)^2 at the motor).
+ArrayXd line_gains(const TrackingProblem& problem, const SimulatedLoop& loop, Index samples) {
+  const Index lines = (samples - 1) / 2;
+  const double step = two_pi / (loop.sample_time * static_cast<double>(samples));
+  const ArrayXd frequency = step * ArrayXd::LinSpaced(lines, 1.0, static_cast<double>(lines));
+  const control::LoopEvaluator evaluator(problem.plant, frequency,
+                                         {.delay = problem.delay,
+                                          .noise = problem.noise,
+                                          .wind_spectrum = ArrayXd::Zero(lines),
+                                          .band = problem.rms_band});
+  return evaluator.wind_transmission(loop.law);
+}
+
+// By Parseval, without the mean.
+double linear_mean_square(const VectorXd& torque, const ArrayXd& gains) {
+  const auto count = static_cast<double>(torque.size());
+  const auto lines = numerics::fourier_transform(torque).segment(1, gains.size());
+  return 2.0 * (lines.array().abs2() * gains).sum() / (count * count);
+}
+
+double mean_square(const VectorXd& errors, Index counted) {
+  const auto rest = errors.tail(counted).array();
+  return (rest - rest.mean()).square().mean();
+}
+
+}  // namespace
+
+SimulatedRms simulated_rms(const TrackingProblem& problem, const SimulatedLoop& loop,
+                           const SimulatedRmsOptions& options) {
+  if (options.records < 4 || options.winds < options.records) {
+    throw InvalidInput(
+        fmt::format("simulated_rms: expected at least 4 records and as many winds, found {} and {}",
+                    options.records, options.winds));
+  }
+  const WindCourses courses(problem, loop, options.tracking_rate * loop.gear_ratio,
+                            options.settling + options.duration);
+  const auto counted = static_cast<Index>(std::llround(options.duration / loop.sample_time));
+  const ArrayXd gains = line_gains(problem, loop, counted);
+  VectorXd linear(options.winds), simulated(options.records);
+  std::vector<RunStatus> ends(static_cast<std::size_t>(options.records), RunStatus::complete);
+  numerics::for_each_index(
+      static_cast<std::size_t>(options.winds), options.threads, [&](std::size_t i) {
+        const auto k = static_cast<Index>(i);
+        LoopRunOptions how;
+        how.seed = options.seed + i;
+        linear[k] = linear_mean_square(courses.gusts(how.seed).tail(counted), gains);
+        if (k >= simulated.size()) return;
+        const LoopRun run = run_loop(loop, courses.course(how.seed), how);
+        ends[i] = run.status;
+        simulated[k] =
+            run.status == RunStatus::complete ? mean_square(run.beam_error, counted) : nan;
+      });
+  SimulatedRms result;
+  result.status = *std::ranges::max_element(ends);
+  result.records = options.records;
+  result.winds = options.winds;
+  result.rms = {nan, nan, nan, nan};
+  if (result.status != RunStatus::complete) return result;
+  const auto mean = numerics::mean_by_double_sampling(simulated, linear);
+  const auto root = [](double square) { return std::sqrt(std::max(0.0, square)); };
+  result.rms.value = root(mean.value);
+  result.rms.lower = root(mean.lower);
+  result.rms.upper = root(mean.upper);
+  // To first order.
+  result.rms.standard_uncertainty =
+      mean.value > 0.0 ? 0.5 * mean.standard_uncertainty / result.rms.value : 0.0;
+  return result;
+}
+
+}  // namespace boresight::design

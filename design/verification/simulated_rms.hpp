@@ -1,0 +1,40 @@
+#pragma once
+
+#include <cstdint>
+
+#include <boresight/design/problem/tracking_problem.hpp>
+#include <boresight/design/verification/simulated_loop.hpp>
+#include <boresight/numerics/statistics/interval.hpp>
+
+namespace boresight::design {
+
+/// Runs that an expected rms is estimated from.
+struct SimulatedRmsOptions {
+  int records = 10;            // of wind, each run on the nonlinear antenna; at least 4
+  int winds = 200;             // those and further ones, through the linear loop's response
+  double settling = 60.0;      // s before an error counts
+  double duration = 300.0;     // s after that, of a record
+  double tracking_rate = 0.0;  // rad/s at the sky
+  std::uint64_t seed = 1;      // of the first record; the others follow
+  unsigned threads = 1;
+};
+
+/// The boresight rms (rad at the sky, about each record's mean) that records of wind of that length
+/// have on the average of their mean squares.
+struct SimulatedRms {
+  RunStatus status = RunStatus::complete;  // the worst of the runs
+  int records = 0;
+  int winds = 0;
+  /// With its 95 % interval; NaN unless complete.
+  numerics::Interval rms;
+};
+
+/// By numerics::mean_by_double_sampling of the records' mean squares: those of the nonlinear runs
+/// are corrected by how far their winds lie from more winds, of which each has the mean square that
+/// the linear loop makes of its periodogram (a transform a wind, no run).
+/// The same for any number of threads.
+/// @throws InvalidInput for fewer than 4 records or fewer winds than those; as run_loop.
+SimulatedRms simulated_rms(const TrackingProblem& problem, const SimulatedLoop& loop,
+                           const SimulatedRmsOptions& options);
+
+}  // namespace boresight::design

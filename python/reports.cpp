@@ -13,7 +13,7 @@ app::Report report_of(const io::Case& antenna, const std::string& command, std::
   app::Report report;
   report.command = command;
   report.title = antenna.title;
-  report.axis = antenna.axis;
+  report.axis = io::pointing_axis(antenna);
   report.case_path = antenna.path;
   report.seed = seed;
   report.assumed = app::assumed_inputs(antenna);

@@ -11,6 +11,7 @@
 #include <boresight/design/studies/benchmark_study.hpp>
 #include <boresight/io/campaign/designed_antenna.hpp>
 #include <boresight/io/case/case_file.hpp>
+#include <boresight/io/case/pointing_axis.hpp>
 
 namespace boresight::io {
 class Visitor;
@@ -33,7 +34,8 @@ struct ComparedSheet {
 
 /// A score sheet of `boresight benchmark`.
 struct BenchmarkReport : design::BenchmarkStudy {
-  std::string case_path, title, axis;
+  std::string case_path, title;
+  io::PointingAxis axis;
   std::uint64_t seed = 1;
   /// Of the controller's file, and where it samples otherwise than the case's delay says.
   std::vector<std::string> remarks;

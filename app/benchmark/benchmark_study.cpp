@@ -50,7 +50,7 @@ BenchmarkReport benchmark(const io::DesignedAntenna& designed,
       study_rejection(designed.mission, designed.ensemble.members, controller, options);
   report.case_path = antenna.path;
   report.title = antenna.title;
-  report.axis = antenna.axis;
+  report.axis = io::pointing_axis(antenna);
   report.seed = options.seed;
   report.remarks = remarks;
   report.from_records = designed.from_records;

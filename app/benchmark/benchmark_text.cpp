@@ -5,6 +5,7 @@
 
 #include <boresight/app/benchmark/benchmark_report.hpp>
 #include <boresight/app/document/document_text.hpp>
+#include <boresight/app/report/axis_wording.hpp>
 #include <boresight/app/report/decision.hpp>
 #include <boresight/app/report/present_gains.hpp>
 #include <boresight/app/report/sky_units.hpp>
@@ -162,7 +163,7 @@ Document document_of(const BenchmarkReport& report) {
   std::vector<std::string> read = system.inputs;
   std::erase(read, "rate_disturbance");
   Document text =
-      report_title("benchmark", report.title, report.axis, report.case_path, std::nullopt);
+      report_title("benchmark", report.title, words_of(report.axis), report.case_path, std::nullopt);
   text += lead(decision(report));
   text += heading(fmt::format("Disturbance rejection, protocol {}", design::rejection_protocol));
   text += wrapped(

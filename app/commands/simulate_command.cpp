@@ -97,7 +97,7 @@ class Campaign {
     folder_ = make_folder(arguments.folder);
     report_.case_path = arguments.case_path;
     report_.title = antenna_.title;
-    report_.axis = antenna_.axis;
+    report_.axis = io::pointing_axis(antenna_);
     report_.seed = arguments.seed;
     arguments.outputs.require_writable();
     NonlinearInputs inputs{.time_runs = true};

@@ -1,5 +1,6 @@
 #include <boresight/app/commission/commission_study.hpp>
 #include <boresight/app/figures/figure_description.hpp>
+#include <boresight/app/report/common_description.hpp>
 #include <boresight/app/report/json_writer.hpp>
 
 namespace boresight::app {
@@ -153,7 +154,7 @@ void describe(io::Visitor& v, const CommissionReport& report) {
   v.constant("command", "commission", "the command");
   v.text("case", report.case_path, "the case file, as given");
   v.text("title", report.title, "its title");
-  v.text("axis", report.axis, "the axis");
+  describe_axis(v, report.axis);
   v.count("seed", report.seed, "of all draws");
   v.text("structure", report.structure, "of the law");
   v.word("gains_from", report.tuned ? "tuning" : "user", {"tuning", "user"}, "of the law");

@@ -70,7 +70,7 @@ CommissionReport plan_commission(const io::DesignedAntenna& designed,
   CommissionReport report;
   report.case_path = antenna.path;
   report.title = antenna.title;
-  report.axis = antenna.axis;
+  report.axis = io::pointing_axis(antenna);
   report.seed = options.seed;
   report.tuned = options.gains.empty();
   report.structure = report.tuned ? options.structure : structure_of_gains(options);

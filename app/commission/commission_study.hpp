@@ -13,6 +13,7 @@
 #include <boresight/design/commissioning/commissioning.hpp>
 #include <boresight/design/commissioning/drive_record_comparison.hpp>
 #include <boresight/io/campaign/designed_antenna.hpp>
+#include <boresight/io/case/pointing_axis.hpp>
 
 namespace boresight::io {
 class Visitor;
@@ -61,7 +62,8 @@ struct ChannelComparison : design::QuantityComparison {
 };
 
 struct CommissionReport {
-  std::string case_path, title, axis;
+  std::string case_path, title;
+  io::PointingAxis axis;
   std::uint64_t seed = 1;
   std::string structure;
   bool tuned = false;  // else the gains were given

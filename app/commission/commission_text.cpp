@@ -5,6 +5,7 @@
 
 #include <boresight/app/commission/commission_study.hpp>
 #include <boresight/app/document/document_text.hpp>
+#include <boresight/app/report/axis_wording.hpp>
 #include <boresight/app/report/decision.hpp>
 #include <boresight/app/report/sky_units.hpp>
 #include <boresight/app/report/text_report.hpp>
@@ -154,7 +155,7 @@ Document plan_part(const CommissionReport& report) {
 
 Document document_of(const CommissionReport& report) {
   Document text =
-      report_title("commission", report.title, report.axis, report.case_path, report.seed);
+      report_title("commission", report.title, words_of(report.axis), report.case_path, report.seed);
   text += lead(decision(report));
   text += heading("Commissioning plan for " + report.structure);
   text += report.failure == nullptr ? plan_part(report)

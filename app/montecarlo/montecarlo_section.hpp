@@ -7,6 +7,7 @@
 #include <boresight/app/figures/figure.hpp>
 #include <boresight/design/studies/monte_carlo_summary.hpp>
 #include <boresight/io/case/case_file.hpp>
+#include <boresight/io/case/pointing_axis.hpp>
 
 namespace boresight::app {
 
@@ -14,7 +15,8 @@ using design::NotablePlant;
 
 /// What `boresight montecarlo` found, and what of the case's text its report needs.
 struct MonteCarloSection : design::MonteCarloSummary {
-  std::string case_path, title, axis;
+  std::string case_path, title;
+  io::PointingAxis axis;
   std::uint64_t seed = 1;
 
   std::string distribution;  // what the plants are drawn from

@@ -225,7 +225,7 @@ MonteCarloSection section_of(design::MonteCarloSummary summary,
   static_cast<design::MonteCarloSummary&>(section) = std::move(summary);
   section.case_path = arguments.case_path;
   section.title = antenna.title;
-  section.axis = antenna.axis;
+  section.axis = io::pointing_axis(antenna);
   section.seed = arguments.seed;
   section.law = held.law;
   section.structure = held.structure;

@@ -6,6 +6,7 @@
 
 #include <boresight/app/document/document_text.hpp>
 #include <boresight/app/montecarlo/montecarlo_study.hpp>
+#include <boresight/app/report/axis_wording.hpp>
 #include <boresight/app/report/decision.hpp>
 #include <boresight/app/report/loss_wording.hpp>
 #include <boresight/app/report/sky_units.hpp>
@@ -175,7 +176,7 @@ Document plants_part(const MonteCarloSection& section, const std::vector<Notable
 
 Document document_of(const MonteCarloSection& section) {
   Document text =
-      report_title("montecarlo", section.title, section.axis, section.case_path, section.seed);
+      report_title("montecarlo", section.title, words_of(section.axis), section.case_path, section.seed);
   if (section.interrupted) {
     text += fmt::format("INTERRUPTED: {} of {} plants were judged; what follows is of these.\n",
                         section.plants, section.plants_asked);

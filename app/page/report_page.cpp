@@ -2,6 +2,7 @@
 
 #include <boresight/app/montecarlo/montecarlo_study.hpp>
 #include <boresight/app/page/report_page.hpp>
+#include <boresight/app/report/axis_wording.hpp>
 #include <boresight/app/report/decision.hpp>
 #include <boresight/app/report/json_writer.hpp>
 #include <boresight/app/report/redesign_card.hpp>
@@ -17,7 +18,7 @@ Page common(const AnyReport& report, std::string command) {
   Page page;
   page.command = std::move(command);
   page.title = report.title;
-  page.axis = report.axis;
+  page.axis = words_of(report.axis);
   page.seed = report.seed;
   page.decision = decision(report);
   page.document = document_of(report);

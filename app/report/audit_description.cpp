@@ -76,11 +76,12 @@ void describe_implausible(io::Visitor& v, const Implausibility& one) {
          "The check.");
   v.text("id", one.id, "The quantity.");
   v.text("reasoning", one.reasoning, "One sentence with the numbers in it.");
-  v.list("numbers", one.numbers, "What the reason rests on.", [&](const design::CheckedNumber& number) {
-    v.text("name", number.name, "What it is.");
-    v.number("value", number.value, as_named, "In `unit`, which is SI or Hz.");
-    v.text("unit", number.unit, "Its unit.");
-  });
+  v.list("numbers", one.numbers, "What the reason rests on.",
+         [&](const design::CheckedNumber& number) {
+           v.text("name", number.name, "What it is.");
+           v.number("value", number.value, as_named, "In `unit`, which is SI or Hz.");
+           v.text("unit", number.unit, "Its unit.");
+         });
 }
 
 }  // namespace

@@ -17,12 +17,18 @@ void describe_origin(io::Visitor& v, std::string_view command,
   }
 }
 
+void describe_axis(io::Visitor& v, const io::PointingAxis& axis) {
+  v.word("axis", axis.name, {"elevation", "azimuth"}, "The axis.");
+  v.number("boresight_factor", axis.boresight_factor, {.suffix = "1"},
+           "Boresight error over the axis's: the cosine of the elevation for an azimuth axis.");
+}
+
 void describe_case(io::Visitor& v, std::string_view path, std::string_view title,
-                   std::string_view axis) {
+                   const io::PointingAxis& axis) {
   v.group("case", "The case file.", [&] {
     v.text("path", path, "As given.");
     v.text("title", title, "Its title.");
-    v.word("axis", axis, {"elevation", "azimuth"}, "The axis.");
+    describe_axis(v, axis);
   });
 }
 

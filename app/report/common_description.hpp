@@ -5,6 +5,7 @@
 #include <vector>
 
 #include <boresight/design/problem/wind_climate.hpp>
+#include <boresight/io/case/pointing_axis.hpp>
 #include <boresight/io/units/quantity.hpp>
 
 namespace boresight::io {
@@ -22,9 +23,11 @@ inline constexpr std::string_view schema_comment =
 /// the report is that of several.
 void describe_origin(io::Visitor& v, std::string_view command,
                      std::span<const std::string_view> commands = {});
+/// "axis", "boresight_factor_1": the axis, and what its error is worth at the sky.
+void describe_axis(io::Visitor& v, const io::PointingAxis& axis);
 /// "case": the file, its title and axis.
 void describe_case(io::Visitor& v, std::string_view path, std::string_view title,
-                   std::string_view axis);
+                   const io::PointingAxis& axis);
 /// "assumed_inputs": inputs whose value or uncertainty is assumed.
 void describe_assumed(io::Visitor& v, const std::vector<io::Quantity>& assumed);
 /// "share_of_time": share of the climate's time up to a speed (m/s); null without a climate, or if

@@ -10,7 +10,7 @@ Report begin_report(std::string command, const io::Case& antenna, std::string ca
   Report report;
   report.command = std::move(command);
   report.title = antenna.title;
-  report.axis = antenna.axis;
+  report.axis = io::pointing_axis(antenna);
   report.case_path = std::move(case_path);
   report.seed = seed;
   return report;

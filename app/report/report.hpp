@@ -20,6 +20,7 @@
 #include <boresight/design/problem/pointing_budget.hpp>
 #include <boresight/design/studies/redesign_study.hpp>
 #include <boresight/io/campaign/campaign_section.hpp>
+#include <boresight/io/case/pointing_axis.hpp>
 
 namespace boresight::app {
 
@@ -116,7 +117,7 @@ std::string choices_heading(const std::vector<ChoiceResult>& choices);
 struct Report {
   std::string command;
   std::string title;
-  std::string axis;
+  io::PointingAxis axis;
   std::string case_path;
   std::uint64_t seed = 1;
   std::optional<AuditReport> audit;

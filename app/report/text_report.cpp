@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <boresight/app/document/document_text.hpp>
+#include <boresight/app/report/axis_wording.hpp>
 #include <boresight/app/report/decision.hpp>
 #include <boresight/app/report/evaluate_report.hpp>
 #include <boresight/app/report/match_report.hpp>
@@ -41,7 +42,7 @@ namespace {
 
 Document opening_of(const Report& report) {
   Document text =
-      report_title(report.command, report.title, report.axis, report.case_path, report.seed);
+      report_title(report.command, report.title, words_of(report.axis), report.case_path, report.seed);
   if (report.interrupted) text += "INTERRUPTED: what follows is whole, the rest is missing.\n";
   return text;
 }

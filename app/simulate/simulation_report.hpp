@@ -7,6 +7,7 @@
 #include <boresight/app/document/document.hpp>
 #include <boresight/app/figures/figure.hpp>
 #include <boresight/app/simulate/simulated_tests.hpp>
+#include <boresight/io/case/pointing_axis.hpp>
 
 namespace boresight::io {
 class Visitor;
@@ -19,7 +20,7 @@ namespace boresight::app {
 struct SimulationReport {
   std::string case_path;
   std::string title;
-  std::string axis;
+  io::PointingAxis axis;
   std::uint64_t seed = 1;
   bool interrupted = false;
   /// What ended the work, and in which test; empty if nothing did.

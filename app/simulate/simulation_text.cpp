@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <boresight/app/document/document_text.hpp>
+#include <boresight/app/report/axis_wording.hpp>
 #include <boresight/app/report/decision.hpp>
 #include <boresight/app/report/sky_units.hpp>
 #include <boresight/app/report/text_report.hpp>
@@ -144,7 +145,7 @@ Document runs_part(const SimulationReport& report) {
 
 Document document_of(const SimulationReport& report) {
   Document text =
-      report_title("simulate", report.title, report.axis, report.case_path, report.seed);
+      report_title("simulate", report.title, words_of(report.axis), report.case_path, report.seed);
   text += lead(decision(report));
   return text + essential(runs_part(report)) + document_of(report.assumed);
 }

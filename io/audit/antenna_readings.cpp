@@ -3,10 +3,10 @@
 
 #include <fmt/format.h>
 
-#include <boresight/io/case/antenna_of.hpp>
 #include <boresight/io/audit/antenna_readings.hpp>
-#include <boresight/io/case/plant_numbers.hpp>
 #include <boresight/io/audit/resonance_verdict.hpp>
+#include <boresight/io/case/antenna_of.hpp>
+#include <boresight/io/case/plant_numbers.hpp>
 #include <boresight/io/case/resonating_mode.hpp>
 #include <boresight/plant/antenna/antenna_change.hpp>
 

@@ -5,6 +5,7 @@
 
 #include <boresight/io/case/antenna_of.hpp>
 #include <boresight/io/case/drive_numbers.hpp>
+#include <boresight/io/case/pointing_axis.hpp>
 #include <boresight/io/case/structure_numbers.hpp>
 #include <boresight/numerics/error.hpp>
 
@@ -111,6 +112,7 @@ plant::Antenna drive_of(const Case& stated) {
   plant::Antenna antenna;
   antenna.inertia = stated.antenna.inertia.value;
   if (stated.antenna.elevation) antenna.elevation = stated.antenna.elevation->value;
+  antenna.boresight_factor = pointing_axis(stated).boresight_factor;
   antenna.gear_train = gear_train_of(stated);
   antenna.hydraulics = hydraulic_drive(stated);
   const MotorEntry& motor = stated.motor;

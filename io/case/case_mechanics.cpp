@@ -300,6 +300,15 @@ void read_antenna(TableReader& file, Case& antenna) {
       table.optional_quantity("azimuth", Kind::angle, Range::between(-turn, turn));
   antenna.antenna.elevation =
       table.optional_quantity("elevation", Kind::angle, Range::between(0.0, 0.5 * turn));
+  constexpr double least_cosine = 0.05;
+  if (antenna.axis == "azimuth" && antenna.antenna.elevation &&
+      std::abs(std::cos(antenna.antenna.elevation->value)) < least_cosine) {
+    table.refuse(
+        "elevation",
+        "expected one at which an azimuth axis moves the boresight, 3 deg or more from the "
+        "zenith, found " +
+            antenna.antenna.elevation->text);
+  }
   std::set<std::string> names;
   for (auto& entry : table.tables("alternative")) {
     AntennaAlternative alternative;

@@ -91,8 +91,10 @@ AntennaPlant linear_plant(const Antenna& antenna) {
   plant.drive.tachometer_corner = two_pi * antenna.sensors.tachometer_frequency;
   plant.structure = make_structure(structure_specification(antenna));
   plant.structure.bull_gear_wind_fraction *= antenna.structure.wind_torque_factor;
+  plant.structure.bull_gear_beam_weight *= antenna.boresight_factor;
   for (auto& mode : plant.structure.modes) {
     mode.wind_fraction *= antenna.structure.wind_torque_factor;
+    mode.beam_weight *= antenna.boresight_factor;
   }
   return plant;
 }
@@ -103,6 +105,7 @@ void validate(const Antenna& antenna) {
   const Sensors& sensors = antenna.sensors;
   positive({{"inertia", antenna.inertia},
             {"inertia of a motor", flywheels.motor_inertia},
+            {"boresight factor", antenna.boresight_factor},
             {"valve frequency", drive.valve_frequency},
             {"supply pressure", drive.supply_pressure},
             {"tracking rate", drive.tracking_rate},

@@ -101,6 +101,9 @@ struct ShaftNumbers {
 struct Antenna {
   double inertia = 0.0;    // kg m2, about the antenna axis
   double elevation = 0.0;  // rad, where the motor angle is 0
+  /// Boresight error at the sky over the error of the axis: 1 of an elevation axis, the cosine of
+  /// the elevation of an azimuth axis, whose boresight error is cross-elevation.
+  double boresight_factor = 1.0;
   GearTrain gear_train;
   HydraulicDrive hydraulics;
   Flywheels flywheels;
@@ -133,8 +136,8 @@ double oil_stiffness(const Antenna& antenna);
 /// The structure reflected to the motor shaft.
 StructureSpecification structure_specification(const Antenna& antenna);
 
-/// The linear plant at the motor shaft. @throws InvalidInput as gear_ratio, oil_stiffness and
-/// make_structure.
+/// The linear plant at the motor shaft, whose beam weights sum to the boresight_factor.
+/// @throws InvalidInput as gear_ratio, oil_stiffness and make_structure.
 AntennaPlant linear_plant(const Antenna& antenna);
 
 /// @throws InvalidInput for a number that no antenna has, naming it: those of linear_plant and

@@ -85,6 +85,12 @@ double antenna_inertia(const Structure& structure) {
   return inertia;
 }
 
+double boresight_factor(const Structure& structure) {
+  double sum = structure.bull_gear_beam_weight;
+  for (const auto& mode : structure.modes) sum += mode.beam_weight;
+  return sum;
+}
+
 double reflected_inertia(const AntennaPlant& plant) {
   return plant.drive.motor_inertia + antenna_inertia(plant.structure);
 }

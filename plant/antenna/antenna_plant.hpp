@@ -18,7 +18,8 @@ struct StructuralMode {
 };
 
 /// Bull gear, gearbox spring and structural modes, all at the motor shaft.
-/// Wind fractions (bull gear and modes) sum to 1, and so do the beam weights.
+/// Wind fractions (bull gear and modes) sum to 1, and so do the beam weights of make_structure;
+/// those of linear_plant(Antenna) to its wind_torque_factor and boresight_factor.
 struct Structure {
   double bull_gear_inertia = 0.0;  // kg m2
   double gear_stiffness = 0.0;     // N m/rad, motor shaft to bull gear
@@ -56,6 +57,9 @@ Structure make_structure(const StructureSpecification& specification);
 
 /// Whole antenna inertia at the motor shaft (kg m2).
 double antenna_inertia(const Structure& structure);
+
+/// Boresight angle for a unit of rotation of the rigid antenna: the sum of its beam weights.
+double boresight_factor(const Structure& structure);
 
 /// Oil, motors, valve and tachometer, all motors lumped at the motor shaft.
 struct Drive {

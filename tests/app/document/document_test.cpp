@@ -133,7 +133,7 @@ Document real_report() {
   Report report;
   report.command = "model";
   report.title = antenna.title;
-  report.axis = antenna.axis;
+  report.axis = io::pointing_axis(antenna);
   report.assumed = assumed_inputs(antenna);
   report.identification = identify(antenna, {});
   report.plant = describe_plant(antenna);

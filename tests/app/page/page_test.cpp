@@ -36,7 +36,7 @@ Page page_of_two_sections() {
   Page page;
   page.command = "tune";
   page.title = "A & B <antenna>";
-  page.axis = "elevation";
+  page.axis = "elevation axis";
   page.seed = 7;
   page.decision = {"Choose <this>."};
   page.reservations = {"If <that> holds."};

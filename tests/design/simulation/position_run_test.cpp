@@ -73,6 +73,23 @@ TEST(TrackingRun, TakesTheCoefficientFromTheTableWhereTheDishPoints) {
   EXPECT_NEAR(with.channels.back().values[0] / without.channels.back().values[0], 2.0, 1e-9);
 }
 
+// An azimuth axis at 60 deg of elevation: the motion is the same, its error at the sky half.
+TEST(TrackingRun, BoresightErrorIsScaledByTheBoresightFactor) {
+  Mission mission = reference::demo_mission();
+  mission.wind_record = sine_wind(66.0);
+  const auto whole = run_tracking(mission, steady_law(), 1, {});
+  mission.antenna.boresight_factor = 0.5;
+  const auto half = run_tracking(mission, steady_law(), 1, {});
+  EXPECT_EQ(half.channels[2].values, whole.channels[2].values);
+  EXPECT_NEAR((half.channels[3].values - 0.5 * whole.channels[3].values).cwiseAbs().maxCoeff() /
+                  whole.channels[3].values.cwiseAbs().maxCoeff(),
+              0.0, 1e-6);
+  ASSERT_TRUE(whole.predicted_rms && half.predicted_rms && whole.beam_rms && half.beam_rms);
+  EXPECT_NEAR(*half.predicted_rms / *whole.predicted_rms, 0.5, 1e-9);
+  EXPECT_NEAR(*half.beam_rms / *whole.beam_rms, 0.5, 1e-6);
+  EXPECT_EQ(half.encoder_rms, whole.encoder_rms);
+}
+
 TEST(TrackingRun, EndsWhereItIsTold) {
   const auto run = run_tracking(reference::demo_mission(), steady_law(), 1,
                                 [](double done) { return done < 0.02; });

@@ -9,8 +9,8 @@
 #include <gtest/gtest.h>
 
 #include "io/edited_case.hpp"
-#include <boresight/io/case/antenna_of.hpp>
 #include <boresight/io/audit/antenna_readings.hpp>
+#include <boresight/io/case/antenna_of.hpp>
 #include <boresight/io/case/drive_evidence.hpp>
 #include <boresight/io/case/guessed_shares.hpp>
 

@@ -1,0 +1,13 @@
+#pragma once
+
+#include <string>
+
+#include <boresight/io/case/pointing_axis.hpp>
+
+namespace boresight::app {
+
+/// "elevation axis"; "azimuth axis, cross-elevation error at 60 deg elevation", or "at the horizon"
+/// where the case states no elevation.
+std::string words_of(const io::PointingAxis& axis);
+
+}  // namespace boresight::app

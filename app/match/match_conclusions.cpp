@@ -32,7 +32,7 @@ std::string feedback_of(const MatchSeries& series) {
   if (pressure && compliance) return "pressure feedback and compliance compensation";
   if (pressure) return "pressure feedback";
   if (compliance) return "compliance compensation";
-  return "loops that feed back no torque";
+  return "no torque feedback";
 }
 
 // Inertias as good beyond the flat range; empty without one.
@@ -52,11 +52,11 @@ std::string best_of(const MatchSection& section, const MatchSeries& series) {
   const std::size_t best = series.best.value_or(0);
   const double least = series.values[best].beam_rms;
   std::string text = fmt::format(
-      "With {} ({}) the rms is least, {:.4f} mdeg, at {:.3g} disks (R = {:.2f}){}; within 1 % of "
+      "With {} ({}) the minimum rms is {:.4f} mdeg at {:.3g} disks (R = {:.2f}){}; within 1 % of "
       "it from {:.1f} to {:.1f} disks, within 5 % from {:.1f} to {:.1f}{}.",
       series.name, feedback_of(series), least / millidegree, section.points[best].disks,
       section.points[best].motor_to_load_ratio,
-      series.best_at_end ? ", an end of the range looked at" : "", series.within_1_percent.lowest,
+      series.best_at_end ? ", an end of the range studied" : "", series.within_1_percent.lowest,
       series.within_1_percent.highest, series.within_5_percent.lowest,
       series.within_5_percent.highest, elsewhere(section, series));
   const auto at = [&](bool MatchPoint::*which, const char* words) {
@@ -70,7 +70,7 @@ std::string best_of(const MatchSection& section, const MatchSeries& series) {
   return text;
 }
 
-// Which structures are none to choose, however small their rms.
+// Structures excluded because they limit-cycle.
 void conclude_hunting(const MatchSection& section, std::vector<std::string>& sentences) {
   const std::size_t built = as_built(section);
   std::vector<std::string> as_they_are, with_best, unseen;
@@ -102,55 +102,54 @@ void conclude_hunting(const MatchSection& section, std::vector<std::string>& sen
   }
   std::vector<std::string> reasons;
   if (!places.empty()) {
-    reasons.push_back(fmt::format(
-        "By friction alone these hunt beyond the tightest budget of {:.3f} mdeg rms on the "
-        "nonlinear antenna (amplitude of the beam): {}.",
-        section.tightest_budget / millidegree, fmt::join(places, "; ")));
+    reasons.push_back(
+        fmt::format("On the nonlinear antenna these limit-cycle beyond the tightest budget of "
+                    "{:.3f} mdeg rms (boresight amplitude): {}.",
+                    section.tightest_budget / millidegree, fmt::join(places, "; ")));
   }
   if (!unseen.empty()) {
-    reasons.push_back(fmt::format(
-        "How far {} would hunt is not known: a run on the nonlinear antenna did not complete.",
-        fmt::join(unseen, ", ")));
+    reasons.push_back(
+        fmt::format("Freedom from limit cycles is not shown for {}: a run on the nonlinear antenna "
+                    "did not complete.",
+                    fmt::join(unseen, ", ")));
   }
   if (reasons.empty()) return;
   sentences.push_back(
-      fmt::format("{} Their rms is that of linear loops only, and they do not count where inertia, "
-                  "structures and rules are weighed.",
+      fmt::format("{} They are excluded from the comparisons of inertia, structures and rules.",
                   fmt::join(reasons, " ")));
 }
 
-// What the axis does to a structure, and what the structure does at one inertia.
+// Effect of the inertia on a structure against that of the structure at one inertia.
 void conclude_weight(const MatchSection& section, std::vector<std::string>& sentences) {
   const MatchSeries* most = most_moved(section);
   if (most == nullptr) {
     if (std::ranges::any_of(section.series,
                             [](const auto& series) { return series.best.has_value(); })) {
       sentences.emplace_back(
-          "As no structure that holds its goals is known to keep still within the tightest budget, "
-          "whether the inertia or the structure matters more is not known: look at the friction "
-          "before the motors.");
+          "No structure that meets the constraints is shown free of limit cycles beyond the "
+          "tightest budget: examine friction before the motors.");
     }
     return;
   }
   const double widest = span_of(*most);
   if (hardly_matters(section)) {
-    sentences.push_back(fmt::format(
-        "Over all inertias looked at no structure's rms changes by more than {:.1f} %: the motors' "
-        "inertia hardly matters here.{}",
-        100.0 * widest, what_matters_more(section)));
+    sentences.push_back(
+        fmt::format("Over all inertias studied no structure's rms changes by more than {:.1f} %: "
+                    "the motors' inertia hardly matters here.{}",
+                    100.0 * widest, what_matters_more(section)));
     return;
   }
   const design::StructuresAsBuilt built = structures_as_built(section);
   if (built.count == 0 || !marked(section, &MatchPoint::as_built)) return;
   if (built.least == built.largest) {
     sentences.push_back(fmt::format(
-        "Over all inertias looked at the rms changes most with {}, by {:.0f} %; what another "
-        "structure would change at the inertia as built is not known from this study.",
+        "Over all inertias studied the rms changes most with {}, by {:.0f} %; the effect of "
+        "another structure at the inertia as built is not known from this study.",
         most->name, 100.0 * widest));
     return;
   }
   sentences.push_back(fmt::format(
-      "Over all inertias looked at the rms changes most with {}, by {:.0f} %; at the inertia as "
+      "Over all inertias studied the rms changes most with {}, by {:.0f} %; at the inertia as "
       "built the choice of structure changes it by {:.0f} % ({} against {}): {} matters more.",
       most->name, 100.0 * widest, 100.0 * built.change, built.least->name, built.largest->name,
       built.change > widest ? "the structure" : "the inertia"));
@@ -163,7 +162,7 @@ void conclude_variants(const MatchSection& section, std::vector<std::string>& se
     if (!own.best || !weighed(section, variants.structure)) continue;
     for (const auto& variant : variants.variants) {
       if (!variant.best) {
-        moved += fmt::format("; with {} no law holds its goals", name_of(variant));
+        moved += fmt::format("; with {} no controller meets the constraints", name_of(variant));
         continue;
       }
       const double now = variant.rms[*variant.best];
@@ -173,7 +172,7 @@ void conclude_variants(const MatchSection& section, std::vector<std::string>& se
                            variants.disks[*variant.best]);
     }
     sentences.push_back(fmt::format(
-        "With {}, tuned on single plants, the least rms is at {:.3g} disks{}{}.",
+        "With {}, tuned on single plants, the minimum rms is at {:.3g} disks{}{}.",
         variants.structure, variants.disks[*own.best], moved,
         moved.empty() ? fmt::format(", and no variant makes that more than {:.0f} % worse than its "
                                     "own best",
@@ -211,20 +210,13 @@ void conclude_variants(const MatchSection& section, std::vector<std::string>& se
 }
 
 void conclude_rules(const MatchSection& section, std::vector<std::string>& sentences) {
-  const bool flat = hardly_matters(section);
-  if (flat) {
-    sentences.emplace_back(
-        "So no rule for the motors' inertia is right or wrong here: what each costs is in the "
-        "table.");
-  }
   const bool optimum = has_optimum(section);
   for (const auto& rule : section.rules) {
-    if (flat) break;
+    if (hardly_matters(section)) break;
     if (!rule.disks) {
-      sentences.push_back(
-          fmt::format("The rule \"{}\" asks for R = {:.2f}, less than the motors have without "
-                      "flywheels.",
-                      text_of(rule.rule), rule.motor_to_load_ratio));
+      sentences.push_back(fmt::format(
+          "The rule \"{}\" requires R = {:.2f}, less than the motors have without flywheels.",
+          text_of(rule.rule), rule.motor_to_load_ratio));
       continue;
     }
     const design::RuleCosts costs = costs_of(section, rule);
@@ -232,10 +224,9 @@ void conclude_rules(const MatchSection& section, std::vector<std::string>& sente
     const bool one = costs.cheapest == costs.dearest;
     std::string verdict = one ? "no good rule here" : "no rule for every structure here";
     if (costs.largest < negligible_change) {
-      verdict = optimum
-                    ? "a good rule here"
-                    : "it costs little, but the least lies at the upper end of the range looked "
-                      "at, and no rule is confirmed";
+      verdict = optimum ? "a good rule here"
+                        : "it costs little, but the minimum is at the upper end of the range "
+                          "studied: not confirmed";
     }
     sentences.push_back(fmt::format(
         "The rule \"{}\" (R = {:.2f}, {:.1f} disks) costs {} of rms with {}{}, against {} own "
@@ -251,14 +242,14 @@ void conclude_rules(const MatchSection& section, std::vector<std::string>& sente
   const auto& bare = section.points.front();
   if (!(now.acceleration > 0.0) || bare.disks >= now.disks) return;
   sentences.push_back(fmt::format(
-      "At this gear ratio less inertia always accelerates more: without flywheels the supply's "
-      "torque gives {:.2f} times the acceleration as built. Over the gear ratio the most for given "
-      "torque is at R = 1; as built the motors reach {:.0f} % of it, without flywheels {:.0f} %.",
+      "At this gear ratio less inertia gives more acceleration: without flywheels {:.2f} times "
+      "that as built. Over the gear ratio, the maximum for given torque is at R = 1; as built the "
+      "motors reach {:.0f} % of it, without flywheels {:.0f} %.",
       bare.acceleration / now.acceleration, 100.0 * now.acceleration_of_best_ratio,
       100.0 * bare.acceleration_of_best_ratio));
 }
 
-// At which inertias a structure hunts; empty without a limit cycle.
+// Inertias at which a structure limit-cycles; empty without one.
 std::string hunting_at(const MatchSection& section, const MatchSeries& series) {
   std::vector<std::string> places;
   for (std::size_t i = 0; i < section.points.size(); ++i) {
@@ -279,7 +270,7 @@ std::string hunting_at(const MatchSection& section, const MatchSeries& series) {
 void conclude_friction(const MatchSection& section, std::vector<std::string>& sentences) {
   std::vector<std::string> errors;
   std::set<double> disks;                                 // where a reversal was simulated
-  std::map<std::string, std::vector<std::string>> alike;  // structures by where they hunt
+  std::map<std::string, std::vector<std::string>> alike;  // structures by their limit cycles
   for (const auto& series : section.series) {
     double least = HUGE_VAL, largest = 0.0;
     for (std::size_t i = 0; i < section.points.size(); ++i) {
@@ -302,15 +293,14 @@ void conclude_friction(const MatchSection& section, std::vector<std::string>& se
     cycles.push_back(
         fmt::format("{} with {}", places.empty() ? "none seen" : places, fmt::join(names, ", ")));
   }
-  sentences.push_back(fmt::format(
-      "On the nonlinear antenna the beam errs by up to so much when the case's "
-      "tracking rate of {:.4g} mdeg/s reverses, over the inertias simulated ({}): {}. Limit "
-      "cycles: {}.",
-      section.tracking_rate / millidegree,
-      disks.size() == 1 ? fmt::format("{:.3g} disks", *disks.begin())
-                        : fmt::format("{} from {:.3g} to {:.3g} disks", disks.size(),
-                                      *disks.begin(), *disks.rbegin()),
-      fmt::join(errors, ", "), fmt::join(cycles, "; ")));
+  sentences.push_back(
+      fmt::format("Peak boresight error at a velocity reversal at the tracking rate of {:.4g} "
+                  "mdeg/s, over the inertias simulated ({}): {}. Limit cycles: {}.",
+                  section.tracking_rate / millidegree,
+                  disks.size() == 1 ? fmt::format("{:.3g} disks", *disks.begin())
+                                    : fmt::format("{} from {:.3g} to {:.3g} disks", disks.size(),
+                                                  *disks.begin(), *disks.rbegin()),
+                  fmt::join(errors, ", "), fmt::join(cycles, "; ")));
 }
 
 // The controller for the motors as built; empty where it was not asked for.
@@ -321,8 +311,7 @@ std::string recommended_as_built(const MatchSection& section) {
     return "For the motors as built no controller is recommended: `boresight tune` says why.";
   }
   return fmt::format(
-      "For the motors as built the controller recommended, as by `boresight tune`, is {}: {:.4f} "
-      "mdeg rms in {:.3g} m/s{}.",
+      "For the motors as built the recommended controller is {}: {:.4f} mdeg rms in {:.3g} m/s{}.",
       name_and_purpose(*law), law->beam_rms / millidegree, law->wind_speed,
       law->in_time
           ? fmt::format(", {:.4f} on the nonlinear antenna", law->in_time->beam_rms / millidegree)
@@ -343,18 +332,18 @@ std::string what_matters_more(const MatchSection& section) {
 std::vector<std::string> conclude(const MatchSection& section) {
   std::vector<std::string> sentences;
   if (section.wind_mast) sentences.push_back(conclude_mast(*section.wind_mast));
-  sentences.push_back(fmt::format(
-      "All of this is for wind by the {} model at {:.3g} m/s, the case's goals held on each of {} "
-      "plants, at the case's gear ratio and oil; the inputs listed as assumed set the scale.",
-      plant::to_string(section.wind_model), section.wind_speed,
-      std::max<std::size_t>(section.members, 1)));
+  sentences.push_back(
+      fmt::format("Conditions: {} wind model, {:.3g} m/s; all constraints met on each of {} "
+                  "plants. Results scale with the assumed inputs.",
+                  plant::to_string(section.wind_model), section.wind_speed,
+                  std::max<std::size_t>(section.members, 1)));
   if (std::string text = recommended_as_built(section); !text.empty()) sentences.push_back(text);
   for (const auto& series : section.series) {
     if (series.best) {
       sentences.push_back(best_of(section, series));
     } else {
-      sentences.push_back(
-          fmt::format("No law of {} found holds its goals at any inertia.", series.name));
+      sentences.push_back(fmt::format(
+          "No controller of {} found meets the constraints at any inertia.", series.name));
     }
   }
   conclude_hunting(section, sentences);

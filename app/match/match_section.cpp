@@ -27,9 +27,9 @@ std::string text_of(design::ClassicRule rule) {
     case ClassicRule::equal_poles_damped_1:
       return "equal pole pairs, zeta = 1/2 sqrt(J_L/J_m) = 1";
     case ClassicRule::no_flywheels:
-      return "most acceleration at this gear ratio: no flywheels";
+      return "maximum acceleration at this gear ratio: no flywheels";
   }
-  return "one to one: motors as heavy as their load";
+  return "one to one: motor inertia equal to load inertia";
 }
 
 }  // namespace boresight::app

@@ -55,8 +55,9 @@ std::string turned_verdicts(const Report& report, const TuningSection& section,
                                   found->beam_rms / millidegree, section.design_speed));
     }
     if (names.empty()) continue;
-    verdicts.push_back(fmt::format("{} is {} up to where it is needed with {}", budget_text(budget),
-                                   met ? "not met" : "met", fmt::join(names, ", ")));
+    verdicts.push_back(fmt::format("{} is {} up to its required wind speed with {}",
+                                   budget_text(budget), met ? "not met" : "met",
+                                   fmt::join(names, ", ")));
   }
   return fmt::format("{}", fmt::join(verdicts, "; "));
 }
@@ -69,8 +70,8 @@ std::string other_choices_text(const Report& report, const TuningSection& sectio
   });
   if (verdicts.empty()) return "";
   return fmt::format(
-      "Tuned again for what else the case's numbers may mean, {}; with the case's own "
-      "choice it is the other way round.",
+      "Re-tuned for alternative interpretations of the case, {}; the case's own gives the opposite "
+      "verdict.",
       verdicts);
 }
 
@@ -79,8 +80,7 @@ std::string other_attitudes_text(const Report& report, const TuningSection& sect
       report, section, [](const ChoiceResult& choice) { return choice.other_attitude; });
   if (verdicts.empty()) return "";
   return fmt::format(
-      "Tuned again for the antenna's other attitudes, {}; at the case's own it is the other way "
-      "round.",
+      "Re-tuned for the antenna's other attitudes, {}; the case's own gives the opposite verdict.",
       verdicts);
 }
 
@@ -112,7 +112,7 @@ std::string guessed_shares_text(const Report& report, const TuningSection& secti
     }
     if (meeting.empty() || missing.empty()) continue;
     verdicts +=
-        fmt::format("; {} is met up to where it is needed with {}, and not with {}",
+        fmt::format("; {} is met up to its required wind speed with {}, but not with {}",
                     budget_text(budget), fmt::join(meeting, ", "), fmt::join(missing, ", "));
   }
   bool apart = false;
@@ -124,9 +124,8 @@ std::string guessed_shares_text(const Report& report, const TuningSection& secti
   }
   if (verdicts.empty() && !apart) return "";
   return fmt::format(
-      "Shares of wind and beam are guesses, and much hangs on them together: tuned again, "
-      "{} has {:.3f} mdeg with the case's own and {}{}. Modes from a structural model "
-      "(modes_file) have the shares.",
+      "The modal participation of wind torque and boresight is assumed. Re-tuned, {} has {:.3f} "
+      "mdeg with the case's own and {}{}. A structural model (modes_file) states it.",
       control::to_string(section.structure), guesses.front().beam_rms / millidegree,
       fmt::join(others, ", "), verdicts);
 }

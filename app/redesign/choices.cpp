@@ -15,11 +15,12 @@ using io::ReadingKind;
 
 constexpr double gigapascal = 1e9;  // Pa
 
-constexpr std::string_view of_rigid_masses = "by the resonance of rigid masses, ";
+constexpr std::string_view of_rigid_masses = "rigid-body resonance; ";
 
 std::string oil_text(const io::Case& antenna, const AntennaReading& reading) {
   return fmt::format(
-      "bulk modulus of {:.3g} GPa{} by which the flexible antenna has the measured {:g} Hz",
+      "bulk modulus of {:.3g} GPa{} for which the flexible antenna resonates at the measured {:g} "
+      "Hz",
       reading.bulk_modulus / gigapascal,
       antenna.drive.leakage_by_flow ? ", and the leakage rate with it," : ",",
       reading.wanted_frequency.value_or(0.0));
@@ -28,7 +29,7 @@ std::string oil_text(const io::Case& antenna, const AntennaReading& reading) {
 std::string stiffness_text(const io::Case& antenna, const AntennaReading& reading) {
   const double factor = reading.factor;
   return fmt::format(
-      "oil spring {} by a factor of {:.3g}{} so that the rigid masses ring at {:g} Hz",
+      "oil spring {} by a factor of {:.3g}{} so that the rigid masses resonate at {:g} Hz",
       factor < 1.0 ? "lowered" : "raised", std::max(factor, 1.0 / factor),
       antenna.drive.leakage_by_flow ? ", and the leakage rate with it," : "",
       reading.wanted_frequency.value_or(0.0));
@@ -37,17 +38,16 @@ std::string stiffness_text(const io::Case& antenna, const AntennaReading& readin
 // `model`: what the test's formula takes the antenna for.
 std::string tested_text(std::string_view model, const io::TestedInertia& tested) {
   return fmt::format(
-      "{}motors and gear train kept, the antenna takes the rest, {:.3f} kg.m2 for the case's "
-      "{:.3f}",
-      model, tested.left(), tested.stated);
+      "{}motor and gear inertia fixed; antenna inertia {:.3f} kg.m2 instead of {:.3f}", model,
+      tested.left(), tested.stated);
 }
 
 std::string shares_text(io::GuessedShares shares) {
   return fmt::format(
-      "guessed shares of wind and beam, of what stated and negative ones leave, {}",
+      "assumed wind and boresight fractions, of the rest beside stated and negative ones, {}",
       shares == io::GuessedShares::as_inertia
           ? "in proportion to the inertia fractions"
-          : "all at the heaviest of bull gear and modes, as of a dish on its support");
+          : "all on the bull gear or mode of largest inertia, as for a dish on its support");
 }
 
 // What it takes from where.
@@ -61,7 +61,7 @@ std::string reading_text(const io::Case& antenna, const AntennaReading& reading)
     case ReadingKind::oil_convention:
       return "the other convention for the oil spring";
     case ReadingKind::gear_spring:
-      return "another antenna of the frequencies that the case states with the motors held";
+      return "another antenna with the same motors-locked frequencies";
     case ReadingKind::guessed_shares:
       return shares_text(reading.shares);
     case ReadingKind::oil_by_resonance:

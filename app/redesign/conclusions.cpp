@@ -4,7 +4,6 @@
 
 #include <fmt/format.h>
 
-#include <boresight/app/redesign/assumed_inputs.hpp>
 #include <boresight/app/redesign/matching_verdict.hpp>
 #include <boresight/app/redesign/sections.hpp>
 #include <boresight/app/redesign/tuning_verdict.hpp>
@@ -15,7 +14,7 @@ namespace boresight::app {
 namespace {
 
 std::string ratio_text(double ratio) {
-  return ratio > 0.0 && std::isfinite(ratio) ? fmt::format("{:.2f}", ratio) : "without meaning";
+  return ratio > 0.0 && std::isfinite(ratio) ? fmt::format("{:.2f}", ratio) : "undefined";
 }
 
 void conclude_masses(const IdentificationSection& section, std::vector<std::string>& sentences) {
@@ -42,14 +41,14 @@ void conclude_campaign(const io::CampaignSection& section,
   const auto& inertia = found.quantity("inertia").posterior;
   const auto& ratio = found.quantity("motor to load ratio").posterior;
   const auto& leakage = found.quantity("leakage rate").posterior;
-  sentences.push_back(fmt::format(
-      "{} records together give a reflected inertia of {:.3f} kg.m2 (95 % interval {:.3f} .. "
-      "{:.3f}), R = {:.2f} ({:.2f} .. {:.2f}), and leakage of {:.3g} 1/s ({:.3g} .. {:.3g}); the "
-      "plant below is the one they show.",
-      found.records.size(), inertia.value, inertia.lower, inertia.upper, ratio.value, ratio.lower,
-      ratio.upper, leakage.value, leakage.lower, leakage.upper));
+  sentences.push_back(
+      fmt::format("{} records together give a reflected inertia of {:.3f} kg.m2 (95 % interval "
+                  "{:.3f} .. {:.3f}), R = {:.2f} ({:.2f} .. {:.2f}), and leakage of {:.3g} 1/s "
+                  "({:.3g} .. {:.3g}); the plant below uses them.",
+                  found.records.size(), inertia.value, inertia.lower, inertia.upper, ratio.value,
+                  ratio.lower, ratio.upper, leakage.value, leakage.lower, leakage.upper));
   if (!section.contradictions.empty()) {
-    sentences.push_back(fmt::format("They contradict {} of the numbers that the case states.",
+    sentences.push_back(fmt::format("They contradict {} of the case's stated numbers.",
                                     section.contradictions.size()));
   }
 }
@@ -66,13 +65,13 @@ std::string resonance_text(const io::ResonanceVerdict& verdict,
     const bool apart = left.upper < needs.lower || left.lower > needs.upper;
     if (method.kind != identification::MethodKind::resonance || !apart) continue;
     text += fmt::format(
-        " Of a rigid antenna it leaves {:.3f} to {:.3f} kg.m2 for what the mass properties put at "
-        "{:.3f} to {:.3f}.",
-        left.lower, left.upper, needs.lower, needs.upper);
+        " If the antenna were rigid, {:.3g} Hz would imply an antenna inertia of {:.3f} to {:.3f} "
+        "kg.m2; the mass properties give {:.3f} to {:.3f}.",
+        verdict.measured, left.lower, left.upper, needs.lower, needs.upper);
   }
   return text +
-         " Oil stiffness (bulk modulus, volumes, the efficiencies in it), the masses, or the "
-         "reading of the resonance must give way.";
+         " Check the oil stiffness (bulk modulus, volumes, efficiencies), the masses and the "
+         "reading of the resonance.";
 }
 
 void conclude_identification(const IdentificationSection& section,
@@ -89,7 +88,7 @@ void conclude_identification(const IdentificationSection& section,
     sentences.push_back(std::move(unread));
   }
   if (!tested) {
-    sentences.emplace_back("Only mass properties speak for the inertia; no test confirms it.");
+    sentences.emplace_back("Only mass properties give the inertia; no test confirms it.");
     return;
   }
   const auto by_inertia = [](const identification::InertiaMethod& x,
@@ -107,8 +106,8 @@ void conclude_identification(const IdentificationSection& section,
   if (ratio > 2.0 && std::isfinite(ratio)) {
     // dR/R = -(1 + R) dJ/J
     text += fmt::format(
-        " At R = {:.1f}, 1 % of inertia moves R by {:.1f} %: the ratio is the wrong number to "
-        "argue over.",
+        " At R = {:.1f}, 1 % of inertia changes R by {:.1f} %: R is ill-conditioned here; compare "
+        "inertias instead.",
         ratio, 1.0 + ratio);
   }
   sentences.push_back(std::move(text));
@@ -128,13 +127,12 @@ std::vector<std::string> conclude(const Report& report) {
     conclude_tuning(report, *report.tuning, sentences);
   }
   if (report.plant && report.plant->tracking_slope < 0.0) {
-    sentences.push_back(fmt::format(
-        "Friction falls with the rate at the tracking rate, by {:.3g} N.m.s/rad: the drive may "
-        "stick "
-        "and slip there. No linear plant says what that does (they take 0); {}",
-        -report.plant->tracking_slope,
-        report.time_domain ? "the nonlinear antenna, simulated above, does."
-                           : "the nonlinear antenna, which takes a [simulation], does."));
+    sentences.push_back(
+        fmt::format("At the tracking rate friction falls with the rate, by {:.3g} N.m.s/rad: the "
+                    "drive may stick and slip. Linear plants use a slope of 0; {}",
+                    -report.plant->tracking_slope,
+                    report.time_domain ? "the simulation above includes it."
+                                       : "add a [simulation] to include it."));
   }
   if (report.time_domain) sentences.push_back(conclude(*report.time_domain));
   if (report.matching) conclude_matching(report, *report.matching, sentences);
@@ -142,13 +140,6 @@ std::vector<std::string> conclude(const Report& report) {
     const auto& effects = report.tuning->input_effects;
     std::string first = measure_first(effects, report.tuning->design.beam_rms, report.time_domain);
     if (!first.empty()) sentences.push_back(std::move(first));
-    const std::size_t antenna = count_of_antenna(report.assumed);
-    if (antenna > 0) {
-      sentences.push_back(
-          fmt::format("This redesign rests on {} numbers of the antenna that are assumed, in value "
-                      "or in uncertainty (listed above), until they are measured.",
-                      antenna));
-    }
   }
   return sentences;
 }

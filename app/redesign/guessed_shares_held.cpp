@@ -14,7 +14,7 @@
 namespace boresight::app {
 namespace {
 
-// Beam rms (rad); NaN where the loop is unstable.
+// Boresight rms (rad); NaN where the loop is unstable.
 double held_rms(const io::Case& antenna, const control::ControlLaw& law, double wind_speed,
                 io::GuessedShares place) {
   design::TrackingProblem problem =
@@ -30,7 +30,7 @@ double held_rms(const io::Case& antenna, const control::ControlLaw& law, double 
 void conclude_guessed_shares(const io::Case& antenna, const control::ControlLaw& law,
                              double wind_speed, std::vector<std::string>& sentences) {
   const double own = held_rms(antenna, law, wind_speed, io::GuessedShares::as_stated);
-  // The shares stand in no loop: what is stable with one guess is so with all.
+  // The fractions are outside the loop and do not affect stability.
   if (!std::isfinite(own)) return;
   std::vector<std::string> others;
   bool apart = false;
@@ -41,11 +41,11 @@ void conclude_guessed_shares(const io::Case& antenna, const control::ControlLaw&
     others.push_back(fmt::format("{:.3f} mdeg with {}", rms / millidegree, to_string(place)));
   }
   if (!apart) return;
-  sentences.push_back(fmt::format(
-      "Shares of wind and beam are guesses, which no ensemble or draw moves: with gains held, the "
-      "linear {:.3f} mdeg of {} on the case's plant would be {}. What compares laws or proposals "
-      "under one guess may compare them otherwise under another.",
-      own / millidegree, law.structure.name(), fmt::join(others, ", ")));
+  sentences.push_back(
+      fmt::format("The modal participation of wind torque and boresight is assumed, and not in the "
+                  "uncertainty set. With fixed gains, the linear {:.3f} mdeg of {} on the case's "
+                  "plant would be {}. Rankings may change with it.",
+                  own / millidegree, law.structure.name(), fmt::join(others, ", ")));
 }
 
 }  // namespace boresight::app

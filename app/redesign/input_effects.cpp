@@ -18,7 +18,7 @@ std::string mode_text(const io::StructureEntry& structure, const io::MovableNumb
   return fmt::format(
       "the mode of {:.3g} Hz{}",
       io::structure_specification(structure).modes.at(*number.share_of_mode).frequency,
-      structure.motors_held ? " with the bull gear held" : "");
+      structure.motors_held ? " with the bull gear locked" : "");
 }
 
 std::string range_text(const InputEffect& effect) {
@@ -74,15 +74,14 @@ std::string measure_first(const std::vector<InputEffect>& effects, double rms,
   }
   std::vector<std::string> sentences;
   if (!named.empty()) {
-    sentences.push_back(
-        fmt::format("Of the numbers of the case, the rms hangs most on {}: measure {} first.",
-                    fmt::join(named, ", "), named.size() == 1 ? "that" : "those"));
+    sentences.push_back(fmt::format("The rms depends most on {}: measure {} first.",
+                                    fmt::join(named, ", "), named.size() == 1 ? "that" : "those"));
   }
   if (const double friction = telling_friction(time_domain, rms); friction > 0.0) {
-    sentences.push_back(fmt::format(
-        "Friction, which no linear rms knows, is worth {:.3f} mdeg of the simulated: measure the "
-        "friction curve about the tracking rate, and what the bristles' stiffness rests on{}.",
-        friction / millidegree, named.empty() ? "" : ", as well"));
+    sentences.push_back(
+        fmt::format("Friction adds {:.3f} mdeg in simulation: measure the friction curve about the "
+                    "tracking rate and the bristle stiffness.",
+                    friction / millidegree));
   }
   return fmt::format("{}", fmt::join(sentences, " "));
 }

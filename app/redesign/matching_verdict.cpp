@@ -33,26 +33,26 @@ std::string judge_unit_ratio(const MatchingSection& section, std::size_t unit) {
   const auto at = static_cast<std::size_t>(&best - series.designs.data());
   const double ratio = section.rows[at].motor_to_load_ratio;
   std::string text = fmt::format(
-      "With {}, ratio 1 ({:.1f} disks) gives {:.4f} mdeg; the least is {:.4f} at {} (R = {:.2f}).",
+      "With {}, ratio 1 ({:.1f} disks) gives {:.4f} mdeg; the minimum is {:.4f} at {} (R = "
+      "{:.2f}).",
       control::to_string(series.structure), section.rows[unit].disks,
       series.designs[unit].beam_rms / millidegree, best.beam_rms / millidegree,
       section.rows[at].label, ratio);
   const double span = MatchingVerdict::span(series);
   if (span < negligible_change) {
-    return text + fmt::format(
-                      " All of it lies within {:.1f} %: no rule of matching makes a difference "
-                      "with this loop.",
-                      100.0 * span);
+    return text +
+           fmt::format(" The rms varies by {:.1f} %: no matching rule matters with this loop.",
+                       100.0 * span);
   }
   const bool near_unit = ratio > 0.7 && ratio < 1.4;
-  if (!near_unit) return text + " The one-to-one rule marks nothing special here.";
+  if (!near_unit) return text + " There is no optimum at an inertia ratio of 1.";
   const bool at_end = at == 0 || at + 1 == section.rows.size();
-  return text + (at_end ? " That is an end of the range looked at: whether the one-to-one rule "
-                          "marks an optimum is not known."
-                        : " The one-to-one rule happens to fit here.");
+  return text +
+         (at_end ? " That is an end of the range studied: an optimum at a ratio of 1 is not shown."
+                 : " The optimum is near a ratio of 1.");
 }
 
-// Where laws of the study are no optima; empty where all are.
+// Points of the study with a gain at its search limit; empty without one.
 std::string at_bounds(const MatchingSection& section) {
   std::set<std::string> gains;
   std::size_t points = 0;
@@ -67,9 +67,8 @@ std::string at_bounds(const MatchingSection& section) {
   }
   if (points == 0) return "";
   return fmt::format(
-      "At {} of the {} points of the matching study a gain ends at its bound of the search ({}): "
-      "what lies beyond was not looked at, and may tell the points apart. Bounds of a "
-      "[[tuning.bound]] look there.{}{}",
+      "At {} of the {} points of the matching study a gain is at its search limit ({}): widen it "
+      "with [[tuning.bound]].{}{}",
       points, section.series.size() * section.rows.size(), fmt::join(gains, ", "),
       position_gain ? " " : "", position_gain ? trade_not_looked_for() : "");
 }
@@ -182,16 +181,15 @@ void conclude_matching(const Report& report, const MatchingSection& section,
   const MatchingVerdict verdict(section);
   if (verdict.unusable() > 0) {
     sentences.push_back(
-        fmt::format("{} of {} points of the matching study are infeasible or not verified: nothing "
-                    "is concluded from the study.",
+        fmt::format("{} of {} points of the matching study are infeasible or not verified: no "
+                    "conclusion from the study.",
                     verdict.unusable(), section.series.size() * section.rows.size()));
     return;
   }
   const MatchingRow& built = section.rows[verdict.built()];
   for (const std::size_t end : verdict.ends()) {
     std::string text = fmt::format(
-        "Going from {} to {} (R from {:.2f} to {:.2f}), re-tuned at each point, changes the beam "
-        "rms by",
+        "Going from {} to {} (R from {:.2f} to {:.2f}), re-tuned at each point, changes the rms by",
         built.label, section.rows[end].label, built.motor_to_load_ratio,
         section.rows[end].motor_to_load_ratio);
     for (std::size_t i = 0; i < section.series.size(); ++i) {
@@ -206,10 +204,10 @@ void conclude_matching(const Report& report, const MatchingSection& section,
     sentences.push_back(std::move(bounds));
   }
   if (verdict.flat()) {
-    sentences.push_back(fmt::format(
-        "Over all inertias looked at, {}, the rms of each loop changes by at most {:.1f} %: the "
-        "motors' inertia hardly matters here, and no rule of matching does.{}",
-        range_of(section), 100.0 * verdict.largest_span(), what_matters_more(report)));
+    sentences.push_back(
+        fmt::format("Over all inertias studied, {}, the rms of each loop changes by at most {:.1f} "
+                    "%: neither the motors' inertia nor a matching rule matters here.{}",
+                    range_of(section), 100.0 * verdict.largest_span(), what_matters_more(report)));
     return;
   }
   std::string text;
@@ -220,8 +218,8 @@ void conclude_matching(const Report& report, const MatchingSection& section,
   if (other != nullptr && verdict.friction_decides() &&
       MatchingVerdict::span(*other) < negligible_change) {
     text += fmt::format(
-        "{}With the friction {}, {:.1f} N.m.s/rad, the motors' inertia hardly matters at all: "
-        "measure that slope before touching a flywheel.",
+        "{}With the friction {}, {:.1f} N.m.s/rad, the motors' inertia hardly matters: measure "
+        "that slope before changing flywheels.",
         text.empty() ? "" : " ", other->friction, other->viscous_friction);
   }
   if (!text.empty()) sentences.push_back(std::move(text));
@@ -250,7 +248,7 @@ std::string decide_matching(const Report& report, const MatchingSection& section
   text += std::abs(one - two) > negligible_change ? ", but by " : ", and by ";
   text += fmt::format("{:+.1f} % with the {}", 100.0 * two, other->friction);
   return text +
-         (verdict.friction_decides() ? ": measure that slope before touching a flywheel." : ".");
+         (verdict.friction_decides() ? ": measure that slope before changing flywheels." : ".");
 }
 
 }  // namespace boresight::app

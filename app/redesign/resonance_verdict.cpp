@@ -12,8 +12,9 @@ constexpr double gigapascal = 1e9;  // Pa
 
 std::string which_was_measured(const io::ResonanceVerdict& verdict) {
   const std::string remark = verdict.of_oil ? "" : oil_remark(verdict.mode, verdict.oil_mode);
-  return remark.empty() ? ""
-                        : remark + " Make sure which of them was measured; resonance.mode says it.";
+  return remark.empty()
+             ? ""
+             : remark + " Check which of them was measured and state it in resonance.mode.";
 }
 
 // Beyond so many the first order of the uncertainty says no more than that.
@@ -23,17 +24,17 @@ std::string resonance_sentence(const io::ResonanceVerdict& verdict) {
   const double own = verdict.stated_bulk_modulus / gigapascal;
   const std::string modulus =
       verdict.bulk_modulus
-          ? fmt::format(
-                "a bulk modulus of {:.3g} GPa in the place of {:.3g} would make it, all "
-                "else as the case has it",
-                *verdict.bulk_modulus / gigapascal, own)
-          : fmt::format("no bulk modulus within a factor of 30 of the case's {:.3g} GPa makes it",
-                        own);
+          ? fmt::format("{} the bulk modulus from {:.3g} to {:.3g} GPa would reconcile the two",
+                        *verdict.bulk_modulus / gigapascal > own ? "raising" : "lowering", own,
+                        *verdict.bulk_modulus / gigapascal)
+          : fmt::format(
+                "no bulk modulus within a factor of 30 of the case's {:.3g} GPa reconciles the two",
+                own);
   return fmt::format(
-      "The hydraulic frequency measured, {:.3g} Hz, {} the {:.3g} Hz of the case's flexible "
+      "The measured hydraulic frequency, {:.3g} Hz, {} the {:.3g} Hz of the case's flexible "
       "antenna{} ({} standard uncertainties apart): {}.{}",
       verdict.measured, verdict.contradicts() ? "contradicts" : "does not contradict",
-      verdict.expected, verdict.of_oil ? ", in its mode of most oil" : "",
+      verdict.expected, verdict.of_oil ? ", in its dominant hydraulic mode" : "",
       verdict.deviation() > most_by_first_order ? fmt::format("more than {:g}", most_by_first_order)
                                                 : fmt::format("{:.3g}", verdict.deviation()),
       modulus, which_was_measured(verdict));
@@ -49,17 +50,16 @@ std::string resonance_warning(const std::optional<io::ResonanceVerdict>& verdict
     return text;
   }
   return text + fmt::format(
-                    " The plants that laws are held on here have {:.3g} to {:.3g} times the case's "
-                    "oil stiffness, and that would be {:.3g} times: none of them is the antenna "
-                    "that was measured.",
+                    " The uncertainty set has {:.3g} to {:.3g} times the case's oil stiffness, and "
+                    "that would be {:.3g} times: no member represents the measured antenna.",
                     verdict->least_oil, verdict->most_oil, wanted);
 }
 
 std::string unread_resonance(const std::optional<io::ResonanceVerdict>& verdict) {
   if (!verdict || verdict->rigid) return "";
   return fmt::format(
-      "No inertia is read off the {:.3g} Hz measured: they are not those of the whole antenna, "
-      "rigid, on the oil spring.",
+      "The measured {:.3g} Hz give no inertia: they are not the rigid-body resonance of the whole "
+      "antenna on the oil spring.",
       verdict->measured);
 }
 
@@ -69,7 +69,7 @@ std::string rigid_resonance_remark(const std::optional<io::ResonanceVerdict>& ve
   constexpr auto resonance = identification::MethodKind::resonance;
   const bool of_rigid = least.kind == resonance || most.kind == resonance;
   if (!of_rigid || !verdict || verdict->contradicts()) return "";
-  return "; the resonance's figure is of a rigid antenna, and the flexible one does not contradict "
+  return "; the resonance method assumes a rigid antenna, and the flexible one does not contradict "
          "the masses";
 }
 

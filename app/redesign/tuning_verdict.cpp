@@ -32,12 +32,12 @@ std::string present_text(const TuningSection& section, const TuningSection::Pres
   if (law.design.tuning.status == design::TuningStatus::unstable) {
     return unstable_present_gains(law.structure);
   }
-  std::string text =
-      fmt::format("The present gains of {} point within {:.3f} mdeg in {:.3g} m/s{}", law.structure,
-                  law.design.beam_rms / millidegree, section.design_speed,
-                  law.design.verification.passed
-                      ? ""
-                      : fmt::format(" and miss a goal ({})", law.design.verification.failure));
+  std::string text = fmt::format(
+      "The present gains of {} have {:.3f} mdeg rms in {:.3g} m/s{}", law.structure,
+      law.design.beam_rms / millidegree, section.design_speed,
+      law.design.verification.passed
+          ? ""
+          : fmt::format(" and violate a constraint ({})", law.design.verification.failure));
   if (section.design.usable()) {
     text += fmt::format("; the tuned {} changes that by {:+.1f} %",
                         control::to_string(section.structure),
@@ -51,20 +51,20 @@ bool keeps_goals_on_all(const TuningSection& section) {
          section.ensemble->within_goals == static_cast<int>(section.ensemble->members.size());
 }
 
-// What becomes of the law, tuned on one plant, on others.
+// The ensemble members on which the controller meets the constraints.
 std::string robustness_text(const TuningSection& section) {
   if (!section.ensemble) return "";
   const auto plants = static_cast<int>(section.ensemble->members.size());
   const int within = section.ensemble->within_goals;
   if (keeps_goals_on_all(section)) {
-    return fmt::format("Held on {} plants that may be the true one, it keeps its goals on all.",
+    return fmt::format("With these gains all {} perturbed plant models meet the constraints.",
                        plants);
   }
   const int unstable = plants - section.ensemble->stable;
-  return fmt::format("{}eld on {} plants that may be the true one, it keeps its goals on {}{}.",
-                     section.tuned_for == TunedFor::robust ? "H" : "It was tuned on one plant: h",
-                     plants, within,
-                     unstable > 0 ? fmt::format(" and is unstable on {}", unstable) : "");
+  return fmt::format(
+      "With these gains only {} of {} perturbed plant models meet the constraints{}. Do not "
+      "install.",
+      within, plants, unstable > 0 ? fmt::format(" ({} unstable)", unstable) : "");
 }
 
 // On how many plants the needed budgets are met in the wind they are needed up to; `short_of_all`:
@@ -83,18 +83,15 @@ std::string needs_on_plants(const TuningSection& section, bool short_of_all) {
                                 *result.plants_met));
   }
   if (needs.empty()) return "";
-  return fmt::format("Of {} plants that may be the true one it meets {}.", plants,
-                     fmt::join(needs, ", "));
+  return fmt::format("Of {} perturbed plant models it meets {}.", plants, fmt::join(needs, ", "));
 }
 
-// Where most of the error is what no loop sees.
+// Where flexure beyond the encoder dominates the error.
 std::string unseen_text(const TuningSection& section) {
   if (!(section.encoder_held_rms >= 0.9 * section.design.beam_rms)) return "";
-  return "Nearly all of the error is bending of the structure that the encoder does not see: a "
-         "loop that holds the encoder still, other motors or flywheels hardly lower it. What does "
-         "is a stiffer structure, less wind on it, or a loop that moves the encoder against the "
-         "bending "
-         "(structures with +C, LQG), if friction lets it.";
+  return "Nearly all of the error is structural flexure beyond the encoder: stiffer loops, other "
+         "motors or flywheels hardly lower it. A stiffer structure, less wind, or compensation of "
+         "the flexure (structures with +C, LQG) does, if friction allows.";
 }
 
 // Gains that only the bounds of the search hold.
@@ -102,9 +99,7 @@ std::string bound_text(const TuningSection& section) {
   const auto& names = section.design.tuning.gains_at_bound;
   if (names.empty()) return "";
   std::string text = fmt::format(
-      "The search ended at its bound for: {}. A gain there is no optimum; what lies beyond was not "
-      "looked at (bounds of a [[tuning.bound]] look there; `boresight tune` of a [[loop]] does "
-      "too).",
+      "Gains at their search limit: {}. Widen it with [[tuning.bound]] or in a [[loop]].",
       fmt::join(names, ", "));
   const SearchedLaw law{section.structure.name(), &section.design.tuning,
                         control::sample_time_of(section.problem.delay)};
@@ -135,7 +130,7 @@ std::string wind_model_text(const TuningSection& section) {
   for (std::size_t i = 0; i < section.budgets.size(); ++i) {
     const auto meeting = models(section, i, true), missing = models(section, i, false);
     if (meeting.empty() || missing.empty()) continue;
-    verdicts += fmt::format("; {} is met up to where it is needed by {}, and not by {}",
+    verdicts += fmt::format("; {} is met up to its required wind speed with {}, but not with {}",
                             budget_text(section.budgets[i].budget), fmt::join(meeting, ", "),
                             fmt::join(missing, ", "));
   }
@@ -145,16 +140,16 @@ std::string wind_model_text(const TuningSection& section) {
   for (const auto& one : section.wind_alternatives) {
     if (one.model == section.wind_model) continue;
     apart = apart || std::abs(one.beam_rms / own - 1.0) > telling_change;
-    others += fmt::format("{}{:.3f} mdeg by {}", others.empty() ? "" : " and ",
+    others += fmt::format("{}{:.3f} mdeg with {}", others.empty() ? "" : " and ",
                           one.beam_rms / millidegree, plant::to_string(one.model));
   }
   if (verdicts.empty() && !apart) return "";
   return fmt::format(
-      "Much hangs on the wind model: the same gains have {:.3f} mdeg by the case's, {}, but {}{}.",
+      "Sensitive to the wind model: the same gains have {:.3f} mdeg with the case's, {}, but {}{}.",
       own / millidegree, plant::to_string(section.wind_model), others, verdicts);
 }
 
-// The mean wind bends what no servo sees.
+// Where static deflection exceeds the tightest budget.
 std::string bending_text(const TuningSection& section) {
   const auto smallest = std::ranges::min_element(
       section.budgets, {}, [](const BudgetResult& one) { return one.budget.rms; });
@@ -162,8 +157,8 @@ std::string bending_text(const TuningSection& section) {
   const double bending = std::abs(section.static_bending);
   if (!(bending > smallest->budget.rms)) return "";
   return fmt::format(
-      "The mean wind of {:.3g} m/s bends the antenna by {:.3f} mdeg, which is no part of these rms "
-      "values and more than all of {}: calibration has to take it away.",
+      "Static deflection in the mean wind of {:.3g} m/s, {:.3f} mdeg, exceeds the whole budget of "
+      "{}; it is not in the rms, and the pointing model must remove it.",
       section.design_speed, bending / millidegree, budget_text(smallest->budget));
 }
 
@@ -174,11 +169,11 @@ std::string met_text(const TuningSection& section, const BudgetResult& budget) {
   if (!(reached > 0.0)) return "is met in no wind";
   const std::string mast = dish_and_mast(section.wind_mast, reached);
   const std::string share = climate_text(section.climate, reached);
-  if (!std::isfinite(reached)) return "is met up to the 60 m/s looked at" + share;
+  if (!std::isfinite(reached)) return "is met up to the 60 m/s studied" + share;
   if (reached < budget.wind_speed_limit) {
     return fmt::format(
-        "would be met up to the {:.1f} m/s{} at which the mean wind takes all that friction and "
-        "offset leave of the supply's torque{}",
+        "would be met up to the {:.1f} m/s{} at which the mean wind takes all supply torque that "
+        "friction and offset leave{}",
         reached, mast, share);
   }
   return fmt::format("is met up to {:.1f} m/s{}{}", reached, mast, share);
@@ -196,22 +191,19 @@ std::vector<std::string> unmet_needs(const TuningSection& section,
                            time_domain->result.wind.beam_rms <= budget.rms;
     if (linear && simulated) continue;
     sentences.push_back(fmt::format(
-        "NOT MET: {} is needed up to {:.3g} m/s{}; as built, with {}, the best of what was tuned, "
-        "it "
-        "{}{}.{}",
+        "NOT MET: {} is required up to {:.3g} m/s{}; as built, with {}, it {}{}.{}",
         budget_text(budget), *budget.wind_speed,
         dish_and_mast(section.wind_mast, *budget.wind_speed),
         fmt::format("{} ({})", control::to_string(section.structure), to_string(section.tuned_for)),
         met_text(section, result),
-        linear
-            ? fmt::format(" by the linear plant, but on the nonlinear antenna the law {} in {:.3g} "
-                          "m/s",
-                          holds_in_wind(*time_domain)
-                              ? fmt::format("has {:.3f} mdeg",
-                                            time_domain->result.wind.beam_rms / millidegree)
-                              : "was not seen to hold",
-                          time_domain->wind_speed)
-            : "",
+        linear ? fmt::format(" on the linear plant, but on the nonlinear antenna the controller {} "
+                             "in {:.3g} m/s",
+                             holds_in_wind(*time_domain)
+                                 ? fmt::format("has {:.3f} mdeg",
+                                               time_domain->result.wind.beam_rms / millidegree)
+                                 : "does not complete the run",
+                             time_domain->wind_speed)
+               : "",
         meets_need(budget, section.supply_wind_speed)
             ? ""
             : " No loop structure changes that: the drive lacks torque."));
@@ -221,8 +213,8 @@ std::vector<std::string> unmet_needs(const TuningSection& section,
 
 std::string not_examined(const Report& report) {
   if (report.time_domain || !report.tuning || !report.tuning->design.usable()) return "";
-  return "Friction, hunting and slewing were not examined: the case has no [simulation], and every "
-         "rms here is of linear loops.";
+  return "Friction, limit cycles and slewing were not examined: the case has no [simulation], and "
+         "every rms is of linear loops.";
 }
 
 void conclude_tuning(const Report& report, const TuningSection& section,
@@ -233,30 +225,29 @@ void conclude_tuning(const Report& report, const TuningSection& section,
   for (const auto& law : section.present) add(present_text(section, law));
   const auto& design = section.design;
   if (design.tuning.status == design::TuningStatus::unstable) {
-    add(fmt::format("No {} law of the search stabilises this antenna.",
+    add(fmt::format("No {} controller found stabilises this antenna.",
                     control::to_string(section.structure)));
     return;
   }
   if (design.tuning.status != design::TuningStatus::optimal) {
-    add(fmt::format("No {} law meets the hard goals; the nearest exceeds one by {:.1f} %.{}",
-                    control::to_string(section.structure),
-                    100.0 * (design.tuning.worst_goal_ratio - 1.0),
-                    assumed_demand(design.tuning, section.demand_assumption)));
+    add(fmt::format(
+        "No {} controller meets the constraints; the nearest exceeds a limit by {:.1f} %.{}",
+        control::to_string(section.structure), 100.0 * (design.tuning.worst_goal_ratio - 1.0),
+        assumed_demand(design.tuning, section.demand_assumption)));
     return;
   }
   if (!design.verification.passed) {
-    add(fmt::format(
-        "The best {} law found fails its verification ({}): nothing is concluded from it.",
-        control::to_string(section.structure), design.verification.failure));
+    add(fmt::format("The best {} controller found fails verification ({}): no conclusion.",
+                    control::to_string(section.structure), design.verification.failure));
     return;
   }
   const bool repeated = 2 * section.seeds_within_1_percent > static_cast<int>(section.seeds.size());
   std::string text = fmt::format(
-      "As built, the controller recommended, {} ({}){}, points within {:.3f} mdeg rms an axis in "
-      "{:.3g} m/s of wind",
+      "As built, the recommended controller, {} ({}){}, has {:.3f} mdeg rms per axis in {:.3g} m/s "
+      "of wind",
       control::to_string(section.structure), to_string(section.tuned_for),
-      repeated ? "" : " (not repeated by most seeds: look further)", design.beam_rms / millidegree,
-      section.design_speed);
+      repeated ? "" : " (not repeated by most seeds: search further)",
+      design.beam_rms / millidegree, section.design_speed);
   for (const auto& budget : section.budgets) {
     text += fmt::format("; {} {}", budget_text(budget.budget), met_text(section, budget));
   }
@@ -273,9 +264,8 @@ void conclude_tuning(const Report& report, const TuningSection& section,
   const auto [least, most] = std::minmax_element(section.wind_alternatives.begin(),
                                                  section.wind_alternatives.end(), by_rms);
   add(fmt::format(
-      "These rms values stand on the wind model {}: the same gains give {:.3f} mdeg by the {} "
-      "model and {:.3f} by the {} model. With the encoder held perfectly still, bending that it "
-      "cannot see would leave {:.3f} mdeg.",
+      "The rms uses the wind model {}: the same gains give {:.3f} mdeg with {} and {:.3f} with {}. "
+      "Structural flexure beyond the encoder alone contributes {:.3f} mdeg.",
       plant::to_string(section.wind_model), least->beam_rms / millidegree,
       plant::to_string(least->model), most->beam_rms / millidegree, plant::to_string(most->model),
       section.encoder_held_rms / millidegree));
@@ -299,20 +289,20 @@ std::vector<std::string> decide_tuning(const Report& report, const TuningSection
       fmt::format("{} ({})", control::to_string(section.structure), to_string(section.tuned_for));
   if (section.design.tuning.status != design::TuningStatus::optimal) {
     sentences.push_back(
-        fmt::format("No controller tuned meets the hard goals of this case.{}",
+        fmt::format("No tuned controller meets the constraints of this case.{}",
                     assumed_demand(section.design.tuning, section.demand_assumption)));
     return sentences;
   }
   if (!section.design.verification.passed) {
     sentences.push_back(fmt::format(
-        "The best controller found, {}, fails its verification: decide nothing on it.", structure));
+        "The best controller found, {}, fails verification: do not use it.", structure));
     return sentences;
   }
   const bool still = !report.time_domain || not_still(*report.time_domain).empty();
   const bool holds = !report.time_domain || holds_in_wind(*report.time_domain);
   const bool robust = keeps_goals_on_all(section);
   std::string text =
-      fmt::format("{} {}: it points within {:.3f} mdeg rms an axis in {:.3g} m/s of wind",
+      fmt::format("{} {}: {:.3f} mdeg rms per axis in {:.3g} m/s of wind",
                   met && robust && holds && still && sentences.empty()
                       ? "Run the drive as built on"
                       : "The best controller found for the drive as built is",
@@ -320,7 +310,7 @@ std::vector<std::string> decide_tuning(const Report& report, const TuningSection
   if (report.time_domain) {
     text += holds ? fmt::format(" ({:.3f} on the nonlinear antenna)",
                                 report.time_domain->result.wind.beam_rms / millidegree)
-                  : " (not seen to hold on the nonlinear antenna)";
+                  : " (the run on the nonlinear antenna did not complete)";
   }
   if (!section.budgets.empty() && met) {
     const auto& budget = section.budgets.front();
@@ -329,7 +319,7 @@ std::vector<std::string> decide_tuning(const Report& report, const TuningSection
     if (report.time_domain &&
         reached_wind_speed(section, budget) >= report.time_domain->wind_speed &&
         !(report.time_domain->result.wind.beam_rms <= budget.budget.rms)) {
-      text += fmt::format(" by the linear figure, but not as simulated in {:.3g} m/s",
+      text += fmt::format(" on the linear plant, but not as simulated in {:.3g} m/s",
                           report.time_domain->wind_speed);
     }
   }
@@ -358,9 +348,8 @@ std::vector<std::string> tuning_reservations(const Report& report, const TuningS
   sentences.push_back(not_examined(report));
   if (report.matching) {
     sentences.emplace_back(
-        "The motors' inertias are compared under linear loops tuned for the case's plant alone: "
-        "`boresight evaluate` compares them under laws that keep their goals on every plant, on "
-        "the nonlinear antenna, and may find otherwise.");
+        "Motor inertias are compared with linear loops tuned for the nominal plant only: "
+        "`boresight evaluate` compares them with robust controllers on the nonlinear antenna.");
   }
   sentences.push_back(
       measure_first(section.input_effects, section.design.beam_rms, report.time_domain));

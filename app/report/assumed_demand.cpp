@@ -11,7 +11,7 @@ std::string assumed_demand(const design::TuningResult& tuning, const std::string
     return limit.goal.kind == design::GoalKind::gust_demand;
   });
   if (!limited || assumption.empty()) return "";
-  return fmt::format(" That limit of the valve command in gusts rests on {}.", assumption);
+  return fmt::format(" The gust limit of the valve command depends on {}.", assumption);
 }
 
 }  // namespace boresight::app

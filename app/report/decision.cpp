@@ -21,9 +21,9 @@ std::string audited(const AuditReport& report) {
   const std::size_t departing = report.findings.size();
   if (departing > 0) {
     return fmt::format(
-        "{} of {} printed numbers {} not follow from the others: mend those that move a headline "
-        "result before designing on them.",
-        departing, report.checked, departing == 1 ? "does" : "do");
+        "{} of {} stated values {} inconsistent with the case: correct those that change a "
+        "headline result.",
+        departing, report.checked, departing == 1 ? "is" : "are");
   }
   const bool sound = report.implausible.empty();
   if (report.checked == 0) {
@@ -31,17 +31,16 @@ std::string audited(const AuditReport& report) {
            (sound ? ", and nothing in it is physically implausible." : ".");
   }
   return (report.checked == 1
-              ? "The case's one printed number that can be compared agrees"
-              : fmt::format("The case's {} printed numbers hang together", report.checked)) +
+              ? "The one stated derived value is consistent"
+              : fmt::format("All {} stated derived values are consistent", report.checked)) +
          (sound ? ": design on the case." : ".");
 }
 
 std::string assumptions(const std::vector<io::Quantity>& assumed) {
   const std::size_t count = count_of_antenna(assumed);
-  if (count == 0) return "No number of the antenna is assumed.";
+  if (count == 0) return "No antenna input is assumed.";
   return fmt::format(
-      "{} numbers of the antenna are assumed, in value or in uncertainty: every number here stands "
-      "on them until they are measured.",
+      "{} antenna inputs are assumed, in value or in uncertainty: all results depend on them.",
       count);
 }
 
@@ -59,13 +58,13 @@ Sentences audit_decision(const AuditReport& report) {
   }
   if (largest != nullptr) {
     sentences.push_back(fmt::format(
-        "The one that moves a headline result most is {} '{}', by {:.3g} %.", largest->id,
+        "{} '{}' changes a headline result most, by {:.3g} %.", largest->id,
         largest->forms.empty() ? std::string() : largest->forms.front().text, 100.0 * change));
   }
   if (!report.implausible.empty()) {
     sentences.push_back(fmt::format(
         "{}. {} before designing on the case.", failing_checks(report.implausible),
-        report.implausible.size() == 1 ? "Explain or mend it" : "Explain or mend each"));
+        report.implausible.size() == 1 ? "Explain or correct it" : "Explain or correct each"));
   }
   return sentences;
 }
@@ -82,10 +81,8 @@ Sentences identify_decision(const Report& report) {
         inertia.value, inertia.lower, inertia.upper, ratio.value, ratio.lower, ratio.upper,
         found.records.size()));
     if (const auto count = report.campaign->contradictions.size(); count > 0) {
-      sentences.push_back(
-          fmt::format("The records contradict {} of the numbers that the case states: correct "
-                      "them there.",
-                      count));
+      sentences.push_back(fmt::format(
+          "The records contradict {} of the case's stated numbers: correct them there.", count));
     }
     return sentences;
   }
@@ -107,18 +104,17 @@ Sentences identify_decision(const Report& report) {
 
 Sentences model_decision(const PlantSection& plant) {
   Sentences sentences{fmt::format(
-      "The loops must live with a hydraulic mode at {:.3g} Hz, damping ratio {:.2g}, and motors "
-      "that carry {:.2f} times the inertia they drive.",
+      "The hydraulic mode is at {:.3g} Hz, damping ratio {:.2g}; the motor-to-load inertia ratio "
+      "is {:.2f}.",
       plant.hydraulic.frequency, plant.hydraulic.damping_ratio, plant.motor_to_load_ratio)};
   if (plant.torque_for_wind > 0.0) {
     sentences.push_back(fmt::format(
-        "The mean wind of the design takes {:.0f} % of what friction and offset leave of the "
-        "supply's torque.",
+        "The mean design wind takes {:.0f} % of the supply torque that friction and offset leave.",
         100.0 * std::abs(plant.mean_wind_torque) / plant.torque_for_wind));
   } else if (plant.supply_torque > 0.0) {
     sentences.emplace_back(
-        "Friction at the tracking rate and offset take all of the supply's torque: none is left "
-        "for the wind.");
+        "Friction at the tracking rate and offset take all supply torque: none is left for the "
+        "wind.");
   }
   return sentences;
 }

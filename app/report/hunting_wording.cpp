@@ -19,9 +19,8 @@ std::string hunting_cell(const design::HuntingResult& hunting) {
 
 std::string hunting_legend() {
   return fmt::format(
-      "hunting: the largest amplitude of the beam (mdeg) of {0} runs without wind or noise, each "
-      "moved by another step at its start; (n/{0}): in so many of them only, as a drive with "
-      "stiction may come to rest or not",
+      "limit cycle: largest boresight amplitude (mdeg) of {0} runs without wind or noise, from "
+      "different initial steps; (n/{0}): in n of them only",
       design::hunting_starts);
 }
 

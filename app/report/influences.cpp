@@ -24,7 +24,7 @@ std::string Influences::sentence() const {
     if (texts.size() == 3) break;
     texts.push_back(fmt::format("{} (by {:.0f} %)", what, 100.0 * change));
   }
-  return fmt::format(" More hangs on {}.", fmt::join(texts, ", "));
+  return fmt::format(" The rms depends more on {}.", fmt::join(texts, ", "));
 }
 
 }  // namespace boresight::app

@@ -13,7 +13,7 @@ std::string loss_text(double decibels, int decimals) {
 }
 
 std::string beyond_the_parabola() {
-  return fmt::format("> {:g}: beyond {:g} dB the beam's parabola does not hold.",
+  return fmt::format("> {:g}: beyond {:g} dB the parabolic beam model does not hold.",
                      largest_parabola_loss, largest_parabola_loss);
 }
 

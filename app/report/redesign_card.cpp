@@ -248,7 +248,7 @@ CardLine flywheel_line(const MatchingSection& section) {
   return {"Flywheels", fmt::format("change: {}; confirm by `boresight evaluate`", text), evidence};
 }
 
-// What is to be settled before anything is built on the result.
+// Contradictions to resolve first.
 CardLine settle_line(const Report& report) {
   std::vector<std::string> open;
   std::string_view evidence = audited;
@@ -270,8 +270,8 @@ CardLine settle_line(const Report& report) {
     open.push_back(std::move(text));
   }
   if (report.audit && !report.audit->findings.empty()) {
-    open.push_back(fmt::format("{} of {} printed numbers inconsistent",
-                               report.audit->findings.size(), report.audit->checked));
+    open.push_back(fmt::format("{} of {} stated values inconsistent", report.audit->findings.size(),
+                               report.audit->checked));
   }
   return {"Settle first", open.empty() ? "nothing" : fmt::format("{}", fmt::join(open, "; ")),
           std::string(evidence)};
@@ -280,8 +280,7 @@ CardLine settle_line(const Report& report) {
 CardLine test_line(const Report& report, const TuningSection& section) {
   const auto test = next_test(section.input_effects, section.design.beam_rms, report.time_domain);
   if (!test) {
-    return {"Next test", "none would change the result by what decides anything",
-            std::string(loops)};
+    return {"Next test", "none would change the result significantly", std::string(loops)};
   }
   if (test->key.empty()) {
     return {"Next test", test->test + ": friction decides the simulated rms", std::string(in_time)};

@@ -35,28 +35,27 @@ std::string first_change(const MatchSection& section, const MatchSeries& best, b
   const auto& run = best.values[built].time_domain;
   if (run && hunts_at(section, best, built)) {
     const bool seen = hunting_beyond(section, run->hunting);
-    return seen ? "With the motors as built those loops hunt beyond the tightest budget on the "
-                  "nonlinear antenna."
-                : "With the motors as built those loops were not seen to hold still on the "
-                  "nonlinear antenna: a run did not complete.";
+    return seen ? "As built, these loops limit-cycle beyond the tightest budget on the nonlinear "
+                  "antenna."
+                : "As built, these loops are not shown free of limit cycles on the nonlinear "
+                  "antenna: a run did not complete.";
   }
   const design::StructuresAsBuilt structures = structures_as_built(section);
   const double by_disks =
       best.values[built].beam_rms / best.values[best.best.value_or(built)].beam_rms - 1.0;
   std::string text =
-      fmt::format("Leaving the motors as built costs {:+.1f} % with those loops", 100.0 * by_disks);
+      fmt::format("Leaving the motors as built costs {:+.1f} % with these loops", 100.0 * by_disks);
   if (structures.count < 2) {
     return text + (by_disks < negligible_change ? ": leave them."
-                   : others
-                       ? "; no other loops looked at were seen to hold still within the tightest "
-                         "budget and to meet their goals."
-                       : "; whether other loops would do more was not looked at.");
+                   : others ? "; no other loops studied meet the constraints and are shown free of "
+                              "limit cycles beyond the tightest budget."
+                            : "; other loops were not studied.");
   }
   const double by_loops = structures.change;
   text += fmt::format(", and the choice of loops as built up to {:.1f} %", 100.0 * by_loops);
   if (std::max(by_disks, by_loops) < negligible_change)
     return text + ": neither is worth a change.";
-  if (std::abs(by_loops - by_disks) < negligible_change) return text + ": the two weigh the same.";
+  if (std::abs(by_loops - by_disks) < negligible_change) return text + ": the two matter equally.";
   return text + fmt::format(": change the {} first.", by_loops > by_disks ? "loops" : "flywheels");
 }
 
@@ -66,7 +65,7 @@ std::string measure_friction(const MatchSection& section) {
   if (threshold == nullptr || !threshold->slope) return "";
   return fmt::format(
       "Measure the friction slope at the tracking rate first: above {:.3g} N m s/rad the motors' "
-      "inertia moves the rms of {} loops by less than {:.0f} %.",
+      "inertia changes the rms of {} loops by less than {:.0f} %.",
       *threshold->slope, threshold->structure, 100.0 * threshold->spread);
 }
 
@@ -83,14 +82,13 @@ Sentences unstable_now(const TuneSection& section) {
   return sentences;
 }
 
-// Of structures that do not hunt; `others_hunt`: some were left out.
+// Of structures free of limit cycles; `others_hunt`: some were excluded.
 Sentences decide_inertia(const MatchSection& section, bool others_hunt) {
   const MatchSeries* best = recommended_structure(section, [](const MatchSeries&) { return true; });
   if (best == nullptr) {
-    return {others_hunt
-                ? "No structure that meets the goals was seen to hold still within the tightest "
-                  "budget on the nonlinear antenna: look at the friction before the motors."
-                : "No structure meets the goals at any motor inertia."};
+    return {others_hunt ? "No structure that meets the constraints is shown free of limit cycles "
+                          "beyond the tightest budget: examine friction before the motors."
+                        : "No structure meets the constraints at any motor inertia."};
   }
   const std::size_t built = as_built(section), best_point = best->best.value_or(built);
   const double least = best->values[best_point].beam_rms;
@@ -108,10 +106,10 @@ Sentences decide_inertia(const MatchSection& section, bool others_hunt) {
   const bool least_of_all = std::ranges::none_of(section.series, [&](const MatchSeries& series) {
     return series.best && series.values[*series.best].beam_rms < least;
   });
-  const char* lead = least_of_all ? "The least rms" : "The rms of the structure recommended";
+  const char* lead = least_of_all ? "The minimum rms" : "The rms of the recommended structure";
   Sentences sentences{fmt::format(
-      "{}, {:.3f} mdeg in {:.3g} m/s, comes with {} loops and {:g} disks on each motor "
-      "(ratio {:.2f}); from {:.1f} to {:.1f} disks it stays within 5 % of that.",
+      "{} is {:.3f} mdeg in {:.3g} m/s, with {} loops and {:g} disks on each motor (ratio {:.2f}); "
+      "from {:.1f} to {:.1f} disks it stays within 5 %.",
       lead, mdeg(least), section.wind_speed, best->name, point.disks, point.motor_to_load_ratio,
       best->within_5_percent.lowest, best->within_5_percent.highest)};
   const bool inertia_matters =
@@ -132,7 +130,7 @@ namespace {
 // The one controller that every command recommends for the motors as built.
 std::string recommended_first(const design::TuningStudy& study) {
   const TunedLaw* law = recommended_law(study);
-  if (law == nullptr) return "No controller is recommended: none that was tuned is fit.";
+  if (law == nullptr) return "No controller is recommended: no tuned controller is fit.";
   const bool simulated = law->in_time && std::isfinite(law->in_time->beam_rms);
   return fmt::format("Recommended: {}, {:.3f} mdeg rms per axis in {:.3g} m/s wind, {}.",
                      name_and_purpose(*law),
@@ -154,20 +152,19 @@ std::vector<std::string> decision(const MatchSection& section) {
     if (!series.best || !hunts(section, series) || kept.series.empty()) continue;
     const auto runs = hunting_of(section, series);
     sentences.push_back(fmt::format(
-        "Not {}, with {:.3f} on the linear plant: on the nonlinear antenna it {}.", series.name,
+        "Not {}, {:.3f} mdeg on the linear plant: on the nonlinear antenna it {}.", series.name,
         mdeg(series.values[*series.best].beam_rms),
         hunting_beyond(section, runs)
-            ? fmt::format("hunts by +-{:.2f} mdeg, beyond the tightest budget of {:.3f}",
+            ? fmt::format("limit-cycles by +-{:.2f} mdeg, beyond the tightest budget of {:.3f}",
                           mdeg(design::hunting_amplitude(runs)), mdeg(section.tightest_budget))
-            : std::string("was not seen to hold still, as a run did not complete")));
+            : std::string("is not shown free of limit cycles, as a run did not complete")));
   }
   return sentences;
 }
 
 namespace {
 
-// Whether there are several candidates to choose from, and no two of their means over the draws
-// differ by what decides anything.
+// Whether several candidates are eligible and their means over the samples differ negligibly.
 bool all_alike(const EvaluateSection& section, const DecisionSection& draws) {
   const auto& losses = draws.ranking.losses;
   double least = HUGE_VAL, largest = 0.0;
@@ -192,16 +189,15 @@ std::vector<std::string> decision(const EvaluateSection& section) {
     const auto& place = draws.candidates[choice];
     const Candidate& chosen = section.candidates[place.candidate];
     const Candidate& best = section.candidates[draws.candidates[draws.best].candidate];
-    const auto& options = draws.statistics.options;
     const std::string currency = section.currency.empty() ? "of cost" : section.currency;
     const auto& ranking = draws.ranking;
     const std::string mean =
-        fmt::format("{:.3f} mdeg rms {} {} {} draws in {:.3g} m/s", ranking.losses[choice],
+        fmt::format("{:.3f} mdeg rms {} {} {} samples in {:.3g} m/s", ranking.losses[choice],
                     measure_phrase(ranking.measure),
                     ranking.measure == design::LossMeasure::mean ? "over" : "of", draws.draws,
                     section.wind_speed);
     const bool fit = chosen.feasible();
-    const std::string yet = none.empty() ? "Nothing is to be chosen yet." : none;
+    const std::string yet = none.empty() ? "Choose nothing yet." : none;
     std::string text =
         !fit            ? fmt::format("{} {} comes nearest with {}, but {}", yet, chosen.name, mean,
                                       why_not(chosen))
@@ -212,30 +208,28 @@ std::vector<std::string> decision(const EvaluateSection& section) {
                           chosen.cost ? fmt::format("at {:g} {}", *chosen.cost, currency)
                                       : std::string("at a cost that its file does not state"));
     if (fit && choice != draws.best && best.feasible()) {
-      text += fmt::format("; {} lowers that by {:.1f} %, too little to pay {}for", best.name,
+      text += fmt::format("; {} would be only {:.1f} % better{}", best.name,
                           100.0 * (1.0 - ranking.losses[draws.best] / ranking.losses[choice]),
-                          best.cost ? fmt::format("{:g} {} ", *best.cost, currency) : "");
+                          best.cost ? fmt::format(" for {:g} {}", *best.cost, currency) : "");
     }
     sentences.push_back(text + ".");
     const auto hunting = hunting_candidates(section);
     if (none.empty() && !hunting.empty()) {
-      sentences.push_back(fmt::format("Left out, as they hunt beyond the tightest budget: {}.",
-                                      fmt::join(hunting, ", ")));
+      sentences.push_back(
+          fmt::format("Excluded, as they limit-cycle beyond the tightest budget: {}.",
+                      fmt::join(hunting, ", ")));
     }
     const std::string name = chosen.path.empty() ? "The antenna as it is" : chosen.name;
     if (all_alike(section, draws)) {
       sentences.push_back(
-          fmt::format("All that are fit lie within {:.0f} % of one another, which is no "
-                      "difference: choose by what else they change. {} breaks a hard goal on a "
-                      "share of {:.3f} of the draws.",
-                      100.0 * negligible_change, name, place.outside_goals.value));
-    } else if (fit) {
-      sentences.push_back(fmt::format(
-          "{} is the best of all with probability {:.2f}{}, and breaks a hard goal on a share of "
-          "{:.3f} of the draws.",
-          name, options[choice].best.value,
-          unfit_but_counted(section, draws).empty() ? "" : ", those not fit to be chosen counted",
-          place.outside_goals.value));
+          fmt::format("All eligible proposals are within {:.0f} % of one another: choose by their "
+                      "other effects.",
+                      100.0 * negligible_change));
+    }
+    if (fit) {
+      sentences.push_back(
+          fmt::format("{} violates a constraint on a fraction of {:.3f} of the samples.", name,
+                      place.outside_goals.value));
     }
     if (auto cause = law_or_hardware(section, draws, choice); fit && !cause.empty()) {
       sentences.push_back(std::move(cause));
@@ -244,11 +238,11 @@ std::vector<std::string> decision(const EvaluateSection& section) {
     const Candidate& only = section.candidates.front();
     const CandidateLaw& law = only.laws[*only.chosen];
     if (!std::isfinite(law.compared_rms())) return sentences;
-    sentences.push_back(fmt::format(
-        "Nothing to compare it with: {} points within {:.3f} mdeg rms over {} plant models in "
-        "{:.3g} m/s with {}{}.",
-        only.name, mdeg(law.compared_rms()), section.ensemble_size, section.wind_speed,
-        law.structure, law.usable() ? "" : ", which is not fit to be chosen"));
+    sentences.push_back(
+        fmt::format("Nothing to compare with: {} has {:.3f} mdeg rms over {} plant models in "
+                    "{:.3g} m/s with {}{}.",
+                    only.name, mdeg(law.compared_rms()), section.ensemble_size, section.wind_speed,
+                    law.structure, law.usable() ? "" : ", which is not eligible"));
   }
   std::string front;
   double before = HUGE_VAL;
@@ -262,10 +256,9 @@ std::vector<std::string> decision(const EvaluateSection& section) {
                          *candidate.cost, section.currency, mdeg(law->compared_rms()));
   }
   if (!front.empty()) {
-    sentences.push_back(fmt::format(
-        "Worth looking at for their cost, each better by {:.0f} % or more than all that cost less: "
-        "{}.",
-        100.0 * negligible_change, front));
+    sentences.push_back(
+        fmt::format("Pareto front, each at least {:.0f} % better than all cheaper ones: {}.",
+                    100.0 * negligible_change, front));
   }
   return sentences;
 }
@@ -277,15 +270,15 @@ std::vector<std::string> decision(const TuneSection& section,
   Sentences sentences{recommended_first(section)};
   std::ranges::move(unstable_now(section), std::back_inserter(sentences));
   if (best == nullptr) {
-    sentences.emplace_back("No law that was tuned meets the hard goals of this case.");
+    sentences.emplace_back("No tuned controller meets the constraints of this case.");
     return sentences;
   }
   std::string text =
       fmt::format("On the linear plant {} is best, with {:.3f} mdeg rms in {:.3g} m/s, {}",
                   best->structure, mdeg(best->beam_rms), best->wind_speed,
                   best->tuned_for == TunedFor::robust
-                      ? fmt::format("its goals held on each of {} plants", section.ensemble_size)
-                      : std::string("its goals held on the nominal plant only"));
+                      ? fmt::format("constraints met on each of {} plants", section.ensemble_size)
+                      : std::string("constraints met on the nominal plant only"));
   const TunedLaw* recommended = recommended_law(section);
   if (!section.budgets.empty() && recommended != nullptr && !recommended->speed_limits.empty()) {
     const double by_wind = recommended->speed_limits.front();
@@ -294,14 +287,13 @@ std::vector<std::string> decision(const TuneSection& section,
         "; {} meets {} ({}) up to {}{}{}",
         recommended == best
             ? std::string("it")
-            : fmt::format("there {}, the law recommended,", name_and_purpose(*recommended)),
+            : fmt::format("{}, the recommended controller,", name_and_purpose(*recommended)),
         section.budgets.front().name, section.budgets.front().band,
         std::isfinite(limit_speed) ? fmt::format("{:.1f} m/s", limit_speed)
-                                   : std::string("the 60 m/s looked at"),
+                                   : std::string("the 60 m/s studied"),
         dish_and_mast(section.wind_mast, limit_speed), climate_text(section.climate, limit_speed));
     if (limit_speed < by_wind) {
-      text +=
-          ", where the mean wind takes all that friction and offset leave of the supply's torque";
+      text += ", where the mean wind takes all supply torque that friction and offset leave";
     }
   }
   text += '.';
@@ -311,26 +303,25 @@ std::vector<std::string> decision(const TuneSection& section,
   sentences.push_back(std::move(text));
   if (!time_domain) {
     sentences.emplace_back(
-        "Friction, hunting and slewing were not examined: no law ran on the nonlinear antenna, "
-        "which takes a [simulation] in the case.");
+        "Friction, limit cycles and slewing were not examined: add a [simulation] to the case.");
   } else {
     sentences.push_back(decide(*time_domain));
   }
   if (limit && limit->least_rms > 0.0) {
-    sentences.push_back(fmt::format(
-        "No controller with these sensors, sampling and valve effort gets below {:.3f} mdeg on the "
-        "nominal plant: what is beyond that takes other hardware.",
-        mdeg(limit->least_rms)));
+    sentences.push_back(
+        fmt::format("Lower bound with these sensors, sampling and control effort: {:.3f} mdeg on "
+                    "the nominal plant; less requires other hardware.",
+                    mdeg(limit->least_rms)));
   }
   return sentences;
 }
 
 std::vector<std::string> decision(const MonteCarloSection& section) {
-  Sentences sentences{fmt::format(
-      "{} held on {} plants is unstable on a share of {:.4g} (95 %: at most {:.2g}) and keeps all "
-      "hard goals on {:.1f} %.",
-      section.structure, section.plants, section.instability.value, section.instability.upper,
-      100.0 * section.all_goals_met.value)};
+  Sentences sentences{
+      fmt::format("{} with fixed gains on {} plants is unstable on a fraction of {:.4g} (95 %: at "
+                  "most {:.2g}) and meets all constraints on {:.1f} %.",
+                  section.structure, section.plants, section.instability.value,
+                  section.instability.upper, 100.0 * section.all_goals_met.value)};
   if (!section.budgets.empty()) {
     const auto& one = section.budgets.front();
     sentences.push_back(
@@ -360,20 +351,18 @@ std::vector<std::string> decision(const BenchmarkReport& report) {
                     report.controller.description, report.score.abscissa)};
   }
   const auto& score = report.score;
-  Sentences sentences{fmt::format("{} points within {:.3f} mdeg rms an axis in {:.3g} m/s of wind.",
+  Sentences sentences{fmt::format("{} has {:.3f} mdeg rms per axis in {:.3g} m/s of wind.",
                                   report.controller.description, mdeg(score.design_wind.beam_rms),
                                   score.design_wind.mean_speed)};
   if (score.ensemble) {
     sentences.push_back(fmt::format(
-        "It is stable on {} of {} plants that may be the true one and "
-        "keeps its goals on {}.",
+        "It is stable on {} of {} ensemble members and meets the constraints on {}.",
         score.ensemble->stable, score.ensemble->members.size(), score.ensemble->within_goals));
   }
   if (score.reference && score.reference->least_rms) {
-    sentences.push_back(fmt::format(
-        "The least that any controller could reach with these sensors and the goals' effort is "
-        "{:.3f} mdeg.",
-        mdeg(*score.reference->least_rms)));
+    sentences.push_back(
+        fmt::format("Lower bound with these sensors and this control effort: {:.3f} mdeg.",
+                    mdeg(*score.reference->least_rms)));
   }
   return sentences;
 }
@@ -387,8 +376,8 @@ std::vector<std::string> decision(const CommissionReport& report) {
       !report.plan.stages.empty() && report.plan.stages.front().kind == design::StageKind::as_found;
   if (sentences.size() < 3 && report.plan.detuning && !known) {
     sentences.emplace_back(
-        "The gains found are not known: the plan begins with the law's own, lowered until every "
-        "plant keeps its margins.");
+        "The present gains are unknown: the plan begins with the controller's own, lowered until "
+        "every plant keeps its margins.");
   }
   return sentences;
 }
@@ -398,19 +387,16 @@ std::vector<std::string> decision(const SimulationReport& report) {
   for (const auto& run : report.position) {
     if (!run.beam_rms || !run.predicted_rms) continue;
     sentences.push_back(fmt::format(
-        "Expect {:.3f} mdeg rms of the beam in {} on the nonlinear antenna, where the linear "
-        "design predicts {:.3f}.",
+        "Expect {:.3f} mdeg rms in {} on the nonlinear antenna; the linear design predicts {:.3f}.",
         mdeg(*run.beam_rms), run.test, mdeg(*run.predicted_rms)));
     break;
   }
   if (!report.failure.empty()) {
     sentences.push_back(fmt::format("{} failed: {}.", report.failed_test, report.failure));
   }
-  sentences.push_back(
-      fmt::format("{} test{} ran; records are written as the antenna's recorder "
-                  "would, to be identified like measured ones.",
-                  report.drive.size() + report.position.size(),
-                  report.drive.size() + report.position.size() == 1 ? "" : "s"));
+  sentences.push_back(fmt::format("{} test{} ran; identify the records like measured ones.",
+                                  report.drive.size() + report.position.size(),
+                                  report.drive.size() + report.position.size() == 1 ? "" : "s"));
   return sentences;
 }
 

@@ -51,7 +51,7 @@ void append_finding(Document& page, const Finding& finding, std::size_t number) 
                                 consequence.as_corrected, percent(consequence.relative_change())));
   }
   if (!moved.empty())
-    page += wrapped(fmt::format("moves {}", fmt::join(moved, ", ")), "    ", "  ");
+    page += wrapped(fmt::format("changes {}", fmt::join(moved, ", ")), "    ", "  ");
 }
 
 void append_group(Document& page, const AuditReport& report, std::string_view title,
@@ -82,11 +82,10 @@ bool follows_from_other_column(const Finding& finding) {
 // Of the printed numbers that can be compared, how many places do not follow.
 std::string compared_numbers(const AuditReport& report) {
   if (!report.findings.empty()) {
-    return fmt::format("Of {} printed {} compared, {} not follow", report.checked,
-                       report.checked == 1 ? "number" : "numbers",
-                       report.findings.size() == 1
-                           ? "1 place does"
-                           : fmt::format("{} places do", report.findings.size()));
+    return fmt::format(
+        "Of {} stated {} compared, {} inconsistent", report.checked,
+        report.checked == 1 ? "value" : "values",
+        report.findings.size() == 1 ? "1 is" : fmt::format("{} are", report.findings.size()));
   }
   if (report.checked == 0) {
     return "The case states no derived numbers to compare ([[stated]])";
@@ -98,8 +97,8 @@ std::string compared_numbers(const AuditReport& report) {
   return fmt::format(
       "{} ({}{})",
       report.checked == 1
-          ? "The one printed number that can be compared agrees"
-          : fmt::format("All {} printed numbers that can be compared agree", report.checked),
+          ? "The one stated derived value is consistent"
+          : fmt::format("All {} stated derived values are consistent", report.checked),
       fmt::join(first, ", "), report.compared.size() > named ? ", ..." : "");
 }
 
@@ -108,13 +107,12 @@ std::string moved_results(const AuditReport& report) {
   if (report.findings.empty()) return "";
   std::vector<const Finding*> matter;
   for (const Finding& finding : report.findings) {
-    // Right in itself where it follows from another column: the finding there is the one to mend.
+    // Consistent in itself where it follows from another column: correct that one.
     if (largest_change(finding) > change_that_matters && !follows_from_other_column(finding)) {
       matter.push_back(&finding);
     }
   }
-  if (matter.empty())
-    return " None of these printed numbers moves a headline result by more than 0.1 %.";
+  if (matter.empty()) return " None of them changes a headline result by more than 0.1 %.";
   std::stable_sort(matter.begin(), matter.end(), [](const Finding* a, const Finding* b) {
     return largest_change(*a) > largest_change(*b);
   });
@@ -127,10 +125,8 @@ std::string moved_results(const AuditReport& report) {
     moved.push_back(fmt::format("{} '{}' ({} {})", finding->id, number, most.id,
                                 percent(most.relative_change())));
   }
-  return fmt::format(" The printed {} by more than 0.1 % {} {}; the others can stand without harm.",
-                     moved.size() == 1 ? "number that moves a headline result"
-                                       : "numbers that move a headline result",
-                     moved.size() == 1 ? "is" : "are", fmt::join(moved, "; "));
+  return fmt::format(" Correct those that change a headline result by more than 0.1 %: {}.",
+                     fmt::join(moved, "; "));
 }
 
 }  // namespace
@@ -150,13 +146,13 @@ Document document_of(const AuditReport& report) {
   std::size_t number = 0;
   append_group(page, report, "Columns that disagree beyond their rounding", FindingKind::conversion,
                false, number);
-  append_group(page, report, "Derived numbers that do not follow beyond all printed rounding",
+  append_group(page, report, "Derived values inconsistent beyond all stated rounding",
                FindingKind::derivation, false, number);
-  append_group(page, report,
-               "Derived numbers whose own digits do not follow, though the rounding of what they "
-               "come from could hide it",
-               FindingKind::derivation, true, number);
-  append_group(page, report, "Inputs printed again with another value", FindingKind::restatement,
+  append_group(
+      page, report,
+      "Derived values inconsistent in their digits, but within the rounding of their inputs",
+      FindingKind::derivation, true, number);
+  append_group(page, report, "Inputs stated again with another value", FindingKind::restatement,
                false, number);
   if (!report.implausible.empty()) page += subheading("Physically implausible", "") + "\n";
   for (const Implausibility& implausible : report.implausible) {
@@ -169,7 +165,7 @@ Document document_of(const AuditReport& report) {
     page += wrapped(fmt::format("{:2}. {}: {}", ++number, remark.place, remark.text), "", "    ");
   }
   page += subheading("Summary", "") + "\n";
-  page += wrapped("What a number 'moves' is computed from the numbers as first printed.", "");
+  page += wrapped("Changes are computed from the values as first stated.", "");
   page += essential(wrapped(audit_summary(report), ""));
   return page;
 }

@@ -29,11 +29,12 @@ Document reconciled_part(const io::CampaignSection& section) {
   if (section.mean_of_methods) {
     const auto& mean = *section.mean_of_methods;
     return wrapped(
-        fmt::format("Mean of {} methods (random effects): J = {:.4g} kg.m2, 95 % interval {:.4g} "
-                    ".. {:.4g}; R = {:.3f}. Cochran's Q {:.1f} on {} degrees of freedom{}.",
-                    mean.degrees_of_freedom + 1, mean.value, mean.lower, mean.upper,
-                    mean.motor_to_load_ratio, mean.heterogeneity, mean.degrees_of_freedom,
-                    mean.heterogeneity > 2.0 * mean.degrees_of_freedom ? ": they differ much" : ""),
+        fmt::format(
+            "Mean of {} methods (random effects): J = {:.4g} kg.m2, 95 % interval {:.4g} "
+            ".. {:.4g}; R = {:.3f}. Cochran's Q {:.1f} on {} degrees of freedom{}.",
+            mean.degrees_of_freedom + 1, mean.value, mean.lower, mean.upper,
+            mean.motor_to_load_ratio, mean.heterogeneity, mean.degrees_of_freedom,
+            mean.heterogeneity > 2.0 * mean.degrees_of_freedom ? ": they differ strongly" : ""),
         "  ");
   }
   if (!section.grey_box) return {};
@@ -75,8 +76,8 @@ Document methods_part(const io::CampaignSection& section) {
   }
   text += essential(table(rows, "lrrrrrr"));
   text += wrapped(
-      "* the founding paper's own procedures. R = Jm/(J - Jm), all motors against everything else. "
-      "Sigmas: difference over both standard uncertainties' root sum of squares.",
+      "* procedures of the founding paper. R = Jm/(J - Jm), all motors over everything else. "
+      "Sigmas: difference over the combined standard uncertainty.",
       "  ");
   text += "\n";
   for (const auto& row : section.inertia) {
@@ -158,11 +159,10 @@ Document friction_part(const io::CampaignSection& section) {
   }
   text += table(rows, "rrrrrrrl");
   const bool tested = section.impulse && section.impulse->constant_speed;
-  text += wrapped(
-      fmt::format("Curve fit: one curve through windows of all tests. t: the tracking rate. x: "
-                  "slower or faster than the {}.",
-                  tested ? "constant-speed tests" : "speeds that the curve was fitted over"),
-      "  ");
+  text += wrapped(fmt::format("Curve fit: one curve through windows of all tests. t: the tracking "
+                              "rate. x: outside the range of the {}.",
+                              tested ? "constant-speed tests" : "fitted speeds"),
+                  "  ");
   std::string levels;
   if (section.impulse && section.impulse->constant_speed &&
       section.impulse->constant_speed->has_line) {
@@ -189,11 +189,11 @@ Document friction_part(const io::CampaignSection& section) {
 }
 
 Document contradictions_part(const io::CampaignSection& section) {
-  Document text = heading("Numbers of the case that the records contradict");
+  Document text = heading("Stated numbers that the records contradict");
   if (section.contradictions.empty()) {
     return text + "  none by more than two combined standard uncertainties\n";
   }
-  Rows rows{{"key", "stated", "", "unit", "records say", "95 % interval", "sigmas", "by"}};
+  Rows rows{{"key", "stated", "", "unit", "records give", "95 % interval", "sigmas", "by"}};
   for (const auto& one : section.contradictions) {
     const auto unit = shown_unit(one.unit);
     rows.push_back(
@@ -207,7 +207,7 @@ Document contradictions_part(const io::CampaignSection& section) {
 
 Document advice_part(const io::CampaignSection& section) {
   if (section.test_gains.empty() || !section.grey_box) return {};
-  Document text = heading("Which further test would shrink which interval most (1 = not at all)");
+  Document text = heading("Fraction of each interval left after a further test");
   const auto& quantities = section.grey_box->quantities;
   Rows rows{{"test", "in this campaign"}};
   std::vector<std::size_t> shown;
@@ -230,11 +230,11 @@ Document advice_part(const io::CampaignSection& section) {
       names += fmt::format("{}{} ({:.0f} % of the interval left)", i == 0 ? "" : ", then ",
                            best[i]->test, 100.0 * best[i]->remaining[q]);
     }
-    text += wrapped(fmt::format("{}: {}.", quantities[q].name,
-                                names.empty() ? "no test of these helps; what is left is the "
-                                                "instruments' and the model's"
-                                              : names),
-                    "  ", "  ");
+    text += wrapped(
+        fmt::format(
+            "{}: {}.", quantities[q].name,
+            names.empty() ? "none of these tests helps; instruments and model limit it" : names),
+        "  ", "  ");
   }
   return text;
 }
@@ -242,7 +242,7 @@ Document advice_part(const io::CampaignSection& section) {
 Document fit_part(const io::CampaignSection& section) {
   if (!section.grey_box) return {};
   const auto& fit = *section.grey_box;
-  Document text = heading("How well one model explains all records");
+  Document text = heading("Fit of one model to all records");
   Rows rows{{"record", "prediction of", "rms", "unit", "counted", "left out", "neighbours",
              "effective", "white"}};
   for (const auto& r : fit.residuals) {
@@ -262,13 +262,12 @@ Document fit_part(const io::CampaignSection& section) {
                               std::string(numerics::describe(fit.status))),
                   "  ");
   if (const auto& held = section.hold_out) {
-    text += wrapped(
-        fmt::format("Held out: fitted to the other records and driven by the valve command of {} "
-                    "alone, the model misses its rate by {:.0f} % and its torque by {:.0f} % (rms "
-                    "over that of the record about its mean).",
-                    held->record, 100.0 * held->result.error.rate_error,
-                    100.0 * held->result.error.torque_error),
-        "  ", "  ");
+    text += wrapped(fmt::format("Hold-out: fitted to the other records and driven by the valve "
+                                "command of {}, the model has errors of {:.0f} % in rate and "
+                                "{:.0f} % in torque (rms over the record's about its mean).",
+                                held->record, 100.0 * held->result.error.rate_error,
+                                100.0 * held->result.error.torque_error),
+                    "  ", "  ");
   }
   for (const auto& note : fit.notes) text += wrapped(note, "  ", "  ");
   text += subheading("correlation of the estimates");
@@ -299,7 +298,7 @@ Document method_notes_part(const io::CampaignSection& section) {
 }  // namespace
 
 Document document_of(const io::CampaignSection& section) {
-  Document text = heading("What the records say of the drive");
+  Document text = heading("Drive parameters from the records");
   for (const auto& sentence : section.not_identifiable) {
     text += essential(wrapped(sentence, "  ", "  "));
   }

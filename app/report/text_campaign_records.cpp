@@ -36,7 +36,7 @@ Document guesses_part(const io::CampaignNotes& notes) {
     }
     for (const auto& remark : record.remarks) add(remark, record.name);
     if (record.test_guessed) {
-      add(fmt::format("the test was told by the data: {}", io::to_string(record.test)),
+      add(fmt::format("the test was inferred from the data: {}", io::to_string(record.test)),
           record.name);
     }
     if (record.rate_loop_guessed) {
@@ -54,7 +54,7 @@ Document guesses_part(const io::CampaignNotes& notes) {
                   ? " (all records)"
                   : fmt::format(" ({})", joined(records));
     }
-    text += wrapped(fmt::format("taken for granted: {}{}", sentence, where), "  ", "  ");
+    text += wrapped(fmt::format("assumed: {}{}", sentence, where), "  ", "  ");
   }
   return text;
 }

@@ -28,7 +28,7 @@ std::string share(const design::Probability& probability) {
                      probability.upper);
 }
 
-// Whether numbers are nothing to the digits printed.
+// Whether numbers are zero to the digits printed.
 bool all_nothing(std::initializer_list<std::string> printed) {
   return std::ranges::all_of(printed, [](const std::string& text) {
     return text.find_first_of("123456789i") == std::string::npos;
@@ -38,12 +38,12 @@ bool all_nothing(std::initializer_list<std::string> printed) {
 // The names of rows that would hold nothing but zeros.
 Document left_out(const std::vector<std::string>& names) {
   if (names.empty()) return {};
-  return wrapped(fmt::format("Nothing to the digits printed: {}.", fmt::join(names, ", ")), "  ");
+  return wrapped(fmt::format("Zero to the digits printed: {}.", fmt::join(names, ", ")), "  ");
 }
 
 Document chances_table(const EvaluateSection& section, const DecisionSection& decision) {
   Rows rows{{"proposal", "mean mdeg", "+-", "5 %", "50 %", "95 %", "is the best", "regret mdeg",
-             "+-", "on the front", "outside goals", "unstable"}};
+             "+-", "on Pareto front", "constraints violated", "unstable"}};
   for (std::size_t i = 0; i < decision.candidates.size(); ++i) {
     const auto& one = decision.candidates[i];
     const auto& statistics = decision.statistics.options[i];
@@ -62,8 +62,7 @@ Document chances_table(const EvaluateSection& section, const DecisionSection& de
   const auto counted = unfit_but_counted(section, decision);
   if (counted.empty()) return table(rows, "l");
   return table(rows, "l") +
-         wrapped(fmt::format("'is the best' and 'regret' are against all of these, also against "
-                             "what is not fit to be chosen: {}.",
+         wrapped(fmt::format("'is the best' and 'regret' include ineligible proposals: {}.",
                              fmt::join(counted, ", ")),
                  "  ");
 }
@@ -108,8 +107,8 @@ Document structures_table(const EvaluateSection& section, const DecisionSection&
   if (rows.size() == 1) return {};
   return "\n" +
          wrapped(
-             "Pairs above with different loops, with one structure on both, over the same draws: "
-             "what of their difference is not the law's.",
+             "Pairs above with different loops, re-tuned with one structure on both, over the same "
+             "samples: the difference due to the hardware.",
              "  ") +
          table(rows, "lllrrr");
 }
@@ -136,15 +135,14 @@ Document inputs_table(const EvaluateSection& section, const DecisionSection& dec
                     first, interval(one.first_order), total, interval(one.total)});
   }
   Document text =
-      "\n" +
-      wrapped(fmt::format(
-                  "What decides between the two best: rms of '{}' less that of '{}', "
-                  "mdeg, {:.4f} with every input at its median, standard deviation {:.4f}; gains "
-                  "held. One input at its 5 % and 95 % share, the others at their median; shares "
-                  "of the difference's variance by Sobol' (of independent inputs, {} evaluations).",
-                  second, best, decision.tornado->at_median, std::sqrt(indices.variance),
-                  decision.sobol->evaluations),
-              "  ");
+      "\n" + wrapped(fmt::format(
+                         "Inputs that decide between the two best: rms of '{}' minus that of '{}', "
+                         "mdeg, {:.4f} at the medians, standard deviation {:.4f}; fixed gains. One "
+                         "input at its 5 % and 95 % quantile, the others at their median; Sobol' "
+                         "fractions of the variance (independent inputs, {} evaluations).",
+                         second, best, decision.tornado->at_median, std::sqrt(indices.variance),
+                         decision.sobol->evaluations),
+                     "  ");
   return text + (rows.size() > 1 ? table(rows, "l") : Document()) + left_out(nothing);
 }
 
@@ -168,35 +166,33 @@ Document tests_table(const EvaluateSection& section, const DecisionSection& deci
                   fixed(tests.perfect.standard_error, 5), "-", "-"});
   const auto& choice = section.candidates[decision.candidates[tests.choice].candidate].name;
   return "\n" +
-         wrapped(
-             fmt::format("What tests are worth before the choice, whatever it costs: by how many "
-                         "mdeg the expected rms falls below that of '{}', the choice of today, "
-                         "if one input is known exactly. Fitted is biased high, held out low.",
-                         choice),
-             "  ") +
+         wrapped(fmt::format("Expected value of perfect information, costs ignored: reduction "
+                             "(mdeg) of the expected rms below that of '{}', today's choice, if "
+                             "one input is known exactly. Fitted is biased high, held out low.",
+                             choice),
+                 "  ") +
          table(rows, "l") + left_out(nothing);
 }
 
 }  // namespace
 
 std::string heading_of(const DecisionSection& decision) {
-  return fmt::format("Chances, by {} draws with the gains held", decision.draws);
+  return fmt::format("Probabilities over {} samples, fixed gains", decision.draws);
 }
 
 Document document_of(const EvaluateSection& section, const DecisionSection& decision) {
   Document text = heading(heading_of(decision));
   text += wrapped(
-      fmt::format("Beam rms in mdeg of linear loops{}, {}, the same for all proposals. "
-                  "Intervals: 95 % for the number of draws; they say nothing of the "
-                  "ranges drawn from.",
-                  section.time_domain ? " times each law's factor of the nonlinear antenna" : "",
+      fmt::format("Boresight rms in mdeg of linear loops{}, {}, the same for all proposals. "
+                  "Intervals: 95 %, sampling error only.",
+                  section.time_domain ? " times each controller's simulated/linear rms ratio" : "",
                   decision.source),
       "  ");
   text += essential(chances_table(section, decision)) + "\n";
   text += wrapped(
-      "Pairs: the chance that the first has the lower rms on the same plant, ties counted half, "
-      "and by how much on average; dominance of its losses: in every draw, by every quantile "
-      "(first order), for whoever dislikes risk (second order).",
+      "Pairs: probability that the first has the lower rms on the same plant, ties counted half, "
+      "and the mean difference. Dominance: in every sample, stochastic of first order, or of "
+      "second order (risk-averse).",
       "  ");
   text += pairs_table(section, decision);
   text += structures_table(section, decision);

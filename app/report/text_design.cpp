@@ -35,7 +35,7 @@ std::string decibel(double factor) {
 }
 
 std::string verdict(const Design& design) {
-  if (design.tuning.status == design::TuningStatus::unstable) return "no stable law";
+  if (design.tuning.status == design::TuningStatus::unstable) return "none stable";
   if (design.tuning.status == design::TuningStatus::infeasible) return "infeasible";
   return design.verification.passed ? "ok" : "NOT VERIFIED";
 }
@@ -74,7 +74,7 @@ std::string crossovers_text(const control::Margins& margins) {
 
 Document breaks_part(const TuningSection& section) {
   std::vector<std::vector<std::string>> rows{
-      {"loop cut at", "peak of S", "goal", "at Hz", "crossover Hz"}};
+      {"loop cut at", "Ms", "limit", "at Hz", "crossover Hz"}};
   const auto append = [](std::vector<std::string>& row, const std::vector<std::string>& cells) {
     row.insert(row.end(), cells.begin(), cells.end());
   };
@@ -91,7 +91,7 @@ Document breaks_part(const TuningSection& section) {
   return table(rows);
 }
 
-// Gusts and torque that the rms values rest on.
+// Gusts and torque behind the rms values.
 Document wind_part(const TuningSection& section) {
   const auto gusts = plant::site_gusts(section.wind_site);
   Document text = wrapped(
@@ -116,16 +116,15 @@ std::string ensemble_text(const design::EnsembleResult& ensemble, std::string_vi
   const auto& worst = ensemble.members[ensemble.worst];
   const double peak = *std::ranges::max_element(worst.sensitivity_peaks);
   return fmt::format(
-      "The same gains on {} plants {}: {} stable, {} within "
-      "every goal; beam rms {} .. {} mdeg, median {}, 95 % below {}. The worst, {}, {}.",
+      "The same gains on {} plants {}: {} stable, {} meet every constraint; rms {} .. {} mdeg, "
+      "median {}, 95 % below {}. The worst, {}, {}.",
       ensemble.members.size(), source, ensemble.stable, ensemble.within_goals,
       mdeg(ensemble.least_rms), mdeg(ensemble.largest_rms), mdeg(ensemble.median_rms),
       mdeg(ensemble.high_rms), worst.name,
       worst.stable
-          ? fmt::format("has a sensitivity peak of {:.3f} where {:g} is allowed and a valve effort "
-                        "of {:.3f} rad/s where {:g} is",
+          ? fmt::format("has Ms {:.3f}, limit {:g}, and control effort {:.3f} rad/s, limit {:g}",
                         peak, goals.sensitivity_peak[0], worst.valve_effort, goals.valve_effort)
-          : "is not stable");
+          : "is unstable");
 }
 
 // "24/30": plants of the ensemble on which a budget is met where it is needed.
@@ -138,7 +137,7 @@ std::string plants_text(const TuningSection& section, const BudgetResult& result
 Document present_part(const TuningSection& section) {
   if (section.present.empty()) return {};
   std::vector<std::vector<std::string>> rows{
-      {"present gains", "beam rms mdeg", "S rate", "S valve", "S pos.", "effort rad/s", "check"}};
+      {"present gains", "rms mdeg", "S rate", "S valve", "S pos.", "effort rad/s", "check"}};
   for (const auto& [structure, design] : section.present) {
     std::vector<std::string> cells{structure};
     if (design.tuning.status == design::TuningStatus::unstable) {
@@ -165,22 +164,20 @@ std::string moved_text(const InputEffect& effect) {
   return fmt::format("{:.3g} %{}", 100.0 * effect.moved_by / std::abs(effect.quantity.value), mark);
 }
 
-// What the law's rms owes to single numbers of the case.
+// Sensitivity of the rms to single inputs.
 Document effects_part(const TuningSection& section) {
   if (section.input_effects.empty()) return {};
   Document text =
       essential(subheading("Rms with one input changed, gains fixed (* a range assumed)"));
   text += wrapped(
-      "One number of the case moved at a time, gains held: by its standard uncertainty, or by a "
-      "tenth (marked *) where its value is assumed and the case gives none. A share of wind or "
-      "beam "
-      "that is assumed so (marked *, with its range) is moved to its body's share of the inertia "
-      "and as far the other way, by half of it at least, from 0 to 1: a guess may be as wrong. Of "
-      "shares the others give way. Inertias are moved with the structure's frequencies held, so "
-      "that a lighter antenna is a softer one. What moves the rms most comes first.",
+      "Each input is changed alone: by its standard uncertainty, or by 10 % (*) if it is assumed "
+      "and none is stated. An assumed wind or boresight fraction (*, with its range) is changed to "
+      "its body's inertia fraction and as far the other way, by half of it at least. The other "
+      "fractions are rescaled so that they sum to 1. Structural frequencies stay fixed, so a "
+      "lighter antenna is softer.",
       "  ");
   std::vector<std::vector<std::string>> rows{
-      {"number", "as", "value", "moved by", "rms mdeg, lower", "higher"}};
+      {"input", "basis", "value", "changed by", "rms mdeg, lower", "higher"}};
   for (const auto& effect : section.input_effects) {
     const io::Quantity& quantity = effect.quantity;
     const auto rms = [](double angle) {
@@ -203,40 +200,38 @@ Document document_of(const TuningSection& section) {
   Document text = heading(tuning_heading(section));
   text += present_part(section);
   if (design.tuning.status == design::TuningStatus::unstable) {
-    return text +
-           essential(wrapped(
-               fmt::format("No stable law among {} tried.", design.tuning.evaluations), "  "));
+    return text + essential(wrapped(fmt::format("No stable controller among {} tried.",
+                                                design.tuning.evaluations),
+                                    "  "));
   }
   if (design.tuning.status == design::TuningStatus::infeasible) {
     text += essential(
-        wrapped(fmt::format("INFEASIBLE: no law of the search meets every hard goal. Shown is the "
-                            "nearest; it exceeds its worst goal by {:.3g} %.",
+        wrapped(fmt::format("INFEASIBLE: no controller found meets every constraint. Shown is the "
+                            "nearest; it exceeds its worst limit by {:.3g} %.",
                             100.0 * (design.tuning.worst_goal_ratio - 1.0)),
                 "  "));
   }
   text += essential(gains_part(section) + "\n" + breaks_part(section) + "\n");
+  text += wrapped(fmt::format("Rms {} mdeg at the sky (wind {}, sensor noise {}); control effort "
+                              "{:.3f} rad/s, limit {:g}. Active constraints: {}.{}",
+                              mdeg(design.beam_rms), mdeg(design.wind_rms), mdeg(design.noise_rms),
+                              design.valve_effort, section.goals.valve_effort,
+                              design.tuning.active_goals.empty()
+                                  ? "none"
+                                  : fmt::format("{}", fmt::join(design.tuning.active_goals, "; ")),
+                              design.tuning.gains_at_bound.empty()
+                                  ? ""
+                                  : fmt::format(" At the search limit: {}.",
+                                                fmt::join(design.tuning.gains_at_bound, ", "))),
+                  "  ");
   text += wrapped(
-      fmt::format("Beam rms {} mdeg at the sky (wind {}, sensor noise {}); noise-driven valve "
-                  "command {:.3f} rad/s rms of {:g} allowed. Limited by: {}.{}",
-                  mdeg(design.beam_rms), mdeg(design.wind_rms), mdeg(design.noise_rms),
-                  design.valve_effort, section.goals.valve_effort,
-                  design.tuning.active_goals.empty()
-                      ? "no goal"
-                      : fmt::format("{}", fmt::join(design.tuning.active_goals, "; ")),
-                  design.tuning.gains_at_bound.empty()
-                      ? ""
-                      : fmt::format(" At the bound of the search: {}.",
-                                    fmt::join(design.tuning.gains_at_bound, ", "))),
-      "  ");
-  text += wrapped(
-      fmt::format(
-          "{}: largest real part of the eigenvalues {:.4f} 1/s (position loop open) and "
-          "{:.4f} 1/s (closed); what the rational dead time leaves out is {:.1e} of the "
-          "return difference; rms by Lyapunov equations and by the spectrum {:.3f} % apart.",
-          check.passed ? "Verified by independent code"
-                       : fmt::format("NOT VERIFIED ({})", check.failure),
-          check.stability.rate_loop_abscissa, check.stability.closed_loop_abscissa,
-          check.stability.dead_time_residue, 100.0 * check.rms_disagreement),
+      fmt::format("{}: largest real part of the eigenvalues {:.4f} 1/s (position loop open) and "
+                  "{:.4f} 1/s (closed); the rational dead time omits {:.1e} of the return "
+                  "difference; rms by Lyapunov equations and by the spectrum differ by {:.3f} %.",
+                  check.passed ? "Verified by independent code"
+                               : fmt::format("NOT VERIFIED ({})", check.failure),
+                  check.stability.rate_loop_abscissa, check.stability.closed_loop_abscissa,
+                  check.stability.dead_time_residue, 100.0 * check.rms_disagreement),
       "  ");
   std::string seeds;
   for (const auto& seed : section.seeds) {
@@ -251,16 +246,16 @@ Document document_of(const TuningSection& section) {
     text +=
         wrapped(ensemble_text(*section.ensemble, section.ensemble_source, section.goals), "  ") +
         "\n";
-  std::vector<std::vector<std::string>> rows{{"wind model, same gains", "beam rms mdeg"}};
+  std::vector<std::vector<std::string>> rows{{"wind model, same gains", "rms mdeg"}};
   for (const auto& alternative : section.wind_alternatives) {
     rows.push_back({std::string(plant::to_string(alternative.model)), mdeg(alternative.beam_rms)});
   }
+  rows.push_back({"structural flexure beyond the encoder alone", mdeg(section.encoder_held_rms)});
   rows.push_back(
-      {"encoder held perfectly still: bending it cannot see", mdeg(section.encoder_held_rms)});
-  rows.push_back({"static bending by the mean wind (calibration's job, not in the rms)",
-                  mdeg(section.static_bending)});
+      {"static deflection in the mean wind (not in the rms)", mdeg(section.static_bending)});
   text += table(rows) + wind_part(section) + "\n";
-  rows = {{"band", "beamwidth mdeg", "mean loss dB, two equal axes", "static bending would add"}};
+  rows = {
+      {"band", "beamwidth mdeg", "mean loss dB, two equal axes", "static deflection would add"}};
   for (const auto& loss : section.losses) {
     rows.push_back({fmt::format("{} {:g} GHz", loss.band.name, loss.band.frequency / 1e9),
                     fmt::format("{:.3f}", loss.band.beamwidth / millidegree),
@@ -269,21 +264,20 @@ Document document_of(const TuningSection& section) {
   const bool far_out = std::ranges::any_of(section.losses, [](const auto& loss) {
     return std::max(loss.mean_loss_db, loss.static_bending_db) > largest_parabola_loss;
   });
-  text +=
-      table(rows) +
-      wrapped(
-          "Left out of the losses is what the mean wind bends the antenna. It changes as slowly as "
-          "the mean wind, and is for a boresight scan or a wind term of the pointing model to take "
-          "away: no loop sees it.",
-          "  ") +
-      (far_out ? wrapped(beyond_the_parabola(), "  ") : Document()) + "\n";
+  text += table(rows) +
+          wrapped(
+              "Losses exclude static wind deflection, which the loops cannot sense; remove it by a "
+              "boresight scan.",
+              "  ") +
+          (far_out ? wrapped(beyond_the_parabola(), "  ") : Document()) + "\n";
   const auto& mast = section.wind_mast;
   rows = {
       {"budget", "band", "convention", "rms mdeg", "met up to m/s" + mast_column(mast), "km/h"}};
   const bool needed = std::ranges::any_of(
       section.budgets, [](const BudgetResult& one) { return one.budget.wind_speed.has_value(); });
   if (needed) {
-    rows.front().insert(rows.front().end(), {"needed m/s" + mast_column(mast), "there on plants"});
+    rows.front().insert(rows.front().end(),
+                        {"required m/s" + mast_column(mast), "there on plants"});
   }
   const bool climate = !section.climate.empty();
   if (climate) rows.front().emplace_back("of the time");
@@ -304,47 +298,44 @@ Document document_of(const TuningSection& section) {
   }
   text += essential(table(rows, "lllrrrrrr"));
   if (std::isfinite(section.supply_wind_speed)) {
-    text +=
-        wrapped(fmt::format("Gains held, supply torque not counted: at {:.1f} m/s the mean wind "
-                            "takes all that friction and offset leave of it.",
-                            section.supply_wind_speed),
-                "  ");
+    text += wrapped(fmt::format("Fixed gains, supply torque ignored: at {:.1f} m/s the mean wind "
+                                "takes all of it that friction and offset leave.",
+                                section.supply_wind_speed),
+                    "  ");
   }
   if (climate) {
-    text += wrapped(fmt::format("Of the time: share of the climate's time with winds up to that "
-                                "speed, or up to where the supply's torque ends, whichever is "
-                                "lower. The climate's highest speed is {:.4g} m/s.",
-                                design::highest_speed(section.climate)),
-                    "  ");
+    text += wrapped(
+        fmt::format(
+            "Of the time: fraction of the climate's time with winds up to that speed, or to the "
+            "end of the supply torque if lower. The climate's highest speed is {:.4g} m/s.",
+            design::highest_speed(section.climate)),
+        "  ");
   }
   return text + effects_part(section);
 }
 
 std::string choices_heading(const std::vector<ChoiceResult>& choices) {
   return std::ranges::any_of(choices, &ChoiceResult::contradicts)
-             ? "Where the case's numbers contradict each other: what each choice would do"
-             : "What the case leaves open: what each choice would do";
+             ? "Contradictory inputs: result of each interpretation"
+             : "Open inputs: result of each interpretation";
 }
 
 namespace {
 
-// What the figures of a design are of that is held nowhere else.
+// Conditions of figures evaluated on one plant.
 Document linear_part() {
-  return wrapped(
-      "rms mdeg: of linear loops, each tuned for its own plant, held on no other and not "
-      "run on the nonlinear antenna.",
-      "  ");
+  return wrapped("rms mdeg: linear loops, each tuned and evaluated on its own plant only.", "  ");
 }
 
 bool overdamped(const Design& design) {
   return design.hydraulic_mode.damping_ratio > 1.0;
 }
 
-// What a hydraulic mode with a damping ratio above 1 is.
+// Meaning of a damping ratio above 1.
 Document overdamped_part() {
   return wrapped(
-      "hydraulic mode with a damping above 1: two real poles p1, p2, frequency "
-      "sqrt(p1 p2)/(2 pi). It may be another than that of a row with less friction.",
+      "Damping above 1: two real poles p1, p2 with frequency sqrt(p1 p2)/(2 pi), possibly another "
+      "mode than in rows with less friction.",
       "  ");
 }
 
@@ -359,8 +350,8 @@ Document missed_part(const std::vector<ChoiceResult>& choices) {
     missed.push_back(fmt::format("'{}' ({:.3f} Hz)", choice.name, *frequency));
   }
   if (missed.empty()) return {};
-  return wrapped(fmt::format("No way out of the contradiction, as the flexible antenna then does "
-                             "not resonate at the measured {:.3g} Hz either: {}.",
+  return wrapped(fmt::format("These do not resolve the contradiction, as the flexible antenna "
+                             "still misses the measured {:.3g} Hz: {}.",
                              wanted, fmt::join(missed, ", ")),
                  "  ");
 }
@@ -369,8 +360,8 @@ Document missed_part(const std::vector<ChoiceResult>& choices) {
 
 Document document_of(const std::vector<ChoiceResult>& choices) {
   Document text = heading(choices_heading(choices));
-  std::vector<std::vector<std::string>> rows{{"choice", "K N.m/rad", "J kg.m2", "R", "hydraulic Hz",
-                                              "damping", "beam rms mdeg", "verified"}};
+  std::vector<std::vector<std::string>> rows{{"interpretation", "K N.m/rad", "J kg.m2", "R",
+                                              "hydraulic Hz", "damping", "rms mdeg", "verified"}};
   for (const auto& choice : choices) {
     std::vector<std::string> row{choice.name, fmt::format("{:.2f}", choice.oil_stiffness),
                                  fmt::format("{:.3f}", choice.reflected_inertia),
@@ -396,11 +387,10 @@ Document document_of(const std::vector<ChoiceResult>& choices) {
         "  ");
   }
   const bool attitudes = std::ranges::any_of(choices, &ChoiceResult::other_attitude);
-  text += wrapped(
-      fmt::format("The structure's frequencies are kept as the case states them, a lighter antenna "
-                  "being a softer one{}.",
-                  attitudes ? ", but for an alternative that keeps the springs" : ""),
-      "  ");
+  text +=
+      wrapped(fmt::format("Structural frequencies stay fixed, so a lighter antenna is softer{}.",
+                          attitudes ? ", except in an alternative that keeps the springs" : ""),
+              "  ");
   text += linear_part();
   if (std::ranges::any_of(choices, [](const ChoiceResult& choice) {
         return choice.design && overdamped(*choice.design);
@@ -449,7 +439,7 @@ Document document_of(const MatchingSection& section) {
   }
   text += "\n";
   text += wrapped(
-      "S: peak of the sensitivity with the loop cut at rate loop alone, valve command, position "
+      "S: maximum sensitivity Ms with the loop cut at rate loop alone, valve command, position "
       "loop; PM, GM: phase margin in degrees, gain margin in dB.",
       "  ");
   text += linear_part();

@@ -32,10 +32,10 @@ std::string speed(double limit) {
 }
 
 std::string verdict(const Candidate& candidate) {
-  if (!candidate.chosen) return "no stable law";
+  if (!candidate.chosen) return "none stable";
   const auto& law = candidate.laws[*candidate.chosen];
-  if (!law.goals_met) return "misses goals";
-  if (!law.still) return "HUNTS";
+  if (!law.goals_met) return "misses constraints";
+  if (!law.still) return "LIMIT CYCLE";
   return law.design.verification.passed ? "verified" : "NOT VERIFIED";
 }
 
@@ -59,7 +59,7 @@ std::string simulated_text(const design::NonlinearVerification& run) {
 
 Document time_domain_table(const EvaluateSection& section) {
   if (!section.time_domain) return {};
-  Rows rows{{"proposal", "loops", "linear mdeg", "simulated", "factor", "hunting at rest",
+  Rows rows{{"proposal", "loops", "linear mdeg", "simulated", "factor", "limit cycle at rest",
              "when tracking", "reversal error"}};
   for (const auto& candidate : section.candidates) {
     for (const auto& law : candidate.laws) {
@@ -78,28 +78,23 @@ Document time_domain_table(const EvaluateSection& section) {
       rows.push_back(std::move(cells));
     }
   }
-  return heading("The laws on the nonlinear antenna") +
+  return heading("Controllers on the nonlinear antenna") +
          wrapped(fmt::format(
-                     "Every law ran on the nonlinear antenna of its proposal, in one record of "
-                     "{:g} s at {:.3g} m/s (seed {}): friction curve with bristles, orifices, "
-                     "the limits of stroke and command, the encoder's steps, sampling, and the "
-                     "backlash and the lines' waves where the case has them. Laws and proposals "
-                     "are compared by the rms of their linear "
-                     "loops over the plants times the factor by which the simulated rms stands "
-                     "above the linear plant's in the same record; losses, speed limits and the "
-                     "draws have that factor too, as if it were the same on every plant and in "
-                     "every wind.",
+                     "Every controller ran on the nonlinear antenna of its proposal, in one record "
+                     "of {:g} s at {:.3g} m/s (seed {}). Compared is the linear rms over the "
+                     "plants times the factor: the simulated rms over the linear plant's in the "
+                     "same record. Losses, speed limits and samples have that factor too.",
                      section.time_domain->wind_duration, section.wind_speed,
                      section.time_domain->seeds.front()),
                  "  ") +
          "\n" + table(rows, "ll") +
          wrapped(hunting_legend() +
-                     "; reversal error: the beam's largest (mdeg) after turning round at "
-                     "the tracking rate.",
+                     "; reversal error: peak boresight error (mdeg) at a velocity reversal at "
+                     "tracking rate.",
                  "  ");
 }
 
-// Whose hydraulic modes tell little of the oil, and which tell more.
+// Where less than half of the hydraulic mode is oil, and which mode has most.
 Document oil_modes_part(const EvaluateSection& section) {
   std::vector<std::string> modes;
   for (const auto& candidate : section.candidates) {
@@ -111,8 +106,8 @@ Document oil_modes_part(const EvaluateSection& section) {
         candidate.path.empty() ? candidate.name : "with " + io::in_quotes(candidate.name)));
   }
   if (modes.empty()) return {};
-  return wrapped(fmt::format("Less than half of the hydraulic mode's elastic energy is in the oil, "
-                             "and the mode of most oil is another: {}.",
+  return wrapped(fmt::format("Less than half of the hydraulic mode's elastic energy is in the oil; "
+                             "the dominant hydraulic mode is at {}.",
                              fmt::join(modes, ", ")),
                  "  ");
 }
@@ -151,11 +146,10 @@ Document loop_table(const EvaluateSection& section) {
   return essential(table(rows, "ll")) +
          wrapped(
              fmt::format(
-                 "cost{}; linear: rms of the beam on the nominal plant by the spectrum; {}"
-                 "over plants: root of the mean square over the {} plants of the ensemble{}, "
-                 "worst: the largest of them; worst plant: the one farthest from its hard "
-                 "goals. hydr. and zeta: frequency and damping of the hydraulic mode, the lowest "
-                 "that moves the oil, with the structure bending, no loop closed.",
+                 "cost{}; linear: rms on the nominal plant by the spectrum; {}over plants: root "
+                 "mean square over the {} ensemble members{}, worst: the largest of them; worst "
+                 "plant: the one farthest beyond its constraints. hydr., zeta: frequency and "
+                 "damping of the open-loop hydraulic mode.",
                  section.currency.empty() ? ": stated by no proposal" : " in " + section.currency,
                  simulated ? "simulated: in one record of wind on the nonlinear antenna; "
                              "factor: that over the linear plant's rms in the same record; "
@@ -227,8 +221,7 @@ Document service_table(const EvaluateSection& section) {
         "  ({}) {}, band {}, {}: {} mdeg, met up to that mean wind speed{}\n", i + 1, budget.name,
         budget.band, budget.convention, mdeg(budget.rms),
         budget.wind_speed
-            ? fmt::format("; plants: met on so many at the {:.3g} m/s{} it is needed "
-                          "up to",
+            ? fmt::format("; plants: met on so many at the required {:.3g} m/s{}",
                           *budget.wind_speed, dish_and_mast(section.wind_mast, *budget.wind_speed))
             : "");
   }
@@ -239,25 +232,18 @@ Document service_table(const EvaluateSection& section) {
   });
   return text + (far_out ? wrapped(beyond_the_parabola(), "  ") : Document()) +
          wrapped(
-             "dB: mean loss over two equal axes on the nominal plant, and the speeds at the dish's "
-             "centre up to which budgets are met, with the factor above where there is one. torque "
-             "margin: what "
-             "friction at the tracking rate and offset leave of the supply's torque, over mean "
-             "wind "
-             "torque and the gusts' crest; stroke, gusts: "
-             "valve stroke over the demand in the same; slew margin: the highest rate that the "
-             "drive "
-             "holds against friction and offset, the valve fully open, over the slew rate; below 1 "
-             "the rate is out of reach. slew: rate and time of a 10 deg move from "
-             "rest to rest that the drive has reserve for against friction, at 0.2 deg/s2 at most; "
-             "accel.: the most it has reserve for at that rate, half of what the torque left "
-             "beyond "
-             "friction gives. reversal: the beam's largest error after turning round at the "
-             "tracking rate.",
+             "dB: mean loss over two equal axes on the nominal plant; m/s: wind speeds at the dish "
+             "centre; both with the factor above where there is one. torque margin: supply torque "
+             "beyond friction and offset, over mean wind torque and gust crest; stroke, gusts: "
+             "valve stroke over the demand in the same; slew margin: highest rate against friction "
+             "and offset with the valve fully open, over the slew rate. slew: rate and time of a "
+             "10 deg move with reserve, at 0.2 deg/s2 at most; accel.: half of what the torque "
+             "beyond friction gives at that rate. reversal: peak boresight error at a velocity "
+             "reversal at tracking rate.",
              "  ") +
          (stroke_stated ? Document()
                         : wrapped("The case states no valve stroke (drive.valve_rated_flow or "
-                                  "[simulation]): assumed is what its slew rate takes.",
+                                  "[simulation]): that for its slew rate is assumed.",
                                   "  "));
 }
 
@@ -279,7 +265,7 @@ Document changes_part(const EvaluateSection& section) {
         const std::string unit = one.unit == "1" ? "" : " " + one.unit;
         const std::string before = fmt::format("{:.5g}{}", one.before, unit);
         const std::string after = fmt::format("{:.5g}{}", one.after, unit);
-        // Nothing to the digits printed.
+        // Equal to the digits printed.
         if (before == after) continue;
         rows.push_back({"  " + one.quantity, before, after, "follows from " + one.follows_from});
       }
@@ -291,7 +277,7 @@ Document changes_part(const EvaluateSection& section) {
 }
 
 Document laws_part(const EvaluateSection& section) {
-  Rows rows{{"proposal", "loops", "rms mdeg", "linear over plants", "within goals", "S rate",
+  Rows rows{{"proposal", "loops", "rms mdeg", "linear over plants", "constraints met", "S rate",
              "S valve", "S pos.", "effort rad/s", "starts", "gains"}};
   for (const auto& candidate : section.candidates) {
     for (std::size_t i = 0; i < candidate.laws.size(); ++i) {
@@ -322,9 +308,9 @@ Document laws_part(const EvaluateSection& section) {
   }
   return table(rows, "llrrrrrrrrl") +
          wrapped(
-             "S: peak of the sensitivity with the loop cut at rate loop alone, valve command, "
-             "position loop, on the nominal plant; starts: searches that ended within 1 % of "
-             "the best.",
+             "S: maximum sensitivity Ms with the loop cut at rate loop alone, valve command, "
+             "position loop, on the nominal plant; starts: searches that ended within 1 % of the "
+             "best.",
              "  ");
 }
 
@@ -338,15 +324,12 @@ std::string heading_of(const EvaluateSection& section) {
 Document document_of(const EvaluateSection& section) {
   Document text = heading(heading_of(section));
   text += wrapped(
-      fmt::format("Each with loops of its own, tuned so that every hard goal holds on the nominal "
-                  "plant and on each of {} plants, {}, the same draws for all. {}",
+      fmt::format("Each proposal is re-tuned so that every constraint holds on the nominal plant "
+                  "and each of {} plants, {}, the same samples for all. {}",
                   section.ensemble_size, section.ensemble_source,
-                  section.minimises_climate ? "The rms made least is that over the wind climate."
-                  : section.climate
-                      ? "The rms made least is that at the design's wind speed; the climate's loss "
-                        "stands beside it."
-                      : "The case states no wind climate: losses are at one speed, not over the "
-                        "site's winds."),
+                  section.minimises_climate ? "Objective: rms over the wind climate."
+                  : section.climate         ? "Objective: rms at the design wind speed."
+                                    : "The case states no wind climate: losses are at one speed."),
       "  ");
   if (!section.not_run.empty()) {
     text += wrapped(fmt::format("Not run: {}.", fmt::join(section.not_run, "; ")), "  ");
@@ -362,16 +345,16 @@ Document document_of(const EvaluateSection& section) {
   }
   if (!section.currency.empty()) {
     text += essential(
-        "\n" +
-        wrapped(fmt::format("Front of cost ({}) and rms over the plants: {}.", section.currency,
-                            names.empty() ? "none, as none is fit to be chosen"
-                                          : fmt::format("{}", fmt::join(names, "; "))),
-                "  "));
+        "\n" + wrapped(fmt::format("Pareto front of cost ({}) and rms over the plants: {}.",
+                                   section.currency,
+                                   names.empty() ? "none, as none is eligible"
+                                                 : fmt::format("{}", fmt::join(names, "; "))),
+                       "  "));
   }
   text += time_domain_table(section);
   if (section.decision) text += document_of(section, *section.decision);
-  text += heading("What each proposal changes, and what follows") + changes_part(section);
-  return text + heading("The loops behind the table") + laws_part(section);
+  text += heading("Changes of each proposal and their consequences") + changes_part(section);
+  return text + heading("Loops of each proposal") + laws_part(section);
 }
 
 }  // namespace boresight::app

@@ -90,8 +90,8 @@ std::string reconciled_text(const identification::ReconciledInertia& one, double
   if (one.contradictory()) {
     return fmt::format(
         "No reconciled inertia: the methods contradict one another ({}; motors and gear train "
-        "alone are {:.3f} kg.m2). A random-effects mean of {} methods{} would be {:.3f} "
-        "kg.m2 ({:.2f} .. {:.2f}; {}), which stands for none of them.",
+        "alone are {:.3f} kg.m2). A random-effects mean of {} methods{} would be {:.3f} kg.m2 "
+        "({:.2f} .. {:.2f}; {}), which represents none of them.",
         scatter, without_antenna, one.degrees_of_freedom + 1, counted, one.value, one.lower,
         one.upper, ratio);
   }
@@ -101,7 +101,7 @@ std::string reconciled_text(const identification::ReconciledInertia& one, double
       "between methods {:.3f} kg.m2; {}{}.",
       one.value, one.lower, one.upper, without_antenna, ratio, one.degrees_of_freedom + 1, counted,
       one.between_methods, scatter,
-      one.heterogeneity > 2.0 * one.degrees_of_freedom ? ": they differ much" : "");
+      one.heterogeneity > 2.0 * one.degrees_of_freedom ? ": they differ strongly" : "");
 }
 
 }  // namespace
@@ -112,8 +112,8 @@ Document document_of(const IdentificationSection& section) {
       "Inertia at the motor shaft, by method (95 % intervals from the inputs' uncertainties)");
   text += essential(methods_table(section));
   text += wrapped(
-      "R = Jm/(J - Jm), all motors against everything else. What a method leaves out of its model "
-      "(flexible antenna, efficiencies in the oil spring, friction law) is not in its interval.",
+      "R = Jm/(J - Jm), all motors over everything else. Intervals exclude the methods' model "
+      "errors (flexible antenna, efficiencies in the oil spring, friction model).",
       "  ");
   text += "\n";
   for (const auto& method : inertia.methods) {
@@ -125,8 +125,7 @@ Document document_of(const IdentificationSection& section) {
         "  ");
     if (method.motor_to_load_ratio.beyond_pole > 0.0) {
       const double beyond = 100.0 * method.motor_to_load_ratio.beyond_pole;
-      text += wrapped(fmt::format("In {} % of the draws its J is below the motors' own inertia: no "
-                                  "load at all, R without meaning.",
+      text += wrapped(fmt::format("In {} % of samples J < Jm and R is undefined.",
                                   beyond < 10.0 ? fmt::format("{:.2g}", beyond)
                                                 : fmt::format("{:.0f}", beyond)),
                       "    ");
@@ -142,7 +141,7 @@ Document document_of(const IdentificationSection& section) {
                                                      impulses),
                                      "  "));
   }
-  text += heading("What the methods rest on");
+  text += heading("Inputs of the methods");
   std::vector<std::vector<std::string>> rows{
       {"quantity", "value", "interval", "unit", "decided by"}};
   for (const auto& line : inertia.line_bulk_modulus) {

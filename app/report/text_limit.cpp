@@ -41,13 +41,12 @@ Row cells(const std::string& name, const design::SampledDesign& design) {
 }  // namespace
 
 Document document_of(const design::PointingLimit& limit) {
-  Document text = heading("How far from the best any controller could do");
+  Document text = heading("Distance from the best possible controller");
   text += wrapped(
-      fmt::format(
-          "Every law in its sampled form: {:g} s, zero-order hold, {:g} s of computation "
-          "delay; covariance of the closed loop, wind by its shaping filter. The tuning holds "
-          "its goal of valve effort for continuous loops: sampled ones may have more.",
-          limit.sample_time, limit.computation_delay),
+      fmt::format("Controllers sampled every {:g} s, zero-order hold, {:g} s of computation delay; "
+                  "closed-loop covariance, wind by its shaping filter. The tuning limits the "
+                  "control effort of continuous loops: sampled ones may exceed it.",
+                  limit.sample_time, limit.computation_delay),
       "  ");
   std::vector<Row> rows{{"controller", "rms mdeg", "wind", "noise", "effort rad/s", "S valve",
                          "worst plant", "stable plants"}};
@@ -65,26 +64,25 @@ Document document_of(const design::PointingLimit& limit) {
   }
   for (Row& row : rows) row.resize(rows.front().size(), "-");
   text += essential(table(rows, "l"));
-  text += wrapped(
-      fmt::format("Lower bound: {} mdeg. No linear controller of the same sensors, sampling and "
-                  "delay whose noise drives the valve with at most {:g} rad/s is below it; the "
-                  "unconstrained LQG reaches it. The other LQGs are benchmarks, not bounds.",
-                  mdeg(limit.least_rms), limit.effort_limit),
-      "  ");
-  text += wrapped(
-      fmt::format("Encoder held perfectly still: {} mdeg, the bending that no encoder sees. Whole "
-                  "state known without error at each sample, effort free: {} mdeg.",
-                  mdeg(limit.encoder_held_rms), mdeg(limit.full_information_rms)),
-      "  ");
+  text += wrapped(fmt::format("Lower bound: {} mdeg, of any linear controller with the same "
+                              "sensors, sampling and delay and a control effort of at most {:g} "
+                              "rad/s. The unconstrained LQG reaches it; the others are benchmarks.",
+                              mdeg(limit.least_rms), limit.effort_limit),
+                  "  ");
+  text += wrapped(fmt::format("Structural flexure beyond the encoder alone: {} mdeg. Full state "
+                              "known exactly at each sample, effort free: {} mdeg.",
+                              mdeg(limit.encoder_held_rms), mdeg(limit.full_information_rms)),
+                  "  ");
   if (!limit.margin_limited) {
-    text += wrapped("No LQG of the searched weights keeps the peak on the nominal plant.", "  ");
+    text +=
+        wrapped("No LQG of the searched weights meets the Ms limit on the nominal plant.", "  ");
   }
   if (!limit.robustified && !limit.unconstrained.members.empty()) {
-    text += wrapped("No LQG of the searched weights keeps the goals on every plant.", "  ");
+    text += wrapped("No LQG of the searched weights meets the constraints on every plant.", "  ");
   }
   if (limit.laws.empty()) return text;
-  std::vector<Row> ratios{{"rms of the law over", "least of its effort", "LQG with margins",
-                           "robust LQG", "worst: robust LQG", "encoder held"}};
+  std::vector<Row> ratios{{"rms of controller over", "bound at its effort", "LQG with margins",
+                           "robust LQG", "worst: robust LQG", "flexure alone"}};
   for (const auto& law : limit.laws) {
     ratios.push_back({law.name, ratio(law.to_least), ratio(law.to_margin_limited),
                       ratio(law.to_robustified), ratio(law.worst_to_robustified),

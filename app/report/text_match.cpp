@@ -23,7 +23,7 @@ std::string decibel(double gain) {
   return std::isfinite(gain) && gain > 0.0 ? fmt::format("{:.1f}", 20.0 * std::log10(gain)) : "-";
 }
 
-// Where the hydraulic mode tells little of the oil, and which tells more.
+// Where less than half of the hydraulic mode is oil, and which mode has most.
 Document oil_modes_part(const MatchSection& section) {
   std::vector<const MatchPoint*> points;
   for (const auto& point : section.points) {
@@ -34,15 +34,14 @@ Document oil_modes_part(const MatchSection& section) {
     return fmt::format("{:.3g} Hz (zeta {:.3f}) with {:.2f} disks", point.oil_mode.frequency,
                        point.oil_mode.damping_ratio, point.disks);
   };
-  return wrapped(
-      fmt::format("Less than half of the hydraulic mode's elastic energy is in the oil{}, and the "
-                  "mode of most oil is another: {}{}.",
-                  points.size() == section.points.size()
-                      ? ""
-                      : fmt::format(" at {} of these inertias", points.size()),
-                  described(*points.front()),
-                  points.size() == 1 ? "" : " to " + described(*points.back())),
-      "  ");
+  return wrapped(fmt::format("Less than half of the hydraulic mode's elastic energy is in the "
+                             "oil{}; the dominant hydraulic mode is at {}{}.",
+                             points.size() == section.points.size()
+                                 ? ""
+                                 : fmt::format(" at {} of these inertias", points.size()),
+                             described(*points.front()),
+                             points.size() == 1 ? "" : " to " + described(*points.back())),
+                 "  ");
 }
 
 Document motors_part(const MatchSection& section) {
@@ -65,14 +64,12 @@ Document motors_part(const MatchSection& section) {
                  "R: motors over gear train and antenna. hydr., zeta: the hydraulic mode, the "
                  "lowest that moves the oil, with the structure bending. deg/s2: at the sky, {} at "
                  "{:.3g} deg/s, the case's slew rate or four fifths of what supply and valve hold. "
-                 "slew: "
-                 "{:.3g} deg at that rate and acceleration. rule zeta: 1/2 sqrt(J_L/J_m). of best "
-                 "a: acceleration for given torque over the most at any gear ratio.",
+                 "slew: {:.3g} deg at that rate and acceleration. rule zeta: 1/2 sqrt(J_L/J_m). of "
+                 "best a: acceleration for given torque over the maximum at any gear ratio.",
                  section.slew_by_simulation
-                     ? "what the drive has reserve for, half of what the torque left beyond the "
-                       "valve's drop and friction gives,"
-                     : "by what the supply's torque leaves beyond friction, without the valve's "
-                       "drop and without a reserve,",
+                     ? "half of what the torque beyond valve drop and friction gives,"
+                     : "what the supply torque beyond friction gives, without valve drop or "
+                       "reserve,",
                  section.slew_rate / degree, section.slew_distance / degree),
              "  ") +
          oil_modes_part(section);
@@ -100,9 +97,10 @@ Document rms_part(const MatchSection& section) {
     row.push_back(label_of(point));
     rows.push_back(std::move(row));
   }
-  return table(rows, alignment + "l") +
-         wrapped("*: least of its column. !: misses a goal on some plant; -: no stable law found.",
-                 "  ");
+  return table(rows, alignment + "l") + wrapped(
+                                            "*: minimum of its column. !: violates a constraint on "
+                                            "some plant; -: no stable controller found.",
+                                            "  ");
 }
 
 Document best_part(const MatchSection& section) {
@@ -132,14 +130,12 @@ Document best_part(const MatchSection& section) {
     rows.push_back(std::move(row));
   }
   return table(rows, "lrrrrrrrr") +
-         wrapped(
-             fmt::format(
-                 "Ranges in disks. 3rd diff.: the largest third difference of ln rms over "
-                 "stretches of four points along which the same goals hold the laws (how many), "
-                 "to be below 3 x {:g}, three times the tuner's tolerance; at kinks: where "
-                 "other goals, plants or laws take over, so that the curve bends in truth.",
-                 section.tolerance),
-             "  ");
+         wrapped(fmt::format("Ranges in disks. 3rd diff.: largest third difference of ln rms over "
+                             "four points with the same active constraints (how many), to be below "
+                             "3 x {:g}, three times the tuner's tolerance; at kinks: where active "
+                             "constraints, plants or solution branches change.",
+                             section.tolerance),
+                 "  ");
 }
 
 std::vector<std::size_t> shown_points(const MatchSection& section, const MatchSeries& series) {
@@ -175,17 +171,15 @@ Document margins_part(const MatchSection& section) {
     }
   }
   return table(rows, "lrrrrrrrrrrrrl") +
-         wrapped(
-             fmt::format(
-                 "On the case's plant. wind, noise: rms, mdeg. dB, deg, ms: the least gain, "
-                 "phase and delay margin over the three breaks (each alone in the JSON report). "
-                 "Hz: where the position loop's |S| reaches 0.71. s2: mdeg of steady error per "
-                 "mdeg/s2 of constant acceleration that is not fed forward. effort: rms of the "
-                 "valve demand by noise, rad/s. demand (rad/s), N.m: valve and motors in the "
-                 "mean wind and {:g} times the rms of its gusts. check: eigenvalues, peaks and "
-                 "rms confirmed apart from the tuner.",
-                 section.goals.crest_factor),
-             "  ");
+         wrapped(fmt::format(
+                     "On the case's plant. wind, noise: rms, mdeg. dB, deg, ms: smallest gain, "
+                     "phase and delay margin of the three breaks. Hz: where the position loop's "
+                     "|S| reaches 0.71. s2: mdeg of steady error per mdeg/s2 of constant "
+                     "acceleration that is not fed forward. effort: control effort, rad/s. demand "
+                     "(rad/s), N.m: valve and motors in the mean wind and {:g} times the rms of "
+                     "its gusts. check: eigenvalues, Ms and rms confirmed independently.",
+                     section.goals.crest_factor),
+                 "  ");
 }
 
 std::string hunting_text(const std::vector<design::HuntingResult>& hunting, std::size_t which) {
@@ -194,8 +188,8 @@ std::string hunting_text(const std::vector<design::HuntingResult>& hunting, std:
 }
 
 Document time_part(const MatchSection& section) {
-  Rows rows{{"structure", "disks", "cycle at rest", "at tracking rate", "reversal encoder", "beam",
-             "without friction"}};
+  Rows rows{{"structure", "disks", "limit cycle at rest", "at tracking rate", "reversal encoder",
+             "boresight", "without friction"}};
   for (const auto& series : section.series) {
     for (std::size_t i = 0; i < section.points.size(); ++i) {
       const auto& run = series.values[i].time_domain;
@@ -211,8 +205,8 @@ Document time_part(const MatchSection& section) {
   }
   if (rows.size() == 1) return {};
   return "\n" + table(rows, "lrrrrrr") +
-         wrapped(fmt::format("On the nonlinear antenna. Cycles by {}; then the largest error after "
-                             "reversals of {:.4g} mdeg/s, mdeg.",
+         wrapped(fmt::format("On the nonlinear antenna. {}. reversal: largest error (mdeg) after "
+                             "velocity reversals at {:.4g} mdeg/s.",
                              hunting_legend(), section.tracking_rate / millidegree),
                  "  ");
 }
@@ -220,8 +214,8 @@ Document time_part(const MatchSection& section) {
 Document variants_part(const MatchSection& section) {
   Document text;
   for (const auto& variants : section.variants) {
-    text += subheading(
-        fmt::format("{}, tuned on single plants: rms (mdeg) at so many disks", variants.structure));
+    text += subheading(fmt::format("{}, tuned on single plants: rms (mdeg) by number of disks",
+                                   variants.structure));
     std::vector<std::string> header{"with"};
     for (const double disks : variants.disks) header.push_back(fmt::format("{:.3g}", disks));
     header.insert(header.end(), {"best", "within 5 %"});
@@ -253,8 +247,7 @@ Document rules_part(const MatchSection& section) {
     rows.push_back(std::move(row));
   }
   return "\n" + table(rows, "l") +
-         wrapped("Cost: rms over each structure's own least, between points by straight lines.",
-                 "  ");
+         wrapped("Cost: rms over each structure's own minimum, interpolated linearly.", "  ");
 }
 
 }  // namespace
@@ -262,13 +255,13 @@ Document rules_part(const MatchSection& section) {
 Document document_of(const MatchSection& section) {
   Document text = heading("Inertia matching");
   text += wrapped(
-      fmt::format("Each structure tuned at each motor inertia for the least beam rms in wind of "
-                  "{:.3g} m/s ({} model), every goal held on {} plants ({} rms is made least); {} "
-                  "random starts each and {} rounds of warm starts{}, {} evaluations.",
+      fmt::format("Each structure tuned at each motor inertia for {:.3g} m/s of wind ({} model), "
+                  "every constraint met on {} plants (objective: {} rms); {} random starts each "
+                  "and {} rounds of warm starts{}, {} evaluations.",
                   section.wind_speed, plant::to_string(section.wind_model),
                   std::max<std::size_t>(section.members, 1), to_string(section.soft_goal.kind),
                   section.starts, section.rounds,
-                  section.settled ? " until none gained" : ", not settled", section.evaluations),
+                  section.settled ? " until converged" : ", not converged", section.evaluations),
       "  ");
   text += "\n" + motors_part(section);
   text += "\n" + essential(rms_part(section));

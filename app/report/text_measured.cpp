@@ -41,8 +41,8 @@ Document record_part(const MeasuredTuneSection& section) {
       "  ");
   if (!section.encoder_column.empty() && !channels.encoder_assumed().empty()) {
     text += wrapped(
-        fmt::format("The encoder ({}) is not coherent from {:.3g} Hz on at places: "
-                    "there it is taken to follow the motor, uncertain by all of itself.",
+        fmt::format("The encoder ({}) is incoherent in places from {:.3g} Hz on: there it is "
+                    "assumed to follow the motor, with 100 % uncertainty.",
                     section.encoder_column, channels.encoder_assumed().front().lowest / two_pi),
         "  ");
   }
@@ -59,7 +59,7 @@ Document laws_part(const MeasuredTuneSection& section) {
     if (!has_law(law)) {
       rows.push_back({law.structure});
       rows.back().insert(rows.back().end(), 8, "-");
-      rows.back().emplace_back("no stable law");
+      rows.back().emplace_back("none stable");
       continue;
     }
     const auto& tuning = law.tuning;
@@ -69,14 +69,15 @@ Document laws_part(const MeasuredTuneSection& section) {
     rows.back().push_back(fmt::format("{:.3f}", tuning.valve_effort));
     rows.back().push_back(fmt::format("{:.1f} %", 100.0 * tuning.wind_share.total()));
     rows.back().emplace_back(tuning.status == MeasuredTuningStatus::confident ? "verified"
-                             : tuning.status == MeasuredTuningStatus::nominal ? "not confident"
-                                                                              : "misses goals");
+                             : tuning.status == MeasuredTuningStatus::nominal
+                                 ? "not confident"
+                                 : "misses constraints");
   }
   return essential(table(rows, "l")) +
          wrapped(
-             "S: peak of the sensitivity as measured / within the confidence, with the loop cut "
-             "at rate loop alone, valve command, position loop; *: at a frequency that was not "
-             "measured. assumed: share of the wind's variance from such frequencies.",
+             "S: maximum sensitivity Ms as measured / within the confidence region, with the loop "
+             "cut at rate loop alone, valve command, position loop; *: at a frequency that was not "
+             "measured. assumed: fraction of the wind's variance from such frequencies.",
              "  ");
 }
 
@@ -94,31 +95,28 @@ Document verdict_part(const MeasuredLaw& law) {
   const auto& tuning = law.tuning;
   const auto& check = tuning.verification;
   std::string text = fmt::format(
-      "{}: {}{}. Confidence {:g} % at each frequency; the response's errors move 1 + L by at most "
-      "{:.0f} % of it. |L| at the highest measured frequency is {:.2g} (rate loop alone) and "
-      "{:.2g}: "
-      "a resonance above it that raises the response {:.2g} times is not judged. The confidence "
-      "costs {:.1f} % of rms. 1 % more oil stiffness would change the rms by {:+.2f} %, 1 % more "
-      "loss by {:+.2f} %.",
+      "{}: {}{}. Confidence {:g} % at each frequency; the response's errors change 1 + L by at "
+      "most {:.0f} %. |L| at the highest measured frequency is {:.2g} (rate loop alone) and "
+      "{:.2g}: a resonance above it that raises the response {:.2g} times is not examined. The "
+      "confidence costs {:.1f} % of rms. 1 % more oil stiffness would change the rms by {:+.2f} %, "
+      "1 % more loss by {:+.2f} %.",
       law.structure, design::to_string(tuning.status),
       check.failure.empty() ? "" : ": " + check.failure, 100.0 * tuning.confidence,
       100.0 * check.largest_error, check.gain_at_highest[0], check.gain_at_highest[1],
       1.0 / std::max(check.gain_at_highest[0], check.gain_at_highest[1]),
       100.0 * (tuning.rms / tuning.nominal_rms - 1.0), tuning.by_stiffness, tuning.by_loss_rate);
   const auto& on_case = law.peaks_on_case;
-  text +=
-      law.stable_on_case
-          ? fmt::format(
-                " On the case's linear plant the same gains have peaks of {:.2f}, {:.2f} "
-                "and {:.2f}.",
-                on_case[0], on_case[1], on_case[2])
-          : " On the case's linear plant, of another motion, the same gains are UNSTABLE: not to "
-            "be used before a record at tracking speed.";
+  text += law.stable_on_case
+              ? fmt::format(
+                    " On the case's linear plant the same gains have Ms {:.2f}, {:.2f} and {:.2f}.",
+                    on_case[0], on_case[1], on_case[2])
+              : " On the case's linear plant the same gains are UNSTABLE: do not use them without "
+                "a record at tracking speed.";
   if (!tuning.active_goals.empty()) {
-    text += fmt::format(" Limited by {}.", fmt::join(tuning.active_goals, "; "));
+    text += fmt::format(" Active constraints: {}.", fmt::join(tuning.active_goals, "; "));
   }
   if (!tuning.gains_at_bound.empty()) {
-    text += fmt::format(" At the bound of the search: {}.", fmt::join(tuning.gains_at_bound, ", "));
+    text += fmt::format(" At the search limit: {}.", fmt::join(tuning.gains_at_bound, ", "));
   }
   return wrapped(text, "  ", "  ");
 }
@@ -133,7 +131,7 @@ Document document_of(const MeasuredTuneSection& section) {
   for (const auto& law : section.laws) {
     if (has_law(law)) text += essential(gains_part(law));
   }
-  text += heading("What the verdicts rest on");
+  text += heading("Basis of the verdicts");
   for (const auto& law : section.laws) {
     if (has_law(law)) text += verdict_part(law);
   }
@@ -152,7 +150,8 @@ std::vector<std::string> conclude(const MeasuredTuneSection& section) {
                   "the motor shaft, {}.",
                   law.structure, mdeg(section, tuning.rms), section.wind_speed,
                   design::to_string(tuning.status))
-            : fmt::format("{} on the measured response: no stable law found.", law.structure));
+            : fmt::format("{} on the measured response: no stable controller found.",
+                          law.structure));
   }
   return sentences;
 }

@@ -40,20 +40,20 @@ std::string friction_doubts(const PlantSection& section, bool exact) {
   return fmt::format(
       "{}{}The curve has as many unknowns as there are tests: no degree of freedom is left, {}.{}",
       text, text.empty() ? "" : " ",
-      exact ? "so that the residuals say nothing of the curve"
-            : "and what the residuals show is only that a number of it ended at its bound",
+      exact ? "so the residuals do not check the curve"
+            : "and the residuals only show a parameter at its bound",
       told && !io::is_loose(*intervals.stribeck_rate)
           ? ""
-          : fmt::format(" Hunting and reversals hang on the Stribeck rate{}: more tests at low "
-                        "rates settle it.",
-                        told ? "" : ", which these tests do not tell"));
+          : fmt::format(
+                " Limit cycles and reversals depend on the Stribeck rate{}: test more low rates.",
+                told ? "" : ", which these tests do not determine"));
 }
 
 Document friction_part(const PlantSection& section) {
   constexpr double rounding = 1e-5;  // of the fit
   const plant::FrictionCurve& curve = section.friction;
   std::vector<std::vector<std::string>> rows{
-      {"axis mdeg/s", "motors rad/s", "friction N.m", "test less curve N.m"}};
+      {"axis mdeg/s", "motors rad/s", "friction N.m", "test - curve N.m"}};
   bool exact = true;
   for (const auto& test : section.friction_tests) {
     const bool hit = std::abs(test.residual) < rounding * test.torque;
@@ -76,7 +76,7 @@ Document friction_part(const PlantSection& section) {
 Document structure_part(const plant::Structure& structure) {
   const double inertia = plant::antenna_inertia(structure);
   std::vector<std::vector<std::string>> rows{
-      {"structure, the bull gear held", "frequency Hz", "inertia fraction"},
+      {"structure, bull gear locked", "frequency Hz", "inertia fraction"},
       {"bull gear", "-", fmt::format("{:.4f}", structure.bull_gear_inertia / inertia)}};
   for (std::size_t i = 0; i < structure.modes.size(); ++i) {
     const auto& mode = structure.modes[i];
@@ -85,7 +85,7 @@ Document structure_part(const plant::Structure& structure) {
                     fmt::format("{:.4f}", mode.inertia / inertia)});
   }
   std::vector<std::vector<std::string>> held{
-      {"structure, the motors held", "frequency Hz", "effective fraction", "gear"}};
+      {"structure, motors locked", "frequency Hz", "effective fraction", "gear"}};
   for (const auto& mode : plant::motors_held_modes(structure)) {
     held.push_back(
         {held.size() == 1 ? "lowest" : fmt::format("structure.mode[{}]", held.size() - 2),
@@ -94,13 +94,11 @@ Document structure_part(const plant::Structure& structure) {
   }
   return "\n" + table(held) + "\n" + table(rows) +
          wrapped(
-             "From the frequencies that the case states with the motors held. Shares of wind and "
-             "beam are those of the modes with the bull gear held; a first guess of both are their "
-             "inertia fractions. Where a structural model gives the lowest mode less than the "
-             "effective fraction above, modes of it are missing here; the gearbox spring is "
-             "stiffer "
-             "with them. gear: its share of the mode's elastic energy, the rest is bending of the "
-             "structure.",
+             "From the case's frequencies with the motors locked. Wind and boresight fractions are "
+             "those of the modes with the bull gear locked; use the inertia fractions as a first "
+             "guess. If a structural model gives the lowest mode less than the effective fraction "
+             "above, modes are missing here; with them the gearbox spring is stiffer. gear: its "
+             "fraction of the mode's elastic energy.",
              "  ");
 }
 
@@ -111,12 +109,13 @@ Document document_of(const PlantSection& section) {
   const auto& structure = section.plant.structure;
   Document text = heading("Plant, at the motor shaft, all motors lumped");
   if (section.records > 0) {
-    text += wrapped(fmt::format("As the reconciled estimate of {} records has inertias, oil "
-                                "stiffness, leakage, friction curve and lowest structural "
-                                "frequency; all else as the case states it.",
-                                section.records),
-                    "  ") +
-            "\n";
+    text +=
+        wrapped(fmt::format(
+                    "Inertias, oil stiffness, leakage, friction curve and lowest structural "
+                    "frequency are the combined estimate of {} records; the rest is the case's.",
+                    section.records),
+                "  ") +
+        "\n";
   }
   const auto row = [](const char* name, double value, const char* unit) {
     return std::vector<std::string>{name, fmt::format("{:.6g}", value), unit};
@@ -136,7 +135,8 @@ Document document_of(const PlantSection& section) {
           "N.m/rad"),
       row("valve", drive.valve_corner / two_pi, "Hz"),
       row("supply torque", section.supply_torque, "N.m"),
-      row("what friction at tracking rate and offset leave", section.torque_for_wind, "N.m"),
+      row("supply torque beyond friction at tracking rate and offset", section.torque_for_wind,
+          "N.m"),
       row("mean wind torque at design speed", section.mean_wind_torque, "N.m")};
   if (section.slew_rate_margin) {
     numbers.push_back(
@@ -146,7 +146,7 @@ Document document_of(const PlantSection& section) {
   text += table(numbers, "l", 0);
   text += "\n";
   std::vector<std::vector<std::string>> rows{
-      {"mode", "frequency Hz", "damping", "pole 1/s", "share", "oil", "gear"}};
+      {"mode", "frequency Hz", "damping", "pole 1/s", "fraction", "oil", "gear"}};
   for (const auto& mode : section.modes) {
     const bool springs = mode.pole.imag() > 0.0 && mode.oil_share != 0.0;
     // One that rounds to nothing has no sign.
@@ -163,17 +163,17 @@ Document document_of(const PlantSection& section) {
   }
   text += table(rows);
   text += wrapped(
-      "share: of the part that moves most, in the motion; oil, gear: of oil spring and gearbox "
-      "spring, without damping in the elastic energy, the rest of which is the structure's; 1 % "
-      "more stiffness of a spring raises the frequency by half its share of 1 %.",
+      "fraction: of the part that moves most, in the motion; oil, gear: of oil and gearbox spring, "
+      "in the undamped elastic energy, the rest being the structure's. 1 % more stiffness of a "
+      "spring raises the frequency by half its fraction of 1 %.",
       "  ");
-  text += wrapped(
-      fmt::format("The hydraulic mode of the flexible antenna is {:.3f} Hz with damping {:.3f}; "
-                  "all masses rigid on the oil spring would give {:.3f} Hz.{}",
-                  section.hydraulic.frequency, section.hydraulic.damping_ratio,
-                  section.rigid_frequency,
-                  oil_remark(section.hydraulic, plant::mode_of_oil(section.modes))),
-      "  ");
+  text +=
+      wrapped(fmt::format("The hydraulic mode of the flexible antenna is {:.3f} Hz with damping "
+                          "{:.3f}; the rigid masses on the oil spring would give {:.3f} Hz.{}",
+                          section.hydraulic.frequency, section.hydraulic.damping_ratio,
+                          section.rigid_frequency,
+                          oil_remark(section.hydraulic, plant::mode_of_oil(section.modes))),
+              "  ");
   if (section.motors_held) text += structure_part(section.plant.structure);
   if (!section.friction_tests.empty()) text += friction_part(section);
   return text;

@@ -41,9 +41,10 @@ Document document_of(const std::vector<io::Quantity>& assumed) {
 namespace {
 
 Document opening_of(const Report& report) {
-  Document text =
-      report_title(report.command, report.title, words_of(report.axis), report.case_path, report.seed);
-  if (report.interrupted) text += "INTERRUPTED: what follows is whole, the rest is missing.\n";
+  Document text = report_title(report.command, report.title, words_of(report.axis),
+                               report.case_path, report.seed);
+  if (report.interrupted)
+    text += "INTERRUPTED: the sections below are complete, the rest is missing.\n";
   return text;
 }
 

@@ -34,13 +34,13 @@ std::string ended(RunStatus status, const std::string& message) {
 std::string words_of(design::Influence influence) {
   switch (influence) {
     case design::Influence::friction:
-      return "friction curve and bristles, against the linear plant's viscous friction";
+      return "friction curve and bristles, instead of viscous friction";
     case design::Influence::limits:
       return "limits of stroke, spool speed and command";
     case design::Influence::quantisation:
-      return "steps of the encoder";
+      return "encoder quantisation";
     case design::Influence::orifice:
-      return "flow through orifices, against flow in proportion to the opening";
+      return "orifice flow, instead of flow in proportion to the opening";
     case design::Influence::gear:
       return "backlash";
   }
@@ -54,11 +54,11 @@ Document wind_part(const TimeDomainSection& section) {
                                ended(wind.status, wind.message)),
                    "  ");
   }
-  Rows rows{{fmt::format("beam in wind of {:.3g} m/s, {:g} s", section.wind_speed,
+  Rows rows{{fmt::format("boresight in wind of {:.3g} m/s, {:g} s", section.wind_speed,
                          section.options.wind_duration),
              "rms mdeg", "without it"}};
   rows.push_back({"linear prediction", mdeg(wind.predicted_rms), ""});
-  rows.push_back({"  this record instead of the expectation", signed_mdeg(wind.chance), ""});
+  rows.push_back({"  realisation error of this record", signed_mdeg(wind.chance), ""});
   rows.push_back({fmt::format("  sampling every {:g} s", section.sample_time),
                   signed_mdeg(wind.sampling), ""});
   for (const auto& influence : wind.influences) {
@@ -67,8 +67,7 @@ Document wind_part(const TimeDomainSection& section) {
                         ? mdeg(influence.beam_rms_without)
                         : std::string(design::to_string(influence.status))});
   }
-  rows.push_back(
-      {"  what these do together only, and lines and offset", signed_mdeg(wind.joint), ""});
+  rows.push_back({"  interactions, oil lines and offset (remainder)", signed_mdeg(wind.joint), ""});
   rows.push_back({"simulated", mdeg(wind.beam_rms), ""});
   Document text = table(rows, "l");
   if (wind.at_command_limit > 0.0) {
@@ -105,19 +104,18 @@ Document hunting_part(const TimeDomainSection& section) {
       continue;
     }
     const std::string cycle =
-        hunting.limit_cycle
-            ? fmt::format(
-                  "a limit cycle of +-{} mdeg at the encoder, +-{} mdeg at the beam, {}, in "
-                  "{} of {} runs{}",
-                  mdeg(hunting.encoder_amplitude), mdeg(hunting.beam_amplitude),
-                  hunting.frequency ? fmt::format("{:.3g} Hz", *hunting.frequency)
-                                    : std::string("of no steady period"),
-                  hunting.starts_hunting, hunting.starts,
-                  hunting.some_only() ? ", each moved by another step at its start" : "")
-            : fmt::format(
-                  "no limit cycle above the encoder's resolution that lasts, in {} runs (+-{} mdeg "
-                  "left)",
-                  hunting.starts, mdeg(hunting.encoder_amplitude));
+        hunting.limit_cycle ? fmt::format(
+                                  "a limit cycle of +-{} mdeg at the encoder, +-{} mdeg in "
+                                  "boresight, {}, in {} of {} runs{}",
+                                  mdeg(hunting.encoder_amplitude), mdeg(hunting.beam_amplitude),
+                                  hunting.frequency ? fmt::format("{:.3g} Hz", *hunting.frequency)
+                                                    : std::string("without a steady period"),
+                                  hunting.starts_hunting, hunting.starts,
+                                  hunting.some_only() ? ", from different initial steps" : "")
+                            : fmt::format(
+                                  "no lasting limit cycle above the encoder's resolution in {} "
+                                  "runs (+-{} mdeg left)",
+                                  hunting.starts, mdeg(hunting.encoder_amplitude));
     text += wrapped(fmt::format("{}, no wind: {}.", where, cycle), "  ", "  ");
   }
   return text;
@@ -127,16 +125,16 @@ Document reversal_part(const TimeDomainSection& section) {
   if (!section.result.reversal) return {};
   const auto& reversal = *section.result.reversal;
   if (reversal.status != RunStatus::complete) {
-    return wrapped(fmt::format("Slow reversals: {}.", ended(reversal.status, reversal.message)),
+    return wrapped(fmt::format("Velocity reversals: {}.", ended(reversal.status, reversal.message)),
                    "  ", "  ");
   }
   return wrapped(
-      fmt::format("Turning round at +-{:.3g} mdeg/s: error up to {} mdeg at the encoder, {} mdeg "
-                  "at the beam, {:.2f} s after the reversal; {} mdeg at the encoder without "
-                  "friction.",
-                  section.options.tracking_rate / millidegree, mdeg(reversal.encoder_error),
-                  mdeg(reversal.beam_error), reversal.time_of_largest,
-                  mdeg(reversal.encoder_error_without_friction)),
+      fmt::format(
+          "Velocity reversal at +-{:.3g} mdeg/s: peak error {} mdeg at the encoder, {} mdeg in "
+          "boresight, {:.2f} s after the reversal; {} mdeg at the encoder without friction.",
+          section.options.tracking_rate / millidegree, mdeg(reversal.encoder_error),
+          mdeg(reversal.beam_error), reversal.time_of_largest,
+          mdeg(reversal.encoder_error_without_friction)),
       "  ", "  ");
 }
 
@@ -148,7 +146,7 @@ Document slew_part(const TimeDomainSection& section) {
       fmt::format("Slew of {:g} deg at {:.3g} deg/s and {:.3g} deg/s2", slew.distance / degree,
                   slew.limits.rate / degree, slew.limits.acceleration / degree);
   if (!slew.within_reach) {
-    text += fmt::format(" (what the drive can do of {:.3g} deg/s and {:.3g} deg/s2)",
+    text += fmt::format(" (drive limit; specified {:.3g} deg/s and {:.3g} deg/s2)",
                         asked.rate / degree, asked.acceleration / degree);
   }
   const std::string bound = mdeg(section.options.settled_error);
@@ -166,7 +164,7 @@ Document slew_part(const TimeDomainSection& section) {
   return wrapped(text, "  ", "  ");
 }
 
-// By what rule the law above was chosen (design::recommend).
+// The rule by which the controller above was chosen (design::recommend).
 std::string choice_text(const TimeDomainSection& section) {
   using Candidate = TimeDomainSection::Candidate;
   const double error = section.options.settled_error;
@@ -182,26 +180,27 @@ std::string choice_text(const TimeDomainSection& section) {
   };
   const std::string beyond = fmt::format("beyond the tightest budget (+-{} mdeg)", mdeg(amplitude));
   const std::string least = fmt::format(
-      "the one above meets most budgets and, of those, has the least simulated rms with its limit "
-      "cycle added in quadrature, or one within {:.0f} % of it and fewer gains",
+      "the one above meets most budgets and then has the least simulated rms, limit cycle added in "
+      "quadrature, or fewer gains within {:.0f} % of it",
       100.0 * negligible_change);
   if (std::ranges::any_of(section.candidates, fit)) {
-    return fmt::format("Of the laws that do not hunt {}, {}.", beyond, least);
+    return fmt::format("Of the controllers free of limit cycles {}, {}.", beyond, least);
   }
   if (std::ranges::none_of(section.candidates, simulated)) {
-    return "None was seen to hold in wind: the one above has the least linear rms.";
+    return "None completes the run in wind: the one above has the least linear rms.";
   }
   if (std::ranges::all_of(section.candidates, hunts)) {
-    return fmt::format("All hunt {}; {}.", beyond, least);
+    return fmt::format("All limit-cycle {}; {}.", beyond, least);
   }
   return fmt::format(
-      "None was seen both to hold in wind and not to hunt {}; of those that hold in wind {}.",
+      "None completes the run in wind and is shown free of limit cycles {}; of those that complete "
+      "it {}.",
       beyond, least);
 }
 
 Document candidates_part(const TimeDomainSection& section) {
   if (section.candidates.empty()) return {};
-  Rows rows{{"law", "linear rms mdeg", "simulated", "hunting at rest", "when tracking",
+  Rows rows{{"controller", "linear rms mdeg", "simulated", "limit cycle at rest", "when tracking",
              "reversal error", "slew settled s"}};
   for (const auto& [law, result] : section.candidates) {
     const auto amplitude = [&](bool at_rest) -> std::string {
@@ -224,7 +223,7 @@ Document candidates_part(const TimeDomainSection& section) {
                                                  : std::string("at once")});
   }
   return "\n" + table(rows, "l") +
-         wrapped("Beam in mdeg at the sky, one record of wind. " + choice_text(section), "  ");
+         wrapped("Boresight in mdeg at the sky, one record of wind. " + choice_text(section), "  ");
 }
 
 }  // namespace
@@ -233,16 +232,14 @@ Document document_of(const TimeDomainSection& section) {
   return heading("In the time domain, on the nonlinear antenna: " + section.law) +
          wind_part(section) + integrators_part(section) + hunting_part(section) +
          reversal_part(section) + slew_part(section) +
-         wrapped(
-             fmt::format("The controller: sampled every {:g} s with one sample of computing, "
-                         "feedforward of rate and acceleration, commands shaped to the limits "
-                         "above, anti-windup. The encoder's steps are {} mdeg, whose rounding is "
-                         "the case's encoder noise. Assumed, not in the case: {:g} deg/s2 of "
-                         "command acceleration. Differences are of the rms with and "
-                         "without each influence, the others on.",
-                         section.sample_time, mdeg(section.encoder_resolution),
-                         section.options.limits.acceleration / degree),
-             "  ") +
+         wrapped(fmt::format(
+                     "The controller: sampled every {:g} s with one sample of computing, "
+                     "feedforward of rate and acceleration, shaped commands, anti-windup. Encoder "
+                     "resolution: {} mdeg. Assumed: {:g} deg/s2 of command acceleration. "
+                     "Differences: rms with and without each influence, the others on.",
+                     section.sample_time, mdeg(section.encoder_resolution),
+                     section.options.limits.acceleration / degree),
+                 "  ") +
          candidates_part(section);
 }
 

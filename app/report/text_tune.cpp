@@ -37,7 +37,7 @@ std::string decibel(double factor) {
                                                : "none";
 }
 
-// With a climate also the share of its time up to that speed or, if less, the supply's.
+// With a climate also the fraction of its time up to that speed or, if less, the supply's.
 std::string speed(const TuneSection& section, double limit) {
   if (std::isnan(limit)) return "-";
   std::string text = std::isfinite(limit) ? fmt::format("{:.2f}", limit) : "> 60";
@@ -61,9 +61,9 @@ bool far_out(const TuneSection& section) {
 }
 
 std::string verdict(const TunedLaw& row) {
-  if (!row.stable()) return row.tuned_for == TunedFor::present ? "UNSTABLE" : "no stable law";
-  if (!row.goals_met) return row.design.tuning.interrupted ? "not finished" : "misses goals";
-  if (row.in_time && !row.in_time->still) return "HUNTS";
+  if (!row.stable()) return row.tuned_for == TunedFor::present ? "UNSTABLE" : "none stable";
+  if (!row.goals_met) return row.design.tuning.interrupted ? "not finished" : "misses constraints";
+  if (row.in_time && !row.in_time->still) return "LIMIT CYCLE";
   return row.design.verification.passed ? "verified" : "NOT VERIFIED";
 }
 
@@ -72,7 +72,7 @@ std::vector<std::string> first_cells(const TunedLaw& row) {
           fmt::format("{:.3g}", row.wind_speed)};
 }
 
-// What the mean wind's bending would add to the losses.
+// What static wind deflection would add to the losses.
 Document bending_part(const TuneSection& section) {
   if (section.bands.empty() || section.wind_speeds.empty()) return {};
   design::TrackingProblem problem = section.problem;
@@ -87,15 +87,13 @@ Document bending_part(const TuneSection& section) {
                     band.name));
   }
   return wrapped(
-      fmt::format(
-          "Left out of the losses is what the mean wind bends the antenna, {} mdeg in {:.3g} "
-          "m/s. It changes as slowly as the mean wind, and is for a boresight scan or a wind "
-          "term of the pointing model to take away. Left in, it would add {}.",
-          mdeg(std::abs(bending)), problem.wind.mean_speed, fmt::join(losses, ", ")),
+      fmt::format("Losses exclude static wind deflection, {} mdeg in {:.3g} m/s, which the loops "
+                  "cannot sense; remove it by a boresight scan. It would add {}.",
+                  mdeg(std::abs(bending)), problem.wind.mean_speed, fmt::join(losses, ", ")),
       "  ");
 }
 
-// Where laws ran on the nonlinear antenna: those that are "verified" without having run there.
+// Controllers "verified" without a run on the nonlinear antenna where others ran there.
 Document linear_alone_part(const TuneSection& section) {
   const auto some_ran = [&](const auto& counts) {
     return std::ranges::any_of(section.laws,
@@ -106,22 +104,20 @@ Document linear_alone_part(const TuneSection& section) {
     if (row.in_time || !row.usable()) continue;
     std::string name = row.tuned_for == TunedFor::present
                            ? std::string("present gains")
-                           : fmt::format("{} laws", to_string(row.tuned_for));
+                           : fmt::format("{} controllers", to_string(row.tuned_for));
     if (some_ran([&](const TunedLaw& other) { return other.tuned_for == row.tuned_for; })) {
       name += fmt::format(" at {:.3g} m/s", row.wind_speed);
     }
     if (std::ranges::find(names, name) == names.end()) names.push_back(std::move(name));
   }
   if (names.empty() || !some_ran([](const TunedLaw&) { return true; })) return {};
-  return wrapped(
-      fmt::format(
-          "Not run on the nonlinear antenna: {}. They are verified on the linear plant only, "
-          "and may hunt.{}",
-          fmt::join(names, ", "),
-          section.budgets.empty()
-              ? ""
-              : " Speeds up to which a budget is met are of the linear plant for every law."),
-      "  ");
+  return wrapped(fmt::format("Not run on the nonlinear antenna: {}. They are verified on the "
+                             "linear plant only, and may limit-cycle.{}",
+                             fmt::join(names, ", "),
+                             section.budgets.empty()
+                                 ? ""
+                                 : " Speeds up to which a budget is met are of the linear plant."),
+                 "  ");
 }
 
 Document pointing_part(const TuneSection& section) {
@@ -165,22 +161,22 @@ Document pointing_part(const TuneSection& section) {
     text += essential(verbatim(fmt::format(
         "  ({}) {}, band {}, {}: {} mdeg, met up to that mean wind speed{}\n", i + 1, budget.name,
         budget.band, budget.convention, mdeg(budget.rms),
-        budget.wind_speed ? fmt::format("; {:.3g} m/s{} asked for", *budget.wind_speed,
+        budget.wind_speed ? fmt::format("; {:.3g} m/s{} required", *budget.wind_speed,
                                         dish_and_mast(section.wind_mast, *budget.wind_speed))
                           : "")));
   }
   if (!section.budgets.empty() && std::isfinite(section.supply_wind_speed)) {
-    text += wrapped(fmt::format("Supply torque not counted: at {:.1f} m/s the mean wind takes all "
-                                "that friction and offset leave of it.",
+    text += wrapped(fmt::format("Supply torque ignored: at {:.1f} m/s the mean wind takes all of "
+                                "it that friction and offset leave.",
                                 section.supply_wind_speed),
                     "  ");
   }
   if (!section.budgets.empty() && !section.climate.empty()) {
-    text += wrapped(
-        fmt::format("In brackets the share of the climate's time up to that speed, or up to the "
-                    "supply's if that is less; the climate's highest speed is {:.4g} m/s.",
-                    design::highest_speed(section.climate)),
-        "  ");
+    text +=
+        wrapped(fmt::format("In brackets: fraction of the climate's time up to that speed, or up "
+                            "to the supply's if lower; the climate's highest speed is {:.4g} m/s.",
+                            design::highest_speed(section.climate)),
+                "  ");
   }
   for (const auto& band : section.bands) {
     text +=
@@ -195,8 +191,8 @@ Document pointing_part(const TuneSection& section) {
 Document robustness_part(const TuneSection& section) {
   constexpr std::size_t valve = 1, position = 2;
   Rows rows{{"structure", "tuned for", "m/s", "S rate", "S valve", "S pos.", "PM valve", "GM valve",
-             "PM pos.", "GM pos.", "effort rad/s", "stable plants", "within goals",
-             "active goals"}};
+             "PM pos.", "GM pos.", "effort rad/s", "stable plants", "constraints met",
+             "active constraints"}};
   for (const auto& row : section.laws) {
     auto cells = first_cells(row);
     if (!row.stable()) {
@@ -221,7 +217,7 @@ Document robustness_part(const TuneSection& section) {
   }
   return table(rows, "ll") +
          wrapped(
-             "S: peak of the sensitivity with the loop cut at rate loop alone, valve command, "
+             "S: maximum sensitivity Ms with the loop cut at rate loop alone, valve command, "
              "position loop; PM, GM: phase margin in degrees, gain margin in dB.",
              "  ");
 }
@@ -269,7 +265,7 @@ Document limits_part(const TuneSection& section) {
     std::vector<std::string> limits;
     for (const auto& limit : tuning.limits) limits.push_back(limit.description());
     if (limits.empty()) limits = tuning.active_goals;
-    if (limits.empty()) limits.emplace_back("no goal");
+    if (limits.empty()) limits.emplace_back("none");
     text += wrapped(fmt::format("{}, {}, {:.3g} m/s: {}.", row.structure, to_string(row.tuned_for),
                                 row.wind_speed, fmt::join(limits, "; ")),
                     "  ", "  ");
@@ -289,8 +285,8 @@ Document goals_part(const TuneSection& section) {
   const design::HardGoals& goals = section.goals;
   const auto& peaks = goals.sensitivity_peak;
   std::string text = fmt::format(
-      "Hard goals: peak of S at most {:g} (rate loop alone), {:g} (valve command), {:g} (position "
-      "loop); noise-driven valve effort at most {:g} rad/s",
+      "Constraints: Ms at most {:g} (rate loop alone), {:g} (valve command), {:g} (position loop); "
+      "control effort at most {:g} rad/s",
       peaks[0], peaks[1], peaks[2], goals.valve_effort);
   const auto& gain_margin = goals.gain_margin[0];
   const auto& phase_margin = goals.phase_margin[0];
@@ -305,11 +301,10 @@ Document goals_part(const TuneSection& section) {
     text += fmt::format("; {:g} times rms in gusts within {:.4g} N.m and {:.4g} rad/s",
                         goals.crest_factor, *goals.gust_torque, *goals.gust_demand);
   }
-  if (section.beam_rms_goal)
-    text += fmt::format("; beam rms {} mdeg", mdeg(*section.beam_rms_goal));
+  if (section.beam_rms_goal) text += fmt::format("; rms {} mdeg", mdeg(*section.beam_rms_goal));
   return wrapped(
-      fmt::format("{}. Least: {} rms of the beam{}. Robust laws keep the hard goals on "
-                  "{} plants, {}. {} starts.",
+      fmt::format("{}. Objective: {} rms{}. Robust controllers meet the constraints on {} plants, "
+                  "{}. {} starts.",
                   text, design::to_string(section.soft_goal.kind),
                   section.minimises_climate ? " over the site's wind climate" : "",
                   section.ensemble_size, to_string(section.ensemble_source), section.starts),
@@ -330,7 +325,7 @@ Document document_of(const TuneSection& section) {
   const bool before = std::ranges::any_of(
       section.laws, [](const TunedLaw& row) { return row.tuned_for == TunedFor::present; });
   text += heading(before ? "Gains, before and after" : "Gains") + gains_part(section);
-  text += heading("What limits each law, and what 1 % more of the limit would buy");
+  text += heading("Active constraints and their shadow prices");
   return text + limits_part(section);
 }
 

@@ -9,8 +9,8 @@ namespace boresight::app {
 
 std::string mast_in_words(const io::WindMast& mast) {
   return fmt::format(
-      "Wind speeds are those at the dish's centre, {:g} m above ground: the case's, on a mast of "
-      "{:g} m, times {:.4g} by a power law with the exponent {:g}.",
+      "Wind speeds are at the dish centre, {:g} m above ground: the case's at its {:g} m mast "
+      "times {:.4g}, by a power law of exponent {:g}.",
       mast.dish_height, mast.height, mast.speed_ratio, mast.shear_exponent);
 }
 
@@ -30,9 +30,8 @@ std::string mast_column(const std::optional<io::WindMast>& mast) {
 
 std::string conclude_mast(const io::WindMast& mast) {
   return fmt::format(
-      "Wind speeds are those at the dish's centre, {:g} m above ground, where nothing else is "
-      "said: "
-      "divided by {:.4g} they are those on the case's mast of {:g} m.",
+      "Wind speeds are at the dish centre, {:g} m above ground, unless stated otherwise: divide by "
+      "{:.4g} for the case's {:g} m mast.",
       mast.dish_height, mast.speed_ratio, mast.height);
 }
 

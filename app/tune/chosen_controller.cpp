@@ -12,7 +12,7 @@
 namespace boresight::app {
 namespace {
 
-// What is held on samples may miss its goals.
+// A controller evaluated on samples may violate constraints.
 constexpr auto usable = design::Fitness::unverified;
 
 }  // namespace
@@ -21,7 +21,7 @@ ChosenController present_controller(const io::Case& antenna, const std::string& 
   for (const auto& [name, law] : present_controllers(antenna)) {
     if (structure.empty() || law.structure == io::loop_structure(antenna, structure)) {
       return {law, structure.empty() ? law.structure.name() : structure,
-              "the gains that the case says the antenna runs on"};
+              "the antenna's present gains, from the case"};
     }
   }
   throw InvalidInput(
@@ -54,12 +54,12 @@ ChosenController recommended_controller(const io::DesignedAntenna& designed,
   }
   return {best->design.tuning.law, best->structure,
           best->tuned_for == TunedFor::nominal
-              ? fmt::format("tuned now at {:g} m/s, for the nominal plant: no robust design meets "
-                            "its goals on all {} plants",
+              ? fmt::format("tuned now at {:g} m/s for the nominal plant: no robust controller "
+                            "meets the constraints on all {} plants",
                             best->wind_speed, designed.ensemble.members.size())
               : fmt::format("tuned now at {:g} m/s, robust over {} plants{}", best->wind_speed,
                             designed.ensemble.members.size(),
-                            best->goals_met ? "" : "; MISSES its goals on some of them")};
+                            best->goals_met ? "" : "; VIOLATES constraints on some of them")};
 }
 
 }  // namespace boresight::app

@@ -23,17 +23,16 @@ std::string bound_text(const design::ReachedBound& bound) {
 std::string beyond_sampling(const design::ReachedBound& bound) {
   if (!bound.idle) return "";
   std::string text = fmt::format(
-      "A controller that samples every {:g} s does nothing above {:.0f} rad/s, and so such a {} "
-      "does nothing in it",
+      "Sampled every {:g} s, a controller has no effect above {:.0f} rad/s, and such a {} has none",
       bound.sample_time, design::highest_frequency(bound.sample_time),
       control::to_string(*bound.idle));
   std::vector<std::string> ways;
   for (const auto& one : bound.simpler) {
-    ways.push_back(fmt::format("{} in the place of {}",
+    ways.push_back(fmt::format("{} instead of {}",
                                one.name.empty() ? "a [[loop]] without it" : "structure " + one.name,
                                fmt::join(one.in_place_of, ", ")));
   }
-  return text + (ways.empty() ? "." : fmt::format(": leave it out ({}).", fmt::join(ways, "; ")));
+  return text + (ways.empty() ? "." : fmt::format(": omit it ({}).", fmt::join(ways, "; ")));
 }
 
 }  // namespace
@@ -42,8 +41,7 @@ std::vector<std::string> gains_at_bounds(const std::vector<SearchedLaw>& laws) {
   std::vector<std::string> sentences;
   for (const auto& bound : reached_bounds(laws)) {
     std::string text = fmt::format(
-        "The search ended at {}, with {}: no optimum, as what lies beyond was not looked at "
-        "(bounds of a [[tuning.bound]], or of a [[loop]], do).",
+        "The search ended at {}, with {}: widen it with [[tuning.bound]] or in the [[loop]].",
         bound_text(bound), fmt::join(bound.laws, ", "));
     if (const std::string more = beyond_sampling(bound); !more.empty()) text += " " + more;
     sentences.push_back(std::move(text));

@@ -9,10 +9,11 @@ std::string held_against(const TunedLaw& row) {
   if (!row.left_out() || !row.in_time) return "";
   const LawInTime& run = *row.in_time;
   if (!run.still) {
-    return run.hunting > 0.0 ? fmt::format("hunts by +-{:.2f} mdeg", run.hunting / millidegree)
-                             : "does not hold still";
+    return run.hunting > 0.0
+               ? fmt::format("limit-cycles by +-{:.2f} mdeg", run.hunting / millidegree)
+               : "is not shown free of limit cycles";
   }
-  return "does not hold in wind";
+  return "does not complete the run in wind";
 }
 
 }  // namespace boresight::app

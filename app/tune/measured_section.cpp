@@ -37,26 +37,25 @@ void add_notes(MeasuredTuneSection& section) {
         fmt::format("the record does not give the oil spring: {}", section.oil_failure));
   }
   notes.emplace_back(
-      "the rms is the encoder's for wind as a torque at the motor shaft: what the structure bends "
-      "beyond the encoder, and on the wind's way to the shaft, no drive test shows");
-  notes.push_back(fmt::format(
-      "below the hydraulic resonance the wind moves the encoder by the oil spring alone, {:.4g} N "
-      "m/rad with a loss rate of {:.4g} 1/s, {}: two numbers of a model, not the measured response",
-      section.oil.stiffness, section.oil.loss_rate, section.oil_source));
-  notes.push_back(fmt::format(
-      "everything holds for small motion about {:.3g} rad/s of motor, at which the record was "
-      "taken: friction and orifices differ at tracking speed",
-      section.mean_rate));
+      "the rms is the encoder's, with wind as a torque at the motor shaft: drive tests do not show "
+      "flexure beyond the encoder or between wind and shaft");
+  notes.push_back(
+      fmt::format("below the hydraulic resonance the response to wind is that of a model oil "
+                  "spring, {:.4g} N m/rad with a loss rate of {:.4g} 1/s, {}",
+                  section.oil.stiffness, section.oil.loss_rate, section.oil_source));
+  notes.push_back(
+      fmt::format("results hold for small motion about the record's {:.3g} rad/s of motor: "
+                  "friction and orifices differ at tracking speed",
+                  section.mean_rate));
   if (!section.encoder_recorded) {
     notes.emplace_back(
-        "no encoder was recorded: how far its angle differs from the motor's is taken from the "
-        "case's structure, uncertain by a fifth of the difference: the position loop rests on that "
-        "model");
+        "no encoder was recorded: its difference from the motor angle is that of the case's "
+        "structure, uncertain by 20 %, and the position loop depends on it");
   }
   if (section.other_goals) {
     notes.emplace_back(
-        "of the case's goals the sensitivity peaks and the valve effort were asked for, not "
-        "margins, bandwidth or what gusts take");
+        "constraints applied: maximum sensitivity Ms and control effort; not applied: margins, "
+        "bandwidth, gust demand");
   }
 }
 

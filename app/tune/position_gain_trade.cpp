@@ -9,20 +9,19 @@ std::string trade_in_words(const design::PositionGainTrade& trade, const io::Gai
                            std::string_view law, double beam_rms, std::size_t plants) {
   const std::vector<std::string> gains = units.texts(trade.law);
   return fmt::format(
-      "{} has kp at its bound because its rate loop hardly acts, so that kp x kr counts. With the "
-      "same product kp = {} and kr = {} have {:.4f} mdeg, {:+.1f} %{}. A lower upper bound of kp "
-      "([[tuning.bound]], or that of a [[loop]]) has the search look for laws whose rate loop "
-      "acts.",
+      "{} has kp at its bound: its rate-loop gain is so low that only kp*kr matters, not a sound "
+      "cascade. The same product with kp = {} and kr = {} gives {:.4f} mdeg, {:+.1f} %{}. Lower "
+      "the upper bound of kp with [[tuning.bound]] or in the [[loop]].",
       law, gains.at(trade.position_gain), gains.at(trade.rate_gain), trade.beam_rms / millidegree,
       100.0 * (trade.beam_rms / beam_rms - 1.0),
-      plants > 0 ? fmt::format(", with every goal kept on {} of {} plants before tuning again",
+      plants > 0 ? fmt::format(", with all constraints met on {} of {} plants before re-tuning",
                                trade.within_goals, plants)
                  : "");
 }
 
 std::string_view trade_not_looked_for() {
-  return "Where the rate loop hardly acts only the product kp x kr counts, and the bound of kp is "
-         "no sharp limit: `boresight tune` of that case says whether this is so.";
+  return "The rate-loop gain may be so low that only kp*kr matters, not a sound cascade: check "
+         "with `boresight tune`.";
 }
 
 }  // namespace boresight::app

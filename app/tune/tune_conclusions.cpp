@@ -36,7 +36,7 @@ std::string limits_of(const TunedLaw& row) {
   std::vector<std::string> texts;
   for (const auto& limit : row.design.tuning.limits) texts.push_back(limit.description());
   if (texts.empty()) texts = row.design.tuning.active_goals;
-  return texts.empty() ? "no goal" : fmt::format("{}", fmt::join(texts, "; "));
+  return texts.empty() ? "none" : fmt::format("{}", fmt::join(texts, "; "));
 }
 
 // Behind an rms of the linear plant what the nonlinear antenna says to it; nothing where no law
@@ -45,12 +45,12 @@ std::string of_the_linear_plant(const TuneSection& section, const TunedLaw& row)
   const bool some_ran = std::ranges::any_of(
       section.laws, [](const TunedLaw& other) { return other.in_time.has_value(); });
   if (!some_ran) return "";
-  if (!row.in_time) return " by the linear plant; it did not run on the nonlinear antenna";
+  if (!row.in_time) return " on the linear plant; not run on the nonlinear antenna";
   if (row.left_out()) {
-    return fmt::format(" by the linear plant, but it {} on the nonlinear antenna",
+    return fmt::format(" on the linear plant, but it {} on the nonlinear antenna",
                        held_against(row));
   }
-  return fmt::format(" by the linear plant, and {} on the nonlinear antenna",
+  return fmt::format(" on the linear plant, {} on the nonlinear antenna",
                      mdeg(row.in_time->beam_rms));
 }
 
@@ -59,7 +59,7 @@ std::string of_the_linear_plant(const TuneSection& section, const TunedLaw& row)
 void conclude_best(const TuneSection& section, std::vector<std::string>& sentences) {
   std::vector<const TunedLaw*> concluded;
   const auto say = [&](const TunedLaw& row, const std::string& subject) {
-    sentences.push_back(fmt::format("At {:.3g} m/s {} with {} rms{}. Limited by {}.{}",
+    sentences.push_back(fmt::format("At {:.3g} m/s {} with {} rms{}. Active constraints: {}.{}",
                                     row.wind_speed, subject, mdeg(row.beam_rms),
                                     of_the_linear_plant(section, row), limits_of(row),
                                     assumed_demand(row.design.tuning, section.demand_assumption)));
@@ -73,15 +73,16 @@ void conclude_best(const TuneSection& section, std::vector<std::string>& sentenc
         if (best == nullptr || row.beam_rms < best->beam_rms) best = &row;
       }
       if (best == nullptr) continue;
-      say(*best, fmt::format("the best {} is {}",
-                             purpose == TunedFor::robust ? "law that keeps its goals on every plant"
-                                                         : "nominal law",
-                             best->structure));
+      say(*best,
+          fmt::format("the best {} is {}",
+                      purpose == TunedFor::robust ? "robust controller" : "nominal controller",
+                      best->structure));
     }
     const TunedLaw* recommended = recommended_law(section, speed);
     if (recommended == nullptr) continue;
     if (std::ranges::find(concluded, recommended) != concluded.end()) continue;
-    say(*recommended, fmt::format("the law recommended is {}", name_and_purpose(*recommended)));
+    say(*recommended,
+        fmt::format("the recommended controller is {}", name_and_purpose(*recommended)));
   }
   std::ranges::move(about_bounds(section, section.gain_units, concluded),
                     std::back_inserter(sentences));
@@ -98,19 +99,20 @@ void conclude_before_and_after(const TuneSection& section, std::vector<std::stri
       }
       continue;
     }
-    std::string text = fmt::format(
-        "The present gains of {} point within {} in {:.3g} m/s{}", row.structure,
-        mdeg(row.beam_rms), row.wind_speed,
-        row.goals_met ? "" : fmt::format(" and miss a goal ({})", row.design.verification.failure));
+    std::string text = fmt::format("The present gains of {} have {} rms in {:.3g} m/s{}",
+                                   row.structure, mdeg(row.beam_rms), row.wind_speed,
+                                   row.goals_met ? ""
+                                                 : fmt::format(" and violate a constraint ({})",
+                                                               row.design.verification.failure));
     if (after != nullptr && after->usable()) {
-      text += fmt::format("; tuned, {} does so within {} ({:+.1f} %)", row.structure,
-                          mdeg(after->beam_rms), 100.0 * (after->beam_rms / row.beam_rms - 1.0));
+      text += fmt::format("; tuned, {} has {} ({:+.1f} %)", row.structure, mdeg(after->beam_rms),
+                          100.0 * (after->beam_rms / row.beam_rms - 1.0));
     }
     sentences.push_back(text + ".");
   }
 }
 
-// On how many plants that may be the true one a law keeps within an rms; 0 where none was tried.
+// Ensemble members on which a controller meets an rms; 0 without an ensemble.
 std::ptrdiff_t plants_kept(const TunedLaw& law, double rms) {
   if (!law.ensemble) return 0;
   return std::ranges::count_if(law.ensemble->members,
@@ -122,7 +124,7 @@ std::string figures_of(const TunedLaw& law) {
   std::string text =
       fmt::format("{} has {} on the case's plant", name_and_purpose(law), mdeg(law.beam_rms));
   if (law.in_time) {
-    text += fmt::format(", simulated on the nonlinear antenna {}", mdeg(law.in_time->beam_rms));
+    text += fmt::format(", {} on the nonlinear antenna", mdeg(law.in_time->beam_rms));
   }
   if (law.left_out()) text += fmt::format(", where it {}", held_against(law));
   return text;
@@ -134,8 +136,7 @@ std::string plants_text(const TunedLaw& law, double rms) {
                      law.ensemble->members.size());
 }
 
-// The law like the one recommended that meets a budget on the most plants, if on more than that
-// one does.
+// The controller tuned like the recommended one that meets a budget on more plants than that one.
 std::string alternative_text(const TuneSection& section, const design::PointingBudget& budget,
                              const TunedLaw& recommended) {
   if (!recommended.ensemble) return "";
@@ -162,10 +163,10 @@ void conclude_budgets(const TuneSection& section, std::vector<std::string>& sent
     if (!budget.wind_speed || section.supply_wind_speed < *budget.wind_speed) continue;
     const TunedLaw* nearest = nearest_to_budget(section, budget.wind_speed);
     if (nearest == nullptr || !nearest->keeps(budget.rms)) continue;
-    std::string text = fmt::format(
-        "The budget '{}' in band {} ({}) is met at the {:.3g} m/s{} that it is needed up to",
-        budget.name, budget.band, mdeg(budget.rms), *budget.wind_speed,
-        dish_and_mast(section.wind_mast, *budget.wind_speed));
+    std::string text =
+        fmt::format("The budget '{}' in band {} ({}) is met up to the required {:.3g} m/s{}",
+                    budget.name, budget.band, mdeg(budget.rms), *budget.wind_speed,
+                    dish_and_mast(section.wind_mast, *budget.wind_speed));
     const TunedLaw* recommended = recommended_law(section, budget.wind_speed);
     if (recommended == nullptr) {
       text += ": " + figures_of(*nearest) + plants_text(*nearest, budget.rms);
@@ -173,7 +174,7 @@ void conclude_budgets(const TuneSection& section, std::vector<std::string>& sent
       text += ": " + figures_of(*recommended) + plants_text(*recommended, budget.rms) +
               alternative_text(section, budget, *recommended);
     } else {
-      text += fmt::format(", but not by the law recommended: {}; {}{}, but {}",
+      text += fmt::format(", but not by the recommended controller: {}; {}{}, but {}",
                           figures_of(*recommended), figures_of(*nearest),
                           plants_text(*nearest, budget.rms),
                           why_not_recommended(section, *nearest, *recommended));
@@ -191,20 +192,20 @@ void conclude_robustness(const TuneSection& section, std::vector<std::string>& s
     if (ensemble.within_goals == all) continue;
     const auto& worst = ensemble.members[ensemble.worst];
     std::string text = fmt::format(
-        "Tuned for the nominal plant, {} at {:.3g} m/s keeps its goals on {} of {} plants; the "
-        "worst, {}, {}",
+        "Tuned for the nominal plant, {} at {:.3g} m/s meets the constraints on {} of {} plants; "
+        "the worst, {}, {}",
         row.structure, row.wind_speed, ensemble.within_goals, all, worst.name,
         worst.stable
-            ? fmt::format("exceeds one by {:.0f} %", 100.0 * (worst.worst_goal_ratio - 1.0))
-            : "is not stable");
+            ? fmt::format("exceeds a limit by {:.0f} %", 100.0 * (worst.worst_goal_ratio - 1.0))
+            : "is unstable");
     const TunedLaw* robust = find(section, row, TunedFor::robust);
     if (robust != nullptr && robust->usable()) {
-      text += fmt::format(". Keeping them on every plant costs {:+.1f} % of rms ({})",
+      text += fmt::format(". Meeting them on every plant costs {:+.1f} % of rms ({})",
                           100.0 * (robust->beam_rms / row.beam_rms - 1.0), mdeg(robust->beam_rms));
     } else if (robust != nullptr && robust->stable()) {
       text += fmt::format(
-          ". No law of {} found keeps them on every plant; the nearest is {:.1f} % "
-          "off",
+          ". No {} controller found meets them on every plant; the nearest exceeds a limit by "
+          "{:.1f} %",
           row.structure, 100.0 * (robust->design.tuning.worst_goal_ratio - 1.0));
     }
     sentences.push_back(text + ".");
@@ -222,8 +223,7 @@ std::vector<std::string> conclude(const TuneSection& section) {
   conclude_before_and_after(section, sentences);
   if (section.unverified) {
     sentences.emplace_back(
-        "No law that meets its goals passes its verification: nothing is "
-        "concluded.");
+        "No controller that meets the constraints passes verification: no conclusion.");
     return sentences;
   }
   conclude_best(section, sentences);

@@ -46,10 +46,10 @@ std::vector<const TunedLaw*> rows_at(const TuneSection& section, double wind_spe
 std::string found_and_limit(const GoalRatio& goal, const design::HardGoals& goals) {
   const std::size_t b = goal.loop_break ? static_cast<std::size_t>(*goal.loop_break) : 0;
   const auto most = [&](double limit, const char* unit) {
-    return fmt::format("{:.4g}{} where at most {:.4g} is asked", limit * goal.ratio, unit, limit);
+    return fmt::format("{:.4g}{}, limit at most {:.4g}", limit * goal.ratio, unit, limit);
   };
   const auto least = [&](double limit, double found, const char* unit) {
-    return fmt::format("{:.4g}{} where at least {:.4g} is asked", found, unit, limit);
+    return fmt::format("{:.4g}{}, limit at least {:.4g}", found, unit, limit);
   };
   constexpr double degrees = 180.0 / std::numbers::pi;
   switch (goal.kind) {
@@ -98,10 +98,10 @@ std::string standing_goals(const TunedLaw& row, const design::HardGoals& goals) 
 // The rms that budgets are held against, and the linear plant's where it is another.
 std::string rms_text(const TunedLaw& row) {
   if (row.in_time && !std::isfinite(row.in_time->beam_rms)) {
-    return fmt::format("{:.4f} mdeg by the linear plant", row.beam_rms / millidegree);
+    return fmt::format("{:.4f} mdeg on the linear plant", row.beam_rms / millidegree);
   }
   return row.budget_rms() > row.beam_rms
-             ? fmt::format("{:.4f} mdeg on the nonlinear antenna ({:.4f} by the linear plant)",
+             ? fmt::format("{:.4f} mdeg on the nonlinear antenna ({:.4f} linear)",
                            row.budget_rms() / millidegree, row.beam_rms / millidegree)
              : fmt::format("{:.4f} mdeg", row.beam_rms / millidegree);
 }
@@ -109,9 +109,8 @@ std::string rms_text(const TunedLaw& row) {
 // What the linear plant puts before the law that is named, and why it is not the one.
 std::string left_out_text(const TuneSection& section, const TunedLaw& named) {
   if (named.left_out()) {
-    return fmt::format(
-        " On the nonlinear antenna it {}, and no other {} law holds still and points in wind.",
-        held_against(named), to_string(named.tuned_for));
+    return fmt::format(" On the nonlinear antenna it {}, and no other {} controller is fit.",
+                       held_against(named), to_string(named.tuned_for));
   }
   std::vector<std::string> texts;
   for (const auto* row : rows_at(section, named.wind_speed)) {
@@ -119,12 +118,11 @@ std::string left_out_text(const TuneSection& section, const TunedLaw& named) {
         row->beam_rms >= named.budget_rms()) {
       continue;
     }
-    texts.push_back(fmt::format("{}, {:.4f} mdeg by the linear plant, {}", name_and_purpose(*row),
+    texts.push_back(fmt::format("{}, {:.4f} mdeg on the linear plant, {}", name_and_purpose(*row),
                                 row->beam_rms / millidegree, held_against(*row)));
   }
   if (texts.empty()) return "";
-  return fmt::format(" Left out for what they do on the nonlinear antenna: {}.",
-                     fmt::join(texts, "; "));
+  return fmt::format(" Excluded by the nonlinear antenna: {}.", fmt::join(texts, "; "));
 }
 
 // The law that comes nearest to an rms that none reaches, behind the one recommended if that is
@@ -137,11 +135,11 @@ std::string nearest_text(const TuneSection& section, const TunedLaw& nearest,
     return fmt::format("{} comes nearest with {}{}.{}", name_and_purpose(nearest),
                        rms_text(nearest), more_of(nearest), left_out_text(section, nearest));
   }
-  return fmt::format("{}, the law recommended, has {}{}. {} comes nearest with {}, but {}.{}",
-                     name_and_purpose(*recommended), rms_text(*recommended), more_of(*recommended),
-                     name_and_purpose(nearest), rms_text(nearest),
-                     why_not_recommended(section, nearest, *recommended),
-                     left_out_text(section, *recommended));
+  return fmt::format(
+      "{}, the recommended controller, has {}{}. {} comes nearest with {}, but {}.{}",
+      name_and_purpose(*recommended), rms_text(*recommended), more_of(*recommended),
+      name_and_purpose(nearest), rms_text(nearest),
+      why_not_recommended(section, nearest, *recommended), left_out_text(section, *recommended));
 }
 
 // Goals that no law of one wind speed and purpose meets.
@@ -163,21 +161,19 @@ void find_unmet_goals(const TuneSection& section, double speed, TunedFor purpose
   if (!any) return;
   const bool robust = purpose == TunedFor::robust;
   const auto plants =
-      robust ? fmt::format("all {} plants of the ensemble", section.ensemble_size) : "this antenna";
+      robust ? fmt::format("all {} ensemble members", section.ensemble_size) : "this antenna";
   if (nearest == nullptr) {
-    shortfalls.push_back(
-        {fmt::format("No law of {} within the bounds of the search stabilises {}.",
-                     fmt::join(names, ", "), plants),
-         "None was stable, so that nothing is near: widen the bounds of the gains, or look at dead "
-         "time and structural modes."});
+    shortfalls.push_back({fmt::format("No controller of {} within the search bounds stabilises {}.",
+                                      fmt::join(names, ", "), plants),
+                          "Widen the gain bounds, or check dead time and structural modes."});
     return;
   }
   const auto standing = nearest->design.tuning.limits.size();
   shortfalls.push_back(
-      {fmt::format("No law of {} meets every hard goal at {:.3g} m/s{}{}.", fmt::join(names, ", "),
-                   speed, robust ? " on " + plants : "",
-                   standing > 1 ? ": the goals contradict one another" : ""),
-       fmt::format("{} comes nearest, {:.1f} % off its worst goals: {}.{}",
+      {fmt::format("No controller of {} meets every constraint at {:.3g} m/s{}{}.",
+                   fmt::join(names, ", "), speed, robust ? " on " + plants : "",
+                   standing > 1 ? ": the constraints are mutually incompatible" : ""),
+       fmt::format("{} comes nearest, {:.1f} % beyond its worst limits: {}.{}",
                    name_and_purpose(*nearest),
                    100.0 * (nearest->design.tuning.worst_goal_ratio - 1.0),
                    standing_goals(*nearest, section.goals),
@@ -198,7 +194,7 @@ std::vector<std::string> structures_of(const TuneSection& section) {
 std::string reached_text(const TuneSection& section, const TunedLaw& law, double limit) {
   return fmt::format(
       "; the budget is met up to {:.3g} m/s{}{}{}", limit, dish_and_mast(section.wind_mast, limit),
-      law.in_time ? " by the linear plant" : "", climate_text(section.climate, limit));
+      law.in_time ? " on the linear plant" : "", climate_text(section.climate, limit));
 }
 
 // Behind what no law keeps: why those do not whose rms, at the wind speed of `best` and tuned for
@@ -213,8 +209,9 @@ std::string barred_by_hunting(const TuneSection& section, const TunedLaw& best, 
     seen = seen && row->in_time->hunting > design::hunting_limit(rms);
   }
   if (!any) return "";
-  return seen ? ": those whose rms meets it hunt beyond it"
-              : ": those whose rms meets it hunt beyond it or were not seen to hold still";
+  return seen ? ": the controllers that meet it in wind limit-cycle beyond it"
+              : ": the controllers that meet it in wind limit-cycle beyond it, or are not shown "
+                "free of limit cycles";
 }
 
 void find_unreached_rms(const TuneSection& section, std::vector<Shortfall>& shortfalls) {
@@ -223,11 +220,12 @@ void find_unreached_rms(const TuneSection& section, std::vector<Shortfall>& shor
     if (!budget.wind_speed) continue;
     if (section.supply_wind_speed < *budget.wind_speed) {
       shortfalls.push_back(
-          {fmt::format("The budget '{}' in band {} cannot be met up to {:.3g} m/s{} by any law.",
-                       budget.name, budget.band, *budget.wind_speed,
-                       dish_and_mast(section.wind_mast, *budget.wind_speed)),
-           fmt::format("At {:.1f} m/s the mean wind takes all that friction and offset leave of "
-                       "the supply's torque.",
+          {fmt::format(
+               "The budget '{}' in band {} cannot be met up to {:.3g} m/s{} by any controller.",
+               budget.name, budget.band, *budget.wind_speed,
+               dish_and_mast(section.wind_mast, *budget.wind_speed)),
+           fmt::format("At {:.1f} m/s the mean wind takes all supply torque that friction and "
+                       "offset leave.",
                        section.supply_wind_speed)});
       continue;
     }
@@ -245,9 +243,9 @@ void find_unreached_rms(const TuneSection& section, std::vector<Shortfall>& shor
     shortfalls.push_back(
         {fmt::format("The budget '{}' in band {} ({:.4f} mdeg) {} up to {:.3g} m/s{} by {} ({}){}.",
                      budget.name, budget.band, budget.rms / millidegree,
-                     barred.empty() ? "cannot be met" : "is kept", *budget.wind_speed,
+                     barred.empty() ? "cannot be met" : "is met", *budget.wind_speed,
                      dish_and_mast(section.wind_mast, *budget.wind_speed),
-                     barred.empty() ? "what was tuned" : "no law that was tuned",
+                     barred.empty() ? "the tuned controllers" : "no tuned controller",
                      fmt::join(structures_of(section), ", "), barred),
          nearest_text(section, *best, more_of)});
   }
@@ -256,10 +254,10 @@ void find_unreached_rms(const TuneSection& section, std::vector<Shortfall>& shor
   const TunedLaw* best = nearest_to_budget(section, speed);
   if (best == nullptr || best->keeps(met * *section.beam_rms_goal)) return;
   const std::string barred = barred_by_hunting(section, *best, met * *section.beam_rms_goal);
-  shortfalls.push_back({fmt::format("A beam rms of {:.4f} mdeg {} at {:.3g} m/s{}{}.",
+  shortfalls.push_back({fmt::format("A boresight error of {:.4f} mdeg rms {} at {:.3g} m/s{}{}.",
                                     *section.beam_rms_goal / millidegree,
-                                    barred.empty() ? "cannot be met" : "is kept", speed,
-                                    barred.empty() ? "" : " by no law that was tuned", barred),
+                                    barred.empty() ? "cannot be met" : "is met", speed,
+                                    barred.empty() ? "" : " by no tuned controller", barred),
                         nearest_text(section, *best, [](const TunedLaw&) { return ""; })});
 }
 
@@ -273,7 +271,7 @@ std::string why_not_recommended(const TuneSection& section, const TunedLaw& othe
                                 const TunedLaw& recommended) {
   std::vector<std::string> reasons;
   const auto points_worse = [&](double rms, double by_recommended) {
-    reasons.push_back(fmt::format("points within {:.4f} mdeg rather than {:.4f}", rms / millidegree,
+    reasons.push_back(fmt::format("has {:.4f} mdeg rms instead of {:.4f}", rms / millidegree,
                                   by_recommended / millidegree));
   };
   if (other.in_time && recommended.in_time) {
@@ -285,22 +283,22 @@ std::string why_not_recommended(const TuneSection& section, const TunedLaw& othe
       points_worse(run.beam_rms, chosen.beam_rms);
     }
     if (hunts_more) {
-      reasons.push_back(fmt::format("hunts by +-{:.4f} mdeg rather than +-{:.4f}",
+      reasons.push_back(fmt::format("limit-cycles by +-{:.4f} mdeg instead of +-{:.4f}",
                                     run.hunting / millidegree, chosen.hunting / millidegree));
     }
   } else if (recommended.in_time) {
-    reasons.emplace_back("did not run on the nonlinear antenna");
+    reasons.emplace_back("was not run on the nonlinear antenna");
   } else if (other.beam_rms > recommended.beam_rms) {
     points_worse(other.beam_rms, recommended.beam_rms);
   }
   if (has_idle_corner(section, other) && !has_idle_corner(section, recommended)) {
-    reasons.emplace_back("has a corner beyond half the sampling rate, where it does nothing");
+    reasons.emplace_back("has a corner beyond half the sampling rate, where it has no effect");
   }
   const auto gains = [](const TunedLaw& row) {
     return row.design.tuning.law.structure.gains().size();
   };
   if (reasons.empty() && gains(other) > gains(recommended)) {
-    reasons.push_back(fmt::format("is better by no more than {:.0f} % with {} gains rather than {}",
+    reasons.push_back(fmt::format("is better by no more than {:.0f} % with {} gains instead of {}",
                                   100.0 * negligible_change, gains(other), gains(recommended)));
   } else if (reasons.empty()) {
     reasons.push_back(fmt::format("is better by no more than {:.0f} %", 100.0 * negligible_change));
@@ -329,7 +327,7 @@ TuneSection section_of(const io::Case& antenna, design::TuningStudy study) {
 
 std::vector<Shortfall> find_shortfalls(const TuneSection& section) {
   std::vector<Shortfall> shortfalls;
-  // Of unfinished work nobody knows.
+  // An interrupted study proves nothing infeasible.
   if (!section.not_run.empty()) return shortfalls;
   for (const auto& row : section.laws) {
     if (row.design.tuning.interrupted) return shortfalls;

@@ -228,7 +228,7 @@ void describe_limits(std::vector<JudgedPlant>& plants, const EnsembleSearch& ens
 }  // namespace
 
 std::string LimitingGoal::description() const {
-  return fmt::format("{}{}: 1 % more buys {:.2f} %", describe(goal),
+  return fmt::format("{}{}: relaxing it by 1 % lowers the rms by {:.2f} %", describe(goal),
                      member.empty() ? "" : fmt::format(", on {}", member), price);
 }
 

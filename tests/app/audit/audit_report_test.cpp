@@ -121,7 +121,7 @@ TEST(CheckSentences, SayWhatTheResonanceIsExpectedToBe) {
   EXPECT_THAT(said_of(antenna, "resonance expected", "resonance.frequency"),
               AllOf(HasSubstr("0.848 Hz of the case's flexible antenna"),
                     HasSubstr("All masses rigid on the oil spring would make it 0.856 Hz"),
-                    HasSubstr("a bulk modulus of")));
+                    HasSubstr("raising the bulk modulus from")));
   antenna = io::parse_case(
       EditedCase().replace("[resonance]\n", "[resonance]\ndamping_ratio = \"0.3\"\n").text(),
       "case.toml");

@@ -186,7 +186,7 @@ TEST(CaseWind, RaisesTheMastsWindToTheDish) {
       with("mast_height = \"10 m\"\nheight = \"40 m\"\nshear_exponent = \"0.2\"");
   EXPECT_NEAR(stated.wind.design_speed.value, std::pow(4.0, 0.2) * 10.0, 1e-12);
   EXPECT_THAT(mast_in_words(stated.wind.mast.value()),
-              testing::AllOf(HasSubstr("40 m above ground"), HasSubstr("a mast of 10 m"),
+              testing::AllOf(HasSubstr("40 m above ground"), HasSubstr("its 10 m mast"),
                              HasSubstr("times 1.32"), HasSubstr("exponent 0.2")));
 }
 

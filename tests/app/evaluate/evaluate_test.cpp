@@ -156,7 +156,7 @@ TEST(Evaluate, ComparesOnTheNonlinearAntenna) {
                                                  design::LossConvention::mean_loss_two_axes);
     EXPECT_NEAR(candidate.figures->losses[0], loss, 1e-5 * loss);
   }
-  EXPECT_THAT(to_text(two_proposals()), HasSubstr("The laws on the nonlinear antenna"));
+  EXPECT_THAT(to_text(two_proposals()), HasSubstr("Controllers on the nonlinear antenna"));
 }
 
 TEST(Evaluate, ComparesLinearLoopsIfAskedTo) {

@@ -161,8 +161,8 @@ TEST(Match, ReportsAndConcludes) {
   EXPECT_NE(text.find("Inertia matching"), std::string::npos);
   EXPECT_NE(text.find("ratio 1"), std::string::npos);
   const auto sentences = conclude(small_study());
-  EXPECT_NE(sentences.front().find("coherence model at 10 m/s"), std::string::npos);
-  EXPECT_NE(sentences[1].find("With PI-0 (loops that feed back no torque) the rms is least"),
+  EXPECT_NE(sentences.front().find("coherence wind model, 10 m/s"), std::string::npos);
+  EXPECT_NE(sentences[1].find("With PI-0 (no torque feedback) the minimum rms is"),
             std::string::npos);
 }
 
@@ -193,7 +193,7 @@ TEST(Match, NamesTheModeOfMostOilWhereTheHydraulicModeHasLittle) {
     return std::regex_replace(text, std::regex("\\s+"), " ").find(sentence) != std::string::npos;
   };
   EXPECT_TRUE(told("hydr., zeta: the hydraulic mode, the lowest that moves the oil"));
-  EXPECT_FALSE(told("most oil"));
+  EXPECT_FALSE(told("dominant hydraulic mode"));
   const auto hides_it = [](MatchPoint& point, double frequency) {
     point.hydraulic.oil_share = 0.06;
     point.hydraulic.gear_share = 0.7;
@@ -203,13 +203,12 @@ TEST(Match, NamesTheModeOfMostOilWhereTheHydraulicModeHasLittle) {
   };
   hides_it(section.points.front(), 22.3);
   EXPECT_TRUE(
-      told("in the oil at 1 of these inertias, and the mode of most oil is another: 22.3 Hz "
-           "(zeta 0.030) with 0.00 disks."));
+      told("in the oil at 1 of these inertias; the dominant hydraulic mode is at 22.3 Hz (zeta "
+           "0.030) with 0.00 disks."));
   for (auto& point : section.points) hides_it(point, 22.3 - 0.5 * point.disks);
-  EXPECT_TRUE(
-      told("Less than half of the hydraulic mode's elastic energy is in the oil, and the "
-           "mode of most oil is another: 22.3 Hz (zeta 0.030) with 0.00 disks to 10.3 Hz "
-           "(zeta 0.030) with 24.00 disks."));
+  EXPECT_TRUE(told(
+      "Less than half of the hydraulic mode's elastic energy is in the oil; the dominant hydraulic "
+      "mode is at 22.3 Hz (zeta 0.030) with 0.00 disks to 10.3 Hz (zeta 0.030) with 24.00 disks."));
 }
 
 TEST(Match, AnInterruptLeavesWhatWasWhole) {
@@ -243,7 +242,7 @@ TEST(Match, NamesPointsRulesAndVariants) {
   EXPECT_EQ(label_of({.disks = 3.0, .unit_ratio = true, .as_built = true}), "ratio 1, as built");
   EXPECT_EQ(name_of(MatchVariant{}), "the case's plant");
   EXPECT_EQ(text_of(design::ClassicRule::no_flywheels),
-            "most acceleration at this gear ratio: no flywheels");
+            "maximum acceleration at this gear ratio: no flywheels");
 }
 
 }  // namespace

@@ -30,7 +30,7 @@ TEST(MonteCarloText, GivesNoFigureOfALossBeyondTheBeamsParabola) {
   const std::string beyond = to_text(section_of({0.5, 0.7, 9.0, 11.0}));
   EXPECT_THAT(beyond, AllOf(ContainsRegex("loss Ka, dB +> 3 +- +0\\.5300 \\[-, 0\\.7000\\] +> 3 "),
                             ContainsRegex("loss Ka, .* > 3 *\n"), Not(HasSubstr("11.0")),
-                            HasSubstr("beyond 3 dB the beam's parabola does not hold")));
+                            HasSubstr("beyond 3 dB the parabolic beam model does not hold")));
 }
 
 }  // namespace

@@ -49,7 +49,7 @@ TEST(PlantChoices, SayWhetherTheLeakageGoesWithTheOil) {
   const std::string flexible = "oil for the resonance of the flexible antenna";
   for (const auto& edited : {measured_at("0.97 Hz"), leaking_by_flow(measured_at("0.97 Hz"))}) {
     EXPECT_THAT(choice_of(io::parse_case(edited.text(), "case.toml"), flexible).result.says,
-                EndsWith("by which the flexible antenna has the measured 0.97 Hz"));
+                EndsWith("for which the flexible antenna resonates at the measured 0.97 Hz"));
   }
 }
 

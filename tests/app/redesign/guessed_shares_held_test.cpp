@@ -39,14 +39,13 @@ TEST(GuessedSharesHeld, AreWorthASentenceWhereTheyMoveTheRms) {
     problem.wind.mean_speed = 10.0;
     return design::assess(problem, law(), make_goals(antenna)).beam_rms / millidegree;
   };
-  EXPECT_THAT(
-      sentences_of(antenna),
-      ElementsAre(HasSubstr(fmt::format(
-          "with gains held, the linear {:.3f} mdeg of PI with lag on the case's plant would be "
-          "{:.3f} mdeg with wind and beam shares as inertia, {:.3f} mdeg with wind and beam shares "
-          "all at one.",
-          rms_of(io::GuessedShares::as_stated), rms_of(io::GuessedShares::as_inertia),
-          rms_of(io::GuessedShares::all_at_heaviest)))));
+  EXPECT_THAT(sentences_of(antenna),
+              ElementsAre(HasSubstr(fmt::format(
+                  "With fixed gains, the linear {:.3f} mdeg of PI with lag on the case's plant "
+                  "would be {:.3f} mdeg with wind and beam shares as inertia, {:.3f} mdeg with "
+                  "wind and beam shares all at one.",
+                  rms_of(io::GuessedShares::as_stated), rms_of(io::GuessedShares::as_inertia),
+                  rms_of(io::GuessedShares::all_at_heaviest)))));
   io::Case known = antenna;
   for (auto& mode : known.structure.modes) {
     mode.wind_fraction.basis = mode.beam_weight.basis = io::Basis::measured;

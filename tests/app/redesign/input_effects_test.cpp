@@ -100,10 +100,10 @@ TEST(InputEffects, SayWhatToMeasureFirst) {
               HasSubstr("wind.torque_coefficient (0.450 to 0.550 mdeg over +-10 %): measure that"));
   InputEffect share = effect;
   share.quantity.key = "structure.mode[1].beam_weight";
-  share.mode = "the mode of 1.75 Hz with the bull gear held";
+  share.mode = "the mode of 1.75 Hz with the bull gear locked";
   EXPECT_THAT(measure_first({share}, rms),
               HasSubstr("structure.mode[1].beam_weight of the mode of 1.75 Hz with the bull gear "
-                        "held (0.450 to"));
+                        "locked (0.450 to"));
   InputEffect unstable = effect;
   unstable.quantity.key = "structure.mode[0].frequency";
   unstable.high_rms = std::numeric_limits<double>::quiet_NaN();
@@ -132,11 +132,10 @@ TEST(InputEffects, SayWhereFrictionIsToBeMeasuredToo) {
     return measure_first(effects, rms, in_time);
   };
   EXPECT_THAT(with(0.6 * millidegree, {effect}),
-              EndsWith("measure that first. Friction, which no linear rms knows, is worth 0.600 "
-                       "mdeg of the simulated: measure the friction curve about the tracking rate, "
-                       "and what the bristles' stiffness rests on, as well."));
+              EndsWith("measure that first. Friction adds 0.600 mdeg in simulation: measure the "
+                       "friction curve about the tracking rate and the bristle stiffness."));
   EXPECT_THAT(with(0.6 * millidegree, {}),
-              AllOf(StartsWith("Friction, which"), EndsWith("stiffness rests on.")));
+              AllOf(StartsWith("Friction adds"), EndsWith("bristle stiffness.")));
   EXPECT_EQ(with(0.09 * millidegree, {effect}), measure_first({effect}, rms));
   EXPECT_EQ(with(std::numeric_limits<double>::quiet_NaN(), {effect}), measure_first({effect}, rms));
 }

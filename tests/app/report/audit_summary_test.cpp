@@ -62,15 +62,14 @@ TEST(AuditSummary, DoesNotBelittleAFailedPhysicalCheck) {
   EXPECT_EQ(audit_summary(bare),
             "The case states no derived numbers to compare ([[stated]]); 1 physical check fails: "
             "valve stroke.");
-  EXPECT_THAT(decided(bare),
-              ElementsAre("The case states no derived numbers to compare.",
-                          "1 physical check fails: valve stroke. Explain or mend it before "
-                          "designing on the case."));
+  EXPECT_THAT(decided(bare), ElementsAre("The case states no derived numbers to compare.",
+                                         "1 physical check fails: valve stroke. Explain or correct "
+                                         "it before designing on the case."));
   const AuditReport sound = report_of(5, {"wave speed", "recorder limit", "wave speed"});
   EXPECT_EQ(audit_summary(sound),
-            "All 5 printed numbers that can be compared agree (load_inertia); 3 physical checks "
-            "fail: wave speed (2), recorder limit.");
-  EXPECT_THAT(decided(sound), ElementsAre("The case's 5 printed numbers hang together.",
+            "All 5 stated derived values are consistent (load_inertia); 3 physical checks fail: "
+            "wave speed (2), recorder limit.");
+  EXPECT_THAT(decided(sound), ElementsAre("All 5 stated derived values are consistent.",
                                           HasSubstr("3 physical checks fail: wave speed (2)")));
 }
 
@@ -78,18 +77,21 @@ TEST(AuditSummary, SaysWhichPrintedNumbersMatter) {
   AuditReport report = report_of(5, {});
   report.findings = {finding_of("load_inertia", 1e-4)};
   EXPECT_EQ(audit_summary(report),
-            "Of 5 printed numbers compared, 1 place does not follow; no physical check fails. None "
-            "of these printed numbers moves a headline result by more than 0.1 %.");
-  EXPECT_THAT(decided(report), ElementsAre(HasSubstr("1 of 5 printed numbers does not follow"),
-                                           HasSubstr("0.01 %")));
+            "Of 5 stated values compared, 1 is inconsistent; no physical check fails. None of them "
+            "changes a headline result by more than 0.1 %.");
+  EXPECT_THAT(decided(report),
+              ElementsAre(HasSubstr("1 of 5 stated values is inconsistent"), HasSubstr("0.01 %")));
   report.findings.push_back(finding_of("reflected_inertia", 0.05));
-  EXPECT_THAT(audit_summary(report),
-              HasSubstr("2 places do not follow; no physical check fails. The printed number that "
-                        "moves a headline result by more than 0.1 % is reflected_inertia '1.2 "
-                        "kg.m2' (motor_to_load_ratio +5 %)"));
+  EXPECT_THAT(
+      audit_summary(report),
+      HasSubstr(
+          "2 are inconsistent; no physical check fails. Correct those that change a headline "
+          "result by more than 0.1 %: reflected_inertia '1.2 kg.m2' (motor_to_load_ratio +5 %)"));
   report.findings.push_back(finding_of("load_inertia", 0.02));
-  EXPECT_THAT(audit_summary(report), HasSubstr("The printed numbers that move a headline result by "
-                                               "more than 0.1 % are reflected_inertia"));
+  EXPECT_THAT(
+      audit_summary(report),
+      HasSubstr(
+          "Correct those that change a headline result by more than 0.1 %: reflected_inertia"));
 }
 
 TEST(AuditSummary, SaysThatNothingIsWrong) {
@@ -97,10 +99,10 @@ TEST(AuditSummary, SaysThatNothingIsWrong) {
             "The case states no derived numbers to compare ([[stated]]), and nothing in it is "
             "physically implausible.");
   EXPECT_EQ(audit_summary(report_of(1, {})),
-            "The one printed number that can be compared agrees (load_inertia), and nothing in the "
-            "case is physically implausible.");
+            "The one stated derived value is consistent (load_inertia), and nothing in the case is "
+            "physically implausible.");
   EXPECT_THAT(decided(report_of(7, {})),
-              ElementsAre("The case's 7 printed numbers hang together: design on the case."));
+              ElementsAre("All 7 stated derived values are consistent: design on the case."));
 }
 
 }  // namespace

@@ -83,13 +83,14 @@ TEST(TimeDomain, TextSaysWhatTheNumbersAre) {
   EXPECT_THAT(text, HasSubstr("+0.0800      0.5200"));
   EXPECT_THAT(text, HasSubstr("At rest, no wind: a limit cycle of +-0.2900 mdeg at the encoder"));
   const std::string flat = std::regex_replace(text, std::regex("\\s+"), " ");
-  EXPECT_THAT(flat,
-              HasSubstr("0.0612 Hz, in 2 of 3 runs, each moved by another step at its start."));
-  EXPECT_THAT(flat, HasSubstr("no limit cycle above the encoder's resolution that lasts, in 3 runs "
-                              "(+-0.0070 mdeg left)"));
-  EXPECT_THAT(text, HasSubstr("error up to 4.9800 mdeg"));
-  EXPECT_THAT(text, HasSubstr("what the drive can do of 0.25 deg/s and 0.2 deg/s2"));
-  EXPECT_THAT(text, HasSubstr("24.16 s after the end of the command"));
+  EXPECT_THAT(flat, HasSubstr("0.0612 Hz, in 2 of 3 runs, from different initial steps."));
+  EXPECT_THAT(
+      flat,
+      HasSubstr(
+          "no lasting limit cycle above the encoder's resolution in 3 runs (+-0.0070 mdeg left)"));
+  EXPECT_THAT(text, HasSubstr("peak error 4.9800 mdeg"));
+  EXPECT_THAT(flat, HasSubstr("drive limit; specified 0.25 deg/s and 0.2 deg/s2"));
+  EXPECT_THAT(flat, HasSubstr("24.16 s after the end of the command"));
 }
 
 TEST(TimeDomain, SaysInWordsThatASlewArrivesWithinItsBound) {
@@ -189,7 +190,7 @@ TEST(TimeDomain, TextSaysWhyThereAreNoNumbers) {
   EXPECT_THAT(text, HasSubstr("In wind of 10 m/s no rms: lost: the encoder is 1 rad off."));
   EXPECT_THAT(text, Not(HasSubstr("linear prediction")));
   EXPECT_THAT(text, HasSubstr("At rest, no wind: failed: no steady motion."));
-  EXPECT_THAT(text, HasSubstr("Slow reversals: lost: gone."));
+  EXPECT_THAT(text, HasSubstr("Velocity reversals: lost: gone."));
   EXPECT_THAT(text, HasSubstr("the supply cannot move it."));
   EXPECT_THAT(text, Not(HasSubstr("nan")));
   auto slow = section();
@@ -312,20 +313,21 @@ TEST(TimeDomain, SaysByWhatRuleALawWasChosen) {
     return on_one_line(to_text(chosen_of(laws)));
   };
   const std::string least =
-      "the one above meets most budgets and, of those, has the least simulated rms with its limit "
-      "cycle added in quadrature, or one within 2 % of it and fewer gains.";
-  const std::string limit = "hunt beyond the tightest budget (+-0.7453 mdeg)";
-  const std::string some = "Of the laws that do not " + limit + ", " + least;
+      "the one above meets most budgets and then has the least simulated rms, limit cycle added in "
+      "quadrature, or fewer gains within 2 % of it.";
+  const std::string limit = "beyond the tightest budget (+-0.7453 mdeg)";
+  const std::string some = "Of the controllers free of limit cycles " + limit + ", " + least;
   for (const double hunting : {0.0, 0.3, 5.0}) {
     EXPECT_THAT(told({{0.3, 0.4, hunting}, {0.5, 0.6, 0.3}}), HasSubstr(some));
   }
-  EXPECT_THAT(told({{0.3, 2.2, 4.8}, {0.5, 1.8, 5.8}}), HasSubstr("All " + limit + "; " + least));
+  EXPECT_THAT(told({{0.3, 2.2, 4.8}, {0.5, 1.8, 5.8}}),
+              HasSubstr("All limit-cycle " + limit + "; " + least));
   // One that holds still, but not in wind, is none to choose.
   EXPECT_THAT(told({{0.3, nan, 0.0}, {0.5, 1.8, 5.8}}),
-              HasSubstr("None was seen both to hold in wind and not to " + limit +
-                        "; of those that hold in wind " + least));
+              HasSubstr("None completes the run in wind and is shown free of limit cycles " +
+                        limit + "; of those that complete it " + least));
   EXPECT_THAT(told({{0.3, nan, 4.0}, {0.5, nan, 0.1}}),
-              HasSubstr("None was seen to hold in wind: the one above has the least linear rms."));
+              HasSubstr("None completes the run in wind: the one above has the least linear rms."));
 }
 
 TEST(TimeDomain, CallsNoLawBetterThatHuntsToo) {

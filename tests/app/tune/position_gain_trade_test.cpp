@@ -16,11 +16,12 @@ TEST(PositionGainTrade, SpeaksOfPlantsOnlyWhereItWasJudgedOnSome) {
   const design::PositionGainTrade trade{
       {control::LoopStructure::pi(), {0.254, 1.0, 6.0, 0.25}}, 2, 0, 9.5 * millidegree, 20};
   EXPECT_THAT(trade_in_words(trade, {}, "PI with lag", 9.4551 * millidegree, 30),
-              AllOf(HasSubstr("PI with lag has kp at its bound because"),
-                    HasSubstr("9.5000 mdeg, +0.5 %, with every goal kept on 20 of 30 plants")));
-  EXPECT_THAT(trade_in_words(trade, {}, "PI with lag", 9.4551 * millidegree, 0),
-              AllOf(HasSubstr("9.5000 mdeg, +0.5 %. A lower upper bound of kp ([[tuning.bound]]"),
-                    Not(HasSubstr("plants"))));
+              AllOf(HasSubstr("PI with lag has kp at its bound:"),
+                    HasSubstr("9.5000 mdeg, +0.5 %, with all constraints met on 20 of 30 plants")));
+  EXPECT_THAT(
+      trade_in_words(trade, {}, "PI with lag", 9.4551 * millidegree, 0),
+      AllOf(HasSubstr("9.5000 mdeg, +0.5 %. Lower the upper bound of kp with [[tuning.bound]]"),
+            Not(HasSubstr("plants"))));
 }
 
 }  // namespace

@@ -182,7 +182,8 @@ TEST(Tune, SaysWhatRelaxingAGoalBuys) {
     EXPECT_LT(result.gradient_residual, 1e-3);
     ASSERT_FALSE(result.limits.empty());
     EXPECT_THAT(result.limits.front().description(), HasSubstr("sensitivity peak at "));
-    EXPECT_THAT(result.limits.front().description(), HasSubstr(" Hz: 1 % more buys 0."));
+    EXPECT_THAT(result.limits.front().description(),
+                HasSubstr(" Hz: relaxing it by 1 % lowers the rms by 0."));
     // DPF's lag would go on beyond its bound of 300 rad/s.
     EXPECT_EQ(result.limiting_bounds.empty(), structure == LoopStructure::pi_with_lag());
     for (const LimitingBound& bound : result.limiting_bounds) {

@@ -32,8 +32,7 @@ std::string not_worth_paying(const EvaluateSection& section, const DecisionSecti
   if (choice == decision.best || !best.feasible()) return "";
   const auto& ranking = decision.ranking;
   return fmt::format(
-      "{} is {:.1f} % better than {} {}, too little to pay for: {}.",
-      name_of(section, decision, decision.best),
+      "{} is only {:.1f} % better than {} {}: {}.", name_of(section, decision, decision.best),
       100.0 * (1.0 - ranking.losses[decision.best] / ranking.losses[choice]),
       name_of(section, decision, choice), measure_phrase(ranking.measure),
       section.candidates[decision.candidates[choice].candidate].path.empty()
@@ -56,23 +55,21 @@ std::string regret(const EvaluateSection& section, const DecisionSection& decisi
   const auto& ranking = decision.ranking;
   if (const auto least = unfit_least(section, decision)) {
     return fmt::format(
-        " Over the draws {} has the least rms of all, {:.4f} mdeg {}, but {} and is left out: the "
-        "chances to be the best and the regrets above count it, and say nothing of those fit to be "
-        "chosen.",
+        " {} has the lowest rms of all, {:.4f} mdeg {}, but {} and is excluded. The probabilities "
+        "to be best and the regrets above include it.",
         name_of(section, decision, *least), ranking.losses[*least], measure_phrase(ranking.measure),
         why_not(section.candidates[decision.candidates[*least].candidate]));
   }
   if (!std::isfinite(options[decision.best].expected_regret)) {
-    return " Each that is fit is unstable on some draws: means and regrets over them are infinite.";
+    return " Every eligible proposal is unstable on some samples: mean rms and regret are "
+           "infinite.";
   }
   const auto counted = unfit_but_counted(section, decision);
-  return fmt::format(" Choosing it loses {:.4f} mdeg on average against whoever knew the plant{}.",
+  return fmt::format(" Expected regret against perfect information: {:.4f} mdeg{}.",
                      options[decision.best].expected_regret,
-                     counted.empty()
-                         ? ""
-                         : fmt::format(" and took even what is not fit to be chosen where that is "
-                                       "best ({})",
-                                       fmt::join(counted, ", ")));
+                     counted.empty() ? ""
+                                     : fmt::format(" (ineligible proposals included: {})",
+                                                   fmt::join(counted, ", ")));
 }
 
 // How likely it is the best of all, and better than the second where that is fit to be chosen.
@@ -97,7 +94,7 @@ std::string probabilities(const EvaluateSection& section, const DecisionSection&
             ? fmt::format(", by {:.4f} +- {:.4f} mdeg on average", gain, pair.gain_error)
             : std::string()));
   }
-  return parts.empty() ? "" : fmt::format("; it is {}", fmt::join(parts, " and "));
+  return parts.empty() ? "" : fmt::format(". It is {}", fmt::join(parts, " and "));
 }
 
 std::string chances(const EvaluateSection& section, const DecisionSection& decision) {
@@ -106,7 +103,7 @@ std::string chances(const EvaluateSection& section, const DecisionSection& decis
   const Candidate& best = section.candidates[decision.candidates[decision.best].candidate];
   if (!best.feasible()) {
     return fmt::format(
-        "Nothing is to be chosen by the {} draws: {} has the least rms with the gains held, {:.4f} "
+        "No proposal is eligible over {} samples: {} has the lowest rms with fixed gains, {:.4f} "
         "mdeg {}, but {}.",
         decision.draws, best.name, least, measure_phrase(ranking.measure), why_not(best));
   }
@@ -119,23 +116,21 @@ std::string chances(const EvaluateSection& section, const DecisionSection& decis
     return !section.candidates[one.candidate].feasible();
   });
   std::string text =
-      fmt::format("Least rms with the gains held{}: {}, {:.4f} mdeg {}{}.{}",
-                  some_unfit ? ", of those fit to be chosen" : "", best.name, least,
+      fmt::format("Lowest rms with fixed gains{}: {}, {:.4f} mdeg {}{}.{}",
+                  some_unfit ? " among eligible proposals" : "", best.name, least,
                   measure_phrase(ranking.measure), probabilities(section, decision, *pair),
                   regret(section, decision));
-  text += fmt::format(
-      " The intervals are those of {} draws ({}); another view of what is uncertain may move the "
-      "probabilities farther than that.",
-      decision.draws, decision.source);
+  text +=
+      fmt::format(" Intervals: sampling error of {} samples, {}.", decision.draws, decision.source);
   if (section.time_domain) {
     text +=
-        " Each law's factor of the nonlinear antenna comes from one record and is not drawn: of "
-        "proposals that lie a few per cent apart the probability says nothing.";
+        " Each simulated/linear rms ratio comes from one wind record and is not sampled. The "
+        "probabilities do not separate proposals that differ by a few per cent.";
   }
   const auto& outside = decision.candidates[decision.best].outside_goals;
   text += fmt::format(
-      " Its hard goals hold on the {} plants it was tuned for; of the draws, which move more "
-      "inputs and all at once, a share of {} breaks one.",
+      " Its constraints hold on the {} plants of the tuning ensemble; a fraction {} of the samples "
+      "violates one.",
       section.ensemble_size, share(outside));
   return text;
 }
@@ -152,7 +147,7 @@ std::string what_decides(const EvaluateSection& section, const DecisionSection& 
   std::vector<std::string> named;
   for (const std::size_t i : order) {
     if (named.size() == 3 || indices.inputs[i].total.value < 0.02) break;
-    named.push_back(fmt::format("{} ({:.0f} % of the variance, with its interactions)",
+    named.push_back(fmt::format("{} ({:.0f} % of the variance, interactions included)",
                                 decision.inputs[i], 100.0 * indices.inputs[i].total.value));
   }
   std::string text = fmt::format("The difference between {} and {} depends most on {}.",
@@ -163,10 +158,10 @@ std::string what_decides(const EvaluateSection& section, const DecisionSection& 
       return std::min(bar.at_low, bar.at_high) < 0.0;
     });
     text += turns == decision.tornado->bars.end()
-                ? " No input turns it round alone within its middle 90 %."
+                ? " No single input reverses the order within its 5 % to 95 % range."
                 : fmt::format(
-                      " Alone, {} turns it round: {:.4f} mdeg at its 5 % share, {:.4f} at "
-                      "its 95 % share.",
+                      " Alone, {} reverses the order: {:.4f} mdeg at its 5 % quantile, {:.4f} at "
+                      "its 95 % quantile.",
                       decision.inputs[turns->input], turns->at_low, turns->at_high);
   }
   return text;
@@ -182,17 +177,15 @@ std::string what_to_test(const EvaluateSection& section, const DecisionSection& 
   if (best == tests.inputs.end() || best->held_out_gain <= 2.0 * best->held_out_error ||
       best->held_out_gain < 1e-4 * mean) {
     return fmt::format(
-        "No test of one input would change the choice of {} for the better by more than chance "
-        "could feign; knowing everything would lower the expected rms by {:.4f} mdeg ({:.2f} %). "
-        "What tests are worth for the tuning itself is not in this figure: gains are held here.",
+        "No test of a single input significantly improves the choice of {}. Perfect information "
+        "lowers the expected rms by {:.4f} mdeg ({:.2f} %), with fixed gains.",
         choice, std::max(0.0, tests.perfect.gain),
         100.0 * std::max(0.0, tests.perfect.gain) / mean);
   }
   const auto input = static_cast<std::size_t>(best - tests.inputs.begin());
   return fmt::format(
-      "Test first: {}. Known before the choice between the proposals, it lowers the expected rms "
-      "by {:.4f} to {:.4f} mdeg (held out and fitted) of the {:.4f} mdeg that knowing everything "
-      "would{}.",
+      "Test first: {}. Known before the choice, it lowers the expected rms by {:.4f} to {:.4f} "
+      "mdeg (held out and fitted); perfect information lowers it by {:.4f} mdeg{}.",
       decision.inputs[input], best->held_out_gain, best->fitted.gain, tests.perfect.gain,
       tests.perfect.gain < negligible_change * mean
           ? fmt::format(", {:.2f} % of the rms: no test is worth its time for this choice",

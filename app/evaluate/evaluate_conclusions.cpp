@@ -48,23 +48,21 @@ std::string against_as_it_is(const EvaluateSection& section) {
   }
   std::string text = fmt::format(
       "Conditions: {} loops on the antenna as it is, {} wind at {:.3g} m/s, gains re-tuned for "
-      "each proposal{}. Root-mean-square beam error over the plants against the antenna as it is, "
+      "each proposal{}. Rms boresight error over the plants, compared with the antenna as it is, "
       "re-tuned ({:.4f} mdeg{}): ",
       law->structure, plant::to_string(section.wind_model), section.wind_speed,
       section.time_domain
-          ? ", each rms of linear loops raised by what friction, orifices, limits and all else "
-            "that is not linear did to that law in a simulated record"
+          ? ", each linear rms times the simulated/linear rms ratio of its controller"
           : ", linear loops only",
-      rms_of(base) / millidegree, base.hunts() ? ", and it hunts" : "");
+      rms_of(base) / millidegree, base.hunts() ? ", with a limit cycle" : "");
   if (better.empty()) {
-    text +=
-        worse.empty() ? "none to compare, as no proposal is fit to be chosen" : "nothing lowers it";
+    text += worse.empty() ? "no eligible proposal to compare" : "no proposal lowers it";
   } else {
     text += fmt::format("lowered {}", fmt::join(better, ", "));
   }
-  if (!worse.empty()) text += fmt::format("; raised or left {}", fmt::join(worse, ", "));
+  if (!worse.empty()) text += fmt::format("; raised {}", fmt::join(worse, ", "));
   if (!hunting.empty()) {
-    text += fmt::format(". Left out, as they hunt beyond the tightest budget: {}",
+    text += fmt::format(". Excluded, limit cycle beyond the tightest budget: {}",
                         fmt::join(hunting, ", "));
   }
   return text + ".";
@@ -99,20 +97,18 @@ std::string in_the_time_domain(const EvaluateSection& section) {
   }
   std::string text;
   if (!factors.empty()) {
-    text = fmt::format("Simulated rms over that of the linear plant in the same record: {}.",
-                       fmt::join(factors, ", "));
+    text = fmt::format("Simulated/linear rms ratio: {}.", fmt::join(factors, ", "));
   }
   if (linear != simulated && linear != nullptr && simulated != nullptr) {
-    text += fmt::format(" Linear loops would put {} first; on the nonlinear antenna it is {}.",
-                        linear->name, simulated->name);
+    text += fmt::format(" {} has the lowest linear rms, {} the lowest simulated rms.", linear->name,
+                        simulated->name);
   }
   if (!hunting.empty()) {
-    text += fmt::format(" Limit cycles of the beam (mdeg, at rest or tracking): {}.",
+    text += fmt::format(" Limit cycles of the boresight (mdeg, at rest or tracking): {}.",
                         fmt::join(hunting, ", "));
   }
   if (!failed.empty()) {
-    text += fmt::format(" Did not complete their run, and are not compared: {}.",
-                        fmt::join(failed, ", "));
+    text += fmt::format(" Simulation not completed, not compared: {}.", fmt::join(failed, ", "));
   }
   return text;
 }
@@ -130,20 +126,18 @@ std::string on_the_front(const EvaluateSection& section) {
       const double paid = cost_of(candidate) - cost_of(before);
       const double share = 1.0 - rms_of(candidate) / rms_of(before);
       if (share < negligible_change) {
-        step += fmt::format(", only {:.1f} % less than the one before: nothing to pay for",
+        step += fmt::format(", only {:.1f} % below the previous one: not worth its cost",
                             100.0 * share);
       } else if (gained > 0.0 && paid > 0.0) {
-        step += fmt::format(", {:.0f} {} for each mdeg more", paid / gained, section.currency);
+        step += fmt::format(", {:.0f} {} per mdeg of improvement", paid / gained, section.currency);
       }
     }
     steps.push_back(std::move(step));
   }
   const bool assumed = std::ranges::any_of(
       section.candidates, [](const auto& candidate) { return candidate.cost_assumed; });
-  return fmt::format(
-      "On the front of cost and rms, each better than all that cost less: {}.{} A proposal off the "
-      "front is dearer and no better than one on it.",
-      fmt::join(steps, "; "), assumed ? " Costs marked as assumed were quoted by nobody." : "");
+  return fmt::format("Pareto front of cost and rms: {}.{}", fmt::join(steps, "; "),
+                     assumed ? " Costs marked \"assumed\" are estimates, not quotations." : "");
 }
 
 std::string without_cost(const EvaluateSection& section) {
@@ -154,9 +148,8 @@ std::string without_cost(const EvaluateSection& section) {
   if (names.empty()) return "";
   return section.currency.empty()
              ? std::string(
-                   "No proposal states a cost ([cost] of its file): they are compared by "
-                   "what they do, and there is no front of cost and rms.")
-             : fmt::format("Without a cost ([cost] of its file), and so not on the front: {}.",
+                   "No proposal states a cost ([cost] of its file): there is no Pareto front.")
+             : fmt::format("Not on the Pareto front (no [cost] stated): {}.",
                            fmt::join(names, ", "));
 }
 
@@ -180,19 +173,17 @@ std::vector<std::string> short_of_slewing(const EvaluateSection& section) {
   }
   std::vector<std::string> sentences;
   if (stated_too_high) {
-    sentences.push_back(fmt::format(
-        "The stated slew rate is out of reach of the drive as it is (against friction and offset "
-        "it holds {:.2f} of it): check drive.slew_rate, the friction curve, the valve and the "
-        "supply.",
-        as_it_is));
+    sentences.push_back(
+        fmt::format("The drive as it is cannot reach the stated slew rate: against friction and "
+                    "offset it sustains {:.2f} of it. Check drive.slew_rate, the friction curve, "
+                    "the valve and the supply.",
+                    as_it_is));
   }
   if (!slow.empty()) {
     sentences.push_back(fmt::format(
-        "{}: {}. Pumps and valves would have to grow with them, at a cost that is not in these "
-        "files.",
-        stated_too_high ? "These proposals slew more slowly still"
-                        : "Their drives do not hold the slew rate of today against friction and "
-                          "offset",
+        "{}: {}. The cost of larger pumps and valves is not included.",
+        stated_too_high ? "Still slower slewing"
+                        : "Unable to sustain the present slew rate against friction and offset",
         fmt::join(slow, "; ")));
   }
   return sentences;
@@ -212,17 +203,14 @@ std::string out_of_reach(const EvaluateSection& section) {
   }
   std::vector<std::string> sentences = short_of_slewing(section);
   if (!infeasible.empty()) {
-    sentences.insert(
-        sentences.begin(),
-        fmt::format("Not to be built as they stand: no law of {} meets every hard goal on every "
-                    "plant and passes its verification; their rows show what comes closest.",
-                    fmt::join(infeasible, ", ")));
+    sentences.insert(sentences.begin(),
+                     fmt::format("Not eligible: no controller of {} meets every constraint on "
+                                 "every plant and passes its verification.",
+                                 fmt::join(infeasible, ", ")));
   }
   if (!hunting.empty()) {
-    sentences.push_back(
-        fmt::format("Not chosen, whatever their rms in wind: by friction alone these hunt beyond "
-                    "the tightest budget: {}.",
-                    fmt::join(hunting, ", ")));
+    sentences.push_back(fmt::format("Excluded, limit cycle beyond the tightest budget: {}.",
+                                    fmt::join(hunting, ", ")));
   }
   return fmt::format("{}", fmt::join(sentences, " "));
 }

@@ -32,7 +32,7 @@ Candidate described(const io::ProposedCase& proposed, const io::Proposal* propos
 std::string_view reason(design::NotDrawn why) {
   switch (why) {
     case design::NotDrawn::no_stable_law:
-      return "has no stable law";
+      return "has no stable controller";
     case design::NotDrawn::run_not_completed:
       return "did not complete its run on the nonlinear antenna";
   }
@@ -42,10 +42,9 @@ std::string_view reason(design::NotDrawn why) {
 std::string_view reason(design::TestsNotValued why) {
   switch (why) {
     case design::TestsNotValued::fewer_than_two_fit:
-      return "fewer than two candidates are fit to be chosen, and there is no choice for a test to "
-             "change";
+      return "fewer than two candidates are eligible";
     case design::TestsNotValued::unstable_on_some_draws:
-      return "a candidate is unstable on some draws, and no finite loss can stand for that";
+      return "a candidate is unstable on some samples, so its loss is infinite";
   }
   return "";
 }
@@ -56,18 +55,19 @@ DecisionSection worded(design::ProposalDecision decision, const std::vector<Cand
   for (const auto input : section.uncertain) section.inputs.emplace_back(to_string(input));
   for (const auto& one : section.left_out) {
     section.notes.push_back(
-        fmt::format("{} {} and is left out.", candidates[one.candidate].name, reason(one.reason)));
+        fmt::format("{} {} and is excluded.", candidates[one.candidate].name, reason(one.reason)));
   }
   if (section.uncertain.empty()) {
-    section.notes.emplace_back("Nothing of the plant is uncertain: no input decides anything.");
+    section.notes.emplace_back("The plant has no uncertain input: there are no sensitivities.");
   }
   if (!section.undecided.empty()) {
     section.notes.push_back(
-        fmt::format("What decides between the two best is not known: {}", section.undecided));
+        fmt::format("Sensitivities of the difference between the two best are not available: {}",
+                    section.undecided));
   }
   if (section.tests_not_valued) {
     section.notes.push_back(
-        fmt::format("Tests are not valued: {}.", reason(*section.tests_not_valued)));
+        fmt::format("Value of tests not computed: {}.", reason(*section.tests_not_valued)));
   }
   return section;
 }
@@ -120,7 +120,7 @@ EvaluateSection evaluate_proposals(const io::Case& antenna,
     section.decision =
         worded(std::move(*study.decision), section.candidates, uncertainty.distribution);
   } else if (!proposals.empty()) {
-    section.not_run.emplace_back("chances, regrets and tests");
+    section.not_run.emplace_back("probabilities, regrets and tests");
   }
   return section;
 }

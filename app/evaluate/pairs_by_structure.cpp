@@ -36,22 +36,24 @@ std::string verdict(const Winner& pair, const PairByStructure& found) {
   }
   const auto all = static_cast<int>(found.structures.size());
   if (better > 0 && worse > 0) {
-    return "which hardware is the better one turns round with the structure";
+    return "which hardware is better depends on the structure";
   }
   if (better == 0) {
-    return worse > 0 ? "the gain is the law's, and by its hardware alone the order turns round"
-                     : "the gain is the law's, and the hardware makes no difference";
+    return worse > 0
+               ? "the gain comes from the controller; with equal structures the order reverses"
+               : "the gain comes from the controller; the hardware makes no difference";
   }
-  if (least >= pair.gain) return "the gain is the hardware's, whatever the law";
+  if (least >= pair.gain) return "the gain comes from the hardware, whatever the controller";
   if (better < all) {
-    return fmt::format("the hardware makes at most {:.4f} mdeg of it, the law the rest",
+    return fmt::format("the hardware contributes at most {:.4f} mdeg, the controller the rest",
                        std::min(most, pair.gain));
   }
   const double upper = std::min(most, pair.gain);
   return upper - least < 5e-5
-             ? fmt::format("the hardware makes {:.4f} mdeg of it, the law the rest", least)
-             : fmt::format("the hardware makes {:.4f} to {:.4f} mdeg of it, the law the rest",
-                           least, upper);
+             ? fmt::format("the hardware contributes {:.4f} mdeg, the controller the rest", least)
+             : fmt::format(
+                   "the hardware contributes {:.4f} to {:.4f} mdeg, the controller the rest", least,
+                   upper);
 }
 
 std::string under_one_structure(const Winner& pair, const PairByStructure& found) {
@@ -59,8 +61,8 @@ std::string under_one_structure(const Winner& pair, const PairByStructure& found
   for (const auto& one : found.structures) {
     if (!std::isfinite(one.mean_gain)) {
       return fmt::format(
-          "{} has {:.4f} mdeg less than {} on average, but with {} loops on both a draw is "
-          "unstable: what of it is the law's is not known.",
+          "{} has {:.4f} mdeg less than {} on average. With {} loops on both, a sample is "
+          "unstable: the controller's contribution is unknown.",
           with_loops(pair.winner), pair.gain, with_loops(pair.loser), one.structure);
     }
     const double gain = pair.sign * one.mean_gain;
@@ -72,10 +74,9 @@ std::string under_one_structure(const Winner& pair, const PairByStructure& found
         "with {} on both {:.4f} {} (better with probability {:.3f}{})", one.structure,
         std::abs(gain), gain < 0.0 ? "more" : "less",
         turned ? 1.0 - one.better.value : one.better.value,
-        unfit.empty() ? ""
-                      : fmt::format("; not to be chosen with it: {}", fmt::join(unfit, ", "))));
+        unfit.empty() ? "" : fmt::format("; not eligible with it: {}", fmt::join(unfit, ", "))));
   }
-  return fmt::format("{} has {:.4f} mdeg less than {} on average, but by different loops; {}: {}.",
+  return fmt::format("{} has {:.4f} mdeg less than {} on average, with different loops; {}: {}.",
                      with_loops(pair.winner), pair.gain, with_loops(pair.loser),
                      fmt::join(parts, ", "), verdict(pair, found));
 }
@@ -119,8 +120,8 @@ std::string law_or_hardware(const EvaluateSection& section, const DecisionSectio
   }
   if (!untold.empty()) {
     sentences.push_back(fmt::format(
-        "No structure was tuned for both, so that law and hardware are not told apart: {}. "
-        "`structures` in the proposals' files, or --structure, can name one for both.",
+        "No structure was tuned for both, so controller and hardware effects are not separated: "
+        "{}. Name one for both by `structures` in the proposal files or by --structure.",
         fmt::join(untold, "; ")));
   }
   return fmt::format("{}", fmt::join(sentences, " "));

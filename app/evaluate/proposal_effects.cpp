@@ -73,13 +73,14 @@ std::string laws_of_other_families(const EvaluateSection& section) {
     }
     if (gains.empty()) continue;
     laws.push_back(
-        fmt::format("{} comes with another kind of {} law than the antenna as it is has: {}",
+        fmt::format("{} has a different kind of {} controller from the antenna as it is: {}",
                     candidate.name, law->structure, fmt::join(gains, ", ")));
   }
   if (laws.empty()) return "";
   return fmt::format(
-      "{}; differences in reversal error and hunting may be the law's rather than the hardware's. "
-      "Narrower bounds ([[tuning.bound]], or those of a [[loop]]) can bring both to one kind.",
+      "{}. Differences in reversal error and limit cycle may come from the controller, not the "
+      "hardware. Narrow the search with [[tuning.bound]], or the bounds of a [[loop]], to obtain "
+      "one kind.",
       fmt::join(laws, "; "));
 }
 
@@ -102,13 +103,13 @@ std::vector<std::size_t> other_family(const CandidateLaw& law, const CandidateLa
 std::string changed_motion(const EvaluateSection& section) {
   if (section.candidates.empty()) return "";
   const std::string reversal =
-      changes_of(section, "Largest error of the beam after turning round at the tracking rate",
-                 "mdeg", 2, [](const Candidate& candidate) -> std::optional<double> {
+      changes_of(section, "Peak boresight error at a velocity reversal at tracking rate", "mdeg", 2,
+                 [](const Candidate& candidate) -> std::optional<double> {
                    const auto error = candidate.reversal_error();
                    return error ? std::optional(*error / millidegree) : std::nullopt;
                  });
   const std::string acceleration =
-      changes_of(section, "Acceleration that the drive reaches at the slew rate", "deg/s2", 3,
+      changes_of(section, "Acceleration available at the slew rate", "deg/s2", 3,
                  [](const Candidate& candidate) -> std::optional<double> {
                    if (!candidate.figures || !candidate.figures->slew) return std::nullopt;
                    return candidate.figures->slew->reachable_acceleration / degree;
@@ -137,8 +138,7 @@ std::string plants_within_needs(const EvaluateSection& section) {
                                 fmt::join(counts, ", ")));
   }
   if (needs.empty()) return "";
-  return fmt::format("Of {} plants that may be the true one {}.", section.ensemble_size,
-                     fmt::join(needs, "; "));
+  return fmt::format("Ensemble of {} plants: {}.", section.ensemble_size, fmt::join(needs, "; "));
 }
 
 }  // namespace boresight::app

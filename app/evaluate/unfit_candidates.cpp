@@ -26,9 +26,10 @@ std::optional<double> reached_speed(const Candidate& candidate, std::size_t budg
 
 std::string_view why_not(const Candidate& candidate) {
   const CandidateLaw* law = candidate.chosen_law();
-  if (law == nullptr) return "has no stable law";
-  if (!law->goals_met) return "misses a hard goal on some plant";
-  return candidate.hunts() ? "hunts beyond the tightest budget" : "fails its verification";
+  if (law == nullptr) return "has no stable controller";
+  if (!law->goals_met) return "violates a constraint on some plant";
+  return candidate.hunts() ? "has a limit cycle beyond the tightest budget"
+                           : "fails its verification";
 }
 
 std::vector<std::string> hunting_candidates(const EvaluateSection& section) {
@@ -65,10 +66,10 @@ std::string none_chosen(const EvaluateSection& section) {
   if (proposals.empty() || std::ranges::any_of(proposals, feasible)) return "";
   const bool stays = base != nullptr && base->feasible();
   if (std::ranges::all_of(proposals, [](const Candidate* one) { return one->hunts(); })) {
-    return fmt::format("{}{}: none is chosen.",
-                       proposals.size() == 1 ? "The proposal hunts" : "All proposals hunt",
+    return fmt::format("{} a limit cycle beyond the tightest budget{}: none is chosen.",
+                       proposals.size() == 1 ? "The proposal has" : "All proposals have",
                        base != nullptr && base->hunts() ? ", as does the antenna as it is"
-                       : stays                          ? ", the antenna as it is does not"
+                       : stays                          ? ", unlike the antenna as it is"
                                                         : "");
   }
   std::vector<std::string> reasons;
@@ -77,7 +78,7 @@ std::string none_chosen(const EvaluateSection& section) {
   });
   if (base != nullptr && !stays)
     reasons.push_back(fmt::format("{} {}", base->name, why_not(*base)));
-  return fmt::format("No proposal is fit to be chosen: {}.", fmt::join(reasons, ", "));
+  return fmt::format("No proposal is eligible: {}.", fmt::join(reasons, ", "));
 }
 
 namespace {
@@ -120,13 +121,13 @@ std::vector<std::string> unmet_needs(const EvaluateSection& section) {
     }
     if (met || nearest == nullptr) continue;
     sentences.push_back(fmt::format(
-        "NOT MET: {} ({}: {:.3f} mdeg) is needed up to {:.3g} m/s{}; neither the antenna as it is "
-        "nor a proposal is fit to be chosen and meets it there. {} comes nearest, with {}{}{}.",
+        "NOT MET: {} ({}: {:.3f} mdeg) is needed up to {:.3g} m/s{}; no eligible candidate meets "
+        "it there. {} comes nearest, with {}{}{}.",
         budget.name, budget.band, budget.rms / millidegree, *budget.wind_speed,
         dish_and_mast(section.wind_mast, *budget.wind_speed), nearest->name,
         std::isfinite(farthest)
             ? fmt::format("{:.1f} m/s{}", farthest, dish_and_mast(section.wind_mast, farthest))
-            : std::string("the 60 m/s looked at"),
+            : std::string("the 60 m/s searched"),
         as_near_text(section, i, *nearest, farthest),
         nearest->feasible() ? "" : fmt::format(", but {}", why_not(*nearest))));
   }

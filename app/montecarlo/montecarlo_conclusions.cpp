@@ -25,44 +25,40 @@ std::vector<std::string> conclude(const MonteCarloSection& section) {
                                        plant::to_string(section.wind_model), section.wind_speed);
   if (section.stable > 0) {
     const auto& q = section.beam_rms.quantiles;
-    sentences.push_back(fmt::format(
-        "With these gains held, {} beam rms is {:.4f} mdeg in the middle and up to {:.4f} mdeg on "
-        "95 "
-        "% of the plants that are stable: so far as the plants are what they are drawn from.",
-        wind, q[3].number.value / millidegree, q[5].number.value / millidegree));
+    sentences.push_back(
+        fmt::format("With these fixed gains, {}, the boresight rms over the stable plants has "
+                    "median {:.4f} mdeg and 95 % quantile {:.4f} mdeg.",
+                    wind, q[3].number.value / millidegree, q[5].number.value / millidegree));
   }
   const std::uint64_t lost = section.unstable + section.undecided;
   sentences.push_back(
-      lost == 0 ? fmt::format("None of {} plants is unstable: fewer than {} of all may be (95 %).",
-                              section.plants, per_cent(section.instability.upper))
-                : fmt::format(
-                      "The loop is not stable on {} of {} plants, {}: they are counted and listed, "
-                      "and enter no mean.",
-                      lost, section.plants, between(section.instability)));
+      lost == 0
+          ? fmt::format(
+                "None of {} plants is unstable: with 95 % confidence fewer than {} of all are.",
+                section.plants, per_cent(section.instability.upper))
+          : fmt::format("The loop is not stable on {} of {} plants, {}; means exclude them.", lost,
+                        section.plants, between(section.instability)));
   for (const auto& [budget, met] : section.budgets) {
-    sentences.push_back(
-        fmt::format("The budget '{}' (band {}, {:.4f} mdeg) is met {} by {} of the "
-                    "plants, one axis, linear.",
-                    budget.name, budget.band, budget.rms / millidegree, wind, between(met)));
+    sentences.push_back(fmt::format(
+        "The budget '{}' (band {}, {:.4f} mdeg) is met {} by {} of the plants, per axis, linear.",
+        budget.name, budget.band, budget.rms / millidegree, wind, between(met)));
   }
-  sentences.push_back(fmt::format("All hard goals are met by {}.", between(section.all_goals_met)));
+  sentences.push_back(
+      fmt::format("All constraints are met on {} of the plants.", between(section.all_goals_met)));
   if (!section.correlations.empty() && section.stable > 9) {
     const auto& first = section.correlations.front();
-    sentences.push_back(fmt::format(
-        "What moves the rms most among the inputs is the {} (rank correlation {:+.2f}): a rank "
-        "correlation sees trends, not causes that turn.",
-        to_string(first.input), first.with_rms.value));
+    sentences.push_back(fmt::format("The rms depends most on the {} (rank correlation {:+.2f}).",
+                                    to_string(first.input), first.with_rms.value));
   }
   if (section.retuned) {
     const auto& retuned = *section.retuned;
     sentences.push_back(
         retuned.price.draws > 0
-            ? fmt::format(
-                  "Holding one law for all costs {:.1f} % of rms in the middle and {:.1f} % "
-                  "on 5 % of the plants, against a law tuned for each plant alone.",
-                  100.0 * retuned.price.quantiles[3].number.value,
-                  100.0 * retuned.price.quantiles[5].number.value)
-            : std::string("No plant is stable under both the held law and one of its own."));
+            ? fmt::format("Fixed gains cost {:.1f} % of rms at the median and {:.1f} % at the 95 % "
+                          "quantile, compared with plant-specific gains.",
+                          100.0 * retuned.price.quantiles[3].number.value,
+                          100.0 * retuned.price.quantiles[5].number.value)
+            : std::string("No plant is stable with both fixed and plant-specific gains."));
   }
   return sentences;
 }

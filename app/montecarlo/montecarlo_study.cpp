@@ -137,7 +137,7 @@ class Work {
         run_(run),
         digest_(digest),
         interrupted_(interrupted),
-        progress_("judging plants") {}
+        progress_("evaluating plants") {}
 
   void run() {
     if (ranks_.size() == 1) {

@@ -78,7 +78,7 @@ bool has_losses_beyond(const MonteCarloSection& section) {
 
 Document distributions_part(const MonteCarloSection& section) {
   Rows rows{{"", "mean", "sd", "5 %", "50 %", "95 %", "99 %", "largest"}};
-  add_distribution(rows, "beam rms, mdeg", section.beam_rms, millidegree, 4);
+  add_distribution(rows, "boresight rms, mdeg", section.beam_rms, millidegree, 4);
   for (const auto& [band, loss, climate_loss] : section.losses) {
     add_losses(rows, fmt::format("loss {}, dB", band.name), loss);
   }
@@ -92,27 +92,24 @@ Document distributions_part(const MonteCarloSection& section) {
   }
   if (section.retuned) {
     add_distribution(rows, "rms re-tuned, mdeg", section.retuned->beam_rms, millidegree, 4);
-    add_distribution(rows, "price of one law, %", section.retuned->price, 0.01, 2);
+    add_distribution(rows, "cost of fixed gains, %", section.retuned->price, 0.01, 2);
   }
-  Document text = heading("Distribution over the plants that are stable");
+  Document text = heading("Distribution over the stable plants");
   text += essential(table(rows, "l"));
   text += wrapped(
-      fmt::format("[ ]: 95 % intervals of the sampling alone, by {} stable plants; the "
-                  "distribution that plants are drawn from is taken as it is. Losses: mean of two "
-                  "equal axes of a Gaussian beam. One axis, linear, wind model {}, mean speed {:g} "
-                  "m/s{}.",
+      fmt::format("[ ]: 95 % sampling intervals, {} stable plants. Losses: mean of two equal axes "
+                  "of a Gaussian beam. Per axis, linear, wind model {}, mean speed {:g} m/s{}.",
                   section.stable, plant::to_string(section.wind_model), section.wind_speed,
                   section.climate ? "; climate: the mean square over the site's wind climate" : ""),
       "  ");
   if (has_losses_beyond(section)) text += wrapped(beyond_the_parabola(), "  ");
   if (section.retuned) {
-    text += wrapped(
-        fmt::format(
-            "Re-tuned: a law of the same structure for each plant alone, from the held one; "
-            "found for {} of {} plants, {} of which the held law does not keep stable. "
-            "Price: held over re-tuned rms, less 1.",
-            section.retuned->found, section.plants, section.retuned->only_retuned),
-        "  ");
+    text +=
+        wrapped(fmt::format("Re-tuned: plant-specific gains of the same structure, found for {} of "
+                            "{} plants; {} of these are unstable with the fixed gains. Cost: rms "
+                            "with fixed gains / rms with plant-specific gains - 1.",
+                            section.retuned->found, section.plants, section.retuned->only_retuned),
+                "  ");
   }
   return text;
 }
@@ -126,15 +123,14 @@ Document probabilities_part(const MonteCarloSection& section) {
                     per_cent(met)});
   }
   for (const auto& [goal, broken] : section.goals_broken) {
-    rows.push_back({fmt::format("goal broken: {}", goal), per_cent(broken)});
+    rows.push_back({fmt::format("constraint violated: {}", goal), per_cent(broken)});
   }
-  rows.push_back({"all hard goals met", per_cent(section.all_goals_met)});
+  rows.push_back({"all constraints met", per_cent(section.all_goals_met)});
   Document text = heading("Probabilities");
   text += essential(table(rows, "l"));
   text += wrapped(
-      fmt::format("Of {} plants, with 95 % intervals (Clopper and Pearson). A plant that is not "
-                  "stable meets no budget; goals broken are those of stable plants, by more than "
-                  "0.01 % of the limit.",
+      fmt::format("{} plants, 95 % Clopper-Pearson intervals. A plant that is not stable meets no "
+                  "budget. Violations: stable plants beyond 1.0001 times the limit.",
                   section.plants),
       "  ");
   return text;
@@ -143,10 +139,9 @@ Document probabilities_part(const MonteCarloSection& section) {
 Document stability_part(const MonteCarloSection& section) {
   Document text = heading("Stability");
   text += wrapped(
-      fmt::format("{} plants stable, {} unstable, {} undecided. By closed-loop eigenvalues for the "
-                  "{} with a sensitivity peak above {:g}, unstable along the frequencies, or of a "
-                  "number that {} divides; they contradicted the winding along the frequencies {} "
-                  "times. The others by the winding alone.",
+      fmt::format("{} plants stable, {} unstable, {} undecided. Eigenvalues were computed for the "
+                  "{} plants with Ms above {:g}, unstable by the Nyquist criterion, or with an "
+                  "index divisible by {}. They contradicted the Nyquist criterion {} times.",
                   section.stable, section.unstable, section.undecided, section.confirmed,
                   section.confirm_peak, section.confirm_every, section.contradicted),
       "  ");
@@ -157,7 +152,7 @@ Document plants_part(const MonteCarloSection& section, const std::vector<Notable
                      std::size_t most) {
   Rows rows{{"plant"}};
   for (const auto input : section.inputs) rows[0].emplace_back(to_string(input));
-  for (const auto* name : {"rms mdeg", "S rate", "S valve", "S pos.", "effort rad/s"}) {
+  for (const auto* name : {"rms mdeg", "Ms rate", "Ms valve", "Ms pos.", "effort rad/s"}) {
     rows[0].emplace_back(name);
   }
   for (const auto& plant : plants) {
@@ -178,11 +173,11 @@ Document document_of(const MonteCarloSection& section) {
   Document text =
       report_title("montecarlo", section.title, words_of(section.axis), section.case_path, section.seed);
   if (section.interrupted) {
-    text += fmt::format("INTERRUPTED: {} of {} plants were judged; what follows is of these.\n",
-                        section.plants, section.plants_asked);
+    text += fmt::format("INTERRUPTED: results cover {} of {} plants.\n", section.plants,
+                        section.plants_asked);
   }
   text += lead(decision(section));
-  text += heading("Law and plants");
+  text += heading("Controller and plants");
   text += wrapped(fmt::format("{}: {}.", section.structure, section.law_source), "  ");
   Rows gains{{"gain", "value"}};
   for (std::size_t i = 0; i < section.gains.size(); ++i) {
@@ -211,10 +206,10 @@ Document document_of(const MonteCarloSection& section) {
   text += heading("Worst stable plants");
   text += plants_part(section, section.worst, section.worst.size());
   text += wrapped(
-      "Inputs: factors on the numbers of the case (identified, where there are records), friction "
-      "slope in N m s/rad at the motor shaft.",
+      "Inputs: factors on the case's values (on identified values, where there are records); "
+      "friction slope in N m s/rad at the motor shaft.",
       "  ");
-  text += heading("What moves the rms");
+  text += heading("Correlation of inputs with the rms");
   Rows rows{{"input", "rank correlation"}};
   for (const auto& [input, with_rms] : section.correlations) {
     rows.push_back(

@@ -138,7 +138,7 @@ class MonteCarlo(unittest.TestCase):
         VALIDATOR.validate(report)
         self.assertGreater(report["retuned"]["laws_found"], 90)
         self.assertGreater(report["retuned"]["price_of_one_law_1"]["least"], -1e-4)
-        self.assertIn("Holding one law for all costs", done.stdout)
+        self.assertIn("Fixed gains cost", done.stdout)
 
     def test_the_climate_has_a_distribution_of_its_own(self):
         folder = Folder(more=CLIMATE)

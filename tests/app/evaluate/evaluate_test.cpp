@@ -88,7 +88,7 @@ TEST(Evaluate, HoldsTheDriveToItsLimits) {
   // Rest to rest takes at least the distance over the rate.
   EXPECT_GT(*base.slew->time, base.slew->distance / base.slew->rate);
   EXPECT_THAT(to_text(two_proposals()),
-              HasSubstr("The stated slew rate is out of reach of the drive as it is"));
+              HasSubstr("The drive as it is cannot reach the stated slew rate"));
 }
 
 TEST(Evaluate, ComparesOnTheSameDraws) {
@@ -207,7 +207,7 @@ TEST(Evaluate, KeepsProposalsThatMissTheirGoals) {
   EXPECT_EQ(run.exit_code, 3) << run.errors;
   EXPECT_THAT(run.errors, HasSubstr("boresight: slow valve: "));
   EXPECT_THAT(run.output, HasSubstr("as it is"));
-  EXPECT_THAT(run.output, HasSubstr("Not to be built as they stand"));
+  EXPECT_THAT(run.output, HasSubstr("Not eligible: no controller of "));
 }
 
 TEST(Evaluate, EndsWithCode3WhereNoCandidateMeetsANeededBudget) {

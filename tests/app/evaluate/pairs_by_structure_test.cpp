@@ -46,19 +46,22 @@ std::string told(const std::vector<double>& gains) {
 }
 
 TEST(PairsByStructure, TellTheLawsShareFromTheHardwares) {
-  EXPECT_THAT(told({-0.03, -0.04}),
-              AllOf(HasSubstr("no flywheels (DPF) has 0.2000 mdeg less than as it is (PI)"),
-                    HasSubstr("with PI on both 0.0300 more (better with probability 0.750)"),
-                    HasSubstr("the gain is the law's, and by its hardware alone the order turns "
-                              "round")));
-  EXPECT_THAT(told({0.05, 0.08}),
-              HasSubstr("the hardware makes 0.0500 to 0.0800 mdeg of it, the law the rest."));
-  EXPECT_THAT(told({0.05, -0.08}),
-              HasSubstr("which hardware is the better one turns round with the structure."));
+  EXPECT_THAT(
+      told({-0.03, -0.04}),
+      AllOf(HasSubstr("no flywheels (DPF) has 0.2000 mdeg less than as it is (PI)"),
+            HasSubstr("with PI on both 0.0300 more (better with probability 0.750)"),
+            HasSubstr(
+                "the gain comes from the controller; with equal structures the order reverses")));
+  EXPECT_THAT(
+      told({0.05, 0.08}),
+      HasSubstr("the hardware contributes 0.0500 to 0.0800 mdeg, the controller the rest."));
+  EXPECT_THAT(told({0.05, -0.08}), HasSubstr("which hardware is better depends on the structure."));
   EXPECT_THAT(told({0.0005, 0.0}), HasSubstr("the hardware makes no difference."));
-  EXPECT_THAT(told({0.21, 0.2}), HasSubstr("the gain is the hardware's, whatever the law."));
-  EXPECT_THAT(told({}), HasSubstr("No structure was tuned for both, so that law and hardware are "
-                                  "not told apart: no flywheels (DPF) and as it is (PI)."));
+  EXPECT_THAT(told({0.21, 0.2}),
+              HasSubstr("the gain comes from the hardware, whatever the controller."));
+  EXPECT_THAT(told({}),
+              HasSubstr("No structure was tuned for both, so controller and hardware effects are "
+                        "not separated: no flywheels (DPF) and as it is (PI)."));
 }
 
 }  // namespace

@@ -114,7 +114,8 @@ TEST(EvaluateDecision, ChoosesWithoutACostOnlyWhatNothingPricedComesNear) {
   rank(section);
   EXPECT_EQ(section.decision->worth, 1U);
   EXPECT_THAT(decision(section).front(), HasSubstr("proposal 2 would be only 0.7 % better"));
-  EXPECT_THAT(conclude(section), Contains(HasSubstr("and so not on the front: proposal 2.")));
+  EXPECT_THAT(conclude(section),
+              Contains(HasSubstr("Not on the Pareto front (no [cost] stated): proposal 2.")));
   section.decision->statistics.options[2].mean = 0.3;
   rank(section);
   EXPECT_EQ(section.decision->worth, 2U);
@@ -129,7 +130,7 @@ TEST(EvaluateDecision, HasNoFrontWithoutCosts) {
   section.front.clear();
   section.candidates[1].cost.reset();
   EXPECT_THAT(conclude(section), Contains(HasSubstr("No proposal states a cost")));
-  EXPECT_THAT(conclude(section), Each(Not(HasSubstr("On the front"))));
+  EXPECT_THAT(conclude(section), Each(Not(HasSubstr("Pareto front of cost"))));
 }
 
 TEST(EvaluateDecision, ChoosesNothingThatHunts) {
@@ -152,26 +153,32 @@ TEST(EvaluateDecision, ChoosesNothingThatHunts) {
   EXPECT_THAT(decision(section),
               Contains("Excluded, as they limit-cycle beyond the tightest budget: proposal 2."));
   EXPECT_THAT(conclude(section),
-              Contains(HasSubstr("lowered 21.9 % by proposal 1. Excluded, as they limit-cycle "
-                                 "beyond the tightest budget: proposal 2.")));
-  EXPECT_THAT(conclude(section), Contains(HasSubstr("these hunt beyond the tightest budget: "
-                                                    "proposal 2 with  (+-3.03 mdeg)")));
+              Contains(HasSubstr("lowered 21.9 % by proposal 1. Excluded, limit cycle beyond the "
+                                 "tightest budget: proposal 2.")));
+  EXPECT_THAT(
+      conclude(section),
+      Contains(HasSubstr(
+          "Excluded, limit cycle beyond the tightest budget: proposal 2 with  (+-3.03 mdeg)")));
   make_hunt(1);
   rank(section);
-  EXPECT_THAT(decision(section).front(),
-              HasSubstr("All proposals hunt, the antenna as it is does not: none is chosen. The "
-                        "antenna as it is has 0.640 mdeg rms"));
+  EXPECT_THAT(
+      decision(section).front(),
+      HasSubstr("All proposals have a limit cycle beyond the tightest budget, unlike the antenna "
+                "as it is: none is chosen. The antenna as it is has 0.640 mdeg rms"));
   make_hunt(0);
   rank(section);
-  const std::string none = "All proposals hunt, as does the antenna as it is: none is chosen.";
+  const std::string none =
+      "All proposals have a limit cycle beyond the tightest budget, as does the antenna as it is: "
+      "none is chosen.";
   const auto decided = decision(section);
-  EXPECT_THAT(decided.front(), AllOf(StartsWith(none + " proposal 2 comes nearest"),
-                                     HasSubstr("but hunts beyond the tightest budget")));
+  EXPECT_THAT(decided.front(),
+              AllOf(StartsWith(none + " proposal 2 comes nearest"),
+                    HasSubstr("but has a limit cycle beyond the tightest budget")));
   EXPECT_THAT(decided, Each(Not(HasSubstr("probability"))));
   const auto sentences = conclude(section);
   EXPECT_EQ(sentences.front(), none);
   EXPECT_THAT(sentences,
-              Each(AllOf(Not(HasSubstr("nothing lowers it")), Not(HasSubstr("Least rms")))));
+              Each(AllOf(Not(HasSubstr("no proposal lowers it")), Not(HasSubstr("Lowest rms")))));
 }
 
 TEST(EvaluateDecision, NamesTheTestThatIsWorthItsTime) {
@@ -183,17 +190,18 @@ TEST(EvaluateDecision, NamesTheTestThatIsWorthItsTime) {
                   {.fitted = {.gain = 0.012}, .held_out_gain = 0.01, .held_out_error = 0.001}};
   section.decision->tests = tests;
   EXPECT_THAT(conclude(section),
-              Contains("Test first: oil stiffness. Known before the choice between the proposals, "
-                       "it lowers the expected rms by 0.0100 to 0.0120 mdeg (held out and fitted) "
-                       "of the 0.0200 mdeg that knowing everything would."));
+              Contains("Test first: oil stiffness. Known before the choice, it lowers the expected "
+                       "rms by 0.0100 to 0.0120 mdeg (held out and fitted); perfect information "
+                       "lowers it by 0.0200 mdeg."));
   // All that could be known is worth less than what decides nothing.
   section.decision->tests->perfect.gain = 0.004;
   section.decision->tests->inputs[1].held_out_gain = 0.003;
   EXPECT_THAT(conclude(section),
-              Contains(HasSubstr("that knowing everything would, 0.80 % of the rms: no test is "
-                                 "worth its time for this choice.")));
+              Contains(HasSubstr("perfect information lowers it by 0.0040 mdeg, 0.80 % of the rms: "
+                                 "no test is worth its time for this choice.")));
   section.decision->tests->inputs[1].held_out_error = 0.002;
-  EXPECT_THAT(conclude(section), Contains(HasSubstr("No test of one input would change")));
+  EXPECT_THAT(conclude(section),
+              Contains(HasSubstr("No test of a single input significantly improves")));
 }
 
 TEST(EvaluateDecision, NamesProposalsThatDifferNegligibly) {

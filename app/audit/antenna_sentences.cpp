@@ -28,19 +28,20 @@ std::string effective_fractions(const plant::StructureSpecification& antenna) {
   for (const auto& mode : plant::motors_held_modes(plant::make_structure(antenna))) {
     fractions.push_back(fmt::format("{:.3f}", mode.inertia_fraction));
   }
-  return fmt::format("whose motors-held modes have {} of the inertia", fmt::join(fractions, ", "));
+  return fmt::format("whose motors-locked modes have inertia fractions {}",
+                     fmt::join(fractions, ", "));
 }
 
 // What would make the plant's gear spring as stiff as stated.
 std::string gear_remedy(const FailedCheck& failed) {
   const std::string& explanation = failed.check.explanation;
   if (explanation == "held_frequencies") {
-    return "Frequencies with the motors held, their fractions, antenna.inertia or the stated "
+    return "Motors-locked frequencies, their inertia fractions, antenna.inertia or the stated "
            "stiffness is wrong.";
   }
   if (explanation == "missing_modes") {
-    return "Without modes it is antenna.inertia times the square of 2 pi locked_rotor_frequency: "
-           "one of these or the stated stiffness is wrong, or modes are missing.";
+    return "Without modes the stiffness is antenna.inertia (2 pi locked_rotor_frequency)^2: one of "
+           "these or the stated stiffness is wrong, or modes are missing.";
   }
   const design::CheckedEntry& entry = failed.check.entries.at(0);
   if (explanation == "other_antenna") {
@@ -48,21 +49,21 @@ std::string gear_remedy(const FailedCheck& failed) {
         io::structure_specifications(failed.antenna.structure)
             .at(static_cast<std::size_t>(entry.value));
     return fmt::format(
-        "Another antenna of these frequencies with the motors held has {:.4g} N.m/rad with {}, {}: "
-        "stated as effective_fraction in the place of inertia_fraction, these take it.",
+        "Another antenna with these motors-locked frequencies has {:.4g} N.m/rad with {}, {}. To "
+        "select it, state these as effective_fraction instead of inertia_fraction.",
         failed.antenna.antenna.inertia.value * plant::make_structure(other).gear_stiffness,
         held_frequencies(other), effective_fractions(other));
   }
   if (explanation == "inputs") {
     return fmt::format(
-        "No frequency of its heaviest mode ({}, {:.4g} Hz) clearly above locked_rotor_frequency "
-        "makes it so, all else kept: antenna.inertia, locked_rotor_frequency or the stated "
+        "No frequency of the mode of largest inertia ({}, {:.4g} Hz) above locked_rotor_frequency "
+        "reproduces the stated value: antenna.inertia, locked_rotor_frequency or the stated "
         "stiffness is wrong.",
         entry.id, entry.value);
   }
   return fmt::format(
-      "With its heaviest mode ({}) at {:.4g} Hz in the place of {:.4g}, all else kept, it is as "
-      "stated.",
+      "The mode of largest inertia ({}) at {:.4g} Hz instead of {:.4g} Hz would reproduce the "
+      "stated value.",
       entry.id, failed["heaviest mode for it"], entry.value);
 }
 
@@ -85,8 +86,8 @@ std::string resonance_expected_sentence(const FailedCheck& failed) {
                           failed.check.numbers.at(5 + i).value, alternatives[i].name);
   }
   return fmt::format(
-      "{} All masses rigid on the oil spring would make it {:.3f} Hz, {:.3f} Hz with no antenna at "
-      "all{}. Stiffness, masses or the reading of the spectrum is wrong.",
+      "{} A rigid antenna would have {:.3f} Hz, no antenna {:.3f} Hz{}. Stiffness, inertias or the "
+      "reading of the spectrum is wrong.",
       resonance_sentence(failed.physics.resonance.value()), failed["all masses rigid"],
       failed["without the antenna"], others);
 }
@@ -96,14 +97,15 @@ std::string resonance_damping_sentence(const FailedCheck& failed) {
   const auto& verdict = failed.physics.resonance;
   const bool above = measured > expected;
   return fmt::format(
-      "The {} of the case has the damping ratio {:.3g}, by the leakage rate of {:.3g} 1/s, viscous "
-      "friction of {:.3g} N.m.s/rad and the structure; measured is {:.3g}, more than a factor of 2 "
-      "{}: leakage or friction is {} than stated{}.{}",
-      failed.antenna.resonance_of_oil ? "mode of most oil" : "hydraulic mode", expected,
-      failed.antenna.drive.leakage_rate.value, failed.antenna.drive.viscous_friction.value,
-      measured, above ? "above" : "below", above ? "larger" : "smaller",
-      above ? ", or what no linear plant has damped that test: dry friction, or the edges of a "
-              "valve that stood open, which leak with the pressure"
+      "The {} of the case has the damping ratio {:.3g} (leakage rate {:.3g} 1/s, viscous friction "
+      "{:.3g} N.m.s/rad, structural damping). Measured is {:.3g}, more than a factor of 2 {}: "
+      "leakage or friction is {} than stated{}.{}",
+      failed.antenna.resonance_of_oil ? "mode with most energy in the oil" : "hydraulic mode",
+      expected, failed.antenna.drive.leakage_rate.value,
+      failed.antenna.drive.viscous_friction.value, measured, above ? "above" : "below",
+      above ? "larger" : "smaller",
+      above ? ", or a nonlinear effect damped that test: dry friction, or pressure-dependent flow "
+              "through an open valve"
             : "",
       verdict ? which_was_measured(*verdict) : "");
 }
@@ -112,10 +114,10 @@ std::string impulse_order_sentence(const FailedCheck& failed) {
   const auto& entries = failed.check.entries;
   const double acceleration = failed["deceleration it would take"];
   return fmt::format(
-      "With {:.3g} N.m more friction subtracted ({} against {}) an accelerating window must give "
-      "less inertia, J falls by dT dt/dw; printed is {:.3g} kg.m2 more. Either the two are "
-      "exchanged, or the windows slowed down, by {:.3g} rad/s2: {:.3g} N.m of braking, all but the "
-      "friction's {:.3g} N.m from the motors.",
+      "Subtracting {:.3g} N.m more friction ({} instead of {}) must lower the inertia of an "
+      "accelerating window; the stated one is {:.3g} kg.m2 higher. Either the two are exchanged, "
+      "or the windows decelerate at {:.3g} rad/s2: {:.3g} N.m of braking, of which friction gives "
+      "{:.3g} N.m.",
       failed["friction difference"], entries.at(0).id, entries.at(1).id,
       failed["inertia difference"], acceleration, acceleration * entries.at(0).value,
       entries.at(2).value);
@@ -124,8 +126,8 @@ std::string impulse_order_sentence(const FailedCheck& failed) {
 std::string coincidence_sentence(const FailedCheck& failed) {
   const auto& entries = failed.check.entries;
   return fmt::format(
-      "'{}' is printed for {} and for {}: two methods that agree to the last digit, which chance "
-      "rarely makes; they are no independent confirmation before that is explained.",
+      "'{}' is stated for {} and for {}: two methods agree to the last digit. Do not count them as "
+      "independent before that is explained.",
       entries.at(0).text, entries.at(1).id, entries.at(0).id);
 }
 
@@ -133,21 +135,21 @@ std::string inertia_against_dish_sentence(const FailedCheck& failed) {
   const io::AntennaEntry& antenna = failed.antenna.antenna;
   const auto& figure = failed.check.numbers.front();
   return fmt::format(
-      "'{}' over the fifth power of the dish's '{}' is {:.2g} kg/m3; DSS-14 had {:.3g} kg/m3 about "
-      "elevation with 64 m, and has {:.3g} about elevation and {:.3g} about azimuth with 70 m "
-      "(Sommerville, section II), and structures alike keep that figure at any size: inertia or "
+      "'{}' over the fifth power of the dish's '{}' is {:.2g} kg/m3. DSS-14: {:.3g} kg/m3 about "
+      "elevation with 64 m, {:.3g} about elevation and {:.3g} about azimuth with 70 m "
+      "(Sommerville, section II). Similar structures keep that value at any size: inertia or "
       "diameter is in another unit{}.",
       antenna.inertia.text, antenna.dish_diameter.text, figure.value, io::dss14_inertia_figures[0],
       io::dss14_inertia_figures[1], io::dss14_inertia_figures[2],
-      figure.value < figure.lower ? ", or the inertia that of a part"
-                                  : ", or a radius stands for the diameter");
+      figure.value < figure.lower ? ", or the inertia is that of a part"
+                                  : ", or the diameter is a radius");
 }
 
 std::string flywheel_rim_sentence(const FailedCheck& failed) {
   return fmt::format(
-      "At the slew rate of '{}', {:.3g} rad/s of the motors, the rim of a flywheel disk of '{}' "
-      "radius runs at {:.3g} m/s; plain steel disks with a bore yield from some 200 m/s: the "
-      "radius may be a diameter or in another unit, or slew rate or gear ratio is wrong.",
+      "At the slew rate of '{}' ({:.3g} rad/s at the motors) the rim of a flywheel disk of radius "
+      "'{}' runs at {:.3g} m/s. Plain steel disks with a bore yield from about 200 m/s: check "
+      "radius and unit, slew rate and gear ratio.",
       failed.antenna.drive.slew_rate.text, failed["motor rate at slew rate"],
       failed.antenna.motor.disk_radius.value().text, failed["rim speed"]);
 }
@@ -157,8 +159,8 @@ std::string flywheel_inertia_sentence(const FailedCheck& failed) {
   const double disks = failed["flywheel disks"], rest = failed["all else at the motors"];
   return fmt::format(
       "{:.0f} flywheel disks of {:.3g} kg.m2 on each of {} motors have {:.3g} kg.m2, {:.0f} times "
-      "all that turns with them, {:.3g} kg.m2 at the motors with gear train and antenna: a disk's "
-      "dimensions or inertia are in another unit, or are those of all disks.",
+      "the rest of the axis ({:.3g} kg.m2 at the motors). A disk's dimensions or inertia are in "
+      "another unit, or are those of all disks.",
       motor.flywheel_disks, motor.disk_inertia.value, motor.count, disks, disks / rest, rest);
 }
 
@@ -168,7 +170,7 @@ std::string wave_speed_sentence(const FailedCheck& failed) {
   // The bounds are two standard uncertainties to either side.
   const double uncertainty = 0.25 * (second.upper - second.lower);
   return fmt::format(
-      "The same oil carries sound at {:.4g} m/s by {} and at {:.4g} m/s by {}, {:.1f} standard "
+      "The wave speed of the oil is {:.4g} m/s by {} and {:.4g} m/s by {}: {:.1f} standard "
       "uncertainties apart, {:.1f} % in bulk modulus.",
       first.value, first.name, second.value, second.name,
       std::abs(second.value - first.value) / uncertainty,
@@ -178,7 +180,7 @@ std::string wave_speed_sentence(const FailedCheck& failed) {
 std::string structural_bound_sentence(const FailedCheck& failed) {
   const io::StructureEntry& structure = failed.antenna.structure;
   return fmt::format(
-      "'{}' is the lowest structural frequency predicted for the {} axis; it says nothing about "
+      "'{}' is the lowest structural frequency predicted for the {} axis; it does not bound the "
       "resonances of the {} axis.",
       structure.lowest_predicted.value().text, structure.lowest_predicted_axis,
       failed.antenna.axis);
@@ -193,14 +195,13 @@ std::string structural_predictions_sentence(const FailedCheck& failed) {
                                 100.0 * (frequency / predicted.value - 1.0)));
   }
   return fmt::format(
-      "With the motors held the plant of [structure] swings at {}, more than 5 % from what "
-      "structure.prediction says: the modes' frequencies or inertia fractions are not those of the "
+      "With the motors locked the plant of [structure] has {}, more than 5 % from "
+      "structure.prediction. The mode frequencies or inertia fractions are not those of the "
       "structural model{}.",
       fmt::join(apart, ", "),
-      failed.antenna.structure.motors_held
-          ? ""
-          : ", or frequencies with the motors held stand where those with the bull gear held "
-            "belong (structure.mode_frequencies)");
+      failed.antenna.structure.motors_held ? ""
+                                           : ", or motors-locked frequencies are stated as "
+                                             "bull-gear-locked ones (structure.mode_frequencies)");
 }
 
 std::string structural_shares_sentence(const FailedCheck& failed) {
@@ -212,10 +213,10 @@ std::string structural_shares_sentence(const FailedCheck& failed) {
                                  entries[i].value, entries[i + 1].value));
   }
   return fmt::format(
-      "A mode of [structure] takes most of wind or beam with little of the inertia, {}: so soft a "
-      "part bends the beam by {:.3g} mdeg from the encoder under the mean wind of {:.3g} m/s; with "
-      "shares of wind and beam equal to those of the inertia it would be {:.3g} mdeg. Such bending "
-      "decides the pointing error, and no loop sees it: take the shares from a structural model "
+      "A mode of [structure] has most of the wind or boresight participation with little of the "
+      "inertia: {}. It deflects the boresight from the encoder by {:.3g} mdeg in the mean wind of "
+      "{:.3g} m/s; with fractions equal to those of the inertia, by {:.3g} mdeg. This flexure "
+      "dominates the pointing error: take the fractions from a structural model "
       "(structure.modes_file).",
       fmt::join(shares, " and "), failed["bending by the stated shares"] / millidegree,
       failed.antenna.wind.design_speed.value,
@@ -231,21 +232,20 @@ std::string motors_held_sentence(const FailedCheck& failed) {
                                  held_frequencies(antennas[i]), effective_fractions(antennas[i])));
   }
   return fmt::format(
-      "{} antennas of these inertia fractions have the stated frequencies with the motors held; "
-      "the studies take the one with the softest gear spring, {:.3g} N.m/rad at the motor shaft "
-      "with modes at {} with the bull gear held, {}, and it may as well be {}: the effective "
-      "inertia fractions of a structural model with the motors braked say which, and as "
-      "effective_fraction in the place of inertia_fraction give that one alone; or the stiffness "
-      "of gears and bearings does.",
+      "{} antennas with these inertia fractions have the stated motors-locked frequencies. The "
+      "studies use the one with the softest gear spring: {:.3g} N.m/rad at the motor shaft, "
+      "bull-gear-locked modes at {}, {}. Alternatives: {}. To select one, state effective_fraction "
+      "instead of inertia_fraction, from a structural model with the motors locked, or the "
+      "stiffness of gears and bearings.",
       antennas.size(), springs.at(0).value, held_frequencies(antennas[0]),
-      effective_fractions(antennas[0]), fmt::join(others, "; or "));
+      effective_fractions(antennas[0]), fmt::join(others, "; "));
 }
 
 std::string gear_stiffness_sentence(const FailedCheck& failed) {
   const double stated = failed["stated"], own = failed["plant"];
   return fmt::format(
-      "The gear train of structure.gear_stiffness has {:.4g} N.m/rad at the antenna's axis, the "
-      "plant's gear spring there {:.4g} N.m/rad and is {:.3g} times as {}: it follows from "
+      "structure.gear_stiffness gives {:.4g} N.m/rad at the antenna's axis. The plant's gear "
+      "spring has {:.4g} N.m/rad there and is {:.3g} times as {}; it follows from "
       "locked_rotor_frequency, antenna.inertia and the modes. {}",
       stated, own, std::max(own, stated) / std::min(own, stated), own > stated ? "stiff" : "soft",
       gear_remedy(failed));
@@ -263,15 +263,15 @@ std::string ensemble_range_sentence(const FailedCheck& failed) {
                     numbers[i].upper, numbers[i + 1].lower));
   }
   return fmt::format(
-      "[ensemble] is narrower than the case's own uncertainties (1 -+ sqrt(3) u): {}; shares of "
-      "plants and robust designs leave out antennas that the case holds possible.",
+      "[ensemble] is narrower than the case's own uncertainties (1 -+ sqrt(3) u): {}. Widen it: "
+      "robust designs omit antennas that the case allows.",
       fmt::join(narrow, "; "));
 }
 
 std::string carrier_frequency_sentence(const FailedCheck& failed) {
   return fmt::format(
-      "At '{}' the wave is {:.3g} m long against a dish of {:.3g} m: its beam would be {:.2g} deg "
-      "wide and need no pointing.",
+      "At '{}' the wavelength is {:.3g} m for a dish of {:.3g} m: a beam {:.2g} deg wide needs no "
+      "pointing.",
       failed.check.entries.at(0).text, failed["wavelength"],
       failed.antenna.antenna.dish_diameter.value, failed["beam width"] / degree);
 }

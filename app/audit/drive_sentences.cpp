@@ -15,12 +15,11 @@ std::string as_written(const design::CheckedEntry& entry) {
 std::string taken_by_friction(const FailedCheck& failed, bool at_rest) {
   const design::CheckedEntry& most = failed.check.entries.at(0);
   if (at_rest) {
-    return fmt::format("to break away takes {:.3g} N.m, by {} {}", failed["breakaway"], most.id,
+    return fmt::format("breakaway takes {:.3g} N.m, by {} {}", failed["breakaway"], most.id,
                        as_written(most));
   }
   return fmt::format(
-      "at the slew rate of '{}', {:.3g} rad/s of the motors, that is {:.3g} N.m, the most of it by "
-      "{} {}",
+      "at the slew rate of '{}' ({:.3g} rad/s at the motors) it is {:.3g} N.m, mostly from {} {}",
       failed.antenna.drive.slew_rate.text, failed.physics.shaft.slew_rate,
       failed["friction at slew rate"], most.id, as_written(most));
 }
@@ -44,7 +43,7 @@ std::string friction_slope_sentence(const FailedCheck& failed) {
         "{} {} ({:.3g} N.m.s/rad) gives the hydraulic mode{} a damping ratio of {:.2f} and takes "
         "{:.3g} N.m and {:.3g} kW at slew rate",
         first ? "" : ";", numbers[i].name.substr(std::string_view("slope ").size()),
-        numbers[i].value, first && rings ? ", which was seen to ring," : "", numbers[i + 1].value,
+        numbers[i].value, first && rings ? ", which rings in the tests," : "", numbers[i + 1].value,
         numbers[i + 2].value, 1e-3 * numbers[i + 3].value);
   }
   return text + fmt::format(". The supply gives {:.3g} N.m, {:.3g} kW{}.", failed["supply torque"],
@@ -76,9 +75,9 @@ std::string friction_against_supply_sentence(const FailedCheck& failed) {
 std::string friction_test_line_sentence(const FailedCheck& failed) {
   const auto& tested = failed.check.numbers.front();
   return fmt::format(
-      "The line through the constant-speed tests has the {} '{}', {:.3g} {}; by [friction_curve] "
-      "lines through any speeds have between {:.3g} and {:.3g} {}: tests and curve contradict one "
-      "another, or one is in other units or of another shaft.",
+      "The line through the constant-speed tests has the {} '{}', {:.3g} {}; [friction_curve] "
+      "allows {:.3g} to {:.3g} {}. Tests and curve contradict each other, or one is in other units "
+      "or for another shaft.",
       tested.unit == "N.m" ? "intercept" : "slope", failed.check.entries.at(0).text, tested.value,
       tested.unit, failed["least by the curve"], failed["most by the curve"], tested.unit);
 }
@@ -93,9 +92,9 @@ std::string friction_curve_tests_sentence(const FailedCheck& failed) {
                        *rate.moved_most_by, test.torque, test.rate);
   }
   return fmt::format(
-      "The curve has as many unknowns as the {} tests that it goes through, so that nothing is "
-      "left to check it by. {} the motors' Stribeck rate, {:.3g} rad/s by the torques as they "
-      "stand, is {}{}. Hunting and reversals hang on that rate: more tests at low rates settle it.",
+      "The curve has as many unknowns as its {} tests, so no test checks it. {} the motors' "
+      "Stribeck rate, {:.3g} rad/s by the torques as stated, is {}{}. Limit cycles and reversals "
+      "depend on that rate: add tests at low rates.",
       curve.tests.size(), io::moved_torques(), curve.stribeck_rate.value,
       io::in_words(rate, "rad/s"), most);
 }
@@ -103,17 +102,17 @@ std::string friction_curve_tests_sentence(const FailedCheck& failed) {
 std::string coulomb_levels_sentence(const FailedCheck& failed) {
   return fmt::format(
       "The constant-speed test's intercept is {:.3g} N.m, the slow ramp's level {:.3g} N.m, {:.1f} "
-      "times apart: friction between the tests' speeds is not a straight line, and a slope through "
-      "two points at speed says nothing about rest.",
+      "times apart: friction is not linear in speed, and a line through two speeds does not give "
+      "the friction at rest.",
       failed["constant speed"], failed["slow ramp"], failed["factor"]);
 }
 
 std::string slew_rate_without_load_sentence(const FailedCheck& failed) {
   const double slewing = failed["motor rate at slew rate"], reached = failed["valve stroke"];
   return fmt::format(
-      "Slewing at '{}' takes {:.3g} rad/s of the motors; the valve, fully open, lets them turn at "
-      "{:.3g} rad/s without load {}, {:.0f} % of that: the antenna cannot slew so fast, or a "
-      "number of valve, supply, motors or gear ratio is wrong.",
+      "Slewing at '{}' needs {:.3g} rad/s at the motors; the fully open valve gives {:.3g} rad/s "
+      "without load {}, {:.0f} % of that. The antenna cannot slew so fast, or a value of valve, "
+      "supply, motors or gear ratio is wrong.",
       failed.antenna.drive.slew_rate.text, slewing, reached, known_by(failed.check.entries),
       100.0 * reached / slewing);
 }
@@ -123,11 +122,10 @@ std::string slew_rate_under_load_sentence(const FailedCheck& failed) {
   const double load = failed["load at slew rate"];
   const double reached = failed["motor rate against the load"];
   return fmt::format(
-      "Slewing at '{}' takes {:.3g} rad/s of the motors and {:.3g} N.m against {}, {:.0f} % of "
-      "what the supply has above the return, which is off the valve's drop: fully open it lets "
-      "them turn at {:.3g} rad/s without load {}, but against their load at {:.3g} rad/s at most, "
-      "{:.0f} % of the slew rate: that is out of reach, or a number of friction, valve, supply, "
-      "motors or gear ratio is wrong.",
+      "Slewing at '{}' needs {:.3g} rad/s at the motors and {:.3g} N.m against {}, {:.0f} % of the "
+      "supply's torque above the return. The fully open valve gives {:.3g} rad/s without load {}, "
+      "but {:.3g} rad/s under this load, {:.0f} % of the slew rate. The slew rate is out of reach, "
+      "or a value of friction, valve, supply, motors or gear ratio is wrong.",
       failed.antenna.drive.slew_rate.text, slewing, load,
       failed.check.explanation == "friction" ? "friction" : "friction and offset",
       100.0 * load / failed["supply torque above the return's"], failed["valve stroke"],
@@ -137,17 +135,17 @@ std::string slew_rate_under_load_sentence(const FailedCheck& failed) {
 std::string valve_strokes_sentence(const FailedCheck& failed) {
   const std::span strokes(failed.check.entries);
   return fmt::format(
-      "The valve, fully open, lets the motors turn at {:.3g} rad/s without load {}, and at {:.3g} "
-      "rad/s {}: one of the two is wrong.",
+      "The fully open valve gives the motors {:.3g} rad/s without load {}, and {:.3g} rad/s {}: "
+      "one of the two is wrong.",
       failed["valve stroke"], known_by(strokes.first(1)), failed["valve stroke by the rated flow"],
       known_by(strokes.subspan(1)));
 }
 
 std::string return_pressure_sentence(const FailedCheck& failed) {
   return fmt::format(
-      "The pressure behind the valve is '{}' by drive.return_pressure, with which `boresight "
-      "identify` reads the records, and '{}' by simulation.return_pressure, which simulated runs "
-      "and the valve's stroke by its rated flow take: one of the two is wrong.",
+      "The return pressure is '{}' by drive.return_pressure (for identification) and '{}' by "
+      "simulation.return_pressure (for simulation and the valve's stroke by its rated flow): one "
+      "of the two is wrong.",
       failed.check.entries.at(0).text, failed.check.entries.at(1).text);
 }
 
@@ -155,7 +153,7 @@ std::string recorder_limit_sentence(const FailedCheck& failed) {
   const double volts = failed["voltage at slew rate"], limit = failed["recorder limit"];
   return fmt::format(
       "At slew rate the tachometer gives {:.3g} V, the recorder clips at {:.3g} V: only the lowest "
-      "{:.0f} % of the speed range is recorded, the rest is a plateau and no measurement.",
+      "{:.0f} % of the speed range is recorded.",
       volts, limit, 100.0 * limit / volts);
 }
 

@@ -37,13 +37,12 @@ bool nothing_measured(const io::FrictionCurveEntry& curve) {
 
 std::string shown_friction(const io::FrictionCurveEntry& curve) {
   if (nothing_measured(curve)) {
-    return "they show the friction curve, which the case does not have as measured";
+    return "they give the friction curve, so far not measured";
   }
   const auto keys = unmeasured_friction(curve);
-  if (keys.empty()) return "they check the friction curve, which the case has as measured";
+  if (keys.empty()) return "they check the measured friction curve";
   return fmt::format(
-      "of the friction curve they show what the case does not have as measured ({}), and check the "
-      "rest",
+      "they give the parts of the friction curve not yet measured ({}) and check the rest",
       fmt::join(keys, ", "));
 }
 
@@ -54,12 +53,11 @@ std::string how_to_practise(const io::Case& antenna) {
   if (!antenna.campaign.tachometer) missing.emplace_back("[tachometer]");
   if (antenna.campaign.lines.empty()) missing.emplace_back("[[oil.line]]");
   return fmt::format(
-      "`boresight simulate {} valve-steps slow-ramp constant-speed` makes such records of the "
-      "nonlinear antenna, to try their evaluation on{}; docs/records.md says which files are read, "
-      "and [[record]] names them.",
+      "`boresight simulate {} valve-steps slow-ramp constant-speed` simulates such records to try "
+      "out their evaluation{}. Name your records by [[record]]; docs/records.md lists the accepted "
+      "formats.",
       antenna.path,
-      missing.empty() ? ""
-                      : fmt::format(" (for which the case lacks {})", fmt::join(missing, ", ")));
+      missing.empty() ? "" : fmt::format(" (the case lacks {})", fmt::join(missing, ", ")));
 }
 
 }  // namespace
@@ -67,20 +65,18 @@ std::string how_to_practise(const io::Case& antenna) {
 std::vector<std::string> first_tests(const io::Case& antenna) {
   const bool modulus_known = antenna.oil.bulk_modulus && measured(*antenna.oil.bulk_modulus);
   std::vector<std::string> sentences{
-      "The case has no records, so nothing here rests on the drive's motion but what the case "
-      "itself states of tests.",
-      "To record first: small valve steps about a constant speed, and a valve sweep (valve-steps, "
-      "valve-chirp), with all pressures, the tachometer and the valve command. They can show the "
-      "inertia, and with the valve command oil stiffness and leakage from motion alone "
-      "(docs/identification.md)."};
-  sentences.push_back(fmt::format(
-      "Then a slow ramp and constant speeds, some of them below the rate at which friction levels "
-      "off, both ways: {}.",
-      shown_friction(antenna.friction_curve)));
+      "The case has no records: these results rest on the values that it states.",
+      "First record small valve steps about a constant speed and a valve sweep (valve-steps, "
+      "valve-chirp), with all pressures, tachometer and valve command. They identify inertia, oil "
+      "stiffness and leakage (docs/identification.md)."};
+  sentences.push_back(
+      fmt::format("Then record a slow ramp and constant speeds in both directions, some below the "
+                  "rate at which friction levels off: {}.",
+                  shown_friction(antenna.friction_curve)));
   if (!modulus_known && antenna.oil.lines.empty()) {
     sentences.emplace_back(
-        "A slosh test with a transducer at the motors' end of each line shows the oil's bulk "
-        "modulus, which nothing in the case measured.");
+        "A slosh test with a transducer at the motor end of each line measures the oil's bulk "
+        "modulus.");
   }
   sentences.push_back(how_to_practise(antenna));
   return sentences;

@@ -136,11 +136,11 @@ TEST(MotorsHeldCase, NamesTheOtherAntennaOfTheSameFrequencies) {
   // the lowest mode has (s1 - K_g/J)/(s1 - s0) of the inertia, with K_g/J = 0.8 s0 s1/x.
   const auto found = found_in(antenna, "motors held");
   EXPECT_THAT(found.reasoning,
-              AllOf(HasSubstr("2 antennas of these inertia fractions"), HasSubstr("softest"),
-                    HasSubstr("modes at 3.403 Hz with the bull gear held, whose motors-held modes "
-                              "have 0.965, 0.035 of the inertia"),
-                    HasSubstr("with 2.103 Hz, whose motors-held modes have 0.369, 0.631 of the "
-                              "inertia: the effective inertia fractions")))
+              AllOf(HasSubstr("2 antennas with these inertia fractions"), HasSubstr("softest"),
+                    HasSubstr("bull-gear-locked modes at 3.403 Hz, whose motors-locked modes have "
+                              "inertia fractions 0.965, 0.035"),
+                    HasSubstr("with 2.103 Hz, whose motors-locked modes have inertia fractions "
+                              "0.369, 0.631. To select one, state effective_fraction")))
       << found.reasoning;
   ASSERT_THAT(found.numbers, SizeIs(2));
   EXPECT_NEAR(found.numbers[0].value, make_plant(antenna).structure.gear_stiffness,

@@ -30,8 +30,7 @@ std::string reason_text(NoTimeDomain reason) {
     case NoTimeDomain::interrupted:
       return "interrupted";
     case NoTimeDomain::state_space:
-      return "run for laws of Boresight's structures only: a given state space has no stated "
-             "limits and anti-windup";
+      return "a given state space states no limits and anti-windup to simulate";
     case NoTimeDomain::linear_only:
       return "the case has no [simulation]";
   }
@@ -56,12 +55,11 @@ BenchmarkReport benchmark(const io::DesignedAntenna& designed,
   report.from_records = designed.from_records;
   report.ensemble_source = to_string(designed.ensemble.source);
   if (report.samples_otherwise()) {
-    report.remarks.push_back(
-        fmt::format("warning: the controller samples every {:g} s, the case's delay of {:g} s "
-                    "speaks of {:g} s (one and a half samples); the controller's own is used, with "
-                    "one sample of computation",
-                    controller.system.sample_time, designed.mission.antenna.dead_time,
-                    report.expected_sample_time));
+    report.remarks.push_back(fmt::format(
+        "warning: the controller samples every {:g} s, the case's delay of {:g} s implies {:g} s "
+        "(one and a half samples); the controller's own is used, with one sample of computation",
+        controller.system.sample_time, designed.mission.antenna.dead_time,
+        report.expected_sample_time));
   }
   report.attitudes_text = attitudes_text(report);
   report.no_time_domain = reason_text(report.no_nonlinear);

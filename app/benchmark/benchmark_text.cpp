@@ -31,12 +31,11 @@ std::string limit_text(double speed) {
 Document course_part(const char* name, const char* unit, const control::CourseScore& course,
                      double torque) {
   const std::string returned =
-      course.return_time
-          ? fmt::format("back within 5 % of it for good after {:.3g} s", *course.return_time)
-          : fmt::format("not back within 5 % of it for good in {:.3g} s", course.horizon);
+      course.return_time ? fmt::format("settling time (5 %) {:.3g} s", *course.return_time)
+                         : fmt::format("not settled (5 %) in {:.3g} s", course.horizon);
   const std::string timed = std::isfinite(course.time_of_peak)
                                 ? fmt::format("at {:.3g} s", course.time_of_peak)
-                                : "which it only approaches";
+                                : "approached asymptotically";
   return wrapped(
       fmt::format("{}: peak {:.4g} mdeg/{} {}, {}; ends at {:.4g} mdeg/{}; integral of the "
                   "squared error {:.4g} mdeg2 s/{}2. At the design wind's torque rms, {:.4g} kN m, "
@@ -50,7 +49,7 @@ Document course_part(const char* name, const char* unit, const control::CourseSc
 }
 
 Document margins_part(const design::RejectionScore& score) {
-  std::vector<std::vector<std::string>> rows{{"loop cut at", "peak of |S|", "at Hz"}};
+  std::vector<std::vector<std::string>> rows{{"loop cut at", "Ms", "at Hz"}};
   const auto append = [](std::vector<std::string>& row, const std::vector<std::string>& cells) {
     row.insert(row.end(), cells.begin(), cells.end());
   };
@@ -72,7 +71,7 @@ Document margins_part(const design::RejectionScore& score) {
 
 Document ladder_part(const std::vector<design::WindScore>& winds) {
   // A row a model and attitude, a column a speed.
-  std::vector<std::vector<std::string>> rows{{"beam rms, mdeg"}};
+  std::vector<std::vector<std::string>> rows{{"boresight rms, mdeg"}};
   for (const double speed : design::rejection_speeds)
     rows[0].push_back(fmt::format("{:g} m/s", speed));
   std::string before;
@@ -91,20 +90,20 @@ Document reference_part(const BenchmarkReport& report) {
   const auto& reference = *report.score.reference;
   const double rms = report.score.design_wind.beam_rms;
   std::string text = fmt::format(
-      "Beam rms {:.4g} mdeg is {:.3f} times the bending that no encoder sees ({:.4g} mdeg with the "
-      "encoder held perfectly still; no bound, a loop can move the encoder against it)",
+      "Boresight rms {:.4g} mdeg is {:.3f} times the flexure beyond the encoder ({:.4g} mdeg with "
+      "the encoder fixed; not a lower bound)",
       rms / millidegree, rms / reference.encoder_held_rms,
       reference.encoder_held_rms / millidegree);
   if (reference.least_rms && reference.least_rms_at_own_effort &&
       *reference.least_rms_at_own_effort > 0.0) {
     text += fmt::format(
-        ", {:.3f} times the least of any linear sampled controller with the goal's valve effort "
-        "({:.4g} mdeg) and {:.3f} times that with its own effort ({:.4g} mdeg), whatever their "
-        "margins.",
+        ", {:.3f} times the lower bound of linear sampled controllers at the limit of control "
+        "effort ({:.4g} mdeg) and {:.3f} times that at its own effort ({:.4g} mdeg). The bounds "
+        "ignore margins.",
         rms / *reference.least_rms, *reference.least_rms / millidegree,
         rms / *reference.least_rms_at_own_effort, *reference.least_rms_at_own_effort / millidegree);
   } else {
-    text += "; the least of any controller is not known for sensors without stated noise.";
+    text += "; without stated sensor noise there is no lower bound.";
   }
   return wrapped(text, "  ", "  ");
 }
@@ -121,7 +120,7 @@ Document nonlinear_part(const TimeDomainSection& section, const char* friction) 
     if (one.status != design::RunStatus::complete) {
       text += fmt::format("{}: run {}. ", motion, design::to_string(one.status));
     } else if (one.limit_cycle) {
-      text += fmt::format("{}: limit cycle of +-{:.3g} mdeg at the beam{}. ", motion,
+      text += fmt::format("{}: limit cycle of +-{:.3g} mdeg at the boresight{}. ", motion,
                           one.beam_amplitude / millidegree,
                           one.frequency ? fmt::format(", {:.3g} Hz", *one.frequency) : "");
     } else {
@@ -130,9 +129,9 @@ Document nonlinear_part(const TimeDomainSection& section, const char* friction) 
   }
   const auto& reversal = section.result.reversal;
   if (reversal && reversal->status == design::RunStatus::complete) {
-    text +=
-        fmt::format("Reversal at the tracking rate: beam error {:.3g} mdeg, encoder {:.3g} mdeg. ",
-                    reversal->beam_error / millidegree, reversal->encoder_error / millidegree);
+    text += fmt::format(
+        "Velocity reversal at tracking rate: boresight error {:.3g} mdeg, encoder {:.3g} mdeg. ",
+        reversal->beam_error / millidegree, reversal->encoder_error / millidegree);
   }
   text += fmt::format(
       "One record of the design wind on the nonlinear antenna: {:.4g} mdeg rms, {:.4g} predicted "
@@ -151,7 +150,7 @@ Document comparison_part(const BenchmarkReport& report) {
                     row.other ? value(*row.other, "{:.5g}") : "-",
                     both ? value(*row.own / *row.other, "{:.4f}") : "-"});
   }
-  return heading("Beside another score sheet") +
+  return heading("Comparison with another score sheet") +
          essential(wrapped(report.compared_with, "  ", "  ") + "\n" + table(rows));
 }
 
@@ -177,9 +176,8 @@ Document document_of(const BenchmarkReport& report) {
   for (const auto& remark : report.remarks) text += wrapped(remark, "  ", "  ");
   text += wrapped(
       fmt::format(
-          "Linear plant {}; wind model {}, design wind {:g} m/s, "
-          "{}; rms of one axis over {:g} to {:g} Hz about the mean. Torques at the antenna's "
-          "axis, angles at the sky.",
+          "Linear plant {}; wind model {}, design wind {:g} m/s, {}; rms per axis over {:g} to "
+          "{:g} Hz about the mean. Torques at the antenna's axis, angles at the sky.",
           described(report), plant::to_string(report.wind.model), report.wind.mean_speed,
           report.attitudes_text, report.rms_band.lowest, report.rms_band.highest),
       "  ", "  ");
@@ -196,7 +194,7 @@ Document document_of(const BenchmarkReport& report) {
     return text + document_of(report.assumed);
   }
   text += fmt::format("  Stable: slowest pole at {:.4g} 1/s.{}\n", score.abscissa,
-                      !score.rate_loop_stable   ? " No rate loop of its own."
+                      !score.rate_loop_stable   ? " No separate rate loop."
                       : *score.rate_loop_stable ? " Rate loop alone stable."
                                                 : " Rate loop alone UNSTABLE.");
   text += heading("Torque at the dish");
@@ -204,25 +202,25 @@ Document document_of(const BenchmarkReport& report) {
   text += course_part("Impulse", "(MN m s)", score.impulse, score.design_wind.torque_rms);
   const std::string bracket =
       score.worst.closed
-          ? fmt::format("{:.6g} to {:.6g} mdeg/(MN m), no frequency has more",
+          ? fmt::format("{:.6g} to {:.6g} mdeg/(MN m), certified maximum",
                         score.worst.lower * per_meganewton, score.worst.upper * per_meganewton)
           : fmt::format("at least {:.6g} mdeg/(MN m), no upper bound certified",
                         score.worst.lower * per_meganewton);
-  text += essential(wrapped(
-      fmt::format("Worst frequency {:.4g} Hz: {}; that is {:.3g} times the structure's own bending "
-                  "with the encoder held, {:.4g} mdeg/(MN m). Static: {:.4g} mdeg/(MN m).",
-                  score.worst.frequency / two_pi, bracket,
-                  score.worst.lower / score.encoder_held_compliance,
-                  score.encoder_held_compliance * per_meganewton,
-                  score.static_compliance * per_meganewton),
-      "  ", "  "));
+  text += essential(
+      wrapped(fmt::format("Worst frequency {:.4g} Hz: {}, {:.3g} times the structural flexure with "
+                          "the encoder fixed, {:.4g} mdeg/(MN m). Static: {:.4g} mdeg/(MN m).",
+                          score.worst.frequency / two_pi, bracket,
+                          score.worst.lower / score.encoder_held_compliance,
+                          score.encoder_held_compliance * per_meganewton,
+                          score.static_compliance * per_meganewton),
+              "  ", "  "));
   text += heading("Margins");
   text += essential(margins_part(score));
   text += heading("Wind");
   text += wrapped(
-      fmt::format("At the design wind: beam {:.4g} mdeg rms ({:.4g} by Lyapunov equations with the "
-                  "wind's filter), wind {:.4g}, sensor noise {:.4g}; valve effort by noise {:.4g} "
-                  "rad/s of the goal's {:g}.",
+      fmt::format("In the design wind: boresight {:.4g} mdeg rms ({:.4g} by Lyapunov equations "
+                  "with the wind's filter), {:.4g} from wind, {:.4g} from sensor noise. Control "
+                  "effort {:.4g} rad/s, limit {:g}.",
                   score.design_wind.beam_rms / millidegree, score.lyapunov_rms / millidegree,
                   score.design_wind.wind_rms / millidegree, score.noise_rms / millidegree,
                   score.valve_effort, report.goals.valve_effort),
@@ -240,19 +238,18 @@ Document document_of(const BenchmarkReport& report) {
   }
   if (score.ensemble) {
     const auto& ensemble = *score.ensemble;
-    text += heading("Other plants");
+    text += heading("Perturbed plants");
     text += essential(wrapped(
-        fmt::format(
-            "Of {} plants {}, {} are stable and {} keep peaks of |S| and valve effort within "
-            "the goals; the largest beam rms of the stable ones is {:.4g} mdeg.",
-            ensemble.members.size(), report.ensemble_source, ensemble.stable, ensemble.within_goals,
-            ensemble.largest_rms / millidegree),
+        fmt::format("Of {} plants {}, {} are stable and {} keep Ms and control effort within their "
+                    "limits. Largest boresight rms of the stable ones: {:.4g} mdeg.",
+                    ensemble.members.size(), report.ensemble_source, ensemble.stable,
+                    ensemble.within_goals, ensemble.largest_rms / millidegree),
         "  ", "  "));
   }
   text += heading("Nonlinear antenna");
   text += essential(report.time_domain
                         ? nonlinear_part(*report.time_domain, described(report))
-                        : wrapped("Not judged: " + report.no_time_domain + ".", "  ", "  "));
+                        : wrapped("Not evaluated: " + report.no_time_domain + ".", "  ", "  "));
   for (const auto& part : score.left_out) {
     text += essential(verbatim(fmt::format("  Interrupted before: {}\n", part)));
   }

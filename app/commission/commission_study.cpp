@@ -46,7 +46,7 @@ control::ControlLaw recommended(const io::DesignedAntenna& designed,
     report.structure = fmt::format("{}", fmt::join(study.tuned.structures, ", "));
     const auto shortfalls = section_of(designed.antenna, std::move(study.tuned)).shortfalls;
     throw InfeasibleRequirement(fmt::format(
-        "commission: no law of {} meets its goals on every plant that may be the true one{}",
+        "commission: no controller of {} meets its constraints on every ensemble member{}",
         report.structure,
         shortfalls.empty() ? std::string()
                            : ": " + shortfalls[0].infeasible + " " + shortfalls[0].closest));

@@ -27,8 +27,8 @@ std::string stage_name(const design::CommissioningStage& stage) {
 }
 
 Document overview(const CommissionReport& report) {
-  Rows rows{{"stage", "", "position", "peak of S", "crossover Hz", "rise s", "overshoot %",
-             "valve rms rad/s", "beam rms mdeg", "stable plants"}};
+  Rows rows{{"stage", "", "position", "Ms", "crossover Hz", "rise s", "overshoot %",
+             "valve rms rad/s", "boresight rms mdeg", "stable plants"}};
   const double sky = report.gear_ratio * millidegree;
   for (std::size_t i = 0; i < report.sheets.size(); ++i) {
     const auto& stage = report.sheets[i].stage;
@@ -45,8 +45,8 @@ Document overview(const CommissionReport& report) {
   }
   return table(rows, "rll") +
          wrapped(
-             "Peak of S: the largest over all plants and the loops that are closed. The rest: on "
-             "the case's own plant; valve rms in still air, beam rms in the design wind.",
+             "Ms: largest over all plants and closed loops. Other columns: nominal plant; valve "
+             "rms in still air, boresight rms in the design wind.",
              "  ");
 }
 
@@ -74,14 +74,14 @@ Document comparison_part(const CommissionReport& report) {
       heading(fmt::format("Before and after: '{}' and '{}'", report.before, report.after));
   for (const auto& channel : report.comparisons) {
     if (!channel.not_compared.empty()) {
-      text += wrapped(fmt::format("{}: cannot be compared: {}", to_string(channel.quantity),
-                                  channel.not_compared),
-                      "  ");
+      text += wrapped(
+          fmt::format("{}: not comparable: {}", to_string(channel.quantity), channel.not_compared),
+          "  ");
       continue;
     }
     const std::string unit(unit_of(channel.quantity));
     Rows rows{{std::string(to_string(channel.quantity)), "Hz", "before " + unit, "after " + unit,
-               "ratio", "from", "to", "freedom before", "after", "verdict"}};
+               "ratio", "from", "to", "dof before", "after", "verdict"}};
     const auto add = [&](const design::BandComparison& band, const std::string& name) {
       rows.push_back({name, fmt::format("{:.3g} .. {:.3g}", band.lowest, band.highest),
                       fmt::format("{:.4g}", band.rms_before), fmt::format("{:.4g}", band.rms_after),
@@ -94,34 +94,30 @@ Document comparison_part(const CommissionReport& report) {
     for (const auto& band : channel.comparison.bands) add(band, "");
     text += essential(table(rows, "ll") + "\n");
   }
-  return text +
-         wrapped(
-             "Rms about a straight line in each segment; ratio: after over before, with its 95 % "
-             "interval for two stationary records under the same disturbance, which the records "
-             "themselves do not show: note wind and elevation of both. Freedom: of how many "
-             "independent squares a mean square is worth.",
-             "  ");
+  return text + wrapped(
+                    "Rms about a straight line in each segment. Ratio: after/before with 95 % "
+                    "interval, for stationary records under the same disturbance: note wind and "
+                    "elevation of both. dof: equivalent degrees of freedom.",
+                    "  ");
 }
 
 Document plan_part(const CommissionReport& report) {
   Document text;
-  text += wrapped(
-      fmt::format(
-          "The gains at the end are {}. {} plants that may be the true one, {}; wind {:g} "
-          "m/s, {} model. Values in brackets: where one more such plant would lie with {:g} %.",
-          report.tuned ? "those of the robust tuning" : "those given", report.ensemble_size,
-          report.ensemble_source, report.wind_speed, report.wind_model,
-          100.0 * report.options.confidence),
-      "  ");
+  text += wrapped(fmt::format("Final gains: {}. Ensemble: {} plants, {}; wind {:g} m/s, {} model. "
+                              "Brackets: {:g} % prediction interval.",
+                              report.tuned ? "from robust tuning" : "as given",
+                              report.ensemble_size, report.ensemble_source, report.wind_speed,
+                              report.wind_model, 100.0 * report.options.confidence),
+                  "  ");
   if (report.plan.detuning) {
     const bool known = report.plan.stages.front().kind == design::StageKind::as_found;
     text += essential(wrapped(
         fmt::format(
-            "{} The plan begins with the law's own without pressure feedback and "
-            "compliance compensation, its {}position gain and position integral corner divided by "
-            "{:g}: the least power of two at which every plant keeps its peaks of S below {:g}.",
-            known ? "ASSUMED start: no way was found from the gains as found ([gains], stage 1) to "
-                    "this law; why stands below."
+            "{} The plan begins with the final gains, without pressure feedback and compliance "
+            "compensation. The {}position gain and position integral corner are divided by {:g}, "
+            "the least power of two that keeps Ms below {:g} on every plant.",
+            known ? "ASSUMED start: no path was found from the gains as found ([gains], stage 1) "
+                    "to this controller."
                   : "ASSUMED start: the case gives no gains as found ([gains]).",
             report.plan.rate_detuned ? "rate gain, " : "", *report.plan.detuning,
             report.options.sensitivity_limit),
@@ -129,25 +125,25 @@ Document plan_part(const CommissionReport& report) {
   }
   for (const auto& remark : report.plan.remarks) text += wrapped(remark, "  ");
   text += wrapped(
-      fmt::format("All of this is the linear plant's: make steps from a slow steady motion, clear "
-                  "of breakaway, in still air, no larger than stated (a fifth of the valve's "
-                  "stroke and of the supply's torque). The move: up to {:.3g} mdeg/s in {:.3g} s, "
-                  "steady, and down again. The rms in still air rest on the case's sensor noise: "
-                  "hold the first stage's against a record and scale the others by what it shows.",
+      fmt::format("Values hold for the linear plant: make steps from a slow steady motion, clear "
+                  "of breakaway, in still air. Keep them within the stated size (a fifth of valve "
+                  "stroke and supply torque). The move: up to {:.3g} mdeg/s in {:.3g} s, steady, "
+                  "and down again. Rms values in still air assume the case's sensor noise: compare "
+                  "the first stage with a record and scale the others.",
                   report.move.rate / (report.gear_ratio * millidegree),
                   report.move.rate / report.move.acceleration),
       "  ");
   text += essential(wrapped(
       fmt::format(
-          "A stage is passed when every value lies in its brackets, an rms within {:g} times them. "
-          "Go back when one is beyond its abort limit: {:.0f} % of the step above the brackets for "
-          "an overshoot, {:g} times the brackets for an rms, or less where the worst plant's peak "
-          "of S would be {:g}. Between the two, find out why before going on.",
+          "A stage passes when every value lies within its brackets, an rms within {:g} times "
+          "them. Go back when one exceeds its abort limit: for an overshoot {:.0f} % of the step "
+          "above the brackets, for an rms {:g} times the brackets, or less where the worst plant's "
+          "Ms would be {:g}. Between the two, find the cause first.",
           report.options.rms_allowance, 100.0 * report.options.overshoot_allowance,
           report.options.rms_allowance, report.options.abort_peak),
       "  "));
   text += "\n" + essential(overview(report));
-  text += heading("Stages (* changed against the stage before)") + essential(sheets(report));
+  text += heading("Stages (* changed from the previous stage)") + essential(sheets(report));
   return text;
 }
 

@@ -37,7 +37,7 @@ void describe_check(const io::Case& antenna, StageSheet& sheet) {
   const double gear = io::gear_ratio(antenna);
   const double sky = gear * millidegree;
   if (!sheet.stage.expected.all_stable()) {
-    sheet.check = fmt::format("Nothing: as the plants have it, {} of {} are unstable.",
+    sheet.check = fmt::format("Nothing: {} of {} plants are unstable.",
                               expected.plants - expected.stable, expected.plants);
     return;
   }
@@ -59,7 +59,7 @@ void describe_check(const io::Case& antenna, StageSheet& sheet) {
   sheet.check += open
                      ? ", of the tachometer " + range(expected.still_tachometer, 1.0, 3) + " rad/s."
                      : ", of the encoder error " + range(expected.still_encoder, sky, 3) +
-                           " mdeg. Beam rms in the design wind " +
+                           " mdeg. Boresight rms in the design wind " +
                            range(expected.beam_rms, sky, 3) + " mdeg.";
 }
 
@@ -67,7 +67,7 @@ void describe_abort(const io::Case& antenna, StageSheet& sheet, const Commission
   const auto& abort = sheet.stage.abort;
   if (!sheet.stage.expected.all_stable()) {
     sheet.abort =
-        "Not known: the plants say that these gains do not work, and the antenna runs on them.";
+        "Unknown: the plants are unstable with these gains, but the antenna runs on them.";
     return;
   }
   sheet.abort = fmt::format(
@@ -77,16 +77,13 @@ void describe_abort(const io::Case& antenna, StageSheet& sheet, const Commission
     sheet.abort += fmt::format(" or of the encoder error above {:.3g} mdeg",
                                abort.still_encoder_rms / (io::gear_ratio(antenna) * millidegree));
   }
-  sheet.abort += ", or any ringing that does not die out. ";
-  sheet.abort += std::isfinite(abort.gain_reserve)
-                     ? fmt::format(
-                           "The peak of S reaches {:g} on the worst plant ({}) with {:.2f} "
-                           "times this loop gain.",
-                           report.options.abort_peak, abort.worst_plant, abort.gain_reserve)
-                     : fmt::format(
-                           "The peak of S stays below {:g} on every plant even with 8 times "
-                           "this loop gain.",
-                           report.options.abort_peak);
+  sheet.abort += ", or any ringing that does not decay. ";
+  sheet.abort +=
+      std::isfinite(abort.gain_reserve)
+          ? fmt::format("Ms reaches {:g} on the worst plant ({}) at {:.2f} times this loop gain.",
+                        report.options.abort_peak, abort.worst_plant, abort.gain_reserve)
+          : fmt::format("Ms stays below {:g} on every plant even at 8 times this loop gain.",
+                        report.options.abort_peak);
 }
 
 void describe_way_back(const StageSheet* before, StageSheet& sheet) {
@@ -96,9 +93,7 @@ void describe_way_back(const StageSheet* before, StageSheet& sheet) {
     if (before == nullptr) {
       sheet.way_back = "Brakes on; nothing has been changed yet.";
     } else if (!before->stage.expected.all_stable()) {
-      sheet.way_back =
-          "Brakes on. The gains as found only if the antenna did run on them, whatever the plants "
-          "say.";
+      sheet.way_back = "Brakes on. Restore the gains as found only if the antenna did run on them.";
     }
   } else if (kind == StageKind::feedforward) {
     sheet.way_back = "Switch feedforward off: the loops are as they were.";
@@ -127,11 +122,11 @@ void conclude_plan(const CommissionReport& report, const io::Case& antenna,
                    std::vector<std::string>& sentences) {
   if (report.limit_cycle) {
     sentences.push_back(fmt::format(
-        "On the nonlinear antenna {} {}: the stages are those of linear loops. Measure the "
-        "friction before this law is set, or plan for another.",
+        "On the nonlinear antenna {} {}; the stages assume linear loops. Measure the friction "
+        "before setting these gains, or plan for another controller.",
         report.structure,
         std::isfinite(*report.limit_cycle)
-            ? fmt::format("hunts by +-{:.2f} mdeg, beyond the tightest budget",
+            ? fmt::format("has a limit cycle of +-{:.2f} mdeg, beyond the tightest budget",
                           *report.limit_cycle / millidegree)
             : std::string("does not complete a run in still air")));
   }
@@ -140,26 +135,25 @@ void conclude_plan(const CommissionReport& report, const io::Case& antenna,
   const auto& last = report.plan.stages.back();
   const double sky = io::gear_ratio(antenna) * millidegree;
   if (!first.expected.all_stable()) {
-    sentences.push_back(fmt::format(
-        "With the gains as found {} of {} plants are unstable, but the antenna runs on them: its "
-        "plant, or what a gain means, is not what the case says. Find out which (leakage, inertia, "
-        "units and definition of the gains) before any stage: all that follows rests on these "
-        "plants.",
-        first.expected.plants - first.expected.stable, first.expected.plants));
+    sentences.push_back(
+        fmt::format("With the gains as found {} of {} plants are unstable, but the antenna runs on "
+                    "them: the plant or the definition of a gain differs from the case. Check "
+                    "leakage, inertia, units and definition of the gains before any stage.",
+                    first.expected.plants - first.expected.stable, first.expected.plants));
   }
   sentences.push_back(fmt::format(
-      "{} stages lead to {}; no gain changes by more than a factor of {:.3g} at once, and the peak "
-      "of S is at most {:.2f} on each of {} plants at every one of them.",
+      "{} stages lead to {}. No gain changes by more than a factor of {:.3g} per stage; Ms is at "
+      "most {:.2f} on each of {} plants at every stage.",
       report.plan.stages.size() - (first.kind == StageKind::as_found ? 1 : 0), report.structure,
       report.plan.largest_step, report.plan.largest_peak(), last.expected.plants));
   if (first.kind == StageKind::as_found && std::isfinite(first.expected.beam_rms.upper)) {
     sentences.push_back(fmt::format(
-        "Beam rms, one axis, at {:g} m/s ({} wind): {} mdeg as found, {} mdeg at the end.",
+        "Boresight rms per axis at {:g} m/s ({} wind): {} mdeg as found, {} mdeg at the end.",
         report.wind_speed, report.wind_model, range(first.expected.beam_rms, sky, 3),
         range(last.expected.beam_rms, sky, 3)));
   } else {
     sentences.push_back(
-        fmt::format("Beam rms, one axis, at {:g} m/s ({} wind) at the end: {} mdeg.",
+        fmt::format("Boresight rms per axis at {:g} m/s ({} wind) at the end: {} mdeg.",
                     report.wind_speed, report.wind_model, range(last.expected.beam_rms, sky, 3)));
   }
 }

@@ -159,7 +159,7 @@ TEST(Benchmark, ComparesScoreSheetsOfOneProtocolOnly) {
   const auto run =
       benchmark(path, {"--compare", folder.file("one.json"), "--json", folder.file("two.json")});
   ASSERT_EQ(run.exit_code, 0) << run.errors;
-  EXPECT_THAT(run.output, HasSubstr("Beside another score sheet"));
+  EXPECT_THAT(run.output, HasSubstr("Comparison with another score sheet"));
   const nlohmann::json comparison =
       nlohmann::json::parse(content_of(folder.file("two.json"))).at("comparison");
   EXPECT_GT(comparison.at("quantities").size(), 50U);

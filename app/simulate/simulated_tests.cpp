@@ -50,7 +50,7 @@ std::string slew_description(const design::SlewCourse& course, const std::string
   if (course.attainable < course.wanted_rate) {
     text += fmt::format(
         "; the case's slew rate of {:.3g} deg/s is out of reach: against this friction the supply "
-        "holds at most {:.3g} deg/s",
+        "sustains at most {:.3g} deg/s",
         course.wanted_rate / degree, course.attainable / degree);
   }
   return text;

@@ -45,8 +45,8 @@ std::string settling_text(const PositionTestSection& record) {
 
 Document position_part(const SimulationReport& report) {
   if (report.position.empty()) return {};
-  Rows rows{
-      {"test", "s", "beam rms", "linear", "encoder rms", "beam mean", "settled s", "overshoot"}};
+  Rows rows{{"test", "s", "boresight rms", "linear", "encoder rms", "boresight mean", "settled s",
+             "overshoot"}};
   for (const auto& record : report.position) {
     rows.push_back({record.test, length_of(record.duration, record.complete),
                     in_millidegrees(record.beam_rms), in_millidegrees(record.predicted_rms),
@@ -75,13 +75,11 @@ Document breakaway_part(const SimulationReport& report) {
     rows.push_back(std::move(row));
   }
   if (rows.size() == 1) return {};
-  return heading("Breakaway: the first slow start of sliding either way") + table(rows) +
+  return heading("Breakaway: first slow start of sliding in each direction") + table(rows) +
          wrapped(
-             "Where the motor has left standstill and the bristles have bent: its rate, the "
-             "friction without gravity's offset, and the motors' torque as pressures show it, with "
-             "offset and inertia in it. Beside them the breakaway torque of the case's friction "
-             "curve; the friction is the curve's at the rate given, above its breakaway where it "
-             "rises with the rate.",
+             "At the end of presliding: motor rate, friction without gravity offset, and motor "
+             "torque from the pressures, offset and inertia included. Curve: breakaway torque of "
+             "the case's friction curve, which friction exceeds where it rises with rate.",
              "  ");
 }
 
@@ -101,11 +99,11 @@ void add_limits(Rows& rows, const std::string& test, const plant::RunEvents& eve
 
 Document limits_part(const SimulationReport& report) {
   Rows rows{
-      {"test", "command", "port open", "spool speed", "flanks lost", "below make-up", "below 0"}};
+      {"test", "command", "port open", "spool speed", "backlash open", "below make-up", "below 0"}};
   for (const auto& record : report.drive) add_limits(rows, record.test, record.events);
   for (const auto& record : report.position) add_limits(rows, record.test, record.events);
   if (rows.size() == 1) return {};
-  Document text = heading("Limits reached: share of the samples, and from which second on") +
+  Document text = heading("Limits reached: fraction of samples, and time of the first in s") +
                   table(rows, "lllllll");
   for (const auto& record : report.drive) {
     for (const auto& channel : record.clipped) {
@@ -126,7 +124,7 @@ Document runs_part(const SimulationReport& report) {
   for (const auto& record : report.position) {
     text += wrapped(fmt::format("{}: {}", record.test, record.description), "  ", "  ");
   }
-  if (report.drive.empty() && report.position.empty()) text += "  nothing to its end\n";
+  if (report.drive.empty() && report.position.empty()) text += "  no test was completed\n";
   text += drive_part(report) + position_part(report) + breakaway_part(report) + limits_part(report);
   text += heading("Records");
   if (report.written.empty()) text += "  none\n";

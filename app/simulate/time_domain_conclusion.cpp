@@ -24,7 +24,7 @@ std::string_view cause_of(design::Influence influence) {
     case design::Influence::limits:
       return "the limit of stroke, spool speed or command";
     case design::Influence::quantisation:
-      return "the encoder's rounding to steps";
+      return "encoder quantisation";
     case design::Influence::orifice:
       return "the flow through the valve's orifices";
     case design::Influence::gear:
@@ -37,13 +37,12 @@ std::string conclude_wind(const TimeDomainSection& section) {
   const design::WindResult& wind = section.result.wind;
   if (wind.status != RunStatus::complete) {
     return fmt::format(
-        "On the nonlinear antenna the {} law was not seen to hold in {:.3g} m/s of wind ({}): its "
-        "linear figures stand alone.",
+        "The simulation of {} in {:.3g} m/s of wind did not complete ({}): only linear results are "
+        "available.",
         section.law, section.wind_speed, design::to_string(wind.status));
   }
   std::string text = fmt::format(
-      "On the nonlinear antenna the {} law points within {:.3f} mdeg in {:.3g} m/s, where the "
-      "linear plant says {:.3f}",
+      "On the nonlinear antenna {} has {:.3f} mdeg rms in {:.3g} m/s, linear prediction {:.3f}",
       section.law, wind.beam_rms / millidegree, section.wind_speed,
       wind.predicted_rms / millidegree);
   if (wind.beam_rms <= wind.predicted_rms) return text + ".";
@@ -52,7 +51,7 @@ std::string conclude_wind(const TimeDomainSection& section) {
         return std::isfinite(influence.difference) ? influence.difference : 0.0;
       });
   if (most != wind.influences.end() && most->difference > 0.0) {
-    text += fmt::format("; {} alone is worth {:.3f}", cause_of(most->influence),
+    text += fmt::format("; {} alone adds {:.3f}", cause_of(most->influence),
                         most->difference / millidegree);
   }
   const double factor = wind.beam_rms / wind.predicted_rms;
@@ -60,14 +59,13 @@ std::string conclude_wind(const TimeDomainSection& section) {
   if (excess < 0.5) return text + ".";
   if (factor > 1.5) {
     return text + fmt::format(
-                      ". The simulated rms is {:.2f} times the linear one: a budget that the "
-                      "linear figure meets by less than that factor is not met.",
+                      ". Simulated/linear rms ratio {:.2f}: a linear prediction needs this margin "
+                      "to its budget.",
                       factor);
   }
-  return text + fmt::format(
-                    ". A budget that the linear figure meets with less than {:.0f} % to spare is "
-                    "not met.",
-                    excess);
+  return text +
+         fmt::format(". Nonlinearities add {0:.0f} %: a linear prediction needs {0:.0f} % margin.",
+                     excess);
 }
 
 // Whether by that it is left out of a choice; a law may also be because a run did not end.
@@ -78,16 +76,17 @@ bool hunts_beyond(const std::vector<design::HuntingResult>& hunting, double erro
 // What a law does that does not hold still within an rms error.
 std::string unrest(const std::vector<design::HuntingResult>& hunting, double error) {
   if (!hunts_beyond(hunting, error)) {
-    return "was not seen to hold still (a run at rest or at the tracking rate did not end)";
+    return "was not shown free of limit cycles (a run at rest or at the tracking rate did not "
+           "complete)";
   }
-  return fmt::format("hunts by +-{:.2f} mdeg, beyond the tightest budget of {:.3f}",
+  return fmt::format("has a limit cycle of +-{:.2f} mdeg, beyond the tightest budget of {:.3f}",
                      design::hunting_amplitude(hunting) / millidegree, error / millidegree);
 }
 
 // The same of another such law.
 std::string unrest_too(const std::vector<design::HuntingResult>& hunting, double error) {
-  if (!hunts_beyond(hunting, error)) return "was not seen to hold still either";
-  return fmt::format("hunts beyond the budget too, by +-{:.2f} mdeg",
+  if (!hunts_beyond(hunting, error)) return "was not shown free of limit cycles either";
+  return fmt::format("also has one beyond the budget, +-{:.2f} mdeg",
                      design::hunting_amplitude(hunting) / millidegree);
 }
 
@@ -95,13 +94,13 @@ std::string unrest_too(const std::vector<design::HuntingResult>& hunting, double
 std::string first_text(const design::NonlinearVerification& first, double error) {
   std::string text =
       first.wind.status == RunStatus::complete
-          ? fmt::format("it points within {:.3f}", first.wind.beam_rms / millidegree)
-          : fmt::format("it does not hold ({})", design::to_string(first.wind.status));
+          ? fmt::format("it has {:.3f}", first.wind.beam_rms / millidegree)
+          : fmt::format("its run did not complete ({})", design::to_string(first.wind.status));
   const double hunting = design::hunting_amplitude(first.hunting);
   if (!design::holds_still(first.hunting, error)) {
     text += " and " + unrest(first.hunting, error);
   } else if (hunting > 0.0) {
-    text += fmt::format(" and hunts by +-{:.2f}", hunting / millidegree);
+    text += fmt::format(" with a limit cycle of +-{:.2f}", hunting / millidegree);
   }
   return text;
 }
@@ -110,15 +109,15 @@ std::string first_text(const design::NonlinearVerification& first, double error)
 std::string merit(const TimeDomainSection& section, const design::NonlinearVerification& first) {
   const double rms = section.result.wind.beam_rms, other = first.wind.beam_rms;
   if (rms < other || !std::isfinite(other)) {
-    return fmt::format("{} points within {:.3f}", section.law, rms / millidegree);
+    return fmt::format("{} has {:.3f}", section.law, rms / millidegree);
   }
   const bool tied = rms <= (1.0 + negligible_change) * other;
   const bool hunts_less =
       design::hunting_amplitude(section.result.hunting) < design::hunting_amplitude(first.hunting);
-  return fmt::format("{} points {} and {}", section.law,
-                     tied ? fmt::format("as well within {:.0f} %", 100.0 * negligible_change)
-                          : fmt::format("within {:.3f}", rms / millidegree),
-                     hunts_less ? "hunts less" : "has fewer gains");
+  return fmt::format("{} has {} and {}", section.law,
+                     tied ? fmt::format("the same rms within {:.0f} %", 100.0 * negligible_change)
+                          : fmt::format("{:.3f}", rms / millidegree),
+                     hunts_less ? "a smaller limit cycle" : "fewer gains");
 }
 
 // Why this law and not the one that the linear plant puts first.
@@ -132,16 +131,16 @@ std::string conclude_choice(const TimeDomainSection& section) {
   const design::WindResult& wind = first->result.wind;
   const auto& hunting = section.result.hunting;
   std::string text = fmt::format(
-      "The linear plant puts {} first ({:.3f} mdeg); on the nonlinear antenna {}: ", first->law,
+      "{} has the lowest linear rms ({:.3f} mdeg); on the nonlinear antenna {}: ", first->law,
       wind.predicted_rms / millidegree, first_text(first->result, error));
   const bool first_still = design::holds_still(first->result.hunting, error);
   if (!std::isfinite(section.result.wind.beam_rms)) {
-    text += fmt::format("{} does not hold in wind either", section.law);
+    text += fmt::format("the run of {} did not complete either", section.law);
   } else if (!design::holds_still(hunting, error)) {
     text += fmt::format("{}, but {}", merit(section, first->result),
                         first_still ? unrest(hunting, error) : unrest_too(hunting, error));
   } else if (!first_still) {
-    text += fmt::format("{} does not hunt beyond the budget", section.law);
+    text += fmt::format("{} has no limit cycle beyond the budget", section.law);
   } else if (section.result.wind.beam_rms < wind.beam_rms || !std::isfinite(wind.beam_rms)) {
     text += fmt::format("{} is better", section.law);
   } else {
@@ -167,12 +166,12 @@ std::string integration_text(const TimeDomainSection& section) {
 std::string hunting_text(const design::HuntingResult& hunting, double error) {
   const char* where = hunting.rate == 0.0 ? "At rest" : "At the tracking rate";
   if (hunting.status != RunStatus::complete) {
-    return fmt::format(" {} it was not seen to hold still ({}).", where,
+    return fmt::format(" {} freedom from limit cycles was not shown ({}).", where,
                        design::to_string(hunting.status));
   }
   if (!hunting.limit_cycle) return "";
   return fmt::format(
-      " {} it hunts by +-{:.2f} mdeg{}{}.", where, hunting.beam_amplitude / millidegree,
+      " {} it has a limit cycle of +-{:.2f} mdeg{}{}.", where, hunting.beam_amplitude / millidegree,
       hunting.some_only() ? fmt::format(" in {} of {} runs", hunting.starts_hunting, hunting.starts)
                           : "",
       hunts_beyond({hunting}, error)
@@ -188,9 +187,9 @@ std::string slew_out_of_reach(const TimeDomainSection& section) {
   const auto& asked = section.options.limits;
   if (!(slew->limits.rate < asked.rate)) return "";
   return fmt::format(
-      "The slew rate of {:.3g} deg/s is out of reach: against its friction, by its valve and "
-      "supply with a fifth in reserve, this drive does {:.3g} deg/s.",
-      asked.rate / degree, slew->limits.rate / degree);
+      "With 20 % flow and pressure reserve the drive slews at {:.3g} deg/s, not the specified "
+      "{:.3g}.",
+      slew->limits.rate / degree, asked.rate / degree);
 }
 
 std::string assumed_stroke(const TimeDomainSection& section) {
@@ -201,13 +200,12 @@ std::string assumed_stroke(const TimeDomainSection& section) {
            influence.difference > negligible_change * wind.beam_rms;
   });
   if (!rms && !section.slew_hangs_on_stroke) return "";
-  const char* hanging = !rms                           ? "The slew rate within reach rests"
-                        : section.slew_hangs_on_stroke ? "The simulated rms and the slew rate rest"
-                                                       : "The simulated rms rests";
-  return fmt::format(
-      "{} on {}: state simulation.valve_stroke or the valve's rated flow before taking that for an "
-      "answer.",
-      hanging, section.stroke_assumption);
+  const char* hanging = !rms ? "The achievable slew rate depends"
+                        : section.slew_hangs_on_stroke
+                            ? "The simulated rms and the slew rate depend"
+                            : "The simulated rms depends";
+  return fmt::format("{} on {}: state simulation.valve_stroke or the valve's rated flow.", hanging,
+                     section.stroke_assumption);
 }
 
 std::optional<TimeDomainSection> section_of(const io::Case& antenna,
@@ -222,7 +220,8 @@ std::string not_still(const TimeDomainSection& section) {
   const auto& hunting = section.result.hunting;
   if (design::holds_still(hunting, error)) return "";
   return fmt::format(
-      "On the nonlinear antenna it {}: `boresight tune` looks for a law that holds still.",
+      "On the nonlinear antenna it {}: `boresight tune` searches for a controller free of limit "
+      "cycles.",
       unrest(hunting, error));
 }
 
@@ -232,26 +231,26 @@ std::string decide(const TimeDomainSection& section) {
   // No other did either: such a law is never put before one that did.
   if (!std::isfinite(rms)) {
     return fmt::format(
-        "On the nonlinear antenna no law was seen to hold in {:.3g} m/s of wind: commission none "
-        "of them before that has been looked at.",
+        "No controller completed its run on the nonlinear antenna in {:.3g} m/s of wind: "
+        "commission none before the cause is known.",
         section.wind_speed);
   }
   if (!design::holds_still(section.result.hunting, error)) {
     const std::string held_against = unrest(section.result.hunting, error);
     if (section.candidates.empty()) {
       return fmt::format(
-          "On the nonlinear antenna {} has {:.3f} mdeg in wind, but {}. Do not commission it "
-          "before the friction has been looked at.",
+          "On the nonlinear antenna {} has {:.3f} mdeg in wind, but {}. Measure the friction "
+          "before commissioning it.",
           section.law, rms, held_against);
     }
     return fmt::format(
-        "On the nonlinear antenna no law holds still and points in wind: {} comes nearest with "
-        "{:.3f} mdeg, but {}. Commission none of them before the friction has been looked at.",
+        "On the nonlinear antenna no controller that completes its run in wind is free of limit "
+        "cycles: {} comes nearest with {:.3f} mdeg, but {}. Measure the friction before "
+        "commissioning any.",
         section.law, rms, held_against);
   }
-  std::string text =
-      fmt::format("On the nonlinear antenna {} comes first, with {:.3f} mdeg: commission that one.",
-                  section.law, rms);
+  std::string text = fmt::format(
+      "Recommended for commissioning: {}, {:.3f} mdeg on the nonlinear antenna.", section.law, rms);
   for (const auto& candidate : section.candidates) {
     if (design::holds_still(candidate.result.hunting, error) ||
         !(candidate.result.wind.beam_rms < section.result.wind.beam_rms)) {
@@ -272,7 +271,7 @@ std::string conclude(const TimeDomainSection& section) {
   }
   const auto& reversal = section.result.reversal;
   if (reversal && reversal->status == RunStatus::complete) {
-    text += fmt::format(" Turning round at the tracking rate it errs by up to {:.1f} mdeg.",
+    text += fmt::format(" Peak error at a velocity reversal at tracking rate: {:.1f} mdeg.",
                         reversal->beam_error / millidegree);
   }
   for (const auto& sentence :

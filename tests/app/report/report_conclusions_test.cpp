@@ -357,12 +357,14 @@ TEST(TuningVerdict, RunsNoDriveThatHunts) {
   section.result.hunting = {rest};
   EXPECT_THAT(decision(report).front(), HasSubstr("Run the drive"));
   section.result.hunting[0].beam_amplitude = 0.8 * millidegree;
-  EXPECT_THAT(reservations(report),
-              Contains(HasSubstr("it hunts by +-0.80 mdeg, beyond the tightest budget of 0.500")));
+  EXPECT_THAT(
+      reservations(report),
+      Contains(HasSubstr("it has a limit cycle of +-0.80 mdeg, beyond the tightest budget of "
+                         "0.500")));
   EXPECT_THAT(decision(report), Each(Not(HasSubstr("Run the drive"))));
   section.result.hunting[0] = {};
   section.result.hunting[0].status = design::RunStatus::lost;
-  EXPECT_THAT(reservations(report), Contains(HasSubstr("was not seen to hold still")));
+  EXPECT_THAT(reservations(report), Contains(HasSubstr("was not shown free of limit cycles")));
   EXPECT_THAT(decision(report), Each(Not(HasSubstr("Run the drive"))));
 }
 

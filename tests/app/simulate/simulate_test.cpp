@@ -41,7 +41,7 @@ TEST(SimulatedTests, SayWhatSlewingAsksOfADriveThatHasLess) {
       design::SlewCourse{degree, 0.16 * degree, 0.1 * degree, 0.25 * degree, 0.2 * degree};
   EXPECT_THAT(section_of(record, reference_case(), "tuned").description,
               HasSubstr("; the case's slew rate of 0.25 deg/s is out of reach: against this "
-                        "friction the supply holds at most 0.2 deg/s"));
+                        "friction the supply sustains at most 0.2 deg/s"));
 }
 
 TEST(SimulatedTests, SayWhatWasDoneToTheDrive) {

@@ -24,7 +24,8 @@ std::string conditions(const BenchmarkReport& report) {
 }
 
 Figure compliance(const BenchmarkReport& report) {
-  FigurePanel panel = make_panel(make_axis("|beam/torque|", "mdeg/(MN.m)", AxisScale::logarithmic));
+  FigurePanel panel =
+      make_panel(make_axis("|boresight/torque|", "mdeg/(MN.m)", AxisScale::logarithmic));
   FigureSeries curve = make_series("this controller", SeriesStyle::line);
   for (const auto& point : report.score.compliance) {
     curve.x.push_back(point.frequency);
@@ -40,9 +41,9 @@ Figure compliance(const BenchmarkReport& report) {
                          report.score.worst.lower * per_meganewton,
                          fmt::format("worst, {:.3g} Hz", report.score.worst.frequency / two_pi)});
   panel.lines.push_back(horizontal_line(report.score.encoder_held_compliance * per_meganewton,
-                                        "bending with the encoder held"));
+                                        "flexure with the encoder fixed"));
   Figure figure =
-      make_figure("compliance", "Torque at the dish", "Compliance of the beam",
+      make_figure("compliance", "Torque at the dish", "Compliance of the boresight",
                   conditions(report) + " Angle at the sky by torque at the antenna's axis.",
                   make_axis("frequency", "Hz", AxisScale::logarithmic));
   figure.panels.push_back(std::move(panel));
@@ -60,12 +61,12 @@ Figure course(const BenchmarkReport& report, const std::vector<control::CoursePo
     beam[i] = points[static_cast<std::size_t>(i)].beam * factor;
   }
   const auto drawn = thinned(time, beam, course_points);
-  FigurePanel panel = make_panel(make_axis("beam", unit));
+  FigurePanel panel = make_panel(make_axis("boresight", unit));
   panel.series.push_back(make_series("this controller", SeriesStyle::line, drawn.x, drawn.y));
   panel.lines.push_back(horizontal_line(score.final_value * per_meganewton, "final value"));
   if (score.return_time && *score.return_time <= drawn.x.back()) {
-    panel.lines.push_back(
-        vertical_line(*score.return_time, fmt::format("returned, {:.3g} s", *score.return_time)));
+    panel.lines.push_back(vertical_line(
+        *score.return_time, fmt::format("settled (5 %), {:.3g} s", *score.return_time)));
   }
   Figure figure =
       make_figure(id, "Torque at the dish", title, conditions(report) + " From rest, at the sky.",
@@ -82,7 +83,8 @@ void draw_budgets(const BenchmarkReport& report, FigurePanel& panel) {
 }
 
 Figure winds(const BenchmarkReport& report) {
-  FigurePanel panel = make_panel(make_axis("beam rms, one axis", "mdeg", AxisScale::logarithmic));
+  FigurePanel panel =
+      make_panel(make_axis("boresight rms per axis", "mdeg", AxisScale::logarithmic));
   const auto of = [&](const std::string& name) -> FigureSeries& {
     const auto found = std::ranges::find(panel.series, name, &FigureSeries::name);
     if (found != panel.series.end()) return *found;
@@ -103,7 +105,7 @@ Figure winds(const BenchmarkReport& report) {
   }
   draw_budgets(report, panel);
   Figure figure =
-      make_figure("winds", "Wind", "Beam rms against wind speed",
+      make_figure("winds", "Wind", "Boresight rms against wind speed",
                   conditions(report) +
                       fmt::format(" Torque coefficient {:g}; wind and noise over {:g} to {:g} Hz "
                                   "about the mean.",
@@ -117,7 +119,7 @@ Figure winds(const BenchmarkReport& report) {
 // Attitudes are called "YAW, ELEVATION": a panel an elevation, a series a yaw.
 Figure attitudes(const BenchmarkReport& report) {
   Figure figure = make_figure(
-      "attitudes", "Wind", "Beam rms by direction and elevation",
+      "attitudes", "Wind", "Boresight rms by direction and elevation",
       conditions(report) + fmt::format(" Wind model {}.", plant::to_string(report.wind.model)),
       make_axis("mean wind speed", "m/s"));
   std::vector<std::string> elevations;
@@ -158,11 +160,11 @@ std::vector<Figure> benchmark_figures(const BenchmarkReport& report) {
   if (!report.score.compliance.empty()) keep(compliance(report));
   if (!report.step_course.empty()) {
     keep(course(report, report.step_course, report.score.step, "step",
-                "Beam after a step of torque", "mdeg/(MN.m)"));
+                "Boresight response to a torque step", "mdeg/(MN.m)"));
   }
   if (!report.impulse_course.empty()) {
     keep(course(report, report.impulse_course, report.score.impulse, "impulse",
-                "Beam after an impulse of torque", "mdeg/(MN.m.s)"));
+                "Boresight response to a torque impulse", "mdeg/(MN.m.s)"));
   }
   keep(winds(report));
   keep(attitudes(report));

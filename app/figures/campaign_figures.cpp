@@ -19,13 +19,12 @@ constexpr const char* fit_heading = "How well one model explains all records";
 std::vector<Figure> correlation_figure(const io::CampaignSection& section) {
   if (!section.grey_box) return {};
   const auto& fit = *section.grey_box;
-  Figure figure = make_figure(
-      "campaign-correlation", fit_heading, "Estimates that go together",
-      fmt::format(
-          "Correlation of the reconciled estimates over {} draws: near +-1 the records tell a "
-          "combination of two quantities and not each.",
-          fit.draws.size()),
-      make_axis("correlation", ""));
+  Figure figure =
+      make_figure("campaign-correlation", fit_heading, "Correlated estimates",
+                  fmt::format("Correlation of the combined estimates over {} samples: near +-1 the "
+                              "records determine only a combination of the two quantities.",
+                              fit.draws.size()),
+                  make_axis("correlation", ""));
   FigurePanel panel;
   for (const auto& q : fit.quantities) panel.y.categories.push_back(q.name);
   for (std::size_t i = 0; i < fit.quantities.size(); ++i) {
@@ -47,14 +46,14 @@ std::vector<Figure> correlation_figure(const io::CampaignSection& section) {
 std::vector<Figure> contradiction_figure(const io::CampaignSection& section) {
   if (section.contradictions.empty()) return {};
   constexpr double most = 20.0;
-  Figure figure = make_figure(
-      "campaign-contradictions", "Numbers of the case that the records contradict",
-      "Records against the case",
-      "Records less stated number, over both standard uncertainties' root sum of squares; "
-      "cut off at 20.",
-      make_axis("difference", "standard uncertainties"));
+  Figure figure =
+      make_figure("campaign-contradictions", "Numbers of the case that the records contradict",
+                  "Records against the case",
+                  "Records minus stated value, over the root sum of squares of both standard "
+                  "uncertainties; cut off at 20.",
+                  make_axis("difference", "standard uncertainties"));
   FigurePanel panel;
-  FigureSeries bars = make_series("records less stated", SeriesStyle::bars);
+  FigureSeries bars = make_series("records minus stated", SeriesStyle::bars);
   for (const auto& one : section.contradictions) {
     bars.x.push_back(std::clamp(one.normalised, -most, most));
     bars.y.push_back(static_cast<double>(panel.y.categories.size()));
@@ -74,10 +73,9 @@ std::vector<Figure> hold_out_figure(const io::CampaignSection& section) {
   const auto& recorded = held.result.recorded;
   const auto& simulated = held.result.simulated;
   Figure figure = make_figure(
-      "campaign-hold-out", fit_heading, fmt::format("Record {} foretold", held.record),
-      fmt::format("The model fitted to the other records and driven by this record's valve command "
-                  "alone; it misses the rate by {:.0f} % and the torque by {:.0f} % (rms over the "
-                  "record's about its mean).",
+      "campaign-hold-out", fit_heading, fmt::format("Record {} predicted", held.record),
+      fmt::format("Model fitted to the other records, driven by this record's valve command. Rms "
+                  "residual: {:.0f} % of the rate's variation, {:.0f} % of the torque's.",
                   100.0 * held.result.error.rate_error, 100.0 * held.result.error.torque_error),
       make_axis("time", "s"));
   const auto panel = [&](const char* label, const char* unit, const Eigen::VectorXd& seen,
@@ -88,7 +86,7 @@ std::vector<Figure> hold_out_figure(const io::CampaignSection& section) {
       const Eigen::VectorXd time = Eigen::VectorXd::LinSpaced(
           values.size(), 0.0, recorded.sample_time * static_cast<double>(values.size() - 1));
       const auto curve = thinned(time, values);
-      one.series.push_back(make_series(measured ? "recorded" : "foretold",
+      one.series.push_back(make_series(measured ? "recorded" : "predicted",
                                        measured ? SeriesStyle::line : SeriesStyle::dashed, curve.x,
                                        curve.y));
     }

@@ -15,7 +15,7 @@ namespace {
 
 constexpr double none = std::numeric_limits<double>::quiet_NaN();
 constexpr const char* plan_heading = "Commissioning plan for ";
-constexpr const char* stages_heading = "Stages (* changed against the stage before)";
+constexpr const char* stages_heading = "Stages (* changed from the previous stage)";
 
 FigureAxis stage_axis(const CommissionReport& report) {
   FigureAxis axis = make_axis("stage", "");
@@ -44,7 +44,7 @@ std::string stage_names(const CommissionReport& report) {
 Figure gains(const CommissionReport& report) {
   Figure figure = make_figure(
       "commission-gains", stages_heading, "Gains over the stages",
-      fmt::format("Each gain over its final value, where it acts. Stages {}.", stage_names(report)),
+      fmt::format("Each active gain over its final value. Stages {}.", stage_names(report)),
       stage_axis(report));
   FigurePanel panel =
       make_panel(make_axis("gain over its final value", "", AxisScale::logarithmic));
@@ -104,14 +104,13 @@ Figure responses(const CommissionReport& report) {
   using design::AbortLimits;
   using design::StageExpectation;
   const double sky = 1.0 / (report.gear_ratio * millidegree);
-  Figure figure = make_figure(
-      "commission-responses", stages_heading, "What each stage should show",
-      fmt::format(
-          "On the case's own plant, with the band in which one more plant would lie with {:g} "
-          "% ({} plants, {}); beyond the abort limit go back to the stage before. Stages {}.",
-          100.0 * report.options.confidence, report.ensemble_size, report.ensemble_source,
-          stage_names(report)),
-      stage_axis(report));
+  Figure figure =
+      make_figure("commission-responses", stages_heading, "Expected response at each stage",
+                  fmt::format("Nominal plant, with {:g} % prediction interval ({} plants, {}). "
+                              "Beyond the abort limit go back to the previous stage. Stages {}.",
+                              100.0 * report.options.confidence, report.ensemble_size,
+                              report.ensemble_source, stage_names(report)),
+                  stage_axis(report));
   figure.panels.push_back(expected_panel(
       report, make_axis("overshoot of a step", "%"), 100.0,
       [](const StageExpectation& e) -> const design::PlantBand& { return e.overshoot; },
@@ -128,7 +127,7 @@ Figure responses(const CommissionReport& report) {
       [](const StageExpectation& e) -> const design::PlantBand& { return e.still_encoder; },
       [](const AbortLimits& abort) { return abort.still_encoder_rms; }));
   figure.panels.push_back(expected_panel(
-      report, make_axis(fmt::format("beam rms, {:.3g} m/s", report.wind_speed), "mdeg"), sky,
+      report, make_axis(fmt::format("boresight rms, {:.3g} m/s", report.wind_speed), "mdeg"), sky,
       [](const StageExpectation& e) -> const design::PlantBand& { return e.beam_rms; }, {}));
   std::erase_if(figure.panels, [](const FigurePanel& panel) { return !has_points(panel); });
   return figure;
@@ -138,13 +137,12 @@ Figure margins(const CommissionReport& report) {
   Figure figure = make_figure(
       "commission-margins", plan_heading + report.structure, "Margins by stage",
       fmt::format(
-          "Largest peak of S over the loops that are closed, with its band over the plants, "
-          "and the factor on the loop gain that takes the worst plant to the peak at which to "
-          "give up. Stages {}.",
+          "Largest Ms of the closed loops, with its band over the plants, and the loop-gain factor "
+          "that brings the worst plant to the abort limit of Ms. Stages {}.",
           stage_names(report)),
       stage_axis(report));
   FigurePanel peak = expected_panel(
-      report, make_axis("peak of S", ""), 1.0,
+      report, make_axis("Ms", ""), 1.0,
       [](const design::StageExpectation& e) -> const design::PlantBand& { return e.peak; }, {});
   FigureSeries largest = make_series("worst plant", SeriesStyle::points);
   FigureSeries reserve =
@@ -159,8 +157,8 @@ Figure margins(const CommissionReport& report) {
     reserve.labels.push_back(stage.abort.worst_plant);
   }
   peak.series.push_back(std::move(largest));
-  peak.lines.push_back(horizontal_line(report.options.sensitivity_limit, "limit on the way"));
-  peak.lines.push_back(horizontal_line(report.options.abort_peak, "give up"));
+  peak.lines.push_back(horizontal_line(report.options.sensitivity_limit, "limit at each stage"));
+  peak.lines.push_back(horizontal_line(report.options.abort_peak, "abort"));
   figure.panels.push_back(std::move(peak));
   FigurePanel factor = make_panel(make_axis("gain reserve", ""), {std::move(reserve)});
   if (has_points(factor)) figure.panels.push_back(std::move(factor));
@@ -184,7 +182,7 @@ std::vector<Figure> comparisons(const CommissionReport& report) {
     density.series = {
         make_series("before", SeriesStyle::line, compared.frequency, compared.density_before),
         make_series("after", SeriesStyle::dashed, compared.frequency, compared.density_after)};
-    FigureSeries ratios = make_series("after over before", SeriesStyle::points);
+    FigureSeries ratios = make_series("after/before", SeriesStyle::points);
     for (const auto& band : compared.bands) {
       ratios.x.push_back(std::sqrt(band.lowest * band.highest));
       ratios.y.push_back(band.ratio);

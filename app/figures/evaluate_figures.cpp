@@ -15,10 +15,10 @@ constexpr double undefined = std::numeric_limits<double>::quiet_NaN();
 
 std::string conditions(const EvaluateSection& section) {
   return fmt::format(
-      "Each proposal with loops of its own, {:.3g} m/s, wind model {}, {} plants ({}){}.",
+      "Each proposal with its own tuned loops, {:.3g} m/s, wind model {}, {} plants ({}){}.",
       section.wind_speed, plant::to_string(section.wind_model), section.ensemble_size,
       section.ensemble_source,
-      section.time_domain ? "; rms of linear loops times each law's factor of the nonlinear antenna"
+      section.time_domain ? "; linear rms times the simulated/linear rms ratio of each controller"
                           : "");
 }
 
@@ -35,18 +35,18 @@ Figure front_figure(const EvaluateSection& section) {
   Figure figure;
   figure.id = "pareto";
   figure.section = heading_of(section);
-  figure.title = "Cost and beam rms of the proposals";
+  figure.title = "Cost and boresight rms of the proposals";
   figure.caption =
-      "Root of the mean square of the beam rms over the plants against cost; whiskers span the "
-      "stated uncertainty of the cost. The steps are the front: what lies above them is dearer and "
-      "no better than something on it. " +
+      "Root mean square of the boresight rms over the plants against cost; whiskers: uncertainty "
+      "of the cost. Steps: Pareto front. " +
       conditions(section);
   figure.x = {.label = "cost", .unit = section.currency};
   FigurePanel panel;
-  panel.y = {.label = "beam rms", .unit = "mdeg"};
-  FigureSeries meets{.name = "meets every goal", .style = SeriesStyle::points};
-  FigureSeries misses{.name = "misses a goal or its verification", .style = SeriesStyle::points};
-  FigureSeries front{.name = "front", .style = SeriesStyle::steps};
+  panel.y = {.label = "boresight rms", .unit = "mdeg"};
+  FigureSeries meets{.name = "meets every constraint", .style = SeriesStyle::points};
+  FigureSeries misses{.name = "violates a constraint or fails its verification",
+                      .style = SeriesStyle::points};
+  FigureSeries front{.name = "Pareto front", .style = SeriesStyle::steps};
   for (const auto& candidate : section.candidates) {
     const CandidateLaw* law = candidate.chosen_law();
     if (law == nullptr || !candidate.cost || !std::isfinite(law->compared_rms())) continue;
@@ -75,12 +75,12 @@ Figure spread_figure(const EvaluateSection& section) {
   Figure figure;
   figure.id = "proposals-spread";
   figure.section = heading_of(section);
-  figure.title = "Beam rms of the proposals over the plants that may be the true one";
+  figure.title = "Boresight rms of the proposals over the ensemble";
   figure.caption =
-      "Median of the beam rms over the plants with the gains held, and from the least to the "
-      "largest of them; lines are budgets. " +
+      "Median and range of the boresight rms over the plants, with fixed gains; lines are "
+      "budgets. " +
       conditions(section);
-  figure.x = {.label = "beam rms", .unit = "mdeg"};
+  figure.x = {.label = "boresight rms", .unit = "mdeg"};
   FigurePanel panel;
   FigureSeries spread{.style = SeriesStyle::points};
   for (const auto& candidate : section.candidates) {
@@ -131,11 +131,11 @@ Figure chances_figure(const EvaluateSection& section, const DecisionSection& dec
   figure.id = "chances";
   figure.section = heading_of(decision);
   const std::string& best = name_of(section, decision, decision.best);
-  figure.title = "Chances of the proposals";
+  figure.title = "Probability that a proposal is best";
   figure.caption = fmt::format(
-      "The chance that a proposal has the least beam rms of all, and that '{}', that of least mean "
-      "rms, has a lower one than each other on the same plant, ties counted half; {} draws, gains "
-      "held, intervals of 95 % for the number of draws.",
+      "Probability of the lowest boresight rms, and that '{}' (lowest mean rms) beats each other "
+      "proposal on the same plant, ties counted half. {} samples, fixed gains, 95 % sampling "
+      "intervals.",
       best, decision.draws);
   figure.x = {.label = "probability", .lowest = 0.0, .highest = 1.0};
   std::vector<NamedShare> least, pairs;
@@ -151,7 +151,7 @@ Figure chances_figure(const EvaluateSection& section, const DecisionSection& dec
                        {1.0 - better.value, 1.0 - better.upper, 1.0 - better.lower}});
     }
   }
-  figure.panels.push_back(share_panel("least of all", least));
+  figure.panels.push_back(share_panel("lowest of all", least));
   if (!pairs.empty()) {
     figure.panels.push_back(share_panel(fmt::format("'{}' is better than", best), pairs));
     figure.panels.back().lines.push_back({FigureLine::Direction::vertical, 0.5, ""});
@@ -160,7 +160,7 @@ Figure chances_figure(const EvaluateSection& section, const DecisionSection& dec
 }
 
 std::string difference(const EvaluateSection& section, const DecisionSection& decision) {
-  return fmt::format("Beam rms of '{}' less that of '{}', gains held",
+  return fmt::format("Boresight rms of '{}' minus that of '{}', fixed gains",
                      name_of(section, decision, decision.second),
                      name_of(section, decision, decision.best));
 }
@@ -170,13 +170,13 @@ Figure tornado_figure(const EvaluateSection& section, const DecisionSection& dec
   Figure figure;
   figure.id = "tornado";
   figure.section = heading_of(decision);
-  figure.title = "What decides between the two best proposals, one input at a time";
+  figure.title = "Sensitivity of the difference between the two best proposals";
   figure.caption = fmt::format(
-      "{}: each input at its 5 % and 95 % share, the others at their median; right of zero '{}' is "
-      "the better one. {:.3g} m/s, wind model {}.",
+      "{}: each input at its 5 % and 95 % quantile, the others at their median; right of zero '{}' "
+      "is better. {:.3g} m/s, wind model {}.",
       difference(section, decision), name_of(section, decision, decision.best), section.wind_speed,
       plant::to_string(section.wind_model));
-  figure.x = {.label = "difference of beam rms", .unit = "mdeg"};
+  figure.x = {.label = "difference of boresight rms", .unit = "mdeg"};
   FigurePanel panel;
   FigureSeries low{.name = "at 5 %", .style = SeriesStyle::bars};
   FigureSeries high{.name = "at 95 %", .style = SeriesStyle::bars};
@@ -204,12 +204,12 @@ Figure sobol_figure(const EvaluateSection& section, const DecisionSection& decis
   Figure figure;
   figure.id = "sobol";
   figure.section = heading_of(decision);
-  figure.title = "Shares of the variance between the two best proposals";
+  figure.title = "Sobol' indices of the difference between the two best proposals";
   figure.caption = fmt::format(
-      "{}: Sobol' indices of its variance with intervals of 95 %. First order: the share that goes "
-      "if this input becomes known; total: with every interaction it has part in.",
+      "{}: Sobol' indices with 95 % intervals. First order: fraction of the variance removed if "
+      "the input is known; total: with all its interactions.",
       difference(section, decision));
-  figure.x = {.label = "share of the variance"};
+  figure.x = {.label = "fraction of the variance"};
   std::vector<std::size_t> order;
   for (std::size_t i = 0; i < indices.inputs.size(); ++i) order.push_back(i);
   std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {

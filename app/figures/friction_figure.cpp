@@ -39,7 +39,7 @@ std::vector<Figure> friction_figure(const io::CampaignSection& section) {
   lowest = std::clamp(lowest, 1e-4 * highest, 0.5 * highest);
 
   FigurePanel panel = make_panel(make_axis("friction torque", "N.m"));
-  FigureSeries reconciled = make_series("reconciled, 95 % band", SeriesStyle::line);
+  FigureSeries reconciled = make_series("combined, 95 % band", SeriesStyle::line);
   FigureSeries fitted = make_series("curve through the windows", SeriesStyle::dashed);
   for (int i = 0; i < curve_points; ++i) {
     const double rate = lowest * std::pow(highest / lowest, i / (curve_points - 1.0));
@@ -72,13 +72,13 @@ std::vector<Figure> friction_figure(const io::CampaignSection& section) {
   for (auto* series : {&fitted, &reconciled, &tested}) panel.series.push_back(std::move(*series));
   std::erase_if(panel.series, [](const FigureSeries& series) { return series.x.empty(); });
   if (panel.series.empty()) return {};
-  Figure figure = make_figure(
-      "campaign-friction", "Friction at the motor shaft, N.m (95 % intervals)",
-      "Friction against speed",
-      "At the motor shaft, all motors. Windows: means of torque less inertia's and offset "
-      "torque over stretches of all tests, as the recorder shows torque and rate, which "
-      "have the transducers' errors in them; the reconciled band has these taken out.",
-      make_axis("motor rate", "rad/s", AxisScale::logarithmic));
+  Figure figure =
+      make_figure("campaign-friction", "Friction at the motor shaft, N.m (95 % intervals)",
+                  "Friction against speed",
+                  "At the motor shaft, all motors. Windows: mean torque minus inertial and offset "
+                  "torque over stretches of all tests, transducer errors included. The combined "
+                  "band is corrected for them.",
+                  make_axis("motor rate", "rad/s", AxisScale::logarithmic));
   figure.panels.push_back(std::move(panel));
   return {figure};
 }

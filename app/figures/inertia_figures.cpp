@@ -54,9 +54,9 @@ Figure forest(const std::vector<Row>& rows, const FigureAxis& axis,
     }
   }
   const double edge = 1.05 * largest;
-  FigureSeries reconciled = make_series("reconciled, 95 % interval", SeriesStyle::points);
+  FigureSeries reconciled = make_series("combined, 95 % interval", SeriesStyle::points);
   FigureSeries methods = make_series("method, 95 % interval", SeriesStyle::points);
-  FigureSeries printed = make_series("as printed", SeriesStyle::points);
+  FigureSeries printed = make_series("as stated", SeriesStyle::points);
   FigurePanel panel;
   for (std::size_t i = 0; i < rows.size(); ++i) {
     panel.y.categories.push_back(rows[i].method);
@@ -98,10 +98,9 @@ std::vector<Figure> figures_of(const std::vector<Row>& rows, const std::string& 
   });
   ratio.id = id + "-ratio";
   ratio.title = "Motor-to-load inertia ratio by method";
-  ratio.caption =
-      conditions +
-      " R = Jm/(J - Jm), all motors against everything else; an interval without an end "
-      "runs to the edge, and a method whose J is below the motors' own has no R.";
+  ratio.caption = conditions +
+                  " R = Jm/(J - Jm), all motors against the rest; open intervals run to the edge. "
+                  "R is undefined where J < Jm.";
   ratio.panels.front().lines.push_back(vertical_line(1.0, "one to one"));
   for (auto* figure : {&inertia, &ratio}) figure->section = section;
   return {std::move(inertia), std::move(ratio)};
@@ -122,7 +121,7 @@ double printed_value(const std::string& text, io::Kind kind) {
 std::vector<Figure> inertia_figures(const io::CampaignSection& section) {
   std::vector<Row> rows;
   if (section.grey_box) {
-    rows.push_back({"reconciled (grey box)", section.grey_box->quantity("inertia").posterior,
+    rows.push_back({"combined (grey box)", section.grey_box->quantity("inertia").posterior,
                     section.grey_box->quantity("motor to load ratio").posterior, none, none, true});
   } else if (section.mean_of_methods) {
     const auto& mean = *section.mean_of_methods;
@@ -140,9 +139,8 @@ std::vector<Figure> inertia_figures(const io::CampaignSection& section) {
   return figures_of(
       rows, "campaign", "Inertia at the motor shaft, by method (95 % intervals)",
       fmt::format(
-          "From {} records, with transducers, drawings and oil data as uncertain as the case "
-          "says; what a method leaves out of its model is not in its interval. * the founding "
-          "paper's own procedures.",
+          "From {} records, with the case's uncertainties of transducers, drawings and oil data. "
+          "Intervals exclude model errors of the method. * procedures of the founding paper.",
           section.notes.records.size()));
 }
 
@@ -150,7 +148,7 @@ std::vector<Figure> inertia_figures(const IdentificationSection& section) {
   std::vector<Row> rows;
   if (section.reconciled) {
     const auto& one = *section.reconciled;
-    rows.push_back({"reconciled",
+    rows.push_back({"combined",
                     {one.value, one.standard_uncertainty, one.lower, one.upper},
                     {one.motor_to_load_ratio, 0.0, one.ratio_lower, one.ratio_upper},
                     none,
@@ -167,8 +165,8 @@ std::vector<Figure> inertia_figures(const IdentificationSection& section) {
   return figures_of(
       rows, "stated",
       "Inertia at the motor shaft, by method (95 % intervals from the inputs' uncertainties)",
-      "From the numbers that the case states, no record; what a method leaves out of its model "
-      "(flexible antenna, efficiencies in the oil spring, friction law) is not in its interval.");
+      "From the values that the case states, without records. Intervals exclude model errors of "
+      "the method (flexible antenna, efficiencies in the oil spring, friction model).");
 }
 
 }  // namespace boresight::app

@@ -82,8 +82,8 @@ std::string break_name(std::size_t loop_break) {
 Figure open_loop_figure(const DrawnLaw& drawn, const Responses& on_grid) {
   Figure figure = started(drawn, "open-loop", "Open loop at three breaks");
   figure.caption =
-      "Loop gain cut in the rate loop with the position loop open, at the valve command and in the "
-      "position loop; circles are crossovers of unit gain with their phase margins. " +
+      "Loop gain broken in the rate loop (position loop open), at the valve command and in the "
+      "position loop. Circles: gain crossovers with phase margins. " +
       conditions(drawn);
   std::vector<NamedResponse> loops;
   for (std::size_t b = 0; b < 3; ++b) loops.push_back({break_name(b), on_grid.gain.at(b)});
@@ -108,16 +108,16 @@ Figure open_loop_figure(const DrawnLaw& drawn, const Responses& on_grid) {
 }
 
 Figure nyquist_figure(const DrawnLaw& drawn, const Responses& on_grid) {
-  Figure figure = started(drawn, "nyquist", "Nyquist plot with the disks to be kept out of");
+  Figure figure = started(drawn, "nyquist", "Nyquist plot with exclusion disks");
   const auto worst =
       std::min_element(drawn.margins.begin(), drawn.margins.end(),
                        [](const auto& x, const auto& y) { return x.disk.alpha < y.disk.alpha; });
   const auto at = static_cast<std::size_t>(worst - drawn.margins.begin());
   const auto& disk = worst->disk;
   figure.caption = fmt::format(
-      "Loop gain at the three breaks. No curve may enter the disk about \u22121 of the allowed "
-      "peak of sensitivity; the disk of the smallest disk margin, alpha = {:.3f} ({}, {:.2f} Hz: "
-      "gain {:.2f} to {:.2f}, phase {:.0f}\u00b0), is touched by its curve. ",
+      "Loop gain at the three breaks. No curve may enter the exclusion disk about \u22121 of the "
+      "allowed Ms. The disk of the smallest disk margin, alpha = {:.3f} ({}, {:.2f} Hz: gain "
+      "{:.2f} to {:.2f}, phase {:.0f}\u00b0), touches its curve. ",
       disk.alpha, break_name(at), disk.frequency / two_pi, disk.lowest_gain, disk.highest_gain,
       disk.phase_deg);
   figure.caption += conditions(drawn);
@@ -140,8 +140,8 @@ Figure nyquist_figure(const DrawnLaw& drawn, const Responses& on_grid) {
     const bool one =
         std::all_of(goals.begin(), goals.end(), [&](double goal) { return goal == goals.front(); });
     panel.circles.push_back({-1.0, 0.0, 1.0 / goals.at(b),
-                             one ? fmt::format("peak of S {:g}", goals.at(b))
-                                 : fmt::format("peak of S {:g}, {}", goals.at(b), break_name(b))});
+                             one ? fmt::format("Ms {:g}", goals.at(b))
+                                 : fmt::format("Ms {:g}, {}", goals.at(b), break_name(b))});
   }
   if (disk.lowest_gain > 0.0 && std::isfinite(disk.highest_gain)) {
     const double near = 1.0 / disk.highest_gain, away = 1.0 / disk.lowest_gain;
@@ -152,10 +152,10 @@ Figure nyquist_figure(const DrawnLaw& drawn, const Responses& on_grid) {
 }
 
 Figure sensitivity_figure(const DrawnLaw& drawn, const Responses& on_grid) {
-  Figure figure = started(drawn, "sensitivity", "Sensitivity, and where the wind is");
+  Figure figure = started(drawn, "sensitivity", "Sensitivity and wind torque spectrum");
   figure.caption =
-      "Magnitude of 1/(1 + L) at the three breaks with its goal; below, the torque spectrum of the "
-      "wind times frequency: equal areas are equal shares of the torque's variance. " +
+      "Magnitude of 1/(1 + L) at the three breaks with its limit. Below: wind torque spectrum "
+      "times frequency; equal areas are equal fractions of the torque variance. " +
       conditions(drawn);
   figure.panels.resize(2);
   FigurePanel& sensitivity = figure.panels[0];
@@ -190,14 +190,14 @@ Figure sensitivity_figure(const DrawnLaw& drawn, const Responses& on_grid) {
 
 Figure rejection_figure(const DrawnLaw& drawn, const Responses& on_grid,
                         const Eigen::ArrayXd& transmission) {
-  Figure figure = started(drawn, "wind-rejection", "Wind torque to beam, loops open and closed");
+  Figure figure =
+      started(drawn, "wind-rejection", "Wind torque to boresight, loops open and closed");
   figure.caption =
-      "Angle of the beam at the sky per wind torque about the axis. With the encoder held "
-      "perfectly "
-      "still there would remain the bending that no encoder sees. " +
+      "Boresight angle at the sky per wind torque about the axis. With the encoder fixed, flexure "
+      "beyond the encoder remains. " +
       conditions(drawn);
   FigurePanel panel;
-  panel.y = {.label = "beam at the sky per torque about the axis",
+  panel.y = {.label = "boresight at the sky per torque about the axis",
              .unit = "mdeg/(kN.m)",
              .scale = AxisScale::logarithmic};
   const double scale = 1e3 / (millidegree * drawn.problem.gear_ratio * drawn.problem.gear_ratio);
@@ -207,7 +207,7 @@ Figure rejection_figure(const DrawnLaw& drawn, const Responses& on_grid,
   panel.series.push_back({.name = "closed", .x = hertz, .y = numbers(closed)});
   panel.series.push_back(
       {.name = "open", .x = hertz, .y = numbers(scale * on_grid.plant.beam_wind.abs())});
-  panel.series.push_back({.name = "encoder held still",
+  panel.series.push_back({.name = "encoder fixed",
                           .style = SeriesStyle::dashed,
                           .x = hertz,
                           .y = numbers(scale * held.beam_per_wind.abs())});
@@ -225,7 +225,7 @@ Figure rejection_figure(const DrawnLaw& drawn, const Responses& on_grid,
 
 Figure error_figure(const DrawnLaw& drawn, const Responses& on_grid,
                     const Eigen::ArrayXd& transmission) {
-  Figure figure = started(drawn, "error-spectrum", "Beam error in wind, frequency by frequency");
+  Figure figure = started(drawn, "error-spectrum", "Boresight error spectrum in wind");
   const auto& band = drawn.problem.rms_band;
   std::vector<double> hertz, density, cumulative;
   const Eigen::ArrayXd spectrum = transmission *
@@ -246,12 +246,13 @@ Figure error_figure(const DrawnLaw& drawn, const Responses& on_grid,
   }
   const double noise = std::sqrt(drawn.noise_variance) / (drawn.problem.gear_ratio * millidegree);
   figure.caption = fmt::format(
-      "Amplitude density of the beam's error by wind at the sky, and its rms over all frequencies "
-      "up to each, {:.4f} mdeg in all; sensor noise adds {:.4f} mdeg in the root of squares. {}",
+      "Amplitude density of the boresight error from wind, and its cumulative rms, {:.4f} mdeg in "
+      "total. Sensor noise adds {:.4f} mdeg (root sum of squares). {}",
       std::sqrt(variance), noise, conditions(drawn));
   figure.panels.resize(2);
-  figure.panels[0].y = {
-      .label = "beam error by wind", .unit = "mdeg/\u221aHz", .scale = AxisScale::logarithmic};
+  figure.panels[0].y = {.label = "boresight error from wind",
+                        .unit = "mdeg/\u221aHz",
+                        .scale = AxisScale::logarithmic};
   if (!density.empty()) {
     figure.panels[0].y.lowest = 1e-4 * *std::max_element(density.begin(), density.end());
   }
@@ -283,17 +284,16 @@ Figure rms_against_wind(const std::string& id, const std::string& section,
   Figure figure;
   figure.id = id;
   figure.section = section;
-  figure.title = "Beam rms against wind speed";
+  figure.title = "Boresight rms against wind speed";
   figure.caption = fmt::format(
-      "Beam rms at the sky, one axis, with the gains held; lines are the budgets of each band, "
-      "circles the speeds up to which {} meets them. Wind model {}, linear plant with friction "
-      "{:g} "
-      "N.m.s/rad; what the supply or the valve cannot give is not counted.",
-      laws.empty() ? "a law" : laws.front().name, plant::to_string(problem.wind.model),
+      "Boresight rms per axis, fixed gains. Lines: budgets of each band; circles: wind speeds up "
+      "to which {} meets them. Wind model {}, linear plant with friction {:g} N.m.s/rad. Limits of "
+      "supply and valve are not included.",
+      laws.empty() ? "a controller" : laws.front().name, plant::to_string(problem.wind.model),
       problem.plant.drive.viscous_friction);
   figure.x = {.label = "mean wind speed", .unit = "m/s"};
   FigurePanel panel;
-  panel.y = {.label = "beam rms", .unit = "mdeg"};
+  panel.y = {.label = "boresight rms", .unit = "mdeg"};
   double largest = 0.0;
   for (const auto& budget : budgets) {
     const double rms = budget.rms / millidegree;
@@ -341,8 +341,8 @@ Figure compared_sensitivities(const std::string& id, const std::string& section,
   figure.section = section;
   figure.title = fmt::format("Sensitivity of the candidates, {}", control::to_string(loop_break));
   figure.caption = fmt::format(
-      "Magnitude of 1/(1 + L) with the loop cut at the {}, on the case's plant, linear, friction "
-      "{:g} N.m.s/rad; the goal holds for every frequency.",
+      "Magnitude of 1/(1 + L) with the loop broken at the {}, nominal linear plant, friction {:g} "
+      "N.m.s/rad.",
       control::to_string(loop_break), problem.plant.drive.viscous_friction);
   figure.x = shown_frequencies(problem);
   FigurePanel panel;

@@ -15,8 +15,8 @@ constexpr double undefined = std::numeric_limits<double>::quiet_NaN();
 
 std::string conditions(const MatchSection& section) {
   return fmt::format(
-      "{:.3g} m/s, wind model {}, linear plant with friction {:.3g} N.m.s/rad, every goal held on "
-      "{}.",
+      "{:.3g} m/s, wind model {}, linear plant with friction {:.3g} N.m.s/rad, all constraints met "
+      "on {}.",
       section.wind_speed, plant::to_string(section.wind_model), section.friction,
       section.members == 0 ? "the case's plant" : fmt::format("{} plants", section.members));
 }
@@ -70,14 +70,13 @@ std::vector<std::size_t> grid_points(const MatchSection& section) {
 }
 
 Figure rms_figure(const MatchSection& section) {
-  Figure figure = started(
-      "match-rms", "Beam rms against the motors' inertia",
-      "Each structure re-tuned at each number of disks; a circle is its least, small points are "
-      "kinks, where another goal, plant or family of laws takes over. Vertical lines are the "
-      "classic rules. " +
-          conditions(section));
+  Figure figure = started("match-rms", "Boresight rms against motor inertia",
+                          "Each structure re-tuned at each number of disks. Circles: minima; small "
+                          "points: kinks, where another constraint, plant or solution branch "
+                          "becomes active. Vertical lines: classic rules. " +
+                              conditions(section));
   FigurePanel panel;
-  panel.y = {.label = "beam rms", .unit = "mdeg"};
+  panel.y = {.label = "boresight rms", .unit = "mdeg"};
   FigureSeries kinks{.name = "kinks", .style = SeriesStyle::points};
   const auto on_grid = grid_points(section);
   for (const auto& series : section.series) {
@@ -107,14 +106,12 @@ Figure rms_figure(const MatchSection& section) {
 
 Figure plant_figure(const MatchSection& section) {
   Figure figure = started(
-      "match-plant", "Hydraulic mode and what the drive can do, against the motors' inertia",
-      fmt::format(
-          "The hydraulic mode of the flexible antenna with the rule \u00bd\u221a(J_L/J_m) "
-          "for its damping; the acceleration that the drive has for slewing at the slew "
-          "rate, and the time of a slew of {:.3g} deg at {:.3g} deg/s. Vertical lines are the "
-          "classic rules, by the ratio R of motors to load.",
-          section.slew_distance * 180.0 / std::numbers::pi,
-          section.slew_rate * 180.0 / std::numbers::pi));
+      "match-plant", "Hydraulic mode and drive capability against motor inertia",
+      fmt::format("Hydraulic mode of the flexible antenna, with the rule \u00bd\u221a(J_L/J_m) for "
+                  "its damping; acceleration available at the slew rate; time of a slew of {:.3g} "
+                  "deg at {:.3g} deg/s. Vertical lines: classic rules, by motor-to-load ratio R.",
+                  section.slew_distance * 180.0 / std::numbers::pi,
+                  section.slew_rate * 180.0 / std::numbers::pi));
   FigurePanel frequency, damping, acceleration, time;
   frequency.y = {.label = "hydraulic frequency", .unit = "Hz"};
   damping.y = {.label = "damping ratio"};
@@ -146,11 +143,10 @@ Figure plant_figure(const MatchSection& section) {
 }
 
 Figure margins_figure(const MatchSection& section) {
-  Figure figure =
-      started("match-margins", "Margins of the tuned laws against the motors' inertia",
-              "The least margins over the three loop breaks, and the lowest frequency at which the "
-              "position loop's |S| reaches 0.71, on the case's plant. " +
-                  conditions(section));
+  Figure figure = started("match-margins", "Margins of the tuned controllers against motor inertia",
+                          "Smallest margins over the three loop breaks, and position-loop "
+                          "bandwidth (|S| reaches 0.71), nominal plant. " +
+                              conditions(section));
   figure.panels.resize(4);
   figure.panels[0].y = {.label = "phase margin", .unit = "deg"};
   figure.panels[1].y = {.label = "gain margin, up", .unit = "dB"};
@@ -183,14 +179,12 @@ Figure margins_figure(const MatchSection& section) {
 
 Figure friction_figure(const MatchSection& section) {
   Figure figure = started(
-      "match-friction", "Reversals and limit cycles of the tuned laws",
-      fmt::format(
-          "On the nonlinear antenna in still air, with its friction curve: the largest "
-          "beam error after reversals of {:.4g} mdeg/s, and the amplitude of the beam's limit "
-          "cycle at rest (0: none).",
-          section.tracking_rate / millidegree));
+      "match-friction", "Velocity reversals and limit cycles of the tuned controllers",
+      fmt::format("Nonlinear antenna in still air: peak boresight error after velocity reversals "
+                  "at {:.4g} mdeg/s, and amplitude of the boresight limit cycle at rest (0: none).",
+                  section.tracking_rate / millidegree));
   figure.panels.resize(2);
-  figure.panels[0].y = {.label = "error after reversals", .unit = "mdeg"};
+  figure.panels[0].y = {.label = "error after velocity reversals", .unit = "mdeg"};
   figure.panels[1].y = {.label = "limit cycle at rest", .unit = "mdeg"};
   for (const auto& series : section.series) {
     FigureSeries reversal{.name = series.name, .style = SeriesStyle::line_and_points};
@@ -216,14 +210,14 @@ Figure friction_figure(const MatchSection& section) {
 
 Figure variants_figure(const MatchSection& section, std::size_t number) {
   const MatchVariants& variants = section.variants[number];
-  Figure figure = started(
-      fmt::format("match-variants-{}", number + 1).c_str(), "",
-      fmt::format("Least beam rms of {} along the axis when one thing is not as the case has it, "
-                  "tuned on that plant alone; a circle is the least of each curve. {:.3g} m/s.",
-                  variants.structure, section.wind_speed));
-  figure.title = fmt::format("What moves the optimum: {}", variants.structure);
+  Figure figure =
+      started(fmt::format("match-variants-{}", number + 1).c_str(), "",
+              fmt::format("Boresight rms of {} against motor inertia with one assumption changed, "
+                          "tuned on that plant alone. Circles: minima. {:.3g} m/s.",
+                          variants.structure, section.wind_speed));
+  figure.title = fmt::format("Sensitivity of the optimum: {}", variants.structure);
   FigurePanel panel;
-  panel.y = {.label = "beam rms", .unit = "mdeg"};
+  panel.y = {.label = "boresight rms", .unit = "mdeg"};
   for (const auto& variant : variants.variants) {
     FigureSeries series{.name = name_of(variant), .style = SeriesStyle::line_and_points};
     for (std::size_t i = 0; i < variant.rms.size(); ++i) {
@@ -239,10 +233,10 @@ Figure variants_figure(const MatchSection& section, std::size_t number) {
 
 Figure rules_figure(const MatchSection& section) {
   Figure figure = started("match-rules", "What each rule costs",
-                          "Beam rms with the number of disks that a rule asks for, over the least "
-                          "of each structure along the axis, less 1. " +
+                          "Boresight rms at the number of disks given by a rule, relative to the "
+                          "minimum of each structure, minus 1. " +
                               conditions(section));
-  figure.x = {.label = "more rms than at the best inertia", .unit = "%"};
+  figure.x = {.label = "rms increase over the best inertia", .unit = "%"};
   FigurePanel panel;
   for (const auto& rule : section.rules) {
     if (rule.disks) panel.y.categories.push_back(text_of(rule.rule));

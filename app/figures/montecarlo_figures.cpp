@@ -50,9 +50,9 @@ Figure distribution(const MonteCarloSection& section, const std::vector<double>&
   const auto reached = static_cast<std::size_t>(shown_share * static_cast<double>(values.size()));
   const double largest = values[std::min(reached, values.size() - 1)];
   const double from = least, to = largest > least ? largest : least * 1.01 + 1e-9;
-  FigurePanel shares = make_panel(make_axis("share of the stable plants", "%"));
+  FigurePanel shares = make_panel(make_axis("fraction of the stable plants", "%"));
   shares.series.push_back(histogram(values, from, to));
-  FigurePanel cumulative = make_panel(make_axis("share of all plants at or below", "%"));
+  FigurePanel cumulative = make_panel(make_axis("fraction of all plants at or below", "%"));
   FigureSeries curve = make_series("plants", SeriesStyle::line);
   const auto all = static_cast<double>(section.plants);
   const std::size_t step = std::max<std::size_t>(1, values.size() / curve_points);
@@ -69,22 +69,22 @@ Figure distribution(const MonteCarloSection& section, const std::vector<double>&
     cumulative.lines.push_back(vertical_line(at, fmt::format("{:.1f} %", 100.0 * met.value)));
   }
   Figure figure = make_figure(
-      "montecarlo-rms", "Distribution over the plants that are stable",
-      "Beam rms over the plants that may be the true one",
-      fmt::format(
-          "{}, gains held, wind of {:.3g} m/s ({} model), {} plants {}: {} stable, the rest "
-          "meets no budget. Shown up to the rms that {:g} % of the stable ones keep to; the "
-          "largest is {:.4g} mdeg. Lines: budgets, below with the share that meets each.",
-          section.structure, section.wind_speed, plant::to_string(section.wind_model),
-          section.plants, section.distribution, section.stable, 100.0 * shown_share, values.back()),
-      make_axis("beam rms, one axis at the sky", "mdeg"));
+      "montecarlo-rms", "Distribution over the stable plants",
+      "Boresight rms over the sampled plants",
+      fmt::format("{}, fixed gains, wind of {:.3g} m/s ({} model), {} plants {}: {} stable, the "
+                  "rest meets no budget. Shown up to the {:g} % quantile; largest rms {:.4g} mdeg. "
+                  "Lines: budgets, with the fraction that meets each below.",
+                  section.structure, section.wind_speed, plant::to_string(section.wind_model),
+                  section.plants, section.distribution, section.stable, 100.0 * shown_share,
+                  values.back()),
+      make_axis("boresight rms per axis", "mdeg"));
   figure.panels = {std::move(shares), std::move(cumulative)};
   return figure;
 }
 
 Figure worst_plants(const MonteCarloSection& section) {
   FigurePanel panel;
-  FigureSeries bars = make_series("beam rms", SeriesStyle::bars);
+  FigureSeries bars = make_series("boresight rms", SeriesStyle::bars);
   for (const auto& plant : section.worst) {
     bars.x.push_back(plant.outcome.beam_rms / millidegree);
     bars.y.push_back(static_cast<double>(panel.y.categories.size()));
@@ -100,20 +100,19 @@ Figure worst_plants(const MonteCarloSection& section) {
   for (const auto& [budget, met] : section.budgets) {
     panel.lines.push_back(vertical_line(budget.rms / millidegree, budget.name));
   }
-  Figure figure = make_figure(
-      "montecarlo-worst", "Worst stable plants", "Worst stable plants",
-      fmt::format(
-          "Of {} stable plants, wind of {:.3g} m/s. Inputs as factors on the case's numbers, "
-          "friction slope in N.m.s/rad.",
-          section.stable, section.wind_speed),
-      make_axis("beam rms, one axis at the sky", "mdeg"));
+  Figure figure =
+      make_figure("montecarlo-worst", "Worst stable plants", "Worst stable plants",
+                  fmt::format("Of {} stable plants, wind of {:.3g} m/s. Inputs as factors on the "
+                              "case's values, friction slope in N.m.s/rad.",
+                              section.stable, section.wind_speed),
+                  make_axis("boresight rms per axis", "mdeg"));
   figure.panels.push_back(std::move(panel));
   return figure;
 }
 
 Figure correlations(const MonteCarloSection& section) {
   FigurePanel panel;
-  FigureSeries points = make_series("with the beam rms, 95 % interval", SeriesStyle::points);
+  FigureSeries points = make_series("with the boresight rms, 95 % interval", SeriesStyle::points);
   for (const auto& [input, with_rms] : section.correlations) {
     points.x.push_back(with_rms.value);
     points.x_lower.push_back(with_rms.lower);
@@ -124,9 +123,10 @@ Figure correlations(const MonteCarloSection& section) {
   panel.series.push_back(std::move(points));
   panel.lines.push_back(vertical_line(0.0, ""));
   Figure figure = make_figure(
-      "montecarlo-correlations", "What moves the rms", "What moves the rms",
+      "montecarlo-correlations", "Correlation of inputs with the rms",
+      "Correlation of inputs with the rms",
       fmt::format(
-          "Spearman's rank correlation of the beam rms with each input over {} stable plants.",
+          "Spearman rank correlation of the boresight rms with each input over {} stable plants.",
           section.stable),
       make_axis("rank correlation", ""));
   figure.panels.push_back(std::move(panel));

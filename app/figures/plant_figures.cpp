@@ -23,7 +23,7 @@ std::string basis(const PlantSection& section) {
   return fmt::format(
       "Linear plant{}: friction {:g} N.m.s/rad, oil stiffness {:.4g} N.m/rad, leakage rate {:.3g} "
       "1/s, reflected inertia {:.4g} kg.m2.",
-      section.records > 0 ? fmt::format(" as {} records show it", section.records) : "",
+      section.records > 0 ? fmt::format(" identified from {} records", section.records) : "",
       section.plant.drive.viscous_friction, section.plant.drive.oil_stiffness,
       section.plant.drive.leakage_rate, section.reflected_inertia);
 }
@@ -34,8 +34,8 @@ Figure modes_figure(const PlantSection& section) {
   figure.section = section_title;
   figure.title = "Modes of the plant";
   figure.caption = fmt::format(
-      "Each oscillating mode by frequency and damping ratio, named after what moves most in it. {} "
-      "The hydraulic mode is at {:.3f} Hz; all masses rigid on the oil spring would be at {:.3f} "
+      "Each oscillatory mode by frequency and damping ratio, named after its largest motion. {} "
+      "The hydraulic mode is at {:.3f} Hz; a rigid antenna on the oil spring would be at {:.3f} "
       "Hz.",
       basis(section), section.hydraulic.frequency, section.rigid_frequency);
   figure.x = frequency_axis();
@@ -50,7 +50,7 @@ Figure modes_figure(const PlantSection& section) {
   }
   panel.series.push_back(std::move(modes));
   panel.lines.push_back({FigureLine::Direction::vertical, section.rigid_frequency,
-                         "all masses rigid on the oil spring"});
+                         "rigid antenna on the oil spring"});
   figure.panels.push_back(std::move(panel));
   return figure;
 }
@@ -73,9 +73,9 @@ Figure valve_figure(const PlantSection& section, const plant::PlantResponse& res
   figure.section = section_title;
   figure.title = "Response to the valve command";
   figure.caption = fmt::format(
-      "Rates of motor, encoder and beam, all at the motor shaft, to the valve command as no-load "
-      "motor rate, loops open. Where the beam parts from the encoder, the structure bends and no "
-      "encoder sees it. {}",
+      "Open-loop rates of motor, encoder and boresight, referred to the motor shaft, per valve "
+      "command (no-load motor rate). Boresight and encoder differ by flexure beyond the encoder. "
+      "{}",
       basis(section));
   figure.x = frequency_axis();
   const std::complex<double> j(0.0, 1.0);
@@ -83,7 +83,7 @@ Figure valve_figure(const PlantSection& section, const plant::PlantResponse& res
   figure.panels = bode_panels(response.frequency,
                               {{"motor (tachometer)", response.tachometer_command},
                                {"encoder", derivative * response.encoder_command},
-                               {"beam", derivative * response.beam_command}},
+                               {"boresight", derivative * response.beam_command}},
                               "rate per commanded rate");
   const double peak = section.hydraulic.frequency;
   figure.panels[0].lines.push_back({FigureLine::Direction::vertical, peak, "hydraulic mode"});
@@ -97,8 +97,8 @@ Figure wind_figure(const PlantSection& section, const plant::PlantResponse& resp
   figure.section = section_title;
   figure.title = "Response to wind torque";
   figure.caption = fmt::format(
-      "Angle at the sky per wind torque about the axis, loops open: of beam, of encoder, and of "
-      "the beam with the bull gear held, which is bending that no encoder sees. {}",
+      "Open-loop angle at the sky per wind torque about the axis: boresight, encoder, and "
+      "boresight with the bull gear locked (flexure beyond the encoder). {}",
       basis(section));
   figure.x = frequency_axis();
   FigurePanel panel;
@@ -114,9 +114,9 @@ Figure wind_figure(const PlantSection& section, const plant::PlantResponse& resp
                             .x = in_hertz(response.frequency),
                             .y = numbers(scale * values.abs())});
   };
-  add("beam", SeriesStyle::line, response.beam_wind);
+  add("boresight", SeriesStyle::line, response.beam_wind);
   add("encoder", SeriesStyle::line, response.encoder_wind);
-  add("beam, bull gear held", SeriesStyle::dashed, bending.beam_per_wind);
+  add("boresight, bull gear locked", SeriesStyle::dashed, bending.beam_per_wind);
   figure.panels.push_back(std::move(panel));
   return figure;
 }

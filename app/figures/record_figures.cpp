@@ -61,7 +61,7 @@ void add_trace(const io::RecordNotes& record, const RecordTrace& trace, const st
   panel.series.push_back(series_of(trace.series, name, scale, SeriesStyle::line));
   if (!trace.masked.x.empty()) {
     panel.series.push_back(
-        series_of(trace.masked, "in the place of masked samples", scale, SeriesStyle::dashed));
+        series_of(trace.masked, "replacing masked samples", scale, SeriesStyle::dashed));
   }
   mark_defects(record, trace, scale, panel);
 }
@@ -115,14 +115,12 @@ Figure record_figure(const io::RecordNotes& record, const std::vector<RecordTrac
   figure.section = "Records";
   figure.title = fmt::format("Record {}: {}", record.name,
                              record.refusal.empty() ? io::to_string(record.test) : "not used");
-  figure.caption = fmt::format(
-      "{}, {} rows as recorded, at the motor shaft; least and largest value of every stretch that "
-      "a pixel shows. {}",
-      record.path, record.rows,
-      record.defects.empty()
-          ? "No defects were found."
-          : "Marked: each kind of defect where it is first seen, its samples in the whole record, "
-            "and what was done.");
+  figure.caption =
+      fmt::format("{}, {} recorded rows, at the motor shaft; minimum and maximum per pixel. {}",
+                  record.path, record.rows,
+                  record.defects.empty() ? "No defects were found."
+                                         : "Marked: first occurrence of each kind of defect, its "
+                                           "samples in the record, and its handling.");
   figure.x = make_axis("time", "s");
   for (auto* panel : {&rate, &torque, &valve, &pressure}) {
     if (!panel->series.empty()) figure.panels.push_back(std::move(*panel));

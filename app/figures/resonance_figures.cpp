@@ -55,9 +55,9 @@ Figure ring_times(const io::SloshTest& test, double sample_time) {
   figure.id = figure_id(fmt::format("ringing {}", test.record));
   figure.title = fmt::format("Oil lines ringing ({})", test.record);
   figure.caption =
-      "Port pressures after the strongest event, slow part and the other lines' cross-talk taken "
-      "out, with the damped cosine fitted to each.";
-  figure.x = make_axis("time from the window's begin", "s");
+      "Port pressures after the strongest event, with the damped cosine fitted to each; slow part "
+      "and cross-talk of other lines removed.";
+  figure.x = make_axis("time from the start of the window", "s");
   constexpr std::size_t most_panels = 4;
   for (const auto& plot : test.result.plots) {
     if (plot.side != LineSide::inlet || figure.panels.size() == most_panels) continue;
@@ -77,7 +77,7 @@ Figure ring_spectra(const io::SloshTest& test) {
   figure.title = fmt::format("Frequencies of the oil lines ({})", test.record);
   figure.caption =
       "Amplitude spectra of the port pressures after the strongest event, with the lines' first "
-      "half-wave modes as fitted over all events.";
+      "half-wave modes fitted over all events.";
   figure.x = make_axis("frequency", "Hz");
   for (const LineSide side : {LineSide::inlet, LineSide::outlet}) {
     FigurePanel panel = make_panel(
@@ -107,11 +107,10 @@ Figure spectrum_figure(const identification::TorqueSpectrum& spectrum, double ex
   figure.id = figure_id(fmt::format("torque spectrum {}", spectrum.record));
   figure.title = fmt::format("Torque spectrum ({})", spectrum.record);
   figure.caption = fmt::format(
-      "Amplitude spectrum of the torque of all motors over the record (Hann's window){}. Peaks "
-      "with the harmonic of the excitation that they lie on, if any: a peak on a harmonic is where "
-      "the excitation is, no evidence of a resonance.{}",
+      "Amplitude spectrum of the torque of all motors (Hann window){}. Peaks on a harmonic of the "
+      "excitation are labelled: they are no evidence of a resonance.{}",
       spectrum.period ? fmt::format(", period of the excitation {:.4g} s", *spectrum.period) : "",
-      spectrum.on_harmonic ? " The peak that the paper's procedure takes lies on one." : "");
+      spectrum.on_harmonic ? " The peak selected by the paper's procedure lies on one." : "");
   figure.x = make_axis("frequency", "Hz");
   double end = 2.0 * expected;
   for (const auto& peak : spectrum.peaks) end = std::max(end, 1.2 * peak.frequency);
@@ -145,7 +144,7 @@ Figure spectrum_figure(const identification::TorqueSpectrum& spectrum, double ex
     panel.lines.push_back(vertical_line(expected, "expected, rigid"));
   }
   if (spectrum.chosen) {
-    panel.lines.push_back(vertical_line(spectrum.chosen->frequency, "taken for the mode"));
+    panel.lines.push_back(vertical_line(spectrum.chosen->frequency, "selected as the mode"));
   }
   figure.panels.push_back(std::move(panel));
   return figure;
@@ -156,12 +155,11 @@ Figure step_ring_figure(const identification::StepRings& rings) {
   figure.id = "step-ring";
   figure.title = "Ring after a valve step";
   figure.caption = fmt::format(
-      "Torque and rate less their trend after the first of {} steps used, antenna moving; the mode "
-      "fitted to both together. Pooled over the steps: {:.4g} Hz ({:.4g} .. {:.4g}), damping ratio "
-      "{:.3g}.",
+      "Torque and rate without trend after the first of {} steps, antenna moving, with the mode "
+      "fitted to both. Pooled over the steps: {:.4g} Hz ({:.4g} .. {:.4g}), damping ratio {:.3g}.",
       rings.rings.size(), rings.frequency.value, rings.frequency.lower, rings.frequency.upper,
       rings.damping_ratio.value);
-  figure.x = make_axis("time from the window's begin", "s");
+  figure.x = make_axis("time from the start of the window", "s");
   if (rings.plot_signals.cols() != 2 || rings.plot_fitted.cols() != 2) return figure;
   for (const Eigen::Index column : {0, 1}) {
     figure.panels.push_back(make_panel(
@@ -177,8 +175,8 @@ Figure response_figure(const identification::DriveResponse& response) {
   figure.id = figure_id(fmt::format("torque over rate {}", response.record));
   figure.title = fmt::format("Torque over rate ({})", response.record);
   figure.caption =
-      "Mechanical impedance at the motor shaft, which no part of the hydraulics enters: measured, "
-      "and as fitted with inertia, structural modes and the slope of friction.";
+      "Mechanical impedance at the motor shaft, independent of the hydraulics: measured, and "
+      "fitted with inertia, structural modes and friction slope.";
   figure.x = make_axis("frequency", "Hz", AxisScale::logarithmic);
   const auto phase = [](const Eigen::VectorXcd& values) {
     return (values.array().arg() * (180.0 / std::numbers::pi)).matrix().eval();

@@ -31,10 +31,9 @@ void keep(FigurePanel panel, Figure& figure) {
 }
 
 std::string caption_of(const std::string& description, const design::SimulatedRecord& record) {
-  return fmt::format(
-      "{}; {} samples, least and largest value of every stretch that a pixel shows.{}", description,
-      record.channels.front().values.size(),
-      record.complete ? "" : " The run was interrupted: this is as far as it got.");
+  return fmt::format("{}; {} samples, minimum and maximum per pixel.{}", description,
+                     record.channels.front().values.size(),
+                     record.complete ? "" : " The run was interrupted here.");
 }
 
 // Torque of all motors: the mean of the motors' pressure differences times what it makes.
@@ -82,8 +81,8 @@ Figure drive_test_figure(const DriveTestSection& record, double torque_per_press
       figure_id("simulated " + record.test), "Tests of the drive (true values, at the motor shaft)",
       fmt::format("Simulated test {}", record.test), "", make_axis("time", "s"));
   if (record.channels.empty()) return figure;
-  figure.caption =
-      caption_of(record.description + "; what the recorder of the nonlinear antenna shows", record);
+  figure.caption = caption_of(
+      record.description + "; as the recorder of the nonlinear antenna would show it", record);
   FigurePanel rate = make_panel(make_axis("recorded", "V"));
   draw(record, "tach", "tachometer", SeriesStyle::line, rate);
   draw(record, "rate_command", "rate command", SeriesStyle::dashed, rate);
@@ -111,13 +110,13 @@ Figure position_test_figure(const PositionTestSection& record) {
   figure.caption = caption_of(record.description, record);
   if (record.beam_rms) {
     figure.caption +=
-        fmt::format(" Beam rms about its mean {:.3f} mdeg", *record.beam_rms / millidegree);
-    figure.caption += record.predicted_rms ? fmt::format(", by the linear design {:.3f} mdeg.",
+        fmt::format(" Boresight rms about its mean {:.3f} mdeg", *record.beam_rms / millidegree);
+    figure.caption += record.predicted_rms ? fmt::format(", linear prediction {:.3f} mdeg.",
                                                          *record.predicted_rms / millidegree)
                                            : ".";
   }
   FigurePanel error = make_panel(make_axis("error at the sky", "mdeg"));
-  draw(record, "beam_error", "beam", SeriesStyle::line, error);
+  draw(record, "beam_error", "boresight", SeriesStyle::line, error);
   draw(record, "encoder_error", "encoder", SeriesStyle::dashed, error);
   if (slew) {
     for (const double limit : {-1.0, 1.0}) {

@@ -42,7 +42,7 @@ class Waterfall {
     names_.push_back(name);
   }
 
-  FigureSeries totals_ = make_series("beam rms", SeriesStyle::bars);
+  FigureSeries totals_ = make_series("boresight rms", SeriesStyle::bars);
   FigureSeries contributions_ = make_series("contribution", SeriesStyle::bars);
   std::vector<std::string> names_;
   double reached_ = 0.0;  // rad
@@ -52,21 +52,20 @@ Figure contributions(const TimeDomainSection& section, const std::string& headin
   const auto& wind = section.result.wind;
   Waterfall bars;
   bars.total("linear prediction", wind.predicted_rms);
-  bars.contribution("this record of wind", wind.chance);
+  bars.contribution("realisation error", wind.chance);
   bars.contribution("sampling", wind.sampling);
   for (const auto& influence : wind.influences) {
     bars.contribution(std::string(design::to_string(influence.influence)), influence.difference);
   }
-  bars.contribution("together only, lines, offset", wind.joint);
+  bars.contribution("interactions, lines, offset", wind.joint);
   bars.total("simulated", wind.beam_rms);
   Figure figure = make_figure(
       "time-domain-contributions", heading, "From the linear prediction to the nonlinear antenna",
-      fmt::format(
-          "Beam rms at the sky, one axis, {}: {:g} s of wind of {:.3g} m/s, controller sampled "
-          "every {:g} s. Each contribution is the rms with all influences less that without "
-          "this one.",
-          section.law, section.options.wind_duration, section.wind_speed, section.sample_time),
-      make_axis("beam rms", "mdeg"));
+      fmt::format("Boresight rms per axis, {}: {:g} s of wind of {:.3g} m/s, controller sampled "
+                  "every {:g} s. Contribution: rms with all effects minus rms without this one.",
+                  section.law, section.options.wind_duration, section.wind_speed,
+                  section.sample_time),
+      make_axis("boresight rms", "mdeg"));
   figure.panels.push_back(std::move(bars).panel());
   return figure;
 }
@@ -84,12 +83,12 @@ Figure candidates(const TimeDomainSection& section, const std::string& heading) 
     simulated.y.push_back(place);
   }
   panel.series = {std::move(linear), std::move(simulated)};
-  Figure figure = make_figure(
-      "time-domain-laws", heading, "Tuned laws on the nonlinear antenna",
-      fmt::format("Beam rms at the sky in one record of wind of {:.3g} m/s; the law of the least "
-                  "simulated rms is the one verified.",
-                  section.wind_speed),
-      make_axis("beam rms", "mdeg"));
+  Figure figure =
+      make_figure("time-domain-laws", heading, "Tuned controllers on the nonlinear antenna",
+                  fmt::format("Boresight rms in one wind record of {:.3g} m/s; the controller of "
+                              "lowest simulated rms is the one verified.",
+                              section.wind_speed),
+                  make_axis("boresight rms", "mdeg"));
   figure.panels.push_back(std::move(panel));
   return figure;
 }

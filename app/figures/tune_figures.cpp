@@ -37,21 +37,19 @@ Figure structures_figure(const TuneSection& section, double wind_speed,
   Figure figure;
   figure.id = "structures";
   figure.section = title_of(section);
-  figure.title = "Loop structures side by side";
+  figure.title = "Comparison of loop structures";
   figure.caption = fmt::format(
-      "Beam rms at the sky in {:.3g} m/s, wind model {}: gains the antenna runs on now, tuned for "
-      "the case's plant, tuned so that every hard goal holds on {} plants ({}); all on the linear "
-      "plant{}.",
+      "Boresight rms in {:.3g} m/s, wind model {}, linear plant: present gains, tuned for the "
+      "nominal plant, tuned to meet every constraint on {} plants ({}){}.",
       wind_speed, plant::to_string(section.wind_model), section.ensemble_size,
       to_string(section.ensemble_source),
-      in_time ? "; last those that ran on the nonlinear antenna, over one record of wind" : "");
+      in_time ? "; last: simulated on the nonlinear antenna, one wind record" : "");
   for (const auto& law : section.laws) {
     if (law.wind_speed != wind_speed || law.stable()) continue;
-    figure.caption +=
-        fmt::format(" {} ({}) has no bar: {}.", law.structure, to_string(law.tuned_for),
-                    law.tuned_for == TunedFor::present ? "the gains the antenna runs on now are "
-                                                         "unstable on this plant"
-                                                       : "no stable law was found");
+    figure.caption += fmt::format(
+        " {} ({}) has no bar: {}.", law.structure, to_string(law.tuned_for),
+        law.tuned_for == TunedFor::present ? "the present gains are unstable on this plant"
+                                           : "no stable controller was found");
   }
   figure.x = {.label = "loop structure", .categories = all_structures(section)};
   const auto place_of = [&](const std::string& structure) {
@@ -59,7 +57,7 @@ Figure structures_figure(const TuneSection& section, double wind_speed,
     return static_cast<double>(std::find(names.begin(), names.end(), structure) - names.begin());
   };
   FigurePanel panel;
-  panel.y = {.label = "beam rms", .unit = "mdeg"};
+  panel.y = {.label = "boresight rms", .unit = "mdeg"};
   for (const auto purpose : {TunedFor::present, TunedFor::nominal, TunedFor::robust}) {
     FigureSeries bars{.name = std::string(to_string(purpose)), .style = SeriesStyle::bars};
     for (const auto& law : section.laws) {
@@ -153,16 +151,15 @@ std::vector<Figure> limit_figures(const design::PointingLimit& limit) {
   Figure figure;
   figure.id = "limit";
   figure.section = "How far from the best any controller could do";
-  figure.title = "Laws against the best that any controller could do";
+  figure.title = "Controllers against the lower bound";
   figure.caption = fmt::format(
-      "Beam rms at the sky of each controller in its sampled form ({:g} s), on the case's plant "
-      "and as the largest over the plants on which it must hold; a controller without a second "
-      "point is unstable on one of them. The lower bound is that of every linear controller of the "
-      "same sensors and sampling whose noise drives the valve with at most {:g} rad/s rms.",
+      "Boresight rms of each sampled controller ({:g} s), nominal plant and worst plant of the "
+      "ensemble; without a second point it is unstable on one of them. Lower bound: any linear "
+      "controller with the same sensors, sampling and control effort up to {:g} rad/s rms.",
       limit.sample_time, limit.effort_limit);
-  figure.x = {.label = "beam rms", .unit = "mdeg"};
+  figure.x = {.label = "boresight rms", .unit = "mdeg"};
   FigurePanel panel;
-  FigureSeries nominal{.name = "case's plant", .style = SeriesStyle::points};
+  FigureSeries nominal{.name = "nominal plant", .style = SeriesStyle::points};
   FigureSeries worst{.name = "worst plant", .style = SeriesStyle::points};
   const auto add = [&](const std::string& name, const design::SampledDesign& design) {
     if (!design.nominal.stable()) return;
@@ -182,8 +179,8 @@ std::vector<Figure> limit_figures(const design::PointingLimit& limit) {
   panel.series = {std::move(nominal), std::move(worst)};
   panel.lines.push_back(
       {FigureLine::Direction::vertical, limit.least_rms / millidegree, "lower bound"});
-  panel.lines.push_back({FigureLine::Direction::vertical, limit.encoder_held_rms / millidegree,
-                         "encoder held still"});
+  panel.lines.push_back(
+      {FigureLine::Direction::vertical, limit.encoder_held_rms / millidegree, "encoder fixed"});
   figure.x.lowest = 0.0;
   figure.panels.push_back(std::move(panel));
   return {figure};

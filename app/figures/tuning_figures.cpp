@@ -48,12 +48,12 @@ std::vector<Figure> choices_figures(const std::vector<ChoiceResult>& choices) {
   figure.id = "choices";
   figure.section = choices_heading(choices);
   figure.title = std::ranges::any_of(choices, &ChoiceResult::contradicts)
-                     ? "Beam rms by each choice among contradictory numbers"
-                     : "Beam rms by each choice that the case leaves open";
+                     ? "Boresight rms by reading of the contradictory values"
+                     : "Boresight rms by reading that the case leaves open";
   figure.caption =
-      "Each choice's plant, with the same loop structure re-tuned on it, at the design wind speed, "
-      "linear; a choice without a bar leaves no plant.";
-  figure.x = {.label = "beam rms", .unit = "mdeg"};
+      "The same loop structure re-tuned on the plant of each reading, at the design wind speed, "
+      "linear; no bar: no valid plant.";
+  figure.x = {.label = "boresight rms", .unit = "mdeg"};
   FigurePanel panel;
   FigureSeries bars{.style = SeriesStyle::bars};
   for (const auto& choice : choices) {
@@ -76,14 +76,14 @@ std::vector<Figure> matching_figures(const MatchingSection& section) {
   Figure figure;
   figure.id = "matching";
   figure.section = "Inertia matching: re-tuned at each motor inertia";
-  figure.title = "Beam rms and hydraulic mode against flywheel disks";
+  figure.title = "Boresight rms and hydraulic mode against flywheel disks";
   figure.caption =
-      "Each point is a law re-tuned and verified at that motor inertia, by loop structure and "
-      "friction of the linear plant, at the design wind speed; below, the hydraulic mode of the "
-      "same plants. Vertical lines mark equal inertia of motors and load.";
+      "Each point is a controller re-tuned and verified at that motor inertia, by loop structure "
+      "and linear friction, at the design wind speed. Below: hydraulic mode of the same plants. "
+      "Vertical lines: equal inertia of motors and load.";
   figure.x = {.label = "flywheel disks on each motor"};
   figure.panels.resize(3);
-  figure.panels[0].y = {.label = "beam rms", .unit = "mdeg"};
+  figure.panels[0].y = {.label = "boresight rms", .unit = "mdeg"};
   figure.panels[1].y = {.label = "hydraulic frequency", .unit = "Hz"};
   figure.panels[2].y = {.label = "hydraulic damping ratio"};
   for (const auto& series : section.series) {

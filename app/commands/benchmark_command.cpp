@@ -142,7 +142,7 @@ int run(BenchmarkArguments arguments) {
   try {
     return score(arguments);
   } catch (const Interrupted&) {
-    fmt::print(stderr, "boresight: interrupted before there was a controller to score\n");
+    fmt::print(stderr, "boresight: interrupted before a controller was available\n");
     return interrupted;
   }
 }
@@ -155,27 +155,27 @@ Subcommand add_benchmark(CLI::App& program) {
       "benchmark", "score the closed loop's disturbance rejection by a fixed protocol");
   add_case(*sub, arguments->case_path);
   sub->add_option("--gains", arguments->gains,
-                  "what is scored: 'tuned' (the controller that `boresight tune` recommends, tuned "
-                  "now), 'case' (what the antenna runs on now), TOML with the keys of [gains], or "
-                  "the JSON report of boresight tune")
+                  "controller to score: 'tuned' (as `boresight tune` recommends, tuned now), "
+                  "'case' (present gains of the case), TOML with the keys of [gains], or the JSON "
+                  "report of boresight tune")
       ->capture_default_str();
   sub->add_option("--structure", arguments->structure,
-                  "its structure, as `boresight tune` takes it (default: any)");
+                  "its loop structure, as for `boresight tune` (default: any)");
   sub->add_flag("--sampled", arguments->sampled,
                 "score the gains in the sampled form that the antenna's computer runs");
   sub->add_option("--controller", arguments->controller_path,
                   "any linear controller as state space, MAT (version 5) or JSON: see "
                   "docs/benchmark-protocol.md");
   sub->add_option("--part", arguments->part,
-                  "which state space of a file of several (--mat or --json of model, redesign, "
+                  "state space to use from a file of several (--mat or --json of model, redesign, "
                   "tune): controller or sampled_controller");
   sub->add_option("--inputs", arguments->controller_inputs,
-                  "names of the controller's inputs where its file has none, comma between");
+                  "names of the controller's inputs if its file has none, comma-separated");
   sub->add_option("--outputs", arguments->controller_outputs, "names of its outputs");
   sub->add_option("--export-controller", arguments->export_path,
                   "write the controller in use as state space to FILE.mat or FILE.json");
   sub->add_option("--compare", arguments->compare_path,
-                  "put another score sheet (--json of this command) beside this one");
+                  "compare with another score sheet (--json of this command)");
   add_outputs(*sub, arguments->outputs);
   add_seed(*sub, arguments->seed);
   add_threads(*sub, arguments->threads);

@@ -27,7 +27,7 @@ int run(CommissionArguments arguments) {
     if (report.failure) std::rethrow_exception(report.failure);
   } catch (const Interrupted&) {
     // Half a plan is none.
-    fmt::print(stderr, "boresight: interrupted before the plan was whole\n");
+    fmt::print(stderr, "boresight: interrupted before the plan was complete\n");
     return interrupted;
   }
   return done;
@@ -53,25 +53,24 @@ CommissionReport commission_case(const CommissionArguments& arguments,
 
 Subcommand add_commission(CLI::App& program) {
   const auto arguments = std::make_shared<CommissionArguments>();
-  CLI::App* sub = program.add_subcommand("commission",
-                                         "plan the way from the gains found to the tuned ones in "
-                                         "stages, with checks and abort limits; "
-                                         "compare records before and after");
+  CLI::App* sub =
+      program.add_subcommand("commission",
+                             "plan stages from the present gains to the tuned ones, with checks "
+                             "and abort limits; compare records before and after");
   auto& options = arguments->options;
   add_case(*sub, arguments->case_path);
-  sub->add_option(
-      "--structure", options.structure,
-      "the loop structure to commission, as `boresight tune` takes it (default: that of "
-      "the controller it recommends)");
+  sub->add_option("--structure", options.structure,
+                  "loop structure to commission, as for `boresight tune` (default: that of the "
+                  "recommended controller)");
   sub->add_option("--gains", options.gains,
-                  "its gains in the place of tuned ones, KEY=VALUE each, all of them")
+                  "its gains instead of tuned ones, KEY=VALUE each, all of them")
       ->expected(1, 100);
   sub->add_option("--largest-step", options.largest_step,
                   "largest factor on a gain from one stage to the next")
       ->check(CLI::Range(1.01, 10.0))
       ->capture_default_str();
   sub->add_option("--before", options.before, "a record of the case made before the work");
-  sub->add_option("--after", options.after, "one made after it, to be compared with that");
+  sub->add_option("--after", options.after, "a record made after it, to compare with --before");
   sub->add_option("--starts", options.starts, "random starts of the tuning")
       ->check(CLI::Range(1, 100000));
   add_outputs(*sub, arguments->outputs);

@@ -43,9 +43,9 @@ int run(EvaluateArguments arguments) {
     // Hunting is no hard goal: the report says it, and does not choose such a law.
     if (met && law->design.verification.passed) continue;
     fmt::print(stderr, "boresight: {}: {}\n", candidate.name,
-               law == nullptr ? "no structure has a stable law"
-               : met          ? "no law that meets its goals passes its verification"
-                              : "no law meets the hard goals on every plant");
+               law == nullptr ? "no structure has a stable controller"
+               : met          ? "no controller that meets its constraints passes its verification"
+                              : "no controller meets the constraints on every plant");
     if (code != infeasible) code = met ? numerical : infeasible;
   }
   for (const auto& sentence : unmet_needs(*report.evaluated)) {
@@ -111,27 +111,27 @@ Report evaluate_case(const EvaluateArguments& arguments, const std::function<boo
 Subcommand add_evaluate(CLI::App& program) {
   const auto arguments = std::make_shared<EvaluateArguments>();
   CLI::App* sub = program.add_subcommand(
-      "evaluate", "compare proposals of hardware and software, each re-tuned, with their chances");
+      "evaluate", "compare proposals of hardware and software, each re-tuned, with probabilities");
   add_case(*sub, arguments->case_path);
   sub->add_option("PROPOSAL", arguments->proposals,
-                  "proposal files (TOML), see docs/proposals.md; none: the antenna as it is alone")
+                  "proposal files (TOML), see docs/proposals.md; none: only the antenna as it is")
       ->expected(0, 1000);
   sub->add_option("--structure", arguments->structures,
                   "loop structures of the antenna as it is and of proposals that name none, one or "
-                  "several, as `tune` takes them (default: what it tunes)")
+                  "several, as for `tune` (default: those of [tuning])")
       ->expected(1, 100);
   sub->add_option("--goal", arguments->goals,
-                  "KEY=VALUE of [goals] in the place of the case's, one or several")
+                  "KEY=VALUE of [goals] instead of the case's, one or several")
       ->expected(1, 100);
-  sub->add_option("--draws", arguments->draws, "plants that chances are taken over")
+  sub->add_option("--draws", arguments->draws, "sampled plants for the probabilities")
       ->check(CLI::Range(100, 1000000))
       ->capture_default_str();
   sub->add_option("--starts", arguments->starts, "random starts of each search")
       ->check(CLI::Range(1, 100000));
   const std::map<std::string, bool> runs{{"none", false}, {"all", true}};
-  sub->add_option("--time-domain", arguments->time_domain,
-                  "which laws run on the nonlinear antenna, and are compared by that: none; all, "
-                  "the default")
+  sub->add_option(
+         "--time-domain", arguments->time_domain,
+         "controllers simulated and compared on the nonlinear antenna: none; all, the default")
       ->transform(CLI::CheckedTransformer(runs, CLI::ignore_case).description("none, all"))
       ->default_str("all");
   add_outputs(*sub, arguments->outputs);

@@ -96,10 +96,10 @@ std::string man_page(const ProgramText& program) {
         (command.name == program.commands.front().name ? "" : ".br\n") + synopsis(command) + "\n";
   }
   page +=
-      ".SH DESCRIPTION\nBoresight takes a case file, which describes one axis of one antenna, and "
-      "says\nwhat to change: the inertia the motors really drive, tuned loops, the pointing error "
-      "in\nwind, and what other hardware would buy.\nThe same input and seed give the same bytes "
-      "for any number of threads.\n.SH OPTIONS\n";
+      ".SH DESCRIPTION\nBoresight reads a case file, which describes one axis of one antenna, and "
+      "reports\nthe identified inertia, tuned loops, the pointing error in wind, and the effect "
+      "of\nother hardware.\nThe same input and seed give the same bytes for any number of "
+      "threads.\n.SH OPTIONS\n";
   for (const auto& option : program.options) add_option_text(page, option);
   page += ".SH COMMANDS\n";
   for (const auto& command : program.commands) {

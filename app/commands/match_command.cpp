@@ -97,12 +97,13 @@ int run(const Arguments& arguments) {
     }
   }
   if (!met) {
-    fmt::print(stderr, "boresight: {}: no structure meets the goals at any motor inertia\n",
+    fmt::print(stderr, "boresight: {}: no structure meets the constraints at any motor inertia\n",
                arguments.case_path);
     return infeasible;
   }
   if (!verified) {
-    fmt::print(stderr, "boresight: no law that meets its goals passes its verification\n");
+    fmt::print(stderr,
+               "boresight: no controller that meets its constraints passes its verification\n");
     return numerical;
   }
   return done;
@@ -112,44 +113,41 @@ int run(const Arguments& arguments) {
 
 Subcommand add_match(CLI::App& program) {
   const auto arguments = std::make_shared<Arguments>();
-  CLI::App* sub = program.add_subcommand(
-      "match",
-      "re-tune every loop structure at every motor inertia, robustly, and judge the rules");
+  CLI::App* sub = program.add_subcommand("match",
+                                         "re-tune every loop structure robustly at every motor "
+                                         "inertia, and evaluate the classic rules");
   design::MatchOptions& options = arguments->options;
   add_case(*sub, arguments->case_path);
   sub->add_option("--structure", arguments->structures,
-                  "what to tune, one or several, as of `boresight tune`")
+                  "loop structures, one or several, as for `boresight tune`")
       ->expected(1, 100);
-  sub->add_option(
-         "--points", options.points,
-         "numbers of flywheel disks, evenly spaced from 0; ratio 1 and as built come beside "
-         "them")
+  sub->add_option("--points", options.points,
+                  "number of disk counts, evenly spaced from 0; ratio 1 and as built are added")
       ->check(CLI::Range(4, 1000))
       ->capture_default_str();
   sub->add_option("--most-disks", options.most_disks,
-                  "the largest number of disks (default: most_disks of the case)")
+                  "largest number of disks (default: most_disks of the case)")
       ->check(CLI::Range(0.1, 1e4));
-  sub->add_option("--starts", options.starts, "random starts of each law")
+  sub->add_option("--starts", options.starts, "random starts of each search")
       ->check(CLI::Range(1, 100000))
       ->capture_default_str();
   const std::map<std::string, MatchTimeRuns> runs{
       {"none", MatchTimeRuns::none}, {"few", MatchTimeRuns::few}, {"all", MatchTimeRuns::all}};
-  sub->add_option(
-         "--time-domain", options.time_runs,
-         "where laws run on the nonlinear antenna: none; few (0 disks, ratio 1, as built), "
-         "the default; all")
+  sub->add_option("--time-domain", options.time_runs,
+                  "controllers simulated on the nonlinear antenna: none; few (0 disks, ratio 1, as "
+                  "built), the default; all")
       ->transform(CLI::CheckedTransformer(runs, CLI::ignore_case).description("none, few, all"))
       ->default_str("few");
-  sub->add_option("--ensemble-seed", arguments->ensemble_seed,
-                  "seed of the ensemble's draws (--seed is that of the searches: it should make no "
-                  "difference)")
+  sub->add_option(
+         "--ensemble-seed", arguments->ensemble_seed,
+         "seed of the ensemble's samples (--seed is that of the searches and should not matter)")
       ->check(CLI::Range(0.0, 1e15))
       ->capture_default_str();
   sub->add_flag("--nominal", arguments->nominal,
-                "tune on the case's plant alone, not for every member of the ensemble");
+                "tune for the nominal plant only, not for every ensemble member");
   sub->add_flag(
       "--no-variants", arguments->no_variants,
-      "leave out what moves the optimum: leakage, friction, structure, wind, conventions");
+      "omit the sensitivity of the optimum to leakage, friction, structure, wind, conventions");
   add_outputs(*sub, arguments->outputs);
   add_seed(*sub, options.seed);
   add_threads(*sub, options.threads);

@@ -39,22 +39,22 @@ int run(MonteCarloArguments arguments) {
 Subcommand add_montecarlo(CLI::App& program) {
   const auto arguments = std::make_shared<MonteCarloArguments>();
   CLI::App* sub = program.add_subcommand(
-      "montecarlo", "judge one law on thousands of plants that may be the true one");
+      "montecarlo", "evaluate one controller with fixed gains on thousands of sampled plants");
   add_case(*sub, arguments->case_path);
-  sub->add_option("--plants", arguments->plants, "how many plants are drawn")
+  sub->add_option("--plants", arguments->plants, "number of sampled plants")
       ->check(CLI::Range(1.0, 1e8))
       ->capture_default_str();
   sub->add_option("--gains", arguments->gains,
-                  "the controller: 'tuned' (the one that `boresight tune` recommends, tuned now), "
-                  "'case' (what the antenna runs on now), or a report of tune or redesign in JSON")
+                  "the controller: 'tuned' (as `boresight tune` recommends, tuned now), 'case' "
+                  "(present gains of the case), or a report of tune or redesign in JSON")
       ->capture_default_str();
   sub->add_option("--structure", arguments->structure,
-                  "its structure, as `boresight tune` takes it (default: any)");
+                  "its loop structure, as for `boresight tune` (default: any)");
   sub->add_flag("--retune", arguments->retune,
-                "also tune a law for each plant alone: what holding one for all costs");
+                "also tune plant-specific gains, for the cost of fixed gains");
   sub->add_option("--csv", arguments->csv_path, "write every plant to this file");
   sub->add_option("--checkpoint", arguments->checkpoint_path,
-                  "take the run up from this file if it is there, and write it every few seconds");
+                  "resume from this file if it exists, and save to it every few seconds");
   add_outputs(*sub, arguments->outputs);
   add_seed(*sub, arguments->seed);
   add_threads(*sub, arguments->threads);

@@ -32,18 +32,17 @@ std::string write_case_form(const std::string& folder) {
   const CaseForm form = case_form(title);
   io::write_atomically(path.string(), form.text);
   return fmt::format(
-      "Wrote {0}: {1} blanks (\"?\") to fill in, the first in line {2}.\n"
-      "Then: boresight audit {3}     what in it does not follow from the rest\n"
-      "      boresight redesign {3}  the whole report\n",
+      "Wrote {0}: {1} blanks (\"?\") to fill in, the first in line {2}.\nThen: boresight audit {3} "
+      "    check it for inconsistencies\n      boresight redesign {3}  the whole report\n",
       path.string(), form.blanks, form.first_blank,
       path.string().find(' ') == std::string::npos ? path.string() : '"' + path.string() + '"');
 }
 
 Subcommand add_new(CLI::App& program) {
   const auto folder = std::make_shared<std::string>();
-  CLI::App* sub = program.add_subcommand(
-      "new", "write a commented case file for an antenna of your own, to fill in");
-  sub->add_option("ANTENNA", *folder, "the antenna's name: the folder that case.toml is made in")
+  CLI::App* sub =
+      program.add_subcommand("new", "write a commented case file to fill in for your antenna");
+  sub->add_option("ANTENNA", *folder, "the antenna's name: the folder to create case.toml in")
       ->required();
   return {sub, [folder] {
             const std::string next = write_case_form(*folder);

@@ -93,18 +93,18 @@ const std::vector<Command>& commands() {
   static const std::vector<Command> list{
       {"redesign", "identify, audit, model, tune, match and conclude: the whole report",
        fill_redesign, true},
-      {"audit", "recompute every derived number the case states; list what does not follow",
+      {"audit", "recompute every derived value of the case; list inconsistencies",
        [](const io::Case& antenna, const StudyOptions&, Report& report) {
          report.audit = audit_report(antenna);
          if (antenna.campaign.records.empty()) return;
-         report.conclusions.push_back(fmt::format(
-             "The case has {} records, which an audit does not open: `boresight identify {}` lists "
-             "the numbers that they contradict.",
-             antenna.campaign.records.size(), report.case_path));
+         report.conclusions.push_back(
+             fmt::format("The audit does not read the case's {} records: `boresight identify {}` "
+                         "lists the values that they contradict.",
+                         antenna.campaign.records.size(), report.case_path));
        }},
       {"identify",
-       "inertia and motor-to-load ratio by each method, with intervals; of a case with records all "
-       "that they say of the drive",
+       "inertia and motor-to-load ratio by each method, with intervals; with records, the whole "
+       "drive model",
        [](const io::Case& antenna, const StudyOptions& options, Report& report) {
          fill_identification(antenna, options, report);
          if (report.campaign) return;
@@ -119,7 +119,7 @@ const std::vector<Command>& commands() {
          }
        },
        false, "identifying"},
-      {"model", "the linear plant: parameters, poles, what each mode is",
+      {"model", "the linear plant: parameters, poles, mode descriptions",
        [](const io::Case& antenna, const StudyOptions&, Report& report) {
          report.plant = describe_plant(antenna);
        },
@@ -155,12 +155,12 @@ int run(const Command& command, const Arguments& arguments) {
                              .mat = mat_of(report)});
   if (report.interrupted) return interrupted;
   if (report.tuning && report.tuning->design.tuning.status != design::TuningStatus::optimal) {
-    fmt::print(stderr, "boresight: no control law meets the hard goals of {}\n",
+    fmt::print(stderr, "boresight: no controller meets the constraints of {}\n",
                arguments.case_path);
     return infeasible;
   }
   if (report.tuning && !report.tuning->design.verification.passed) {
-    fmt::print(stderr, "boresight: the best law found fails its verification: {}\n",
+    fmt::print(stderr, "boresight: the best controller found fails its verification: {}\n",
                report.tuning->design.verification.failure);
     return numerical;
   }

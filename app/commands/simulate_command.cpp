@@ -247,28 +247,29 @@ int run(SimulateArguments arguments) {
 Subcommand add_simulate(CLI::App& program) {
   const auto arguments = std::make_shared<SimulateArguments>();
   CLI::App* sub = program.add_subcommand(
-      "simulate", "run tests on the nonlinear antenna and write what its recorder would");
+      "simulate", "simulate tests on the nonlinear antenna and write the records of its recorder");
   add_case(*sub, arguments->case_path);
   sub->add_option("TEST", arguments->tests,
-                  fmt::format("what to run: {}", fmt::join(design::simulated_test_names(), ", ")))
+                  fmt::format("tests to run: {}", fmt::join(design::simulated_test_names(), ", ")))
       ->required();
   add_outputs(*sub, arguments->outputs);
-  sub->add_option("--folder", arguments->folder, "where records TEST.csv or TEST.mat are written")
+  sub->add_option("--folder", arguments->folder, "folder for the records TEST.csv or TEST.mat")
       ->capture_default_str();
-  sub->add_option("--format", arguments->format,
-                  "of the records: csv, rounded as a recorder's digits; mat, version 5, every bit")
+  sub->add_option(
+         "--format", arguments->format,
+         "record format: csv, rounded to the recorder's resolution; mat, version 5, full precision")
       ->check(CLI::IsMember({"csv", "mat"}))
       ->capture_default_str();
-  sub->add_option("--gains", arguments->gains,
-                  "the controller of tracking and slew: 'tuned' (the one that `boresight tune` "
-                  "recommends, tuned now), 'case' (what the antenna runs on now), or a report of "
-                  "tune or redesign in JSON")
+  sub->add_option(
+         "--gains", arguments->gains,
+         "the controller of tracking and slew: 'tuned' (as `boresight tune` recommends, tuned "
+         "now), 'case' (present gains of the case), or a report of tune or redesign in JSON")
       ->capture_default_str();
   sub->add_option("--structure", arguments->structure,
-                  "its structure, as `boresight tune` takes it (default: any)");
-  sub->add_option("--sample-rate", arguments->sample_rate,
-                  "samples a second of the records (default: as the case has it); slosh is sampled "
-                  "at 1000 or more")
+                  "its loop structure, as for `boresight tune` (default: any)");
+  sub->add_option(
+         "--sample-rate", arguments->sample_rate,
+         "sample rate of the records in Hz (default: that of the case); slosh at least 1000")
       ->check(CLI::Range(1.0, 1e5));
   add_seed(*sub, arguments->seed);
   add_threads(*sub, arguments->threads);

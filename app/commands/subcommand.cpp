@@ -60,12 +60,12 @@ void add_outputs(CLI::App& command, Outputs& outputs) {
 
 void add_mat(CLI::App& command, Outputs& outputs) {
   command.add_option("--mat", outputs.mat_path,
-                     "also write the linear models (plant, and of the best law gains, controllers "
-                     "and closed loop) to this MAT file of version 5, see docs/formats.md");
+                     "also write the linear models (plant; gains, controllers and closed loop of "
+                     "the best controller) to this MAT file of version 5, see docs/formats.md");
 }
 
 void add_seed(CLI::App& command, std::uint64_t& seed) {
-  command.add_option("--seed", seed, "first seed of the searches and draws")
+  command.add_option("--seed", seed, "first seed of the searches and samples")
       ->check(CLI::Range(0.0, 1e15))
       ->capture_default_str();
 }
@@ -73,7 +73,7 @@ void add_seed(CLI::App& command, std::uint64_t& seed) {
 void add_threads(CLI::App& command, unsigned& threads) {
   threads = 0;
   command.add_option("--threads", threads,
-                     "threads to work on; results do not depend on it (default: all)");
+                     "number of threads; results do not depend on it (default: all)");
 }
 
 unsigned all_or(unsigned threads) {
@@ -85,14 +85,14 @@ const std::vector<std::pair<ExitCode, std::string>>& exit_code_meanings() {
       {done, "done"},
       {internal_error, "internal error"},
       {bad_input, "bad input"},
-      {infeasible, "goals infeasible"},
+      {infeasible, "constraints infeasible"},
       {numerical, "numerical failure"},
       {interrupted, "interrupted"}};
   return meanings;
 }
 
 void add_quiet(CLI::App& command) {
-  command.add_flag("--quiet", quiet_asked, "print neither the report's text nor progress");
+  command.add_flag("--quiet", quiet_asked, "print neither report nor progress");
 }
 
 bool quiet() {

@@ -125,7 +125,9 @@ int run(TuneArguments arguments) {
   if (report.interrupted) return interrupted;
   if (report.measured) {
     if (report.measured->any_confident()) return done;
-    fmt::print(stderr, "boresight: no law meets its goals within the measurement's confidence\n");
+    fmt::print(
+        stderr,
+        "boresight: no controller meets its constraints within the measurement's confidence\n");
     return infeasible;
   }
   if (!report.tuned) return internal_error;
@@ -135,7 +137,8 @@ int run(TuneArguments arguments) {
   }
   if (!report.tuned->shortfalls.empty()) return infeasible;
   if (report.tuned->unverified) {
-    fmt::print(stderr, "boresight: no law that meets its goals passes its verification\n");
+    fmt::print(stderr,
+               "boresight: no controller that meets its constraints passes its verification\n");
     return numerical;
   }
   return done;
@@ -146,20 +149,20 @@ int run(TuneArguments arguments) {
 Subcommand add_tune(CLI::App& program) {
   const auto arguments = std::make_shared<TuneArguments>();
   CLI::App* sub = program.add_subcommand(
-      "tune", "tune loop structures for the least beam rms in wind, robustly and verified");
+      "tune", "tune loop structures for the least boresight rms in wind, robustly and verified");
   add_case(*sub, arguments->case_path);
   sub->add_option("--structure", arguments->structures,
-                  "what to tune, one or several: PI-0, PI, DPF, LL, FULL, with +N (notch) and +C "
-                  "(compliance compensation) behind it, or a [[loop]] of the case")
+                  "loop structures to tune, one or several: PI-0, PI, DPF, LL, FULL, with suffix "
+                  "+N (notch) or +C (compliance compensation), or a [[loop]] of the case")
       ->expected(1, 100);
   sub->add_option("--goal", arguments->goals,
-                  "KEY=VALUE of [goals] in the place of the case's, one or several")
+                  "KEY=VALUE of [goals] instead of the case's, one or several")
       ->expected(1, 100);
   sub->add_option("--speed", arguments->speeds,
                   "mean wind speeds to tune for, such as \"10 m/s\" (default: the design speed)")
       ->expected(1, 100);
   sub->add_option("--measured", arguments->measured_record,
-                  "tune on the response that this record of the case shows, without a model: see "
+                  "tune on the response measured in this record of the case, without a model: see "
                   "docs/measured-tuning.md");
   sub->add_option("--starts", arguments->starts, "random starts of each search")
       ->check(CLI::Range(1, 100000));

@@ -95,19 +95,18 @@ std::string methods_html(const Document& document) {
                         escaped_html(method.explained_in));
   }
   if (rows.empty()) return {};
-  return "<h3>Methods</h3>\n<div class=\"table\"><table>\n<thead><tr><th scope=\"col\">section</th>"
-         "<th scope=\"col\">how its numbers are made</th><th scope=\"col\">explained in</th></tr>"
-         "</thead>\n<tbody>\n" +
+  return "<h3>Methods</h3>\n<div class=\"table\"><table>\n<thead><tr><th "
+         "scope=\"col\">section</th><th scope=\"col\">method</th><th "
+         "scope=\"col\">documentation</th></tr></thead>\n<tbody>\n" +
          rows + "</tbody>\n</table></div>\n";
 }
 
 std::string inputs_html(const std::vector<io::InputFile>& inputs) {
   std::string html =
-      "<h3>Inputs</h3>\n<p>Every file that was read, as it was then. <code>sha256sum</code> "
-      "prints the same digest of the same file.</p>\n"
-      "<div class=\"table\"><table>\n<thead><tr><th scope=\"col\">file</th>"
-      "<th scope=\"col\" class=\"right\">bytes</th><th scope=\"col\">SHA-256</th></tr></thead>\n"
-      "<tbody>\n";
+      "<h3>Inputs</h3>\n<p>Every file read; <code>sha256sum</code> reproduces the "
+      "digests.</p>\n<div class=\"table\"><table>\n<thead><tr><th scope=\"col\">file</th><th "
+      "scope=\"col\" class=\"right\">bytes</th><th "
+      "scope=\"col\">SHA-256</th></tr></thead>\n<tbody>\n";
   for (const auto& input : inputs) {
     html += fmt::format(
         "<tr><th scope=\"row\">{}</th><td class=\"right\">{}</td><td class=\"digest\">{}</td></tr>"
@@ -119,18 +118,16 @@ std::string inputs_html(const std::vector<io::InputFile>& inputs) {
 
 std::string provenance_html(const Page& page, const Provenance& provenance) {
   std::string html = fmt::format(
-      "<section id=\"how-each-number-was-made\"><h2>How each number was made</h2>\n"
-      "<div class=\"table\"><table><tbody>\n"
-      "<tr><th scope=\"row\">program</th><td>Boresight {}</td></tr>\n"
-      "<tr><th scope=\"row\">command line</th><td><code>{}</code></td></tr>\n"
-      "<tr><th scope=\"row\">seed</th><td>{}</td></tr>\n</tbody></table></div>\n"
-      "<p>The same inputs, seed and program give the same numbers, for any number of threads. No "
-      "date is on this page, so that it is the same file whenever it is made.</p>\n",
+      "<section id=\"how-each-number-was-made\"><h2>How each number was made</h2>\n<div "
+      "class=\"table\"><table><tbody>\n<tr><th scope=\"row\">program</th><td>Boresight "
+      "{}</td></tr>\n<tr><th scope=\"row\">command line</th><td><code>{}</code></td></tr>\n<tr><th "
+      "scope=\"row\">seed</th><td>{}</td></tr>\n</tbody></table></div>\n<p>The same inputs, seed "
+      "and program give the same numbers, for any number of threads.</p>\n",
       BORESIGHT_VERSION, escaped_html(provenance.command_line), page.seed);
   html += inputs_html(provenance.inputs);
   html += methods_html(page.document);
   if (plotting_library().empty() && !page.figures.empty()) {
-    html += "<p>This program was built without its plotting library: figures are static.</p>\n";
+    html += "<p>Built without the plotting library: figures are static.</p>\n";
   }
   return html + "</section>\n";
 }
@@ -151,7 +148,8 @@ std::string header_html(const Page& page) {
       escaped_html(page.axis));
   if (page.interrupted) {
     html +=
-        "<p class=\"interrupted\">Interrupted: what follows is whole, the rest is missing.</p>\n";
+        "<p class=\"interrupted\">Interrupted: the results below are complete, others are "
+        "missing.</p>\n";
   }
   html += "</header>\n";
   if (page.decision.empty()) return html;

@@ -25,11 +25,10 @@ constexpr std::array<Slider, 4> sliders{{{"disks", "flywheel disks on each motor
 std::string what_if_panel(std::string_view what_if_json) {
   const auto table = nlohmann::json::parse(what_if_json);
   std::string html =
-      "<p class=\"what-if-needs-script only-screen\">Sliders over the table behind this study take "
-      "a browser that runs scripts. The same table is in the JSON report, under "
-      "<code>matched.what_if</code>.</p>\n"
-      "<div class=\"what-if\" id=\"what-if-panel\" role=\"group\" aria-label=\"What if\" "
-      "hidden=\"\">\n<div class=\"knobs\">\n<label>loop structure <select name=\"structure\">";
+      "<p class=\"what-if-needs-script only-screen\">The sliders need JavaScript. The same table "
+      "is in the JSON report, under <code>matched.what_if</code>.</p>\n<div class=\"what-if\" "
+      "id=\"what-if-panel\" role=\"group\" aria-label=\"What if\" hidden=\"\">\n<div "
+      "class=\"knobs\">\n<label>loop structure <select name=\"structure\">";
   for (const auto& name : table.at("structures")) {
     html += fmt::format("<option>{}</option>", escaped_html(name.get<std::string>()));
   }
@@ -41,16 +40,15 @@ std::string what_if_panel(std::string_view what_if_json) {
         slider.label, slider.name);
   }
   html +=
-      "</div>\n<div aria-live=\"polite\"><p class=\"answer\"></p>\n<ul class=\"verdicts\"></ul>\n"
-      "<svg class=\"curve\" viewBox=\"0 0 520 275\" font-size=\"12\" role=\"img\" "
-      "aria-label=\"beam rms against flywheel disks\"></svg></div>\n";
+      "</div>\n<div aria-live=\"polite\"><p class=\"answer\"></p>\n<ul "
+      "class=\"verdicts\"></ul>\n<svg class=\"curve\" viewBox=\"0 0 520 275\" font-size=\"12\" "
+      "role=\"img\" aria-label=\"boresight rms against flywheel disks\"></svg></div>\n";
   html += fmt::format(
-      "<p class=\"note\">Each law is held at the gains that this study tuned for its number of "
-      "disks, robustly, in {:.3g} m/s; the sliders change the plant and the wind under it. {} "
-      "entries were computed on the linear plant; between them the logarithm of the rms is taken "
-      "as linear in disks, leakage, friction slope and the logarithm of the wind speed, and a "
-      "verdict is the worst of the entries around. The friction slope at the tracking rate is {:g} "
-      "N m s/rad. Grey: the other structures.</p>\n",
+      "<p class=\"note\">Each controller has fixed gains, tuned robustly for its number of disks "
+      "in {:.3g} m/s; the sliders change plant and wind. The {} entries hold for the linear plant; "
+      "the logarithm of the rms is interpolated in disks, leakage, friction slope and log wind "
+      "speed. A verdict is the worst of the surrounding entries. The friction slope at the "
+      "tracking rate is {:g} N m s/rad. Grey: the other structures.</p>\n",
       table.at("start").at("wind_speed_m_per_s").get<double>(), table.at("beam_rms_mdeg").size(),
       table.at("friction_slope_at_tracking_rate_N_m_s_per_rad").get<double>());
   return html +

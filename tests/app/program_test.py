@@ -48,7 +48,7 @@ def options_of(command):
 class Help(unittest.TestCase):
     def test_names_all_exit_codes(self):
         text = " ".join(printed("--help").split())
-        for code in ("0 done", "1 internal error", "2 bad input", "3 goals infeasible",
+        for code in ("0 done", "1 internal error", "2 bad input", "3 constraints infeasible",
                      "4 numerical failure", "130 interrupted"):
             self.assertIn(code, text)
 

@@ -28,7 +28,7 @@ TEST(CommandLine, HelpNamesEveryCommandAndExitCode) {
   EXPECT_EQ(help.exit_code, 0);
   EXPECT_EQ(help.errors, "");
   for (const auto& command : every_command) EXPECT_THAT(help.output, HasSubstr("\n  " + command));
-  for (const auto* code : {"0 done", "1 internal", "2 bad input", "3 goals infeasible",
+  for (const auto* code : {"0 done", "1 internal", "2 bad input", "3 constraints infeasible",
                            "4 numerical", "130 interrupted"}) {
     EXPECT_THAT(help.output, HasSubstr(code));
   }

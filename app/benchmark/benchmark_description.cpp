@@ -32,8 +32,8 @@ void describe_course(io::Visitor& v, const control::CourseScore& course, const C
                      double torque) {
   v.number("peak", course.peak, units.angle, "Largest magnitude.");
   v.number("time_of_peak", course.time_of_peak, unit::second,
-           "When; null where the beam only approaches it.");
-  v.number("final", course.final_value, units.angle, "Where the beam ends.");
+           "When; null where approached asymptotically.");
+  v.number("final", course.final_value, units.angle, "Final boresight angle.");
   v.number("return_time", course.return_time, unit::second,
            "After which the beam stays within return_share_1 of the peak about its end; null if it "
            "does not within watched_s.");
@@ -64,7 +64,7 @@ void describe_wind(io::Visitor& v, const design::WindScore& wind) {
   v.number("mean_speed", wind.mean_speed, unit::metre_per_second, "Of the wind.");
   v.number("torque_coefficient", wind.torque_coefficient, unit::ratio, "Of the attitude.");
   v.number("torque_rms", wind.torque_rms, unit::newton_metre, "At the antenna's axis.");
-  v.number("wind_rms", wind.wind_rms, unit::millidegree, "Of the beam, by the wind alone.");
+  v.number("wind_rms", wind.wind_rms, unit::millidegree, "Of the boresight, from wind alone.");
   v.number("beam_rms", wind.beam_rms, unit::millidegree, "With the sensors' noise.");
 }
 
@@ -75,7 +75,7 @@ void describe_compliance(io::Visitor& v, const design::RejectionScore& score) {
   v.number("worst_frequency", score.worst.frequency, unit::hertz_of_radians, "Where it is.");
   v.number("static", score.static_compliance, compliance_unit, "Under a constant torque.");
   v.number("encoder_held", held, compliance_unit,
-           "The same with the encoder perfectly still: the bending that no loop sees.");
+           "The same with the encoder fixed: flexure beyond the encoder.");
   v.number("worst_to_encoder_held", score.worst.lower / held, unit::ratio,
            "worst_at_least over encoder_held.");
   v.number("step_peak_to_encoder_held", score.step.peak / held, unit::ratio,
@@ -109,14 +109,14 @@ void describe_reference(io::Visitor& v, const design::RejectionReference& refere
     return to && *to > 0.0 ? std::optional(rms / *to) : std::nullopt;
   };
   v.number("encoder_held_rms", reference.encoder_held_rms, unit::millidegree,
-           "Beam rms with the encoder perfectly still.");
+           "Boresight rms with the encoder fixed.");
   v.number("least_rms", reference.least_rms, unit::millidegree,
-           "Lower bound of any linear sampled controller with the goal's valve effort; null where "
+           "Lower bound over linear sampled controllers at the limit of control effort; null where "
            "a sensor has no noise.");
   v.number("least_rms_at_own_effort", reference.least_rms_at_own_effort, unit::millidegree,
-           "The same with this controller's own valve effort.");
+           "The same at this controller's own control effort.");
   v.number("to_encoder_held", ratio(reference.encoder_held_rms), unit::ratio,
-           "Beam rms in the design wind over encoder_held_rms.");
+           "Boresight rms in the design wind over encoder_held_rms.");
   v.number("to_least", ratio(reference.least_rms), unit::ratio, "The same over least_rms.");
   v.number("to_least_at_own_effort", ratio(reference.least_rms_at_own_effort), unit::ratio,
            "The same over least_rms_at_own_effort.");
@@ -125,14 +125,14 @@ void describe_reference(io::Visitor& v, const design::RejectionReference& refere
 void describe_ensemble(io::Visitor& v, const design::RejectionEnsemble& ensemble,
                        std::string_view source) {
   const auto count = static_cast<double>(ensemble.members.size());
-  v.text("source", source, "What the plants are drawn from.");
+  v.text("source", source, "Distribution that the plants are sampled from.");
   v.number("stable_share", ensemble.stable / count, unit::ratio, "Of the plants.");
   v.number("within_goals_share", ensemble.within_goals / count, unit::ratio, "Of the plants.");
   v.number("largest_beam_rms", ensemble.largest_rms, unit::millidegree, "Of the stable ones.");
   v.list("members", ensemble.members, "One a plant.", [&](const design::RejectionMember& member) {
     v.text("name", member.name, "Of the plant.");
     v.flag("stable", member.stable, "Whether the loop is.");
-    v.flag("within_goals", member.within_goals, "Whether it meets every hard goal.");
+    v.flag("within_goals", member.within_goals, "Whether it meets every constraint.");
     v.number("beam_rms", member.beam_rms, unit::millidegree, "In the design wind.");
     v.number("valve_effort", member.valve_effort, unit::radian_per_second,
              "Rms of the valve command from the sensors' noise.");
@@ -199,7 +199,7 @@ void describe_conditions(io::Visitor& v, const BenchmarkReport& report) {
            score.stable ? std::optional(score.design_wind.torque_rms) : std::nullopt,
            unit::newton_metre,
            "Of the design wind, at the antenna's axis; null for an unstable loop.");
-  v.text("attitudes", report.attitudes_text, "Which were judged.");
+  v.text("attitudes", report.attitudes_text, "Evaluated conditions.");
   v.number("gear_ratio", report.gear_ratio, unit::ratio, "Motor turns per turn of the axis.");
   v.number("band_lowest", report.rms_band.lowest, unit::hertz, "Of the band of every rms.");
   v.number("band_highest", report.rms_band.highest, unit::hertz, "Of the band of every rms.");
@@ -211,12 +211,12 @@ void describe_conditions(io::Visitor& v, const BenchmarkReport& report) {
 void describe_score(io::Visitor& v, const BenchmarkReport& report) {
   const design::RejectionScore& score = report.score;
   const double torque = score.design_wind.torque_rms;
-  v.group("torque_step",
-          "Beam after a constant torque from t = 0 on, per torque at the antenna's axis.", [&] {
+  v.group("torque_step", "Boresight response to a torque step, per torque at the antenna's axis.",
+          [&] {
             describe_course(v, score.step,
                             course_units("mdeg_per_MN_m", "mdeg2_s_per_MN_m_squared"), torque);
           });
-  v.group("torque_impulse", "Beam after an impulse of torque at t = 0.", [&] {
+  v.group("torque_impulse", "Boresight response to a torque impulse.", [&] {
     describe_course(v, score.impulse, course_units("mdeg_per_MN_m_s", "mdeg2_s_per_MN_m_s_squared"),
                     torque);
   });
@@ -241,13 +241,12 @@ void describe_score(io::Visitor& v, const BenchmarkReport& report) {
                    [&](const design::RejectionReference& reference) {
                      describe_reference(v, reference, score.design_wind.beam_rms);
                    });
-  v.optional_group("ensemble", score.ensemble,
-                   "On plants that may be the true one; null if left out.",
+  v.optional_group("ensemble", score.ensemble, "On the plant ensemble; null if omitted.",
                    [&](const design::RejectionEnsemble& ensemble) {
                      describe_ensemble(v, ensemble, report.ensemble_source);
                    });
   v.optional_group(
-      "nonlinear", report.time_domain, "On the nonlinear antenna; null where it was not judged.",
+      "nonlinear", report.time_domain, "On the nonlinear antenna; null where not evaluated.",
       [&](const TimeDomainSection& section) { describe_nonlinear(v, section.result); });
   v.list("compliance_curve", score.compliance, "|beam/torque| at the protocol's frequencies.",
          [&](const design::CompliancePoint& point) {
@@ -262,7 +261,7 @@ void describe(io::Visitor& v, const BenchmarkReport& report) {
   v.constant("protocol_version", std::uint64_t{design::rejection_protocol},
              "Of docs/benchmark-protocol.md: sheets of other numbers do not compare.");
   describe_case(v, report.case_path, report.title, report.axis);
-  v.count("seed", report.seed, "Of the ensemble's draws and the nonlinear runs.");
+  v.count("seed", report.seed, "Of the ensemble's samples and the nonlinear runs.");
   v.flag("interrupted", report.interrupted, "The user stopped the work: parts are left out.");
   v.texts("left_out", score.left_out, "Parts that were left out.");
   v.group("controller", "What is scored.", [&] { describe_controller(v, report); });
@@ -276,7 +275,7 @@ void describe(io::Visitor& v, const BenchmarkReport& report) {
   v.group_if("score", score.stable, "The scores; null for an unstable loop.",
              [&] { describe_score(v, report); });
   v.text_or_null("no_nonlinear_score", report.no_time_domain,
-                 "Why the nonlinear antenna was not judged; null if it was.");
+                 "Why the nonlinear antenna was not evaluated; null if it was.");
   v.group_if("comparison", !report.compared_with.empty(),
              "Beside another sheet; null without --compare.",
              [&] { describe_comparison(v, report); });

@@ -16,10 +16,10 @@ void describe_band(io::Visitor& v, std::string_view key, const design::PlantBand
   const io::KeyUnit unnamed = io::without_suffix(of);
   v.group(io::key_with_unit(key, of), meaning, [&] {
     v.defined_as("band", "A quantity over the plants, in the unit of the key that holds it.");
-    v.number("nominal", band.nominal, unnamed, "on the case's own plant");
+    v.number("nominal", band.nominal, unnamed, "on the nominal plant");
     v.number("least", band.least, unnamed, "over the plants");
     v.number("largest", band.largest, unnamed, "over the plants");
-    v.number("lower", band.lower, unnamed, "of the interval in which one more plant would lie");
+    v.number("lower", band.lower, unnamed, "of the prediction interval");
     v.number("upper", band.upper, unnamed, "of that interval");
   });
 }
@@ -27,15 +27,15 @@ void describe_band(io::Visitor& v, std::string_view key, const design::PlantBand
 // `sky`: of an angle of the motor.
 void describe_expected(io::Visitor& v, const design::StageExpectation& expected,
                        const io::KeyUnit& sky) {
-  v.count("plants", expected.plants, "the case's own and those that may be the true one");
+  v.count("plants", expected.plants, "the nominal plant and the ensemble members");
   v.count("stable_plants", expected.stable, "by eigenvalues");
   describe_band(v, "sensitivity_peak", expected.peak, unit::ratio,
-                "largest |S| over the loops that are closed");
+                "largest Ms of the closed loops");
   describe_band(v, "crossover", expected.crossover, unit::hertz_of_radians,
                 "lowest gain crossover of the outer closed loop");
   describe_band(v, "rise_time", expected.rise_time, unit::second,
                 "10 % to 90 % of the command's step");
-  describe_band(v, "overshoot", expected.overshoot, unit::ratio, "share of the step");
+  describe_band(v, "overshoot", expected.overshoot, unit::ratio, "fraction of the step");
   describe_band(v, "settling_time", expected.settling_time, unit::second, "into 5 %");
   describe_band(v, "still_encoder_error", expected.still_encoder, sky,
                 "rms in still air as recorded, at the sky; null with the position loop open");
@@ -75,7 +75,7 @@ void describe_sheet(io::Visitor& v, const StageSheet& sheet, const io::KeyUnit& 
     v.text("name", gain.name, "its name");
     v.text("value", gain.text, "in the case's unit");
     v.number("value", gain.value, {.suffix = "SI"}, "the same");
-    v.flag("changed", gain.changed, "against the stage before");
+    v.flag("changed", gain.changed, "from the previous stage");
   });
   io::KeyUnit command = unit::millidegree;
   command.suffix = "mdeg_or_mdeg_per_s";
@@ -83,15 +83,15 @@ void describe_sheet(io::Visitor& v, const StageSheet& sheet, const io::KeyUnit& 
            "of the position command, with the position loop open of the rate command, at the sky");
   v.group("expected", "over the plants", [&] { describe_expected(v, sheet.stage.expected, sky); });
   const auto& abort = sheet.stage.abort;
-  v.group("abort", "beyond any of these: back to the stage before", [&] {
-    v.number("overshoot", abort.overshoot, unit::ratio, "share of the step");
+  v.group("abort", "beyond any of these: back to the previous stage", [&] {
+    v.number("overshoot", abort.overshoot, unit::ratio, "fraction of the step");
     v.number("still_valve_command", abort.still_valve_rms, unit::radian_per_second,
              "rms in still air");
     v.number("still_encoder_error", abort.still_encoder_rms, sky,
              "rms in still air, at the sky; null with the position loop open");
-    v.number("gain_reserve", abort.gain_reserve, unit::ratio,
-             "factor on the loop gain that takes the worst plant to the abort peak; null where 8 "
-             "does not");
+    v.number(
+        "gain_reserve", abort.gain_reserve, unit::ratio,
+        "factor on the loop gain that brings the worst plant to the abort Ms; null if above 8");
     v.text("worst_plant", abort.worst_plant, "the one nearest to the abort peak");
   });
   v.text("check", sheet.check, "what to measure, and the values to be expected");
@@ -155,12 +155,12 @@ void describe(io::Visitor& v, const CommissionReport& report) {
   v.text("case", report.case_path, "the case file, as given");
   v.text("title", report.title, "its title");
   describe_axis(v, report.axis);
-  v.count("seed", report.seed, "of all draws");
-  v.text("structure", report.structure, "of the law");
-  v.word("gains_from", report.tuned ? "tuning" : "user", {"tuning", "user"}, "of the law");
-  v.group("ensemble", "plants that may be the true one", [&] {
+  v.count("seed", report.seed, "of all samples");
+  v.text("structure", report.structure, "of the controller");
+  v.word("gains_from", report.tuned ? "tuning" : "user", {"tuning", "user"}, "of the controller");
+  v.group("ensemble", "plant ensemble", [&] {
     v.count("plants", report.ensemble_size, "how many");
-    v.text("source", report.ensemble_source, "what they are drawn from");
+    v.text("source", report.ensemble_source, "distribution that they are sampled from");
   });
   v.group("wind", "the design wind", [&] {
     v.text("model", report.wind_model, "of the wind torque");
@@ -172,10 +172,10 @@ void describe(io::Visitor& v, const CommissionReport& report) {
   });
   v.number("largest_step",
            report.failure == nullptr ? std::optional(report.plan.largest_step) : std::nullopt,
-           unit::ratio, "factor on a gain from stage to stage that was kept to");
+           unit::ratio, "largest factor on a gain from stage to stage");
   v.number("sensitivity_limit", report.options.sensitivity_limit, unit::ratio,
-           "kept at every stage on every plant, unless the law's own peak is higher");
-  v.number("abort_peak", report.options.abort_peak, unit::ratio, "peak of S at which to give up");
+           "Ms limit at every stage on every plant, unless the controller's own Ms is higher");
+  v.number("abort_peak", report.options.abort_peak, unit::ratio, "Ms at which to abort");
   v.number("confidence", report.options.confidence, unit::ratio, "of the bands' lower and upper");
   v.number("assumed_detuning", report.plan.detuning, unit::ratio,
            "factor that the assumed start's gains are divided by; null where the gains found are "

@@ -31,13 +31,13 @@ void describe_draw(io::Visitor& v, const design::PlantDraw& draw) {
 
 void describe_plant(io::Visitor& v, const NotablePlant& plant) {
   const auto& outcome = plant.outcome;
-  v.defined_as("plant", "Draw number `index` of the seed.");
+  v.defined_as("plant", "Sample number `index` of the seed.");
   v.count("index", plant.index, "From 0.");
-  v.group("inputs", "What was drawn.", [&] { describe_draw(v, plant.draw); });
+  v.group("inputs", "The sample.", [&] { describe_draw(v, plant.draw); });
   v.word("standing", standing_text(outcome.standing), {"stable", "unstable", "undecided"},
          "Whether the loop is stable; undecided: by less than what the rational dead time leaves "
          "out.");
-  v.number("beam_rms", outcome.beam_rms, unit::millidegree, "In the design wind, one axis.");
+  v.number("beam_rms", outcome.beam_rms, unit::millidegree, "In the design wind, per axis.");
   v.number("climate_beam_rms", outcome.climate_rms, unit::millidegree,
            "Over the site's wind climate.");
   v.number("valve_effort", outcome.valve_effort, unit::radian_per_second,
@@ -45,9 +45,9 @@ void describe_plant(io::Visitor& v, const NotablePlant& plant) {
   v.numbers("sensitivity_peaks", outcome.sensitivity_peaks, unit::ratio,
             "Rate loop alone, valve command, position loop.", {}, {.least = 3, .most = 3});
   v.number("worst_goal_ratio", outcome.worst_goal_ratio, unit::ratio,
-           "Largest quantity over its limit.");
+           "Largest value/limit of the constraints.");
   v.number("retuned_beam_rms", outcome.retuned_rms, unit::millidegree,
-           "Of a law tuned for this plant alone.");
+           "With gains tuned for this plant.");
 }
 
 // A gain of the law that is held.
@@ -65,7 +65,7 @@ void describe_law(io::Visitor& v, const MonteCarloSection& section) {
   }
   v.text("structure", section.structure, "As the user names it.");
   v.text("source", section.law_source, "Where the gains come from.");
-  v.list("gains", gains, "That are held on every plant.", [&](const HeldGain& gain) {
+  v.list("gains", gains, "Fixed on every plant.", [&](const HeldGain& gain) {
     v.text("symbol", gain.symbol, "Its symbol.");
     v.text("name", gain.name, "Its name.");
     v.text("unit", gain.unit, "Of the value: SI.");
@@ -77,14 +77,14 @@ void describe_law(io::Visitor& v, const MonteCarloSection& section) {
 void describe_stability(io::Visitor& v, const MonteCarloSection& section) {
   v.count("stable", section.stable, "Plants whose loop is stable.");
   v.count("unstable", section.unstable, "Plants whose loop is not.");
-  v.count("undecided", section.undecided, "Plants of which that cannot be said.");
+  v.count("undecided", section.undecided, "Plants for which it is undecided.");
   describe_estimate(v, "probability_not_stable", section.instability, unit::ratio,
-                    "Of a plant drawn, undecided ones counted.");
+                    "Of a sampled plant, undecided ones counted.");
   v.count("confirmed_by_eigenvalues", section.confirmed, "Plants whose poles were computed.");
   v.count("winding_contradicted", section.contradicted,
-          "Of these, those of which the frequency response had said otherwise.");
+          "Of these, those that contradict the Nyquist criterion.");
   v.number("confirmed_above_peak", section.confirm_peak, unit::ratio,
-           "Peak of S above which poles are computed.");
+           "Ms above which poles are computed.");
   v.count("confirmed_every", section.confirm_every, "Of the other plants, one in so many.");
   v.list("not_stable_plants", section.unstable_plants, "The first thousand; --csv has all.",
          [&](const NotablePlant& plant) { describe_plant(v, plant); },
@@ -93,7 +93,7 @@ void describe_stability(io::Visitor& v, const MonteCarloSection& section) {
 
 void describe_pointing(io::Visitor& v, const MonteCarloSection& section) {
   describe_distribution(v, "beam_rms", section.beam_rms, unit::millidegree,
-                        "In the design wind, one axis.");
+                        "In the design wind, per axis.");
   describe_distribution(v, "climate_beam_rms", section.climate_rms, unit::millidegree,
                         "Over the site's wind climate; null without one.");
   v.list("bands", section.losses, "Of the antenna.", [&](const MonteCarloSection::BandLoss& loss) {
@@ -108,13 +108,13 @@ void describe_pointing(io::Visitor& v, const MonteCarloSection& section) {
   v.list("budgets", section.budgets, "Pointing budgets.",
          [&](const MonteCarloSection::BudgetChance& chance) {
            v.text("name", chance.budget.name, "Its name.");
-           v.text("band", chance.budget.band, "That it is for.");
+           v.text("band", chance.budget.band, "Frequency band.");
            v.text("convention", chance.budget.convention, "What the loss is taken of.");
            v.number("rms", chance.budget.rms, unit::millidegree, "Allowed, one axis.");
            describe_estimate(v, "probability_met", chance.met, unit::ratio,
                              "In the design wind; no unstable plant meets one.");
          });
-  v.list("goals", section.goals_broken, "Hard goals.",
+  v.list("goals", section.goals_broken, "Constraints.",
          [&](const MonteCarloSection::GoalChance& chance) {
            v.text("goal", chance.goal, "Which.");
            describe_estimate(v, "probability_broken", chance.broken, unit::ratio,
@@ -123,12 +123,13 @@ void describe_pointing(io::Visitor& v, const MonteCarloSection& section) {
 }
 
 void describe_retuned(io::Visitor& v, const MonteCarloSection::Retuned& retuned) {
-  v.count("laws_found", retuned.found, "Plants for which a law that meets the goals was found.");
+  v.count("laws_found", retuned.found,
+          "Plants for which gains that meet the constraints were found.");
   v.count("unstable_under_held_law", retuned.only_retuned,
-          "Of these, those that the held law does not keep stable.");
-  describe_distribution(v, "beam_rms", retuned.beam_rms, unit::millidegree, "Of these laws.");
+          "Of these, those unstable with the fixed gains.");
+  describe_distribution(v, "beam_rms", retuned.beam_rms, unit::millidegree, "With these gains.");
   describe_distribution(v, "price_of_one_law", retuned.price, unit::ratio,
-                        "Held law's rms over the re-tuned one's, less 1.");
+                        "Rms with fixed gains over rms with plant-specific gains, minus 1.");
 }
 
 }  // namespace
@@ -136,18 +137,18 @@ void describe_retuned(io::Visitor& v, const MonteCarloSection::Retuned& retuned)
 void describe(io::Visitor& v, const MonteCarloSection& section) {
   describe_origin(v, "montecarlo");
   describe_case(v, section.case_path, section.title, section.axis);
-  v.count("seed", section.seed, "Of all draws.");
+  v.count("seed", section.seed, "Of all samples.");
   v.flag("interrupted", section.interrupted,
-         "The user stopped the work: all is of the plants judged by then.");
-  v.count("plants_asked", section.plants_asked, "That were to be judged.");
-  v.count("plants", section.plants, "That were judged.");
+         "The user stopped the work: results cover the plants evaluated by then.");
+  v.count("plants_asked", section.plants_asked, "Requested.");
+  v.count("plants", section.plants, "Evaluated.");
   v.group("distribution", "Of the plants.", [&] {
     std::vector<std::string> inputs;
     for (const auto input : section.inputs) inputs.emplace_back(to_string(input));
-    v.text("source", section.distribution, "What they are drawn from.");
+    v.text("source", section.distribution, "Distribution that they are sampled from.");
     v.texts("inputs", inputs, "That vary.");
   });
-  v.group("law", "That is held on every plant.", [&] { describe_law(v, section); });
+  v.group("law", "Evaluated on every plant.", [&] { describe_law(v, section); });
   v.word("wind_model", plant::to_string(section.wind_model),
          {to_string(plant::WindModel::uniform), to_string(plant::WindModel::vickery),
           to_string(plant::WindModel::coherence)},
@@ -156,17 +157,17 @@ void describe(io::Visitor& v, const MonteCarloSection& section) {
   v.group("stability", "Of the loop on each plant.", [&] { describe_stability(v, section); });
   describe_pointing(v, section);
   describe_estimate(v, "probability_all_goals_met", section.all_goals_met, unit::ratio,
-                    "Of a plant drawn.");
-  v.list("correlations", section.correlations, "Of inputs with the beam rms.",
+                    "Of a sampled plant.");
+  v.list("correlations", section.correlations, "Of inputs with the boresight rms.",
          [&](const MonteCarloSection::Correlation& one) {
            v.text("input", to_string(one.input), "Which.");
            describe_estimate(v, "rank_correlation", one.with_rms, unit::ratio,
                              "Spearman's, over stable plants.");
          });
-  v.list("worst_plants", section.worst, "By beam rms, of the stable ones.",
+  v.list("worst_plants", section.worst, "Stable plants of largest boresight rms.",
          [&](const NotablePlant& plant) { describe_plant(v, plant); });
   v.optional_group(
-      "retuned", section.retuned, "Laws tuned for each plant alone; null without --retune.",
+      "retuned", section.retuned, "Plant-specific gains; null without --retune.",
       [&](const MonteCarloSection::Retuned& retuned) { describe_retuned(v, retuned); });
   describe_assumed(v, section.assumed);
   v.texts("conclusions", section.conclusions, "What the numbers mean, in sentences.");

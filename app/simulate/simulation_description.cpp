@@ -33,9 +33,9 @@ void describe_starts(io::Visitor& v, const std::vector<plant::SlidingStart>& all
                  "All motors, against the motion, without gravity's offset.", known);
         v.number("motor_torque", start.motor_torque, unit::newton_metre,
                  "All motors, signed, offset and inertia included, as pressures show it.", known);
-        v.flag("shows_breakaway", start.shows_breakaway,
-               "The rate is at most the curve's stribeck_rate: friction is still that of breaking "
-               "away.");
+        v.flag(
+            "shows_breakaway", start.shows_breakaway,
+            "The rate is at most the curve's stribeck_rate, so friction is still near breakaway.");
       },
       {.most = listed});
 }
@@ -43,7 +43,7 @@ void describe_starts(io::Visitor& v, const std::vector<plant::SlidingStart>& all
 void describe_sampled(io::Visitor& v, std::string_view key, const plant::SampledEvent& event,
                       std::string_view meaning) {
   v.group(key, meaning, [&] {
-    v.defined_as("sampled_event", "Samples at which something held.");
+    v.defined_as("sampled_event", "Samples at which the condition was true.");
     v.number("first", event.first, unit::second, "The first; null if there is none.", positive);
     v.count("samples", event.samples, "How many.");
     v.number("share", event.share, unit::ratio, "Of all.", known_positive);
@@ -52,9 +52,7 @@ void describe_sampled(io::Visitor& v, std::string_view key, const plant::Sampled
 
 void describe_events(io::Visitor& v, const plant::RunEvents& events) {
   v.group("events", "What happened.", [&] {
-    v.defined_as("events",
-                 "What happened, judged at the samples of the true motion: what comes and goes "
-                 "between two of them is not seen.");
+    v.defined_as("events", "Events at the samples of the true motion; shorter ones are missed.");
     describe_starts(v, events.sliding_starts);
     describe_sampled(v, "command_limit", events.command_limit,
                      "Valve command at or beyond the stroke.");
@@ -98,7 +96,7 @@ void describe_drive(io::Visitor& v, const DriveTestSection& record) {
   v.number("curve_breakaway", record.curve_breakaway, unit::newton_metre,
            "Breakaway torque of the case's friction curve.", known_positive);
   v.number("tachometer_at_limit", record.at_limit, unit::ratio,
-           "Share of samples at the recorder's limit.", known_positive);
+           "Fraction of samples at the recorder's limit.", known_positive);
   v.list("clipped_channels", record.clipped, "Channels that left the recorder's range.",
          [&](const design::ClippedChannel& channel) {
            v.text("channel", channel.name, "Its name in the record.");
@@ -116,10 +114,10 @@ void describe_position(io::Visitor& v, const PositionTestSection& record) {
   v.number("sample_time", record.sample_time, unit::second, "Of the record.", known_positive);
   v.number("beam_rms", record.beam_rms, unit::millidegree, "About the mean, once settled.",
            positive);
-  v.number("beam_mean", record.beam_mean, unit::millidegree, "Bending under the mean wind.");
+  v.number("beam_mean", record.beam_mean, unit::millidegree, "Static deflection in the mean wind.");
   v.number("encoder_rms", record.encoder_rms, unit::millidegree, "As beam_rms_mdeg.", positive);
   v.number("predicted_rms", record.predicted_rms, unit::millidegree,
-           "Beam rms of the linear design in the same wind.", positive);
+           "Linear prediction of the boresight rms in the same wind.", positive);
   v.number("settling_time", record.settling_time, unit::second,
            "From the end of a slew's command until the encoder stays within a millidegree.",
            positive);
@@ -133,7 +131,7 @@ void describe_position(io::Visitor& v, const PositionTestSection& record) {
 void describe(io::Visitor& v, const SimulationReport& report) {
   describe_origin(v, "simulate");
   describe_case(v, report.case_path, report.title, report.axis);
-  v.count("seed", report.seed, "Of all draws.");
+  v.count("seed", report.seed, "Of all samples.");
   v.flag("interrupted", report.interrupted,
          "The user stopped the work: the last record ends where the run did.");
   v.optional_group("failure", report.failure.empty() ? std::nullopt : std::optional(report.failure),

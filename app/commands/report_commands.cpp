@@ -67,7 +67,7 @@ void evaluate_on_ensemble(const io::DesignedAntenna& plant, const StudyOptions& 
               options.threads, section);
   if (!section.ensemble) return;
   section.ensemble_source =
-      plant.from_records ? "drawn from what the records leave open" : "of the case's ensemble";
+      plant.from_records ? "sampled from the identified distribution" : "of the case's ensemble";
 }
 
 void fill_redesign(const io::Case& antenna, const StudyOptions& options, Report& report) {

@@ -121,7 +121,7 @@ std::string chances(const EvaluateSection& section, const DecisionSection& decis
                   measure_phrase(ranking.measure), probabilities(section, decision, *pair),
                   regret(section, decision));
   text +=
-      fmt::format(" Intervals: sampling error of {} samples, {}.", decision.draws, decision.source);
+      fmt::format(" Intervals: sampling error over {} plants {}.", decision.draws, decision.source);
   if (section.time_domain) {
     text +=
         " Each simulated/linear rms ratio comes from one wind record and is not sampled. The "

@@ -97,8 +97,8 @@ EvaluateSection evaluate_proposals(const io::Case& antenna,
   design::ProposalStudy study = study_proposals(compared.antennas, uncertainty, options);
   section.starts = study.starts;
   section.ensemble_size = study.ensemble_size;
-  section.ensemble_source = uncertainty.from_records ? "drawn from what the records leave open"
-                                                     : "drawn from the ranges of the case";
+  section.ensemble_source = uncertainty.from_records ? "sampled from the identified distribution"
+                                                     : "sampled from the ranges of the case";
   section.time_domain = study.time_domain;
   for (auto& design : study.candidates) {
     const std::size_t place = design.antenna;

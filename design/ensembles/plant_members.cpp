@@ -53,8 +53,8 @@ double between(const Ends& ends, double share) {
 }  // namespace
 
 std::string_view to_string(EnsembleSource source) {
-  return source == EnsembleSource::records ? "drawn from what the records leave open"
-                                           : "drawn from the ranges of the case";
+  return source == EnsembleSource::records ? "sampled from the identified distribution"
+                                           : "sampled from the ranges of the case";
 }
 
 std::vector<EnsembleMember> plant_members(const Mission& mission, std::uint64_t seed) {

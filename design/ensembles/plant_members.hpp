@@ -12,7 +12,7 @@ enum class EnsembleSource {
   ranges,   // drawn from the ranges of AntennaUncertainty
   records,  // drawn from the posterior of an identification
 };
-/// "drawn from the ranges of the case", "drawn from what the records leave open".
+/// "sampled from the ranges of the case", "sampled from the identified distribution".
 std::string_view to_string(EnsembleSource source);
 
 /// The perturbed models that controllers are held against.

@@ -214,7 +214,7 @@ TEST(Benchmark, ScoresTheAntennaThatRecordsShow) {
   ASSERT_TRUE(recorded.score.ensemble);
   EXPECT_EQ(recorded.score.ensemble->members.size(), 1U);
   EXPECT_THAT(to_text(recorded), HasSubstr("Linear plant as the case's records show it;"));
-  EXPECT_THAT(to_text(recorded), HasSubstr("drawn from what the records leave open"));
+  EXPECT_THAT(to_text(recorded), HasSubstr("sampled from the identified distribution"));
   EXPECT_THAT(to_text(as_stated), HasSubstr("Linear plant as the case states it;"));
   const auto from_records = [](const BenchmarkReport& report) {
     return nlohmann::json::parse(to_json(report))

@@ -167,7 +167,7 @@ std::string header_html(const Page& page) {
     html += fmt::format("<p>{}</p>\n", escaped_html(sentence));
   }
   if (!page.reservations.empty()) {
-    html += "<h3>What it rests on</h3>\n<ul>\n";
+    html += "<h3>Conditions</h3>\n<ul>\n";
     for (const auto& sentence : page.reservations) {
       html += fmt::format("<li>{}</li>\n", escaped_html(sentence));
     }

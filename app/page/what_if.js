@@ -100,7 +100,7 @@
     const here = look(chosen, where);
     if (here.rms !== null) drawing.append(text("circle", { cx: x(here.values[0]), cy: y(here.rms), r: 5, fill: "#fff", stroke: "#174a74", "stroke-width": 2.4 }));
     drawing.append(text("text", { x: (box.left + box.right) / 2, y: box.bottom + 36, "text-anchor": "middle", "font-weight": 600 }, "flywheel disks on each motor"));
-    drawing.append(text("text", { x: box.left, y: 11, "font-weight": 600 }, "beam rms (mdeg)"));
+    drawing.append(text("text", { x: box.left, y: 11, "font-weight": 600 }, "boresight rms (mdeg)"));
   };
 
   const answer = panel.querySelector(".answer");
@@ -117,10 +117,10 @@
     });
     const small = document.createElement("small");
     answer.textContent = found.rms === null ? "unstable " : `${found.between ? number(found.rms, 4) : found.rms} mdeg `;
-    small.textContent = found.rms === null ? (found.between ? "at a table point beside this one" : "with these gains") : `beam rms, one axis${found.between ? ", interpolated" : ", as in the table"}`;
+    small.textContent = found.rms === null ? (found.between ? "at a neighbouring table point" : "with these gains") : `boresight rms per axis${found.between ? ", interpolated" : ", as in the table"}`;
     answer.append(small);
     answer.dataset.rms = found.rms === null ? "" : found.rms;
-    const lines = [["unstable: no pointing", "breaks a hard goal (margins or effort)", "stable, every hard goal holds on this plant"][found.state]];
+    const lines = [["unstable", "violates a constraint (margins or control effort)", "meets every constraint on this plant"][found.state]];
     if (found.rms !== null) {
       for (const band of table.bands) {
         lines.push(`${band.name}: ${number(24 * (found.rms / band.beamwidth_mdeg) ** 2, 4)} dB mean loss over two equal axes`);

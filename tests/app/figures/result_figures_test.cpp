@@ -49,7 +49,7 @@ TEST(InertiaFigures, ShowPrintedValuesInSiAndOpenIntervalsToTheEdge) {
   const auto& inertia = figures[0].panels.front();
   EXPECT_EQ(inertia.y.categories, (std::vector<std::string>{"masses", "peak"}));
   ASSERT_EQ(inertia.series.size(), 2U);
-  EXPECT_EQ(inertia.series[1].name, "as printed");
+  EXPECT_EQ(inertia.series[1].name, "as stated");
   EXPECT_NEAR(inertia.series[1].x.front(), 1.0695 * pound_foot_second_squared, 1e-6);
   EXPECT_EQ(inertia.series[1].y.front(), 1.0);
   const auto& ratio = figures[1].panels.front().series.front();

@@ -109,9 +109,9 @@ TEST(Page, OnlyItsOwnScriptsMayRun) {
 
 TEST(Page, AnInterruptIsSaidAtTheTop) {
   Page page = page_of_two_sections();
-  EXPECT_THAT(to_html(page, provenance), Not(HasSubstr("the rest is missing")));
+  EXPECT_THAT(to_html(page, provenance), Not(HasSubstr("others are missing")));
   page.interrupted = true;
-  EXPECT_THAT(to_html(page, provenance), HasSubstr("the rest is missing"));
+  EXPECT_THAT(to_html(page, provenance), HasSubstr("others are missing"));
 }
 
 TEST(SectionMethods, AreFoundByTheBeginningOfAHeading) {

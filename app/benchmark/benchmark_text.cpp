@@ -161,19 +161,19 @@ Document document_of(const BenchmarkReport& report) {
   const auto& system = report.controller.system;
   std::vector<std::string> read = system.inputs;
   std::erase(read, "rate_disturbance");
-  Document text =
-      report_title("benchmark", report.title, words_of(report.axis), report.case_path, std::nullopt);
+  Document text = report_title("benchmark", report.title, words_of(report.axis), report.case_path,
+                               std::nullopt);
   text += lead(decision(report));
   text += heading(fmt::format("Disturbance rejection, protocol {}", design::rejection_protocol));
-  text += wrapped(
+  text += essential(wrapped(
       fmt::format("Controller: {}; {}, {} states, reads {}.", report.controller.description,
                   system.sample_time > 0.0
                       ? fmt::format("sampled every {:g} s with one sample of computation",
                                     system.sample_time)
                       : fmt::format("continuous with a dead time of {:g} s", report.dead_time),
                   system.a.rows(), fmt::join(read, ", ")),
-      "  ", "  ");
-  for (const auto& remark : report.remarks) text += wrapped(remark, "  ", "  ");
+      "  ", "  "));
+  for (const auto& remark : report.remarks) text += essential(wrapped(remark, "  ", "  "));
   text += wrapped(
       fmt::format(
           "Linear plant {}; wind model {}, design wind {:g} m/s, {}; rms per axis over {:g} to "

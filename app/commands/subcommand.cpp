@@ -119,8 +119,7 @@ std::string Outputs::printed(const Document& document) const {
   if (details) return whole;
   std::string text = to_text(short_form(document));
   if (text.size() < whole.size()) {
-    text += fmt::format("\nAll sections: {} --details. With figures: --report FILE.html\n",
-                        command_line);
+    text += "\nAll sections: --details. Figures: --report FILE.html\n";
   }
   return text;
 }

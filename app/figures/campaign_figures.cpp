@@ -13,7 +13,7 @@
 namespace boresight::app {
 namespace {
 
-constexpr const char* fit_heading = "How well one model explains all records";
+constexpr const char* fit_heading = "Fit of one model to all records";
 
 // What the records can hardly tell from the inertia and from the oil's stiffness.
 std::vector<Figure> correlation_figure(const io::CampaignSection& section) {
@@ -47,7 +47,7 @@ std::vector<Figure> contradiction_figure(const io::CampaignSection& section) {
   if (section.contradictions.empty()) return {};
   constexpr double most = 20.0;
   Figure figure =
-      make_figure("campaign-contradictions", "Numbers of the case that the records contradict",
+      make_figure("campaign-contradictions", "Stated numbers that the records contradict",
                   "Records against the case",
                   "Records minus stated value, over the root sum of squares of both standard "
                   "uncertainties; cut off at 20.",

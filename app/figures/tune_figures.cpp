@@ -150,7 +150,7 @@ std::vector<Figure> tune_figures(const TuneSection& section,
 std::vector<Figure> limit_figures(const design::PointingLimit& limit) {
   Figure figure;
   figure.id = "limit";
-  figure.section = "How far from the best any controller could do";
+  figure.section = "Distance from the best possible controller";
   figure.title = "Controllers against the lower bound";
   figure.caption = fmt::format(
       "Boresight rms of each sampled controller ({:g} s), nominal plant and worst plant of the "

@@ -11,6 +11,7 @@
 #include <boresight/app/redesign/matching_verdict.hpp>
 #include <boresight/app/redesign/needed_budgets.hpp>
 #include <boresight/app/redesign/next_test.hpp>
+#include <boresight/app/report/expected_rms_wording.hpp>
 #include <boresight/app/report/influences.hpp>
 #include <boresight/app/report/redesign_card.hpp>
 #include <boresight/design/decisions/confidence.hpp>
@@ -32,6 +33,13 @@ std::string mdeg(double angle) {
 
 bool simulated(const Report& report) {
   return report.time_domain && std::isfinite(report.time_domain->result.wind.beam_rms);
+}
+
+// None without a whole set of records.
+const design::SimulatedRms* expected_rms(const Report& report) {
+  if (!simulated(report) || !report.time_domain->rms) return nullptr;
+  const auto& expected = *report.time_domain->rms;
+  return std::isfinite(expected.rms.value) ? &expected : nullptr;
 }
 
 bool inertias_agree(const Report& report) {
@@ -122,12 +130,17 @@ CardLine controller_line(const Report& report, const TuningSection& section) {
 CardLine pointing_line(const Report& report, const TuningSection& section) {
   const auto tightest = std::ranges::min_element(
       section.budgets, {}, [](const BudgetResult& one) { return one.budget.rms; });
+  const design::SimulatedRms* expected = expected_rms(report);
   std::string text =
-      simulated(report) ? fmt::format("{} mdeg rms in {:.3g} m/s wind, simulated ({} linear)",
-                                      mdeg(report.time_domain->result.wind.beam_rms),
-                                      report.time_domain->wind_speed, mdeg(section.design.beam_rms))
-                        : fmt::format("{} mdeg rms in {:.3g} m/s wind, linear plant, not simulated",
-                                      mdeg(section.design.beam_rms), section.design_speed);
+      expected != nullptr ? fmt::format("{} mdeg rms in {:.3g} m/s wind, simulated ({})",
+                                        mdeg(expected->rms.value), report.time_domain->wind_speed,
+                                        interval_text(*expected, section.design.beam_rms))
+      : simulated(report)
+          ? fmt::format("{} mdeg rms in {:.3g} m/s wind, simulated ({} linear)",
+                        mdeg(report.time_domain->result.wind.beam_rms),
+                        report.time_domain->wind_speed, mdeg(section.design.beam_rms))
+          : fmt::format("{} mdeg rms in {:.3g} m/s wind, linear plant, not simulated",
+                        mdeg(section.design.beam_rms), section.design_speed);
   if (tightest != section.budgets.end()) {
     text += fmt::format("; budget {}", mdeg(tightest->budget.rms));
   }
@@ -193,7 +206,7 @@ CardLine stability_line(const TuningSection& section) {
   if (std::isfinite(gain)) text += fmt::format(", gain {:.1f} dB", 20.0 * std::log10(gain));
   text += " (worst)";
   if (section.ensemble) {
-    text += fmt::format("; constraints met on {} of {} models", section.ensemble->within_goals,
+    text += fmt::format("; constraints met on {}/{} models", section.ensemble->within_goals,
                         section.ensemble->members.size());
   }
   return {"Margins", text, std::string(loops)};

@@ -10,6 +10,7 @@
 #include <boresight/app/match/match_conclusions.hpp>
 #include <boresight/app/report/climate_wording.hpp>
 #include <boresight/app/report/decision.hpp>
+#include <boresight/app/report/expected_rms_wording.hpp>
 #include <boresight/app/report/influences.hpp>
 #include <boresight/app/report/present_gains.hpp>
 #include <boresight/app/report/sky_units.hpp>
@@ -132,6 +133,13 @@ std::string recommended_first(const design::TuningStudy& study) {
   const TunedLaw* law = recommended_law(study);
   if (law == nullptr) return "No controller is recommended: no tuned controller is fit.";
   const bool simulated = law->in_time && std::isfinite(law->in_time->beam_rms);
+  if (simulated && law->in_time->expected && std::isfinite(law->in_time->expected->rms.value)) {
+    const auto& expected = *law->in_time->expected;
+    return fmt::format(
+        "Recommended: {}, {:.3f} mdeg rms per axis in {:.3g} m/s wind, simulated ({}).",
+        name_and_purpose(*law), mdeg(expected.rms.value), law->wind_speed,
+        interval_text(expected, law->beam_rms));
+  }
   return fmt::format("Recommended: {}, {:.3f} mdeg rms per axis in {:.3g} m/s wind, {}.",
                      name_and_purpose(*law),
                      mdeg(simulated ? law->in_time->beam_rms : law->beam_rms), law->wind_speed,
@@ -305,7 +313,9 @@ std::vector<std::string> decision(const TuneSection& section,
     sentences.emplace_back(
         "Friction, limit cycles and slewing were not examined: add a [simulation] to the case.");
   } else {
-    sentences.push_back(decide(*time_domain));
+    if (auto others = decide(*time_domain); !others.empty()) {
+      sentences.push_back(std::move(others));
+    }
   }
   if (limit && limit->least_rms > 0.0) {
     sentences.push_back(

@@ -82,7 +82,14 @@ Document sections_of(const Report& report) {
   if (report.command != "audit") text += document_of(report.assumed);
   if (!report.conclusions.empty()) {
     text += heading("What the numbers mean");
-    for (const auto& sentence : report.conclusions) text += wrapped(sentence, "  ") + "\n";
+    // What an audit or the methods ask for next has no table; a result without a decision has only
+    // these.
+    const bool needed = report.command == "audit" || report.command == "identify" ||
+                        (redesign_card(report).empty() && decision(report).empty());
+    for (const auto& sentence : report.conclusions) {
+      Document line = wrapped(sentence, "  ") + "\n";
+      text += needed ? essential(std::move(line)) : std::move(line);
+    }
   }
   return text;
 }

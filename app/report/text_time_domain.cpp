@@ -69,6 +69,12 @@ Document wind_part(const TimeDomainSection& section) {
   }
   rows.push_back({"  interactions, oil lines and offset (remainder)", signed_mdeg(wind.joint), ""});
   rows.push_back({"simulated", mdeg(wind.beam_rms), ""});
+  if (section.rms && section.rms->status == RunStatus::complete) {
+    const auto& rms = section.rms->rms;
+    rows.push_back({fmt::format("expected, by {} records (95 % {} .. {})", section.rms->records,
+                                mdeg(rms.lower), mdeg(rms.upper)),
+                    mdeg(rms.value), ""});
+  }
   Document text = table(rows, "l");
   if (wind.at_command_limit > 0.0) {
     text += fmt::format("  The valve command is at its limit in {:.2g} % of the samples.\n",

@@ -31,7 +31,9 @@ std::string assumed_stroke(const TimeDomainSection& section);
 /// tightest budget; empty if it does.
 std::string not_still(const TimeDomainSection& section);
 
-/// What is to be done with the law, in a sentence or two for the decision box.
+/// What to do about a controller that is not free of limit cycles; of one that is, which others it
+/// was preferred to and what its rms depends on, empty if neither. For the decision box, which
+/// names the recommended controller itself.
 std::string decide(const TimeDomainSection& section);
 
 /// The section of the terminal's report.

@@ -1,8 +1,11 @@
 #include <algorithm>
 #include <cmath>
 #include <string_view>
+#include <utility>
+#include <vector>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <boresight/app/report/influences.hpp>
 #include <boresight/app/report/sky_units.hpp>
@@ -249,19 +252,21 @@ std::string decide(const TimeDomainSection& section) {
         "commissioning any.",
         section.law, rms, held_against);
   }
-  std::string text = fmt::format(
-      "Recommended for commissioning: {}, {:.3f} mdeg on the nonlinear antenna.", section.law, rms);
+  // The recommended controller itself is named first: recommended_first.
+  std::vector<std::string> sentences;
   for (const auto& candidate : section.candidates) {
     if (design::holds_still(candidate.result.hunting, error) ||
         !(candidate.result.wind.beam_rms < section.result.wind.beam_rms)) {
       continue;
     }
-    text += fmt::format(" Not {}: it has {:.3f} in wind, but {}.", candidate.law,
-                        candidate.result.wind.beam_rms / millidegree,
-                        unrest(candidate.result.hunting, error));
+    sentences.push_back(fmt::format("Not {}: it has {:.3f} mdeg in wind, but {}.", candidate.law,
+                                    candidate.result.wind.beam_rms / millidegree,
+                                    unrest(candidate.result.hunting, error)));
   }
-  if (const std::string stroke = assumed_stroke(section); !stroke.empty()) text += " " + stroke;
-  return text;
+  if (std::string stroke = assumed_stroke(section); !stroke.empty()) {
+    sentences.push_back(std::move(stroke));
+  }
+  return fmt::format("{}", fmt::join(sentences, " "));
 }
 
 std::string conclude(const TimeDomainSection& section) {

@@ -58,6 +58,7 @@ void judge_in_time(const Mission& mission, const TimeDomainStudy* compared, Tune
     if (row.tuned_for != purpose || !row.usable()) continue;
     if (const auto* result = run_of(*compared, row)) {
       row.in_time = judged(*result, error);
+      if (result == &compared->result) row.in_time->expected = compared->rms;
     } else if (needed(section, row.wind_speed)) {
       to_run.push_back(&row);
     }

@@ -47,6 +47,16 @@ SimulatedLoop simulate(const Mission& mission, const TrackingProblem& problem,
   return loop;
 }
 
+SimulatedRms expected_rms(const TrackingProblem& problem, const SimulatedLoop& loop,
+                          const NonlinearVerificationOptions& options) {
+  return simulated_rms(problem, loop,
+                       {.settling = options.settling,
+                        .duration = options.wind_duration,
+                        .tracking_rate = options.tracking_rate,
+                        .seed = options.seeds.front(),
+                        .threads = options.threads});
+}
+
 // Budgets required in this wind are held against the larger of both rms and the limit cycle.
 void count_budgets(const Mission& mission, double wind_speed, const NonlinearVerification& result,
                    Assessment& assessment) {
@@ -89,13 +99,7 @@ std::optional<TimeDomainStudy> verify_in_time_domain(
   TimeDomainStudy section = plan(mission, problem, description, seed, threads);
   section.options.second_integrator = second == SecondIntegrator::cvodes;
   const SimulatedLoop loop = simulate(mission, problem, law, section);
-  const auto& options = section.options;
-  section.rms = simulated_rms(problem, loop,
-                              {.settling = options.settling,
-                               .duration = options.wind_duration,
-                               .tracking_rate = options.tracking_rate,
-                               .seed = seed,
-                               .threads = threads});
+  section.rms = expected_rms(problem, loop, section.options);
   return section;
 }
 
@@ -109,10 +113,11 @@ std::optional<TimeDomainStudy> choose_in_time_domain(const Mission& mission,
   std::vector<TimeDomainStudy> sections;  // their results among the candidates
   std::vector<TimeDomainStudy::Candidate> candidates;
   std::vector<Assessment> assessments;
+  std::vector<SimulatedLoop> loops;
   for (const auto& one : laws) {
     TimeDomainStudy section = plan(mission, problem, one.name, seed, threads);
     section.options.explain = false;
-    simulate(mission, problem, one.law, section);
+    loops.push_back(simulate(mission, problem, one.law, section));
     assessments.push_back(assessment_of(one, section.result, tightest_budget(mission)));
     count_budgets(mission, problem.wind.mean_speed, section.result, assessments.back());
     candidates.push_back({one.name, std::move(section.result)});
@@ -121,9 +126,12 @@ std::optional<TimeDomainStudy> choose_in_time_domain(const Mission& mission,
   // What is shown of none that is fit is shown of the least unfit.
   const std::size_t best =
       recommend(assessments, {.accepted = Fitness::unstable}).winner.value_or(0);
-  if (detail == ChoiceDetail::compared) {
+  if (detail != ChoiceDetail::verified) {
     TimeDomainStudy chosen = std::move(sections[best]);
     chosen.result = candidates[best].result;
+    if (detail == ChoiceDetail::expected) {
+      chosen.rms = expected_rms(problem, loops[best], chosen.options);
+    }
     if (candidates.size() > 1) chosen.candidates = std::move(candidates);
     return chosen;
   }

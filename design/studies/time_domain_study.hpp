@@ -40,9 +40,10 @@ struct TimeDomainStudy {
 /// other runs together.
 enum class SecondIntegrator { none, cvodes };
 
-/// How closely the controller chosen of several is looked at: as the others were, or as
-/// verify_in_time_domain does with a second integrator, for a report.
-enum class ChoiceDetail { compared, verified };
+/// How closely the controller chosen of several is looked at: as the others were; with the interval
+/// of its rms by simulated_rms; or as verify_in_time_domain does with a second integrator, for a
+/// report.
+enum class ChoiceDetail { compared, expected, verified };
 
 /// Simulates a controller on a problem made of the mission: 300 s of wind with every influence
 /// switched off in turn, limit cycles, slow reversals and a slew of one degree at the mission's

@@ -14,6 +14,7 @@
 #include <boresight/design/studies/position_gain_trade.hpp>
 #include <boresight/design/tuning/design_study.hpp>
 #include <boresight/design/verification/nonlinear_verification.hpp>
+#include <boresight/design/verification/simulated_rms.hpp>
 
 namespace boresight::design {
 
@@ -31,6 +32,8 @@ struct LawInTime {
   double hunting = 0.0;      // largest amplitude of the beam's limit cycles
   double beam_rms = 0.0;     // in one record of wind; NaN if that run did not complete
   bool hunting_seen = true;  // hunting_seen
+  /// Over several records; of the recommended controller only.
+  std::optional<SimulatedRms> expected = std::nullopt;
 };
 
 /// One row of the table: a law, judged.

@@ -40,8 +40,8 @@ ArrayXd line_gains(const TrackingProblem& problem, const SimulatedLoop& loop, In
 // By Parseval, without the mean.
 double linear_mean_square(const VectorXd& torque, const ArrayXd& gains) {
   const auto count = static_cast<double>(torque.size());
-  const auto lines = numerics::fourier_transform(torque).segment(1, gains.size());
-  return 2.0 * (lines.array().abs2() * gains).sum() / (count * count);
+  const Eigen::VectorXcd spectrum = numerics::fourier_transform(torque);
+  return 2.0 * (spectrum.segment(1, gains.size()).array().abs2() * gains).sum() / (count * count);
 }
 
 double mean_square(const VectorXd& errors, Index counted) {

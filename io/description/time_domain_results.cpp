@@ -56,6 +56,16 @@ void describe_wind(Visitor& v, const design::WindResult& wind,
   describe_command_limit(v, wind.at_command_limit);
 }
 
+void describe_interval(Visitor& v, const design::SimulatedRms& found) {
+  describe_status(v, found.status, "How the worst of the runs ended.");
+  v.count("records", found.records, "On the nonlinear antenna.");
+  v.count("winds", found.winds, "Those and further ones, through the linear loop's response.");
+  v.number("rms", found.rms.value, unit::millidegree, "Root of the expected mean square.",
+           positive);
+  v.number("lower", found.rms.lower, unit::millidegree, "End of the 95 % interval.", positive);
+  v.number("upper", found.rms.upper, unit::millidegree, "End of the 95 % interval.", positive);
+}
+
 void describe_integrators(Visitor& v, const design::IntegratorAgreement& both) {
   describe_status(v, both.status,
                   "How the run in wind ended or, if that is complete, the run of CVODES.");
@@ -147,6 +157,9 @@ void describe(Visitor& v, const design::TimeDomainStudy& study) {
           "In wind, against the linear prediction: beam_rms is predicted_rms + chance + sampling + "
           "the sum of differences + joint.",
           [&] { describe_wind(v, result.wind, study.options); });
+  v.optional_group("expected_rms", study.rms,
+                   "Over records of wind of that length; null if there was but one.",
+                   [&](const design::SimulatedRms& rms) { describe_interval(v, rms); });
   v.optional_group(
       "integrators", result.integrators,
       "The run in wind by a second integrator, CVODES, on the same equations; null if it was not "

@@ -52,6 +52,8 @@ class Card(unittest.TestCase):
         tuning = self.report["tuning"]
         self.assertIn("Recommended", self.card)
         self.assertEqual(self.card["Recommended"].count(" = "), len(tuning["design"]["gains"]))
-        simulated = self.report["time_domain"]["wind"]["beam_rms_mdeg"]
-        self.assertIn(f"{simulated:.3f} mdeg rms in ", self.card["Error per axis"])
+        expected = self.report["time_domain"]["expected_rms"]
+        self.assertIn(f"{expected['rms_mdeg']:.3f} mdeg rms in ", self.card["Error per axis"])
+        self.assertIn(f"95 % {expected['lower_mdeg']:.3f} to {expected['upper_mdeg']:.3f}, "
+                      f"{expected['records']} records", self.card["Error per axis"])
         self.assertRegex(self.card["Confidence"], "^low: inertia estimates contradict")

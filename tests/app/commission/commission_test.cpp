@@ -88,7 +88,7 @@ TEST(Commission, SaysThatGainsOnWhichTheAntennaRunsCannotBeUnstable) {
 TEST(Commission, TunesWhereNoGainsAreGiven) {
   const ScratchFolder folder;
   const ProgramResult result =
-      commission(small_case(folder), {}, {"--structure", "PI", "--starts", "3"});
+      commission(small_case(folder), {}, {"--structure", "PI", "--starts", "3", "--details"});
   EXPECT_EQ(result.exit_code, 0) << result.errors;
   EXPECT_THAT(result.output, HasSubstr("Final gains: from robust tuning."));
   EXPECT_THAT(result.output, Not(HasSubstr("pressure feedback, 1")));

@@ -270,7 +270,7 @@ TEST(EvaluateConclusions, NameGainsThatOnlyTheBoundsOfTheSearchHold) {
   tuning.gains_at_bound = {"compliance"};
   EXPECT_THAT(concluded({candidate}),
               HasSubstr("The search ended at the upper bound of the compliance, cs = 0.1 "
-                        "rad/(N.m), with as it is (PI+C): no optimum"));
+                        "rad/(N.m), with as it is (PI+C): widen it with "));
   EXPECT_THAT(concluded({candidate}), testing::Not(HasSubstr("kp*kr")));
   candidate.laws[0].design.tuning.gains_at_bound = {"position gain"};
   EXPECT_THAT(concluded({candidate}),

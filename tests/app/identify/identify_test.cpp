@@ -273,7 +273,7 @@ TEST(IdentifyCampaign, SaysThatLeakageIsNotIdentifiableFromASloshTestWithoutValv
 TEST(IdentifyCampaign, IsPointedToByTheAudit) {
   const auto audit = run_program({"audit", folder("small-dish") + "case.toml"});
   EXPECT_EQ(audit.exit_code, 0) << audit.errors;
-  EXPECT_THAT(audit.output, HasSubstr("The case has 11 records"));
+  EXPECT_THAT(audit.output, HasSubstr("the case's 11 records"));
   EXPECT_THAT(audit.output, HasSubstr("boresight identify"));
 }
 

@@ -78,7 +78,8 @@ TEST(SimulateCommand, NamesTheGainsThatAreNotThere) {
 TEST(SimulateCommand, WritesTheRecordAndRepeatsIt) {
   const ScratchFolder folder;
   const std::string path = case_path("dss14-70m");
-  const auto run = run_program({"simulate", path, "slosh", "--folder", folder.file("a")});
+  const auto run =
+      run_program({"simulate", path, "slosh", "--details", "--folder", folder.file("a")});
   ASSERT_EQ(run.exit_code, 0) << run.errors;
   EXPECT_THAT(run.output, HasSubstr("slosh"));
   EXPECT_THAT(run.output, HasSubstr("bristle_stiffness"));  // among the assumptions

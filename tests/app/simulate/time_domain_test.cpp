@@ -22,6 +22,7 @@ namespace {
 using testing::AllOf;
 using testing::HasSubstr;
 using testing::Not;
+using testing::StartsWith;
 constexpr double mdeg = 1e-3 * degree;
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
@@ -106,18 +107,15 @@ TEST(TimeDomain, SaysInWordsThatASlewArrivesWithinItsBound) {
 
 TEST(TimeDomain, DecidesForALawThatHoldsStill) {
   auto chosen = section();
-  EXPECT_THAT(
-      decide(chosen),
-      HasSubstr("Recommended for commissioning: PI, robust, 0.600 mdeg on the nonlinear antenna."));
-  EXPECT_THAT(decide(chosen), Not(HasSubstr("Not ")));
+  EXPECT_EQ(decide(chosen), "");
   // One of less rms in wind that hunts beyond the budget of 0.527 mdeg, which is why it was passed
   // over.
   auto hunting = chosen.result;
   hunting.wind.beam_rms = 0.1 * mdeg;
   hunting.hunting[0].beam_amplitude = 8.73 * mdeg;
   chosen.candidates = {{"PI, robust", chosen.result}, {"DPF+C, robust", hunting}};
-  EXPECT_THAT(decide(chosen), HasSubstr("on the nonlinear antenna. Not DPF+C, robust: it has 0.100 "
-                                        "in wind, but has a limit cycle of +-8.73 mdeg"));
+  EXPECT_THAT(decide(chosen), StartsWith("Not DPF+C, robust: it has 0.100 mdeg in wind, but has a "
+                                         "limit cycle of +-8.73 mdeg"));
   // Where all do.
   chosen.result = hunting;
   EXPECT_THAT(decide(chosen),
@@ -192,7 +190,7 @@ TEST(TimeDomain, TextSaysWhyThereAreNoNumbers) {
   lost.result.slew->settling_time.reset();
   lost.result.slew->status = design::RunStatus::failed;
   lost.result.slew->message = "the supply cannot move it";
-  const std::string text = to_text(lost);
+  const std::string text = std::regex_replace(to_text(lost), std::regex("\\s+"), " ");
   EXPECT_THAT(text, HasSubstr("In wind of 10 m/s no rms: lost: the encoder is 1 rad off."));
   EXPECT_THAT(text, Not(HasSubstr("linear prediction")));
   EXPECT_THAT(text, HasSubstr("At rest, no wind: failed: no steady motion."));
@@ -201,7 +199,8 @@ TEST(TimeDomain, TextSaysWhyThereAreNoNumbers) {
   EXPECT_THAT(text, Not(HasSubstr("nan")));
   auto slow = section();
   slow.result.slew->settling_time.reset();
-  EXPECT_THAT(to_text(slow), HasSubstr("within 0.5270 mdeg 40 s after"));
+  EXPECT_THAT(std::regex_replace(to_text(slow), std::regex("\\s+"), " "),
+              HasSubstr("not within 0.5270 mdeg 40 s after"));
 }
 
 TEST(TimeDomain, StatesWhetherASecondIntegratorConfirmsTheRun) {

@@ -59,7 +59,7 @@ TEST(MeasuredSection, TunesOnTheChirpOfTheShippedCampaign) {
 
   const std::string text = to_text(document_of(section));
   EXPECT_THAT(text, HasSubstr("torque at the motor shaft"));
-  EXPECT_THAT(text, HasSubstr("is not judged"));
+  EXPECT_THAT(text, HasSubstr("is not examined"));
   EXPECT_THAT(text, HasSubstr("verified"));
   const auto json = json_of(section);
   EXPECT_EQ(json["laws"][0]["status"], "confident");

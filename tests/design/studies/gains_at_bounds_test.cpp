@@ -26,7 +26,9 @@ TuningResult searched(const std::string& structure, const std::vector<std::strin
 TEST(ReachedBounds, NameABoundOnceWithItsLaws) {
   const auto pi = searched("PI+C", {"compliance"}), feedback = searched("DPF+C", {"compliance"});
   auto lower = searched("PI+C", {"compliance"});
-  lower.law.gains.back() = lower.law.structure.gains().back().lower;
+  const auto& gains = lower.law.structure.gains();
+  const auto compliance = std::ranges::find(gains, "compliance", &control::GainDescription::name);
+  lower.law.gains.at(static_cast<std::size_t>(compliance - gains.begin())) = compliance->lower;
   auto unstable = pi;
   unstable.status = TuningStatus::unstable;
   const auto bounds =

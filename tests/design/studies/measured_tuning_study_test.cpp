@@ -14,8 +14,9 @@ namespace {
 
 using Eigen::Index;
 
-constexpr double step = 0.01, length = 90.0;
-constexpr Index samples = 9000;
+// The sweep, with steady motion before and behind it.
+constexpr double step = 0.01, settle = 8.0, sweep = 90.0, length = 100.0;
+constexpr Index samples = 10000;
 
 identification::DriveKnowledge drawings_of(const plant::Antenna& antenna) {
   identification::DriveKnowledge k;
@@ -64,9 +65,9 @@ Chirp chirp_of(const plant::Antenna& antenna) {
       1.0 / (identification::torque_per_pressure(knowledge) * knowledge.motor_count);
   const numerics::NormalNumbers numbers(3);
   for (Index k = 0; k < samples; ++k) {
-    const double into = step * static_cast<double>(k);
-    const double cycles = lowest * length / octaves * std::expm1(octaves * into / length);
-    command[k] = bias + 2.0 * std::sin(two_pi * cycles);
+    const double into = step * static_cast<double>(k) - settle;
+    const double cycles = lowest * sweep / octaves * std::expm1(octaves * into / sweep);
+    command[k] = bias + (into >= 0.0 && into < sweep ? 2.0 * std::sin(two_pi * cycles) : 0.0);
     const Eigen::VectorXd seen = system.c * state + system.d.col(0) * command[k];
     const auto noise = numbers.pair(static_cast<std::uint64_t>(k));
     rate[k] = seen[tachometer] + 0.1 * antenna.sensors.tachometer_noise * noise.real();

@@ -115,7 +115,7 @@ void Outputs::require_writable() const {
 }
 
 std::string Outputs::printed(const Document& document) const {
-  const std::string whole = to_text(document);
+  std::string whole = to_text(document);
   if (details) return whole;
   std::string text = to_text(short_form(document));
   if (text.size() < whole.size()) {

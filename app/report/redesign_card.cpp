@@ -23,9 +23,13 @@ namespace {
 using design::Confidence;
 using design::Doubt;
 
-constexpr std::string_view loops = "Tuned loops", in_time = "In the time domain",
-                           matching = "Inertia matching", inertia = "Inertia at the motor shaft",
-                           audited = "Audit", inputs = "Assumed inputs";
+// How the headings of the sections begin.
+constexpr std::string_view loops = "Tuned loops";
+constexpr std::string_view in_time = "In the time domain";
+constexpr std::string_view matching = "Inertia matching";
+constexpr std::string_view inertia = "Inertia at the motor shaft";
+constexpr std::string_view audited = "Audit";
+constexpr std::string_view inputs = "Assumed inputs";
 
 std::string mdeg(double angle) {
   return fmt::format("{:.3f}", angle / millidegree);

@@ -6,29 +6,18 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "io/edited_case.hpp"
+#include "io/oil_case.hpp"
 #include <boresight/app/redesign/choices.hpp>
 
 namespace boresight::app {
 namespace {
 
+using io::leaking_by_flow;
+using io::measured_at;
 using testing::AllOf;
 using testing::EndsWith;
 using testing::HasSubstr;
 using testing::Not;
-
-// The 70-m antenna with a measured frequency.
-EditedCase measured_at(const std::string& frequency) {
-  EditedCase edited;
-  edited.replace("frequency = { value = \"0.97 Hz\"",
-                 "frequency = { value = \"" + frequency + "\"");
-  return edited;
-}
-
-EditedCase leaking_by_flow(EditedCase edited) {
-  return edited.replace_line("leakage_rate = ",
-                             "leakage_flow = \"6 L/min\"\nleakage_pressure = \"10 MPa\"");
-}
 
 PlantChoice choice_of(const io::Case& antenna, const std::string& name) {
   const auto choices = plant_choices(antenna);

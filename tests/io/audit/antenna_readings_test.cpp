@@ -8,7 +8,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "io/edited_case.hpp"
+#include "io/oil_case.hpp"
 #include <boresight/io/audit/antenna_readings.hpp>
 #include <boresight/io/case/antenna_of.hpp>
 #include <boresight/io/case/drive_evidence.hpp>
@@ -18,19 +18,6 @@ namespace boresight::io {
 namespace {
 
 using testing::IsEmpty;
-
-// The 70-m antenna with a measured frequency.
-EditedCase measured_at(const std::string& frequency) {
-  EditedCase edited;
-  edited.replace("frequency = { value = \"0.97 Hz\"",
-                 "frequency = { value = \"" + frequency + "\"");
-  return edited;
-}
-
-EditedCase leaking_by_flow(EditedCase edited) {
-  return edited.replace_line("leakage_rate = ",
-                             "leakage_flow = \"6 L/min\"\nleakage_pressure = \"10 MPa\"");
-}
 
 AntennaReading reading_of(const Case& antenna, const std::string& name) {
   const auto readings = antenna_readings(antenna);

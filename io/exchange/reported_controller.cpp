@@ -14,6 +14,7 @@
 #include <boresight/io/exchange/reported_controller.hpp>
 #include <boresight/io/files/input_files.hpp>
 #include <boresight/io/units/wording.hpp>
+#include <boresight/numerics/angles.hpp>
 #include <boresight/numerics/error.hpp>
 
 namespace boresight::io {
@@ -23,14 +24,13 @@ using Json = nlohmann::ordered_json;
 
 // One of the "laws" of a report of `boresight tune` as design::recommend compares it.
 design::Assessment reported_assessment(const Json& row) {
-  constexpr double rad_per_mdeg = 1.7453292519943295e-5;
   const bool robust = row.at("tuned_for") == "robust";
   const auto& rms = row.at("beam_rms_mdeg");
   design::Assessment result;
   result.structure = row.at("structure").get<std::string>();
   result.purpose = robust ? design::DesignPurpose::robust : design::DesignPurpose::nominal;
   result.stable = result.verified = rms.is_number();
-  if (rms.is_number()) result.linear_rms = rms.get<double>() * rad_per_mdeg;
+  if (rms.is_number()) result.linear_rms = rms.get<double>() * millidegree;
   result.nominal_constraints_met = row.at("goals_met").get<bool>();
   result.member_constraints_met = robust && result.nominal_constraints_met;
   if (row.contains("gains_as_written")) result.parts = row.at("gains_as_written").size();
@@ -50,9 +50,7 @@ const Json* recommended_row(const Json& rows, const std::string& structure,
   std::vector<double> speeds;
   for (const auto& row : rows) {
     const double speed = wind_speed(row);
-    bool known = false;
-    for (const double one : speeds) known = known || one == speed;
-    if (!known) speeds.push_back(speed);
+    if (std::ranges::find(speeds, speed) == speeds.end()) speeds.push_back(speed);
   }
   for (const double speed : speeds) {
     std::vector<const Json*> candidates;

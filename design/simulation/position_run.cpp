@@ -8,6 +8,7 @@
 #include <boresight/design/simulation/position_run.hpp>
 #include <boresight/design/tuning/design_study.hpp>
 #include <boresight/design/verification/simulated_loop.hpp>
+#include <boresight/design/verification/wind_course.hpp>
 #include <boresight/numerics/angles.hpp>
 #include <boresight/numerics/error.hpp>
 #include <boresight/plant/nonlinear/nonlinear_drive.hpp>
@@ -168,11 +169,7 @@ PositionTestRecord run_tracking(const Mission& mission, const control::ControlLa
   const WindCourse gusts =
       mission.wind_record ? measured_wind(mission, *mission.wind_record, axis.gear, interval, seed)
                           : synthesised_wind(wind, axis.gear, settle + measured, interval, seed);
-  const Index samples = gusts.torque.size();
-  const LoopCourse course{
-      interval,
-      VectorXd::LinSpaced(samples, 0.0, rate * interval * static_cast<double>(samples - 1)),
-      VectorXd::Constant(samples, rate), VectorXd::Zero(samples), gusts.torque};
+  const LoopCourse course = steady_course(interval, rate, gusts.torque);
   const auto judged = assess(axis.problem, law, constraints(mission)).tuning;
   const auto run = run_position_loop(axis, law, course, seed, progress);
   PositionTestRecord record = describe(axis, law, run, course);

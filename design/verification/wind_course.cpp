@@ -1,4 +1,5 @@
 #include <cmath>
+#include <utility>
 
 #include <boresight/design/verification/wind_course.hpp>
 #include <boresight/plant/wind/wind_time_series.hpp>
@@ -16,6 +17,13 @@ plant::StationarySeries part(const WindCondition& wind, plant::WindTorquePart wh
 }
 
 }  // namespace
+
+LoopCourse steady_course(double interval, double rate, VectorXd wind_torque) {
+  const Eigen::Index samples = wind_torque.size();
+  return {interval,
+          VectorXd::LinSpaced(samples, 0.0, rate * interval * static_cast<double>(samples - 1)),
+          VectorXd::Constant(samples, rate), VectorXd::Zero(samples), std::move(wind_torque)};
+}
 
 WindCourses::WindCourses(const TrackingProblem& problem, const SimulatedLoop& loop, double rate,
                          double duration)
@@ -39,14 +47,7 @@ VectorXd WindCourses::gusts(std::uint64_t seed) const {
 }
 
 LoopCourse WindCourses::course(std::uint64_t seed) const {
-  LoopCourse course;
-  course.interval = interval_;
-  course.reference =
-      VectorXd::LinSpaced(samples_, 0.0, rate_ * interval_ * static_cast<double>(samples_ - 1));
-  course.reference_rate = VectorXd::Constant(samples_, rate_);
-  course.reference_acceleration = VectorXd::Zero(samples_);
-  course.wind_torque = gusts(seed).array() + mean_torque_;
-  return course;
+  return steady_course(interval_, rate_, gusts(seed).array() + mean_torque_);
 }
 
 }  // namespace boresight::design

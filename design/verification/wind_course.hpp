@@ -9,6 +9,10 @@
 
 namespace boresight::design {
 
+/// Tracking at a constant rate (rad/s of motor) from 0 in that wind torque at the motor shaft (N
+/// m), one sample an interval (s).
+LoopCourse steady_course(double interval, double rate, Eigen::VectorXd wind_torque);
+
 /// Tracking at a constant rate (rad/s of motor) from 0 in records of the problem's wind for a
 /// duration (s), in steps of the loop's sample time; prepared once for any number of records.
 class WindCourses {

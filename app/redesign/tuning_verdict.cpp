@@ -61,10 +61,12 @@ std::string robustness_text(const TuningSection& section) {
                        plants);
   }
   const int unstable = plants - section.ensemble->stable;
+  // As the card: what recommend() calls fit on its own ensemble is loaded though some of more
+  // samples violate a constraint.
   return fmt::format(
-      "With these gains only {} of {} perturbed plant models meet the constraints{}. Do not "
-      "install.",
-      within, plants, unstable > 0 ? fmt::format(" ({} unstable)", unstable) : "");
+      "With these gains only {} of {} perturbed plant models meet the constraints{}.{}", within,
+      plants, unstable > 0 ? fmt::format(" ({} unstable)", unstable) : "",
+      section.fitness == design::Fitness::fit ? "" : " Do not install.");
 }
 
 // On how many plants the needed budgets are met in the wind they are needed up to; `short_of_all`:
@@ -308,7 +310,7 @@ std::vector<std::string> decide_tuning(const Report& report, const TuningSection
                       : "The best controller found for the drive as built is",
                   structure, section.design.beam_rms / millidegree, section.design_speed);
   if (report.time_domain) {
-    text += holds ? fmt::format(" ({:.3f} on the nonlinear antenna)",
+    text += holds ? fmt::format(" ({:.3f} in one record on the nonlinear antenna)",
                                 report.time_domain->result.wind.beam_rms / millidegree)
                   : " (the run on the nonlinear antenna did not complete)";
   }

@@ -45,7 +45,8 @@ std::string conclude_wind(const TimeDomainSection& section) {
         section.law, section.wind_speed, design::to_string(wind.status));
   }
   std::string text = fmt::format(
-      "On the nonlinear antenna {} has {:.3f} mdeg rms in {:.3g} m/s, linear prediction {:.3f}",
+      "On the nonlinear antenna {} has {:.3f} mdeg rms in one record of {:.3g} m/s, linear "
+      "prediction {:.3f}",
       section.law, wind.beam_rms / millidegree, section.wind_speed,
       wind.predicted_rms / millidegree);
   if (wind.beam_rms <= wind.predicted_rms) return text + ".";

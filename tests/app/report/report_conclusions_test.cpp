@@ -305,6 +305,12 @@ TEST(TuningVerdict, SaysOnHowManyPlantsTheLawHolds) {
               Contains(HasSubstr("With these gains only 6 of 30 perturbed plant models meet the "
                                  "constraints (1 unstable). Do not install.")));
   EXPECT_THAT(reservations(report), Contains(HasSubstr("only 6 of 30 perturbed plant models")));
+  // One that recommend() calls fit, on the ensemble that it was tuned on, is not withdrawn.
+  report.tuning->fitness = design::Fitness::fit;
+  EXPECT_THAT(tuning_conclusions(report),
+              AllOf(Contains(HasSubstr("only 6 of 30 perturbed plant models")),
+                    Each(Not(HasSubstr("Do not install")))));
+  report.tuning->fitness = design::Fitness::misses_member;
   EXPECT_THAT(decision(report), Each(Not(HasSubstr("Run the drive"))));
   report.tuning->ensemble->stable = report.tuning->ensemble->within_goals = 30;
   EXPECT_THAT(tuning_conclusions(report),

@@ -238,10 +238,8 @@ TEST(TimeDomain, StatesWhetherASecondIntegratorConfirmsTheRun) {
 
 TEST(TimeDomain, ConcludesWhatTheLinearFigureIsWorth) {
   const std::string text = conclude(section());
-  EXPECT_THAT(
-      text,
-      HasSubstr(
-          "has 0.600 mdeg rms in 10 m/s, linear prediction 0.500; friction alone adds 0.080."));
+  EXPECT_THAT(text, HasSubstr("has 0.600 mdeg rms in one record of 10 m/s, linear prediction "
+                              "0.500; friction alone adds 0.080."));
   EXPECT_THAT(text, HasSubstr("Nonlinearities add 20 %: a linear prediction needs 20 % margin."));
   EXPECT_THAT(text, HasSubstr("At rest it has a limit cycle of +-0.29 mdeg in 2 of 3 runs."));
   EXPECT_THAT(text, Not(HasSubstr("At the tracking rate it has")));

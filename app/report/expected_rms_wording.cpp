@@ -6,7 +6,7 @@
 namespace boresight::app {
 
 std::string interval_text(const design::SimulatedRms& expected, double linear) {
-  return fmt::format("95 % {:.3f} to {:.3f}, {} records; {:.3f} linear",
+  return fmt::format("95 % {:.3f} to {:.3f} over {} winds; {:.3f} linear",
                      expected.rms.lower / millidegree, expected.rms.upper / millidegree,
                      expected.records, linear / millidegree);
 }

@@ -249,20 +249,25 @@ CardLine flywheel_line(const MatchingSection& section) {
   const auto at = [&](const MatchingSeries& one, std::size_t row) {
     return mdeg(one.designs[row].beam_rms);
   };
+  // Other loops than the recommended ones, on the nominal plant.
+  const std::string loops_compared =
+      fmt::format(" ({}, linear)", control::to_string(series.structure));
   std::string text = fmt::format("{} {} mdeg, {} as built {}", section.rows[end].label,
                                  at(series, end), section.rows[built].label, at(series, built));
   const bool better = verdict.change(series, end) < -negligible_change;
   if (verdict.flat() || (!better && !verdict.friction_decides())) {
-    return {"Flywheels", "keep: " + text, evidence};
+    return {"Flywheels", "keep: " + text + loops_compared, evidence};
   }
   if (const MatchingSeries* other = verdict.other_friction();
       other != nullptr && verdict.friction_decides()) {
     return {"Flywheels",
-            fmt::format("keep until friction is measured: {}; {} and {} with the {}", text,
-                        at(*other, end), at(*other, built), other->friction),
+            fmt::format("keep until friction is measured: {}; {} and {} with the {}{}", text,
+                        at(*other, end), at(*other, built), other->friction, loops_compared),
             evidence};
   }
-  return {"Flywheels", fmt::format("change: {}; confirm by `boresight evaluate`", text), evidence};
+  return {"Flywheels",
+          fmt::format("change: {}{}; confirm by `boresight evaluate`", text, loops_compared),
+          evidence};
 }
 
 // Contradictions to resolve first.

@@ -66,7 +66,7 @@ Document methods_part(const io::CampaignSection& section) {
         difference ? fmt::format("{:+.1f}", difference->normalised) : "-"};
   };
   if (section.grey_box) {
-    rows.push_back(row_of("reconciled (grey box)", section.grey_box->quantity("inertia").posterior,
+    rows.push_back(row_of("combined (grey box)", section.grey_box->quantity("inertia").posterior,
                           section.grey_box->quantity("motor to load ratio").posterior,
                           std::nullopt));
   }
@@ -146,7 +146,7 @@ Document lines_part(const io::SloshTest& test) {
 Document friction_part(const io::CampaignSection& section) {
   if (section.friction.empty()) return {};
   Document text = heading("Friction at the motor shaft, N.m (95 % intervals)");
-  Rows rows{{"rate rad/s", "reconciled", "interval", "curve fit", "interval", "constant speed",
+  Rows rows{{"rate rad/s", "combined", "interval", "curve fit", "interval", "constant speed",
              "interval", ""}};
   for (const auto& row : section.friction) {
     std::vector<std::string> cells{fmt::format("{:.3f}", row.rate)};

@@ -89,14 +89,15 @@ std::string reconciled_text(const identification::ReconciledInertia& one, double
                                           one.heterogeneity, one.degrees_of_freedom);
   if (one.contradictory()) {
     return fmt::format(
-        "No reconciled inertia: the methods contradict one another ({}; motors and gear train "
+        "No combined estimate: the methods contradict one another ({}; motors and gear train "
         "alone are {:.3f} kg.m2). A random-effects mean of {} methods{} would be {:.3f} kg.m2 "
         "({:.2f} .. {:.2f}; {}), which represents none of them.",
         scatter, without_antenna, one.degrees_of_freedom + 1, counted, one.value, one.lower,
         one.upper, ratio);
   }
   return fmt::format(
-      "Reconciled: J = {:.3f} kg.m2, 95 % interval {:.2f} .. {:.2f} (motors and gear train alone "
+      "Combined estimate: J = {:.3f} kg.m2, 95 % interval {:.2f} .. {:.2f} (motors and gear train "
+      "alone "
       "are {:.3f}); {}. Random-effects mean of {} methods{}; standard deviation "
       "between methods {:.3f} kg.m2; {}{}.",
       one.value, one.lower, one.upper, without_antenna, ratio, one.degrees_of_freedom + 1, counted,
@@ -111,10 +112,10 @@ Document document_of(const IdentificationSection& section) {
   Document text = heading(
       "Inertia at the motor shaft, by method (95 % intervals from the inputs' uncertainties)");
   text += essential(methods_table(section));
-  text += wrapped(
+  text += essential(wrapped(
       "R = Jm/(J - Jm), all motors over everything else. Intervals exclude the methods' model "
       "errors (flexible antenna, efficiencies in the oil spring, friction model).",
-      "  ");
+      "  "));
   text += "\n";
   for (const auto& method : inertia.methods) {
     const auto& left = method.antenna_remainder;

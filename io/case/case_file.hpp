@@ -244,7 +244,7 @@ struct BandEntry {
   std::string illumination;   // in words; empty if the factor is stated
 };
 
-/// A pointing budget: a loss in a band by a named convention, or an rms error an axis.
+/// A pointing budget: a loss in a band by a named convention, or an rms error per axis.
 struct BudgetEntry {
   std::string name;
   std::string band;

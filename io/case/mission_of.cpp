@@ -188,7 +188,7 @@ std::vector<design::PointingBudget> make_budgets(const Case& antenna) {
     }
     if (entry.rms) {
       budget.rms = entry.rms->value;
-      budget.convention = "rms error an axis";
+      budget.convention = "rms error per axis";
     } else if (entry.loss) {
       const auto convention = convention_of(entry.convention);
       budget.rms = design::rms_for_loss(entry.loss->value, budget.beamwidth, convention);

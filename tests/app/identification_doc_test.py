@@ -91,7 +91,7 @@ def paper_table(found, truth):
                          f"{100 * (value / true - 1):+.1f} % | "
                          f"{100 * row['difference']['relative_1']:+.1f} % |")
     value, lower, upper = reconciled
-    lines.append(f"| *reconciled (grey box)* | {number(value)} | {ends(lower, upper)} | "
+    lines.append(f"| *combined (grey box)* | {number(value)} | {ends(lower, upper)} | "
                  f"{100 * (value / true - 1):+.1f} % | |")
     return lines
 

@@ -54,6 +54,6 @@ class Card(unittest.TestCase):
         self.assertEqual(self.card["Recommended"].count(" = "), len(tuning["design"]["gains"]))
         expected = self.report["time_domain"]["expected_rms"]
         self.assertIn(f"{expected['rms_mdeg']:.3f} mdeg rms in ", self.card["Error per axis"])
-        self.assertIn(f"95 % {expected['lower_mdeg']:.3f} to {expected['upper_mdeg']:.3f}, "
-                      f"{expected['records']} records", self.card["Error per axis"])
+        self.assertIn(f"95 % {expected['lower_mdeg']:.3f} to {expected['upper_mdeg']:.3f} over "
+                      f"{expected['records']} winds", self.card["Error per axis"])
         self.assertRegex(self.card["Confidence"], "^low: inertia estimates contradict")

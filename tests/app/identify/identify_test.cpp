@@ -161,7 +161,7 @@ TEST(IdentifyCampaign, FindsTheTruthByThePapersTestsAndSaysWhyItsMethodsMissIt) 
   EXPECT_EQ(failures_of(section), "");
 
   const std::string text = to_text(report_of(section));
-  for (const auto* part : {"Drive parameters from the records", "reconciled (grey box)",
+  for (const auto* part : {"Drive parameters from the records", "combined (grey box)",
                            "* spectrum's peak", "two Coulomb levels", "Records"}) {
     EXPECT_THAT(text, HasSubstr(part));
   }

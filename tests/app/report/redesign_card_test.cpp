@@ -71,8 +71,8 @@ TEST(RedesignCard, GivesTheRmsOfSeveralRecordsWithItsInterval) {
   expected.records = 10;
   expected.rms = {0.51 * millidegree, 0.01 * millidegree, 0.49 * millidegree, 0.53 * millidegree};
   EXPECT_THAT(line_of(report, "Error per axis"),
-              StartsWith("0.510 mdeg rms in 10 m/s wind, simulated (95 % 0.490 to 0.530, 10 "
-                         "records; 0.500 linear)"));
+              StartsWith("0.510 mdeg rms in 10 m/s wind, simulated (95 % 0.490 to 0.530 over 10 "
+                         "winds; 0.500 linear)"));
   // A run that was lost leaves the one record that was not.
   expected.rms.value = std::numeric_limits<double>::quiet_NaN();
   EXPECT_THAT(line_of(report, "Error per axis"), StartsWith("0.520 mdeg rms"));
@@ -151,7 +151,7 @@ TEST(RedesignCard, ChangesFlywheelsOnlyForWhatDecides) {
   Report report = report_of_test();
   report.matching = flywheels({{0.499, 0.5}});
   EXPECT_THAT(line_of(report, "Flywheels"),
-              StartsWith("keep: 0 disks 0.499 mdeg, 24 disks as built 0.500"));
+              StartsWith("keep: 0 disks 0.499 mdeg, 24 disks as built 0.500 (PI"));
   report.matching = flywheels({{0.6, 0.5}});
   EXPECT_THAT(line_of(report, "Flywheels"), StartsWith("keep: "));
   report.matching = flywheels({{0.4, 0.5}});
@@ -161,7 +161,8 @@ TEST(RedesignCard, ChangesFlywheelsOnlyForWhatDecides) {
   report.matching = flywheels({{0.4, 0.5}, {0.47, 0.471}});
   EXPECT_THAT(line_of(report, "Flywheels"),
               AllOf(StartsWith("keep until friction is measured"),
-                    HasSubstr("; 0.470 and 0.471 with the slope at tracking rate")));
+                    HasSubstr("; 0.470 and 0.471 with the slope at tracking rate ("),
+                    HasSubstr(", linear)")));
 }
 
 TEST(RedesignCard, NamesTheTestThatMeasuresWhatTheRmsDependsOn) {

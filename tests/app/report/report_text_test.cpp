@@ -55,13 +55,13 @@ TEST(IdentificationText, ReconcilesNoMethodsThatContradictOneAnother) {
   section.inertia.methods.resize(2);
   section.printed.resize(2);
   section.reconciled = identification::reconcile({{0.8, 0.02}, {7.9, 3.0}}, 0.4);
-  EXPECT_THAT(to_text(document_of(section)), HasSubstr("Reconciled: J = "));
+  EXPECT_THAT(to_text(document_of(section)), HasSubstr("Combined estimate: J = "));
   section.reconciled = identification::reconcile({{0.8, 0.02}, {7.9, 0.8}}, 0.4);
   const std::string text = to_text(document_of(section));
-  EXPECT_THAT(text, HasSubstr("No reconciled inertia: the methods contradict one another "
+  EXPECT_THAT(text, HasSubstr("No combined estimate: the methods contradict one another "
                               "(Cochran's Q 78."));
   EXPECT_THAT(text, HasSubstr("of 2 methods would be 4.305 kg.m2\n  (0.76 .. 9.47;"));
-  EXPECT_THAT(text, Not(HasSubstr("Reconciled: J")));
+  EXPECT_THAT(text, Not(HasSubstr("Combined estimate: J")));
   EXPECT_THAT(text, Not(HasSubstr("impulse")));
   for (auto& method : section.inertia.methods) method.kind = identification::MethodKind::impulse;
   EXPECT_THAT(to_text(document_of(section)), HasSubstr("(the impulse results\n  count as one)"));

@@ -196,7 +196,7 @@ TEST(Document, ShortFormKeepsWhatIsEssential) {
                             wrapped("why", "  ") + heading("Gains") + essential(table({{"kr"}})) +
                             "note\n" + essential(verbatim("sum\n")) + "more\n";
   EXPECT_EQ(to_text(short_form(document)), "title\n\n  Do this.\n\nGains\n-----\n  kr\nsum\n");
-  EXPECT_EQ(to_text(document).find("note\nsum\nmore\n") != std::string::npos, true);
+  EXPECT_THAT(to_text(document), HasSubstr("note\nsum\nmore\n"));
   EXPECT_EQ(to_text(short_form(heading("All of it") + "note\n")), "");
 }
 

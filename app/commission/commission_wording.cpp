@@ -148,13 +148,16 @@ void conclude_plan(const CommissionReport& report, const io::Case& antenna,
       report.plan.largest_step, report.plan.largest_peak(), last.expected.plants));
   if (first.kind == StageKind::as_found && std::isfinite(first.expected.beam_rms.upper)) {
     sentences.push_back(fmt::format(
-        "Boresight rms per axis at {:g} m/s ({} wind): {} mdeg as found, {} mdeg at the end.",
-        report.wind_speed, report.wind_model, range(first.expected.beam_rms, sky, 3),
-        range(last.expected.beam_rms, sky, 3)));
+        "Boresight rms per axis at {:g} m/s ({} wind, linear; {:g} % prediction interval over the "
+        "plants): {} mdeg as found, {} mdeg at the end.",
+        report.wind_speed, report.wind_model, 100.0 * report.options.confidence,
+        range(first.expected.beam_rms, sky, 3), range(last.expected.beam_rms, sky, 3)));
   } else {
     sentences.push_back(
-        fmt::format("Boresight rms per axis at {:g} m/s ({} wind) at the end: {} mdeg.",
-                    report.wind_speed, report.wind_model, range(last.expected.beam_rms, sky, 3)));
+        fmt::format("Boresight rms per axis at {:g} m/s ({} wind, linear; {:g} % prediction "
+                    "interval over the plants) at the end: {} mdeg.",
+                    report.wind_speed, report.wind_model, 100.0 * report.options.confidence,
+                    range(last.expected.beam_rms, sky, 3)));
   }
 }
 

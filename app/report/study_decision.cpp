@@ -107,7 +107,9 @@ Sentences decide_inertia(const MatchSection& section, bool others_hunt) {
   const bool least_of_all = std::ranges::none_of(section.series, [&](const MatchSeries& series) {
     return series.best && series.values[*series.best].beam_rms < least;
   });
-  const char* lead = least_of_all ? "The minimum rms" : "The rms of the recommended structure";
+  const std::string lead = std::string(least_of_all ? "The minimum linear rms"
+                                                    : "The linear rms of the structure to prefer") +
+                           (others_hunt ? ", of those free of limit cycles," : "");
   Sentences sentences{fmt::format(
       "{} is {:.3f} mdeg in {:.3g} m/s, with {} loops and {:g} disks on each motor (ratio {:.2f}); "
       "from {:.1f} to {:.1f} disks it stays within 5 %.",
@@ -247,9 +249,10 @@ std::vector<std::string> decision(const EvaluateSection& section) {
     const CandidateLaw& law = only.laws[*only.chosen];
     if (!std::isfinite(law.compared_rms())) return sentences;
     sentences.push_back(
-        fmt::format("Nothing to compare with: {} has {:.3f} mdeg rms over {} plant models in "
-                    "{:.3g} m/s with {}{}.",
-                    only.name, mdeg(law.compared_rms()), section.ensemble_size, section.wind_speed,
+        fmt::format("No proposal to compare: {} has {:.3f} mdeg rms over {} plant models in "
+                    "{:.3g} m/s with {} (robust){}.",
+                    only.path.empty() ? "the antenna " + only.name : only.name,
+                    mdeg(law.compared_rms()), section.ensemble_size, section.wind_speed,
                     law.structure, law.usable() ? "" : ", which is not eligible"));
   }
   std::string front;

@@ -94,7 +94,7 @@ std::string unrest_too(const std::vector<design::HuntingResult>& hunting, double
                      design::hunting_amplitude(hunting) / millidegree);
 }
 
-// What the law that the linear plant puts first does on the nonlinear antenna.
+// What a controller that the linear plant prefers does on the nonlinear antenna.
 std::string first_text(const design::NonlinearVerification& first, double error) {
   std::string text =
       first.wind.status == RunStatus::complete
@@ -256,13 +256,14 @@ std::string decide(const TimeDomainSection& section) {
   // The recommended controller itself is named first: recommended_first.
   std::vector<std::string> sentences;
   for (const auto& candidate : section.candidates) {
-    if (design::holds_still(candidate.result.hunting, error) ||
-        !(candidate.result.wind.beam_rms < section.result.wind.beam_rms)) {
-      continue;
-    }
-    sentences.push_back(fmt::format("Not {}: it has {:.3f} mdeg in wind, but {}.", candidate.law,
-                                    candidate.result.wind.beam_rms / millidegree,
-                                    unrest(candidate.result.hunting, error)));
+    const design::WindResult &wind = candidate.result.wind, &chosen = section.result.wind;
+    const bool fit =
+        wind.status == RunStatus::complete && design::holds_still(candidate.result.hunting, error);
+    const bool lower = wind.beam_rms < chosen.beam_rms || wind.predicted_rms < chosen.predicted_rms;
+    if (fit || !lower) continue;
+    sentences.push_back(fmt::format(
+        "Not {}, with {:.3f} mdeg on the linear plant: on the nonlinear antenna {}.", candidate.law,
+        wind.predicted_rms / millidegree, first_text(candidate.result, error)));
   }
   if (std::string stroke = assumed_stroke(section); !stroke.empty()) {
     sentences.push_back(std::move(stroke));

@@ -114,8 +114,18 @@ TEST(TimeDomain, DecidesForALawThatHoldsStill) {
   hunting.wind.beam_rms = 0.1 * mdeg;
   hunting.hunting[0].beam_amplitude = 8.73 * mdeg;
   chosen.candidates = {{"PI, robust", chosen.result}, {"DPF+C, robust", hunting}};
-  EXPECT_THAT(decide(chosen), StartsWith("Not DPF+C, robust: it has 0.100 mdeg in wind, but has a "
-                                         "limit cycle of +-8.73 mdeg"));
+  EXPECT_THAT(decide(chosen),
+              StartsWith("Not DPF+C, robust, with 0.500 mdeg on the linear plant: on the nonlinear "
+                         "antenna it has 0.100 and has a limit cycle of +-8.73 mdeg"));
+  // So is one that only the linear plant prefers, and one whose run in wind was lost.
+  chosen.candidates[1].result.wind.beam_rms = 5.0 * mdeg;
+  EXPECT_EQ(decide(chosen), "");
+  chosen.candidates[1].result.wind.predicted_rms = 0.4 * mdeg;
+  EXPECT_THAT(decide(chosen), StartsWith("Not DPF+C, robust, with 0.400 mdeg on the linear plant"));
+  chosen.candidates[1].result.hunting = chosen.result.hunting;
+  EXPECT_EQ(decide(chosen), "");
+  chosen.candidates[1].result.wind.status = design::RunStatus::lost;
+  EXPECT_THAT(decide(chosen), HasSubstr("its run did not complete (lost)"));
   // Where all do.
   chosen.result = hunting;
   EXPECT_THAT(decide(chosen),

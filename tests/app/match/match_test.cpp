@@ -1,11 +1,11 @@
 #include <cmath>
 #include <functional>
-#include <regex>
 #include <string>
 #include <vector>
 
 #include <gtest/gtest.h>
 
+#include "app/document/on_one_line.hpp"
 #include <boresight/app/document/document_text.hpp>
 #include <boresight/app/match/match_conclusions.hpp>
 #include <boresight/app/report/match_report.hpp>
@@ -190,7 +190,7 @@ TEST(Match, NamesTheModeOfMostOilWhereTheHydraulicModeHasLittle) {
   }
   const auto told = [&](const std::string& sentence) {
     const std::string text = to_text(document_of(section));
-    return std::regex_replace(text, std::regex("\\s+"), " ").find(sentence) != std::string::npos;
+    return on_one_line(text).find(sentence) != std::string::npos;
   };
   EXPECT_TRUE(told("hydr., zeta: the hydraulic mode, the lowest that moves the oil"));
   EXPECT_FALSE(told("dominant hydraulic mode"));

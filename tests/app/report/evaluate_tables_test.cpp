@@ -1,11 +1,11 @@
 // What the tables of an evaluation leave out: rows that hold nothing to the digits printed. What
 // stands below them.
-#include <regex>
 #include <string>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "app/document/on_one_line.hpp"
 #include <boresight/app/document/document_text.hpp>
 #include <boresight/app/figures/evaluate_figures.hpp>
 #include <boresight/app/report/evaluate_report.hpp>
@@ -82,9 +82,7 @@ TEST(EvaluateTables, NameTheModeOfMostOilWhereTheHydraulicModeHasLittle) {
     mode.oil_share = 0.06;
     return mode;
   };
-  const auto told = [&] {
-    return std::regex_replace(to_text(document_of(section)), std::regex("\\s+"), " ");
-  };
+  const auto told = [&] { return on_one_line(to_text(document_of(section))); };
   set(0, "as it is", 6.02);
   plant::PlantMode& bare = set(1, "no flywheels", 22.3);
   section.candidates[1].path = "no-flywheels.toml";

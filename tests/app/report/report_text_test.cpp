@@ -7,6 +7,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "app/document/on_one_line.hpp"
 #include <boresight/app/document/document_text.hpp>
 #include <boresight/app/report/text_report.hpp>
 
@@ -57,14 +58,15 @@ TEST(IdentificationText, ReconcilesNoMethodsThatContradictOneAnother) {
   section.reconciled = identification::reconcile({{0.8, 0.02}, {7.9, 3.0}}, 0.4);
   EXPECT_THAT(to_text(document_of(section)), HasSubstr("Combined estimate: J = "));
   section.reconciled = identification::reconcile({{0.8, 0.02}, {7.9, 0.8}}, 0.4);
-  const std::string text = to_text(document_of(section));
+  const std::string text = on_one_line(to_text(document_of(section)));
   EXPECT_THAT(text, HasSubstr("No combined estimate: the methods contradict one another "
                               "(Cochran's Q 78."));
-  EXPECT_THAT(text, HasSubstr("of 2 methods would be 4.305 kg.m2\n  (0.76 .. 9.47;"));
+  EXPECT_THAT(text, HasSubstr("of 2 methods would be 4.305 kg.m2 (0.76 .. 9.47;"));
   EXPECT_THAT(text, Not(HasSubstr("Combined estimate: J")));
   EXPECT_THAT(text, Not(HasSubstr("impulse")));
   for (auto& method : section.inertia.methods) method.kind = identification::MethodKind::impulse;
-  EXPECT_THAT(to_text(document_of(section)), HasSubstr("(the impulse results\n  count as one)"));
+  EXPECT_THAT(on_one_line(to_text(document_of(section))),
+              HasSubstr("(the impulse results count as one)"));
 }
 
 TEST(IdentificationText, GivesSharesOfTheDrawsInFigures) {

@@ -1,6 +1,5 @@
 #include <cmath>
 #include <limits>
-#include <regex>
 #include <string>
 #include <vector>
 
@@ -9,6 +8,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include "app/document/on_one_line.hpp"
 #include "io/edited_case.hpp"
 #include <boresight/app/report/json_writer.hpp>
 #include <boresight/app/simulate/time_domain.hpp>
@@ -83,7 +83,7 @@ TEST(TimeDomain, TextSaysWhatTheNumbersAre) {
   EXPECT_THAT(text, HasSubstr("-0.0100"));
   EXPECT_THAT(text, HasSubstr("+0.0800      0.5200"));
   EXPECT_THAT(text, HasSubstr("At rest, no wind: a limit cycle of +-0.2900 mdeg at the encoder"));
-  const std::string flat = std::regex_replace(text, std::regex("\\s+"), " ");
+  const std::string flat = on_one_line(text);
   EXPECT_THAT(flat, HasSubstr("0.0612 Hz, in 2 of 3 runs, from different initial steps."));
   EXPECT_THAT(
       flat,
@@ -200,7 +200,7 @@ TEST(TimeDomain, TextSaysWhyThereAreNoNumbers) {
   lost.result.slew->settling_time.reset();
   lost.result.slew->status = design::RunStatus::failed;
   lost.result.slew->message = "the supply cannot move it";
-  const std::string text = std::regex_replace(to_text(lost), std::regex("\\s+"), " ");
+  const std::string text = on_one_line(to_text(lost));
   EXPECT_THAT(text, HasSubstr("In wind of 10 m/s no rms: lost: the encoder is 1 rad off."));
   EXPECT_THAT(text, Not(HasSubstr("linear prediction")));
   EXPECT_THAT(text, HasSubstr("At rest, no wind: failed: no steady motion."));
@@ -209,14 +209,11 @@ TEST(TimeDomain, TextSaysWhyThereAreNoNumbers) {
   EXPECT_THAT(text, Not(HasSubstr("nan")));
   auto slow = section();
   slow.result.slew->settling_time.reset();
-  EXPECT_THAT(std::regex_replace(to_text(slow), std::regex("\\s+"), " "),
-              HasSubstr("not within 0.5270 mdeg 40 s after"));
+  EXPECT_THAT(on_one_line(to_text(slow)), HasSubstr("not within 0.5270 mdeg 40 s after"));
 }
 
 TEST(TimeDomain, StatesWhetherASecondIntegratorConfirmsTheRun) {
-  const auto told = [](const TimeDomainSection& section) {
-    return std::regex_replace(to_text(section), std::regex("\\s+"), " ");
-  };
+  const auto told = [](const TimeDomainSection& section) { return on_one_line(to_text(section)); };
   auto checked = section();
   EXPECT_THAT(told(checked), Not(HasSubstr("CVODES")));
   EXPECT_TRUE(json_of(checked).at("integrators").is_null());
@@ -313,13 +310,6 @@ TimeDomainSection chosen_of(const std::vector<LawInWind>& laws) {
   chosen.law = chosen.candidates.back().law;
   chosen.result = chosen.candidates.back().result;
   return chosen;
-}
-
-std::string on_one_line(std::string text) {
-  for (auto at = text.find("\n  "); at != std::string::npos; at = text.find("\n  ", at)) {
-    text.replace(at, 3, " ");
-  }
-  return text;
 }
 
 TEST(TimeDomain, SaysByWhatRuleALawWasChosen) {

@@ -6,8 +6,8 @@
 #include <fmt/format.h>
 
 #include <boresight/control/controllers/antenna_controller.hpp>
-#include <boresight/control/controllers/delay.hpp>
 #include <boresight/control/loops/closed_loop.hpp>
+#include <boresight/control/loops/command_loop.hpp>
 #include <boresight/design/commissioning/commissioning_check.hpp>
 #include <boresight/numerics/angles.hpp>
 #include <boresight/numerics/eigenvalues.hpp>
@@ -29,40 +29,6 @@ TrackingProblem with_plant(TrackingProblem problem, const plant::AntennaPlant& p
   problem.plant = plant;
   problem.points_per_decade = 60;
   return problem;
-}
-
-plant::StateSpace sum(double first, const std::string& first_name, double second,
-                      const std::string& second_name, const std::string& name) {
-  return plant::static_gain((Eigen::MatrixXd(1, 2) << first, second).finished(),
-                            {first_name, second_name}, {name});
-}
-
-void rename_input(plant::StateSpace& system, const std::string& from, const std::string& to) {
-  std::ranges::replace(system.inputs, from, to);
-}
-
-// From the rate command to what is measured, the position loop open.
-plant::StateSpace rate_loop(const TrackingProblem& problem, const control::ControlLaw& law) {
-  plant::StateSpace controller = control::rate_loop_law(law);
-  rename_input(controller, "tachometer", "rate_less_command");
-  return plant::connect({plant::to_state_space(problem.plant),
-                         sum(1.0, "tachometer", -1.0, "command", "rate_less_command"), controller,
-                         control::delay_approximant(problem.delay, control::delay_order,
-                                                    "valve_demand", "valve_command")},
-                        {"command", "wind_torque"}, {"tachometer", "motor_torque", "valve_demand"});
-}
-
-// From position command and feedforward to what is measured.
-plant::StateSpace position_loop(const TrackingProblem& problem, const control::ControlLaw& law) {
-  plant::StateSpace controller = control::to_state_space(law);
-  rename_input(controller, "encoder", "angle_less_command");
-  return plant::connect({plant::to_state_space(problem.plant),
-                         sum(1.0, "encoder", -1.0, "command", "angle_less_command"), controller,
-                         sum(1.0, "valve_demand", 1.0, "valve_feedforward", "whole_demand"),
-                         control::delay_approximant(problem.delay, control::delay_order,
-                                                    "whole_demand", "valve_command")},
-                        {"command", "rate_disturbance", "valve_feedforward", "wind_torque"},
-                        {"encoder", "motor_torque", "whole_demand"});
 }
 
 // First time at which the samples reach a level, straight between them.
@@ -146,7 +112,9 @@ double StageObserver::crossover(const StageLaw& stage) const {
 
 void StageObserver::observe_step(const StageLaw& stage, StageObservation& seen) const {
   const plant::StateSpace loop =
-      stage.position_open ? rate_loop(problem_, stage.law) : position_loop(problem_, stage.law);
+      stage.position_open
+          ? control::rate_command_loop(problem_.plant, stage.law, problem_.delay)
+          : control::position_command_loop(problem_.plant, stage.law, problem_.delay);
   const double step = 60.0 / (seen.crossover * static_cast<double>(samples_watched));
   Eigen::MatrixXd input =
       Eigen::MatrixXd::Zero(samples_watched, static_cast<Eigen::Index>(loop.inputs.size()));
@@ -162,7 +130,8 @@ void StageObserver::observe_step(const StageLaw& stage, StageObservation& seen) 
 }
 
 void StageObserver::observe_move(const StageLaw& stage, StageObservation& seen) const {
-  const plant::StateSpace loop = position_loop(problem_, stage.law);
+  const plant::StateSpace loop =
+      control::position_command_loop(problem_.plant, stage.law, problem_.delay);
   const auto forward = stage.feedforward
                            ? control::plant_feedforward(problem_.plant, stage.law, problem_.delay)
                            : control::Feedforward{};

@@ -1,0 +1,48 @@
+#include <algorithm>
+#include <string>
+
+#include <boresight/control/controllers/delay.hpp>
+#include <boresight/control/loops/closed_loop.hpp>
+#include <boresight/control/loops/command_loop.hpp>
+#include <boresight/plant/linear/interconnection.hpp>
+
+namespace boresight::control {
+namespace {
+
+plant::StateSpace weighted_sum(double first, const std::string& first_name, double second,
+                               const std::string& second_name, const std::string& name) {
+  return plant::static_gain((Eigen::MatrixXd(1, 2) << first, second).finished(),
+                            {first_name, second_name}, {name});
+}
+
+void rename_input(plant::StateSpace& system, const std::string& from, const std::string& to) {
+  std::ranges::replace(system.inputs, from, to);
+}
+
+}  // namespace
+
+plant::StateSpace rate_command_loop(const plant::AntennaPlant& plant, const ControlLaw& law,
+                                    double delay) {
+  plant::StateSpace controller = rate_loop_law(law);
+  rename_input(controller, "tachometer", "rate_less_command");
+  return plant::connect(
+      {plant::to_state_space(plant),
+       weighted_sum(1.0, "tachometer", -1.0, "command", "rate_less_command"), controller,
+       delay_approximant(delay, delay_order, "valve_demand", "valve_command")},
+      {"command", "wind_torque"}, {"tachometer", "motor_torque", "valve_demand"});
+}
+
+plant::StateSpace position_command_loop(const plant::AntennaPlant& plant, const ControlLaw& law,
+                                        double delay) {
+  plant::StateSpace controller = to_state_space(law);
+  rename_input(controller, "encoder", "angle_less_command");
+  return plant::connect(
+      {plant::to_state_space(plant),
+       weighted_sum(1.0, "encoder", -1.0, "command", "angle_less_command"), controller,
+       weighted_sum(1.0, "valve_demand", 1.0, "valve_feedforward", "whole_demand"),
+       delay_approximant(delay, delay_order, "whole_demand", "valve_command")},
+      {"command", "rate_disturbance", "valve_feedforward", "wind_torque"},
+      {"encoder", "motor_torque", "whole_demand"});
+}
+
+}  // namespace boresight::control

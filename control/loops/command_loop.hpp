@@ -1,0 +1,23 @@
+#pragma once
+
+#include <boresight/control/controllers/control_law.hpp>
+#include <boresight/plant/antenna/antenna_plant.hpp>
+#include <boresight/plant/linear/state_space.hpp>
+
+namespace boresight::control {
+
+/// The rate loop from its command, the position loop open: inputs command (rad/s) and wind_torque
+/// (N m), outputs tachometer (rad/s), motor_torque (N m) and valve_demand (rad/s), all at the motor
+/// shaft. Dead time as in closed_loop. @throws InvalidInput as to_state_space of plant and law.
+plant::StateSpace rate_command_loop(const plant::AntennaPlant& plant, const ControlLaw& law,
+                                    double delay);
+
+/// Both loops from the position command and the feedforward signals: inputs command (rad),
+/// rate_disturbance (rad/s, added to the rate command), valve_feedforward (rad/s, added to the
+/// valve demand) and wind_torque (N m), outputs encoder (rad), motor_torque (N m) and whole_demand
+/// (rad/s, feedforward included), all at the motor shaft. Dead time as in closed_loop.
+/// @throws InvalidInput as to_state_space of plant and law.
+plant::StateSpace position_command_loop(const plant::AntennaPlant& plant, const ControlLaw& law,
+                                        double delay);
+
+}  // namespace boresight::control

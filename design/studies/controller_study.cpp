@@ -36,6 +36,15 @@ bool needed(const TuningStudy& section, double speed) {
 
 }  // namespace
 
+std::optional<EnsembleCurves> curves_of(const TuningStudy& study, const TunedLaw& row,
+                                        const PlantEnsemble& ensemble, unsigned threads) {
+  if (!row.stable() || !row.ensemble || ensemble.members.empty()) return std::nullopt;
+  TrackingProblem problem = study.problem;
+  problem.wind.mean_speed = row.wind_speed;
+  return ensemble_curves(problem, ensemble.members, row.design.tuning.law, *row.ensemble,
+                         highest_compared_speed(row.wind_speed, row.speed_limits), threads);
+}
+
 std::string description_of(const TunedLaw& row) {
   return fmt::format("{}, {}", row.structure, to_string(row.tuned_for));
 }

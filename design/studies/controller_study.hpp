@@ -3,6 +3,7 @@
 #include <optional>
 #include <string>
 
+#include <boresight/design/ensembles/ensemble_curves.hpp>
 #include <boresight/design/studies/time_domain_study.hpp>
 #include <boresight/design/studies/tuning_study.hpp>
 
@@ -33,6 +34,12 @@ const TunedLaw* recommended_or(const ControllerStudy& study, Fitness accepted);
 /// The controller that figures and exported models are of: the one recommended; where none is, that
 /// of the time domain, and without one best_law. Null without a controller.
 const TunedLaw* shown_law(const TuningStudy& study, const TimeDomainStudy* in_time);
+
+/// A controller of the study on the ensemble that the study was made with, as curves, with rms up
+/// to the speeds that its budgets ask for. None without a stable controller or members.
+/// @throws as ensemble_curves.
+std::optional<EnsembleCurves> curves_of(const TuningStudy& study, const TunedLaw& row,
+                                        const PlantEnsemble& ensemble, unsigned threads);
 
 /// What a simulated controller is called.
 std::string description_of(const TunedLaw& row);

@@ -258,7 +258,13 @@ void evaluate_on(const std::vector<EnsembleMember>& members, unsigned threads,
   const auto& law = design.design.tuning.law;
   design.ensemble = judge(design.problem, members, law, design.goals, threads);
   std::vector<PointingBudget> budgets;
-  for (const auto& result : design.budgets) budgets.push_back(result.budget);
+  std::vector<double> limits;
+  for (const auto& result : design.budgets) {
+    budgets.push_back(result.budget);
+    limits.push_back(result.wind_speed_limit);
+  }
+  design.curves = ensemble_curves(design.problem, members, law, *design.ensemble,
+                                  highest_compared_speed(design.design_speed, limits), threads);
   const auto met =
       plants_within_budgets(design.problem, members, law, design.goals, budgets, 1.0, threads);
   for (std::size_t i = 0; i < met.size(); ++i) design.budgets[i].plants_met = met[i];

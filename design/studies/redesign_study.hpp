@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include <boresight/design/ensembles/ensemble_curves.hpp>
 #include <boresight/design/studies/controller_study.hpp>
 
 namespace boresight::design {
@@ -67,6 +68,8 @@ struct RecommendedDesign {
   std::vector<ClimatePart> climate;  // of the site; empty if it is not known
   /// The controller with its gains fixed on perturbed models. None without a stable one.
   std::optional<EnsembleResult> ensemble;
+  /// The same as curves.
+  std::optional<EnsembleCurves> curves;
   /// Of a position gain at the upper bound of the search that can be halved or lowered further.
   std::optional<PositionGainTrade> trade;
 };

@@ -1,0 +1,134 @@
+#include <algorithm>
+#include <limits>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "design/reference_problem.hpp"
+#include <boresight/design/ensembles/ensemble_curves.hpp>
+#include <boresight/numerics/error.hpp>
+
+namespace boresight::design {
+namespace {
+
+TrackingProblem coarse_problem() {
+  TrackingProblem problem = reference::tracking_problem();
+  problem.points_per_decade = 100;
+  return problem;
+}
+
+std::vector<EnsembleMember> three_members(const TrackingProblem& problem) {
+  std::vector<EnsembleMember> members{
+      {"nominal", problem.plant}, {"soft", problem.plant}, {"stiff", problem.plant}};
+  members[1].plant.drive.oil_stiffness *= 0.6;
+  members[1].plant.drive.leakage_rate *= 0.4;
+  members[2].plant.drive.oil_stiffness *= 1.3;
+  return members;
+}
+
+bool within(const EnsembleBand& band) {
+  return (band.lower <= band.nominal).all() && (band.nominal <= band.upper).all();
+}
+
+bool same(const EnsembleBand& one, const EnsembleBand& other) {
+  return (one.lower == other.lower).all() && (one.nominal == other.nominal).all() &&
+         (one.upper == other.upper).all();
+}
+
+TEST(EnsembleCurves, ReachThePeaksAndRmsOfTheMembersAsJudged) {
+  const TrackingProblem problem = coarse_problem();
+  const auto members = three_members(problem);
+  const auto law = reference::cautious_law();
+  const EnsembleResult judged = judge(problem, members, law, {}, 1);
+  ASSERT_EQ(judged.stable, 3);
+  const auto curves = ensemble_curves(problem, members, law, judged, 15.0, 1);
+  for (std::size_t b = 0; b < 3; ++b) {
+    EXPECT_TRUE(within(curves.sensitivity.at(b)));
+    double highest = 0.0;
+    for (const auto& member : judged.members) {
+      highest = std::max(highest, member.sensitivity_peaks.at(b));
+    }
+    EXPECT_EQ(curves.worst.at(b).peak, highest);
+    // The grid does not hit the peak, and never exceeds it.
+    EXPECT_LE(curves.sensitivity.at(b).upper.maxCoeff(), highest * (1.0 + 1e-4));
+    EXPECT_GE(curves.sensitivity.at(b).upper.maxCoeff(), highest * 0.97);
+    EXPECT_TRUE((curves.worst.at(b).sensitivity <= curves.sensitivity.at(b).upper).all());
+  }
+  ASSERT_EQ(curves.wind_speed.size(), 60);
+  EXPECT_NEAR(curves.wind_speed[39], 10.0, 1e-12);
+  EXPECT_TRUE(within(curves.beam_rms));
+  EXPECT_NEAR(curves.beam_rms.nominal[39] / judged.members[0].beam_rms, 1.0, 5e-3);
+  EXPECT_NEAR(curves.beam_rms.lower[39] / judged.least_rms, 1.0, 5e-3);
+  EXPECT_NEAR(curves.beam_rms.upper[39] / judged.largest_rms, 1.0, 5e-3);
+}
+
+TEST(EnsembleCurves, StepsLeadFromRestToTheCommand) {
+  const TrackingProblem problem = coarse_problem();
+  const auto members = three_members(problem);
+  const auto law = reference::cautious_law();
+  const auto curves =
+      ensemble_curves(problem, members, law, judge(problem, members, law, {}, 1), 15.0, 1);
+  for (const auto* step : {&curves.rate_step, &curves.position_step}) {
+    EXPECT_TRUE(within(step->response));
+    EXPECT_EQ(step->time[0], 0.0);
+    EXPECT_NEAR(step->response.nominal[0], 0.0, 1e-9);
+    EXPECT_NEAR(step->response.nominal.tail(1)[0], 1.0, 0.05);
+    EXPECT_LT(step->response.lower.tail(1)[0], step->response.upper.tail(1)[0]);
+  }
+}
+
+TEST(EnsembleCurves, LeaveUnstableMembersOutOfTheirRanges) {
+  const TrackingProblem problem = coarse_problem();
+  auto members = three_members(problem);
+  members.resize(1);
+  const auto law = reference::cautious_law();
+  const EnsembleResult judged = judge(problem, members, law, {}, 1);
+  const auto alone = ensemble_curves(problem, members, law, judged, 15.0, 1);
+  members.push_back({"unstable", problem.plant});
+  EnsembleResult with_unstable = judged;
+  with_unstable.members.push_back(judged.members.front());
+  with_unstable.members.back().stable = false;
+  members.back().plant.drive.oil_stiffness *= 0.1;
+  const auto two = ensemble_curves(problem, members, law, with_unstable, 15.0, 1);
+  EXPECT_EQ(two.members, 2U);
+  EXPECT_EQ(two.stable, 1U);
+  EXPECT_TRUE(same(two.beam_rms, alone.beam_rms));
+  EXPECT_TRUE(same(two.sensitivity[1], alone.sensitivity[1]));
+  EXPECT_EQ(two.worst[1].member, "nominal");
+}
+
+TEST(EnsembleCurves, AreTheSameForAnyNumberOfThreads) {
+  const TrackingProblem problem = coarse_problem();
+  const auto members = three_members(problem);
+  const auto law = reference::cautious_law();
+  const EnsembleResult judged = judge(problem, members, law, {}, 1);
+  const auto one = ensemble_curves(problem, members, law, judged, 15.0, 1);
+  const auto three = ensemble_curves(problem, members, law, judged, 15.0, 3);
+  EXPECT_TRUE(same(one.beam_rms, three.beam_rms));
+  EXPECT_TRUE(same(one.position_step.response, three.position_step.response));
+  for (std::size_t b = 0; b < 3; ++b) {
+    EXPECT_TRUE(same(one.sensitivity.at(b), three.sensitivity.at(b)));
+    EXPECT_EQ(one.worst.at(b).member, three.worst.at(b).member);
+  }
+}
+
+TEST(EnsembleCurves, RefuseOtherMembersThanWereJudged) {
+  const TrackingProblem problem = coarse_problem();
+  const auto members = three_members(problem);
+  const auto law = reference::cautious_law();
+  EnsembleResult judged = judge(problem, members, law, {}, 1);
+  EXPECT_THROW(ensemble_curves(problem, members, law, judged, 0.0, 1), InvalidInput);
+  judged.members.pop_back();
+  EXPECT_THROW(ensemble_curves(problem, members, law, judged, 15.0, 1), InvalidInput);
+}
+
+TEST(HighestComparedSpeed, IncludesLimitsUpToThreeTimesTheMeanSpeed) {
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  EXPECT_EQ(highest_compared_speed(10.0, {}), 15.0);
+  EXPECT_EQ(highest_compared_speed(10.0, {0.0, infinity, 9.0}), 15.0);
+  EXPECT_NEAR(highest_compared_speed(10.0, {20.0}), 21.6, 1e-12);
+  EXPECT_EQ(highest_compared_speed(10.0, {40.0}), 30.0);
+}
+
+}  // namespace
+}  // namespace boresight::design

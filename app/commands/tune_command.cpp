@@ -95,6 +95,11 @@ Report tune_case(const TuneArguments& arguments, const std::function<bool()>& in
   report.tuned = section_of(antenna, std::move(study.tuned));
   report.time_domain = section_of(antenna, std::move(study.time_domain));
   report.interrupted = interrupted && interrupted();
+  const TunedLaw* shown =
+      shown_law(*report.tuned, report.time_domain ? &*report.time_domain : nullptr);
+  if (shown != nullptr && !report.interrupted) {
+    report.tuned->curves = curves_of(*report.tuned, *shown, ensemble, arguments.threads);
+  }
   if (report.time_domain) report.assumed = assumed_inputs(antenna, {.time_runs = true});
   const TunedLaw* best = best_law(*report.tuned);
   if (best != nullptr && !report.interrupted) {

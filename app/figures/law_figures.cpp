@@ -1,162 +1,27 @@
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <complex>
+#include <iterator>
 
 #include <fmt/format.h>
 
+#include <boresight/app/figures/ensemble_figures.hpp>
 #include <boresight/app/figures/frequency_curves.hpp>
 #include <boresight/app/figures/law_figures.hpp>
+#include <boresight/app/figures/open_loop_figures.hpp>
 #include <boresight/app/report/sky_units.hpp>
-#include <boresight/control/loops/closed_loop.hpp>
-#include <boresight/design/problem/pointing_budget.hpp>
-#include <boresight/design/tuning/design_study.hpp>
 #include <boresight/numerics/angles.hpp>
 #include <boresight/plant/antenna/plant_response.hpp>
-#include <boresight/plant/linear/response_grid.hpp>
+#include <boresight/plant/antenna/point_response.hpp>
 
 namespace boresight::app {
 namespace {
 
-// The law on its grid: rad/s, responses, loop gains by break.
-struct Responses {
-  Eigen::ArrayXd frequency;
-  plant::PlantResponse plant;
-  std::array<Eigen::ArrayXcd, 3> gain;
-};
-
-Eigen::ArrayXd law_grid(const design::TrackingProblem& problem, const control::ControlLaw& law) {
-  const auto band = design::analysis_band(problem);
-  const Eigen::ArrayXd open = plant::frequency_grid(problem.plant, band.lowest, band.highest, 40);
-  plant::ResponseGridOptions options;
-  options.lowest = two_pi * band.lowest;
-  options.highest = two_pi * band.highest;
-  options.points_per_decade = 40;
-  const auto loop = control::closed_loop(problem.plant, law, problem.delay);
-  return merged(open, plant::response_grid(loop, options));
-}
-
-Responses responses(const DrawnLaw& drawn) {
-  Responses result;
-  result.frequency = law_grid(drawn.problem, drawn.law);
-  result.plant = plant::plant_response(drawn.problem.plant, result.frequency);
-  for (std::size_t b = 0; b < control::loop_breaks.size(); ++b) {
-    Eigen::ArrayXcd& gain = result.gain.at(b);
-    gain.resize(result.frequency.size());
-    for (Eigen::Index i = 0; i < gain.size(); ++i) {
-      gain[i] = control::loop_gain(plant::point(result.plant, i), result.frequency[i], drawn.law,
-                                   drawn.problem.delay, control::loop_breaks.at(b));
-    }
-  }
-  return result;
-}
-
-std::string conditions(const DrawnLaw& drawn) {
-  return fmt::format("{}, {:.3g} m/s, wind model {}, linear plant with friction {:g} N.m.s/rad.",
-                     drawn.name, drawn.problem.wind.mean_speed,
-                     plant::to_string(drawn.problem.wind.model),
-                     drawn.problem.plant.drive.viscous_friction);
-}
-
-// From where loops begin to work against the wind to the end of the band of the rms.
-FigureAxis shown_frequencies(const design::TrackingProblem& problem) {
-  FigureAxis axis = frequency_axis();
-  axis.lowest = std::max(1e-3, problem.rms_band.lowest);
-  axis.highest = problem.rms_band.highest;
-  return axis;
-}
-
-Figure started(const DrawnLaw& drawn, const char* id, const char* title) {
-  Figure figure;
-  figure.id = fmt::format("{}-{}", drawn.id, id);
-  figure.section = drawn.section;
-  figure.title = title;
-  figure.x = shown_frequencies(drawn.problem);
-  return figure;
-}
-
-std::string break_name(std::size_t loop_break) {
-  return std::string(control::to_string(control::loop_breaks.at(loop_break)));
-}
-
-Figure open_loop_figure(const DrawnLaw& drawn, const Responses& on_grid) {
-  Figure figure = started(drawn, "open-loop", "Open loop at three breaks");
-  figure.caption =
-      "Loop gain broken in the rate loop (position loop open), at the valve command and in the "
-      "position loop. Circles: gain crossovers with phase margins. " +
-      conditions(drawn);
-  std::vector<NamedResponse> loops;
-  for (std::size_t b = 0; b < 3; ++b) loops.push_back({break_name(b), on_grid.gain.at(b)});
-  figure.panels = bode_panels(on_grid.frequency, loops, "loop gain");
-  FigurePanel& gain = figure.panels[0];
-  FigurePanel& phase = figure.panels[1];
-  gain.y.lowest = -60.0;
-  gain.y.highest = 80.0;
-  // Dead time turns on for ever where nothing is left of the gain.
-  phase.y.lowest = -720.0;
-  phase.y.highest = 90.0;
-  gain.lines.push_back({FigureLine::Direction::horizontal, 0.0, ""});
-  phase.lines.push_back({FigureLine::Direction::horizontal, -180.0, ""});
-  for (const auto& margins : drawn.margins) {
-    for (const auto& crossover : margins.gain_crossovers) {
-      gain.marks.push_back({crossover.frequency / two_pi, 0.0,
-                            fmt::format("{:.2f} Hz, {:.0f}\u00b0", crossover.frequency / two_pi,
-                                        crossover.phase_margin_deg)});
-    }
-  }
-  return figure;
-}
-
-Figure nyquist_figure(const DrawnLaw& drawn, const Responses& on_grid) {
-  Figure figure = started(drawn, "nyquist", "Nyquist plot with exclusion disks");
-  const auto worst =
-      std::min_element(drawn.margins.begin(), drawn.margins.end(),
-                       [](const auto& x, const auto& y) { return x.disk.alpha < y.disk.alpha; });
-  const auto at = static_cast<std::size_t>(worst - drawn.margins.begin());
-  const auto& disk = worst->disk;
-  figure.caption = fmt::format(
-      "Loop gain at the three breaks. No curve may enter the exclusion disk about \u22121 of the "
-      "allowed Ms. The disk of the smallest disk margin, alpha = {:.3f} ({}, {:.2f} Hz: gain "
-      "{:.2f} to {:.2f}, phase {:.0f}\u00b0), touches its curve. ",
-      disk.alpha, break_name(at), disk.frequency / two_pi, disk.lowest_gain, disk.highest_gain,
-      disk.phase_deg);
-  figure.caption += conditions(drawn);
-  figure.equal_scales = true;
-  figure.x = {.label = "real part", .lowest = -3.5, .highest = 1.5};
-  FigurePanel panel;
-  panel.y = {.label = "imaginary part", .lowest = -2.5, .highest = 2.0};
-  for (std::size_t b = 0; b < 3; ++b) {
-    panel.series.push_back({.name = break_name(b),
-                            .x = numbers(on_grid.gain.at(b).real()),
-                            .y = numbers(on_grid.gain.at(b).imag())});
-  }
-  panel.marks.push_back({-1.0, 0.0, "\u22121"});
-  const auto& goals = drawn.goals.sensitivity_peak;
-  for (std::size_t b = 0; b < 3; ++b) {
-    if (std::find(goals.begin(), goals.begin() + static_cast<std::ptrdiff_t>(b), goals.at(b)) !=
-        goals.begin() + static_cast<std::ptrdiff_t>(b)) {
-      continue;
-    }
-    const bool one =
-        std::all_of(goals.begin(), goals.end(), [&](double goal) { return goal == goals.front(); });
-    panel.circles.push_back({-1.0, 0.0, 1.0 / goals.at(b),
-                             one ? fmt::format("Ms {:g}", goals.at(b))
-                                 : fmt::format("Ms {:g}, {}", goals.at(b), break_name(b))});
-  }
-  if (disk.lowest_gain > 0.0 && std::isfinite(disk.highest_gain)) {
-    const double near = 1.0 / disk.highest_gain, away = 1.0 / disk.lowest_gain;
-    panel.circles.push_back({-0.5 * (near + away), 0.0, 0.5 * (away - near), "disk margin"});
-  }
-  figure.panels.push_back(std::move(panel));
-  return figure;
-}
-
-Figure sensitivity_figure(const DrawnLaw& drawn, const Responses& on_grid) {
-  Figure figure = started(drawn, "sensitivity", "Sensitivity and wind torque spectrum");
+Figure sensitivity_figure(const DrawnLaw& drawn, const LawResponses& on_grid) {
+  Figure figure = law_figure(drawn, "sensitivity", "Sensitivity and wind torque spectrum");
   figure.caption =
       "Magnitude of 1/(1 + L) at the three breaks with its limit. Below: wind torque spectrum "
       "times frequency; equal areas are equal fractions of the torque variance. " +
-      conditions(drawn);
+      law_conditions(drawn);
   figure.panels.resize(2);
   FigurePanel& sensitivity = figure.panels[0];
   sensitivity.y = {.label = "|S|", .scale = AxisScale::logarithmic, .lowest = 1e-3};
@@ -188,14 +53,14 @@ Figure sensitivity_figure(const DrawnLaw& drawn, const Responses& on_grid) {
   return figure;
 }
 
-Figure rejection_figure(const DrawnLaw& drawn, const Responses& on_grid,
+Figure rejection_figure(const DrawnLaw& drawn, const LawResponses& on_grid,
                         const Eigen::ArrayXd& transmission) {
   Figure figure =
-      started(drawn, "wind-rejection", "Wind torque to boresight, loops open and closed");
+      law_figure(drawn, "wind-rejection", "Wind torque to boresight, loops open and closed");
   figure.caption =
       "Boresight angle at the sky per wind torque about the axis. With the encoder fixed, flexure "
       "beyond the encoder remains. " +
-      conditions(drawn);
+      law_conditions(drawn);
   FigurePanel panel;
   panel.y = {.label = "boresight at the sky per torque about the axis",
              .unit = "mdeg/(kN.m)",
@@ -223,9 +88,9 @@ Figure rejection_figure(const DrawnLaw& drawn, const Responses& on_grid,
   return figure;
 }
 
-Figure error_figure(const DrawnLaw& drawn, const Responses& on_grid,
+Figure error_figure(const DrawnLaw& drawn, const LawResponses& on_grid,
                     const Eigen::ArrayXd& transmission) {
-  Figure figure = started(drawn, "error-spectrum", "Boresight error spectrum in wind");
+  Figure figure = law_figure(drawn, "error-spectrum", "Boresight error spectrum in wind");
   const auto& band = drawn.problem.rms_band;
   std::vector<double> hertz, density, cumulative;
   const Eigen::ArrayXd spectrum = transmission *
@@ -248,7 +113,7 @@ Figure error_figure(const DrawnLaw& drawn, const Responses& on_grid,
   figure.caption = fmt::format(
       "Amplitude density of the boresight error from wind, and its cumulative rms, {:.4f} mdeg in "
       "total. Sensor noise adds {:.4f} mdeg (root sum of squares). {}",
-      std::sqrt(variance), noise, conditions(drawn));
+      std::sqrt(variance), noise, law_conditions(drawn));
   figure.panels.resize(2);
   figure.panels[0].y = {.label = "boresight error from wind",
                         .unit = "mdeg/\u221aHz",
@@ -262,25 +127,40 @@ Figure error_figure(const DrawnLaw& drawn, const Responses& on_grid,
   return figure;
 }
 
+FigureSeries rms_over_ensemble(const std::string& name, const design::EnsembleCurves& curves) {
+  FigureSeries series{.name = name};
+  series.x = numbers(curves.wind_speed);
+  series.y = numbers(curves.beam_rms.nominal / millidegree);
+  series.y_lower = numbers(curves.beam_rms.lower / millidegree);
+  series.y_upper = numbers(curves.beam_rms.upper / millidegree);
+  return series;
+}
+
 }  // namespace
 
 std::vector<Figure> law_figures(const DrawnLaw& drawn) {
-  const Responses on_grid = responses(drawn);
+  const LawResponses on_grid = law_responses(drawn);
   const control::LoopEvaluator evaluator(
       drawn.problem.plant, on_grid.frequency,
       {.delay = drawn.problem.delay,
        .noise = drawn.problem.noise,
        .wind_spectrum = Eigen::ArrayXd::Zero(on_grid.frequency.size())});
   const Eigen::ArrayXd transmission = evaluator.wind_transmission(drawn.law);
-  return {open_loop_figure(drawn, on_grid), nyquist_figure(drawn, on_grid),
-          sensitivity_figure(drawn, on_grid), rejection_figure(drawn, on_grid, transmission),
-          error_figure(drawn, on_grid, transmission)};
+  std::vector<Figure> figures{open_loop_figure(drawn, on_grid),
+                              nyquist_figure(drawn, on_grid),
+                              nichols_figure(drawn, on_grid),
+                              sensitivity_figure(drawn, on_grid),
+                              rejection_figure(drawn, on_grid, transmission),
+                              error_figure(drawn, on_grid, transmission)};
+  std::ranges::move(ensemble_figures(drawn), std::back_inserter(figures));
+  return figures;
 }
 
 Figure rms_against_wind(const std::string& id, const std::string& section,
                         const design::TrackingProblem& problem,
                         const std::vector<ComparedLaw>& laws,
-                        const std::vector<design::PointingBudget>& budgets) {
+                        const std::vector<design::PointingBudget>& budgets,
+                        const std::optional<design::EnsembleCurves>& curves) {
   Figure figure;
   figure.id = id;
   figure.section = section;
@@ -288,9 +168,12 @@ Figure rms_against_wind(const std::string& id, const std::string& section,
   figure.caption = fmt::format(
       "Boresight rms per axis, fixed gains. Lines: budgets of each band; circles: wind speeds up "
       "to which {} meets them. Wind model {}, linear plant with friction {:g} N.m.s/rad. Limits of "
-      "supply and valve are not included.",
+      "supply and valve are not included.{}",
       laws.empty() ? "a controller" : laws.front().name, plant::to_string(problem.wind.model),
-      problem.plant.drive.viscous_friction);
+      problem.plant.drive.viscous_friction,
+      curves && !laws.empty()
+          ? fmt::format(" Band: {}, {}.", laws.front().name, range_name(*curves))
+          : "");
   figure.x = {.label = "mean wind speed", .unit = "m/s"};
   FigurePanel panel;
   panel.y = {.label = "boresight rms", .unit = "mdeg"};
@@ -302,18 +185,22 @@ Figure rms_against_wind(const std::string& id, const std::string& section,
         {FigureLine::Direction::horizontal, rms, fmt::format("{}, {}", budget.band, budget.name)});
   }
   const control::LoopEvaluator evaluator = design::make_evaluator(problem);
-  double fastest = 1.5 * problem.wind.mean_speed;
+  std::vector<double> limits;
   for (std::size_t i = 0; i < laws.size(); ++i) {
     for (const auto& budget : budgets) {
       const double limit = design::wind_speed_limit(problem, evaluator, laws[i].law,
                                                     laws[i].noise_variance, budget.rms);
-      if (!(limit > 0.0) || !std::isfinite(limit)) continue;
-      fastest = std::max(fastest, std::min(1.08 * limit, 3.0 * problem.wind.mean_speed));
-      if (i > 0) continue;
+      limits.push_back(limit);
+      if (i > 0 || !(limit > 0.0) || !std::isfinite(limit)) continue;
       panel.marks.push_back({limit, budget.rms / millidegree, fmt::format("{:.1f} m/s", limit)});
     }
   }
+  const double fastest = design::highest_compared_speed(problem.wind.mean_speed, limits);
   for (const auto& law : laws) {
+    if (curves && panel.series.empty()) {
+      panel.series.push_back(rms_over_ensemble(law.name, *curves));
+      continue;
+    }
     FigureSeries series{.name = law.name};
     const Eigen::ArrayXd transmission = evaluator.wind_transmission(law.law);
     constexpr int points = 60;

@@ -4,31 +4,18 @@
 #include <string>
 #include <vector>
 
+#include <boresight/app/figures/drawn_law.hpp>
 #include <boresight/app/figures/figure.hpp>
-#include <boresight/control/analysis/margins.hpp>
 #include <boresight/control/controllers/control_law.hpp>
-#include <boresight/design/problem/goals.hpp>
 #include <boresight/design/problem/pointing_budget.hpp>
 #include <boresight/design/problem/tracking_problem.hpp>
 
 namespace boresight::app {
 
-/// A law on a plant, as its figures are to show it.
-struct DrawnLaw {
-  std::string id;       // what the figures' ids begin with
-  std::string section;  // heading under which they stand
-  std::string name;     // of the law, in captions: "PI with lag"
-  design::TrackingProblem problem;
-  control::ControlLaw law;
-  std::array<control::Margins, 3> margins;  // by control::loop_breaks
-  design::HardGoals goals;
-  double noise_variance = 0.0;  // of the beam, rad^2 of motor
-};
-
-/// Open loop (Bode and Nyquist) and sensitivity at the three breaks with crossovers, disks and
-/// goals; wind torque to beam with the loops open and closed; spectrum of the beam's error with its
-/// rms from the lowest frequency on. Each on a grid that resolves the poles of plant and closed
-/// loop.
+/// Open loop (Bode, Nyquist, Nichols) and sensitivity at the three breaks with margins, disks and
+/// limits; wind torque to boresight with the loops open and closed; spectrum of the boresight error
+/// with its rms from the lowest frequency on, each on a grid that resolves the poles of plant and
+/// closed loop; and the ensemble_figures.
 std::vector<Figure> law_figures(const DrawnLaw& drawn);
 
 /// One of several laws that are drawn side by side.
@@ -38,12 +25,14 @@ struct ComparedLaw {
   double noise_variance = 0.0;  // rad^2 of motor
 };
 
-/// Beam rms of laws with their gains held against mean wind speed, with the budgets as lines and
-/// marks where the first law meets them.
+/// Boresight rms of controllers with fixed gains against mean wind speed, with the budgets as lines
+/// and marks where the first controller meets them. `curves`: of the first controller; draws its
+/// range over the ensemble.
 Figure rms_against_wind(const std::string& id, const std::string& section,
                         const design::TrackingProblem& problem,
                         const std::vector<ComparedLaw>& laws,
-                        const std::vector<design::PointingBudget>& budgets);
+                        const std::vector<design::PointingBudget>& budgets,
+                        const std::optional<design::EnsembleCurves>& curves = std::nullopt);
 
 /// Magnitudes of the sensitivity of laws at one break, with its goal.
 Figure compared_sensitivities(const std::string& id, const std::string& section,

@@ -128,8 +128,8 @@ std::vector<Figure> tune_figures(const TuneSection& section,
   design::TrackingProblem problem = section.problem;
   problem.wind.mean_speed = wind_speed;
   const auto laws = compared_laws(section, *shown);
-  figures.push_back(
-      rms_against_wind("rms-against-wind", title_of(section), problem, laws, section.budgets));
+  figures.push_back(rms_against_wind("rms-against-wind", title_of(section), problem, laws,
+                                     section.budgets, section.curves));
   if (laws.size() > 1) {
     figures.push_back(compared_sensitivities("candidate-sensitivities", title_of(section), problem,
                                              laws, control::loop_breaks.at(valve),
@@ -142,7 +142,8 @@ std::vector<Figure> tune_figures(const TuneSection& section,
                              .law = shown->design.tuning.law,
                              .margins = shown->design.margins,
                              .goals = section.goals,
-                             .noise_variance = shown->design.tuning.evaluation.noise_variance});
+                             .noise_variance = shown->design.tuning.evaluation.noise_variance,
+                             .curves = section.curves});
   std::move(of_law.begin(), of_law.end(), std::back_inserter(figures));
   return figures;
 }

@@ -35,11 +35,12 @@ std::vector<Figure> tuning_figures(const TuningSection& section) {
                               .law = design.tuning.law,
                               .margins = design.margins,
                               .goals = section.goals,
-                              .noise_variance = noise});
+                              .noise_variance = noise,
+                              .curves = section.curves});
   std::vector<design::PointingBudget> budgets;
   for (const auto& result : section.budgets) budgets.push_back(result.budget);
   figures.push_back(rms_against_wind("tuned-rms-against-wind", title, section.problem,
-                                     {{name, design.tuning.law, noise}}, budgets));
+                                     {{name, design.tuning.law, noise}}, budgets, section.curves));
   return figures;
 }
 

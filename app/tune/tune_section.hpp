@@ -26,6 +26,8 @@ struct TuneSection : design::TuningStudy {
   /// What goals on the valve's demand in gusts rest on where no number of it is stated.
   std::string demand_assumption;
   std::vector<Shortfall> shortfalls;
+  /// Of shown_law on the ensemble.
+  std::optional<design::EnsembleCurves> curves;
 
   /// The gains of a row in the structure's order, in the engineer's units; none of an unstable one.
   std::vector<std::string> gains_of(const TunedLaw& row) const {

@@ -119,11 +119,46 @@ class Law(Near):
 
     def test_crossovers_lie_on_the_loop_gain(self):
         figure = self.figures["tuned-open-loop"]
-        marks = figure["panels"][0]["marks"]
+        marks = [mark for mark in figure["panels"][0]["marks"] if mark["y"] == 0]
         self.assertGreaterEqual(len(marks), 3)
         for mark in marks:
             nearest = min(abs(at(series, mark["x"])) for series in figure["panels"][0]["series"])
             self.assertLess(nearest, 0.1)  # dB
+
+    def test_bode_plot_is_marked_with_the_margins_of_the_table(self):
+        gain, phase = self.figures["tuned-open-loop"]["panels"]
+        for loop in self.design["loop_breaks"]:
+            margins = loop["margins"]
+            self.assertTrue(any(abs((mark["y"] + 180) % 360 - side) < 0.5
+                                for mark in phase["marks"]
+                                for side in (margins["phase_margin_deg"],
+                                             360 - margins["phase_margin_deg"])),
+                            loop["loop_break"])
+            self.assertIsNotNone(margins["increasing_gain_margin_dB"])
+            self.assertTrue(any(abs(mark["y"] + margins["increasing_gain_margin_dB"]) < 1e-3
+                                for mark in gain["marks"]), loop["loop_break"])
+            self.assertTrue(any(abs(mark["x"] - loop["sensitivity_peak_frequency_Hz"])
+                                < 0.06 * mark["x"] for mark in gain["marks"]))
+
+    def test_sensitivity_over_the_ensemble_reaches_its_members(self):
+        figure = self.figures["tuned-ensemble-sensitivity"]
+        members = self.found["tuning"]["ensemble"]["members"]
+        for place, panel in enumerate(figure["panels"]):
+            band = panel["series"][0]
+            highest = max(member["sensitivity_peaks_1"][place] for member in members
+                          if member["stable"])
+            self.assertLess(max(band["y_upper"]), highest * (1 + 1e-4))
+            self.assertNear(max(band["y_upper"]), highest, 0.03)
+            for low, middle, high in zip(band["y_lower"], band["y"], band["y_upper"]):
+                self.assertTrue(low <= middle <= high)
+
+    def test_rms_against_wind_spans_the_ensemble(self):
+        band = series_of(self.figures["tuned-rms-against-wind"], 0)
+        ensemble = self.found["tuning"]["ensemble"]
+        speed = self.found["tuning"]["design_wind_speed_m_per_s"]
+        for bound, key in (("y_lower", "least"), ("y_upper", "largest")):
+            value = at({"x": band["x"], "y": band[bound]}, speed)
+            self.assertNear(value, ensemble[f"{key}_beam_rms_mdeg"], 5e-3)
 
     def test_matching_has_the_numbers_of_its_table(self):
         figure = self.figures["matching"]

@@ -1,10 +1,12 @@
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 #include <fmt/format.h>
 
 #include <boresight/app/figures/figure_parts.hpp>
 #include <boresight/app/figures/time_domain_figures.hpp>
+#include <boresight/app/figures/trace_figures.hpp>
 #include <boresight/app/report/sky_units.hpp>
 
 namespace boresight::app {
@@ -101,6 +103,7 @@ std::vector<Figure> time_domain_figures(const TimeDomainSection& section,
   if (section.result.wind.status == RunStatus::complete) {
     figures.push_back(contributions(section, heading));
   }
+  std::ranges::move(trace_figures(section, heading), std::back_inserter(figures));
   if (section.candidates.size() > 1) figures.push_back(candidates(section, heading));
   return figures;
 }

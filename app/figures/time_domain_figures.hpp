@@ -7,9 +7,9 @@
 
 namespace boresight::app {
 
-/// From the linear prediction to the simulated beam rms, one contribution after the other; and the
-/// laws that the one verified was chosen from. None where the run in wind did not complete.
-/// `section`: heading that they stand under.
+/// From the linear prediction to the simulated boresight rms, one contribution after the other,
+/// where the run in wind completed; the trace_figures; and the controllers that the one verified
+/// was chosen from. `section`: heading that they stand under.
 std::vector<Figure> time_domain_figures(const TimeDomainSection& section,
                                         const std::string& heading);
 

@@ -100,6 +100,12 @@ std::optional<TimeDomainStudy> verify_in_time_domain(
   section.options.second_integrator = second == SecondIntegrator::cvodes;
   const SimulatedLoop loop = simulate(mission, problem, law, section);
   section.rms = expected_rms(problem, loop, section.options);
+  if (!mission.present_controllers.empty()) {
+    const control::ControlLaw& present = mission.present_controllers.front().law;
+    SimulatedLoop before = loop;
+    before.law = present;
+    section.present = {present.structure.name(), error_in_wind(problem, before, section.options)};
+  }
   return section;
 }
 

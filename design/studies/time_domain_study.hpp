@@ -25,6 +25,13 @@ struct TimeDomainStudy {
   /// What several records of wind say of the rms, of which `result` has one; none of controllers
   /// that were only compared.
   std::optional<SimulatedRms> rms;
+  /// The mission's first present controller in the record of wind of `result`; its trace is empty
+  /// where that run did not complete. None without one, and of controllers that were only compared.
+  struct Present {
+    std::string structure;
+    ErrorTrace in_wind;
+  };
+  std::optional<Present> present;
   /// The slew rate asked for is out of reach only for want of stroke: with twice of it it is not.
   bool slew_hangs_on_stroke = false;
   /// The controllers that this one was chosen from, itself included, influences not told apart;

@@ -35,10 +35,21 @@ struct WindRun {
   double beam_variance = 0.0;
   double encoder_variance = 0.0;
   double at_command_limit = 0.0;
+  ErrorTrace trace;
 };
 
 double variance(const VectorXd& values) {
   return (values.array() - values.mean()).square().mean();
+}
+
+VectorXd about_mean(const VectorXd& values) {
+  return values.array() - values.mean();
+}
+
+// The last `count` errors of a complete run, the boresight's about their mean.
+ErrorTrace last_errors(const LoopRun& run, double interval, Index count) {
+  if (run.status != RunStatus::complete) return {};
+  return {interval, about_mean(run.beam_error.tail(count)), run.encoder_error.tail(count)};
 }
 
 double share_at_limit(const SimulatedLoop& loop, const LoopRun& run) {
@@ -116,8 +127,15 @@ class WindStudy {
     const LoopRun run = kind == linear_kind       ? run_linear_loop(loop_, course, 1, how)
                         : kind == continuous_kind ? run_linear_loop(loop_, course, continuous, how)
                                                   : run_loop(loop_, course, how);
-    runs_[job] = keep(loop_, run, whole_samples(options_.settling, loop_.sample_time));
+    const Index settled = whole_samples(options_.settling, loop_.sample_time);
+    runs_[job] = keep(loop_, run, settled);
+    if (kind != whole_kind || seed != 0) return;
+    ErrorTrace& trace = runs_[job].trace;
+    trace = last_errors(run, course.interval, course.reference.size() - settled);
+    if (trace.encoder.size() > 0) trace.encoder = about_mean(trace.encoder);
   }
+
+  const ErrorTrace& first_trace() const { return runs_.front().trace; }
 
   IntegratorAgreement compare_integrators() const {
     return integrator_agreement(loop_, courses_.front(),
@@ -135,6 +153,7 @@ class WindStudy {
     result.beam_rms = whole.beam_rms;
     result.encoder_rms = whole.encoder_rms;
     result.at_command_limit = whole.at_command_limit;
+    result.trace = first_trace();
     control::LoopEvaluator evaluator = make_evaluator(problem_);
     result.predicted_rms =
         std::sqrt(evaluator.evaluate(loop_.law, false).beam_variance()) / loop_.gear_ratio;
@@ -231,7 +250,10 @@ HuntingResult watch(const SimulatedLoop& loop, const NonlinearVerificationOption
   const Index quarter = half / 2;
   const Swing encoder = swing_of(run.encoder_error.tail(half));
   result.encoder_amplitude = encoder.amplitude;
-  result.beam_amplitude = swing_of(run.beam_error.tail(half)).amplitude;
+  const Swing beam = swing_of(run.beam_error.tail(half));
+  result.beam_amplitude = beam.amplitude;
+  const Index kept = std::min(half, whole_samples(longest_hunting_trace, loop.sample_time));
+  result.trace = {loop.sample_time, beam.values.tail(kept), encoder.values.tail(kept)};
   const double before =
       swing_of(run.encoder_error.segment(run.encoder_error.size() - half - quarter, quarter))
           .amplitude;
@@ -289,16 +311,17 @@ ReversalResult reverse(const SimulatedLoop& loop, const NonlinearVerificationOpt
   // The first reversals set the loop swinging; those after them repeat.
   const Index first = settled + 2 * per_leg;
   const Index rest = course.reference.size() - first;
+  result.leg = leg;
+  result.trace = last_errors(run, loop.sample_time, rest);
+  result.trace_without_friction = last_errors(without_friction, loop.sample_time, rest);
   if (without_friction.status == RunStatus::complete) {
     result.encoder_error_without_friction =
         without_friction.encoder_error.tail(rest).cwiseAbs().maxCoeff();
   }
   if (run.status != RunStatus::complete) return result;
-  const VectorXd encoder = run.encoder_error.tail(rest);
-  const VectorXd beam = run.beam_error.tail(rest);
   Index largest = 0;
-  result.encoder_error = encoder.cwiseAbs().maxCoeff(&largest);
-  result.beam_error = (beam.array() - beam.mean()).abs().maxCoeff();
+  result.encoder_error = result.trace.encoder.cwiseAbs().maxCoeff(&largest);
+  result.beam_error = result.trace.boresight.cwiseAbs().maxCoeff();
   result.time_of_largest = loop.sample_time * static_cast<double>(largest % per_leg);
   return result;
 }
@@ -398,6 +421,17 @@ double hunting_limit(double error) {
 
 bool holds_still(const std::vector<HuntingResult>& hunting, double error) {
   return hunting_seen(hunting) && hunting_amplitude(hunting) <= hunting_limit(error);
+}
+
+ErrorTrace error_in_wind(const TrackingProblem& problem, const SimulatedLoop& loop,
+                         const NonlinearVerificationOptions& options) {
+  NonlinearVerificationOptions one = options;
+  one.seeds.resize(std::min<std::size_t>(one.seeds.size(), 1));
+  one.explain = false;
+  check(one);
+  WindStudy wind(problem, loop, one);
+  wind.run(0);
+  return wind.first_trace();
 }
 
 NonlinearVerification verify_in_time(const TrackingProblem& problem, const SimulatedLoop& loop,

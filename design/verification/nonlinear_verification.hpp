@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include <Eigen/Core>
+
 #include <boresight/design/problem/tracking_problem.hpp>
 #include <boresight/design/verification/integrator_agreement.hpp>
 #include <boresight/design/verification/simulated_loop.hpp>
@@ -29,6 +31,13 @@ struct NonlinearVerificationOptions {
   double settled_error = 0.0;
   double settling_watched = 40.0;  // s after the end of the command
   unsigned threads = 1;
+};
+
+/// Errors of a run at equal intervals from 0 on, at the sky. Empty where the run did not complete.
+struct ErrorTrace {
+  double interval = 0.0;      // s
+  Eigen::VectorXd boresight;  // rad
+  Eigen::VectorXd encoder;    // rad
 };
 
 /// What one influence does to the beam's rms: that of the whole loop less that without it.
@@ -58,6 +67,8 @@ struct WindResult {
   /// nonlinear antenna has beyond the linear plant (lines, offset torque).
   double joint = 0.0;
   double at_command_limit = 0.0;  // share of samples
+  /// Of the whole loop with the first seed after settling, both about their means.
+  ErrorTrace trace;
 };
 
 /// How many runs look for a limit cycle at each rate, each moved by another step at its start:
@@ -66,6 +77,9 @@ inline constexpr int hunting_starts = 3;
 /// A cycle that is seen is looked at again for so many times as long: against stiction an
 /// integrator swings for minutes, ever less.
 inline constexpr double hunting_confirmation = 3.0;
+
+/// s that are kept of such a run.
+inline constexpr double longest_hunting_trace = 120.0;
 
 /// What the loop does by itself at a steady rate, without wind or noise: of its runs
 /// (hunting_starts) one that did not complete, else the limit cycle of the largest beam amplitude,
@@ -86,6 +100,8 @@ struct HuntingResult {
   std::optional<double> frequency;
   /// Over the same in the quarter before: 1 for a limit cycle, less for one that dies out.
   double persistence = 0.0;
+  /// The end of that half, at most longest_hunting_trace, the same lines taken off.
+  ErrorTrace trace;
   /// In one run at least the encoder's amplitude is above half its resolution (or 1e-3 mdeg without
   /// one) and lasts (persistence above 0.8).
   bool limit_cycle = false;
@@ -102,6 +118,10 @@ struct ReversalResult {
   /// run did not complete.
   double encoder_error_without_friction = 0.0;
   double time_of_largest = 0.0;  // s after the reversal, of the encoder's
+  /// From a reversal on, another one after each `leg`: the errors that the above are the largest
+  /// of, with and without friction, the boresight's about its mean.
+  double leg = 0.0;  // s
+  ErrorTrace trace, trace_without_friction;
 };
 
 /// A move from rest to rest through the command preprocessor, in still air.
@@ -138,6 +158,11 @@ double hunting_limit(double error);
 /// Whether the loop keeps its beam within an rms `error` (rad) where nothing but friction and its
 /// own torque moves it: hunting_seen, and no amplitude above the hunting_limit.
 bool holds_still(const std::vector<HuntingResult>& hunting, double error);
+
+/// The first of verify_in_time's runs in wind alone (WindResult::trace), of another controller
+/// beside the one that is verified. @throws as verify_in_time.
+ErrorTrace error_in_wind(const TrackingProblem& problem, const SimulatedLoop& loop,
+                         const NonlinearVerificationOptions& options);
 
 /// The loop of a tuned law on the nonlinear antenna: in wind, hunting, reversing, slewing. Runs
 /// that fail or lose the target are stated in their result. The same result for any number of

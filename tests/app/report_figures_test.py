@@ -169,6 +169,33 @@ class Law(Near):
                 self.assertAlmostEqual(x, point["flywheel_disks_1"], 4)
 
 
+class TimeDomain(Near):
+    def setUp(self):
+        self.found = report("redesign")["time_domain"]
+        self.figures = figures_of(report("redesign"))
+
+    def test_limit_cycles_have_their_amplitude(self):
+        panels = self.figures["time-domain-limit-cycle"]["panels"]
+        self.assertEqual(len(panels), len(self.found["hunting"]))
+        for panel, run in zip(panels, self.found["hunting"]):
+            values = panel["series"][0]["y"]
+            amplitude = 0.5 * (max(values) - min(values))
+            self.assertLess(amplitude, run["beam_amplitude_mdeg"] * (1 + 1e-4))
+            self.assertGreater(amplitude, 0.5 * run["beam_amplitude_mdeg"])
+
+    def test_reversals_reach_their_peak(self):
+        boresight, encoder = self.figures["time-domain-reversal"]["panels"]
+        for panel, key in ((boresight, "beam_error_mdeg"), (encoder, "encoder_error_mdeg")):
+            largest = max(abs(y) for y in panel["series"][0]["y"])
+            self.assertNear(largest, self.found["reversal"][key], 1e-4)
+
+    def test_error_in_wind_is_of_the_size_of_its_rms(self):
+        errors = self.figures["time-domain-wind"]["panels"][0]["series"][-1]["y"]
+        rms = self.found["wind"]["beam_rms_mdeg"]
+        self.assertGreater(max(abs(y) for y in errors), rms)
+        self.assertLess(max(abs(y) for y in errors), 8 * rms)
+
+
 class Studies(Near):
     def test_structures_are_the_tuned_laws(self):
         found = report("tune", TUNED)

@@ -12,6 +12,7 @@
 #include <boresight/app/figures/simulation_figures.hpp>
 #include <boresight/app/figures/time_domain_figures.hpp>
 #include <boresight/app/report/sky_units.hpp>
+#include <boresight/numerics/angles.hpp>
 
 namespace boresight::app {
 namespace {
@@ -87,6 +88,70 @@ TEST(TimeDomainFigures, LeadFromThePredictionToTheSimulation) {
   EXPECT_NEAR(reached, totals.x.back(), 1e-9);
   section.result.wind.status = design::RunStatus::lost;
   EXPECT_TRUE(time_domain_figures(section, "heading").empty());
+}
+
+design::ErrorTrace swinging(double amplitude, double encoder_fraction) {
+  constexpr Eigen::Index samples = 5001;  // 100 s
+  design::ErrorTrace trace;
+  trace.interval = 0.02;
+  trace.boresight = amplitude * Eigen::VectorXd::LinSpaced(samples, 0.0, 60.0).array().sin();
+  trace.encoder = encoder_fraction * trace.boresight;
+  return trace;
+}
+
+double largest(const std::vector<double>& values) {
+  double found = 0.0;
+  for (const double value : values) found = std::max(found, std::abs(value));
+  return found;
+}
+
+TEST(TraceFigures, PartsOfTheErrorInWindSumToTheBoresightError) {
+  TimeDomainSection section;
+  section.law = "PI";
+  section.result.wind.status = design::RunStatus::lost;
+  section.result.wind.trace = swinging(millidegree, 0.25);
+  section.present = {"PI-0", swinging(2.0 * millidegree, 0.5)};
+  const auto figures = time_domain_figures(section, "heading");
+  ASSERT_EQ(figures.size(), 1U);
+  expect_drawable(figures);
+  const auto& panels = figures.front().panels;
+  ASSERT_EQ(panels.size(), 2U);
+  ASSERT_EQ(panels[0].series.size(), 2U);
+  EXPECT_NEAR(largest(panels[0].series[0].y), 2.0, 1e-3);  // before
+  EXPECT_NEAR(largest(panels[0].series[1].y), 1.0, 1e-3);
+  ASSERT_EQ(panels[1].series.size(), 2U);
+  EXPECT_NEAR(largest(panels[1].series[0].y), 0.25, 1e-3);
+  EXPECT_NEAR(largest(panels[1].series[1].y), 0.75, 1e-3);
+  section.present->in_wind = {};
+  EXPECT_EQ(time_domain_figures(section, "heading").front().panels[0].series.size(), 1U);
+}
+
+TEST(TraceFigures, ShowLimitCyclesAndReversalsOfRunsThatCompleted) {
+  TimeDomainSection section;
+  section.law = "PI";
+  section.result.wind.status = design::RunStatus::lost;
+  design::HuntingResult rest, tracking;
+  rest.limit_cycle = true;
+  rest.trace = swinging(0.3 * millidegree, 0.9);
+  tracking.rate = 4.0 * millidegree;
+  tracking.status = design::RunStatus::lost;
+  section.result.hunting = {rest, tracking};
+  design::ReversalResult reversal;
+  reversal.leg = 20.0;
+  reversal.trace = swinging(2.0 * millidegree, 0.9);
+  section.result.reversal = reversal;
+  const auto figures = time_domain_figures(section, "heading");
+  ASSERT_EQ(figures.size(), 2U);
+  expect_drawable(figures);
+  EXPECT_EQ(figures[0].id, "time-domain-limit-cycle");
+  ASSERT_EQ(figures[0].panels.size(), 1U);
+  EXPECT_NEAR(largest(figures[0].panels.front().series.front().y), 0.3, 1e-3);
+  EXPECT_EQ(figures[1].id, "time-domain-reversal");
+  for (const auto& panel : figures[1].panels) {
+    EXPECT_EQ(panel.series.size(), 1U);  // none without friction
+    ASSERT_EQ(panel.lines.size(), 5U);   // 100 s of legs of 20 s
+    EXPECT_EQ(panel.lines.back().at, 80.0);
+  }
 }
 
 TEST(BenchmarkFigures, PutTheComparedSheetBesideAndDrawNothingOfAnUnstableLoop) {

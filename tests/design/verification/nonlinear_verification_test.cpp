@@ -1,5 +1,8 @@
 #include <cmath>
 
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
 #include "design/hunting_loop.hpp"
 #include "design/reference_problem.hpp"
 #include "reference_nonlinear_antenna.hpp"
@@ -139,6 +142,40 @@ TEST(NonlinearVerification, EveryDifferenceFromThePredictionHasAName) {
   EXPECT_LT(result.slew->limits.rate, 250.0 * mdeg);
   EXPECT_NEAR(result.slew->command_time,
               control::least_move_time(result.slew->limits, 1000.0 * mdeg), 0.07);
+}
+
+TEST(NonlinearVerification, TracesHaveTheirResultsRmsAmplitudeAndPeak) {
+  const auto loop = reference_loop();
+  const auto problem = reference::tracking_problem();
+  auto wanted = options();
+  wanted.explain = false;
+  wanted.slew_distance = 0.0;
+  const auto result = verify_in_time(problem, loop, wanted);
+  ASSERT_EQ(result.wind.status, RunStatus::complete) << result.wind.message;
+  const ErrorTrace& wind = result.wind.trace;
+  ASSERT_EQ(wind.boresight.size(), 3001);  // 60 s
+  const auto rms = [](const Eigen::VectorXd& errors) {
+    return std::sqrt(errors.squaredNorm() / static_cast<double>(errors.size()));
+  };
+  EXPECT_NEAR(rms(wind.boresight) / result.wind.beam_rms, 1.0, 1e-12);
+  EXPECT_NEAR(rms(wind.encoder) / result.wind.encoder_rms, 1.0, 1e-12);
+  const ErrorTrace alone = error_in_wind(problem, loop, wanted);
+  EXPECT_EQ(alone.boresight, wind.boresight);
+  EXPECT_EQ(alone.encoder, wind.encoder);
+  for (const auto& hunting : result.hunting) {
+    const Eigen::VectorXd& encoder = hunting.trace.encoder;
+    ASSERT_GT(encoder.size(), 0);
+    EXPECT_LE(static_cast<double>(encoder.size() - 1) * hunting.trace.interval,
+              longest_hunting_trace);
+    const double amplitude = 0.5 * (encoder.maxCoeff() - encoder.minCoeff());
+    EXPECT_LE(amplitude, hunting.encoder_amplitude * (1.0 + 1e-12));
+    EXPECT_GE(amplitude, 0.5 * hunting.encoder_amplitude);
+  }
+  ASSERT_TRUE(result.reversal);
+  EXPECT_EQ(result.reversal->trace.encoder.cwiseAbs().maxCoeff(), result.reversal->encoder_error);
+  EXPECT_EQ(result.reversal->trace.boresight.cwiseAbs().maxCoeff(), result.reversal->beam_error);
+  EXPECT_EQ(result.reversal->trace_without_friction.encoder.cwiseAbs().maxCoeff(),
+            result.reversal->encoder_error_without_friction);
 }
 
 TEST(NonlinearVerification, ASlewThatHuntsThroughItsBoundHasNotSettled) {

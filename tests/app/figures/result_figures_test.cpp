@@ -59,6 +59,36 @@ TEST(InertiaFigures, ShowPrintedValuesInSiAndOpenIntervalsToTheEdge) {
   EXPECT_GT(ratio.x_upper[1], 4.63);
 }
 
+TEST(InertiaFigures, DrawNoCombinedValueOfMethodsThatContradictOneAnother) {
+  IdentificationSection section;
+  section.inertia.methods = {method("masses", 1.8, 2.0, 2.4), method("peak", 1.45, 4.6, infinity)};
+  section.printed = {{"", ""}, {"", ""}};
+  section.reconciled.emplace();
+  section.reconciled->value = 1.6;
+  section.reconciled->lower = 1.5;
+  section.reconciled->upper = 1.7;
+  section.reconciled->degrees_of_freedom = 1;
+  section.reconciled->heterogeneity = 0.5;
+  EXPECT_EQ(inertia_figures(section)[0].panels.front().y.categories.size(), 3U);
+  section.reconciled->heterogeneity = 50.0;
+  ASSERT_TRUE(section.reconciled->contradictory());
+  const auto figures = inertia_figures(section);
+  EXPECT_EQ(figures[0].panels.front().y.categories, (std::vector<std::string>{"masses", "peak"}));
+  EXPECT_EQ(figures[1].panels.front().y.categories, (std::vector<std::string>{"masses", "peak"}));
+}
+
+TEST(InertiaFigures, MarkAValueThatIsOffScaleAtTheEdge) {
+  IdentificationSection section;
+  section.inertia.methods = {method("masses", 1.8, 2.0, 2.4), method("peak", 1.45, 4.6, infinity),
+                             method("astray", 30.0, 2.0, 2.4)};
+  section.printed.resize(3);
+  const auto figures = inertia_figures(section);
+  const auto& panel = figures[0].panels.front();
+  ASSERT_EQ(panel.marks.size(), 1U);
+  EXPECT_EQ(panel.marks.front().y, 2.0);
+  EXPECT_LT(panel.marks.front().x, 10.0);
+}
+
 TEST(TimeDomainFigures, LeadFromThePredictionToTheSimulation) {
   TimeDomainSection section;
   section.law = "PI";

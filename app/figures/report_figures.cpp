@@ -2,6 +2,7 @@
 #include <iterator>
 
 #include <boresight/app/figures/campaign_figures.hpp>
+#include <boresight/app/figures/error_budget_figures.hpp>
 #include <boresight/app/figures/evaluate_figures.hpp>
 #include <boresight/app/figures/inertia_figures.hpp>
 #include <boresight/app/figures/match_figures.hpp>
@@ -33,9 +34,10 @@ std::vector<Figure> report_figures(const Report& report) {
   if (report.campaign) add(campaign_figures(*report.campaign));
   if (report.identification && (!report.campaign || rests_on_tests(*report.identification))) {
     add(inertia_figures(*report.identification));
+    add(uncertainty_figures(*report.identification));
   }
   if (report.plant) add(plant_figures(*report.plant));
-  if (report.tuning) add(tuning_figures(*report.tuning));
+  if (report.tuning) add(tuning_figures(*report.tuning, report.time_domain));
   if (report.tuned) add(tune_figures(*report.tuned, report.time_domain));
   if (report.time_domain) {
     add(time_domain_figures(*report.time_domain, "In the time domain, on the nonlinear antenna: " +

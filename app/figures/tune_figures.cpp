@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <boresight/app/figures/error_budget_figures.hpp>
 #include <boresight/app/figures/law_figures.hpp>
 #include <boresight/app/figures/tune_figures.hpp>
 #include <boresight/app/report/sky_units.hpp>
@@ -145,6 +146,14 @@ std::vector<Figure> tune_figures(const TuneSection& section,
                              .noise_variance = shown->design.tuning.evaluation.noise_variance,
                              .curves = section.curves});
   std::move(of_law.begin(), of_law.end(), std::back_inserter(figures));
+  const bool simulated =
+      in_time && in_time->law == description_of(*shown) && in_time->wind_speed == wind_speed;
+  figures.push_back(error_budget_figure(
+      "error-budget", title_of(section),
+      fmt::format("{}, {:.3g} m/s{}.", description_of(*shown), wind_speed,
+                  simulated ? "" : ", not simulated on the nonlinear antenna"),
+      design::error_budget(problem, shown->design, simulated ? &*in_time : nullptr),
+      section.budgets));
   return figures;
 }
 

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include <boresight/app/figures/error_budget_figures.hpp>
 #include <boresight/app/figures/law_figures.hpp>
 #include <boresight/app/figures/tuning_figures.hpp>
 #include <boresight/app/redesign/matching_verdict.hpp>
@@ -22,7 +23,8 @@ double rms_of(const design::Design& design) {
 
 }  // namespace
 
-std::vector<Figure> tuning_figures(const TuningSection& section) {
+std::vector<Figure> tuning_figures(const TuningSection& section,
+                                   const std::optional<TimeDomainSection>& in_time) {
   const design::Design& design = section.design;
   if (design.tuning.status == design::TuningStatus::unstable) return {};
   const std::string title = tuning_heading(section);
@@ -41,6 +43,11 @@ std::vector<Figure> tuning_figures(const TuningSection& section) {
   for (const auto& result : section.budgets) budgets.push_back(result.budget);
   figures.push_back(rms_against_wind("tuned-rms-against-wind", title, section.problem,
                                      {{name, design.tuning.law, noise}}, budgets, section.curves));
+  figures.push_back(error_budget_figure(
+      "tuned-error-budget", title,
+      fmt::format("{}, {:.3g} m/s{}.", name, section.design_speed,
+                  in_time ? "" : ", not simulated on the nonlinear antenna"),
+      design::error_budget(section.problem, design, in_time ? &*in_time : nullptr), budgets));
   return figures;
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include <boresight/app/figures/figure.hpp>
@@ -7,8 +8,10 @@
 
 namespace boresight::app {
 
-/// The tuned law: law_figures, and its rms against wind speed. None without a stable law.
-std::vector<Figure> tuning_figures(const TuningSection& section);
+/// The tuned controller: law_figures, its rms against wind speed, and its error budget with what
+/// the nonlinear antenna adds where it was simulated. None without a stable controller.
+std::vector<Figure> tuning_figures(const TuningSection& section,
+                                   const std::optional<TimeDomainSection>& in_time);
 
 /// Beam rms by each choice among contradictory numbers.
 std::vector<Figure> choices_figures(const std::vector<ChoiceResult>& choices);

@@ -160,6 +160,25 @@ class Law(Near):
             value = at({"x": band["x"], "y": band[bound]}, speed)
             self.assertNear(value, ensemble[f"{key}_beam_rms_mdeg"], 5e-3)
 
+    def test_error_budget_sums_in_quadrature(self):
+        parts, total, apart = self.figures["tuned-error-budget"]["panels"][0]["series"]
+        self.assertNear(total["x"][0], math.hypot(*parts["x"]), 1e-5)
+        self.assertNear(parts["x"][0], self.design["wind_rms_mdeg"], 1e-5)
+        self.assertNear(parts["x"][1], self.design["noise_rms_mdeg"], 1e-5)
+        self.assertNear(apart["x"][0], self.found["tuning"]["static_bending_mdeg"], 1e-5)
+
+    def test_uncertainty_budget_has_the_contributions_of_the_table(self):
+        panels = self.figures["stated-uncertainty"]["panels"]
+        methods = self.found["identification"]["methods"]
+        self.assertEqual(len(panels), len(methods))
+        for panel, method in zip(panels, methods):
+            contributions = method["reflected_inertia"]["contributions"]
+            self.assertEqual(panel["y"]["categories"], [one["input"] for one in contributions])
+            fractions = panel["series"][0]["x"]
+            self.assertEqual(fractions, sorted(fractions, reverse=True))
+            for x, one in zip(fractions, contributions):
+                self.assertNear(x, 100 * one["variance_share_1"], 1e-5)
+
     def test_matching_has_the_numbers_of_its_table(self):
         figure = self.figures["matching"]
         for series, drawn in zip(self.found["matching"], figure["panels"][0]["series"]):

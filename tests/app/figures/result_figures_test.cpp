@@ -7,6 +7,7 @@
 
 #include <boresight/app/figures/benchmark_figures.hpp>
 #include <boresight/app/figures/commission_figures.hpp>
+#include <boresight/app/figures/error_budget_figures.hpp>
 #include <boresight/app/figures/figure_svg.hpp>
 #include <boresight/app/figures/inertia_figures.hpp>
 #include <boresight/app/figures/simulation_figures.hpp>
@@ -87,6 +88,46 @@ TEST(InertiaFigures, MarkAValueThatIsOffScaleAtTheEdge) {
   ASSERT_EQ(panel.marks.size(), 1U);
   EXPECT_EQ(panel.marks.front().y, 2.0);
   EXPECT_LT(panel.marks.front().x, 10.0);
+}
+
+TEST(UncertaintyFigures, ShowTheContributionsOfEachMethodThatHasSome) {
+  IdentificationSection section;
+  section.inertia.methods = {method("masses", 1.8, 2.0, 2.4), method("peak", 1.45, 4.6, infinity)};
+  EXPECT_TRUE(uncertainty_figures(section).empty());
+  auto& inertia = section.inertia.methods[1].reflected_inertia;
+  inertia.standard_uncertainty = 0.1;
+  inertia.contributions = {{"oil volume", 0.64}, {"frequency", 0.36}};
+  const auto figures = uncertainty_figures(section);
+  ASSERT_EQ(figures.size(), 1U);
+  expect_drawable(figures);
+  ASSERT_EQ(figures.front().panels.size(), 1U);
+  const auto& panel = figures.front().panels.front();
+  EXPECT_EQ(panel.y.categories, (std::vector<std::string>{"oil volume", "frequency"}));
+  EXPECT_EQ(panel.series.front().x, (std::vector<double>{64.0, 36.0}));
+  EXPECT_EQ(panel.series.front().labels, (std::vector<std::string>{"0.08 kg.m2", "0.06 kg.m2"}));
+}
+
+TEST(ErrorBudgetFigure, HasTheTotalBesideItsPartsAndTheBudgetsAsLines) {
+  design::ErrorBudget errors;
+  errors.wind = 0.3 * millidegree;
+  errors.noise = 0.4 * millidegree;
+  errors.total = 0.5 * millidegree;
+  errors.static_flexure = 1.2 * millidegree;
+  design::PointingBudget budget;
+  budget.band = "Ka";
+  budget.name = "0.1 dB mean loss";
+  budget.rms = 0.527 * millidegree;
+  const Figure figure =
+      error_budget_figure("error-budget", "heading", "PI, 10 m/s.", errors, {budget});
+  expect_drawable({figure});
+  const auto& panel = figure.panels.front();
+  ASSERT_EQ(panel.series.size(), 3U);
+  double squares = 0.0;
+  for (const double part : panel.series[0].x) squares += part * part;
+  EXPECT_NEAR(panel.series[1].x.front(), std::sqrt(squares), 1e-12);
+  EXPECT_NEAR(panel.series[2].x.front(), 1.2, 1e-12);
+  ASSERT_EQ(panel.lines.size(), 1U);
+  EXPECT_NEAR(panel.lines.front().at, 0.527, 1e-12);
 }
 
 TEST(TimeDomainFigures, LeadFromThePredictionToTheSimulation) {

@@ -63,6 +63,12 @@ struct FigurePanel {
   std::vector<FigureCircle> circles;
 };
 
+/// What stands in place of a plot: SVG elements in a box from (0, 0), y downwards.
+struct FigureDrawing {
+  double width = 0.0, height = 0.0;
+  std::string elements = {};  // empty: a plot
+};
+
 /// A plot of one or more panels, one above the other on the same x axis. Values are in the unit
 /// that the axis names: those a reader sees, not SI.
 struct Figure {
@@ -73,6 +79,8 @@ struct Figure {
   FigureAxis x;
   std::vector<FigurePanel> panels;
   bool equal_scales = false;  // one unit of x as long as one of y: a Nyquist plot
+  /// Of a diagram: drawn instead of the panels, which then list its parts by their places.
+  FigureDrawing drawing = {};
 };
 
 }  // namespace boresight::app

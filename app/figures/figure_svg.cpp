@@ -161,9 +161,22 @@ double foot_room(const FigureAxis& axis, double width) {
   return 9.0 + 13.0 * static_cast<double>(lines);
 }
 
+std::string svg_of(const Figure& figure, double width, double height, const std::string& body) {
+  return fmt::format(
+      R"(<svg xmlns="http://www.w3.org/2000/svg" class="figure" role="img" width="{0:.0f}" )"
+      R"(height="{1:.0f}" viewBox="0 0 {0:.0f} {1:.0f}" font-family="'DejaVu Sans', Verdana, )"
+      R"(Arial, sans-serif">)"
+      "<title>{2}</title><desc>{3}</desc>{4}</svg>\n",
+      width, height, escaped_html(figure.title), escaped_html(figure.caption), body);
+}
+
 }  // namespace
 
 std::string to_svg(const Figure& figure) {
+  if (!figure.drawing.elements.empty()) {
+    return svg_of(figure, std::ceil(std::max(figure.drawing.width, drawing_width)),
+                  std::ceil(figure.drawing.height), figure.drawing.elements);
+  }
   for (const auto& panel : figure.panels) {
     for (const auto& series : panel.series) require_lengths(figure, series);
   }
@@ -246,13 +259,7 @@ std::string to_svg(const Figure& figure) {
   }
   const double full_width =
       figure.equal_scales ? std::max(right + 18.0, drawing_width) : drawing_width;
-  return fmt::format(
-      R"(<svg xmlns="http://www.w3.org/2000/svg" class="figure" role="img" width="{0:.0f}" )"
-      R"(height="{1:.0f}" viewBox="0 0 {0:.0f} {1:.0f}" font-family="'DejaVu Sans', Verdana, )"
-      R"(Arial, sans-serif">)"
-      "<title>{2}</title><desc>{3}</desc>{4}</svg>\n",
-      full_width, std::ceil(top + 2.0), escaped_html(figure.title), escaped_html(figure.caption),
-      body);
+  return svg_of(figure, full_width, std::ceil(top + 2.0), body);
 }
 
 }  // namespace boresight::app

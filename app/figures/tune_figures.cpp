@@ -1,10 +1,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <boresight/app/figures/block_diagram.hpp>
 #include <boresight/app/figures/error_budget_figures.hpp>
 #include <boresight/app/figures/law_figures.hpp>
 #include <boresight/app/figures/tune_figures.hpp>
@@ -136,6 +138,9 @@ std::vector<Figure> tune_figures(const TuneSection& section,
                                              laws, control::loop_breaks.at(valve),
                                              section.goals.sensitivity_peak.at(valve)));
   }
+  figures.push_back(block_diagram("controller", title_of(section),
+                                  shown->design.tuning.law.structure, section.gains_of(*shown),
+                                  problem.delay));
   auto of_law = law_figures({.id = "law",
                              .section = title_of(section),
                              .name = description_of(*shown),

@@ -1,9 +1,11 @@
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 
 #include <fmt/format.h>
 
+#include <boresight/app/figures/block_diagram.hpp>
 #include <boresight/app/figures/error_budget_figures.hpp>
 #include <boresight/app/figures/law_figures.hpp>
 #include <boresight/app/figures/tuning_figures.hpp>
@@ -30,15 +32,19 @@ std::vector<Figure> tuning_figures(const TuningSection& section,
   const std::string title = tuning_heading(section);
   const std::string name(control::to_string(section.structure));
   const double noise = design.tuning.evaluation.noise_variance;
-  auto figures = law_figures({.id = "tuned",
-                              .section = title,
-                              .name = name,
-                              .problem = section.problem,
-                              .law = design.tuning.law,
-                              .margins = design.margins,
-                              .goals = section.goals,
-                              .noise_variance = noise,
-                              .curves = section.curves});
+  std::vector<Figure> figures{block_diagram("tuned-controller", title, section.structure,
+                                            section.gain_units.texts(design.tuning.law),
+                                            section.problem.delay)};
+  auto of_law = law_figures({.id = "tuned",
+                             .section = title,
+                             .name = name,
+                             .problem = section.problem,
+                             .law = design.tuning.law,
+                             .margins = design.margins,
+                             .goals = section.goals,
+                             .noise_variance = noise,
+                             .curves = section.curves});
+  std::ranges::move(of_law, std::back_inserter(figures));
   std::vector<design::PointingBudget> budgets;
   for (const auto& result : section.budgets) budgets.push_back(result.budget);
   figures.push_back(rms_against_wind("tuned-rms-against-wind", title, section.problem,

@@ -8,8 +8,9 @@
 
 namespace boresight::app {
 
-/// The tuned controller: law_figures, its rms against wind speed, and its error budget with what
-/// the nonlinear antenna adds where it was simulated. None without a stable controller.
+/// The tuned controller: block diagram, law_figures, its rms against wind speed, and its error
+/// budget with what the nonlinear antenna adds where it was simulated. None without a stable
+/// controller.
 std::vector<Figure> tuning_figures(const TuningSection& section,
                                    const std::optional<TimeDomainSection>& in_time);
 

@@ -35,7 +35,7 @@ Figure error_budget_figure(const std::string& id, const std::string& section,
   Figure figure = make_figure(
       id, section, "Error budget against the pointing budgets",
       "Boresight rms per axis; the total is the root sum of squares. Wind and sensor noise: linear "
-      "plant. Nonlinearities: what the nonlinear antenna adds in wind. Limit cycle: rms of its "
+      "plant. Nonlinear effects: what the nonlinear antenna adds in wind. Limit cycle: rms of its "
       "amplitude. Static flexure under the mean wind is not in the total: the pointing model "
       "removes it. Lines: budgets. " +
           conditions,
@@ -50,7 +50,7 @@ Figure error_budget_figure(const std::string& id, const std::string& section,
   };
   add(parts, "wind", errors.wind);
   add(parts, "sensor noise", errors.noise);
-  add(parts, "nonlinearities", errors.nonlinearities);
+  add(parts, "nonlinear effects", errors.nonlinearities);
   add(parts, "limit cycle", errors.limit_cycle);
   add(total, "total", errors.total);
   add(apart, "static flexure", errors.static_flexure);

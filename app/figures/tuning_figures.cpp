@@ -47,8 +47,14 @@ std::vector<Figure> tuning_figures(const TuningSection& section,
   std::ranges::move(of_law, std::back_inserter(figures));
   std::vector<design::PointingBudget> budgets;
   for (const auto& result : section.budgets) budgets.push_back(result.budget);
-  figures.push_back(rms_against_wind("tuned-rms-against-wind", title, section.problem,
-                                     {{name, design.tuning.law, noise}}, budgets, section.curves));
+  std::vector<ComparedLaw> compared{{name, design.tuning.law, noise}};
+  for (const auto& [structure, present] : section.present) {
+    if (present.tuning.status == design::TuningStatus::unstable) continue;
+    compared.push_back({"present gains: " + structure, present.tuning.law,
+                        present.tuning.evaluation.noise_variance});
+  }
+  figures.push_back(rms_against_wind("tuned-rms-against-wind", title, section.problem, compared,
+                                     budgets, section.curves));
   figures.push_back(error_budget_figure(
       "tuned-error-budget", title,
       fmt::format("{}, {:.3g} m/s{}.", name, section.design_speed,

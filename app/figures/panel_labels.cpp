@@ -1,5 +1,7 @@
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
@@ -132,12 +134,12 @@ std::string vertical_label(const FigureLine& line, const PlacedPanel& placed,
   const double width = text_width(line.label, label_text);
   std::vector<LabelPlace> places;
   const double room = placed.plot.bottom - placed.plot.top - width - 8.0;
-  constexpr int steps = 8;
+  constexpr int steps = 24;
   for (int step = 0; step <= steps && room > 0.0; ++step) {
     const double top = placed.plot.top + 4.0 + room * step / steps;
     for (const double left : {x + 2.0, x - 2.0 - line_height}) {
       places.push_back({{left, top, left + line_height, top + width + 2.0},
-                        0.4 * step + (left > x ? 0.0 : 0.3)});
+                        3.2 * step / steps + (left > x ? 0.0 : 0.3)});
     }
   }
   const std::size_t upright = places.size();
@@ -145,7 +147,8 @@ std::string vertical_label(const FigureLine& line, const PlacedPanel& placed,
   for (int step = 0; step <= steps; ++step) {
     const double foot = placed.plot.top + line_height + height * step / steps;
     for (const double left : {x + 4.0, x - 4.0 - width}) {
-      places.push_back({text_box(left, foot, width), 6.0 + 0.4 * step + (left > x ? 0.0 : 0.3)});
+      places.push_back(
+          {text_box(left, foot, width), 6.0 + 3.2 * step / steps + (left > x ? 0.0 : 0.3)});
     }
   }
   const auto chosen = placement.place(places);
@@ -207,8 +210,14 @@ std::string panel_labels_svg(const FigurePanel& panel, const PlacedPanel& placed
                          series.labels.size() <= few, rows, placed, placement);
     }
   }
+  // The longest first: the shorter ones find room between them.
+  std::vector<std::pair<double, const FigureLine*>> lines;
   for (const auto& line : panel.lines) {
-    if (line.label.empty()) continue;
+    if (!line.label.empty()) lines.emplace_back(text_width(line.label, label_text), &line);
+  }
+  std::ranges::stable_sort(lines, std::greater{}, &std::pair<double, const FigureLine*>::first);
+  for (const auto& [width, labelled] : lines) {
+    const FigureLine& line = *labelled;
     if (line.direction == FigureLine::Direction::horizontal && placed.y.shows(line.at)) {
       svg += horizontal_label(line, placed, placement);
     }

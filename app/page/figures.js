@@ -222,6 +222,20 @@
     return { data, layout, readable };
   };
 
+  // Names of marks, lines and circles may stand over others: of those only the first is shown, until
+  // zooming parts them. Ticks, titles and legends go first.
+  const partLabels = (live) => {
+    const boxes = [...live.querySelectorAll("text")]
+      .filter((text) => text.textContent && !text.closest(".textpoint, .shape-label, .hoverlayer, .modebar"))
+      .map((text) => text.getBoundingClientRect());
+    for (const label of live.querySelectorAll(".textpoint text, .shape-label text")) {
+      const box = label.getBoundingClientRect();
+      const free = boxes.every((other) => box.right <= other.left || box.left >= other.right || box.bottom <= other.top || box.top >= other.bottom);
+      label.style.visibility = free ? "visible" : "hidden";
+      if (free) boxes.push(box);
+    }
+  };
+
   class LiveFigure {
     constructor(element) {
       this.element = element;
@@ -263,6 +277,8 @@
             plotlyServerURL: "",
           });
           this.home = this.ranges();
+          partLabels(this.live);
+          this.live.on("plotly_afterplot", () => partLabels(this.live));
           this.live.on("plotly_hover", (event) => this.say(event.points[0]));
         }
       }

@@ -1,0 +1,13 @@
+#pragma once
+
+#include <boresight/app/document/document.hpp>
+#include <boresight/app/report/report.hpp>
+
+namespace boresight::app {
+
+/// The gains of the controller that a redesign, `tune` or `match` (for the motors as built)
+/// recommends, a row each: symbol with name, value with unit; below a subheading that names the
+/// controller, or says that it is not to be loaded. Empty without a usable controller.
+Document gains_to_load(const Report& report);
+
+}  // namespace boresight::app

@@ -102,6 +102,13 @@ const layout = () => {
   };
 };
 
+// The designs that a report may recommend, with their gains by name and unit.
+const gainsOf = {
+  redesign: ({ tuning }) => [tuning.design.gains],
+  match: ({ matched }) => [matched.recommended_as_built.design.gains],
+  tune: ({ tuned }) => tuned.laws.map(({ design }) => design.gains),
+};
+
 for (const name of ["redesign", "match", "tune"]) {
   for (const width of [1920, 1400, 400]) {
     test(`${name}: nothing is cut off, too small or written over at ${width} px`, async () => {
@@ -127,7 +134,11 @@ for (const name of ["redesign", "match", "tune"]) {
   test(`${name}: the gains to load come before every figure`, async () => {
     const { page, close } = await open(name, { viewport: { width: 1400, height: 900 } });
     const gains = page.locator(".decision .gains");
-    assert.ok((await gains.locator("tbody tr").count()) >= 3);
+    const shown = await gains.locator("tbody tr").evaluateAll((rows) => rows.map(({ cells: [gain, value] }) => [gain.textContent.replace(/^\S+ /, "").replaceAll(" ", "_"), parseFloat(value.textContent)]));
+    assert.ok(shown.length >= 3);
+    const same = (all) => all && Object.keys(all).length === shown.length && shown.every(([gain, value]) =>
+      Object.entries(all).some(([key, exact]) => key.startsWith(gain) && Math.abs(value / exact - 1) < 1e-4));
+    assert.ok(gainsOf[name](made[name].json).some(same), "gains that the report does not have");
     const end = await gains.evaluate((element) => element.getBoundingClientRect().bottom);
     assert.ok(end < await page.locator("figure").first().evaluate((figure) => figure.getBoundingClientRect().top));
     assert.ok(end < 900, "the gains are not on the first screen");

@@ -106,7 +106,9 @@ std::string named_point(double x, double y, const std::string& label, const char
   const double width = text_width(label, label_text);
   const auto places = rows ? in_row(x, y, width) : around(x, y, width, must ? 1e3 : 30.0);
   const auto chosen = placement.place(places);
-  if (!chosen && !must) return {};
+  // A name so long stands nowhere without being over others.
+  const bool sentence = width > 0.5 * (placed.plot.right - placed.plot.left);
+  if (!chosen && (!must || sentence)) return {};
   const Box box = chosen ? places[*chosen].box : kept_within(places.front().box, placed.plot);
   return (rows ? std::string() : leader(x, y, box)) + text_in(box, label, colour);
 }

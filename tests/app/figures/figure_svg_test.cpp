@@ -387,6 +387,18 @@ TEST(FigureSvg, KeepsUprightNamesOfLinesApartFromLongOnes) {
   }
 }
 
+TEST(FigureSvg, LeavesOutNamesTooLongForTheirRow) {
+  Figure figure;
+  figure.panels.resize(1);
+  auto& panel = figure.panels[0];
+  panel.y.categories = {"plant 1", "plant 2"};
+  panel.series = {{"rms", SeriesStyle::bars, {1, 2}, {0, 1}}};
+  panel.series[0].labels = {std::string(130, 'a'), "short"};
+  const auto labels = of_class(to_svg(figure), "label");
+  ASSERT_EQ(labels.size(), 1U);
+  EXPECT_EQ(labels[0].text, "short");
+}
+
 TEST(FigureSvg, MarksWhatIsCutOffByAnArrowAtTheEdge) {
   Figure figure;
   figure.x.lowest = 0.0;

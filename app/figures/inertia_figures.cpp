@@ -17,6 +17,9 @@ using numerics::Interval;
 
 constexpr double none = std::numeric_limits<double>::quiet_NaN();
 
+constexpr const char* no_combined_value =
+    " They contradict one another: there is no combined estimate.";
+
 struct Row {
   std::string method;
   Interval inertia;  // kg m2
@@ -89,6 +92,10 @@ Figure forest(const std::vector<Row>& rows, const FigureAxis& axis,
     const auto& [interval, value] = all[i];
     const auto place = static_cast<double>(i);
     FigureSeries& series = rows[i].reconciled ? reconciled : methods;
+    if (interval.value > scale.highest && std::isfinite(interval.value)) {
+      panel.marks.push_back(
+          {scale.highest, place, fmt::format("{:.3g}, off scale", interval.value)});
+    }
     series.x.push_back(interval.value > 0.0 ? interval.value : none);
     series.y.push_back(place);
     series.x_lower.push_back(std::isfinite(interval.lower) ? std::max(interval.lower, 0.0)
@@ -155,7 +162,8 @@ double printed_value(const std::string& text, io::Kind kind) {
 
 std::vector<Figure> inertia_figures(const io::CampaignSection& section) {
   std::vector<Row> rows;
-  if (section.grey_box) {
+  const bool contradictory = !section.contradiction.empty();
+  if (section.grey_box && !contradictory) {
     rows.push_back({"combined (grey box)", section.grey_box->quantity("inertia").posterior,
                     section.grey_box->quantity("motor to load ratio").posterior, none, none, true});
   } else if (section.mean_of_methods) {
@@ -175,13 +183,14 @@ std::vector<Figure> inertia_figures(const io::CampaignSection& section) {
       rows, "campaign", "Inertia at the motor shaft, by method (95 % intervals)",
       fmt::format(
           "From {} records, with the case's uncertainties of transducers, drawings and oil data. "
-          "Intervals exclude model errors of the method. * procedures of the founding paper.",
-          section.notes.records.size()));
+          "Intervals exclude model errors of the method. * procedures of the founding paper.{}",
+          section.notes.records.size(), contradictory ? no_combined_value : ""));
 }
 
 std::vector<Figure> inertia_figures(const IdentificationSection& section) {
   std::vector<Row> rows;
-  if (section.reconciled) {
+  const bool contradictory = section.reconciled && section.reconciled->contradictory();
+  if (section.reconciled && !contradictory) {
     const auto& one = *section.reconciled;
     rows.push_back({"combined",
                     {one.value, one.standard_uncertainty, one.lower, one.upper},
@@ -200,8 +209,11 @@ std::vector<Figure> inertia_figures(const IdentificationSection& section) {
   return figures_of(
       rows, "stated",
       "Inertia at the motor shaft, by method (95 % intervals from the inputs' uncertainties)",
-      "From the values that the case states, without records. Intervals exclude model errors of "
-      "the method (flexible antenna, efficiencies in the oil spring, friction model).");
+      fmt::format(
+          "From the values that the case states, without records. Intervals exclude model "
+          "errors of the method (flexible antenna, efficiencies in the oil spring, friction "
+          "model).{}",
+          contradictory ? no_combined_value : ""));
 }
 
 }  // namespace boresight::app

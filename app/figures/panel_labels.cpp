@@ -1,7 +1,6 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
-#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
@@ -213,12 +212,14 @@ std::string panel_labels_svg(const FigurePanel& panel, const PlacedPanel& placed
     }
   }
   // The longest first: the shorter ones find room between them.
-  std::vector<std::pair<double, const FigureLine*>> lines;
+  std::vector<const FigureLine*> lines;
   for (const auto& line : panel.lines) {
-    if (!line.label.empty()) lines.emplace_back(text_width(line.label, label_text), &line);
+    if (!line.label.empty()) lines.push_back(&line);
   }
-  std::ranges::stable_sort(lines, std::greater{}, &std::pair<double, const FigureLine*>::first);
-  for (const auto& [width, labelled] : lines) {
+  std::ranges::stable_sort(lines, std::greater{}, [](const FigureLine* line) {
+    return text_width(line->label, label_text);
+  });
+  for (const FigureLine* const labelled : lines) {
     const FigureLine& line = *labelled;
     if (line.direction == FigureLine::Direction::horizontal && placed.y.shows(line.at)) {
       svg += horizontal_label(line, placed, placement);

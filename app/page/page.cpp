@@ -36,11 +36,21 @@ std::vector<Section> sections_of(std::string_view html) {
   return sections;
 }
 
+// Of a drawing, as its first attribute of that name has it: the style sheet keeps letters large
+// enough by it.
+std::string_view width_of(std::string_view svg) {
+  constexpr std::string_view attribute = " width=\"";
+  const auto begin = svg.find(attribute) + attribute.size();
+  return svg.substr(begin, svg.find('"', begin) - begin);
+}
+
 std::string figure_html(const Figure& figure, std::size_t number) {
+  const std::string svg = to_svg(figure);
   std::string html = fmt::format(
-      "<figure class=\"plot\" id=\"figure-{}\" tabindex=\"0\" aria-label=\"Figure {}: {}\">\n"
+      "<figure class=\"plot\" id=\"figure-{}\" tabindex=\"0\" aria-label=\"Figure {}: {}\" "
+      "style=\"--drawing: {}\">\n"
       "<div class=\"canvas\"><div class=\"static\">{}</div>{}</div>\n",
-      figure.id, number, escaped_html(figure.title), to_svg(figure),
+      figure.id, number, escaped_html(figure.title), width_of(svg), svg,
       plotting_library().empty() ? "" : "<div class=\"live\"></div>");
   if (!plotting_library().empty()) {
     html += fmt::format(

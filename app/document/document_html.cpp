@@ -34,26 +34,34 @@ std::string tagged(std::string_view tag, std::string_view attributes, std::strin
 // One page as it grows.
 class Elements {
  public:
-  explicit Elements(const AfterHeading& after_heading) : after_heading_(after_heading) {}
+  explicit Elements(const AdditionsOf& additions_of) : additions_of_(additions_of) {}
 
   void operator()(const Heading& heading) {
     close_section();
     html_ += fmt::format("<section id=\"{}\">\n{}\n", unused_id(slug_of(heading.title)),
                          tagged("h2", "", heading.title));
     in_section_ = true;
-    if (after_heading_) html_ += after_heading_(heading.title);
+    if (!additions_of_) return;
+    SectionAdditions additions = additions_of_(heading.title);
+    html_ += additions.behind_heading;
+    figures_ = std::move(additions.behind_first_table);
+    figures_place_ = html_.size();
   }
 
-  void operator()(const Subheading& subheading) { line(tagged("h3", "", subheading.title)); }
+  void operator()(const Subheading& subheading) {
+    close_notes();
+    html_ += tagged("h3", "", subheading.title) + '\n';
+  }
 
   void operator()(const Paragraph& paragraph) {
     if (paragraph.text.find_first_not_of(blank) == std::string::npos) return;
     constexpr std::size_t usual = 2;
-    line(tagged("p", paragraph.indent.size() > usual ? " class=\"nested\"" : "", paragraph.text));
+    note(tagged("p", paragraph.indent.size() > usual ? " class=\"nested\"" : "", paragraph.text));
   }
 
   void operator()(const Table& table) {
     if (table.rows.empty()) return;
+    close_notes();
     const std::size_t header_rows = std::min(table.header_rows, table.rows.size());
     std::size_t columns = 0;
     for (const auto& row : table.rows) columns = std::max(columns, row.size());
@@ -66,6 +74,7 @@ class Elements {
     html_ += "<tbody>\n";
     for (std::size_t i = header_rows; i < table.rows.size(); ++i) add_row(table, i, columns);
     html_ += "</tbody>\n</table></div>\n";
+    html_ += std::exchange(figures_, {});
   }
 
   // A page shows it in its own box.
@@ -77,7 +86,7 @@ class Elements {
     if (first == std::string_view::npos) return;
     const std::size_t line_end = text.find_last_of('\n', first);
     const std::size_t begin = line_end == std::string_view::npos ? 0 : line_end + 1;
-    line(tagged("pre", "", text.substr(begin, text.find_last_not_of(blank) + 1 - begin)));
+    note(tagged("pre", "", text.substr(begin, text.find_last_not_of(blank) + 1 - begin)));
   }
 
   std::string finish() {
@@ -86,12 +95,20 @@ class Elements {
   }
 
  private:
-  void line(const std::string& element) {
-    html_ += element;
-    html_ += '\n';
+  void note(const std::string& element) {
+    if (!in_notes_) html_ += "<div class=\"notes\">\n";
+    in_notes_ = true;
+    html_ += element + '\n';
+  }
+
+  void close_notes() {
+    if (in_notes_) html_ += "</div>\n";
+    in_notes_ = false;
   }
 
   void close_section() {
+    close_notes();
+    html_.insert(std::min(figures_place_, html_.size()), std::exchange(figures_, {}));
     if (in_section_) html_ += "</section>\n";
     in_section_ = false;
   }
@@ -119,10 +136,13 @@ class Elements {
     html_ += "</tr>\n";
   }
 
-  const AfterHeading& after_heading_;
+  const AdditionsOf& additions_of_;
   std::string html_;
+  std::string figures_;  // of the section, until its first table
+  std::size_t figures_place_ = 0;
   std::set<std::string> ids_;
   bool in_section_ = false;
+  bool in_notes_ = false;
 };
 
 }  // namespace
@@ -152,8 +172,8 @@ std::string escaped_html(std::string_view text) {
   return html;
 }
 
-std::string to_html(const Document& document, const AfterHeading& after_heading) {
-  Elements page(after_heading);
+std::string to_html(const Document& document, const AdditionsOf& additions_of) {
+  Elements page(additions_of);
   for (const Block& block : document.blocks) std::visit(page, block.content);
   return page.finish();
 }

@@ -152,7 +152,7 @@ void make_equal(PlotAxis& x, PlotAxis& y, double width, double height) {
 
 // Room below the lowest panel for the numbers or names of the x axis.
 double foot_room(const FigureAxis& axis, double width) {
-  if (axis.categories.empty()) return 22.0;
+  if (axis.categories.empty()) return 24.0;
   const double slot = width / static_cast<double>(axis.categories.size());
   if (categories_are_turned(axis, slot)) return 24.0 + 0.58 * widest(axis.categories);
   std::size_t lines = 1;

@@ -34,47 +34,75 @@ Interval interval_of(const numerics::PropagatedResult& result) {
 
 // What a figure shows of a row.
 struct Shown {
-  const Interval& interval;
+  Interval interval;
   double printed = none;
 };
 
-// Methods one below the other, each with its interval. A ratio has none where the motors alone have
-// more than the method's inertia.
-Figure forest(const std::vector<Row>& rows, const FigureAxis& axis,
-              const std::function<Shown(const Row&)>& shown) {
-  // A method that a campaign hardly allows may be off by orders: it must not squeeze the others.
+struct Scale {
+  double lowest = 0.0, highest = 1.0;
+  bool clips = false;  // an end of an interval, or a value
+};
+
+// A method that a campaign hardly allows may be off by orders: it must not squeeze the others.
+// Values beyond four times their median do not count, ends of intervals up to twice the median.
+Scale scale_of(const std::vector<Shown>& all) {
   std::vector<double> values;
-  for (const auto& row : rows) {
-    const double value = shown(row).interval.value;
-    if (std::isfinite(value) && value > 0.0) values.push_back(value);
-  }
-  const double most = values.empty() ? 1.0 : 4.0 * numerics::median(std::move(values));
-  double largest = 0.0;
-  for (const auto& row : rows) {
-    const auto [interval, printed] = shown(row);
-    for (const double value : {interval.value, interval.upper, printed}) {
-      if (std::isfinite(value)) largest = std::max(largest, std::min(value, most));
+  for (const auto& one : all) {
+    if (std::isfinite(one.interval.value) && one.interval.value > 0.0) {
+      values.push_back(one.interval.value);
     }
   }
-  const double edge = 1.05 * largest;
+  const double middle = values.empty() ? 1.0 : numerics::median(std::move(values));
+  double low = std::numeric_limits<double>::infinity(), high = 0.0;
+  const auto add = [&](double value, double most) {
+    if (!std::isfinite(value)) return;
+    low = std::min(low, std::clamp(value, 0.0, most));
+    high = std::max(high, std::min(value, most));
+  };
+  const double farthest = 4.0 * middle;
+  for (const auto& [interval, printed] : all) {
+    if (printed <= farthest) add(printed, farthest);
+    if (!(interval.value <= farthest)) continue;
+    add(interval.lower, farthest);
+    add(interval.value, farthest);
+    add(interval.upper, 2.0 * middle);
+  }
+  if (!(low < high)) return {0.0, 2.0 * middle};
+  const double margin = 0.035 * (high - low);
+  Scale scale{std::max(0.0, low - margin), high + margin};
+  scale.clips = std::ranges::any_of(all, [&](const Shown& one) {
+    return one.interval.value > scale.highest || one.interval.upper > scale.highest;
+  });
+  return scale;
+}
+
+// Methods one below the other, each with its interval; an open one has an end beyond the scale. A
+// ratio has none where the motors alone have more than the method's inertia.
+Figure forest(const std::vector<Row>& rows, const FigureAxis& axis,
+              const std::function<Shown(const Row&)>& shown, std::string caption) {
+  std::vector<Shown> all;
+  for (const auto& row : rows) all.push_back(shown(row));
+  const Scale scale = scale_of(all);
   FigureSeries reconciled = make_series("combined, 95 % interval", SeriesStyle::points);
   FigureSeries methods = make_series("method, 95 % interval", SeriesStyle::points);
   FigureSeries printed = make_series("as stated", SeriesStyle::points);
   FigurePanel panel;
   for (std::size_t i = 0; i < rows.size(); ++i) {
     panel.y.categories.push_back(rows[i].method);
-    const auto [interval, value] = shown(rows[i]);
+    const auto& [interval, value] = all[i];
     const auto place = static_cast<double>(i);
     FigureSeries& series = rows[i].reconciled ? reconciled : methods;
-    if (interval.value > edge && std::isfinite(interval.value)) {
-      panel.marks.push_back({edge, place, fmt::format("{:.3g}, off scale", interval.value)});
+    if (interval.value > scale.highest && std::isfinite(interval.value)) {
+      panel.marks.push_back(
+          {scale.highest, place, fmt::format("{:.3g}, off scale", interval.value)});
     }
-    series.x.push_back(interval.value > 0.0 && interval.value <= edge ? interval.value : none);
+    series.x.push_back(interval.value > 0.0 ? interval.value : none);
     series.y.push_back(place);
-    series.x_lower.push_back(std::isfinite(interval.lower) ? std::clamp(interval.lower, 0.0, edge)
+    series.x_lower.push_back(std::isfinite(interval.lower) ? std::max(interval.lower, 0.0)
                                                            : interval.value);
-    series.x_upper.push_back(std::isfinite(interval.upper) ? std::clamp(interval.upper, 0.0, edge)
-                                                           : edge);
+    series.x_upper.push_back(std::isfinite(interval.upper)
+                                 ? std::max(interval.upper, 0.0)
+                                 : std::max(1.05 * scale.highest, interval.value));
     if (std::isfinite(value)) {
       printed.x.push_back(value);
       printed.y.push_back(place);
@@ -85,28 +113,36 @@ Figure forest(const std::vector<Row>& rows, const FigureAxis& axis,
   }
   Figure figure;
   figure.x = axis;
+  figure.x.lowest = scale.lowest;
+  figure.x.highest = scale.highest;
   figure.panels.push_back(std::move(panel));
+  figure.caption = std::move(caption);
+  if (scale.clips) figure.caption += " Arrows: beyond the scale.";
   return figure;
 }
 
 std::vector<Figure> figures_of(const std::vector<Row>& rows, const std::string& id,
                                const std::string& section, const std::string& conditions) {
   if (rows.empty()) return {};
-  Figure inertia =
-      forest(rows, make_axis("reflected inertia at the motor shaft", "kg.m2"), [](const Row& row) {
+  Figure inertia = forest(
+      rows, make_axis("reflected inertia at the motor shaft", "kg.m2"),
+      [](const Row& row) {
         return Shown{row.inertia, row.printed_inertia};
-      });
+      },
+      conditions);
   inertia.id = id + "-inertia";
   inertia.title = "Reflected inertia by method";
-  inertia.caption = conditions;
-  Figure ratio = forest(rows, make_axis("motor-to-load inertia ratio R", ""), [](const Row& row) {
-    return Shown{row.ratio, row.printed_ratio};
-  });
+  Figure ratio = forest(
+      rows, make_axis("motor-to-load inertia ratio R", ""),
+      [](const Row& row) {
+        return Shown{row.ratio, row.printed_ratio};
+      },
+      conditions + " R = Jm/(J - Jm), all motors against the rest; R is undefined where J < Jm.");
   ratio.id = id + "-ratio";
   ratio.title = "Motor-to-load inertia ratio by method";
-  ratio.caption = conditions +
-                  " R = Jm/(J - Jm), all motors against the rest; open intervals run to the edge. "
-                  "R is undefined where J < Jm.";
+  // The rule's line is to be seen.
+  ratio.x.lowest = std::min(*ratio.x.lowest, 0.9);
+  ratio.x.highest = std::max(*ratio.x.highest, 1.1);
   ratio.panels.front().lines.push_back(vertical_line(1.0, "one to one"));
   for (auto* figure : {&inertia, &ratio}) figure->section = section;
   return {std::move(inertia), std::move(ratio)};
@@ -174,9 +210,9 @@ std::vector<Figure> inertia_figures(const IdentificationSection& section) {
       rows, "stated",
       "Inertia at the motor shaft, by method (95 % intervals from the inputs' uncertainties)",
       fmt::format(
-          "From the values that the case states, without records. Intervals exclude model errors "
-          "of "
-          "the method (flexible antenna, efficiencies in the oil spring, friction model).{}",
+          "From the values that the case states, without records. Intervals exclude model "
+          "errors of the method (flexible antenna, efficiencies in the oil spring, friction "
+          "model).{}",
           contradictory ? no_combined_value : ""));
 }
 

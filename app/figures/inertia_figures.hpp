@@ -10,7 +10,8 @@
 namespace boresight::app {
 
 /// Reflected inertia and motor-to-load ratio by each method of a campaign with 95 % intervals, the
-/// reconciled estimate first. Intervals without an end run to the edge.
+/// reconciled estimate first. What lies far beyond the others, or has
+/// no end, goes on beyond the scale.
 std::vector<Figure> inertia_figures(const io::CampaignSection& section);
 
 /// The same of the methods that rest on the case's stated numbers, with the values that the case

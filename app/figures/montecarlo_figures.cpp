@@ -102,8 +102,8 @@ Figure worst_plants(const MonteCarloSection& section) {
   }
   Figure figure =
       make_figure("montecarlo-worst", "Worst stable plants", "Worst stable plants",
-                  fmt::format("Of {} stable plants, wind of {:.3g} m/s. Inputs as factors on the "
-                              "case's values, friction slope in N.m.s/rad.",
+                  fmt::format("Of {} stable plants, wind of {:.3g} m/s. Exploring shows the inputs "
+                              "of each, as in the table.",
                               section.stable, section.wind_speed),
                   make_axis("boresight rms per axis", "mdeg"));
   figure.panels.push_back(std::move(panel));

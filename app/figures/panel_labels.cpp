@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <vector>
 
 #include <fmt/format.h>
@@ -104,7 +105,9 @@ std::string named_point(double x, double y, const std::string& label, const char
   const double width = text_width(label, label_text);
   const auto places = rows ? in_row(x, y, width) : around(x, y, width, must ? 1e3 : 30.0);
   const auto chosen = placement.place(places);
-  if (!chosen && !must) return {};
+  // A name so long stands nowhere without being over others.
+  const bool sentence = width > 0.5 * (placed.plot.right - placed.plot.left);
+  if (!chosen && (!must || sentence)) return {};
   const Box box = chosen ? places[*chosen].box : kept_within(places.front().box, placed.plot);
   return (rows ? std::string() : leader(x, y, box)) + text_in(box, label, colour);
 }
@@ -132,12 +135,12 @@ std::string vertical_label(const FigureLine& line, const PlacedPanel& placed,
   const double width = text_width(line.label, label_text);
   std::vector<LabelPlace> places;
   const double room = placed.plot.bottom - placed.plot.top - width - 8.0;
-  constexpr int steps = 8;
+  constexpr int steps = 24;
   for (int step = 0; step <= steps && room > 0.0; ++step) {
     const double top = placed.plot.top + 4.0 + room * step / steps;
     for (const double left : {x + 2.0, x - 2.0 - line_height}) {
       places.push_back({{left, top, left + line_height, top + width + 2.0},
-                        0.4 * step + (left > x ? 0.0 : 0.3)});
+                        3.2 * step / steps + (left > x ? 0.0 : 0.3)});
     }
   }
   const std::size_t upright = places.size();
@@ -145,7 +148,8 @@ std::string vertical_label(const FigureLine& line, const PlacedPanel& placed,
   for (int step = 0; step <= steps; ++step) {
     const double foot = placed.plot.top + line_height + height * step / steps;
     for (const double left : {x + 4.0, x - 4.0 - width}) {
-      places.push_back({text_box(left, foot, width), 6.0 + 0.4 * step + (left > x ? 0.0 : 0.3)});
+      places.push_back(
+          {text_box(left, foot, width), 6.0 + 3.2 * step / steps + (left > x ? 0.0 : 0.3)});
     }
   }
   const auto chosen = placement.place(places);
@@ -207,8 +211,16 @@ std::string panel_labels_svg(const FigurePanel& panel, const PlacedPanel& placed
                          series.labels.size() <= few, rows, placed, placement);
     }
   }
+  // The longest first: the shorter ones find room between them.
+  std::vector<const FigureLine*> lines;
   for (const auto& line : panel.lines) {
-    if (line.label.empty()) continue;
+    if (!line.label.empty()) lines.push_back(&line);
+  }
+  std::ranges::stable_sort(lines, std::greater{}, [](const FigureLine* line) {
+    return text_width(line->label, label_text);
+  });
+  for (const FigureLine* const labelled : lines) {
+    const FigureLine& line = *labelled;
     if (line.direction == FigureLine::Direction::horizontal && placed.y.shows(line.at)) {
       svg += horizontal_label(line, placed, placement);
     }

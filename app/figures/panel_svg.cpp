@@ -114,7 +114,7 @@ std::string tick_labels_svg(const FigureAxis& x, const FigurePanel& panel,
   if (placed.lowest && !x.categories.empty()) svg += x_names(x, placed);
   if (placed.lowest && x.categories.empty()) {
     for (std::size_t i = 0; i < placed.x_ticks.major.size(); ++i) {
-      svg += tick_label(placed.x.at(placed.x_ticks.major[i]), plot.bottom + 16.0, "middle",
+      svg += tick_label(placed.x.at(placed.x_ticks.major[i]), plot.bottom + 18.0, "middle",
                         placed.x_ticks.labels[i]);
     }
   }

@@ -196,6 +196,45 @@ std::string bars_svg(const FigureSeries& series, const SeriesLook& look, const P
   return svg;
 }
 
+// The end of a whisker along x at (along, across), or along y with the two exchanged: a cap, or an
+// arrow to what lies beyond the plot (outwards = 1 or -1).
+std::string whisker_end(double along, double across, int outwards, bool along_x) {
+  const auto point = [along_x](double a, double b) {
+    return along_x ? fmt::format("{:.2f} {:.2f}", a, b) : fmt::format("{:.2f} {:.2f}", b, a);
+  };
+  constexpr double half = 3.0, length = 6.0;
+  const double foot = along - length * outwards;
+  return fmt::format("M{}L{}L{}", point(foot, across - half), point(along, across),
+                     point(foot, across + half));
+}
+
+// An interval of a point at `across` on the other axis, cut off at the plot's edges. Empty where an
+// end is not finite.
+std::string whisker(const PlotAxis& axis, double low_value, double high_value, double across,
+                    bool along_x, bool with_ends, LabelPlacement& labels) {
+  double low = axis.at(low_value);
+  // A lower end at or below zero of a logarithmic axis is at its foot.
+  if (!std::isfinite(low) && std::isfinite(low_value)) low = axis.start;
+  const double high = axis.at(high_value);
+  if (!std::isfinite(low) || !std::isfinite(high)) return {};
+  const double least = std::min(axis.start, axis.end), most = std::max(axis.start, axis.end);
+  const double a = std::clamp(low, least, most), b = std::clamp(high, least, most);
+  std::string path = along_x ? fmt::format("M{:.2f} {:.2f}H{:.2f}", a, across, b)
+                             : fmt::format("M{:.2f} {:.2f}V{:.2f}", across, a, b);
+  if (along_x) {
+    labels.avoid_segment(a, across, b, across);
+  } else {
+    labels.avoid_segment(across, a, across, b);
+  }
+  if (!with_ends) return path;
+  constexpr double seen = 0.5;  // px beyond the edge
+  for (const auto& [end, place] : {std::pair{low, a}, std::pair{high, b}}) {
+    const int outwards = end > place + seen ? 1 : end < place - seen ? -1 : 0;
+    path += whisker_end(place, across, outwards, along_x);
+  }
+  return path;
+}
+
 }  // namespace
 
 std::string marker_path(int shape, double x, double y, double size) {
@@ -279,43 +318,34 @@ std::string points_svg(const FigureSeries& series, std::size_t index, const Plot
   if (series.style != SeriesStyle::points && series.style != SeriesStyle::line_and_points)
     return {};
   const SeriesLook look = series_look(index);
+  const bool many = series.x.size() > 60;
+  const bool marks_clipped = series.style == SeriesStyle::points && !many;
+  const bool spans_x = !series.x_lower.empty() && !series.x_upper.empty();
+  const bool spans_y = !series.y_lower.empty() && !series.y_upper.empty();
   // Many points are small, so that they stay points.
-  const double size = series.x.size() > 200 ? 3.0 : series.x.size() > 60 ? 4.5 : 6.5;
+  const double size = series.x.size() > 200 ? 3.0 : many ? 4.5 : 6.5;
   std::string whiskers, markers;
   for (std::size_t i = 0; i < series.x.size(); ++i) {
-    const double at_x = x.at(series.x[i]), at_y = y.at(series.y[i]);
-    if (!std::isfinite(at_x) || !std::isfinite(at_y)) continue;
-    if (!x.shows(series.x[i]) || !y.shows(series.y[i])) continue;
-    const auto whisker = [&](const PlotAxis& axis, double low_value, double high_value) {
-      double low = axis.at(low_value);
-      if (!std::isfinite(low) && std::isfinite(low_value)) low = axis.start;
-      const double high = axis.at(high_value);
-      if (!std::isfinite(low) || !std::isfinite(high)) return;
-      const double least = std::min(axis.start, axis.end),
-                   greatest = std::max(axis.start, axis.end);
-      const double a = std::clamp(low, least, greatest), b = std::clamp(high, least, greatest);
-      const bool flat = &axis == &x;
-      whiskers += flat ? fmt::format("M{:.2f} {:.2f}H{:.2f}", a, at_y, b)
-                       : fmt::format("M{:.2f} {:.2f}V{:.2f}", at_x, a, b);
-      if (flat) {
-        labels.avoid_segment(a, at_y, b, at_y);
-      } else {
-        labels.avoid_segment(at_x, a, at_x, b);
-      }
-      if (series.x.size() > 60) return;
-      for (const double end : {a, b}) {
-        whiskers += flat ? fmt::format("M{:.2f} {:.2f}v6", end, at_y - 3.0)
-                         : fmt::format("M{:.2f} {:.2f}h6", at_x - 3.0, end);
-      }
-    };
-    if (!series.x_lower.empty() && !series.x_upper.empty())
-      whisker(x, series.x_lower[i], series.x_upper[i]);
-    if (!series.y_lower.empty() && !series.y_upper.empty())
-      whisker(y, series.y_lower[i], series.y_upper[i]);
-    markers += marker_path(look.marker, at_x, at_y, size);
+    const Point at{x.at(series.x[i]), y.at(series.y[i])};
+    if (!std::isfinite(at.x) || !std::isfinite(at.y)) continue;
+    const bool within_x = x.shows(series.x[i]), within_y = y.shows(series.y[i]);
+    if (within_y && spans_x) {
+      whiskers += whisker(x, series.x_lower[i], series.x_upper[i], at.y, true, !many, labels);
+    }
+    if (within_x && spans_y) {
+      whiskers += whisker(y, series.y_lower[i], series.y_upper[i], at.x, false, !many, labels);
+    }
+    if (marks_clipped && within_y && !within_x && !spans_x) {
+      whiskers += whisker(x, series.x[i], series.x[i], at.y, true, true, labels);
+    }
+    if (marks_clipped && within_x && !within_y && !spans_y) {
+      whiskers += whisker(y, series.y[i], series.y[i], at.x, false, true, labels);
+    }
+    if (!within_x || !within_y) continue;
+    markers += marker_path(look.marker, at.x, at.y, size);
     for (const double level : {-0.4, 0.0, 0.4}) {
-      labels.avoid_segment(at_x - 0.5 * size, at_y + level * size, at_x + 0.5 * size,
-                           at_y + level * size);
+      labels.avoid_segment(at.x - 0.5 * size, at.y + level * size, at.x + 0.5 * size,
+                           at.y + level * size);
     }
   }
   std::string svg;

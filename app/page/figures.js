@@ -120,7 +120,8 @@
     return [trace];
   };
 
-  const axisLayout = (axis) => {
+  // On a logarithmic axis more than so many ticks would bring out every digit, one over the other.
+  const axisLayout = (axis, logTicks) => {
     const layout = {
       title: { text: plain(named(axis)), font: { size: 12 }, standoff: 8 },
       type: axis.scale === "logarithmic" ? "log" : "linear",
@@ -133,6 +134,7 @@
       exponentformat: "power",
       minor: { showgrid: axis.scale === "logarithmic", gridcolor: "#f2f2f2" },
     };
+    if (axis.scale === "logarithmic") layout.nticks = logTicks;
     if (axis.categories) {
       layout.tickvals = axis.categories.map((_, i) => i);
       layout.ticktext = axis.categories.map(plain);
@@ -196,7 +198,7 @@
       legend: { orientation: "h", x: 0, y: 1.0, yanchor: "bottom" },
       shapes: [],
       barmode: "group",
-      xaxis: axisLayout(figure.x),
+      xaxis: axisLayout(figure.x, 6),
     };
     const count = figure.panels.length;
     const gap = count > 1 ? 0.07 : 0;
@@ -205,7 +207,7 @@
       const id = p === 0 ? "" : `${p + 1}`;
       const axes = { xaxis: "x", yaxis: `y${id}` };
       const top = 1 - p * (share + gap);
-      layout[`yaxis${id}`] = { ...axisLayout(panel.y), anchor: "x", domain: [Math.max(0, top - share), top] };
+      layout[`yaxis${id}`] = { ...axisLayout(panel.y, 3), anchor: "x", domain: [Math.max(0, top - share), top] };
       if (panel.y.categories) layout[`yaxis${id}`].range.reverse();
       if (figure.equal_scales) Object.assign(layout[`yaxis${id}`], { scaleanchor: "x", scaleratio: 1 });
       layout.shapes.push(...shapes(panel, `y${id}`));
@@ -220,6 +222,20 @@
     });
     layout.xaxis.anchor = count > 1 ? `y${count}` : "y";
     return { data, layout, readable };
+  };
+
+  // Names of marks, lines and circles may stand over others: of those only the first is shown, until
+  // zooming parts them. Ticks, titles and legends go first.
+  const partLabels = (live) => {
+    const boxes = [...live.querySelectorAll("text")]
+      .filter((text) => text.textContent && !text.closest(".textpoint, .shape-label, .hoverlayer, .modebar"))
+      .map((text) => text.getBoundingClientRect());
+    for (const label of live.querySelectorAll(".textpoint text, .shape-label text")) {
+      const box = label.getBoundingClientRect();
+      const free = boxes.every((other) => box.right <= other.left || box.left >= other.right || box.bottom <= other.top || box.top >= other.bottom);
+      label.style.visibility = free ? "visible" : "hidden";
+      if (free) boxes.push(box);
+    }
   };
 
   class LiveFigure {
@@ -263,6 +279,8 @@
             plotlyServerURL: "",
           });
           this.home = this.ranges();
+          partLabels(this.live);
+          this.live.on("plotly_afterplot", () => partLabels(this.live));
           this.live.on("plotly_hover", (event) => this.say(event.points[0]));
         }
       }

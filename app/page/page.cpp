@@ -36,14 +36,24 @@ std::vector<Section> sections_of(std::string_view html) {
   return sections;
 }
 
+// Of a drawing, as its first attribute of that name has it: the style sheet keeps letters large
+// enough by it.
+std::string_view width_of(std::string_view svg) {
+  constexpr std::string_view attribute = " width=\"";
+  const auto begin = svg.find(attribute) + attribute.size();
+  return svg.substr(begin, svg.find('"', begin) - begin);
+}
+
 std::string figure_html(const Figure& figure, std::size_t number) {
+  const std::string svg = to_svg(figure);
   std::string html = fmt::format(
-      "<figure class=\"plot\" id=\"figure-{}\" tabindex=\"0\" aria-label=\"Figure {}: {}\">\n"
-      "<div class=\"static\">{}</div>\n",
-      figure.id, number, escaped_html(figure.title), to_svg(figure));
+      "<figure class=\"plot\" id=\"figure-{}\" tabindex=\"0\" aria-label=\"Figure {}: {}\" "
+      "style=\"--drawing: {}\">\n"
+      "<div class=\"canvas\"><div class=\"static\">{}</div>{}</div>\n",
+      figure.id, number, escaped_html(figure.title), width_of(svg), svg,
+      plotting_library().empty() ? "" : "<div class=\"live\"></div>");
   if (!plotting_library().empty()) {
     html += fmt::format(
-        "<div class=\"live\"></div>\n"
         "<div class=\"controls\"><button type=\"button\" class=\"explore\" hidden=\"\">Explore"
         "</button><p class=\"reading\" aria-live=\"polite\"></p></div>\n"
         "<script type=\"application/json\" class=\"data\">{}</script>\n",
@@ -53,12 +63,12 @@ std::string figure_html(const Figure& figure, std::size_t number) {
                             number, escaped_html(figure.title), escaped_html(figure.caption));
 }
 
-/// Places figures behind the headings that they name, each once.
+/// Places figures in the sections that they name, each once.
 class FigurePlacer {
  public:
   explicit FigurePlacer(const std::vector<Figure>& figures) : figures_(figures) {}
 
-  std::string behind(std::string_view heading) {
+  std::string of(std::string_view heading) {
     std::string html;
     for (std::size_t i = 0; i < figures_.size(); ++i) {
       if (!figures_[i].section.empty() && heading.starts_with(figures_[i].section))
@@ -151,27 +161,45 @@ std::string header_html(const Page& page) {
         "<p class=\"interrupted\">Interrupted: the results below are complete, others are "
         "missing.</p>\n";
   }
-  html += "</header>\n";
-  if (page.decision.empty()) return html;
-  html +=
-      "<div class=\"decision\" role=\"region\" aria-labelledby=\"decision\">"
-      "<h2 id=\"decision\">The decision</h2>\n";
-  if (!page.card.empty()) html += "<table class=\"card\">\n";
-  for (const auto& line : page.card) {
-    html +=
-        fmt::format("<tr><th scope=\"row\">{}</th><td>{} <span>{}</span></td></tr>\n",
-                    escaped_html(line.label), escaped_html(line.text), escaped_html(line.evidence));
+  return html + "</header>\n";
+}
+
+// Quantities "kr = 1.34" stay on one line.
+std::string card_html(const std::vector<CardLine>& card) {
+  if (card.empty()) return {};
+  std::string html = "<table class=\"card\">\n";
+  for (const auto& line : card) {
+    std::string text = escaped_html(line.text);
+    constexpr std::string_view equals = " = ";
+    for (auto at = text.find(equals); at != std::string::npos; at = text.find(equals, at)) {
+      text.replace(at, equals.size(), "&#160;=&#160;");
+    }
+    html += fmt::format("<tr><th scope=\"row\">{}</th><td>{} <span>{}</span></td></tr>\n",
+                        escaped_html(line.label), text, escaped_html(line.evidence));
   }
-  if (!page.card.empty()) html += "</table>\n";
+  return html + "</table>\n";
+}
+
+// The card or the decision first, the gains to load beside it, conditions last.
+std::string decision_html(const Page& page) {
+  if (page.decision.empty()) return {};
+  std::string html =
+      "<div class=\"decision\" role=\"region\" aria-labelledby=\"decision\">"
+      "<h2 id=\"decision\">The decision</h2>\n<div class=\"answer\">\n" +
+      card_html(page.card);
   for (const auto& sentence : page.decision) {
     html += fmt::format("<p>{}</p>\n", escaped_html(sentence));
   }
+  html += "</div>\n";
+  if (const auto gains = to_html(page.gains); !gains.empty()) {
+    html += "<div class=\"gains\">\n" + gains + "</div>\n";
+  }
   if (!page.reservations.empty()) {
-    html += "<h3>Conditions</h3>\n<ul>\n";
+    html += "<div class=\"conditions\"><h3>Conditions</h3>\n<ul>\n";
     for (const auto& sentence : page.reservations) {
       html += fmt::format("<li>{}</li>\n", escaped_html(sentence));
     }
-    html += "</ul>\n";
+    html += "</ul></div>\n";
   }
   return html + "</div>\n";
 }
@@ -205,9 +233,9 @@ std::string to_html(const Page& page, const Provenance& provenance) {
   FigurePlacer placer(page.figures);
   std::string what_if = page.what_if.empty() ? std::string() : what_if_panel(page.what_if);
   std::string main = to_html(sections_only(page.document), [&](std::string_view heading) {
-    std::string html;
-    if (heading.starts_with("Inertia matching")) std::swap(html, what_if);
-    return html + placer.behind(heading);
+    SectionAdditions additions{{}, placer.of(heading)};
+    if (heading.starts_with("Inertia matching")) std::swap(additions.behind_heading, what_if);
+    return additions;
   });
   if (!what_if.empty()) {
     main += "<section id=\"what-if\"><h2>What if</h2>\n" + what_if + "</section>\n";
@@ -237,7 +265,7 @@ std::string to_html(const Page& page, const Provenance& provenance) {
       "Sans\", Arial, sans-serif; color: #555; }} }} }}\n</style>\n</head>\n<body>\n",
       page_style(), css_string("Boresight " + page.command + ": " + page.title));
   html += "<a class=\"skip\" href=\"#report\">Skip to the report</a>\n<div class=\"page\">\n";
-  html += header_html(page) + contents_html(sections_of(main));
+  html += header_html(page) + decision_html(page) + contents_html(sections_of(main));
   html += "<main id=\"report\">\n" + main + "</main>\n";
   html += fmt::format("<footer><p>Boresight {} {}, seed {}.</p></footer>\n</div>\n",
                       BORESIGHT_VERSION, escaped_html(page.command), page.seed);

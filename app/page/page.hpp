@@ -21,6 +21,8 @@ struct Page {
   bool interrupted = false;
   /// A redesign's card, before the decision in a few sentences.
   std::vector<CardLine> card;
+  /// Gains to load, before every figure; empty for none (gains_to_load.hpp).
+  Document gains;
   /// The decision, in a few sentences.
   std::vector<std::string> decision;
   /// What it rests on or leaves open, smaller below it.
@@ -37,11 +39,12 @@ struct Provenance {
   std::vector<io::InputFile> inputs;
 };
 
-/// One HTML file without references to any other: header, decision, contents, the document's
-/// sections with each figure behind the heading that it names (in a section of their own where no
-/// heading is theirs), how each number was made. Complete without scripts; with them figures can
-/// be explored, if the program has the plotting library in it (plotting_library()). The same input
-/// gives the same bytes. @throws InvalidInput as to_svg.
+/// One HTML file without references to any other: header, decision with the gains to load,
+/// contents, the document's sections with each figure in the one that it names, behind that
+/// section's first table (in a section of their own where no heading is theirs), how each number
+/// was made. Complete without scripts; with them figures can be explored, if the program has the
+/// plotting library in it (plotting_library()). The same input gives the same bytes. @throws
+/// InvalidInput as to_svg.
 std::string to_html(const Page& page, const Provenance& provenance);
 
 }  // namespace boresight::app

@@ -1,6 +1,7 @@
 #include <utility>
 
 #include <boresight/app/montecarlo/montecarlo_study.hpp>
+#include <boresight/app/page/gains_to_load.hpp>
 #include <boresight/app/page/report_page.hpp>
 #include <boresight/app/report/axis_wording.hpp>
 #include <boresight/app/report/decision.hpp>
@@ -32,6 +33,7 @@ Page page_of(const Report& report) {
   Page page = common(report, report.command);
   page.interrupted = report.interrupted;
   page.card = redesign_card(report);
+  page.gains = gains_to_load(report);
   page.reservations = reservations(report);
   if (report.matched && report.matched->what_if) {
     page.what_if = json_of(*report.matched->what_if).dump();

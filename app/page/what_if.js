@@ -59,7 +59,10 @@
 
   const drawing = panel.querySelector(".curve");
   const draw = (chosen, where) => {
-    const box = { left: 52, right: 500, top: 20, bottom: 232 };
+    // A unit is a pixel, whatever the panel's width: letters stay as large as they are.
+    const width = Math.max(drawing.clientWidth, 280);
+    drawing.setAttribute("viewBox", `0 0 ${width} 275`);
+    const box = { left: 52, right: width - 20, top: 20, bottom: 232 };
     const disks = sizes[0];
     const curves = table.structures.map((name, s) => disks.map((_, d) => look(s, [d, ...where.slice(1)]).rms));
     const budget = table.budgets.map(({ rms_mdeg }) => rms_mdeg);
@@ -88,15 +91,22 @@
     for (let value = disks[0]; value <= disks[disks.length - 1]; value += Math.ceil((disks[disks.length - 1] - disks[0]) / 6)) {
       drawing.append(text("text", { x: x(value), y: box.bottom + 17, "text-anchor": "middle" }, value));
     }
-    for (const { rms_mdeg, band } of table.budgets) {
-      if (rms_mdeg > top) continue;
-      drawing.append(text("path", { d: `M${box.left} ${y(rms_mdeg)}H${box.right}`, stroke: "#444", "stroke-dasharray": "2 3" }), text("text", { x: box.left + 6, y: y(rms_mdeg) - 4 }, `${rms_mdeg} mdeg, ${band}`));
-    }
     curves.forEach((values, s) => {
       if (s !== chosen) drawing.append(text("path", { d: path(values), fill: "none", stroke: "#b5bcc4", "stroke-width": 1 }));
     });
     drawing.append(text("path", { class: "chosen", d: path(curves[chosen]), fill: "none", stroke: "#174a74", "stroke-width": 2.4 }));
     drawing.append(text("path", { d: `M${box.left} ${box.top}V${box.bottom}H${box.right}`, fill: "none", stroke: "#333" }));
+    // Names of budgets stand above their lines, or below where those of another are; else nowhere.
+    const feet = [];
+    for (const { rms_mdeg, band } of table.budgets.toSorted((a, b) => b.rms_mdeg - a.rms_mdeg)) {
+      if (rms_mdeg > top) continue;
+      const at = y(rms_mdeg);
+      drawing.append(text("path", { d: `M${box.left} ${at}H${box.right}`, stroke: "#444", "stroke-dasharray": "2 3" }));
+      const foot = [at - 4, at + 13].find((one) => one < box.bottom - 3 && feet.every((other) => Math.abs(one - other) > 15));
+      if (foot === undefined) continue;
+      feet.push(foot);
+      drawing.append(text("text", { x: box.left + 6, y: foot, stroke: "#fff", "stroke-width": 3, "paint-order": "stroke" }, `${number(rms_mdeg, 3)} mdeg, ${band}`));
+    }
     const here = look(chosen, where);
     if (here.rms !== null) drawing.append(text("circle", { cx: x(here.values[0]), cy: y(here.rms), r: 5, fill: "#fff", stroke: "#174a74", "stroke-width": 2.4 }));
     drawing.append(text("text", { x: (box.left + box.right) / 2, y: box.bottom + 36, "text-anchor": "middle", "font-weight": 600 }, "flywheel disks on each motor"));
@@ -126,7 +136,7 @@
         lines.push(`${band.name}: ${number(24 * (found.rms / band.beamwidth_mdeg) ** 2, 4)} dB mean loss over two equal axes`);
       }
       for (const budget of table.budgets) {
-        lines.push(`${found.rms <= budget.rms_mdeg ? "\u2713 meets" : "\u2717 misses"} ${budget.name} (${budget.band}, ${budget.rms_mdeg} mdeg)`);
+        lines.push(`${found.rms <= budget.rms_mdeg ? "\u2713 meets" : "\u2717 misses"} ${budget.name} (${budget.band}, ${number(budget.rms_mdeg, 3)} mdeg)`);
       }
     }
     list.replaceChildren(...lines.map((line) => Object.assign(document.createElement("li"), { textContent: line })));
@@ -143,5 +153,6 @@
     sliders[axis].value = nearest(axis, value);
   });
   for (const control of [select, ...sliders]) control.addEventListener("input", show);
+  window.addEventListener("resize", show);
   show();
 })();

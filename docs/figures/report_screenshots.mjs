@@ -18,7 +18,7 @@ const browser = await chromium.launch({
 const shoot = async (name, args, prepare) => {
   const file = path.join(folder, `${name}.html`);
   execFileSync(program, [...args, "--report", file], { cwd: root, stdio: ["ignore", "ignore", "inherit"] });
-  const page = await browser.newPage({ viewport: { width: 1100, height: 860 } });
+  const page = await browser.newPage({ viewport: { width: 1400, height: 860 } });
   await page.goto(`file://${file}`);
   await prepare(page);
   await page.screenshot({ path: path.join(root, "docs", "figures", `report-${name}.png`) });

@@ -27,6 +27,7 @@ let browser;
 before(async () => {
   make("redesign", ["redesign", "cases/dss14-70m/campaign.toml"]);
   make("match", ["match", "cases/dss14-70m/case.toml", "--structure", "PI", "DPF+C", "--points", "9", "--no-variants", "--time-domain", "none"]);
+  make("tune", ["tune", "cases/dss14-70m/case.toml", "--structure", "PI", "LL+N", "--starts", "1"]);
   browser = await chromium.launch({
     executablePath: browserPath,
     args: ["--no-sandbox", "--disable-gpu", "--disable-quic", "--no-first-run", "--disable-background-networking", "--disable-component-update", "--disable-sync"],
@@ -44,6 +45,116 @@ const open = async (name, options = {}) => {
   await page.goto(`file://${made[name].page}`);
   return { page, troubles, close: () => context.close() };
 };
+
+// Pairs of visible letters of a drawing whose boxes overlap by more than a pixel; names at a slant
+// have boxes that do though they are apart.
+const overlaps = (drawing) => {
+  const texts = [...drawing.querySelectorAll("text")]
+    .filter((text) => text.textContent.trim() && getComputedStyle(text).visibility === "visible" && !text.closest(".hoverlayer, .modebar"))
+    .filter((text) => { const m = text.getScreenCTM(); return Math.abs(m.a * m.b) < 1e-6; })
+    .map((text) => [text.textContent, text.getBoundingClientRect()]);
+  const found = [];
+  texts.forEach(([a, x], i) => {
+    for (const [b, y] of texts.slice(0, i)) {
+      const across = Math.min(x.right, y.right) - Math.max(x.left, y.left);
+      const down = Math.min(x.bottom, y.bottom) - Math.max(x.top, y.top);
+      if (across > 1 && down > 1) found.push(`${a} | ${b}`);
+    }
+  });
+  return found;
+};
+
+// What of a page is cut off, too small or wasted, as a reader sees it.
+const layout = () => {
+  const window_width = document.documentElement.clientWidth;
+  const named = (element) => `${element.closest("section, .decision")?.id} ${element.textContent.trim().slice(0, 60)}`;
+  const regions = [...document.querySelectorAll(".table, .canvas")].filter((region) => region.checkVisibility());
+  const scrolling = regions.filter((region) => region.scrollWidth > region.clientWidth + 1);
+  const outside = regions.filter((region) => { const box = region.getBoundingClientRect(); return box.left < -1 || box.right > window_width + 1; });
+  const cells = [...document.querySelectorAll("th, td")].filter((cell) => cell.checkVisibility());
+  const cut = (cell) => {
+    const region = (cell.closest(".table") ?? document.documentElement).getBoundingClientRect();
+    const box = cell.getBoundingClientRect();
+    return box.left < region.left - 1 || box.right > region.right + 1;
+  };
+  const hidden = cells.filter(cut).map(named);
+  const small = [];
+  const leaves = document.createTreeWalker(document.body, NodeFilter.SHOW_TEXT);
+  for (let leaf = leaves.nextNode(); leaf; leaf = leaves.nextNode()) {
+    const element = leaf.parentElement;
+    if (!leaf.data.trim() || !element.checkVisibility() || element.matches("title, desc, script, style, option")) continue;
+    const drawn = element.closest("svg") && element.getScreenCTM();
+    const size = parseFloat(getComputedStyle(element).fontSize) * (drawn ? Math.hypot(drawn.b, drawn.d) : 1);
+    if (size < 10) small.push(`${size} ${named(element)}`);
+  }
+  const silent = scrolling.filter((region) => !/gradient/.test(getComputedStyle(region).backgroundImage) || getComputedStyle(region).overflowX !== "auto");
+  // The last column can be brought into sight.
+  const unreachable = scrolling.filter((region) => {
+    region.scrollLeft = region.scrollWidth;
+    const end = region.getBoundingClientRect().right;
+    return [...region.firstElementChild.querySelectorAll("tr > :last-child")].some((cell) => cell.getBoundingClientRect().right > end + 1);
+  });
+  return {
+    overflow: document.documentElement.scrollWidth - window_width,
+    used: document.querySelector("main").getBoundingClientRect().width / window_width,
+    scrolling: scrolling.length,
+    outside: outside.map(named), hidden, small, silent: silent.map(named), unreachable: unreachable.map(named),
+  };
+};
+
+// The designs that a report may recommend, with their gains by name and unit.
+const gainsOf = {
+  redesign: ({ tuning }) => [tuning.design.gains],
+  match: ({ matched }) => [matched.recommended_as_built.design.gains],
+  tune: ({ tuned }) => tuned.laws.map(({ design }) => design.gains),
+};
+
+for (const name of ["redesign", "match", "tune"]) {
+  for (const width of [1920, 1400, 400]) {
+    test(`${name}: nothing is cut off, too small or written over at ${width} px`, async () => {
+      const { page, troubles, close } = await open(name, { viewport: { width, height: 900 } });
+      const found = await page.evaluate(layout);
+      assert.ok(found.overflow <= 0, `the page is ${found.overflow} px too wide`);
+      for (const fault of ["outside", "small", "silent", "unreachable"]) assert.deepEqual(found[fault], [], fault);
+      if (width >= 1400) {
+        assert.ok(found.used > 0.95);
+        assert.equal(found.scrolling, 0);
+        assert.deepEqual(found.hidden, []);
+      } else {
+        assert.ok(found.scrolling > 0);
+      }
+      for (const drawing of await page.locator("svg:visible").all()) {
+        assert.deepEqual(await drawing.evaluate(overlaps), [], await drawing.evaluate((svg) => svg.closest("[id]").id));
+      }
+      assert.deepEqual(troubles, []);
+      await close();
+    });
+  }
+
+  test(`${name}: the gains to load come before every figure`, async () => {
+    const { page, close } = await open(name, { viewport: { width: 1400, height: 900 } });
+    const gains = page.locator(".decision .gains");
+    const shown = await gains.locator("tbody tr").evaluateAll((rows) => rows.map(({ cells: [gain, value] }) => [gain.textContent.replace(/^\S+ /, "").replaceAll(" ", "_"), parseFloat(value.textContent)]));
+    assert.ok(shown.length >= 3);
+    const same = (all) => all && Object.keys(all).length === shown.length && shown.every(([gain, value]) =>
+      Object.entries(all).some(([key, exact]) => key.startsWith(gain) && Math.abs(value / exact - 1) < 1e-4));
+    assert.ok(gainsOf[name](made[name].json).some(same), "gains that the report does not have");
+    const end = await gains.evaluate((element) => element.getBoundingClientRect().bottom);
+    assert.ok(end < await page.locator("figure").first().evaluate((figure) => figure.getBoundingClientRect().top));
+    assert.ok(end < 900, "the gains are not on the first screen");
+    await close();
+  });
+
+  test(`${name}: every table and figure fits on A4`, async () => {
+    const { page, close } = await open(name, { viewport: { width: 680, height: 990 } }); // 180 mm between margins
+    await page.emulateMedia({ media: "print" });
+    const wide = await page.$$eval("table, tr > *, figure, figure .static > svg, pre", (all) =>
+      all.filter((one) => one.checkVisibility() && one.getBoundingClientRect().right > 681).map((one) => one.textContent.trim().slice(0, 60)));
+    assert.deepEqual(wide, []);
+    assert.ok((await page.evaluate(() => document.documentElement.scrollWidth)) <= 681);
+    await close();
+  });
+}
 
 for (const name of ["redesign", "match"]) {
   test(`${name}: one small file that refers to nothing outside`, () => {
@@ -91,6 +202,7 @@ for (const name of ["redesign", "match"]) {
       const lines = await element.locator(".live").evaluate((live) =>
         live.data.filter((trace) => trace.mode?.startsWith("lines") && trace.line?.width > 0).map((trace) => trace.line.simplify));
       assert.ok(lines.every((simplify) => simplify === false));
+      assert.deepEqual(await element.locator(".live").evaluate(overlaps), [], figure.id);
       // The first point that has numbers, by the arrow key.
       await page.keyboard.press("ArrowRight");
       const series = figure.panels[0].series[0];

@@ -5,6 +5,7 @@
 #include <string_view>
 #include <vector>
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -205,7 +206,7 @@ TEST(DocumentHtml, WritesEachBlockAsWhatItIs) {
                             table({{"gain", "now"}, {"", "SI"}, {"  K", "1"}, {"T"}}, "l", 2) +
                             wrapped("term  text", "    ", "  ") + "\n  a\n    b\n\n";
   EXPECT_EQ(to_html(document),
-            "<pre>before</pre>\n"
+            "<div class=\"notes\">\n<pre>before</pre>\n</div>\n"
             "<section id=\"gains\">\n<h2>Gains, before &amp; after</h2>\n<h3>PI</h3>\n"
             "<div class=\"table\"><table>\n<thead>\n"
             "<tr><th scope=\"col\">gain</th><th scope=\"col\" class=\"right\">now</th></tr>\n"
@@ -214,22 +215,34 @@ TEST(DocumentHtml, WritesEachBlockAsWhatItIs) {
             "<tr><th scope=\"row\" class=\"nested\">  K</th><td class=\"right\">1</td></tr>\n"
             "<tr><th scope=\"row\">T</th><td class=\"right\"></td></tr>\n"
             "</tbody>\n</table></div>\n"
-            "<p class=\"nested\">term  text</p>\n<pre>  a\n    b</pre>\n</section>\n");
+            "<div class=\"notes\">\n<p class=\"nested\">term  text</p>\n<pre>  a\n    "
+            "b</pre>\n</div>\n</section>\n");
   EXPECT_THAT(to_html(table({{"no", "header"}}, "l", 0)), Not(HasSubstr("thead")));
   EXPECT_EQ(to_html(table({}) + wrapped(" ", "") + "\n \n"), "");
 }
 
-TEST(DocumentHtml, PutsMoreBehindTheHeadingOfASection) {
-  const Document document = heading("A: 1") + wrapped("one", "  ") + heading("B") + "two\n";
+TEST(DocumentHtml, PutsMoreBehindTheHeadingOrTheFirstTableOfASection) {
+  const Document document = heading("A: 1") + wrapped("one", "  ") + heading("B") + "two\n" +
+                            table({{"a"}, {"1"}}) + table({{"b"}, {"2"}});
   std::vector<std::string> asked;
   const std::string html = to_html(document, [&](std::string_view title) {
     asked.emplace_back(title);
-    return title == "B" ? "<figure></figure>\n" : "";
+    return title == "B" ? SectionAdditions{"<aside></aside>\n", "<figure></figure>\n"}
+                        : SectionAdditions{{}, "<figure></figure>\n"};
   });
   EXPECT_THAT(asked, ElementsAre("A: 1", "B"));
+  const auto table_of = [](std::string_view name, std::string_view value) {
+    return fmt::format(
+        "<div class=\"table\"><table>\n<thead>\n<tr><th scope=\"col\">{}</th></tr>\n</thead>\n"
+        "<tbody>\n<tr><th scope=\"row\">{}</th></tr>\n</tbody>\n</table></div>\n",
+        name, value);
+  };
   EXPECT_EQ(html,
-            "<section id=\"a\">\n<h2>A: 1</h2>\n<p>one</p>\n</section>\n"
-            "<section id=\"b\">\n<h2>B</h2>\n<figure></figure>\n<pre>two</pre>\n</section>\n");
+            "<section id=\"a\">\n<h2>A: 1</h2>\n<figure></figure>\n"
+            "<div class=\"notes\">\n<p>one</p>\n</div>\n</section>\n"
+            "<section id=\"b\">\n<h2>B</h2>\n<aside></aside>\n"
+            "<div class=\"notes\">\n<pre>two</pre>\n</div>\n" +
+                table_of("a", "1") + "<figure></figure>\n" + table_of("b", "2") + "</section>\n");
 }
 
 TEST(DocumentHtml, GivesEverySectionAnIdOfItsOwn) {

@@ -5,11 +5,14 @@
 #include <set>
 #include <sstream>
 #include <string>
+#include <utility>
 #include <vector>
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <boresight/app/figures/figure_svg.hpp>
+#include <boresight/app/figures/svg_text.hpp>
 #include <boresight/numerics/error.hpp>
 
 namespace boresight::app {
@@ -343,6 +346,80 @@ TEST(FigureSvg, KeepsLabelsOfMarksApart) {
           << i << " " << j;
     }
   }
+}
+
+TEST(FigureSvg, KeepsUprightNamesOfLinesApartFromLongOnes) {
+  Figure figure;
+  figure.x.lowest = 0.0;
+  figure.panels.resize(1);
+  auto& panel = figure.panels[0];
+  panel.series = {{"", SeriesStyle::line, {0, 24}, {0.3, 0.6}}};
+  panel.marks = {{0.0, 0.5, "PI 0.4987"}, {0.0, 0.3, "DPF+C 0.2910"}};
+  using enum FigureLine::Direction;
+  panel.lines = {{vertical, 5.9, "equal pole pairs (R = 0.5)"},
+                 {vertical, 2.8, "equal pole pairs (R = 0.25)"},
+                 {vertical, 0.0, "maximum acceleration (R = 0.027)"}};
+  const auto labels = of_class(to_svg(figure), "label");
+  ASSERT_EQ(labels.size(), 5U);
+  struct Extent {
+    double left, top, right, bottom;
+  };
+  std::vector<Extent> boxes;
+  constexpr double size = 11.0;
+  for (const auto& label : labels) {
+    const double width = text_width(label.text, size);
+    if (!label.attributes.contains("transform")) {
+      const double x = number(label, "x"), y = number(label, "y");
+      boxes.push_back({x, y - 0.8 * size, x + width, y + 0.2 * size});
+      continue;
+    }
+    double x = 0.0, y = 0.0;
+    std::istringstream place(label.attributes.at("transform").substr(10));  // translate(
+    ASSERT_TRUE(place >> x >> y);
+    boxes.push_back({x - 0.8 * size, y - width, x + 0.2 * size, y});
+  }
+  for (std::size_t i = 0; i < boxes.size(); ++i) {
+    for (std::size_t j = 0; j < i; ++j) {
+      EXPECT_TRUE(boxes[i].right <= boxes[j].left || boxes[j].right <= boxes[i].left ||
+                  boxes[i].bottom <= boxes[j].top || boxes[j].bottom <= boxes[i].top)
+          << labels[i].text << ", " << labels[j].text;
+    }
+  }
+}
+
+TEST(FigureSvg, LeavesOutNamesTooLongForTheirRow) {
+  Figure figure;
+  figure.panels.resize(1);
+  auto& panel = figure.panels[0];
+  panel.y.categories = {"plant 1", "plant 2"};
+  panel.series = {{"rms", SeriesStyle::bars, {1, 2}, {0, 1}}};
+  panel.series[0].labels = {std::string(130, 'a'), "short"};
+  const auto labels = of_class(to_svg(figure), "label");
+  ASSERT_EQ(labels.size(), 1U);
+  EXPECT_EQ(labels[0].text, "short");
+}
+
+TEST(FigureSvg, MarksWhatIsCutOffByAnArrowAtTheEdge) {
+  Figure figure;
+  figure.x.lowest = 0.0;
+  figure.x.highest = 10.0;
+  figure.panels.resize(1);
+  auto& panel = figure.panels[0];
+  panel.y.categories = {"within", "end beyond", "all beyond"};
+  panel.series = {{"", SeriesStyle::points, {5, 6, 50}, {0, 1, 2}}};
+  panel.series[0].x_lower = {4, 5, 40};
+  const auto arrows = [&](std::vector<double> upper) {
+    panel.series[0].x_upper = std::move(upper);
+    const std::string svg = to_svg(figure);
+    const double right = number(of_class(svg, "panel").at(0), "data-right");
+    const std::string tail = fmt::format("M{:.2f} ", right - 6.0);
+    const std::string path = of_class(svg, "interval").at(0).attributes.at("d");
+    int count = 0;
+    for (auto at = path.find(tail); at != std::string::npos; at = path.find(tail, at + 1)) ++count;
+    return count;
+  };
+  EXPECT_EQ(arrows({6, 7, 60}), 2);  // both ends of the last
+  EXPECT_EQ(arrows({6, 30, 60}), 3);
 }
 
 TEST(FigureSvg, DrawsANyquistPlaneWithEqualScales) {

@@ -57,7 +57,26 @@ TEST(InertiaFigures, ShowPrintedValuesInSiAndOpenIntervalsToTheEdge) {
   const auto& ratio = figures[1].panels.front().series.front();
   EXPECT_EQ(ratio.x_upper[0], 2.4);
   EXPECT_TRUE(std::isfinite(ratio.x_upper[1]));
-  EXPECT_GT(ratio.x_upper[1], 4.63);
+  EXPECT_GT(ratio.x_upper[1], *figures[1].x.highest);
+  EXPECT_GT(*figures[1].x.highest, 4.63);
+}
+
+TEST(InertiaFigures, OutlierDoesNotSqueezeTheOthersAndKeepsItsValue) {
+  IdentificationSection section;
+  section.inertia.methods = {method("masses", 1.8, 2.0, 2.4), method("steps", 1.7, 1.9, 2.3),
+                             method("peak", 180.0, 0.5, 40.0)};
+  section.printed = {{"", ""}, {"", ""}, {"", ""}};
+  const auto figures = inertia_figures(section);
+  ASSERT_EQ(figures.size(), 2U);
+  expect_drawable(figures);
+  const auto& inertia = figures[0];
+  EXPECT_LT(*inertia.x.highest, 3.6);
+  EXPECT_GT(*inertia.x.highest, 1.98);
+  EXPECT_LT(*inertia.x.lowest, 1.53);
+  EXPECT_EQ(inertia.panels.front().series.front().x[2], 180.0);
+  EXPECT_EQ(figures[1].panels.front().series.front().x_upper[2], 40.0);
+  EXPECT_LT(*figures[1].x.highest, 5.0);
+  EXPECT_GT(*figures[1].x.highest, 2.4);
 }
 
 TEST(InertiaFigures, DrawNoCombinedValueOfMethodsThatContradictOneAnother) {

@@ -59,7 +59,7 @@ TEST(Page, StyleSheetStringsCannotEndEarly) {
   EXPECT_EQ(css_string("a\"b\\c</style>"), "\"a\\22 b\\5c c\\3c /style>\"");
 }
 
-TEST(Page, FiguresStandBehindTheirHeadingsAndNoneIsLost) {
+TEST(Page, FiguresStandInTheirSectionsAndNoneIsLost) {
   const std::string html = to_html(page_of_two_sections(), provenance);
   const auto heading_at = html.find("<h2>Assumed inputs");
   const auto first = html.find("id=\"figure-first\""), second = html.find("id=\"figure-second\"");
@@ -72,6 +72,25 @@ TEST(Page, FiguresStandBehindTheirHeadingsAndNoneIsLost) {
   EXPECT_LT(further, second);
   EXPECT_THAT(html, HasSubstr("Figure 1. Title of first."));
   EXPECT_THAT(html, HasSubstr("Figure 2. Title of second."));
+}
+
+TEST(Page, GainsStandBesideTheDecisionBeforeEveryFigure) {
+  Page page = page_of_two_sections();
+  EXPECT_THAT(to_html(page, provenance), Not(HasSubstr("class=\"gains\"")));
+  page.gains = subheading("Gains to load: PI") + table({{"gain", "value"}, {"kr <gain>", "0.38"}});
+  const std::string html = to_html(page, provenance);
+  const auto decision = html.find("Choose &lt;this&gt;."), gains = html.find("kr &lt;gain&gt;");
+  ASSERT_NE(gains, std::string::npos);
+  EXPECT_LT(decision, gains);
+  EXPECT_LT(gains, html.find("<nav"));
+  EXPECT_LT(gains, html.find("<figure"));
+}
+
+TEST(Page, KeepsEachGainOfTheCardOnOneLine) {
+  Page page = page_of_two_sections();
+  page.card = {{"Load", "PI: kr = 0.38, wi = 0.22 rad/s", "Tuned loops"}};
+  EXPECT_THAT(to_html(page, provenance),
+              HasSubstr("PI: kr&#160;=&#160;0.38, wi&#160;=&#160;0.22 rad/s <span>Tuned loops"));
 }
 
 TEST(Page, SaysHowItWasMade) {

@@ -1,0 +1,68 @@
+#include <cstddef>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include <boresight/app/page/gains_to_load.hpp>
+#include <boresight/app/tune/tune_verdict.hpp>
+#include <boresight/design/studies/tuning_study.hpp>
+#include <boresight/io/case/present_gains.hpp>
+
+namespace boresight::app {
+namespace {
+
+// `values` with their units, in the structure's order.
+Document gains_table(const std::string& title, const control::LoopStructure& structure,
+                     const std::vector<std::string>& values) {
+  const auto& descriptions = structure.gains();
+  std::vector<std::vector<std::string>> rows{{"gain", "value"}};
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    rows.push_back({fmt::format("{} {}", descriptions[i].symbol, descriptions[i].name), values[i]});
+  }
+  return subheading(title) + table(std::move(rows), "ll");
+}
+
+Document of_study(const design::TuningStudy& study, const io::GainUnits& units) {
+  const TunedLaw* recommended = design::recommended_law(study);
+  if (recommended == nullptr) return {};
+  const auto& law = recommended->design.tuning.law;
+  return gains_table("Gains to load: " + name_and_purpose(*recommended), law.structure,
+                     units.texts(law));
+}
+
+Document of_redesign(const TuningSection& section) {
+  if (!section.design.usable()) return {};
+  const auto& law = section.design.tuning.law;
+  const bool fit = section.fitness == design::Fitness::fit;
+  return gains_table(fmt::format("{}: {}, {}", fit ? "Gains to load" : "Gains, not to be loaded",
+                                 section.name, to_string(section.tuned_for)),
+                     law.structure, section.gain_units.texts(law));
+}
+
+// Of the proposal to choose; where no samples were drawn, of the antenna as it is.
+Document of_evaluation(const EvaluateSection& section) {
+  if (section.candidates.empty()) return {};
+  std::size_t place = 0;
+  if (section.decision) place = section.decision->candidates[section.decision->worth].candidate;
+  const Candidate& candidate = section.candidates[place];
+  if (!candidate.feasible()) return {};
+  return gains_table(
+      fmt::format("Gains to load: {}, {}", candidate.laws[*candidate.chosen].structure,
+                  candidate.path.empty() ? "the antenna as it is" : candidate.name),
+      candidate.chosen_law()->design.tuning.law.structure, candidate.gains.at(*candidate.chosen));
+}
+
+}  // namespace
+
+Document gains_to_load(const Report& report) {
+  if (report.tuned) return of_study(*report.tuned, report.tuned->gain_units);
+  if (report.evaluated) return of_evaluation(*report.evaluated);
+  if (report.matched && report.matched->tuned_as_built) {
+    return of_study(*report.matched->tuned_as_built, {});
+  }
+  return report.tuning ? of_redesign(*report.tuning) : Document{};
+}
+
+}  // namespace boresight::app

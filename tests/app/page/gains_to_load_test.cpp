@@ -1,0 +1,57 @@
+#include <string>
+#include <vector>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <boresight/app/document/document_text.hpp>
+#include <boresight/app/page/gains_to_load.hpp>
+
+namespace boresight::app {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+Candidate candidate_of(const std::string& path, double rate_gain) {
+  Candidate candidate;
+  candidate.name = path.empty() ? "as it is" : "no flywheels";
+  candidate.path = path;
+  CandidateLaw law;
+  law.structure = "PI";
+  law.goals_met = true;
+  law.design.verification.passed = true;
+  law.design.tuning.law = {control::LoopStructure::named("PI"),
+                           {rate_gain, 0.255, 3.28, 30.0, 0.262}};
+  candidate.gains = {io::GainUnits().texts(law.design.tuning.law)};
+  candidate.laws = {law};
+  candidate.chosen = 0U;
+  return candidate;
+}
+
+TEST(GainsToLoad, AreOfTheProposalWorthItsCost) {
+  Report report;
+  EvaluateSection& section = report.evaluated.emplace();
+  section.candidates = {candidate_of("", 0.133), candidate_of("none.toml", 0.126)};
+  EXPECT_THAT(to_text(gains_to_load(report)), AllOf(HasSubstr("kr rate gain"), HasSubstr("0.133"),
+                                                    HasSubstr("30 1/s"), Not(HasSubstr("0.126"))));
+  section.decision.emplace();
+  section.decision->candidates.resize(2);
+  section.decision->candidates[1].candidate = 1;
+  section.decision->worth = 1;
+  EXPECT_THAT(to_text(gains_to_load(report)),
+              AllOf(HasSubstr("no flywheels"), HasSubstr("0.126"), Not(HasSubstr("0.133"))));
+}
+
+TEST(GainsToLoad, AreNoneWithoutAControllerThatMeetsItsConstraints) {
+  Report report;
+  EXPECT_TRUE(gains_to_load(report).blocks.empty());
+  EvaluateSection& section = report.evaluated.emplace();
+  section.candidates = {candidate_of("", 0.133)};
+  section.candidates[0].laws[0].goals_met = false;
+  EXPECT_TRUE(gains_to_load(report).blocks.empty());
+}
+
+}  // namespace
+}  // namespace boresight::app

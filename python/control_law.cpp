@@ -75,9 +75,10 @@ void add_control_law(py::module_& module) {
 
   module.def(
       "control_law", &make_law, py::arg("structure"), py::arg("gains"),
-      "A law of your own: 'PI-0', 'PI', 'DPF', 'LL' or 'FULL', with +N (notch) and +C "
-      "(compliance compensation) behind it, and its gains by symbol, SI. Raises InvalidInput "
-      "naming the gains that the structure has.");
+      "A controller with gains of your own, by symbol, SI. Structures: 'PI-0' (PI without lag), "
+      "'PI' (PI with lag), 'DPF' (PI with lag and pressure feedback), 'LL' (PI with lead and lag) "
+      "or 'FULL' (PI with lead, lag and pressure feedback), with +N (notch) and +C (compliance "
+      "compensation) behind it. Raises InvalidInput naming the gains that the structure has.");
   module.def(
       "closed_loop",
       [](const Plant& plant, const ControlLaw& law, double delay) {

@@ -67,6 +67,13 @@ class Help(unittest.TestCase):
                     if result.returncode != 0:
                         self.assertRegex(result.stderr, r"expected a readable file, found none")
 
+    def test_spells_out_every_structure_that_shells_complete(self):
+        offered = re.search(r"from tune' -l structure -r -a '([^']+)'", printed("completion", "fish"))[1].split()
+        self.assertGreater(len(offered), 10)
+        text = " ".join(HELP["tune"].split())
+        for part in {part for name in offered for part in re.split(r"(?=\+)", name)}:
+            self.assertRegex(text, rf"(?<![\w-]){re.escape(part)} \([a-zA-Z, ]+\)")
+
     def test_no_line_is_wider_than_a_report(self):
         for command in COMMANDS:
             for line in HELP[command].partition("Examples:")[0].splitlines():

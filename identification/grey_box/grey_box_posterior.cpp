@@ -92,6 +92,8 @@ DriveEstimate drive_estimate(const GreyBoxParameters& parameters, const VectorXd
       rate * v(P::stribeck_rate),    torque * v(P::saturating_torque),
       rate * v(P::saturating_rate),  torque / rate * v(P::viscous_friction)};
   e.coulomb_level = e.friction.coulomb_torque + e.friction.saturating_torque;
+  e.tracking_slope = plant::friction_slope(e.friction, parameters.tracking_rate());
+  e.valve_lag = v(P::valve_lag);
   e.bristle_stiffness = torque / rate * v(P::bristle_stiffness);
   e.bristle_damping = torque / rate * v(P::bristle_damping);
   e.mode_damping = v(P::mode_damping);
@@ -152,6 +154,7 @@ std::vector<DriveEstimate> posterior_draws(const GreyBoxParameters& parameters,
     e.coulomb_level += (saturating - 1.0) * e.friction.saturating_torque;
     e.friction.saturating_torque *= saturating;
     e.friction.saturating_rate *= saturating;
+    e.tracking_slope = plant::friction_slope(e.friction, parameters.tracking_rate());
     draws.push_back(std::move(e));
   }
   return draws;
@@ -167,6 +170,8 @@ const std::vector<DriveQuantity>& drive_quantities() {
       {"leakage rate", "1/s", &DriveEstimate::leakage_rate},
       {"offset torque as recorded", "N m", &DriveEstimate::offset_as_recorded},
       {"Coulomb level", "N m", &DriveEstimate::coulomb_level},
+      {"friction slope at tracking rate", "N m s/rad", &DriveEstimate::tracking_slope},
+      {"valve lag", "s", &DriveEstimate::valve_lag},
       {"lowest locked-rotor frequency", "Hz", &DriveEstimate::lowest_frequency}};
   return quantities;
 }

@@ -28,6 +28,9 @@ struct DriveEstimate {
   double coulomb_level = 0.0;
   double lowest_frequency = 0.0;  // Hz, locked rotor; 0 without structure
   plant::FrictionCurve friction;
+  double tracking_slope = 0.0;  // N m s/rad: of the curve at DriveKnowledge::tracking_rate
+  /// s, of a first-order lag: a valve of second order has 2 (damping ratio)/(circular frequency).
+  double valve_lag = 0.0;
   double bristle_stiffness = 0.0;  // N m/rad
   double bristle_damping = 0.0;    // N m s/rad
   double rigid_inertia = 0.0;      // kg m2: what turns rigidly with the motors, motors included

@@ -3,7 +3,6 @@
 #include <boresight/design/ensembles/plant_members.hpp>
 #include <boresight/io/campaign/campaign_identification.hpp>
 #include <boresight/io/campaign/designed_antenna.hpp>
-#include <boresight/io/campaign/identified_case.hpp>
 #include <boresight/io/case/mission_of.hpp>
 #include <boresight/numerics/error.hpp>
 
@@ -28,17 +27,23 @@ DesignedAntenna designed_antenna(const Case& stated, const std::optional<Campaig
     design::Mission mission = mission_of(stated);
     design::PlantEnsemble ensemble{design::EnsembleSource::ranges, plant_members(mission, seed)};
     auto distribution = design::PlantDistribution::of_ranges(mission);
-    return {stated, std::move(mission), std::move(ensemble), std::move(distribution), false};
+    return {stated, std::move(mission), std::move(ensemble), std::move(distribution), {}, false};
   }
   // As many as the reference ensemble has.
   constexpr std::size_t members = 30;
-  const Case identified = with_identified(stated, campaign->grey_box->estimate);
+  const identification::GreyBoxResult& found = *campaign->grey_box;
+  const auto parts = taken_parts(stated, found);
+  const Case identified = with_identified(stated, found.estimate, found.draws, parts);
   design::Mission mission = mission_of(identified);
-  const auto distribution =
-      design::PlantDistribution::of_records(mission, campaign->grey_box->draws);
+  const auto distribution = design::PlantDistribution::of_records(mission, found.draws, parts);
   design::PlantEnsemble ensemble{design::EnsembleSource::records,
                                  drawn_members(mission, distribution, seed, members)};
-  return {identified, std::move(mission), std::move(ensemble), distribution, true};
+  return {identified,
+          std::move(mission),
+          std::move(ensemble),
+          distribution,
+          superseded_inputs(stated, identified),
+          true};
 }
 
 DesignedAntenna designed_antenna(const Case& stated, std::uint64_t seed, unsigned threads,

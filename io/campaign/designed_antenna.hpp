@@ -7,6 +7,7 @@
 
 #include <boresight/design/ensembles/plant_distribution.hpp>
 #include <boresight/io/campaign/campaign_section.hpp>
+#include <boresight/io/campaign/identified_case.hpp>
 
 namespace boresight::io {
 
@@ -19,6 +20,8 @@ struct DesignedAntenna {
   /// else design::plant_members.
   design::PlantEnsemble ensemble;
   design::PlantDistribution distribution;
+  /// What of the stated case the records have replaced; empty without records.
+  std::vector<SupersededInput> superseded;
   bool from_records = false;  // else the case as stated
 };
 

@@ -23,6 +23,7 @@
 #include <boresight/design/problem/pointing_budget.hpp>
 #include <boresight/io/campaign/campaign_identification.hpp>
 #include <boresight/io/campaign/designed_antenna.hpp>
+#include <boresight/io/campaign/recommended_values.hpp>
 #include <boresight/io/case/mission_of.hpp>
 #include <boresight/io/files/write_atomically.hpp>
 
@@ -154,6 +155,11 @@ int run(const Command& command, const Arguments& arguments) {
                              .page = [&] { return page_of(report); },
                              .mat = mat_of(report)});
   if (report.interrupted) return interrupted;
+  if (report.command == "identify" && report.campaign && !io::recommended(*report.campaign)) {
+    fmt::print(stderr, "boresight: {}: the records give no value to design on: {}\n",
+               arguments.case_path, to_string(io::rejection(*report.campaign)));
+    return numerical;
+  }
   if (report.tuning && report.tuning->design.tuning.status != design::TuningStatus::optimal) {
     fmt::print(stderr, "boresight: no controller meets the constraints of {}\n",
                arguments.case_path);

@@ -3,6 +3,7 @@
 #include <iterator>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <boresight/app/redesign/assumed_inputs.hpp>
 #include <boresight/app/redesign/matching_verdict.hpp>
@@ -11,6 +12,7 @@
 #include <boresight/app/report/study_decision.hpp>
 #include <boresight/app/tune/gains_at_bounds.hpp>
 #include <boresight/app/tune/tune_verdict.hpp>
+#include <boresight/io/campaign/recommended_values.hpp>
 
 namespace boresight::app {
 namespace {
@@ -69,26 +71,58 @@ Sentences audit_decision(const AuditReport& report) {
   return sentences;
 }
 
-Sentences identify_decision(const Report& report) {
+// "record 'a'", "records 'a', 'b' and 3 more".
+std::string names_of(const std::vector<std::string>& names, const std::string& what) {
+  constexpr std::size_t most = 2;
+  std::string text = fmt::format(
+      "{}{} '{}'", what, names.size() == 1 ? "" : "s",
+      fmt::join(std::vector(names.begin(), names.begin() + static_cast<std::ptrdiff_t>(
+                                                               std::min(most, names.size()))),
+                "', '"));
+  if (names.size() > most) text += fmt::format(" and {} more", names.size() - most);
+  return text;
+}
+
+std::string look_at(const io::ChannelSuspicion& one) {
+  std::string text = "Look at ";
+  if (!one.channels.empty()) text += names_of(one.channels, "channel") + " in ";
+  return fmt::format("{}{}: {}{} ({}).", text, names_of(one.records, "record"), one.finding,
+                     one.record_refused ? ", not used" : "", one.explanation);
+}
+
+Sentences campaign_decision(const io::CampaignSection& section) {
+  constexpr std::size_t most = 3;
   Sentences sentences;
-  if (report.campaign && report.campaign->grey_box) {
-    const auto& found = *report.campaign->grey_box;
-    const auto& inertia = found.quantity("inertia").posterior;
-    const auto& ratio = found.quantity("motor to load ratio").posterior;
+  if (const auto values = io::recommended(section)) {
+    const auto& [inertia, ratio] = *values;
     sentences.push_back(fmt::format(
         "Design on a reflected inertia of {:.3f} kg m2 (95 % interval {:.3f} to {:.3f}) and a "
         "motor-to-load ratio of {:.2f} ({:.2f} to {:.2f}): {} records agree on them.",
         inertia.value, inertia.lower, inertia.upper, ratio.value, ratio.lower, ratio.upper,
-        found.records.size()));
-    if (const auto count = report.campaign->contradictions.size(); count > 0) {
+        section.grey_box->records.size()));
+    if (const auto count = section.contradictions.size(); count > 0) {
       sentences.push_back(fmt::format(
           "The records contradict {} of the case's stated numbers: correct them there.", count));
     }
-    return sentences;
+  } else {
+    sentences.push_back(
+        fmt::format("No value is recommended ({}).{}{}", to_string(io::rejection(section)),
+                    section.contradiction.empty() ? "" : " ", section.contradiction));
+    for (const auto& failure : section.failures) {
+      if (failure.method != "grey box") continue;
+      sentences.push_back(fmt::format("The fit of one model failed: {}.", failure.reason));
+    }
   }
-  if (report.campaign && !report.campaign->contradiction.empty()) {
-    sentences.push_back(report.campaign->contradiction);
+  for (const auto& one : io::suspicions(section)) {
+    if (sentences.size() >= most) break;
+    sentences.push_back(look_at(one));
   }
+  return sentences;
+}
+
+Sentences identify_decision(const Report& report) {
+  Sentences sentences;
+  if (report.campaign) return campaign_decision(*report.campaign);
   if (report.identification) {
     const auto& methods = report.identification->inertia.methods;
     const auto [least, most] = std::ranges::minmax_element(

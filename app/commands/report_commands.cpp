@@ -54,6 +54,7 @@ void fill_identification(const io::Case& antenna, const StudyOptions& options, R
   io::LoadedCampaign loaded = load_campaign(antenna, options.threads);
   const auto traces = campaign_traces(loaded);
   report.campaign = identify_campaign(antenna, std::move(loaded), options);
+  report.superseded = superseded_inputs(antenna, *report.campaign);
   report.figures = record_figures(report.campaign->notes, traces);
 }
 
@@ -108,6 +109,7 @@ const std::vector<Command>& commands() {
        "drive model",
        [](const io::Case& antenna, const StudyOptions& options, Report& report) {
          fill_identification(antenna, options, report);
+         report.assumed = identification_inputs(antenna);
          if (report.campaign) return;
          report.conclusions = first_tests(antenna);
          report.resonance = resonance_verdict(antenna);

@@ -9,6 +9,7 @@
 #include <boresight/app/redesign/matching_verdict.hpp>
 #include <boresight/app/redesign/tuning_verdict.hpp>
 #include <boresight/app/report/decision.hpp>
+#include <boresight/app/report/influences.hpp>
 #include <boresight/app/report/study_decision.hpp>
 #include <boresight/app/tune/gains_at_bounds.hpp>
 #include <boresight/app/tune/tune_verdict.hpp>
@@ -38,12 +39,45 @@ std::string audited(const AuditReport& report) {
          (sound ? ": design on the case." : ".");
 }
 
-std::string assumptions(const std::vector<io::Quantity>& assumed) {
-  const std::size_t count = count_of_antenna(assumed);
-  if (count == 0) return "No antenna input is assumed.";
-  return fmt::format(
-      "{} antenna inputs are assumed, in value or in uncertainty: all results depend on them.",
-      count);
+// Assumed inputs that move the rms of a redesign by what decides anything, the largest first.
+std::vector<std::string> telling_inputs(const TuningSection& section) {
+  std::vector<std::string> keys;
+  for (const auto& effect : section.input_effects) {
+    if (effect.quantity.basis != io::Basis::assumed) continue;
+    if (effect.change(section.design.beam_rms) >= negligible_change) {
+      keys.push_back(effect.quantity.key);
+    }
+  }
+  return keys;
+}
+
+std::string dependence(const Report& report) {
+  if (report.command == "identify") {
+    return " and enter the identification";
+  }
+  if (!report.tuning) return "; `boresight redesign` ranks them by their effect on the rms";
+  constexpr std::size_t most = 3;
+  std::vector<std::string> keys = telling_inputs(*report.tuning);
+  const std::size_t count = keys.size();
+  keys.resize(std::min(most, count));
+  if (count == 0) {
+    return fmt::format("; none moves the rms by {:.0f} % or more", 100.0 * negligible_change);
+  }
+  return fmt::format("; {} of them move{} the rms by {:.0f} % or more, {}{}", count,
+                     count == 1 ? "s" : "", 100.0 * negligible_change, count > most ? "first " : "",
+                     fmt::join(keys, ", "));
+}
+
+// What the result depends on, and what the records have taken off that list.
+std::string assumptions(const Report& report) {
+  const std::size_t count = count_of_antenna(report.assumed);
+  const auto superseded = std::ranges::count_if(report.superseded, &io::SupersededInput::assumed);
+  std::string text = count == 0
+                         ? std::string("No antenna input is assumed")
+                         : fmt::format("{} antenna input{} assumed, in value or in uncertainty{}",
+                                       count, count == 1 ? " is" : "s are", dependence(report));
+  if (superseded > 0) text += fmt::format(". The records replaced {} assumed inputs", superseded);
+  return text + '.';
 }
 
 Sentences audit_decision(const AuditReport& report) {
@@ -180,7 +214,7 @@ std::vector<std::string> decision(const Report& report) {
   }
   if (report.tuned) {
     auto sentences = decision(*report.tuned, report.time_domain, report.limit);
-    if (sentences.size() < 3) sentences.push_back(assumptions(report.assumed));
+    if (sentences.size() < 3) sentences.push_back(assumptions(report));
     return sentences;
   }
   Sentences sentences;
@@ -194,7 +228,7 @@ std::vector<std::string> decision(const Report& report) {
     sentences = model_decision(*report.plant);
   }
   if (sentences.size() < 3 && report.command != "redesign" && report.command != "audit") {
-    sentences.push_back(assumptions(report.assumed));
+    sentences.push_back(assumptions(report));
   }
   return sentences;
 }
@@ -211,7 +245,7 @@ std::vector<std::string> reservations(const Report& report) {
     return sentences;
   }
   if (report.tuning) sentences = tuning_reservations(report, *report.tuning);
-  sentences.push_back(assumptions(report.assumed));
+  sentences.push_back(assumptions(report));
   return sentences;
 }
 

@@ -300,7 +300,8 @@ CardLine settle_line(const Report& report) {
 }
 
 CardLine test_line(const Report& report, const TuningSection& section) {
-  const auto test = next_test(section.input_effects, section.design.beam_rms, report.time_domain);
+  const auto test = next_test(section.input_effects, section.design.beam_rms, report.time_domain,
+                              is_superseded(report.superseded, "friction_curve."));
   if (!test) {
     return {"Next test", "none would change the result significantly", std::string(loops)};
   }

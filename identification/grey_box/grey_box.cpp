@@ -22,7 +22,8 @@ using P = GreyBoxParameters;
 void check(const GreyBoxOptions& options) {
   if (!(options.sample_rate >= 0.0) || options.further_starts < 0 || options.draws < 100 ||
       !(options.stretch > 0.0) || !(options.discrepancy.torque_balance >= 0.0) ||
-      !(options.discrepancy.flow_balance >= 0.0) || !(options.discrepancy.stiffness >= 0.0)) {
+      !(options.discrepancy.flow_balance >= 0.0) || !(options.discrepancy.stiffness >= 0.0) ||
+      !(options.discrepancy.valve_lag >= 0.0)) {
     throw InvalidInput(fmt::format(
         "fit_grey_box: expected a sample rate from 0, further starts from 0, at least 100 draws, a "
         "positive stretch and discrepancies from 0, found {}, {}, {}, {}, {}, {} and {}",
@@ -274,6 +275,7 @@ GreyBoxResult fit_grey_box(const Campaign& campaign,
   result.posterior = grey_box_posterior(objective, best.x, shifts, options.stretch);
   result.posterior.torque_discrepancy = options.discrepancy.torque_balance;
   result.posterior.stiffness_discrepancy = options.discrepancy.stiffness;
+  result.posterior.lag_discrepancy = options.discrepancy.valve_lag;
   result.posterior.leakage_discrepancy =
       leakage_discrepancy(objective, records, parameters, best.x, options.discrepancy.flow_balance);
   const double unknown =

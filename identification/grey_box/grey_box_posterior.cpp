@@ -147,6 +147,8 @@ std::vector<DriveEstimate> posterior_draws(const GreyBoxParameters& parameters,
     const auto oil = numbers.pair(static_cast<std::uint64_t>(root.cols()) + 2U);
     e.oil_stiffness *= std::exp(posterior.stiffness_discrepancy * oil.real());
     e.leakage_rate *= std::exp(posterior.leakage_discrepancy * more.real());
+    const auto valve = numbers.pair(static_cast<std::uint64_t>(root.cols()) + 4U);
+    e.valve_lag *= std::exp(posterior.lag_discrepancy * valve.real());
     const auto doubts = numbers.pair(static_cast<std::uint64_t>(root.cols()) + 3U);
     e.offset_as_recorded += posterior.offset_discrepancy * oil.imag();
     share_one_way(posterior.one_way, doubts.real(), e);

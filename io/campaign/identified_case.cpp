@@ -206,4 +206,9 @@ std::vector<SupersededInput> superseded_inputs(const Case& stated, const Case& i
   return inputs;
 }
 
+bool is_superseded(const std::vector<SupersededInput>& inputs, std::string_view key_begin) {
+  return std::ranges::any_of(
+      inputs, [&](const SupersededInput& input) { return input.key.starts_with(key_begin); });
+}
+
 }  // namespace boresight::io

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <boresight/identification/grey_box/identified_antenna.hpp>
@@ -37,5 +38,8 @@ struct SupersededInput {
 
 /// What of the stated case its records have replaced, in the case's order.
 std::vector<SupersededInput> superseded_inputs(const Case& stated, const Case& identified);
+
+/// Whether one of them has a key that begins so ("friction_curve.").
+bool is_superseded(const std::vector<SupersededInput>& inputs, std::string_view key_begin);
 
 }  // namespace boresight::io

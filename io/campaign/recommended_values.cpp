@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include <boresight/io/campaign/recommended_values.hpp>
+#include <boresight/numerics/error.hpp>
 #include <boresight/numerics/statistics/order_statistics.hpp>
 
 namespace boresight::io {
@@ -170,6 +171,17 @@ std::optional<RecommendedValues> recommended(const CampaignSection& section) {
   if (rejection(section) != Rejection::none) return std::nullopt;
   return RecommendedValues{section.grey_box->quantity("inertia").posterior,
                            section.grey_box->quantity("motor to load ratio").posterior};
+}
+
+std::vector<SupersededInput> superseded_inputs(const Case& stated, const CampaignSection& section) {
+  if (!recommended(section)) return {};
+  const identification::GreyBoxResult& found = *section.grey_box;
+  try {
+    return superseded_inputs(
+        stated, with_identified(stated, found.estimate, found.draws, taken_parts(stated, found)));
+  } catch (const NumericalFailure&) {
+    return {};
+  }
 }
 
 std::vector<ChannelSuspicion> suspicions(const CampaignSection& section) {

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include <boresight/io/campaign/campaign_section.hpp>
+#include <boresight/io/campaign/identified_case.hpp>
 
 namespace boresight::io {
 
@@ -26,6 +27,10 @@ struct RecommendedValues {
 /// Of the grey box; nothing where rejection() says why: neither a mean of methods nor a fit that
 /// contradicts what it rests on is a value to design on.
 std::optional<RecommendedValues> recommended(const CampaignSection& section);
+
+/// What a redesign takes from the campaign instead of what the case states; nothing where no value
+/// is recommended, or where what is recommended leaves the antenna no inertia.
+std::vector<SupersededInput> superseded_inputs(const Case& stated, const CampaignSection& section);
 
 /// Records and channels to look at, for one reason.
 struct ChannelSuspicion {

@@ -172,7 +172,7 @@ const std::vector<DriveQuantity>& drive_quantities() {
       {"leakage rate", "1/s", &DriveEstimate::leakage_rate},
       {"offset torque as recorded", "N m", &DriveEstimate::offset_as_recorded},
       {"Coulomb level", "N m", &DriveEstimate::coulomb_level},
-      {"friction slope at tracking rate", "N m s/rad", &DriveEstimate::tracking_slope},
+      {"tracking friction slope", "N m s/rad", &DriveEstimate::tracking_slope},
       {"valve lag", "s", &DriveEstimate::valve_lag},
       {"lowest locked-rotor frequency", "Hz", &DriveEstimate::lowest_frequency}};
   return quantities;

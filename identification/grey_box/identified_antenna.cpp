@@ -109,7 +109,7 @@ const GreyBoxParameterResult& parameter(const GreyBoxResult& result, Eigen::Inde
 
 IdentifiedParts identified_parts(const GreyBoxResult& result) {
   using P = GreyBoxParameters;
-  const GreyBoxQuantity& slope = result.quantity("friction slope at tracking rate");
+  const GreyBoxQuantity& slope = result.quantity("tracking friction slope");
   IdentifiedParts parts;
   parts.leakage_rate = result.quantity("leakage rate").identified;
   parts.friction_slope = slope.identified && slope.posterior.lower > 0.0;

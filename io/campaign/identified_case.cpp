@@ -176,7 +176,7 @@ IdentifiedParts taken_parts(const Case& antenna, const GreyBoxResult& found) {
   };
   const DriveEntry& drive = antenna.drive;
   if (narrower(drive.leakage_rate, "leakage rate")) parts.leakage_rate = false;
-  if (narrower(drive.viscous_friction, "friction slope at tracking rate")) {
+  if (narrower(drive.viscous_friction, "tracking friction slope")) {
     parts.friction_slope = false;
   }
   if (is_narrower(antenna.friction_curve, found.quantity("Coulomb level").posterior)) {

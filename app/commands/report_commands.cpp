@@ -79,6 +79,10 @@ void fill_redesign(const io::Case& antenna, const StudyOptions& options, Report&
   // open.
   const io::DesignedAntenna plant = designed_antenna(antenna, report.campaign, options.seed);
   const io::Case& designed = plant.antenna;
+  // A check of a guess that the records have replaced is no finding about the antenna.
+  std::erase_if(report.audit->implausible, [&](const Implausibility& one) {
+    return is_superseded(report.superseded, one.id);
+  });
   report.plant = describe_plant(designed);
   if (report.campaign && report.campaign->grey_box) {
     report.plant->records = report.campaign->grey_box->records.size();

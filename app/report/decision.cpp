@@ -63,8 +63,12 @@ std::string dependence(const Report& report) {
   if (count == 0) {
     return fmt::format("; none moves the rms by {:.0f} % or more", 100.0 * negligible_change);
   }
-  return fmt::format("; {} of them move{} the rms by {:.0f} % or more, {}{}", count,
-                     count == 1 ? "s" : "", 100.0 * negligible_change, count > most ? "first " : "",
+  // Only the largest effects are kept.
+  const auto& last = report.tuning->input_effects.back();
+  const bool more = last.change(report.tuning->design.beam_rms) >= negligible_change;
+  return fmt::format("; {}{} of them move{} the rms by {:.0f} % or more, {}{}",
+                     more ? "at least " : "", count, count == 1 ? "s" : "",
+                     100.0 * negligible_change, count > most ? "first " : "",
                      fmt::join(keys, ", "));
 }
 

@@ -1,3 +1,5 @@
+#include <algorithm>
+
 #include <fmt/format.h>
 
 #include <boresight/design/ensembles/plant_members.hpp>
@@ -5,6 +7,7 @@
 #include <boresight/io/campaign/designed_antenna.hpp>
 #include <boresight/io/case/mission_of.hpp>
 #include <boresight/numerics/error.hpp>
+#include <boresight/plant/antenna/friction.hpp>
 
 namespace boresight::io {
 
@@ -20,6 +23,20 @@ std::vector<design::EnsembleMember> drawn_members(const design::Mission& mission
   }
   return members;
 }
+
+namespace {
+
+// Records tell the slope at the tracking rate to some per cent; at the slew rate, where the loops
+// have to keep their margins too, friction damps far less.
+design::EnsembleMember slewing_member(const design::Mission& mission) {
+  const plant::Antenna& antenna = mission.antenna;
+  const double rate = plant::sky_to_motor(antenna, antenna.drive.slew_rate);
+  const double slope = std::max(0.0, plant::friction_slope(antenna.friction_curve, rate));
+  return {"friction slope at the slew rate",
+          linear_plant(changed(antenna, {plant::set_to("drive.viscous_friction", slope)}))};
+}
+
+}  // namespace
 
 DesignedAntenna designed_antenna(const Case& stated, const std::optional<CampaignSection>& campaign,
                                  std::uint64_t seed) {
@@ -38,6 +55,7 @@ DesignedAntenna designed_antenna(const Case& stated, const std::optional<Campaig
   const auto distribution = design::PlantDistribution::of_records(mission, found.draws, parts);
   design::PlantEnsemble ensemble{design::EnsembleSource::records,
                                  drawn_members(mission, distribution, seed, members)};
+  if (parts.friction_slope) ensemble.members.back() = slewing_member(mission);
   return {identified,
           std::move(mission),
           std::move(ensemble),

@@ -105,7 +105,13 @@ TEST(IdentifiedPlant, IsDrawnFromWhatTheRecordsLeaveOpen) {
   ASSERT_EQ(antenna.ensemble.members.size(), 30U);
   const double slope = true_slope(designed().section.knowledge.tracking_rate);
   double least = slope, largest = slope;
+  const auto& slewing = antenna.ensemble.members.back();
+  EXPECT_EQ(slewing.name, "friction slope at the slew rate");
+  const plant::Antenna& nominal = antenna.mission.antenna;
+  const double at_slew = true_slope(plant::sky_to_motor(nominal, nominal.drive.slew_rate));
+  EXPECT_NEAR(slewing.plant.drive.viscous_friction, at_slew, 0.05 * at_slew);
   for (const auto& member : antenna.ensemble.members) {
+    if (&member == &slewing) continue;
     least = std::min(least, member.plant.drive.viscous_friction);
     largest = std::max(largest, member.plant.drive.viscous_friction);
   }

@@ -46,6 +46,7 @@ Evaluation evaluate(io::Case antenna, const std::vector<std::string>& paths,
   Evaluation result{{report_of(antenna, "evaluate", seed)}};
   result.report.evaluated = interruptible([&](const StopRequest& stop) {
     auto designed = io::designed_antenna(antenna, seed, options.threads, stop);
+    result.report.superseded = std::move(designed.superseded);
     antenna = std::move(designed.antenna);
     options.interrupted = stop;
     return app::evaluate_proposals(

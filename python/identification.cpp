@@ -6,8 +6,10 @@
 #include <pybind11/stl.h>
 
 #include <boresight/app/commands/subcommand.hpp>
+#include <boresight/app/redesign/assumed_inputs.hpp>
 #include <boresight/app/redesign/sections.hpp>
 #include <boresight/io/campaign/campaign_identification.hpp>
+#include <boresight/io/campaign/recommended_values.hpp>
 #include <boresight/numerics/error.hpp>
 #include <boresight/python/bindings.hpp>
 #include <boresight/python/interruptible.hpp>
@@ -48,8 +50,10 @@ Identification identify(const io::Case& antenna, std::uint64_t seed, unsigned th
       if (stop()) throw Interrupted("interrupted");
     };
     result.report.identification = app::identify(antenna, options);
+    result.report.assumed = app::identification_inputs(antenna);
     if (!antenna.campaign.records.empty()) {
       result.report.campaign = io::identify_campaign(antenna, options);
+      result.report.superseded = io::superseded_inputs(antenna, *result.report.campaign);
     }
     return true;
   });
@@ -69,11 +73,12 @@ Identification identify(const io::Case& antenna, std::uint64_t seed, unsigned th
   for (const auto& row : campaign.inertia) {
     result.methods.push_back({row.name, row.assumes, row.inertia, row.motor_to_load_ratio});
   }
-  if (campaign.mean_of_methods) result.reflected_inertia = interval_of(*campaign.mean_of_methods);
-  if (!campaign.grey_box) return result;
+  result.reflected_inertia.reset();
+  const auto values = io::recommended(campaign);
+  if (!values) return result;
+  result.reflected_inertia = values->inertia;
   for (const auto& quantity : campaign.grey_box->quantities) {
     result.drive.emplace(quantity.name, quantity.posterior);
-    if (quantity.name == "inertia") result.reflected_inertia = quantity.posterior;
   }
   return result;
 }

@@ -56,6 +56,7 @@ Matching match(io::Case antenna, const std::vector<std::string>& structures, int
   result.report.matched = interruptible([&](const StopRequest& stop) {
     // The ensemble's draws do not go with the seed of the searches.
     auto designed = io::designed_antenna(antenna, 1, options.threads, stop);
+    result.report.superseded = std::move(designed.superseded);
     antenna = std::move(designed.antenna);
     options.interrupted = stop;
     options.structures = app::structure_option(antenna, structures);

@@ -43,6 +43,7 @@ Tuning tune(io::Case antenna, const std::vector<std::string>& structures,
   Tuning result{{report_of(antenna, "tune", seed)}};
   auto study = interruptible([&](const StopRequest& stop) {
     auto designed = io::designed_antenna(antenna, seed, app::all_or(threads), stop);
+    result.report.superseded = std::move(designed.superseded);
     antenna = std::move(designed.antenna);
     design::TuneOptions options;
     options.structures = app::structure_option(antenna, structures);

@@ -81,6 +81,7 @@ Report evaluate_case(const EvaluateArguments& arguments, const std::function<boo
     io::DesignedAntenna designed =
         designed_antenna(antenna, arguments.seed, arguments.threads, interrupted);
     report.resonance = resonance_verdict(designed);
+    report.superseded = std::move(designed.superseded);
     antenna = std::move(designed.antenna);
     uncertainty = design::PlantUncertainty{std::move(designed.distribution), designed.from_records};
   } catch (const Interrupted&) {

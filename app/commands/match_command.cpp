@@ -52,6 +52,7 @@ int run(const Arguments& arguments) {
     io::DesignedAntenna designed =
         designed_antenna(antenna, arguments.ensemble_seed, options.threads, interrupt_requested);
     report.resonance = resonance_verdict(designed);
+    report.superseded = std::move(designed.superseded);
     antenna = std::move(designed.antenna);
     mission = std::move(designed.mission);
     ensemble = std::move(designed.ensemble);

@@ -23,6 +23,7 @@
 #include <boresight/design/problem/pointing_budget.hpp>
 #include <boresight/io/campaign/campaign_identification.hpp>
 #include <boresight/io/campaign/designed_antenna.hpp>
+#include <boresight/io/campaign/recommended_values.hpp>
 #include <boresight/io/case/mission_of.hpp>
 #include <boresight/io/files/write_atomically.hpp>
 
@@ -53,6 +54,7 @@ void fill_identification(const io::Case& antenna, const StudyOptions& options, R
   io::LoadedCampaign loaded = load_campaign(antenna, options.threads);
   const auto traces = campaign_traces(loaded);
   report.campaign = identify_campaign(antenna, std::move(loaded), options);
+  report.superseded = superseded_inputs(antenna, *report.campaign);
   report.figures = record_figures(report.campaign->notes, traces);
 }
 
@@ -77,6 +79,10 @@ void fill_redesign(const io::Case& antenna, const StudyOptions& options, Report&
   // open.
   const io::DesignedAntenna plant = designed_antenna(antenna, report.campaign, options.seed);
   const io::Case& designed = plant.antenna;
+  // A check of a guess that the records have replaced is no finding about the antenna.
+  std::erase_if(report.audit->implausible, [&](const Implausibility& one) {
+    return is_superseded(report.superseded, one.id);
+  });
   report.plant = describe_plant(designed);
   if (report.campaign && report.campaign->grey_box) {
     report.plant->records = report.campaign->grey_box->records.size();
@@ -107,6 +113,7 @@ const std::vector<Command>& commands() {
        "drive model",
        [](const io::Case& antenna, const StudyOptions& options, Report& report) {
          fill_identification(antenna, options, report);
+         report.assumed = identification_inputs(antenna);
          if (report.campaign) return;
          report.conclusions = first_tests(antenna);
          report.resonance = resonance_verdict(antenna);
@@ -154,6 +161,11 @@ int run(const Command& command, const Arguments& arguments) {
                              .page = [&] { return page_of(report); },
                              .mat = mat_of(report)});
   if (report.interrupted) return interrupted;
+  if (report.command == "identify" && report.campaign && !io::recommended(*report.campaign)) {
+    fmt::print(stderr, "boresight: {}: the records give no value to design on: {}\n",
+               arguments.case_path, to_string(io::rejection(*report.campaign)));
+    return numerical;
+  }
   if (report.tuning && report.tuning->design.tuning.status != design::TuningStatus::optimal) {
     fmt::print(stderr, "boresight: no controller meets the constraints of {}\n",
                arguments.case_path);

@@ -80,6 +80,7 @@ Report tune_case(const TuneArguments& arguments, const std::function<bool()>& in
     io::DesignedAntenna designed =
         designed_antenna(antenna, arguments.seed, arguments.threads, interrupted);
     report.resonance = resonance_verdict(designed);
+    report.superseded = std::move(designed.superseded);
     antenna = std::move(designed.antenna);
     mission = std::move(designed.mission);
     ensemble = std::move(designed.ensemble);

@@ -9,6 +9,7 @@
 #include <boresight/app/figures/inertia_figures.hpp>
 #include <boresight/app/figures/resonance_figures.hpp>
 #include <boresight/app/figures/thinned_series.hpp>
+#include <boresight/io/campaign/recommended_values.hpp>
 
 namespace boresight::app {
 namespace {
@@ -17,7 +18,7 @@ constexpr const char* fit_heading = "Fit of one model to all records";
 
 // What the records can hardly tell from the inertia and from the oil's stiffness.
 std::vector<Figure> correlation_figure(const io::CampaignSection& section) {
-  if (!section.grey_box) return {};
+  if (!io::recommended(section)) return {};
   const auto& fit = *section.grey_box;
   Figure figure =
       make_figure("campaign-correlation", fit_heading, "Correlated estimates",

@@ -3,6 +3,7 @@
 
 #include <boresight/app/figures/figure_parts.hpp>
 #include <boresight/app/figures/friction_figure.hpp>
+#include <boresight/io/campaign/recommended_values.hpp>
 #include <boresight/plant/antenna/friction.hpp>
 
 namespace boresight::app {
@@ -40,10 +41,11 @@ std::vector<Figure> friction_figure(const io::CampaignSection& section) {
 
   FigurePanel panel = make_panel(make_axis("friction torque", "N.m"));
   FigureSeries reconciled = make_series("combined, 95 % band", SeriesStyle::line);
+  const bool recommended = io::recommended(section).has_value();
   FigureSeries fitted = make_series("curve through the windows", SeriesStyle::dashed);
   for (int i = 0; i < curve_points; ++i) {
     const double rate = lowest * std::pow(highest / lowest, i / (curve_points - 1.0));
-    if (section.grey_box) {
+    if (recommended) {
       const auto band = identification::friction_interval(*section.grey_box, rate);
       reconciled.x.push_back(rate);
       reconciled.y.push_back(band.value);

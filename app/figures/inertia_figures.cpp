@@ -7,6 +7,7 @@
 
 #include <boresight/app/figures/figure_parts.hpp>
 #include <boresight/app/figures/inertia_figures.hpp>
+#include <boresight/io/campaign/recommended_values.hpp>
 #include <boresight/numerics/error.hpp>
 #include <boresight/numerics/statistics/order_statistics.hpp>
 
@@ -162,18 +163,9 @@ double printed_value(const std::string& text, io::Kind kind) {
 
 std::vector<Figure> inertia_figures(const io::CampaignSection& section) {
   std::vector<Row> rows;
-  const bool contradictory = !section.contradiction.empty();
-  if (section.grey_box && !contradictory) {
-    rows.push_back({"combined (grey box)", section.grey_box->quantity("inertia").posterior,
-                    section.grey_box->quantity("motor to load ratio").posterior, none, none, true});
-  } else if (section.mean_of_methods) {
-    const auto& mean = *section.mean_of_methods;
-    rows.push_back({"mean of the methods",
-                    {mean.value, mean.standard_uncertainty, mean.lower, mean.upper},
-                    {mean.motor_to_load_ratio, 0.0, mean.ratio_lower, mean.ratio_upper},
-                    none,
-                    none,
-                    true});
+  if (const auto values = io::recommended(section)) {
+    rows.push_back(
+        {"combined (grey box)", values->inertia, values->motor_to_load_ratio, none, none, true});
   }
   for (const auto& row : section.inertia) {
     rows.push_back({(row.of_the_paper ? "* " : "") + row.name, row.inertia, row.motor_to_load_ratio,

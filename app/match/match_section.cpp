@@ -5,7 +5,8 @@
 namespace boresight::app {
 
 MatchSection section_of(const io::Case& antenna, design::MatchingStudy study) {
-  return {std::move(study), antenna.wind.mast, std::nullopt};
+  return {std::move(study), antenna.wind.mast, std::nullopt,
+          antenna.drive.viscous_friction.basis == io::Basis::measured};
 }
 
 std::string label_of(const MatchPoint& point) {

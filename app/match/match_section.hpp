@@ -24,6 +24,7 @@ using design::RuleVerdict;
 struct MatchSection : design::MatchingStudy {
   std::optional<io::WindMast> wind_mast;       // none: the case states speeds at the dish's centre
   std::optional<design::WhatIfTable> what_if;  // where a page asks for it
+  bool friction_measured = false;              // the linear plant's friction slope
 };
 
 MatchSection section_of(const io::Case& antenna, design::MatchingStudy study);

@@ -27,6 +27,7 @@ void describe_draw(io::Visitor& v, const design::PlantDraw& draw) {
   v.number("motor_inertia", draw[motor_inertia], unit::ratio,
            "On the motors' inertia, flywheels included.");
   v.number("wind_torque", draw[wind_torque], unit::ratio, "On the wind torque.");
+  v.number("valve_frequency", draw[valve_frequency], unit::ratio, "On the valve's frequency.");
 }
 
 void describe_plant(io::Visitor& v, const NotablePlant& plant) {

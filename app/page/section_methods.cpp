@@ -54,6 +54,9 @@ constexpr std::array entries = std::to_array<Entry>({
      {"the loop re-tuned on the plant of each alternative", "design/tuning/design_study.hpp"}},
     {"Open inputs",
      {"the loop re-tuned on the plant of each alternative", "design/tuning/design_study.hpp"}},
+    {"Inputs taken from the records",
+     {"identified numbers in place of stated ones, with intervals of the posterior's samples",
+      "io/campaign/identified_case.hpp"}},
     {"Assumed inputs", {"basis and source of each quantity in the case file", "docs/case-file.md"}},
     // Loops
     {"Tuned loops",

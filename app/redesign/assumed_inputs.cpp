@@ -60,6 +60,32 @@ std::vector<io::Quantity> assumed_inputs(const io::Case& antenna,
   return assumed;
 }
 
+std::vector<io::Quantity> identification_inputs(const io::Case& antenna) {
+  constexpr std::array parts{"antenna.inertia"sv,
+                             "antenna.alternative"sv,
+                             "gear_train."sv,
+                             "motor."sv,
+                             "oil."sv,
+                             "tachometer."sv,
+                             "instruments."sv,
+                             "recorder."sv,
+                             "resonance."sv,
+                             "impulse"sv,
+                             "friction_tests."sv,
+                             "structure.prediction"sv,
+                             "structure.locked_rotor_frequency"sv,
+                             "drive.supply_pressure"sv,
+                             "drive.return_pressure"sv,
+                             "drive.tracking_rate"sv,
+                             "simulation.return_pressure"sv};
+  std::vector<io::Quantity> inputs = assumed_inputs(antenna);
+  std::erase_if(inputs, [&](const io::Quantity& quantity) {
+    return std::ranges::none_of(
+        parts, [&](std::string_view part) { return quantity.key.starts_with(part); });
+  });
+  return inputs;
+}
+
 std::size_t count_of_antenna(const std::vector<io::Quantity>& assumed) {
   return static_cast<std::size_t>(std::ranges::count_if(assumed, [](const io::Quantity& quantity) {
     return !quantity.key.starts_with("goals.") && !quantity.key.starts_with("pointing.");

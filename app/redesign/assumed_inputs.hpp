@@ -29,6 +29,11 @@ struct NonlinearInputs {
 std::vector<io::Quantity> assumed_inputs(const io::Case& antenna,
                                          const NonlinearInputs& nonlinear = {});
 
+/// Those of them that the identification of inertia and drive depends on: drawings, motors, oil,
+/// instruments, predictions of the structure, pressures, and stated tests. Wind, loops and goals do
+/// not enter.
+std::vector<io::Quantity> identification_inputs(const io::Case& antenna);
+
 /// How many of them describe the antenna, and not what is asked of it (goals, pointing).
 std::size_t count_of_antenna(const std::vector<io::Quantity>& assumed);
 

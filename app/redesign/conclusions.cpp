@@ -138,7 +138,8 @@ std::vector<std::string> conclude(const Report& report) {
   if (report.matching) conclude_matching(report, *report.matching, sentences);
   if (report.tuning) {
     const auto& effects = report.tuning->input_effects;
-    std::string first = measure_first(effects, report.tuning->design.beam_rms, report.time_domain);
+    std::string first = measure_first(effects, report.tuning->design.beam_rms, report.time_domain,
+                                      is_superseded(report.superseded, "friction_curve."));
     if (!first.empty()) sentences.push_back(std::move(first));
   }
   return sentences;

@@ -65,7 +65,8 @@ std::vector<InputEffect> input_effects(const io::Case& antenna, const control::C
 }
 
 std::string measure_first(const std::vector<InputEffect>& effects, double rms,
-                          const std::optional<TimeDomainSection>& time_domain) {
+                          const std::optional<TimeDomainSection>& time_domain,
+                          bool friction_measured) {
   constexpr std::size_t most = 3;
   std::vector<std::string> named;
   for (const auto& effect : effects) {
@@ -77,7 +78,8 @@ std::string measure_first(const std::vector<InputEffect>& effects, double rms,
     sentences.push_back(fmt::format("The rms depends most on {}: measure {} first.",
                                     fmt::join(named, ", "), named.size() == 1 ? "that" : "those"));
   }
-  if (const double friction = telling_friction(time_domain, rms); friction > 0.0) {
+  const double friction = friction_measured ? 0.0 : telling_friction(time_domain, rms);
+  if (friction > 0.0) {
     sentences.push_back(
         fmt::format("Friction adds {:.3f} mdeg in simulation: measure the friction curve about the "
                     "tracking rate and the bristle stiffness.",

@@ -29,8 +29,9 @@ std::vector<InputEffect> input_effects(const io::Case& antenna, const control::C
 double telling_friction(const std::optional<TimeDomainSection>& time_domain, double rms);
 
 /// Which of them to measure first, in a sentence; empty where none changes the rms by what decides
-/// anything. And that friction is to be measured, with a telling_friction.
+/// anything. And that friction is to be measured, with a telling_friction, unless it is.
 std::string measure_first(const std::vector<InputEffect>& effects, double rms,
-                          const std::optional<TimeDomainSection>& time_domain = std::nullopt);
+                          const std::optional<TimeDomainSection>& time_domain = std::nullopt,
+                          bool friction_measured = false);
 
 }  // namespace boresight::app

@@ -41,14 +41,16 @@ constexpr std::array<TestOfKey, 16> tests{
 }  // namespace
 
 std::optional<NextTest> next_test(const std::vector<InputEffect>& effects, double rms,
-                                  const std::optional<TimeDomainSection>& time_domain) {
+                                  const std::optional<TimeDomainSection>& time_domain,
+                                  bool friction_measured) {
   if (!effects.empty() && effects.front().change(rms) >= negligible_change) {
     const std::string& key = effects.front().quantity.key;
     for (const auto& one : tests) {
       if (key.find(one.part) != std::string::npos) return NextTest{key, std::string(one.test)};
     }
   }
-  if (telling_friction(time_domain, rms) > 0.0) return NextTest{"", std::string(friction_test)};
+  if (!friction_measured && telling_friction(time_domain, rms) > 0.0)
+    return NextTest{"", std::string(friction_test)};
   return std::nullopt;
 }
 

@@ -13,9 +13,10 @@ struct NextTest {
   std::string test;  // what to do, with the antenna time it takes
 };
 
-/// None where no number moves the rms by what decides anything, and friction costs little on the
-/// nonlinear antenna. `effects`: largest first, of the linear rms (rad).
+/// None where no number moves the rms by what decides anything, and friction is measured or costs
+/// little on the nonlinear antenna. `effects`: largest first, of the linear rms (rad).
 std::optional<NextTest> next_test(const std::vector<InputEffect>& effects, double rms,
-                                  const std::optional<TimeDomainSection>& time_domain);
+                                  const std::optional<TimeDomainSection>& time_domain,
+                                  bool friction_measured = false);
 
 }  // namespace boresight::app

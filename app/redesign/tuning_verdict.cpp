@@ -353,8 +353,9 @@ std::vector<std::string> tuning_reservations(const Report& report, const TuningS
         "Motor inertias are compared with linear loops tuned for the nominal plant only: "
         "`boresight evaluate` compares them with robust controllers on the nonlinear antenna.");
   }
-  sentences.push_back(
-      measure_first(section.input_effects, section.design.beam_rms, report.time_domain));
+  sentences.push_back(measure_first(section.input_effects, section.design.beam_rms,
+                                    report.time_domain,
+                                    is_superseded(report.superseded, "friction_curve.")));
   std::erase(sentences, std::string());
   return sentences;
 }

@@ -32,6 +32,20 @@ void describe_case(io::Visitor& v, std::string_view path, std::string_view title
   });
 }
 
+void describe_superseded(io::Visitor& v, const std::vector<io::SupersededInput>& inputs) {
+  constexpr io::KeyUnit as_named{.suffix = "si"};
+  v.list("superseded_inputs", inputs, "Inputs of the case that its records have replaced.",
+         [&](const io::SupersededInput& input) {
+           v.text("key", input.key, "Its key in the case file.");
+           v.text("unit", input.unit, "SI, of the values.");
+           v.text_or_null("stated", input.stated, "As written; null: derived.");
+           v.flag("assumed", input.assumed, "The case assumed it, in value or in uncertainty.");
+           v.number("stated_value", input.stated_value, as_named, "Of the case.");
+           v.number("value", input.value, as_named, "Of the records.");
+           v.number("standard_uncertainty", input.standard_uncertainty, as_named, "1 sigma.");
+         });
+}
+
 void describe_assumed(io::Visitor& v, const std::vector<io::Quantity>& assumed) {
   v.list("assumed_inputs", assumed, "Inputs whose value or uncertainty is assumed.",
          [&](const io::Quantity& quantity) {

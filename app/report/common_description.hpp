@@ -5,6 +5,7 @@
 #include <vector>
 
 #include <boresight/design/problem/wind_climate.hpp>
+#include <boresight/io/campaign/identified_case.hpp>
 #include <boresight/io/case/pointing_axis.hpp>
 #include <boresight/io/units/quantity.hpp>
 
@@ -28,6 +29,8 @@ void describe_axis(io::Visitor& v, const io::PointingAxis& axis);
 /// "case": the file, its title and axis.
 void describe_case(io::Visitor& v, std::string_view path, std::string_view title,
                    const io::PointingAxis& axis);
+/// "superseded_inputs": what records have replaced of the case.
+void describe_superseded(io::Visitor& v, const std::vector<io::SupersededInput>& inputs);
 /// "assumed_inputs": inputs whose value or uncertainty is assumed.
 void describe_assumed(io::Visitor& v, const std::vector<io::Quantity>& assumed);
 /// "share_of_time": share of the climate's time up to a speed (m/s); null without a climate, or if

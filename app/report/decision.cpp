@@ -3,14 +3,17 @@
 #include <iterator>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <boresight/app/redesign/assumed_inputs.hpp>
 #include <boresight/app/redesign/matching_verdict.hpp>
 #include <boresight/app/redesign/tuning_verdict.hpp>
 #include <boresight/app/report/decision.hpp>
+#include <boresight/app/report/influences.hpp>
 #include <boresight/app/report/study_decision.hpp>
 #include <boresight/app/tune/gains_at_bounds.hpp>
 #include <boresight/app/tune/tune_verdict.hpp>
+#include <boresight/io/campaign/recommended_values.hpp>
 
 namespace boresight::app {
 namespace {
@@ -36,12 +39,49 @@ std::string audited(const AuditReport& report) {
          (sound ? ": design on the case." : ".");
 }
 
-std::string assumptions(const std::vector<io::Quantity>& assumed) {
-  const std::size_t count = count_of_antenna(assumed);
-  if (count == 0) return "No antenna input is assumed.";
-  return fmt::format(
-      "{} antenna inputs are assumed, in value or in uncertainty: all results depend on them.",
-      count);
+// Assumed inputs that move the rms of a redesign by what decides anything, the largest first.
+std::vector<std::string> telling_inputs(const TuningSection& section) {
+  std::vector<std::string> keys;
+  for (const auto& effect : section.input_effects) {
+    if (effect.quantity.basis != io::Basis::assumed) continue;
+    if (effect.change(section.design.beam_rms) >= negligible_change) {
+      keys.push_back(effect.quantity.key);
+    }
+  }
+  return keys;
+}
+
+std::string dependence(const Report& report) {
+  if (report.command == "identify") {
+    return " and enter the identification";
+  }
+  if (!report.tuning) return "; `boresight redesign` ranks them by their effect on the rms";
+  constexpr std::size_t most = 3;
+  std::vector<std::string> keys = telling_inputs(*report.tuning);
+  const std::size_t count = keys.size();
+  keys.resize(std::min(most, count));
+  if (count == 0) {
+    return fmt::format("; none moves the rms by {:.0f} % or more", 100.0 * negligible_change);
+  }
+  // Only the largest effects are kept.
+  const auto& last = report.tuning->input_effects.back();
+  const bool more = last.change(report.tuning->design.beam_rms) >= negligible_change;
+  return fmt::format("; {}{} of them move{} the rms by {:.0f} % or more, {}{}",
+                     more ? "at least " : "", count, count == 1 ? "s" : "",
+                     100.0 * negligible_change, count > most ? "first " : "",
+                     fmt::join(keys, ", "));
+}
+
+// What the result depends on, and what the records have taken off that list.
+std::string assumptions(const Report& report) {
+  const std::size_t count = count_of_antenna(report.assumed);
+  const auto superseded = std::ranges::count_if(report.superseded, &io::SupersededInput::assumed);
+  std::string text = count == 0
+                         ? std::string("No antenna input is assumed")
+                         : fmt::format("{} antenna input{} assumed, in value or in uncertainty{}",
+                                       count, count == 1 ? " is" : "s are", dependence(report));
+  if (superseded > 0) text += fmt::format(". The records replaced {} assumed inputs", superseded);
+  return text + '.';
 }
 
 Sentences audit_decision(const AuditReport& report) {
@@ -69,26 +109,58 @@ Sentences audit_decision(const AuditReport& report) {
   return sentences;
 }
 
-Sentences identify_decision(const Report& report) {
+// "record 'a'", "records 'a', 'b' and 3 more".
+std::string names_of(const std::vector<std::string>& names, const std::string& what) {
+  constexpr std::size_t most = 2;
+  std::string text = fmt::format(
+      "{}{} '{}'", what, names.size() == 1 ? "" : "s",
+      fmt::join(std::vector(names.begin(), names.begin() + static_cast<std::ptrdiff_t>(
+                                                               std::min(most, names.size()))),
+                "', '"));
+  if (names.size() > most) text += fmt::format(" and {} more", names.size() - most);
+  return text;
+}
+
+std::string look_at(const io::ChannelSuspicion& one) {
+  std::string text = "Look at ";
+  if (!one.channels.empty()) text += names_of(one.channels, "channel") + " in ";
+  return fmt::format("{}{}: {}{} ({}).", text, names_of(one.records, "record"), one.finding,
+                     one.record_refused ? ", not used" : "", one.explanation);
+}
+
+Sentences campaign_decision(const io::CampaignSection& section) {
+  constexpr std::size_t most = 3;
   Sentences sentences;
-  if (report.campaign && report.campaign->grey_box) {
-    const auto& found = *report.campaign->grey_box;
-    const auto& inertia = found.quantity("inertia").posterior;
-    const auto& ratio = found.quantity("motor to load ratio").posterior;
+  if (const auto values = io::recommended(section)) {
+    const auto& [inertia, ratio] = *values;
     sentences.push_back(fmt::format(
         "Design on a reflected inertia of {:.3f} kg m2 (95 % interval {:.3f} to {:.3f}) and a "
         "motor-to-load ratio of {:.2f} ({:.2f} to {:.2f}): {} records agree on them.",
         inertia.value, inertia.lower, inertia.upper, ratio.value, ratio.lower, ratio.upper,
-        found.records.size()));
-    if (const auto count = report.campaign->contradictions.size(); count > 0) {
+        section.grey_box->records.size()));
+    if (const auto count = section.contradictions.size(); count > 0) {
       sentences.push_back(fmt::format(
           "The records contradict {} of the case's stated numbers: correct them there.", count));
     }
-    return sentences;
+  } else {
+    sentences.push_back(
+        fmt::format("No value is recommended ({}).{}{}", to_string(io::rejection(section)),
+                    section.contradiction.empty() ? "" : " ", section.contradiction));
+    for (const auto& failure : section.failures) {
+      if (failure.method != "grey box") continue;
+      sentences.push_back(fmt::format("The fit of one model failed: {}.", failure.reason));
+    }
   }
-  if (report.campaign && !report.campaign->contradiction.empty()) {
-    sentences.push_back(report.campaign->contradiction);
+  for (const auto& one : io::suspicions(section)) {
+    if (sentences.size() >= most) break;
+    sentences.push_back(look_at(one));
   }
+  return sentences;
+}
+
+Sentences identify_decision(const Report& report) {
+  Sentences sentences;
+  if (report.campaign) return campaign_decision(*report.campaign);
   if (report.identification) {
     const auto& methods = report.identification->inertia.methods;
     const auto [least, most] = std::ranges::minmax_element(
@@ -146,7 +218,7 @@ std::vector<std::string> decision(const Report& report) {
   }
   if (report.tuned) {
     auto sentences = decision(*report.tuned, report.time_domain, report.limit);
-    if (sentences.size() < 3) sentences.push_back(assumptions(report.assumed));
+    if (sentences.size() < 3) sentences.push_back(assumptions(report));
     return sentences;
   }
   Sentences sentences;
@@ -160,7 +232,7 @@ std::vector<std::string> decision(const Report& report) {
     sentences = model_decision(*report.plant);
   }
   if (sentences.size() < 3 && report.command != "redesign" && report.command != "audit") {
-    sentences.push_back(assumptions(report.assumed));
+    sentences.push_back(assumptions(report));
   }
   return sentences;
 }
@@ -177,7 +249,7 @@ std::vector<std::string> reservations(const Report& report) {
     return sentences;
   }
   if (report.tuning) sentences = tuning_reservations(report, *report.tuning);
-  sentences.push_back(assumptions(report.assumed));
+  sentences.push_back(assumptions(report));
   return sentences;
 }
 

@@ -15,6 +15,7 @@
 #include <boresight/app/report/influences.hpp>
 #include <boresight/app/report/redesign_card.hpp>
 #include <boresight/design/decisions/confidence.hpp>
+#include <boresight/io/campaign/recommended_values.hpp>
 #include <boresight/numerics/angles.hpp>
 
 namespace boresight::app {
@@ -291,6 +292,17 @@ CardLine settle_line(const Report& report) {
     }
     open.push_back(std::move(text));
   }
+  if (report.campaign && io::rejection(*report.campaign) == io::Rejection::fit_failed) {
+    evidence = inertia;
+    open.emplace_back("no model fits the records: plant as the case states it");
+  }
+  const auto suspicions =
+      report.campaign ? io::suspicions(*report.campaign) : std::vector<io::ChannelSuspicion>{};
+  if (!suspicions.empty()) {
+    evidence = inertia;
+    open.push_back(fmt::format("{} in record '{}'", suspicions.front().finding,
+                               suspicions.front().records.front()));
+  }
   if (report.audit && !report.audit->findings.empty()) {
     open.push_back(fmt::format("{} of {} stated values inconsistent", report.audit->findings.size(),
                                report.audit->checked));
@@ -300,7 +312,8 @@ CardLine settle_line(const Report& report) {
 }
 
 CardLine test_line(const Report& report, const TuningSection& section) {
-  const auto test = next_test(section.input_effects, section.design.beam_rms, report.time_domain);
+  const auto test = next_test(section.input_effects, section.design.beam_rms, report.time_domain,
+                              is_superseded(report.superseded, "friction_curve."));
   if (!test) {
     return {"Next test", "none would change the result significantly", std::string(loops)};
   }

@@ -20,6 +20,7 @@
 #include <boresight/design/problem/pointing_budget.hpp>
 #include <boresight/design/studies/redesign_study.hpp>
 #include <boresight/io/campaign/campaign_section.hpp>
+#include <boresight/io/campaign/identified_case.hpp>
 #include <boresight/io/case/pointing_axis.hpp>
 
 namespace boresight::app {
@@ -134,6 +135,8 @@ struct Report {
   std::optional<MatchingSection> matching;
   std::optional<MatchSection> matched;       // of the command match
   std::optional<EvaluateSection> evaluated;  // of the command evaluate
+  /// What the case's records have replaced of it; `assumed` has none of these.
+  std::vector<io::SupersededInput> superseded;
   std::vector<io::Quantity> assumed;
   std::vector<std::string> conclusions;
   std::vector<Figure> figures;  // report_figures of all this

@@ -65,6 +65,7 @@ void describe(io::Visitor& v, const Report& report) {
   describe_section(v, "matched", report.matched, "Motor inertias compared.");
   describe_section(v, "evaluated", report.evaluated, "Proposals compared.");
   describe_section(v, "linear_models", linear_models(report), "State spaces.");
+  describe_superseded(v, report.superseded);
   describe_assumed(v, report.assumed);
   v.texts("conclusions", report.conclusions, "What the numbers mean, in sentences.");
   v.members_if(!report.figures.empty(), [&] { describe_figures(v, report.figures); });

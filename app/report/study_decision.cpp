@@ -63,7 +63,7 @@ std::string first_change(const MatchSection& section, const MatchSeries& best, b
 // The friction slope that decides whether the inertia matters; empty without one.
 std::string measure_friction(const MatchSection& section) {
   const FrictionThreshold* threshold = deciding_friction(section);
-  if (threshold == nullptr || !threshold->slope) return "";
+  if (section.friction_measured || threshold == nullptr || !threshold->slope) return "";
   return fmt::format(
       "Measure the friction slope at the tracking rate first: above {:.3g} N m s/rad the motors' "
       "inertia changes the rms of {} loops by less than {:.0f} %.",

@@ -8,6 +8,7 @@
 #include <boresight/app/report/text_report.hpp>
 #include <boresight/io/campaign/campaign_comparison.hpp>
 #include <boresight/io/campaign/campaign_wording.hpp>
+#include <boresight/io/campaign/recommended_values.hpp>
 
 namespace boresight::app {
 namespace {
@@ -30,7 +31,8 @@ Document reconciled_part(const io::CampaignSection& section) {
     const auto& mean = *section.mean_of_methods;
     return wrapped(
         fmt::format(
-            "Mean of {} methods (random effects): J = {:.4g} kg.m2, 95 % interval {:.4g} "
+            "No value to design on: mean of {} methods (random effects) J = {:.4g} kg.m2, 95 % "
+            "interval {:.4g} "
             ".. {:.4g}; R = {:.3f}. Cochran's Q {:.1f} on {} degrees of freedom{}.",
             mean.degrees_of_freedom + 1, mean.value, mean.lower, mean.upper,
             mean.motor_to_load_ratio, mean.heterogeneity, mean.degrees_of_freedom,
@@ -65,10 +67,9 @@ Document methods_part(const io::CampaignSection& section) {
         difference ? fmt::format("{:+.1f} %", 100.0 * difference->relative) : "-",
         difference ? fmt::format("{:+.1f}", difference->normalised) : "-"};
   };
-  if (section.grey_box) {
-    rows.push_back(row_of("combined (grey box)", section.grey_box->quantity("inertia").posterior,
-                          section.grey_box->quantity("motor to load ratio").posterior,
-                          std::nullopt));
+  if (const auto values = io::recommended(section)) {
+    rows.push_back(
+        row_of("combined (grey box)", values->inertia, values->motor_to_load_ratio, std::nullopt));
   }
   for (const auto& row : section.inertia) {
     rows.push_back(row_of((row.of_the_paper ? "* " : "") + row.name, row.inertia,

@@ -129,7 +129,7 @@ Document document_of(const PlantSection& section) {
       row("oil stiffness", drive.oil_stiffness, "N.m/rad"),
       row("leakage rate", drive.leakage_rate, "1/s"),
       row("viscous friction", drive.viscous_friction, "N.m.s/rad"),
-      row("friction slope at tracking rate", section.tracking_slope, "N.m.s/rad"),
+      row("tracking friction slope", section.tracking_slope, "N.m.s/rad"),
       row("gear stiffness", structure.gear_stiffness, "N.m/rad"),
       row("gear stiffness at the axis", structure.gear_stiffness * std::pow(section.gear_ratio, 2),
           "N.m/rad"),

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include <fmt/format.h>
@@ -12,6 +13,7 @@
 #include <boresight/app/report/redesign_card.hpp>
 #include <boresight/app/report/text_limit.hpp>
 #include <boresight/app/report/text_report.hpp>
+#include <boresight/numerics/statistics/distribution_quantiles.hpp>
 
 namespace boresight::app {
 namespace {
@@ -25,6 +27,21 @@ bool rests_on_tests(const IdentificationSection& section) {
 }
 
 }  // namespace
+
+Document document_of(const std::vector<io::SupersededInput>& superseded) {
+  Document text = heading("Inputs taken from the records");
+  std::vector<std::vector<std::string>> rows{
+      {"key", "unit", "stated", "records", "+-%", "was assumed"}};
+  for (const auto& input : superseded) {
+    const double share = 100.0 * numerics::normal_975 * input.standard_uncertainty;
+    rows.push_back({input.key, input.unit, fmt::format("{:.4g}", input.stated_value),
+                    fmt::format("{:.4g}", input.value),
+                    share > 0.0 ? fmt::format("{:.2g}", share / std::abs(input.value)) : "-",
+                    input.assumed ? "yes" : "no"});
+  }
+  return text + table(rows, "llrrrl") +
+         wrapped("+-%: 95 % interval. All other inputs are those of the case.", "  ");
+}
 
 Document document_of(const std::vector<io::Quantity>& assumed) {
   Document text = heading("Assumed inputs");
@@ -79,6 +96,7 @@ Document sections_of(const Report& report) {
   if (report.matching) text += document_of(*report.matching);
   if (report.matched) text += document_of(*report.matched);
   if (report.evaluated) text += document_of(*report.evaluated);
+  if (!report.superseded.empty()) text += document_of(report.superseded);
   if (report.command != "audit") text += document_of(report.assumed);
   if (!report.conclusions.empty()) {
     text += heading("What the numbers mean");

@@ -30,6 +30,8 @@ Document document_of(const TimeDomainSection& section);
 /// What each way out of a contradiction in the case would do.
 Document document_of(const std::vector<ChoiceResult>& choices);
 Document document_of(const MatchingSection& section);
+/// Inputs that the records have replaced, before and after.
+Document document_of(const std::vector<io::SupersededInput>& superseded);
 /// The assumed inputs, and why each.
 Document document_of(const std::vector<io::Quantity>& assumed);
 

@@ -2,6 +2,8 @@
 #include <cmath>
 #include <numbers>
 #include <optional>
+#include <utility>
+#include <vector>
 
 #include <Eigen/Cholesky>
 #include <boost/math/special_functions/erf.hpp>
@@ -30,13 +32,14 @@ double uniform(std::uint64_t state, std::uint64_t index) {
 constexpr std::uint64_t uniform_stream = 0x5eed0001;
 constexpr std::uint64_t normal_stream = 0x5eed0002;
 constexpr std::uint64_t wind_stream = 0x5eed0003;
+constexpr std::uint64_t valve_stream = 0x5eed0004;
 
-// Inputs of the first two streams. The wind's has its own, so that the others' numbers stay the
-// same whether it varies or not.
+// Inputs of the first two streams. Those of wind and valve have their own, so that the others'
+// numbers stay the same whether they vary or not.
 constexpr std::size_t plant_inputs = place(UncertainInput::wind_torque);
 
-// Logarithms of a draw's factors against the estimate's case, in the order of PlantDraw::values;
-// the friction slope's stays 0. Nothing where it leaves the antenna no inertia.
+// Logarithms of a draw's factors against the estimate's case, in the order of PlantDraw::values.
+// Nothing where it leaves the antenna no inertia.
 std::optional<Eigen::VectorXd> log_factors(const plant::Antenna& identified,
                                            const identification::DriveEstimate& draw) {
   const double antenna = draw.inertia - draw.motor_inertia - plant::gear_train_inertia(identified);
@@ -51,9 +54,21 @@ std::optional<Eigen::VectorXd> log_factors(const plant::Antenna& identified,
   set(structure_frequency, draw.lowest_frequency, identified.structure.locked_rotor_frequency);
   set(oil_stiffness, draw.oil_stiffness, plant::oil_stiffness(identified));
   set(leakage_rate, draw.leakage_rate, identified.drive.leakage_rate);
+  set(friction_slope, draw.tracking_slope, identified.drive.viscous_friction);
   set(antenna_inertia, antenna, plant::antenna_inertia(identified));
   set(motor_inertia, draw.motor_inertia, plant::motor_inertia(identified));
   return logs;
+}
+
+// Standard deviation of the logarithm of the draws' valve lags.
+double valve_deviation(const std::vector<identification::DriveEstimate>& draws) {
+  std::vector<double> logs;
+  for (const auto& draw : draws) {
+    if (draw.valve_lag > 0.0) logs.push_back(std::log(draw.valve_lag));
+  }
+  if (logs.size() < 2) return 0.0;
+  const auto all = Eigen::Map<const Eigen::ArrayXd>(logs.data(), std::ssize(logs));
+  return std::sqrt((all - all.mean()).square().sum() / static_cast<double>(logs.size() - 1));
 }
 
 }  // namespace
@@ -61,7 +76,7 @@ std::optional<Eigen::VectorXd> log_factors(const plant::Antenna& identified,
 std::string_view to_string(UncertainInput input) {
   static constexpr std::array<std::string_view, uncertain_inputs> names{
       "structure frequency", "oil stiffness", "leakage rate", "friction slope",
-      "antenna inertia",     "motor inertia", "wind torque"};
+      "antenna inertia",     "motor inertia", "wind torque",  "valve frequency"};
   return names.at(place(input));
 }
 
@@ -73,7 +88,8 @@ std::vector<plant::AntennaChange> changes_of(const PlantDraw& draw) {
           plant::scaled_by("drive.leakage_rate", draw[leakage_rate]),
           plant::scaled_by("at_shaft.motor_inertia", draw[motor_inertia]),
           plant::scaled_by("structure.frequencies", draw[structure_frequency]),
-          plant::scaled_by("structure.wind_torque_factor", draw[wind_torque])};
+          plant::scaled_by("structure.wind_torque_factor", draw[wind_torque]),
+          plant::scaled_by("drive.valve_frequency", draw[valve_frequency])};
 }
 
 double PlantDistribution::Marginal::at(double share) const {
@@ -81,10 +97,18 @@ double PlantDistribution::Marginal::at(double share) const {
   return std::exp(centre - deviation * std::numbers::sqrt2 * boost::math::erfc_inv(2.0 * share));
 }
 
-void PlantDistribution::set_wind_torque(double deviation) {
-  Marginal& marginal = marginals_.at(place(UncertainInput::wind_torque));
+void PlantDistribution::set_lognormal(UncertainInput input, double centre, double deviation) {
+  Marginal& marginal = marginals_.at(place(input));
   marginal.uniform = false;
+  marginal.centre = centre;
   marginal.deviation = deviation;
+}
+
+void PlantDistribution::set_ranges(UncertainInput input, double lower, double upper) {
+  Marginal& marginal = marginals_.at(place(input));
+  marginal = {};
+  marginal.lower = lower;
+  marginal.upper = upper;
 }
 
 bool PlantDistribution::varies(UncertainInput input) const {
@@ -106,35 +130,30 @@ PlantDistribution PlantDistribution::of_ranges(const Mission& mission) {
   const double leakage = mission.antenna.drive.leakage_rate;
   PlantDistribution distribution;
   using enum UncertainInput;
-  const auto uniform_within = [&](UncertainInput input, double lower, double upper) {
-    Marginal& marginal = distribution.marginals_.at(place(input));
-    marginal.lower = lower;
-    marginal.upper = upper;
-  };
-  uniform_within(structure_frequency, ranges.structure_frequency.lower,
-                 ranges.structure_frequency.upper);
-  uniform_within(oil_stiffness, ranges.oil_stiffness.lower, ranges.oil_stiffness.upper);
+  distribution.set_ranges(structure_frequency, ranges.structure_frequency.lower,
+                          ranges.structure_frequency.upper);
+  distribution.set_ranges(oil_stiffness, ranges.oil_stiffness.lower, ranges.oil_stiffness.upper);
   if (leakage > 0.0) {
-    uniform_within(leakage_rate, ranges.leakage_rate.lower / leakage,
-                   ranges.leakage_rate.upper / leakage);
+    distribution.set_ranges(leakage_rate, ranges.leakage_rate.lower / leakage,
+                            ranges.leakage_rate.upper / leakage);
   }
-  uniform_within(friction_slope, ranges.viscous_friction.lower, ranges.viscous_friction.upper);
+  distribution.set_ranges(friction_slope, ranges.viscous_friction.lower,
+                          ranges.viscous_friction.upper);
   distribution.factor_ = Eigen::MatrixXd::Zero(plant_inputs, plant_inputs);
   for (const auto& [input, deviation] : {std::pair{antenna_inertia, uncertainty.antenna_inertia},
                                          std::pair{motor_inertia, uncertainty.motor_inertia}}) {
-    Marginal& marginal = distribution.marginals_.at(place(input));
-    marginal.uniform = false;
-    marginal.deviation = deviation;
+    distribution.set_lognormal(input, 0.0, deviation);
     const auto i = static_cast<Eigen::Index>(place(input));
-    distribution.factor_(i, i) = marginal.deviation;
+    distribution.factor_(i, i) = deviation;
   }
-  distribution.set_wind_torque(uncertainty.wind_torque);
+  distribution.set_lognormal(wind_torque, 0.0, uncertainty.wind_torque);
   distribution.list_inputs();
   return distribution;
 }
 
 PlantDistribution PlantDistribution::of_records(
-    const Mission& identified, const std::vector<identification::DriveEstimate>& draws) {
+    const Mission& identified, const std::vector<identification::DriveEstimate>& draws,
+    const identification::IdentifiedParts& parts) {
   constexpr Eigen::Index least = 20;
   Eigen::MatrixXd logs(static_cast<Eigen::Index>(draws.size()), plant_inputs);
   Eigen::Index kept = 0;
@@ -158,17 +177,25 @@ PlantDistribution PlantDistribution::of_records(
   distribution.factor_ = lifted.llt().matrixL();
   for (std::size_t i = 0; i < plant_inputs; ++i) {
     const auto row = static_cast<Eigen::Index>(i);
-    Marginal& marginal = distribution.marginals_.at(i);
-    marginal.uniform = false;
-    marginal.centre = mean(row);
-    marginal.deviation = covariance(row, row) > 1e-20 ? std::sqrt(covariance(row, row)) : 0.0;
+    distribution.set_lognormal(
+        static_cast<UncertainInput>(i), mean(row),
+        covariance(row, row) > 1e-20 ? std::sqrt(covariance(row, row)) : 0.0);
   }
-  Marginal& friction = distribution.marginals_.at(place(UncertainInput::friction_slope));
-  friction = {};
-  friction.lower = 0.0;
-  friction.upper = largest_viscous_friction(identified.antenna);
+  using enum UncertainInput;
+  const plant::DriveRatings& drive = identified.antenna.drive;
+  if (parts.friction_slope && drive.viscous_friction > 0.0) {
+    distribution.marginals_.at(place(friction_slope)).centre += std::log(drive.viscous_friction);
+  } else {
+    distribution.set_ranges(friction_slope, 0.0, largest_viscous_friction(identified.antenna));
+  }
+  if (!parts.leakage_rate && drive.leakage_rate > 0.0) {
+    const Ends& range = identified.uncertainty.ranges.leakage_rate;
+    distribution.set_ranges(leakage_rate, range.lower / drive.leakage_rate,
+                            range.upper / drive.leakage_rate);
+  }
+  if (parts.valve_lag) distribution.set_lognormal(valve_frequency, 0.0, valve_deviation(draws));
   distribution.source_ = EnsembleSource::records;
-  distribution.set_wind_torque(identified.uncertainty.wind_torque);
+  distribution.set_lognormal(wind_torque, 0.0, identified.uncertainty.wind_torque);
   distribution.list_inputs();
   return distribution;
 }
@@ -196,9 +223,12 @@ PlantDraw PlantDistribution::draw(std::uint64_t seed, std::uint64_t index) const
     }
     draw.values.at(i) = std::exp(sum);
   }
-  const Marginal& wind = marginals_.at(place(UncertainInput::wind_torque));
-  const double of_wind = numerics::NormalNumbers(seed, wind_stream).pair(index).real();
-  draw.values.at(place(UncertainInput::wind_torque)) = std::exp(wind.deviation * of_wind);
+  for (const auto& [input, stream] : {std::pair{UncertainInput::wind_torque, wind_stream},
+                                      std::pair{UncertainInput::valve_frequency, valve_stream}}) {
+    const Marginal& marginal = marginals_.at(place(input));
+    const double normal = numerics::NormalNumbers(seed, stream).pair(index).real();
+    draw.values.at(place(input)) = std::exp(marginal.deviation * normal);
+  }
   return draw;
 }
 

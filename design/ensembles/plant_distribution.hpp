@@ -8,7 +8,7 @@
 #include <Eigen/Core>
 
 #include <boresight/design/ensembles/plant_members.hpp>
-#include <boresight/identification/grey_box/grey_box.hpp>
+#include <boresight/identification/grey_box/identified_antenna.hpp>
 
 namespace boresight::design {
 
@@ -21,15 +21,16 @@ enum class UncertainInput {
   antenna_inertia,      // factor
   motor_inertia,        // factor, flywheels included
   wind_torque,          // factor
+  valve_frequency,      // factor
 };
-inline constexpr std::size_t uncertain_inputs = 7;
+inline constexpr std::size_t uncertain_inputs = 8;
 /// "structure frequency" and so on.
 std::string_view to_string(UncertainInput input);
 
 /// One sample of the plant: factors on the numbers of an antenna, whatever a proposal makes of
 /// them, and the slope of the friction.
 struct PlantDraw {
-  std::array<double, uncertain_inputs> values{1.0, 1.0, 1.0, 0.0, 1.0, 1.0, 1.0};
+  std::array<double, uncertain_inputs> values{1.0, 1.0, 1.0, 0.0, 1.0, 1.0, 1.0, 1.0};
 
   double operator[](UncertainInput input) const {
     return values.at(static_cast<std::size_t>(input));
@@ -45,11 +46,14 @@ class PlantDistribution {
   /// the mission's uncertainties.
   static PlantDistribution of_ranges(const Mission& mission);
   /// Lognormal with mean and covariance of what the records leave open, about `identified` (the
-  /// mission at the estimate); the friction slope uniform from 0 to largest_viscous_friction; the
-  /// wind torque as in of_ranges. Draws that leave the antenna no inertia are passed over.
+  /// mission at the estimate). Where `parts` has no leakage rate, it is as in of_ranges; where it
+  /// has no friction slope, that is uniform from 0 to largest_viscous_friction; where it has the
+  /// valve's lag, the valve's frequency is lognormal, independent of the rest. The wind torque is
+  /// as in of_ranges. Draws that leave the antenna no inertia are passed over.
   /// @throws InvalidInput for fewer than 20 draws.
   static PlantDistribution of_records(const Mission& identified,
-                                      const std::vector<identification::DriveEstimate>& draws);
+                                      const std::vector<identification::DriveEstimate>& draws,
+                                      const identification::IdentifiedParts& parts = {});
 
   /// Draw number `index` of a seed, whatever was drawn before.
   PlantDraw draw(std::uint64_t seed, std::uint64_t index) const;
@@ -74,7 +78,8 @@ class PlantDistribution {
 
     double at(double share) const;
   };
-  void set_wind_torque(double deviation);
+  void set_lognormal(UncertainInput input, double centre, double deviation);
+  void set_ranges(UncertainInput input, double lower, double upper);
   void list_inputs();
 
   std::array<Marginal, uncertain_inputs> marginals_;

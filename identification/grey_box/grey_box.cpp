@@ -22,7 +22,8 @@ using P = GreyBoxParameters;
 void check(const GreyBoxOptions& options) {
   if (!(options.sample_rate >= 0.0) || options.further_starts < 0 || options.draws < 100 ||
       !(options.stretch > 0.0) || !(options.discrepancy.torque_balance >= 0.0) ||
-      !(options.discrepancy.flow_balance >= 0.0) || !(options.discrepancy.stiffness >= 0.0)) {
+      !(options.discrepancy.flow_balance >= 0.0) || !(options.discrepancy.stiffness >= 0.0) ||
+      !(options.discrepancy.valve_lag >= 0.0)) {
     throw InvalidInput(fmt::format(
         "fit_grey_box: expected a sample rate from 0, further starts from 0, at least 100 draws, a "
         "positive stretch and discrepancies from 0, found {}, {}, {}, {}, {}, {} and {}",
@@ -79,11 +80,24 @@ MatrixXd shifts_with_reach(const std::vector<GreyBoxRecord>& records, const P& p
   return shifts;
 }
 
-// Friction and offset that the drive's motion cannot tell apart.
-bool is_doubtful(const GreyBoxPosterior& posterior, double DriveEstimate::*member) {
+// Friction and offset that the drive's motion cannot tell apart, and a slope at a rate that it has
+// not reached.
+bool is_doubtful(const GreyBoxResult& result, const P& parameters, double DriveEstimate::*member) {
+  const GreyBoxPosterior& posterior = result.posterior;
   if (member == &DriveEstimate::offset_as_recorded) return posterior.one_way != 0.0;
+  if (member == &DriveEstimate::tracking_slope) {
+    const double rate = parameters.tracking_rate();
+    return !(rate > 0.0) || rate > result.motion.highest_rate;
+  }
   return member == &DriveEstimate::coulomb_level &&
          (posterior.one_way != 0.0 || posterior.unsaturated > 0.0);
+}
+
+// Whether drawings and data sheets give the prior; a wide guess does of the others.
+bool is_stated(double DriveEstimate::*member) {
+  return member != &DriveEstimate::leakage_rate && member != &DriveEstimate::offset_as_recorded &&
+         member != &DriveEstimate::coulomb_level && member != &DriveEstimate::tracking_slope &&
+         member != &DriveEstimate::valve_lag;
 }
 
 void add_quantities(GreyBoxResult& result, const P& parameters, const GreyBoxOptions& options) {
@@ -111,10 +125,8 @@ void add_quantities(GreyBoxResult& result, const P& parameters, const GreyBoxOpt
                              ? out.posterior.standard_uncertainty / out.prior.standard_uncertainty
                              : 1.0;
     out.learnt = std::max(0.0, 1.0 - ratio * ratio);
-    out.identified = out.learnt >= 0.5 && !is_doubtful(result.posterior, quantity.member);
-    out.prior_from_drawings = quantity.member != &DriveEstimate::leakage_rate &&
-                              quantity.member != &DriveEstimate::offset_as_recorded &&
-                              quantity.member != &DriveEstimate::coulomb_level;
+    out.identified = out.learnt >= 0.5 && !is_doubtful(result, parameters, quantity.member);
+    out.prior_from_drawings = is_stated(quantity.member);
     if (quantity.member == &DriveEstimate::bulk_modulus ||
         quantity.member == &DriveEstimate::oil_stiffness) {
       out.prior_from_drawings = parameters.list()[P::bulk_modulus].from_drawings;
@@ -263,6 +275,7 @@ GreyBoxResult fit_grey_box(const Campaign& campaign,
   result.posterior = grey_box_posterior(objective, best.x, shifts, options.stretch);
   result.posterior.torque_discrepancy = options.discrepancy.torque_balance;
   result.posterior.stiffness_discrepancy = options.discrepancy.stiffness;
+  result.posterior.lag_discrepancy = options.discrepancy.valve_lag;
   result.posterior.leakage_discrepancy =
       leakage_discrepancy(objective, records, parameters, best.x, options.discrepancy.flow_balance);
   const double unknown =

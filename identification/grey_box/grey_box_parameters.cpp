@@ -101,6 +101,7 @@ GreyBoxParameters::GreyBoxParameters(const Campaign& campaign,
         "GreyBoxParameters: expected records that move, found no motor rate or no "
         "torque other than 0");
   }
+  tracking_rate_ = campaign.knowledge.tracking_rate;
   list_.resize(modes);
   add_drawings(campaign, bulk, bulk_guessed);
   add_friction(records);

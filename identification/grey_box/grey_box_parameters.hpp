@@ -84,6 +84,7 @@ class GreyBoxParameters {
   Eigen::Index mode_count() const { return (size() - modes) / 2; }
   const std::vector<GreyBoxParameter>& list() const { return list_; }
   const HydraulicUnits& units() const { return units_; }
+  double tracking_rate() const { return tracking_rate_; }  // rad/s of motor
 
   /// Values of the parameters at a point, SI.
   Eigen::VectorXd values(const Eigen::VectorXd& point) const;
@@ -121,6 +122,7 @@ class GreyBoxParameters {
   double stiffness_scale_ = 0.0;
   double largest_rate_ = 0.0;
   double largest_torque_ = 0.0;
+  double tracking_rate_ = 0.0;
 };
 
 }  // namespace boresight::identification

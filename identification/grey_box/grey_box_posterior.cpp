@@ -92,6 +92,8 @@ DriveEstimate drive_estimate(const GreyBoxParameters& parameters, const VectorXd
       rate * v(P::stribeck_rate),    torque * v(P::saturating_torque),
       rate * v(P::saturating_rate),  torque / rate * v(P::viscous_friction)};
   e.coulomb_level = e.friction.coulomb_torque + e.friction.saturating_torque;
+  e.tracking_slope = plant::friction_slope(e.friction, parameters.tracking_rate());
+  e.valve_lag = v(P::valve_lag);
   e.bristle_stiffness = torque / rate * v(P::bristle_stiffness);
   e.bristle_damping = torque / rate * v(P::bristle_damping);
   e.mode_damping = v(P::mode_damping);
@@ -145,6 +147,8 @@ std::vector<DriveEstimate> posterior_draws(const GreyBoxParameters& parameters,
     const auto oil = numbers.pair(static_cast<std::uint64_t>(root.cols()) + 2U);
     e.oil_stiffness *= std::exp(posterior.stiffness_discrepancy * oil.real());
     e.leakage_rate *= std::exp(posterior.leakage_discrepancy * more.real());
+    const auto valve = numbers.pair(static_cast<std::uint64_t>(root.cols()) + 4U);
+    e.valve_lag *= std::exp(posterior.lag_discrepancy * valve.real());
     const auto doubts = numbers.pair(static_cast<std::uint64_t>(root.cols()) + 3U);
     e.offset_as_recorded += posterior.offset_discrepancy * oil.imag();
     share_one_way(posterior.one_way, doubts.real(), e);
@@ -152,6 +156,7 @@ std::vector<DriveEstimate> posterior_draws(const GreyBoxParameters& parameters,
     e.coulomb_level += (saturating - 1.0) * e.friction.saturating_torque;
     e.friction.saturating_torque *= saturating;
     e.friction.saturating_rate *= saturating;
+    e.tracking_slope = plant::friction_slope(e.friction, parameters.tracking_rate());
     draws.push_back(std::move(e));
   }
   return draws;
@@ -167,6 +172,8 @@ const std::vector<DriveQuantity>& drive_quantities() {
       {"leakage rate", "1/s", &DriveEstimate::leakage_rate},
       {"offset torque as recorded", "N m", &DriveEstimate::offset_as_recorded},
       {"Coulomb level", "N m", &DriveEstimate::coulomb_level},
+      {"tracking friction slope", "N m s/rad", &DriveEstimate::tracking_slope},
+      {"valve lag", "s", &DriveEstimate::valve_lag},
       {"lowest locked-rotor frequency", "Hz", &DriveEstimate::lowest_frequency}};
   return quantities;
 }

@@ -2,6 +2,8 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <limits>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -73,6 +75,36 @@ void mask(Eigen::VectorXd& values, const Run& run, Index guard) {
   values.segment(begin, end - begin).setConstant(no_number);
 }
 
+// The polynomial of Lagrange through present samples.
+double through(const Eigen::VectorXd& values, const std::vector<Index>& nodes, Index at) {
+  double sum = 0.0;
+  for (const Index node : nodes) {
+    double weight = 1.0;
+    for (const Index other : nodes) {
+      if (other != node) {
+        weight *= static_cast<double>(at - other) / static_cast<double>(node - other);
+      }
+    }
+    sum += weight * values[node];
+  }
+  return sum;
+}
+
+// A short run of missing samples from up to two present ones on either side; false where it is
+// long, or at an end.
+bool fill(Eigen::VectorXd& values, const Run& run) {
+  constexpr Index longest = 3;
+  if (run.length() > longest || run.begin < 1 || run.end >= values.size()) return false;
+  std::vector<Index> nodes;
+  for (const Index node : {run.begin - 2, run.begin - 1, run.end, run.end + 1}) {
+    if (node >= 0 && node < values.size() && std::isfinite(values[node])) nodes.push_back(node);
+  }
+  Eigen::VectorXd filled(run.length());
+  for (Index i = 0; i < run.length(); ++i) filled[i] = through(values, nodes, run.begin + i);
+  values.segment(run.begin, run.length()) = filled;
+  return true;
+}
+
 // Absolute difference of a sample from the one before, 0 if one is missing.
 double step_at(const Eigen::VectorXd& values, Index i) {
   const double step = std::abs(values[i] - values[i - 1]);
@@ -117,15 +149,35 @@ double correlation(const Eigen::VectorXd& one, const Eigen::VectorXd& other) {
   return scale > 0.0 ? product / scale : 0.0;
 }
 
-std::vector<RecordDefect> missing_samples(const RawChannel& channel, const Eigen::VectorXd& time) {
-  Index count = 0;
-  Index first = 0;
-  for (Index i = 0; i < channel.values.size(); ++i) {
-    if (std::isfinite(channel.values[i])) continue;
-    if (count++ == 0) first = i;
+std::vector<RecordDefect> missing_samples(RawChannel& channel, const Eigen::VectorXd& time,
+                                          bool bridge) {
+  Eigen::VectorXd& values = channel.values;
+  Index left = 0, first_left = 0;
+  Index bridged = 0, first_bridged = 0;
+  for (Index i = 0; i < values.size(); ++i) {
+    if (std::isfinite(values[i])) continue;
+    Run run{i, i + 1};
+    while (run.end < values.size() && !std::isfinite(values[run.end])) ++run.end;
+    if (bridge && fill(values, run)) {
+      if (bridged == 0) first_bridged = i;
+      bridged += run.length();
+    } else {
+      if (left == 0) first_left = i;
+      left += run.length();
+    }
+    i = run.end - 1;
   }
-  if (count == 0) return {};
-  return {masked(DefectKind::missing_samples, channel, time, first, count, "no number there")};
+  std::vector<RecordDefect> defects;
+  if (left > 0) {
+    defects.push_back(
+        masked(DefectKind::missing_samples, channel, time, first_left, left, "no number there"));
+  }
+  if (bridged > 0) {
+    defects.push_back(masked(DefectKind::missing_samples, channel, time, first_bridged, bridged,
+                             "at most three at a time, filled from their neighbours"));
+    defects.back().handling = DefectHandling::bridged;
+  }
+  return defects;
 }
 
 std::vector<RecordDefect> mask_clipped(RawChannel& channel, const Eigen::VectorXd& time,

@@ -17,8 +17,10 @@ std::vector<RecordDefect> mask_spikes(RawChannel& channel, const Eigen::VectorXd
 std::vector<RecordDefect> mask_stuck(RawChannel& channel,
                                      const std::vector<const RawChannel*>& others,
                                      const Eigen::VectorXd& time);
-/// Missing samples, which are NaN already.
-std::vector<RecordDefect> missing_samples(const RawChannel& channel, const Eigen::VectorXd& time);
+/// Missing samples, which are NaN already. With `bridge`, at most three in a row are filled by the
+/// polynomial through up to two present ones on either side (a cubic).
+std::vector<RecordDefect> missing_samples(RawChannel& channel, const Eigen::VectorXd& time,
+                                          bool bridge);
 
 /// Largest less smallest finite value; 0 if there is none.
 double spread(const Eigen::VectorXd& values);

@@ -29,6 +29,7 @@ class Cleaner {
       check_lengths();
       const EvenTimeBase base = even_time_base(raw_.time, options_, result_.defects);
       note_missing();
+      leave_out_dead_commands();
       leave_out_commands();
       find_dead_pressures();
       find_dead_tachometer();
@@ -98,10 +99,24 @@ class Cleaner {
   }
 
   void note_missing() {
-    for (const RawChannel* channel : sensors()) add(missing_samples(*channel, raw_.time));
-    for (const auto* command : {&raw_.rate_command, &raw_.valve_command}) {
-      if (*command) add(missing_samples(**command, raw_.time));
+    const bool bridge = raw_.test != TestKind::slosh;
+    for (RawChannel* channel : sensors()) add(missing_samples(*channel, raw_.time, bridge));
+    for (auto* command : {&raw_.rate_command, &raw_.valve_command}) {
+      if (*command) add(missing_samples(**command, raw_.time, bridge));
     }
+  }
+
+  // A rate command stands still where the valve is driven past an open rate loop.
+  void leave_out_dead_commands() {
+    if (raw_.test == TestKind::slosh || !(spread(raw_.tachometer.values) > 0.0)) return;
+    const auto leave_out = [&](std::optional<RawChannel>& command) {
+      if (!command || spread(command->values) > 0.0) return;
+      add(DefectKind::dead_channel, DefectHandling::left_out, command->name, command->values.size(),
+          "at one value throughout while the drive moves");
+      command.reset();
+    };
+    leave_out(raw_.valve_command);
+    if (raw_.rate_loop_closed) leave_out(raw_.rate_command);
   }
 
   // Of the pressures, how much one moves in the middle.
@@ -343,6 +358,8 @@ std::string to_string(DefectKind kind) {
       return "swapped ports";
     case DefectKind::reversed_sign:
       return "reversed sign";
+    case DefectKind::wrong_scale:
+      return "scale unlike other records";
     case DefectKind::too_short:
       break;
   }
@@ -357,6 +374,8 @@ std::string to_string(DefectHandling handling) {
       return "left out";
     case DefectHandling::resampled:
       return "resampled";
+    case DefectHandling::bridged:
+      return "bridged";
     case DefectHandling::masked:
       return "masked";
     case DefectHandling::replaced:

@@ -27,6 +27,7 @@ enum class DefectKind {
   dead_channel,      // one value, or hardly any other, while others move
   swapped_ports,     // a motor's inlet and outlet against those of the others
   reversed_sign,     // a channel against what drives it
+  wrong_scale,       // a channel many times larger or smaller than in other records
   too_short          // fewer samples than any method takes
 };
 std::string to_string(DefectKind kind);
@@ -36,6 +37,7 @@ enum class DefectHandling {
   reported,   // nothing
   left_out,   // samples or channel not used
   resampled,  // interpolated linearly onto an even grid
+  bridged,    // filled from their neighbours
   masked,     // marked not valid, straight line between the neighbours
   replaced,   // by what other channels show
   refused     // the record is not used
@@ -132,13 +134,16 @@ void mask_replaced(CleanRecord& clean);
 /// Channels: a sample at a stated limit, or in a run of eight or more equal ones at an extreme that
 /// is four times as long as runs elsewhere, is clipped and masked with a guard band. A run of equal
 /// samples, 25 or more and eight times as long as usual, while other channels move, is stuck:
-/// masked. One or two samples at least 12 times the local differences off both sides are a spike:
-/// masked. A dead pressure is replaced by the mean of the others at the same common line, valid
-/// where they all are: the sum over the motors is what counts. In a slosh test it is masked
-/// (mask_replaced). A pressure far below zero most of the time, which no oil has, counts as dead.
-/// Commands are taken as they are but for missing samples. Other swapped or reversed channels are
-/// reported (ColumnSuspicions) and never turned: what is to be done is for the campaign as a whole
-/// to say, column_conflicts.
+/// masked. At most three missing samples in a row are filled by the cubic through their neighbours,
+/// but in a slosh test, whose lines ring fast. One or two samples at least 12 times the local
+/// differences off both sides are a spike: masked. A dead pressure is replaced by the mean of the
+/// others at the same common line, valid where they all are: the sum over the motors is what
+/// counts. In a slosh test it is masked (mask_replaced). A pressure far below zero most of the
+/// time, which no oil has, counts as dead. Commands are taken as they are but for missing samples;
+/// one that stands at one value while the drive moves by it (a valve command, or the rate command
+/// of a closed rate loop) is left out. Other swapped or reversed channels are reported
+/// (ColumnSuspicions) and never turned: what is to be done is for the campaign as a whole to say,
+/// column_conflicts.
 ///
 /// Refused: too short, more than half of the samples of the tachometer (but in a slosh test) or of
 /// all inlets or all outlets missing or dead, times of which more than one in twenty cannot be

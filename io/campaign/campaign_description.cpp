@@ -7,6 +7,7 @@
 #include <boresight/io/campaign/campaign_comparison.hpp>
 #include <boresight/io/campaign/campaign_description.hpp>
 #include <boresight/io/campaign/campaign_wording.hpp>
+#include <boresight/io/campaign/recommended_values.hpp>
 #include <boresight/io/description/interval_results.hpp>
 
 namespace boresight::io {
@@ -226,6 +227,15 @@ void describe_friction(Visitor& v, const CampaignSection& section) {
                    });
 }
 
+void describe_suspicion(Visitor& v, const ChannelSuspicion& one) {
+  v.text("finding", one.finding, "What is wrong.");
+  v.texts("records", one.records, "In which records.");
+  v.texts("channels", one.channels, "As the files call them; empty: the records as a whole.");
+  v.flag("record_refused", one.record_refused, "The records are not used.");
+  v.number("largest_fraction", one.fraction, unit::ratio, "Of a record's samples.");
+  v.text("explanation", one.explanation, "Of the first.");
+}
+
 void describe_contradiction(Visitor& v, const Contradiction& one) {
   v.text("key", one.key, "Of the case, or the id of a stated number.");
   v.text("stated", one.stated, "As written.");
@@ -316,7 +326,21 @@ void describe(Visitor& v, const CampaignSection& section) {
   v.list("records", section.notes.records, "In the case's order, refused ones too.",
          [&](const RecordNotes& record) { describe_record(v, record); });
   v.texts("assumptions", section.notes.assumptions, "What was taken for granted.");
-  v.optional_group("reconciled", section.grey_box, "Null where no model explains the records.",
+  v.text_or_null("rejected_because", to_string(rejection(section)),
+                 "Why no value is recommended: contradicts the case, fit failed; null if one is.");
+  v.optional_group("recommended", recommended(section),
+                   "What a design may take; null where no value is recommended.",
+                   [&](const RecommendedValues& values) {
+                     describe_interval(v, "inertia", values.inertia, "kg m2",
+                                       "Motors and load at the motor shaft.");
+                     describe_interval(v, "motor_to_load_ratio", values.motor_to_load_ratio, "1",
+                                       "All motors against the load.");
+                   });
+  v.list("look_at", suspicions(section), "Records and channels to look at, the worst first.",
+         [&](const ChannelSuspicion& one) { describe_suspicion(v, one); });
+  v.optional_group("reconciled", section.grey_box,
+                   "Null where no model explains the records; recommended only where that is not "
+                   "null.",
                    [&](const auto& fit) { describe_fit(v, section, fit); });
   v.optional_group("mean_of_methods", section.mean_of_methods,
                    "In place of the reconciled estimate; null beside one.",

@@ -10,6 +10,7 @@ namespace boresight::io {
 
 ShownUnit shown_unit(const std::string& unit) {
   if (unit == "Pa") return {"MPa", 1e-6};
+  if (unit == "s") return {"ms", 1e3};
   if (unit.empty() || unit == "1") return {"1", 1.0};
   std::string name = unit;
   std::replace(name.begin(), name.end(), ' ', '.');

@@ -11,7 +11,7 @@ namespace boresight::io {
 
 /// A unit as reports show it, and what an SI number is multiplied by.
 struct ShownUnit {
-  std::string name;  // "MPa" for Pa, "kg.m2" for "kg m2", "1" for none
+  std::string name;  // "MPa" for Pa, "ms" for s, "kg.m2" for "kg m2", "1" for none
   double scale = 1.0;
 };
 ShownUnit shown_unit(const std::string& unit);

@@ -7,6 +7,7 @@
 
 #include <boresight/design/ensembles/plant_distribution.hpp>
 #include <boresight/io/campaign/campaign_section.hpp>
+#include <boresight/io/campaign/identified_case.hpp>
 
 namespace boresight::io {
 
@@ -16,9 +17,12 @@ struct DesignedAntenna {
   Case antenna;
   design::Mission mission;  // of that case
   /// As many as the reference ensemble has: draws of the distribution where records leave it open,
-  /// else design::plant_members.
+  /// else design::plant_members. Where the records show the friction slope, the last is the antenna
+  /// with its slope at the slew rate instead.
   design::PlantEnsemble ensemble;
   design::PlantDistribution distribution;
+  /// What of the stated case the records have replaced; empty without records.
+  std::vector<SupersededInput> superseded;
   bool from_records = false;  // else the case as stated
 };
 

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include <boresight/identification/records/column_conflicts.hpp>
+#include <boresight/identification/records/scale_conflicts.hpp>
 #include <boresight/identification/records/test_recognition.hpp>
 #include <boresight/io/campaign/loaded_record.hpp>
 #include <boresight/io/campaign/raw_record.hpp>
@@ -96,6 +97,30 @@ void refuse(LoadedRecord& work, DefectKind kind, const std::string& reason) {
       {kind, DefectHandling::refused, "", 0, 0.0, work.raw.time.size(), reason});
 }
 
+// A record whose tachometer is on another scale is not used, nor is a command.
+void settle(LoadedRecord& work, const identification::ScaleConflict& conflict) {
+  using Channel = identification::ScaleConflict::Channel;
+  const identification::RawRecord& raw = work.raw;
+  const bool is_tachometer = conflict.channel == Channel::tachometer;
+  const bool is_rate = conflict.channel == Channel::rate_command;
+  const std::string& channel = is_tachometer ? raw.tachometer.name
+                               : is_rate     ? raw.rate_command->name
+                                             : raw.valve_command->name;
+  const std::string reason = fmt::format(
+      "{} is {:.3g} times what it is in the other records for the same {}: check its "
+      "scale and unit in this file",
+      channel, conflict.factor, is_tachometer ? "command" : "motor rate");
+  const auto handling = is_tachometer ? DefectHandling::refused : DefectHandling::left_out;
+  work.clean.defects.push_back({DefectKind::wrong_scale, handling, channel, 0,
+                                raw.time.size() > 0 ? raw.time[0] : 0.0, raw.time.size(), reason});
+  if (is_tachometer) {
+    work.clean.record.reset();
+    work.clean.refusal = reason;
+  } else {
+    (is_rate ? work.clean.record->rate_command : work.clean.record->valve_command).reset();
+  }
+}
+
 }  // namespace
 
 std::string to_string(TestKind test) {
@@ -152,6 +177,14 @@ void settle_conflicts(const Case& antenna, std::vector<LoadedRecord>& works) {
     } else if (conflict.again) {
       works[i].clean = identification::clean_record(works[i].raw, conflict.options);
     }
+  }
+  std::vector<const identification::DriveRecord*> records;
+  records.reserve(works.size());
+  for (const LoadedRecord& work : works) {
+    records.push_back(work.clean.record ? &*work.clean.record : nullptr);
+  }
+  for (const auto& conflict : identification::scale_conflicts(records)) {
+    settle(works[conflict.record], conflict);
   }
 }
 

@@ -1,7 +1,13 @@
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <vector>
+
 #include <gtest/gtest.h>
 
 #include <boresight/identification/grey_box/identified_antenna.hpp>
 #include <boresight/numerics/error.hpp>
+#include <boresight/plant/antenna/motors_held_modes.hpp>
 
 namespace boresight::identification {
 namespace {
@@ -53,6 +59,66 @@ TEST(IdentifiedAntenna, MovesAllFrequenciesInOneProportion) {
   DriveEstimate rigid = estimate();
   rigid.lowest_frequency = 0.0;
   EXPECT_EQ(identified(own, rigid).structure.modes[0].frequency, own.structure.modes[0].frequency);
+}
+
+TEST(IdentifiedAntenna, TakesFrictionSlopeAndValveLagWhereRecordsShowThem) {
+  const plant::Antenna own = plant::demo_antenna();
+  DriveEstimate found = estimate();
+  found.tracking_slope = 12.5;
+  found.valve_lag = 0.02;
+  EXPECT_EQ(identified(own, found).drive.viscous_friction, own.drive.viscous_friction);
+  EXPECT_EQ(identified(own, found).drive.valve_frequency, own.drive.valve_frequency);
+  IdentifiedParts parts;
+  parts.friction_slope = parts.valve_lag = true;
+  const plant::Antenna shown = changed(own, identified_changes(own, found, parts));
+  EXPECT_EQ(shown.drive.viscous_friction, 12.5);
+  // The phase of a valve of second order falls by 2 zeta/w at low frequencies.
+  const double lag =
+      2.0 * own.drive.valve_damping / (2.0 * std::numbers::pi * shown.drive.valve_frequency);
+  EXPECT_NEAR(lag, 0.02, 1e-15);
+  found.tracking_slope = -3.0;
+  EXPECT_EQ(changed(own, identified_changes(own, found, parts)).drive.viscous_friction, 0.0);
+}
+
+TEST(IdentifiedAntenna, KeepsItsOwnNumbersWhereRecordsShowNothing) {
+  const plant::Antenna own = plant::demo_antenna();
+  IdentifiedParts parts;
+  parts.leakage_rate = parts.friction_curve = parts.offset_torque = parts.bristles = false;
+  const plant::Antenna shown = changed(own, identified_changes(own, estimate(), parts));
+  EXPECT_EQ(shown.drive.leakage_rate, own.drive.leakage_rate);
+  EXPECT_EQ(shown.friction_curve.coulomb_torque, own.friction_curve.coulomb_torque);
+  EXPECT_EQ(shown.nonlinear->offset_torque, own.nonlinear->offset_torque);
+  EXPECT_EQ(shown.nonlinear->bristle_stiffness, own.nonlinear->bristle_stiffness);
+  EXPECT_NEAR(plant::reflected_inertia(linear_plant(shown)), estimate().inertia, 1e-12);
+}
+
+TEST(IdentifiedAntenna, HasEachFrequencyOfTheLockedRotorThatRecordsShow) {
+  const plant::Antenna own = plant::demo_antenna();
+  DriveEstimate found = estimate();
+  found.lowest_frequency = 2.03;
+  found.mode_frequency.resize(3);
+  found.mode_frequency << 2.03, 3.18, 4.47;
+  IdentifiedParts parts;
+  parts.frequencies = {true, false, true};
+  const plant::Antenna shown = changed(own, identified_changes(own, found, parts));
+  const auto held = plant::motors_held_modes(linear_plant(shown).structure);
+  EXPECT_NEAR(held[0].frequency, 2.03, 1e-9);
+  EXPECT_GT(std::abs(held[1].frequency - 3.18), 0.02);
+  EXPECT_NEAR(held[2].frequency, 4.47, 1e-7);
+}
+
+TEST(IdentifiedNumbers, HaveTheScatterOfTheDraws) {
+  const plant::Antenna own = plant::demo_antenna();
+  std::vector<DriveEstimate> draws(2, estimate());
+  draws[0].leakage_rate = 0.57;
+  draws[1].leakage_rate = 0.63;
+  draws.push_back(estimate());
+  draws.back().inertia = draws.back().motor_inertia;  // no antenna left: counts for nothing
+  const auto numbers = identified_numbers(own, estimate(), draws);
+  const auto leakage = std::ranges::find(numbers, "drive.leakage_rate", &IdentifiedNumber::path);
+  ASSERT_NE(leakage, numbers.end());
+  EXPECT_EQ(leakage->value, 0.6);
+  EXPECT_NEAR(leakage->standard_uncertainty, 0.03, 1e-12);
 }
 
 TEST(IdentifiedAntenna, RefusesWhatIsNoAntenna) {

@@ -33,18 +33,53 @@ TEST(CleanRecord, LeavesAHealthyRecordAsItIs) {
 TEST(CleanRecord, MasksMissingSamplesAndBridgesThem) {
   RawRecord raw = healthy();
   raw.tachometer.values.segment(100, 7).setConstant(nan);
-  raw.tachometer.values[500] = nan;
   const CleanRecord clean = clean_record(raw);
   const RecordDefect defect = only(clean, DefectKind::missing_samples);
   EXPECT_EQ(defect.channel, "tach");
   EXPECT_EQ(defect.first, 100);
   EXPECT_DOUBLE_EQ(defect.first_time, 0.5);
-  EXPECT_EQ(defect.count, 8);
+  EXPECT_EQ(defect.count, 7);
   EXPECT_EQ(defect.handling, DefectHandling::masked);
   const Signal& rate = clean.record->motor_rate;
-  EXPECT_EQ(invalid_count(rate), 8);
+  EXPECT_EQ(invalid_count(rate), 7);
   EXPECT_FALSE(rate.is_valid(103));
   EXPECT_NEAR(rate.values[103], 0.5 * (rate.values[99] + rate.values[107]), 1e-12);
+}
+
+TEST(CleanRecord, FillsFewMissingSamplesByTheCubicThroughTheirNeighbours) {
+  RawRecord raw = healthy();
+  // About the pressure that the record has there.
+  const auto cubic = [](Eigen::Index i) {
+    const double t = 0.1 * static_cast<double>(i - 498);
+    return 6.51e6 + 2e3 * t * (2.0 - t * (0.7 - 0.11 * t));
+  };
+  Eigen::VectorXd& values = raw.inlet[1].values;
+  for (Eigen::Index i = 498; i < 508; ++i) values[i] = cubic(i);
+  values.segment(500, 2).setConstant(nan);
+  values[504] = nan;
+  const CleanRecord clean = clean_record(raw);
+  const RecordDefect defect = only(clean, DefectKind::missing_samples);
+  EXPECT_EQ(defect.handling, DefectHandling::bridged);
+  EXPECT_EQ(defect.count, 3);
+  const Signal& inlet = clean.record->inlet_pressure[1];
+  EXPECT_TRUE(inlet.valid.empty() || invalid_count(inlet) == 0);
+  for (const Eigen::Index i : {500, 501, 504}) {
+    EXPECT_NEAR(inlet.values[i], cubic(i), 1e-6) << i;
+  }
+  // Lines ring too fast for it.
+  raw.test = TestKind::slosh;
+  EXPECT_EQ(only(clean_record(raw), DefectKind::missing_samples).handling, DefectHandling::masked);
+}
+
+TEST(CleanRecord, LeavesOutAValveCommandThatStandsStillWhileTheDriveMoves) {
+  RawRecord raw = healthy();
+  raw.valve_command = RawChannel{"valve_command", Eigen::VectorXd::Constant(length, 0.5)};
+  const CleanRecord clean = clean_record(raw);
+  const RecordDefect defect = only(clean, DefectKind::dead_channel);
+  EXPECT_EQ(defect.channel, "valve_command");
+  EXPECT_EQ(defect.handling, DefectHandling::left_out);
+  EXPECT_FALSE(clean.record->valve_command);
+  EXPECT_TRUE(clean.record->rate_command);
 }
 
 TEST(CleanRecord, MasksAStatedLimitWithAGuardBand) {

@@ -96,6 +96,57 @@ TEST(PlantDistribution, OfRecordsHasTheirCovariance) {
   EXPECT_NEAR(product / std::sqrt(oil * inertia), correlation, 0.03);
 }
 
+// What the records show of friction slope and valve is drawn about the identified antenna; what
+// they do not is left to the ranges of the case.
+TEST(PlantDistribution, OfRecordsHasTheirFrictionSlopeAndValve) {
+  const numerics::NormalNumbers normals(12);
+  const double motors = motor_inertia(reference(), reference().motor.flywheel_disks);
+  const double slope = reference().drive.viscous_friction.value;
+  std::vector<identification::DriveEstimate> records;
+  constexpr double of_slope = 0.01, of_lag = 0.05;
+  for (std::uint64_t i = 0; i < 4000; ++i) {
+    const auto pair = normals.pair(i);
+    identification::DriveEstimate draw;
+    draw.motor_inertia = motors;
+    draw.inertia = motors + gear_train_inertia(reference()) + antenna_inertia(reference());
+    draw.oil_stiffness = oil_stiffness(reference());
+    draw.leakage_rate = 5.0 * reference().drive.leakage_rate.value;  // a guess
+    draw.lowest_frequency = reference().structure.locked_rotor_frequency.value;
+    draw.tracking_slope = slope * std::exp(of_slope * pair.real());
+    draw.valve_lag = 0.01 * std::exp(of_lag * pair.imag());
+    records.push_back(draw);
+  }
+  identification::IdentifiedParts parts;
+  parts.leakage_rate = false;
+  parts.friction_slope = parts.valve_lag = true;
+  const design::Mission mission = mission_of(reference());
+  const auto distribution = design::PlantDistribution::of_records(mission, records, parts);
+  EXPECT_EQ(distribution.inputs(), (std::vector{design::UncertainInput::leakage_rate,
+                                                design::UncertainInput::friction_slope,
+                                                design::UncertainInput::valve_frequency}));
+  double mean = 0.0, square = 0.0, valve = 0.0;
+  constexpr std::uint64_t count = 20000;
+  const design::Ends& leakage = mission.uncertainty.ranges.leakage_rate;
+  for (std::uint64_t i = 0; i < count; ++i) {
+    const design::PlantDraw draw = distribution.draw(5, i);
+    const double log = std::log(draw[design::UncertainInput::friction_slope] / slope);
+    mean += log / count;
+    square += log * log / count;
+    valve += std::pow(std::log(draw[design::UncertainInput::valve_frequency]), 2) / count;
+    const double rate =
+        draw[design::UncertainInput::leakage_rate] * reference().drive.leakage_rate.value;
+    EXPECT_GE(rate, leakage.lower * (1.0 - 1e-12));
+    EXPECT_LE(rate, leakage.upper * (1.0 + 1e-12));
+  }
+  EXPECT_NEAR(mean, 0.0, 0.05 * of_slope);
+  EXPECT_NEAR(std::sqrt(square) / of_slope, 1.0, 0.05);
+  EXPECT_NEAR(std::sqrt(valve) / of_lag, 1.0, 0.05);
+  design::PlantDraw draw = distribution.median();
+  draw.values.at(place(design::UncertainInput::valve_frequency)) = 1.25;
+  EXPECT_NEAR(make_plant(reference(), changes_of(draw)).drive.valve_corner,
+              1.25 * make_plant(reference()).drive.valve_corner, 1e-9);
+}
+
 TEST(PlantDistribution, AFactorOfOneIsTheCase) {
   design::PlantDraw draw;
   draw.values.at(place(design::UncertainInput::friction_slope)) =

@@ -1,0 +1,197 @@
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <string_view>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include <boresight/io/campaign/recommended_values.hpp>
+#include <boresight/numerics/error.hpp>
+#include <boresight/numerics/statistics/order_statistics.hpp>
+
+namespace boresight::io {
+namespace {
+
+using identification::DefectHandling;
+using identification::DefectKind;
+using identification::RecordDefect;
+
+constexpr double many_samples = 0.005;  // of a record
+constexpr double mostly = 0.5;
+constexpr double badly_predicted = 5.0;  // times the median
+constexpr double beyond_stated = 3.0;    // standard uncertainties
+
+double fraction_of(const RecordNotes& record, const RecordDefect& defect) {
+  return record.rows > 0 ? static_cast<double>(defect.count) / static_cast<double>(record.rows)
+                         : 1.0;
+}
+
+bool is_suspicious(const RecordNotes& record, const RecordDefect& defect) {
+  switch (defect.kind) {
+    case DefectKind::dead_channel:
+    case DefectKind::swapped_ports:
+    case DefectKind::reversed_sign:
+    case DefectKind::wrong_scale:
+    case DefectKind::different_length:
+    case DefectKind::too_short:
+      return true;
+    case DefectKind::clipped:
+      return fraction_of(record, defect) > mostly;
+    case DefectKind::missing_samples:
+    case DefectKind::stuck:
+    case DefectKind::spike:
+      return fraction_of(record, defect) > many_samples;
+    default:
+      return defect.handling == DefectHandling::refused;
+  }
+}
+
+// The more a finding takes away, the earlier it comes.
+int rank(const ChannelSuspicion& one) {
+  if (one.record_refused) return 0;
+  const bool counted = one.finding == to_string(DefectKind::missing_samples) ||
+                       one.finding == to_string(DefectKind::stuck) ||
+                       one.finding == to_string(DefectKind::spike) ||
+                       one.finding == to_string(DefectKind::clipped);
+  return counted ? 2 : 1;
+}
+
+void add_once(std::vector<std::string>& names, const std::string& name) {
+  if (!name.empty() && std::ranges::find(names, name) == names.end()) names.push_back(name);
+}
+
+// One a kind of defect and way it was handled.
+std::vector<ChannelSuspicion> by_defects(const CampaignNotes& notes) {
+  std::vector<ChannelSuspicion> found;
+  std::map<std::pair<DefectKind, bool>, std::size_t> places;
+  for (const RecordNotes& record : notes.records) {
+    for (const RecordDefect& defect : record.defects) {
+      if (!is_suspicious(record, defect)) continue;
+      const bool refused = defect.handling == DefectHandling::refused;
+      const auto [place, is_new] = places.emplace(std::pair(defect.kind, refused), found.size());
+      if (is_new) {
+        ChannelSuspicion first;
+        first.finding = identification::to_string(defect.kind);
+        first.record_refused = refused;
+        first.explanation = defect.explanation;
+        found.push_back(std::move(first));
+      }
+      ChannelSuspicion& one = found[place->second];
+      add_once(one.records, record.name);
+      add_once(one.channels, defect.channel);
+      one.fraction = std::max(one.fraction, fraction_of(record, defect));
+    }
+  }
+  return found;
+}
+
+// A column of a record as the file calls it.
+std::string column_of(const CampaignNotes& notes, std::string_view signal) {
+  for (const RecordNotes& record : notes.records) {
+    for (const SignalSource& source : record.sources) {
+      if (source.signal.starts_with(signal)) return source.column;
+    }
+  }
+  return std::string(signal);
+}
+
+void add_unexplained(const CampaignSection& section, std::vector<ChannelSuspicion>& found) {
+  std::vector<double> all;
+  for (const auto& residual : section.grey_box->residuals) {
+    if (!residual.pressures) all.push_back(residual.rms);
+  }
+  if (all.size() < 3) return;
+  const double usual = numerics::median(std::move(all));
+  for (const auto& residual : section.grey_box->residuals) {
+    if (residual.pressures || !(residual.rms > badly_predicted * usual)) continue;
+    ChannelSuspicion one;
+    one.finding = "not explained";
+    one.records = {residual.record};
+    one.channels = {column_of(section.notes, "tachometer")};
+    one.fraction = 1.0;
+    one.explanation = fmt::format(
+        "the fit predicts its rate to {:.2g} rad/s rms, that of the median record to "
+        "{:.2g}",
+        residual.rms, usual);
+    found.push_back(std::move(one));
+  }
+}
+
+// Scales of the recorder's channels among what the fit varies, and the signals that have them.
+constexpr std::array<std::pair<std::string_view, std::string_view>, 6> scales{
+    {{"tachometer scale", "tachometer"},
+     {"pressure gain", "inlet pressure"},
+     {"torque per pressure", "inlet pressure"},
+     {"unlike gains of inlets and outlets", "outlet pressure"},
+     {"flow per rate", "tachometer"},
+     {"valve scale", "valve command"}}};
+
+void add_contradicted(const CampaignSection& section, std::vector<ChannelSuspicion>& found) {
+  for (const auto& parameter : section.grey_box->parameters) {
+    const auto* const scale = std::ranges::find(scales, std::string_view(parameter.parameter.name),
+                                                [](const auto& one) { return one.first; });
+    if (scale == scales.end() || std::abs(parameter.departure) < beyond_stated) continue;
+    ChannelSuspicion one;
+    one.finding = "contradicts the case";
+    one.records = section.grey_box->records;
+    one.channels = {column_of(section.notes, scale->second)};
+    one.fraction = 1.0;
+    one.explanation =
+        fmt::format("{}: {:.4g} fits, {:.4g} is stated, {:.1f} standard uncertainties",
+                    parameter.parameter.name, parameter.value, parameter.parameter.prior,
+                    std::abs(parameter.departure));
+    found.push_back(std::move(one));
+  }
+}
+
+}  // namespace
+
+Rejection rejection(const CampaignSection& section) {
+  if (!section.grey_box) return Rejection::fit_failed;
+  return section.grey_box->estimate.contradicted || section.grey_box->conflict.widening > 1.0
+             ? Rejection::contradicts_case
+             : Rejection::none;
+}
+
+std::string to_string(Rejection why) {
+  switch (why) {
+    case Rejection::contradicts_case:
+      return "contradicts the case";
+    case Rejection::fit_failed:
+      return "fit failed";
+    case Rejection::none:
+      break;
+  }
+  return "";
+}
+
+std::optional<RecommendedValues> recommended(const CampaignSection& section) {
+  if (rejection(section) != Rejection::none) return std::nullopt;
+  return RecommendedValues{section.grey_box->quantity("inertia").posterior,
+                           section.grey_box->quantity("motor to load ratio").posterior};
+}
+
+std::vector<SupersededInput> superseded_inputs(const Case& stated, const CampaignSection& section) {
+  if (!recommended(section)) return {};
+  const identification::GreyBoxResult& found = *section.grey_box;
+  try {
+    return superseded_inputs(
+        stated, with_identified(stated, found.estimate, found.draws, taken_parts(stated, found)));
+  } catch (const NumericalFailure&) {
+    return {};
+  }
+}
+
+std::vector<ChannelSuspicion> suspicions(const CampaignSection& section) {
+  std::vector<ChannelSuspicion> found = by_defects(section.notes);
+  if (section.grey_box) {
+    add_unexplained(section, found);
+    if (rejection(section) == Rejection::contradicts_case) add_contradicted(section, found);
+  }
+  std::ranges::stable_sort(found, {}, [](const ChannelSuspicion& one) { return rank(one); });
+  return found;
+}
+
+}  // namespace boresight::io

@@ -1,0 +1,53 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <boresight/io/campaign/campaign_section.hpp>
+#include <boresight/io/campaign/identified_case.hpp>
+
+namespace boresight::io {
+
+/// Why a campaign recommends no value.
+enum class Rejection {
+  none,
+  contradicts_case,  // the fit contradicts stated numbers that inertia and stiffness rest on
+  fit_failed,        // no model explains all records
+};
+Rejection rejection(const CampaignSection& section);
+/// "contradicts the case", "fit failed"; empty for none.
+std::string to_string(Rejection why);
+
+/// What a design may take from a campaign.
+struct RecommendedValues {
+  numerics::Interval inertia;              // kg m2, all of it at the motor shaft
+  numerics::Interval motor_to_load_ratio;  // eq. 27
+};
+/// Of the grey box; nothing where rejection() says why: neither a mean of methods nor a fit that
+/// contradicts what it rests on is a value to design on.
+std::optional<RecommendedValues> recommended(const CampaignSection& section);
+
+/// What a redesign takes from the campaign instead of what the case states; nothing where no value
+/// is recommended, or where what is recommended leaves the antenna no inertia.
+std::vector<SupersededInput> superseded_inputs(const Case& stated, const CampaignSection& section);
+
+/// Records and channels to look at, for one reason.
+struct ChannelSuspicion {
+  /// As to_string(DefectKind); "not explained" for a record that the fit misses.
+  std::string finding;
+  std::vector<std::string> records;
+  std::vector<std::string> channels;  // as the files call them; empty: records as a whole
+  bool record_refused = false;
+  double fraction = 0.0;    // of a record's samples, the largest
+  std::string explanation;  // of the first
+};
+
+/// What is wrong with the data, the worst first: refused records; channels that are dead,
+/// exchanged, reversed or on another scale; samples that are missing, stuck or clipped, where they
+/// are many (from a two-hundredth of a record; half for clipped ones, which fast tests mean to
+/// have); and records whose rate the fit predicts five times worse than the median record's. Where
+/// the fit contradicts the case, also the channels whose stated scale it contradicts.
+std::vector<ChannelSuspicion> suspicions(const CampaignSection& section);
+
+}  // namespace boresight::io

@@ -18,8 +18,7 @@ using numerics::Interval;
 
 constexpr double none = std::numeric_limits<double>::quiet_NaN();
 
-constexpr const char* no_combined_value =
-    " They contradict one another: there is no combined estimate.";
+constexpr const char* no_combined_value = " No combined estimate: see the section's text.";
 
 struct Row {
   std::string method;
@@ -163,7 +162,8 @@ double printed_value(const std::string& text, io::Kind kind) {
 
 std::vector<Figure> inertia_figures(const io::CampaignSection& section) {
   std::vector<Row> rows;
-  if (const auto values = io::recommended(section)) {
+  const auto values = io::recommended(section);
+  if (values) {
     rows.push_back(
         {"combined (grey box)", values->inertia, values->motor_to_load_ratio, none, none, true});
   }
@@ -176,7 +176,7 @@ std::vector<Figure> inertia_figures(const io::CampaignSection& section) {
       fmt::format(
           "From {} records, with the case's uncertainties of transducers, drawings and oil data. "
           "Intervals exclude model errors of the method. * procedures of the founding paper.{}",
-          section.notes.records.size(), contradictory ? no_combined_value : ""));
+          section.notes.records.size(), values ? "" : no_combined_value));
 }
 
 std::vector<Figure> inertia_figures(const IdentificationSection& section) {

@@ -274,8 +274,7 @@ void tune_as_built(const Mission& mission, const PlantEnsemble& ensemble,
       options.progress("tuning as built", done, all);
     };
   }
-  ControllerStudy controllers =
-      study_controllers(mission, ensemble, tuning, ChoiceDetail::expected);
+  ControllerStudy controllers = study_controllers(mission, ensemble, tuning);
   if (options.interrupted && options.interrupted()) return;
   study.tuned_as_built = std::move(controllers.tuned);
 }

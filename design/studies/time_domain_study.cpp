@@ -57,17 +57,20 @@ SimulatedRms expected_rms(const TrackingProblem& problem, const SimulatedLoop& l
                         .threads = options.threads});
 }
 
-// Budgets required in this wind are held against the larger of both rms and the limit cycle.
-void count_budgets(const Mission& mission, double wind_speed, const NonlinearVerification& result,
-                   Assessment& assessment) {
-  constexpr double round_off = 1e-6;
-  const double rms = std::max(result.wind.beam_rms, result.wind.predicted_rms);
+// Those required in this wind.
+void count_budgets(const Mission& mission, double wind_speed, Assessment& assessment) {
   for (const auto& budget : mission.budgets) {
-    if (budget.wind_speed != wind_speed) continue;
-    const double limit = (1.0 + round_off) * budget.rms;
-    ++assessment.budgets_required;
-    if (rms <= limit && holds_still(result.hunting, limit)) ++assessment.budgets_met;
+    if (budget.wind_speed == wind_speed) count_budget(budget.rms, assessment);
   }
+}
+
+// `known`: the rms of those runs where they were made already.
+TimeDomainStudy verify(const Mission& mission, const TrackingProblem& problem,
+                       const control::ControlLaw& law, TimeDomainStudy section,
+                       std::optional<SimulatedRms> known) {
+  const SimulatedLoop loop = simulate(mission, problem, law, section);
+  section.rms = known ? std::move(known) : expected_rms(problem, loop, section.options);
+  return section;
 }
 
 }  // namespace
@@ -78,14 +81,15 @@ LimitCycleVerdict limit_cycle_verdict(bool within_budget, bool shown) {
 }
 
 Assessment assessment_of(const NamedController& controller, const NonlinearVerification& result,
-                         double budget) {
+                         const std::optional<SimulatedRms>& expected, double budget) {
   Assessment assessment;
   assessment.structure = controller.name;
   assessment.parts = controller.law.structure.gains().size();
   assessment.stable = assessment.verified = true;
   assessment.nominal_constraints_met = assessment.member_constraints_met = true;
   assessment.linear_rms = result.wind.predicted_rms;
-  assessment.simulated_rms = result.wind.beam_rms;
+  assessment.simulated_rms = expected ? expected->rms.value : result.wind.beam_rms;
+  assessment.expected = expected;
   assessment.limit_cycle_amplitude = hunting_amplitude(result.hunting);
   assessment.limit_cycles =
       limit_cycle_verdict(holds_still(result.hunting, budget), hunting_seen(result.hunting));
@@ -98,9 +102,7 @@ std::optional<TimeDomainStudy> verify_in_time_domain(
   if (!mission.antenna.nonlinear) return std::nullopt;
   TimeDomainStudy section = plan(mission, problem, description, seed, threads);
   section.options.second_integrator = second == SecondIntegrator::cvodes;
-  const SimulatedLoop loop = simulate(mission, problem, law, section);
-  section.rms = expected_rms(problem, loop, section.options);
-  return section;
+  return verify(mission, problem, law, std::move(section), std::nullopt);
 }
 
 std::optional<TimeDomainStudy> choose_in_time_domain(const Mission& mission,
@@ -110,34 +112,29 @@ std::optional<TimeDomainStudy> choose_in_time_domain(const Mission& mission,
                                                      ChoiceDetail detail) {
   if (laws.empty()) throw InvalidInput("choose_in_time_domain: expected laws, found none");
   if (!mission.antenna.nonlinear) return std::nullopt;
-  std::vector<TimeDomainStudy> sections;  // their results among the candidates
-  std::vector<TimeDomainStudy::Candidate> candidates;
+  std::vector<TimeDomainStudy> sections;
   std::vector<Assessment> assessments;
-  std::vector<SimulatedLoop> loops;
   for (const auto& one : laws) {
     TimeDomainStudy section = plan(mission, problem, one.name, seed, threads);
     section.options.explain = false;
-    loops.push_back(simulate(mission, problem, one.law, section));
-    assessments.push_back(assessment_of(one, section.result, tightest_budget(mission)));
-    count_budgets(mission, problem.wind.mean_speed, section.result, assessments.back());
-    candidates.push_back({one.name, std::move(section.result)});
-    sections.push_back(std::move(section));
+    sections.push_back(verify(mission, problem, one.law, std::move(section), std::nullopt));
+    const TimeDomainStudy& seen = sections.back();
+    assessments.push_back(assessment_of(one, seen.result, seen.rms, tightest_budget(mission)));
+    count_budgets(mission, problem.wind.mean_speed, assessments.back());
   }
   // What is shown of none that is fit is shown of the least unfit.
   const std::size_t best =
       recommend(assessments, {.accepted = Fitness::unstable}).winner.value_or(0);
-  if (detail != ChoiceDetail::verified) {
-    TimeDomainStudy chosen = std::move(sections[best]);
-    chosen.result = candidates[best].result;
-    if (detail == ChoiceDetail::expected) {
-      chosen.rms = expected_rms(problem, loops[best], chosen.options);
-    }
-    if (candidates.size() > 1) chosen.candidates = std::move(candidates);
-    return chosen;
+  TimeDomainStudy chosen = sections[best];
+  if (detail == ChoiceDetail::verified) {
+    TimeDomainStudy whole = plan(mission, problem, laws[best].name, seed, threads);
+    whole.options.second_integrator = true;
+    chosen = verify(mission, problem, laws[best].law, std::move(whole), chosen.rms);
   }
-  auto chosen = verify_in_time_domain(mission, problem, laws[best].law, laws[best].name, seed,
-                                      threads, SecondIntegrator::cvodes);
-  if (chosen && candidates.size() > 1) chosen->candidates = std::move(candidates);
+  if (sections.size() == 1) return chosen;
+  for (auto& one : sections) {
+    chosen.candidates.push_back({one.law, std::move(one.result), std::move(one.rms)});
+  }
   return chosen;
 }
 
@@ -156,6 +153,18 @@ std::optional<NonlinearVerification> run_in_time_domain(
   section.options = options;
   simulate(mission, problem, law, section);
   return std::move(section.result);
+}
+
+std::optional<TimeDomainStudy::Candidate> compare_in_time_domain(
+    const Mission& mission, const TrackingProblem& problem, const NamedController& controller,
+    const NonlinearVerificationOptions& options) {
+  if (!mission.antenna.nonlinear) return std::nullopt;
+  TimeDomainStudy section =
+      plan(mission, problem, controller.name, options.seeds.front(), options.threads);
+  section.options = options;
+  section = verify(mission, problem, controller.law, std::move(section), std::nullopt);
+  return TimeDomainStudy::Candidate{controller.name, std::move(section.result),
+                                    std::move(section.rms)};
 }
 
 }  // namespace boresight::design

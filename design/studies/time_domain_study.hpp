@@ -22,8 +22,7 @@ struct TimeDomainStudy {
   double encoder_resolution = 0.0;
   NonlinearVerificationOptions options;
   NonlinearVerification result;
-  /// What several records of wind say of the rms, of which `result` has one; none of controllers
-  /// that were only compared.
+  /// What several records of wind say of the rms, of which `result` has one.
   std::optional<SimulatedRms> rms;
   /// The slew rate asked for is out of reach only for want of stroke: with twice of it it is not.
   bool slew_hangs_on_stroke = false;
@@ -32,6 +31,7 @@ struct TimeDomainStudy {
   struct Candidate {
     std::string law;
     NonlinearVerification result;
+    std::optional<SimulatedRms> rms = std::nullopt;
   };
   std::vector<Candidate> candidates;
 };
@@ -40,10 +40,9 @@ struct TimeDomainStudy {
 /// other runs together.
 enum class SecondIntegrator { none, cvodes };
 
-/// How closely the controller chosen of several is looked at: as the others were; with the interval
-/// of its rms by simulated_rms; or as verify_in_time_domain does with a second integrator, for a
-/// report.
-enum class ChoiceDetail { compared, expected, verified };
+/// How closely the controller chosen of several is looked at: as the others were, or as
+/// verify_in_time_domain does with a second integrator, for a report.
+enum class ChoiceDetail { compared, verified };
 
 /// Simulates a controller on a problem made of the mission: 300 s of wind with every influence
 /// switched off in turn, limit cycles, slow reversals and a slew of one degree at the mission's
@@ -58,10 +57,11 @@ std::optional<TimeDomainStudy> verify_in_time_domain(
 /// `within_budget`: holds_still within the tightest budget; `shown`: hunting_seen.
 LimitCycleVerdict limit_cycle_verdict(bool within_budget, bool shown);
 
-/// A controller that meets every constraint, as recommend() compares it by its simulation.
-/// `budget`: the tightest (rad rms). Of pointing budgets it counts none.
+/// A controller that meets every constraint, as recommend() compares it by its simulation, of the
+/// expected rms where there is one. `budget`: the tightest (rad rms). Of pointing budgets it counts
+/// none.
 Assessment assessment_of(const NamedController& controller, const NonlinearVerification& result,
-                         double budget);
+                         const std::optional<SimulatedRms>& expected, double budget);
 
 /// Of controllers that meet every constraint the one that recommend() chooses by their simulations
 /// and the budgets required in the problem's wind, whatever its fitness; in that detail, with the
@@ -79,6 +79,10 @@ NonlinearVerificationOptions comparison_options(const Mission& mission, std::uin
 /// One of them. None without Antenna::nonlinear. @throws as verify_in_time.
 std::optional<NonlinearVerification> run_in_time_domain(
     const Mission& mission, const TrackingProblem& problem, const control::ControlLaw& law,
+    const NonlinearVerificationOptions& options);
+/// The same with the rms over several records of wind.
+std::optional<TimeDomainStudy::Candidate> compare_in_time_domain(
+    const Mission& mission, const TrackingProblem& problem, const NamedController& controller,
     const NonlinearVerificationOptions& options);
 
 }  // namespace boresight::design

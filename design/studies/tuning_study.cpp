@@ -225,20 +225,27 @@ bool only_unverified(const std::vector<TunedLaw>& laws) {
          std::ranges::none_of(laws, [&](const auto& row) { return tuned(row) && row.usable(); });
 }
 
-// Relative round-off of a budget that is met to the last digit.
-constexpr double round_off = 1e-6;
-
-void count_budget(const TunedLaw& row, double rms, bool with_simulation, Assessment& assessment) {
-  const double limit = (1.0 + round_off) * rms;
-  ++assessment.budgets_required;
-  if (with_simulation ? row.keeps(limit) : row.beam_rms <= limit) ++assessment.budgets_met;
-}
-
 }  // namespace
 
 std::string_view to_string(TunedFor purpose) {
   static constexpr std::array names{"present", "nominal", "robust"};
   return names.at(static_cast<std::size_t>(purpose));
+}
+
+NonlinearEffect TunedLaw::effect() const {
+  if (!in_time) return {};
+  const double simulated = in_time->rms();
+  return {std::isfinite(simulated) ? simulated / beam_rms : std::numeric_limits<double>::infinity(),
+          in_time->hunting};
+}
+
+double TunedLaw::budget_rms() const {
+  return std::hypot(wind_rms(), limit_cycle_rms(effect().amplitude));
+}
+
+bool TunedLaw::keeps(double rms) const {
+  if (in_time && (!in_time->hunting_seen || !std::isfinite(in_time->rms()))) return false;
+  return within_budget(budget_rms(), rms);
 }
 
 Assessment assessment_of(const TuningStudy& section, const TunedLaw& row, bool with_simulation) {
@@ -254,17 +261,16 @@ Assessment assessment_of(const TuningStudy& section, const TunedLaw& row, bool w
   result.linear_rms = row.beam_rms;
   if (with_simulation && row.in_time) {
     const LawInTime& run = *row.in_time;
-    result.simulated_rms = run.beam_rms;
+    result.simulated_rms = run.rms();
+    result.expected = run.expected;
     result.limit_cycle_amplitude = run.hunting;
     result.limit_cycles = limit_cycle_verdict(run.still, run.hunting_seen);
   }
   for (const auto& budget : section.budgets) {
-    if (budget.wind_speed == row.wind_speed) {
-      count_budget(row, budget.rms, with_simulation, result);
-    }
+    if (budget.wind_speed == row.wind_speed) count_budget(budget.rms, result);
   }
   if (section.beam_rms_goal && row.wind_speed == section.wind_speeds.front()) {
-    count_budget(row, *section.beam_rms_goal, with_simulation, result);
+    count_budget(*section.beam_rms_goal, result);
   }
   return result;
 }
@@ -304,7 +310,7 @@ const TunedLaw* nearest_to_budget(const TuningStudy& section, std::optional<doub
     for (const auto& row : section.laws) {
       if (row.tuned_for != linear->tuned_for || row.wind_speed != linear->wind_speed) continue;
       if (!row.usable() || row.left_out() != left_out) continue;
-      if (row.in_time && !std::isfinite(row.in_time->beam_rms)) continue;
+      if (row.in_time && !std::isfinite(row.in_time->rms())) continue;
       if (nearest == nullptr || row.budget_rms() < nearest->budget_rms()) nearest = &row;
     }
     return nearest;

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -72,13 +73,16 @@ CandidateLaw candidate_law(const Mission& mission, const ControllerStudy& study,
   const auto& gains = law.design.tuning.law;
   if (options.time_domain) {
     const auto how = comparison_options(mission, options.seed);
-    const auto* run = study.time_domain ? run_of(*study.time_domain, row) : nullptr;
-    law.time_domain =
-        run != nullptr ? std::optional(*run) : run_in_time_domain(mission, problem, gains, how);
+    auto run = study.time_domain ? run_of(*study.time_domain, row) : std::nullopt;
+    if (!run) run = compare_in_time_domain(mission, problem, {description_of(row), gains}, how);
+    if (run) {
+      law.time_domain = std::move(run->result);
+      law.expected = std::move(run->rms);
+    }
     law.still = !law.time_domain || holds_still(law.time_domain->hunting, how.settled_error);
   }
   law.budgets_met = plants_within_budgets(problem, members, gains, study.tuned.goals,
-                                          mission.budgets, law.nonlinear_factor(), 1);
+                                          mission.budgets, law.effect().for_budgets(), 1);
   return law;
 }
 

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include <boresight/design/problem/budget_speeds.hpp>
 #include <boresight/design/studies/controller_study.hpp>
 #include <boresight/numerics/parallel_loop.hpp>
 
@@ -31,18 +32,9 @@ LawInTime judged(const TimeDomainStudy::Candidate& run, double error) {
           .expected = rms};
 }
 
-// Speeds up to which budgets are met, by its simulation.
 void limit_speeds(const Mission& mission, TunedLaw& row) {
-  const NonlinearEffect effect = row.effect().for_budgets();
-  const auto problem = tracking_problem(mission);
-  auto evaluator = make_evaluator(problem);
-  const control::ControlLaw& law = row.design.tuning.law;
-  const double noise = evaluator.evaluate(law, false).noise_variance;
-  row.speed_limits.clear();
-  for (const auto& budget : mission.budgets) {
-    row.speed_limits.push_back(
-        wind_speed_limit(problem, evaluator, law, noise, effect.linear_limit(budget.rms)));
-  }
+  row.speed_limits = budget_speeds(tracking_problem(mission), row.design.tuning.law,
+                                   mission.budgets, row.effect());
 }
 
 bool needed(const TuningStudy& section, double speed) {

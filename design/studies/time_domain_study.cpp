@@ -1,5 +1,7 @@
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <utility>
 
 #include <boresight/design/problem/drive_reach.hpp>
 #include <boresight/design/studies/time_domain_study.hpp>
@@ -74,6 +76,14 @@ TimeDomainStudy verify(const Mission& mission, const TrackingProblem& problem,
 }
 
 }  // namespace
+
+NonlinearEffect effect_of(const TimeDomainStudy& study) {
+  const auto& wind = study.result.wind;
+  const double simulated = study.rms ? study.rms->rms.value : wind.beam_rms;
+  return {std::isfinite(simulated) ? simulated / wind.predicted_rms
+                                   : std::numeric_limits<double>::infinity(),
+          hunting_amplitude(study.result.hunting)};
+}
 
 LimitCycleVerdict limit_cycle_verdict(bool within_budget, bool shown) {
   if (within_budget) return LimitCycleVerdict::within_budget;
@@ -165,6 +175,16 @@ std::optional<TimeDomainStudy::Candidate> compare_in_time_domain(
   section = verify(mission, problem, controller.law, std::move(section), std::nullopt);
   return TimeDomainStudy::Candidate{controller.name, std::move(section.result),
                                     std::move(section.rms)};
+}
+
+NonlinearEffect simulated_effect(const Mission& mission, const control::ControlLaw& law,
+                                 std::uint64_t seed, unsigned threads) {
+  if (!mission.antenna.nonlinear) return {};
+  const auto problem = tracking_problem(mission);
+  TimeDomainStudy section = plan(mission, problem, "", seed, threads);
+  section.options.explain = false;
+  section.options.slew_distance = 0.0;
+  return effect_of(verify(mission, problem, law, std::move(section), std::nullopt));
 }
 
 }  // namespace boresight::design

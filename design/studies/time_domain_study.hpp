@@ -36,6 +36,10 @@ struct TimeDomainStudy {
   std::vector<Candidate> candidates;
 };
 
+/// What it says beyond the linear prediction, by the expected rms, without one by the single
+/// record.
+NonlinearEffect effect_of(const TimeDomainStudy& study);
+
 /// Whether CVODES repeats the run in wind (integrator_agreement), which takes about as long as all
 /// other runs together.
 enum class SecondIntegrator { none, cvodes };
@@ -84,5 +88,8 @@ std::optional<NonlinearVerification> run_in_time_domain(
 std::optional<TimeDomainStudy::Candidate> compare_in_time_domain(
     const Mission& mission, const TrackingProblem& problem, const NamedController& controller,
     const NonlinearVerificationOptions& options);
+/// Its effect_of in the mission's wind; no effect without Antenna::nonlinear.
+NonlinearEffect simulated_effect(const Mission& mission, const control::ControlLaw& law,
+                                 std::uint64_t seed, unsigned threads);
 
 }  // namespace boresight::design

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include <boresight/design/problem/budget_speeds.hpp>
 #include <boresight/design/studies/time_domain_study.hpp>
 #include <boresight/design/studies/tuning_study.hpp>
 #include <boresight/design/tuning/structure_parts.hpp>
@@ -148,10 +149,8 @@ class Study {
     control::LoopEvaluator evaluator = make_evaluator(problem);
     const auto evaluation = evaluator.evaluate(law, false);
     row.beam_rms = std::sqrt(evaluation.beam_variance()) / problem.gear_ratio;
-    for (const auto& budget : section_.budgets) {
-      row.speed_limits.push_back(
-          wind_speed_limit(problem, evaluator, law, evaluation.noise_variance, budget.rms));
-    }
+    row.speed_limits = budget_speeds(problem, evaluator, law, evaluation.noise_variance,
+                                     section_.budgets, NonlinearEffect{});
     if (!mission_.climate.empty()) {
       problem.climate = mission_.climate;
       row.climate_rms = std::sqrt(make_evaluator(problem).evaluate(law, false).beam_variance()) /

@@ -108,8 +108,8 @@ BenchmarkStudy study_rejection(const Mission& mission, const std::vector<Ensembl
     study.nonlinear =
         verify_in_time_domain(mission, problem, *study.controller.law, study.controller.description,
                               options.seed, options.threads, SecondIntegrator::none);
-    study.simulated_budget_speeds =
-        budget_speeds(problem, *study.controller.law, study.budgets, effect_of(*study.nonlinear));
+    study.simulated_budget_speeds = budget_speeds(problem, *study.controller.law, study.budgets,
+                                                  study.nonlinear->own().effect());
   }
   return study;
 }

@@ -52,7 +52,7 @@ std::optional<TimeDomainStudy::Candidate> run_of(const TimeDomainStudy& section,
                                                  const TunedLaw& row) {
   if (section.wind_speed != row.wind_speed) return std::nullopt;
   const std::string law = description_of(row);
-  if (section.law == law) return TimeDomainStudy::Candidate{law, section.result, section.rms};
+  if (section.law == law) return section.own();
   const auto one = std::ranges::find(section.candidates, law, &TimeDomainStudy::Candidate::law);
   return one == section.candidates.end() ? std::nullopt : std::optional(*one);
 }

@@ -245,7 +245,7 @@ RedesignStudy redesign(const Mission& mission, const PlantEnsemble& ensemble,
   RedesignStudy result;
   result.time_domain = time_domain_of(mission, study, best, task);
   const NonlinearEffect effect =
-      result.time_domain ? effect_of(*result.time_domain).for_budgets() : NonlinearEffect{};
+      result.time_domain ? result.time_domain->own().effect().for_budgets() : NonlinearEffect{};
   result.recommended =
       recommended_design(mission, best, effect, task.seed, {designs.begin(), first_alternative});
   result.recommended.fitness = fitness(assessment_of(study.tuned, best));

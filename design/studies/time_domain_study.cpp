@@ -77,12 +77,18 @@ TimeDomainStudy verify(const Mission& mission, const TrackingProblem& problem,
 
 }  // namespace
 
-NonlinearEffect effect_of(const TimeDomainStudy& study) {
-  const auto& wind = study.result.wind;
-  const double simulated = study.rms ? study.rms->rms.value : wind.beam_rms;
-  return {std::isfinite(simulated) ? simulated / wind.predicted_rms
+NonlinearEffect SimulatedCandidate::effect() const {
+  const double simulated = simulated_rms();
+  return {std::isfinite(simulated) ? simulated / result.wind.predicted_rms
                                    : std::numeric_limits<double>::infinity(),
-          hunting_amplitude(study.result.hunting)};
+          hunting_amplitude(result.hunting)};
+}
+
+std::optional<numerics::Interval> figure_change(const SimulatedCandidate& from,
+                                                const SimulatedCandidate& to) {
+  if (!from.rms || !to.rms) return std::nullopt;
+  return relative_change({*from.rms, hunting_amplitude(from.result.hunting)},
+                         {*to.rms, hunting_amplitude(to.result.hunting)});
 }
 
 LimitCycleVerdict limit_cycle_verdict(bool within_budget, bool shown) {
@@ -184,7 +190,7 @@ NonlinearEffect simulated_effect(const Mission& mission, const control::ControlL
   TimeDomainStudy section = plan(mission, problem, "", seed, threads);
   section.options.explain = false;
   section.options.slew_distance = 0.0;
-  return effect_of(verify(mission, problem, law, std::move(section), std::nullopt));
+  return verify(mission, problem, law, std::move(section), std::nullopt).own().effect();
 }
 
 }  // namespace boresight::design

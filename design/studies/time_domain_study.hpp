@@ -13,6 +13,23 @@
 
 namespace boresight::design {
 
+/// One controller of several that were compared on the nonlinear antenna.
+struct SimulatedCandidate {
+  std::string law;  // NamedController::name
+  NonlinearVerification result;
+  std::optional<SimulatedRms> rms = std::nullopt;  // over several records of wind
+
+  /// The rms that it is judged by (rad): over several records, without them of the single one; NaN
+  /// where a run did not complete.
+  double simulated_rms() const { return rms ? rms->rms.value : result.wind.beam_rms; }
+  /// What it says beyond the linear prediction.
+  NonlinearEffect effect() const;
+};
+
+/// relative_change of their rms with the limit cycles; none without records of the same winds.
+std::optional<numerics::Interval> figure_change(const SimulatedCandidate& from,
+                                                const SimulatedCandidate& to);
+
 /// A tuned controller in the time domain, on the nonlinear antenna of its mission.
 struct TimeDomainStudy {
   std::string law;           // NamedController::name
@@ -28,17 +45,12 @@ struct TimeDomainStudy {
   bool slew_hangs_on_stroke = false;
   /// The controllers that this one was chosen from, itself included, influences not told apart;
   /// empty where there was no choice.
-  struct Candidate {
-    std::string law;
-    NonlinearVerification result;
-    std::optional<SimulatedRms> rms = std::nullopt;
-  };
+  using Candidate = SimulatedCandidate;
   std::vector<Candidate> candidates;
-};
 
-/// What it says beyond the linear prediction, by the expected rms, without one by the single
-/// record.
-NonlinearEffect effect_of(const TimeDomainStudy& study);
+  /// Itself, as one of them.
+  Candidate own() const { return {law, result, rms}; }
+};
 
 /// Whether CVODES repeats the run in wind (integrator_agreement), which takes about as long as all
 /// other runs together.
@@ -88,7 +100,7 @@ std::optional<NonlinearVerification> run_in_time_domain(
 std::optional<TimeDomainStudy::Candidate> compare_in_time_domain(
     const Mission& mission, const TrackingProblem& problem, const NamedController& controller,
     const NonlinearVerificationOptions& options);
-/// Its effect_of in the mission's wind; no effect without Antenna::nonlinear.
+/// Its effect in the mission's wind; no effect without Antenna::nonlinear.
 NonlinearEffect simulated_effect(const Mission& mission, const control::ControlLaw& law,
                                  std::uint64_t seed, unsigned threads);
 

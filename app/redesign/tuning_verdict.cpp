@@ -260,6 +260,10 @@ void conclude_tuning(const Report& report, const TuningSection& section,
   }
   if (!section.budgets.empty()) text += judged_by(report.time_domain);
   add(text + ".");
+  if (!section.ties.empty()) {
+    add(fmt::format("A tie with it, within {:.0f} % or what the same winds leave open: {}.",
+                    100.0 * negligible_change, fmt::join(section.ties, "; ")));
+  }
   for (auto& need : unmet_needs(section, report.time_domain)) add(std::move(need));
   add(robustness_text(section));
   add(needs_on_plants(section, false));

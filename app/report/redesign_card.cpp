@@ -154,6 +154,9 @@ CardLine pointing_line(const Report& report, const TuningSection& section) {
   if (tightest != section.budgets.end()) {
     text += fmt::format("; budget {}", mdeg(tightest->budget.rms));
   }
+  if (!section.ties.empty()) {
+    text += fmt::format("; a tie with {}", fmt::join(section.ties, "; "));
+  }
   return {"Error per axis", text, std::string(simulated(report) ? in_time : loops)};
 }
 

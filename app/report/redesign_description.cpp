@@ -223,6 +223,9 @@ void describe(io::Visitor& v, const TuningSection& section) {
          "What the recommended controller was tuned for: the case's plant alone, or all of the "
          "ensemble.");
   v.object("design", section.design, "The controller recommended, by tune.");
+  v.texts("ties", section.ties,
+          "Other controllers whose simulated rms, limit cycle included, does not differ by more "
+          "than 2 % or than the same winds leave open.");
   v.object("effect", section.effect,
            "Of its simulation, at least that of the linear plant: budgets are judged by it.");
   v.count("seeds_within_1_percent", section.seeds_within_1_percent,

@@ -134,8 +134,8 @@ namespace {
 std::string recommended_first(const design::TuningStudy& study) {
   const TunedLaw* law = recommended_law(study);
   if (law == nullptr) return "No controller is recommended: no tuned controller is fit.";
-  const bool simulated = law->in_time && std::isfinite(law->in_time->beam_rms);
-  if (simulated && law->in_time->expected && std::isfinite(law->in_time->expected->rms.value)) {
+  const bool simulated = law->in_time && std::isfinite(law->in_time->rms());
+  if (simulated && law->in_time->expected) {
     const auto& expected = *law->in_time->expected;
     return fmt::format(
         "Recommended: {}, {:.3f} mdeg rms per axis in {:.3g} m/s wind, simulated ({}).",
@@ -143,10 +143,17 @@ std::string recommended_first(const design::TuningStudy& study) {
         interval_text(expected, law->beam_rms));
   }
   return fmt::format("Recommended: {}, {:.3f} mdeg rms per axis in {:.3g} m/s wind, {}.",
-                     name_and_purpose(*law),
-                     mdeg(simulated ? law->in_time->beam_rms : law->beam_rms), law->wind_speed,
+                     name_and_purpose(*law), mdeg(simulated ? law->in_time->rms() : law->beam_rms),
+                     law->wind_speed,
                      simulated ? fmt::format("simulated ({:.3f} linear)", mdeg(law->beam_rms))
                                : std::string("linear plant, not simulated"));
+}
+
+void add_ties(const design::TuningStudy& study, const TunedLaw* recommended, Sentences& sentences) {
+  if (recommended == nullptr) return;
+  if (std::string text = ties_text(study, *recommended); !text.empty()) {
+    sentences.push_back(std::move(text));
+  }
 }
 
 }  // namespace
@@ -157,6 +164,7 @@ std::vector<std::string> decision(const MatchSection& section) {
   Sentences sentences = decide_inertia(kept, kept.series.size() < section.series.size());
   if (section.tuned_as_built) {
     sentences.insert(sentences.begin(), "As built: " + recommended_first(*section.tuned_as_built));
+    add_ties(*section.tuned_as_built, recommended_law(*section.tuned_as_built), sentences);
   }
   for (const auto& series : section.series) {
     if (!series.best || !hunts(section, series) || kept.series.empty()) continue;
@@ -174,18 +182,27 @@ std::vector<std::string> decision(const MatchSection& section) {
 
 namespace {
 
-// Whether several candidates are eligible and their means over the samples differ negligibly.
-bool all_alike(const EvaluateSection& section, const DecisionSection& draws) {
-  const auto& losses = draws.ranking.losses;
-  double least = HUGE_VAL, largest = 0.0;
-  int fit = 0;
-  for (std::size_t i = 0; i < draws.candidates.size(); ++i) {
-    if (!section.candidates[draws.candidates[i].candidate].feasible()) continue;
-    ++fit;
-    least = std::min(least, losses[i]);
-    largest = std::max(largest, losses[i]);
+// The eligible candidates that tie with the best, it included, where there are others.
+std::vector<std::string> ties_of(const EvaluateSection& section, const DecisionSection& draws) {
+  std::vector<std::string> names;
+  for (std::size_t i = 0; i < draws.tied.size(); ++i) {
+    if (draws.tied[i]) names.push_back(section.candidates[draws.candidates[i].candidate].name);
   }
-  return fit > 1 && largest < (1.0 + negligible_change) * least;
+  if (names.size() < 2) names.clear();
+  return names;
+}
+
+// Whether every eligible candidate is among them.
+bool all_alike(const EvaluateSection& section, const std::vector<std::string>& ties) {
+  const auto eligible = std::ranges::count_if(section.candidates, &Candidate::feasible);
+  return !ties.empty() && static_cast<std::ptrdiff_t>(ties.size()) == eligible;
+}
+
+// What makes a tie of two simulated or two linear rms.
+std::string tie_rule(const EvaluateSection& section) {
+  return fmt::format(
+      "{:.0f} %{}", 100.0 * negligible_change,
+      section.time_domain ? " or the 95 % interval of the difference over the same winds" : "");
 }
 
 }  // namespace
@@ -202,10 +219,10 @@ std::vector<std::string> decision(const EvaluateSection& section) {
     const std::string currency = section.currency.empty() ? "of cost" : section.currency;
     const auto& ranking = draws.ranking;
     const std::string mean =
-        fmt::format("{:.3f} mdeg rms {} {} {} samples in {:.3g} m/s", ranking.losses[choice],
+        fmt::format("{:.3f} mdeg rms {} {} {} samples in {:.3g} m/s, {}", ranking.losses[choice],
                     measure_phrase(ranking.measure),
                     ranking.measure == design::LossMeasure::mean ? "over" : "of", draws.draws,
-                    section.wind_speed);
+                    section.wind_speed, section.time_domain ? "simulated" : "linear");
     const bool fit = chosen.feasible();
     const std::string yet = none.empty() ? "Choose nothing yet." : none;
     std::string text =
@@ -230,11 +247,15 @@ std::vector<std::string> decision(const EvaluateSection& section) {
                       fmt::join(hunting, ", ")));
     }
     const std::string name = chosen.path.empty() ? "The antenna as it is" : chosen.name;
-    if (all_alike(section, draws)) {
+    const auto ties = ties_of(section, draws);
+    if (all_alike(section, ties)) {
       sentences.push_back(
-          fmt::format("All eligible proposals are within {:.0f} % of one another: choose by their "
+          fmt::format("All eligible proposals tie, within {}: choose by their "
                       "other effects.",
-                      100.0 * negligible_change));
+                      tie_rule(section)));
+    } else if (!ties.empty()) {
+      sentences.push_back(
+          fmt::format("A tie, within {}: {}.", tie_rule(section), fmt::join(ties, ", ")));
     }
     if (fit) {
       sentences.push_back(
@@ -320,6 +341,7 @@ std::vector<std::string> decision(const TuneSection& section,
       sentences.push_back(std::move(others));
     }
   }
+  add_ties(section, recommended, sentences);
   if (limit && limit->least_rms > 0.0) {
     sentences.push_back(
         fmt::format("Lower bound with these sensors, sampling and control effort: {:.3f} mdeg on "
@@ -338,9 +360,10 @@ std::vector<std::string> decision(const MonteCarloSection& section) {
   if (!section.budgets.empty()) {
     const auto& one = section.budgets.front();
     sentences.push_back(
-        fmt::format("{} (band {}, {:.3f} mdeg) is met on {:.1f} % of the plants in {:.3g} m/s.",
+        fmt::format("{} (band {}, {:.3f} mdeg) is met on {:.1f} % of the plants in {:.3g} m/s, "
+                    "{}.",
                     one.budget.name, one.budget.band, mdeg(one.budget.rms), 100.0 * one.met.value,
-                    section.wind_speed));
+                    section.wind_speed, judged_by(section.effect)));
   }
   const auto most = std::ranges::max_element(
       section.correlations, {}, [](const auto& one) { return std::abs(one.with_rms.value); });
@@ -353,6 +376,26 @@ std::vector<std::string> decision(const MonteCarloSection& section) {
   return sentences;
 }
 
+namespace {
+
+// What a simulation says beside a linear rms.
+std::string beside_linear(const std::optional<design::TimeDomainStudy>& simulated) {
+  if (!simulated) return "linear plant, not simulated";
+  const auto own = simulated->own();
+  if (!std::isfinite(own.simulated_rms())) return "linear; its simulation was lost";
+  std::string text =
+      own.rms ? fmt::format("linear; {:.3f} simulated (95 % {:.3f} to {:.3f} over {} winds)",
+                            mdeg(own.rms->rms.value), mdeg(own.rms->rms.lower),
+                            mdeg(own.rms->rms.upper), own.rms->records)
+              : fmt::format("linear; {:.3f} simulated in one record", mdeg(own.simulated_rms()));
+  if (const double amplitude = own.effect().amplitude; amplitude > 0.0) {
+    text += fmt::format(", limit cycle +-{:.2f}", mdeg(amplitude));
+  }
+  return text;
+}
+
+}  // namespace
+
 std::vector<std::string> decision(const BenchmarkReport& report) {
   if (!report.score.stable && report.present_gains && report.controller.law) {
     return {unstable_present_gains(report.controller.law->structure.name())};
@@ -364,9 +407,9 @@ std::vector<std::string> decision(const BenchmarkReport& report) {
                     report.controller.description, report.score.abscissa)};
   }
   const auto& score = report.score;
-  Sentences sentences{fmt::format("{} has {:.3f} mdeg rms per axis in {:.3g} m/s of wind.",
+  Sentences sentences{fmt::format("{} has {:.3f} mdeg rms per axis in {:.3g} m/s of wind, {}.",
                                   report.controller.description, mdeg(score.design_wind.beam_rms),
-                                  score.design_wind.mean_speed)};
+                                  score.design_wind.mean_speed, beside_linear(report.nonlinear))};
   if (score.ensemble) {
     sentences.push_back(fmt::format(
         "It is stable on {} of {} ensemble members and meets the constraints on {}.",

@@ -248,6 +248,9 @@ RedesignStudy redesign(const Mission& mission, const PlantEnsemble& ensemble,
       result.time_domain ? result.time_domain->own().effect().for_budgets() : NonlinearEffect{};
   result.recommended =
       recommended_design(mission, best, effect, task.seed, {designs.begin(), first_alternative});
+  for (const auto* row : tied_with(study.tuned, best)) {
+    result.recommended.ties.push_back(description_of(*row));
+  }
   result.recommended.fitness = fitness(assessment_of(study.tuned, best));
   std::vector<Design> other(first_alternative, first_row);
   improve_along(alternatives, other);

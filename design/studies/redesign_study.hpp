@@ -32,6 +32,7 @@ struct RecommendedDesign {
   /// What budgets are judged by beyond the linear rms (NonlinearEffect::for_budgets), also at other
   /// wind speeds, with other wind models and on ensemble members; of no simulation where none ran.
   NonlinearEffect effect;
+  std::vector<std::string> ties;  // description_of other controllers that tied_with finds
   /// Gains that the antenna runs on now, evaluated on the same plant.
   struct PresentLaw {
     std::string structure;

@@ -274,17 +274,50 @@ Assessment assessment_of(const TuningStudy& section, const TunedLaw& row, bool w
   return result;
 }
 
-const TunedLaw* recommended_at(const TuningStudy& section, double wind_speed, bool with_simulation,
-                               const RecommendOptions& options) {
+namespace {
+
+// The tuned controllers of one wind speed, and the choice among them.
+struct Choice {
   std::vector<const TunedLaw*> rows;
+  Recommendation recommendation;
+};
+
+Choice choose_at(const TuningStudy& section, double wind_speed, bool with_simulation,
+                 const RecommendOptions& options) {
+  Choice choice;
   std::vector<Assessment> candidates;
   for (const auto& row : section.laws) {
     if (row.tuned_for == TunedFor::present || row.wind_speed != wind_speed) continue;
-    rows.push_back(&row);
+    choice.rows.push_back(&row);
     candidates.push_back(assessment_of(section, row, with_simulation));
   }
-  const auto winner = recommend(candidates, options).winner;
-  return winner ? rows[*winner] : nullptr;
+  choice.recommendation = recommend(candidates, options);
+  return choice;
+}
+
+}  // namespace
+
+const TunedLaw* recommended_at(const TuningStudy& section, double wind_speed, bool with_simulation,
+                               const RecommendOptions& options) {
+  const Choice choice = choose_at(section, wind_speed, with_simulation, options);
+  const auto winner = choice.recommendation.winner;
+  return winner ? choice.rows[*winner] : nullptr;
+}
+
+std::vector<const TunedLaw*> tied_with(const TuningStudy& section, const TunedLaw& recommended) {
+  const Choice choice = choose_at(section, recommended.wind_speed, true, {});
+  std::vector<const TunedLaw*> tied;
+  for (const auto& rejected : choice.recommendation.rejected) {
+    if (rejected.tied) tied.push_back(choice.rows[rejected.index]);
+  }
+  return tied;
+}
+
+std::optional<numerics::Interval> figure_change(const TunedLaw& from, const TunedLaw& to) {
+  if (!from.in_time || !to.in_time) return std::nullopt;
+  const LawInTime &one = *from.in_time, &other = *to.in_time;
+  if (!one.expected || !other.expected) return std::nullopt;
+  return relative_change({*one.expected, one.hunting}, {*other.expected, other.hunting});
 }
 
 const TunedLaw* best_law(const TuningStudy& section, std::optional<double> wind_speed) {

@@ -147,6 +147,13 @@ const TunedLaw* recommended_law(const TuningStudy& study, std::optional<double> 
 Assessment assessment_of(const TuningStudy& study, const TunedLaw& row,
                          bool with_simulation = true);
 
+/// The tuned controllers of its wind speed whose figure is a tie with that of the one recommended
+/// there (RejectedController::tied).
+std::vector<const TunedLaw*> tied_with(const TuningStudy& study, const TunedLaw& recommended);
+
+/// figure_change of two tuned controllers by their simulations.
+std::optional<numerics::Interval> figure_change(const TunedLaw& from, const TunedLaw& to);
+
 /// recommend() over the tuned controllers of one wind speed. Null without a winner.
 const TunedLaw* recommended_at(const TuningStudy& study, double wind_speed, bool with_simulation,
                                const RecommendOptions& options);

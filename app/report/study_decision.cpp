@@ -83,8 +83,31 @@ Sentences unstable_now(const TuneSection& section) {
   return sentences;
 }
 
-// Of structures free of limit cycles; `others_hunt`: some were excluded.
-Sentences decide_inertia(const MatchSection& section, bool others_hunt) {
+// Motors compared as evaluate compares antennas, by simulation; empty without runs of several.
+std::string decide_motors(const MatchSection& section) {
+  const auto ranked = ranked_motors(section);
+  const auto built = std::ranges::find(ranked, as_built(section), &design::RankedMotors::point);
+  if (ranked.size() < 2 || built == ranked.end()) return "";
+  std::vector<std::string> figures;
+  for (const auto& motors : ranked) {
+    figures.push_back(fmt::format("{:g} disks{} {:.3f} mdeg with {}",
+                                  section.points[motors.point].disks,
+                                  motors.point == built->point ? " (as built)" : "",
+                                  mdeg(motors.compared_rms), section.series[motors.series].name));
+  }
+  const MatchPoint& best = section.points[ranked.front().point];
+  return fmt::format(
+      "Compared as `evaluate` compares, simulated, over {} plants, limit cycle included: {}: {}.",
+      std::max<std::size_t>(section.members, 1), fmt::join(figures, ", "),
+      !built->tied ? fmt::format("change to {:g} disks, {:.1f} % better than as built", best.disks,
+                                 100.0 * (1.0 - ranked.front().compared_rms / built->compared_rms))
+      : built == ranked.begin() ? std::string("keep the motors as built")
+                                : std::string("a tie, keep the motors as built"));
+}
+
+// Of structures free of limit cycles; `others_hunt`: some were excluded; `compared`: decide_motors
+// decides on the flywheels.
+Sentences decide_inertia(const MatchSection& section, bool others_hunt, bool compared) {
   const MatchSeries* best = recommended_structure(section, [](const MatchSeries&) { return true; });
   if (best == nullptr) {
     return {others_hunt ? "No structure that meets the constraints is shown free of limit cycles "
@@ -96,7 +119,7 @@ Sentences decide_inertia(const MatchSection& section, bool others_hunt) {
   const MatchPoint& point = section.points[best_point];
   const MatchValue& present = best->values[built];
   const MatchSeries* moved = most_moved(section);
-  if (moved != nullptr && weighed(section, *best) && hardly_matters(section)) {
+  if (!compared && moved != nullptr && weighed(section, *best) && hardly_matters(section)) {
     return {fmt::format(
         "Leave the flywheels as they are: with {} loops the rms as built is {:.3f} mdeg in {:g} "
         "m/s, and from {:g} to {:g} disks on each motor no structure's rms changes by more than "
@@ -117,7 +140,7 @@ Sentences decide_inertia(const MatchSection& section, bool others_hunt) {
       best->within_5_percent.lowest, best->within_5_percent.highest)};
   const bool inertia_matters =
       !present.found || present.beam_rms / least - 1.0 >= negligible_change;
-  if (present.found) {
+  if (present.found && !compared) {
     sentences.push_back(first_change(section, *best, others_hunt || section.series.size() > 1));
   }
   if (auto text = measure_friction(section); inertia_matters && !text.empty()) {
@@ -161,7 +184,10 @@ void add_ties(const design::TuningStudy& study, const TunedLaw* recommended, Sen
 std::vector<std::string> decision(const MatchSection& section) {
   MatchSection kept = section;
   std::erase_if(kept.series, [&](const MatchSeries& series) { return hunts(section, series); });
-  Sentences sentences = decide_inertia(kept, kept.series.size() < section.series.size());
+  std::string motors = decide_motors(section);
+  Sentences sentences =
+      decide_inertia(kept, kept.series.size() < section.series.size(), !motors.empty());
+  if (!motors.empty()) sentences.insert(sentences.begin(), std::move(motors));
   if (section.tuned_as_built) {
     sentences.insert(sentences.begin(), "As built: " + recommended_first(*section.tuned_as_built));
     add_ties(*section.tuned_as_built, recommended_law(*section.tuned_as_built), sentences);

@@ -31,15 +31,6 @@ std::vector<EnsembleMember> members_of(const Mission& as_is, const Mission& prop
   return members;
 }
 
-double over_members(const EnsembleResult& ensemble) {
-  double sum = 0.0;
-  for (const auto& member : ensemble.members) {
-    if (!member.stable) return infinity;
-    sum += member.beam_rms * member.beam_rms;
-  }
-  return std::sqrt(sum / static_cast<double>(ensemble.members.size()));
-}
-
 // Where none is fit the least unfit; of those that miss their goals the nearest to them; null
 // without a stable one.
 const TunedLaw* standing_for(const ControllerStudy& study) {
@@ -65,7 +56,7 @@ CandidateLaw candidate_law(const Mission& mission, const ControllerStudy& study,
   if (!law.stable() || !row.ensemble) return law;
   const EnsembleResult& ensemble = *row.ensemble;
   law.ensemble = ensemble;
-  law.member_rms = over_members(ensemble);
+  law.member_rms = rms_over_members(ensemble);
   law.goals_met = law.design.tuning.status == TuningStatus::optimal &&
                   ensemble.within_goals == static_cast<int>(members.size());
   TrackingProblem problem = tracking_problem(mission);

@@ -217,13 +217,10 @@ class Decision {
   ProposalDecision found_;
 };
 
-// How far apart (relative) the simulated figures of two laws may be by chance of the wind; 0
-// without records of the same winds.
-double left_open(const CandidateLaw& one, const CandidateLaw& other) {
+double left_open_between(const CandidateLaw& one, const CandidateLaw& other) {
   if (!one.expected || !other.expected) return 0.0;
-  const auto change = relative_change({*one.expected, one.effect().amplitude},
-                                      {*other.expected, other.effect().amplitude});
-  return change ? 0.5 * (change->upper - change->lower) : 0.0;
+  return left_open({*one.expected, one.effect().amplitude},
+                   {*other.expected, other.effect().amplitude});
 }
 
 // Of candidates in their order, with the one of the places that is best.
@@ -235,7 +232,7 @@ std::vector<bool> tied_with(std::size_t best, const std::vector<ProposedDesign>&
   for (std::size_t i = 0; i < fit.size(); ++i) {
     const CandidateLaw* law = candidates[decision.candidates[i].candidate].chosen_law();
     if (!fit[i] || !fit[best] || law == nullptr || least == nullptr) continue;
-    const double allowed = std::max(negligible_change, left_open(*least, *law));
+    const double allowed = std::max(negligible_change, left_open_between(*least, *law));
     tied[i] = losses[i] <= (1.0 + allowed) * losses[best];
   }
   return tied;

@@ -133,4 +133,9 @@ std::optional<numerics::Interval> relative_change(const SimulatedFigure& from,
   return result;
 }
 
+double left_open(const SimulatedFigure& one, const SimulatedFigure& other) {
+  const auto change = relative_change(one, other);
+  return change ? 0.5 * (change->upper - change->lower) : 0.0;
+}
+
 }  // namespace boresight::design

@@ -57,4 +57,8 @@ struct SimulatedFigure {
 std::optional<numerics::Interval> relative_change(const SimulatedFigure& from,
                                                   const SimulatedFigure& to);
 
+/// How far (relative) two such figures may be apart by chance of the wind, where what they are
+/// taken to was not simulated itself: half the width of that interval; 0 without one.
+double left_open(const SimulatedFigure& one, const SimulatedFigure& other);
+
 }  // namespace boresight::design

@@ -145,11 +145,9 @@ CardLine pointing_line(const Report& report, const TuningSection& section) {
                         report.time_domain->wind_speed, mdeg(section.design.beam_rms))
           : fmt::format("{} mdeg rms in {:.3g} m/s wind, linear plant, not simulated",
                         mdeg(section.design.beam_rms), section.design_speed);
-  if (const double cycle = section.effect.amplitude; simulated(report) && cycle > 0.0) {
-    const double rms =
-        expected != nullptr ? expected->rms.value : report.time_domain->result.wind.beam_rms;
-    text += fmt::format("; {} with the limit cycle",
-                        mdeg(design::NonlinearEffect{1.0, cycle}.rms(rms)));
+  if (section.effect.amplitude > 0.0) {
+    text +=
+        fmt::format("; {} with the limit cycle", mdeg(section.effect.rms(section.design.beam_rms)));
   }
   if (tightest != section.budgets.end()) {
     text += fmt::format("; budget {}", mdeg(tightest->budget.rms));

@@ -30,9 +30,9 @@ NonlinearEffect nonlinear_effect(const Assessment& assessment) {
 }
 
 double ranking_figure(const Assessment& assessment) {
-  const NonlinearEffect effect = nonlinear_effect(assessment);
-  if (!std::isfinite(effect.factor)) return assessment.linear_rms;
-  return effect.rms(assessment.linear_rms);
+  const double wind = assessment.simulated_rms.value_or(assessment.linear_rms);
+  if (!std::isfinite(wind)) return assessment.linear_rms;
+  return std::hypot(wind, limit_cycle_rms(assessment.limit_cycle_amplitude.value_or(0.0)));
 }
 
 void count_budget(double budget, Assessment& assessment) {

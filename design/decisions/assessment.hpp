@@ -66,7 +66,8 @@ Fitness fitness(const Assessment& assessment);
 NonlinearEffect nonlinear_effect(const Assessment& assessment);
 
 /// What controllers of equal fitness are ranked by, rad rms: NonlinearEffect::rms of the linear
-/// rms; the linear rms where a run in wind did not complete.
+/// rms, which is the simulated rms with the limit cycle; the linear rms where a run in wind did not
+/// complete.
 double ranking_figure(const Assessment& assessment);
 
 /// Counts one budget (rad rms) as required, and as met if NonlinearEffect::for_budgets keeps it, no

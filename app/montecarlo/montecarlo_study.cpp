@@ -233,7 +233,7 @@ MonteCarloSection section_of(design::MonteCarloSummary summary,
   section.gains = io::GainUnits(antenna).texts(held.law);
   section.wind_model = study.problem.wind.model;
   section.wind_speed = study.problem.wind.mean_speed;
-  section.assumed = assumed_inputs(antenna);
+  section.assumed = assumed_inputs(antenna, {.time_runs = section.effect.factor != 1.0});
   return section;
 }
 

@@ -9,6 +9,7 @@
 #include <boresight/app/figures/law_figures.hpp>
 #include <boresight/app/report/sky_units.hpp>
 #include <boresight/control/loops/closed_loop.hpp>
+#include <boresight/design/problem/budget_speeds.hpp>
 #include <boresight/design/problem/pointing_budget.hpp>
 #include <boresight/design/tuning/design_study.hpp>
 #include <boresight/numerics/angles.hpp>
@@ -287,10 +288,13 @@ Figure rms_against_wind(const std::string& id, const std::string& section,
   figure.title = "Boresight rms against wind speed";
   figure.caption = fmt::format(
       "Boresight rms per axis, fixed gains. Lines: budgets of each band; circles: wind speeds up "
-      "to which {} meets them. Wind model {}, linear plant with friction {:g} N.m.s/rad. Limits of "
-      "supply and valve are not included.",
+      "to which {} meets them. Wind model {}, linear plant with friction {:g} N.m.s/rad{}. Limits "
+      "of supply and valve are not included.",
       laws.empty() ? "a controller" : laws.front().name, plant::to_string(problem.wind.model),
-      problem.plant.drive.viscous_friction);
+      problem.plant.drive.viscous_friction,
+      std::ranges::any_of(laws, &ComparedLaw::simulated)
+          ? ", by what the simulation of each controller that ran adds, limit cycle included"
+          : "");
   figure.x = {.label = "mean wind speed", .unit = "m/s"};
   FigurePanel panel;
   panel.y = {.label = "boresight rms", .unit = "mdeg"};
@@ -305,8 +309,9 @@ Figure rms_against_wind(const std::string& id, const std::string& section,
   double fastest = 1.5 * problem.wind.mean_speed;
   for (std::size_t i = 0; i < laws.size(); ++i) {
     for (const auto& budget : budgets) {
-      const double limit = design::wind_speed_limit(problem, evaluator, laws[i].law,
-                                                    laws[i].noise_variance, budget.rms);
+      const double limit = design::budget_speeds(problem, evaluator, laws[i].law,
+                                                 laws[i].noise_variance, {budget}, laws[i].drawn())
+                               .front();
       if (!(limit > 0.0) || !std::isfinite(limit)) continue;
       fastest = std::max(fastest, std::min(1.08 * limit, 3.0 * problem.wind.mean_speed));
       if (i > 0) continue;
@@ -320,9 +325,9 @@ Figure rms_against_wind(const std::string& id, const std::string& section,
     for (int i = 1; i <= points; ++i) {
       const double speed = fastest * i / points;
       series.x.push_back(speed);
-      series.y.push_back(
-          design::beam_rms_at_speed(problem, evaluator, transmission, law.noise_variance, speed) /
-          millidegree);
+      const double linear =
+          design::beam_rms_at_speed(problem, evaluator, transmission, law.noise_variance, speed);
+      series.y.push_back(law.drawn().rms(linear) / millidegree);
     }
     panel.series.push_back(std::move(series));
   }

@@ -39,7 +39,7 @@ std::vector<Figure> tuning_figures(const TuningSection& section) {
   std::vector<design::PointingBudget> budgets;
   for (const auto& result : section.budgets) budgets.push_back(result.budget);
   figures.push_back(rms_against_wind("tuned-rms-against-wind", title, section.problem,
-                                     {{name, design.tuning.law, noise}}, budgets));
+                                     {{name, design.tuning.law, noise, section.effect}}, budgets));
   return figures;
 }
 

@@ -145,7 +145,7 @@ CardLine pointing_line(const Report& report, const TuningSection& section) {
                         report.time_domain->wind_speed, mdeg(section.design.beam_rms))
           : fmt::format("{} mdeg rms in {:.3g} m/s wind, linear plant, not simulated",
                         mdeg(section.design.beam_rms), section.design_speed);
-  if (section.effect.amplitude > 0.0) {
+  if (section.effect.amplitude > 0.0 && std::isfinite(section.effect.factor)) {
     text +=
         fmt::format("; {} with the limit cycle", mdeg(section.effect.rms(section.design.beam_rms)));
   }

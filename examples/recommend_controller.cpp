@@ -19,7 +19,7 @@ void print_controllers(const io::Case& stated, const design::ControllerStudy& st
               << row.beam_rms / millidegree << " mdeg linear, constraints "
               << (row.goals_met ? "met" : "missed");
     if (row.in_time) {
-      std::cout << ", " << row.in_time->beam_rms / millidegree << " simulated, limit cycle "
+      std::cout << ", " << row.in_time->rms() / millidegree << " simulated, limit cycle "
                 << row.in_time->hunting / millidegree
                 << (row.left_out() ? ", beyond the budget" : "");
     }

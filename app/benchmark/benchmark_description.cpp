@@ -86,12 +86,15 @@ void describe_compliance(io::Visitor& v, const design::RejectionScore& score) {
 struct BudgetSpeed {
   design::PointingBudget budget;
   double speed = 0.0;
+  std::optional<double> simulated;
 };
 
 void describe_budgets(io::Visitor& v, const BenchmarkReport& report) {
   std::vector<BudgetSpeed> budgets;
   for (std::size_t i = 0; i < report.score.budget_speeds.size(); ++i) {
-    budgets.push_back({report.budgets.at(i), report.score.budget_speeds[i]});
+    const auto& simulated = report.simulated_budget_speeds;
+    budgets.push_back({report.budgets.at(i), report.score.budget_speeds[i],
+                       i < simulated.size() ? std::optional(simulated[i]) : std::nullopt});
   }
   v.list("budgets", budgets, "Wind speeds up to which pointing budgets are met.",
          [&](const BudgetSpeed& one) {
@@ -100,7 +103,9 @@ void describe_budgets(io::Visitor& v, const BenchmarkReport& report) {
            v.number("rms", one.budget.rms, unit::millidegree, "Allowed, one axis.");
            v.text("convention", one.budget.convention, "What the loss is taken of.");
            v.number("wind_speed_limit", one.speed, unit::metre_per_second,
-                    "Mean speed up to which it is met; null: at every speed searched.");
+                    "Mean speed up to which it is met, linear; null: at every speed searched.");
+           v.number("simulated_wind_speed_limit", one.simulated, unit::metre_per_second,
+                    "The same by simulation, limit cycle included; null also without one.");
          });
 }
 

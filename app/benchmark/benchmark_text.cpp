@@ -228,11 +228,14 @@ Document document_of(const BenchmarkReport& report) {
   if (score.reference) text += reference_part(report);
   if (!score.winds.empty()) text += "\n" + essential(ladder_part(score.winds));
   if (!score.budget_speeds.empty()) {
-    std::vector<std::vector<std::string>> rows{{"budget", "rms mdeg", "met up to"}};
+    const auto& simulated = report.simulated_budget_speeds;
+    std::vector<std::vector<std::string>> rows{{"budget", "rms mdeg", "met up to, linear"}};
+    if (!simulated.empty()) rows[0].emplace_back("simulated, limit cycle included");
     for (std::size_t i = 0; i < score.budget_speeds.size(); ++i) {
       rows.push_back({fmt::format("{} ({})", report.budgets[i].name, report.budgets[i].band),
                       value(report.budgets[i].rms / millidegree, "{:.3f}"),
                       limit_text(score.budget_speeds[i])});
+      if (i < simulated.size()) rows.back().push_back(limit_text(simulated[i]));
     }
     text += essential("\n" + table(rows));
   }

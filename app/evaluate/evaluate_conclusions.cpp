@@ -51,9 +51,10 @@ std::string against_as_it_is(const EvaluateSection& section) {
       "each proposal{}. Rms boresight error over the plants, compared with the antenna as it is, "
       "re-tuned ({:.4f} mdeg{}): ",
       law->structure, plant::to_string(section.wind_model), section.wind_speed,
-      section.time_domain
-          ? ", each linear rms times the simulated/linear rms ratio of its controller"
-          : ", linear loops only",
+      section.time_domain ? ", each linear rms times the simulated/linear rms ratio of its "
+                            "controller, with its limit "
+                            "cycle in quadrature"
+                          : ", linear loops only",
       rms_of(base) / millidegree, base.hunts() ? ", with a limit cycle" : "");
   if (better.empty()) {
     text += worse.empty() ? "no eligible proposal to compare" : "no proposal lowers it";

@@ -9,6 +9,7 @@
 #include <boresight/app/figures/law_figures.hpp>
 #include <boresight/app/figures/open_loop_figures.hpp>
 #include <boresight/app/report/sky_units.hpp>
+#include <boresight/design/problem/budget_speeds.hpp>
 #include <boresight/numerics/angles.hpp>
 #include <boresight/plant/antenna/plant_response.hpp>
 #include <boresight/plant/antenna/point_response.hpp>
@@ -127,12 +128,15 @@ Figure error_figure(const DrawnLaw& drawn, const LawResponses& on_grid,
   return figure;
 }
 
-FigureSeries rms_over_ensemble(const std::string& name, const design::EnsembleCurves& curves) {
-  FigureSeries series{.name = name};
+FigureSeries rms_over_ensemble(const ComparedLaw& law, const design::EnsembleCurves& curves) {
+  const auto drawn = [effect = law.drawn()](const Eigen::ArrayXd& linear) {
+    return numbers(linear.unaryExpr([&](double rms) { return effect.rms(rms) / millidegree; }));
+  };
+  FigureSeries series{.name = law.name};
   series.x = numbers(curves.wind_speed);
-  series.y = numbers(curves.beam_rms.nominal / millidegree);
-  series.y_lower = numbers(curves.beam_rms.lower / millidegree);
-  series.y_upper = numbers(curves.beam_rms.upper / millidegree);
+  series.y = drawn(curves.beam_rms.nominal);
+  series.y_lower = drawn(curves.beam_rms.lower);
+  series.y_upper = drawn(curves.beam_rms.upper);
   return series;
 }
 
@@ -167,10 +171,13 @@ Figure rms_against_wind(const std::string& id, const std::string& section,
   figure.title = "Boresight rms against wind speed";
   figure.caption = fmt::format(
       "Boresight rms per axis, fixed gains. Lines: budgets of each band; circles: wind speeds up "
-      "to which {} meets them. Wind model {}, linear plant with friction {:g} N.m.s/rad. Limits of "
-      "supply and valve are not included.{}",
+      "to which {} meets them. Wind model {}, linear plant with friction {:g} N.m.s/rad{}. Limits "
+      "of supply and valve are not included.{}",
       laws.empty() ? "a controller" : laws.front().name, plant::to_string(problem.wind.model),
       problem.plant.drive.viscous_friction,
+      std::ranges::any_of(laws, &ComparedLaw::simulated)
+          ? ", by what the simulation of each controller that ran adds, limit cycle included"
+          : "",
       curves && !laws.empty()
           ? fmt::format(" Band: {}, {}.", laws.front().name, range_name(*curves))
           : "");
@@ -188,8 +195,9 @@ Figure rms_against_wind(const std::string& id, const std::string& section,
   std::vector<double> limits;
   for (std::size_t i = 0; i < laws.size(); ++i) {
     for (const auto& budget : budgets) {
-      const double limit = design::wind_speed_limit(problem, evaluator, laws[i].law,
-                                                    laws[i].noise_variance, budget.rms);
+      const double limit = design::budget_speeds(problem, evaluator, laws[i].law,
+                                                 laws[i].noise_variance, {budget}, laws[i].drawn())
+                               .front();
       limits.push_back(limit);
       if (i > 0 || !(limit > 0.0) || !std::isfinite(limit)) continue;
       panel.marks.push_back({limit, budget.rms / millidegree, fmt::format("{:.1f} m/s", limit)});
@@ -198,7 +206,7 @@ Figure rms_against_wind(const std::string& id, const std::string& section,
   const double fastest = design::highest_compared_speed(problem.wind.mean_speed, limits);
   for (const auto& law : laws) {
     if (curves && panel.series.empty()) {
-      panel.series.push_back(rms_over_ensemble(law.name, *curves));
+      panel.series.push_back(rms_over_ensemble(law, *curves));
       continue;
     }
     FigureSeries series{.name = law.name};
@@ -207,9 +215,9 @@ Figure rms_against_wind(const std::string& id, const std::string& section,
     for (int i = 1; i <= points; ++i) {
       const double speed = fastest * i / points;
       series.x.push_back(speed);
-      series.y.push_back(
-          design::beam_rms_at_speed(problem, evaluator, transmission, law.noise_variance, speed) /
-          millidegree);
+      const double linear =
+          design::beam_rms_at_speed(problem, evaluator, transmission, law.noise_variance, speed);
+      series.y.push_back(law.drawn().rms(linear) / millidegree);
     }
     panel.series.push_back(std::move(series));
   }

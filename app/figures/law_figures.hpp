@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cmath>
 #include <optional>
 #include <string>
 #include <vector>
@@ -7,6 +8,7 @@
 #include <boresight/app/figures/drawn_law.hpp>
 #include <boresight/app/figures/figure.hpp>
 #include <boresight/control/controllers/control_law.hpp>
+#include <boresight/design/problem/nonlinear_effect.hpp>
 #include <boresight/design/problem/pointing_budget.hpp>
 #include <boresight/design/problem/tracking_problem.hpp>
 
@@ -23,6 +25,12 @@ struct ComparedLaw {
   std::string name;
   control::ControlLaw law;
   double noise_variance = 0.0;  // rad^2 of motor
+  /// Of its simulation, which the rms against wind has; of one that was lost the linear rms.
+  design::NonlinearEffect effect = {};
+  bool simulated() const { return effect.factor != 1.0 || effect.amplitude > 0.0; }
+  design::NonlinearEffect drawn() const {
+    return std::isfinite(effect.factor) ? effect.for_budgets() : design::NonlinearEffect{};
+  }
 };
 
 /// Boresight rms of controllers with fixed gains against mean wind speed, with the budgets as lines

@@ -104,7 +104,7 @@ Figure structures_figure(const TuneSection& section, double wind_speed,
 std::vector<ComparedLaw> compared_laws(const TuneSection& section, const TunedLaw& first) {
   const auto compared = [](const TunedLaw& law) {
     return ComparedLaw{description_of(law), law.design.tuning.law,
-                       law.design.tuning.evaluation.noise_variance};
+                       law.design.tuning.evaluation.noise_variance, law.effect()};
   };
   std::vector<ComparedLaw> laws{compared(first)};
   for (const auto& law : section.laws) {

@@ -47,7 +47,7 @@ std::vector<Figure> tuning_figures(const TuningSection& section,
   std::ranges::move(of_law, std::back_inserter(figures));
   std::vector<design::PointingBudget> budgets;
   for (const auto& result : section.budgets) budgets.push_back(result.budget);
-  std::vector<ComparedLaw> compared{{name, design.tuning.law, noise}};
+  std::vector<ComparedLaw> compared{{name, design.tuning.law, noise, section.effect}};
   for (const auto& [structure, present] : section.present) {
     if (present.tuning.status == design::TuningStatus::unstable) continue;
     compared.push_back({"present gains: " + structure, present.tuning.law,

@@ -311,10 +311,11 @@ std::string recommended_as_built(const MatchSection& section) {
     return "For the motors as built no controller is recommended: `boresight tune` says why.";
   }
   return fmt::format(
-      "For the motors as built the recommended controller is {}: {:.4f} mdeg rms in {:.3g} m/s{}.",
+      "For the motors as built the recommended controller is {}: {:.4f} mdeg rms in {:.3g} m/s, "
+      "linear{}.",
       name_and_purpose(*law), law->beam_rms / millidegree, law->wind_speed,
       law->in_time
-          ? fmt::format(", {:.4f} on the nonlinear antenna", law->in_time->beam_rms / millidegree)
+          ? fmt::format(", {:.4f} on the nonlinear antenna", law->in_time->rms() / millidegree)
           : "");
 }
 

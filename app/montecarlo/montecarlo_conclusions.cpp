@@ -19,6 +19,17 @@ std::string between(const design::EstimatedNumber& number) {
 
 }  // namespace
 
+std::string judged_by(const design::NonlinearEffect& effect) {
+  if (effect.factor == 1.0 && effect.amplitude == 0.0) return "linear";
+  if (!std::isfinite(effect.factor)) return "as its simulation was lost";
+  std::string text =
+      fmt::format("each linear rms times {:.2f} as simulated", effect.for_budgets().factor);
+  if (effect.amplitude > 0.0) {
+    text += fmt::format(", with a limit cycle of +-{:.2f} mdeg", effect.amplitude / millidegree);
+  }
+  return text;
+}
+
 std::vector<std::string> conclude(const MonteCarloSection& section) {
   std::vector<std::string> sentences;
   const std::string wind = fmt::format("in the {} wind model at {:g} m/s mean speed",
@@ -40,8 +51,9 @@ std::vector<std::string> conclude(const MonteCarloSection& section) {
                         section.plants, between(section.instability)));
   for (const auto& [budget, met] : section.budgets) {
     sentences.push_back(fmt::format(
-        "The budget '{}' (band {}, {:.4f} mdeg) is met {} by {} of the plants, per axis, linear.",
-        budget.name, budget.band, budget.rms / millidegree, wind, between(met)));
+        "The budget '{}' (band {}, {:.4f} mdeg) is met {} by {} of the plants, per axis, {}.",
+        budget.name, budget.band, budget.rms / millidegree, wind, between(met),
+        judged_by(section.effect)));
   }
   sentences.push_back(
       fmt::format("All constraints are met on {} of the plants.", between(section.all_goals_met)));

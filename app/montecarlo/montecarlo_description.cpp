@@ -3,6 +3,7 @@
 #include <boresight/app/report/common_description.hpp>
 #include <boresight/app/report/json_writer.hpp>
 #include <boresight/io/description/estimates.hpp>
+#include <boresight/io/description/time_domain_results.hpp>
 
 namespace boresight::app {
 namespace {
@@ -106,6 +107,9 @@ void describe_pointing(io::Visitor& v, const MonteCarloSection& section) {
     describe_distribution(v, "climate_mean_loss_two_axes", loss.climate_loss, unit::decibel_as_kept,
                           "The same over the site's wind climate; null without one.");
   });
+  v.object("effect", section.effect,
+           "Of a simulation on the case's own plant: budgets are judged by it, of a factor of at "
+           "least 1.");
   v.list("budgets", section.budgets, "Pointing budgets.",
          [&](const MonteCarloSection::BudgetChance& chance) {
            v.text("name", chance.budget.name, "Its name.");

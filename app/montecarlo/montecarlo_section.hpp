@@ -32,4 +32,7 @@ struct MonteCarloSection : design::MonteCarloSummary {
   std::vector<Figure> figures;
 };
 
+/// By what its budgets are judged: "linear", or what a simulation makes of each linear rms.
+std::string judged_by(const design::NonlinearEffect& effect);
+
 }  // namespace boresight::app

@@ -233,7 +233,7 @@ MonteCarloSection section_of(design::MonteCarloSummary summary,
   section.gains = io::GainUnits(antenna).texts(held.law);
   section.wind_model = study.problem.wind.model;
   section.wind_speed = study.problem.wind.mean_speed;
-  section.assumed = assumed_inputs(antenna);
+  section.assumed = assumed_inputs(antenna, {.time_runs = section.effect.factor != 1.0});
   return section;
 }
 
@@ -293,9 +293,9 @@ MonteCarloOutcome run_montecarlo(const MonteCarloArguments& arguments, Ranks& ra
   if (!ranks.first()) return outcome;
 
   MonteCarloSection& section = outcome.section;
-  section = section_of(
-      summarise(*outcome.run, population->mission, *outcome.distribution, arguments.seed),
-      arguments, population->antenna, study, held);
+  section = section_of(summarise(*outcome.run, population->mission, *outcome.distribution,
+                                 arguments.seed, arguments.threads),
+                       arguments, population->antenna, study, held);
   section.distribution = source_text(*outcome.distribution);
   section.conclusions = conclude(section);
   std::string warning = resonance_warning(resonance_verdict(*population));

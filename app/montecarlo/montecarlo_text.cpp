@@ -130,8 +130,8 @@ Document probabilities_part(const MonteCarloSection& section) {
   text += essential(table(rows, "l"));
   text += wrapped(
       fmt::format("{} plants, 95 % Clopper-Pearson intervals. A plant that is not stable meets no "
-                  "budget. Violations: stable plants beyond 1.0001 times the limit.",
-                  section.plants),
+                  "budget. Budgets: {}. Violations: stable plants beyond 1.0001 times the limit.",
+                  section.plants, judged_by(section.effect)),
       "  ");
   return text;
 }

@@ -24,7 +24,25 @@ namespace {
 
 // Whether the run on the nonlinear antenna says anything of the rms.
 bool holds_in_wind(const TimeDomainSection& section) {
-  return std::isfinite(section.result.wind.beam_rms);
+  return std::isfinite(section.own().simulated_rms());
+}
+
+// What the verdict on a budget rests on.
+std::string judged_by(const std::optional<TimeDomainSection>& time_domain) {
+  if (!time_domain) return ", by the linear plant";
+  if (!holds_in_wind(*time_domain)) {
+    return fmt::format(
+        ", as the controller does not complete the run on the nonlinear antenna in "
+        "{:.3g} m/s",
+        time_domain->wind_speed);
+  }
+  const auto own = time_domain->own();
+  const double amplitude = own.effect().amplitude;
+  return fmt::format(", by simulation ({:.3f} mdeg in {:.3g} m/s{})",
+                     own.simulated_rms() / millidegree, time_domain->wind_speed,
+                     amplitude > 0.0
+                         ? fmt::format(", limit cycle of +-{:.2f} mdeg", amplitude / millidegree)
+                         : "");
 }
 
 // What the gains of the case do on its plant.
@@ -187,25 +205,12 @@ std::vector<std::string> unmet_needs(const TuningSection& section,
   if (!section.design.usable()) return sentences;
   for (const auto& result : section.budgets) {
     const design::PointingBudget& budget = result.budget;
-    if (!budget.wind_speed) continue;
-    const bool linear = meets_need(budget, reached_wind_speed(section, result));
-    const bool simulated = !time_domain || *budget.wind_speed < time_domain->wind_speed ||
-                           time_domain->result.wind.beam_rms <= budget.rms;
-    if (linear && simulated) continue;
+    if (!budget.wind_speed || meets_need(budget, reached_wind_speed(section, result))) continue;
     sentences.push_back(fmt::format(
-        "NOT MET: {} is required up to {:.3g} m/s{}; as built, with {}, it {}{}.{}",
+        "NOT MET: {} is required up to {:.3g} m/s{}; as built, with {} ({}), it {}{}.{}",
         budget_text(budget), *budget.wind_speed,
-        dish_and_mast(section.wind_mast, *budget.wind_speed),
-        fmt::format("{} ({})", control::to_string(section.structure), to_string(section.tuned_for)),
-        met_text(section, result),
-        linear ? fmt::format(" on the linear plant, but on the nonlinear antenna the controller {} "
-                             "in {:.3g} m/s",
-                             holds_in_wind(*time_domain)
-                                 ? fmt::format("has {:.3f} mdeg",
-                                               time_domain->result.wind.beam_rms / millidegree)
-                                 : "does not complete the run",
-                             time_domain->wind_speed)
-               : "",
+        dish_and_mast(section.wind_mast, *budget.wind_speed), control::to_string(section.structure),
+        to_string(section.tuned_for), met_text(section, result), judged_by(time_domain),
         meets_need(budget, section.supply_wind_speed)
             ? ""
             : " No loop structure changes that: the drive lacks torque."));
@@ -246,14 +251,19 @@ void conclude_tuning(const Report& report, const TuningSection& section,
   const bool repeated = 2 * section.seeds_within_1_percent > static_cast<int>(section.seeds.size());
   std::string text = fmt::format(
       "As built, the recommended controller, {} ({}){}, has {:.3f} mdeg rms per axis in {:.3g} m/s "
-      "of wind",
+      "of wind, linear",
       control::to_string(section.structure), to_string(section.tuned_for),
       repeated ? "" : " (not repeated by most seeds: search further)",
       design.beam_rms / millidegree, section.design_speed);
   for (const auto& budget : section.budgets) {
     text += fmt::format("; {} {}", budget_text(budget.budget), met_text(section, budget));
   }
+  if (!section.budgets.empty()) text += judged_by(report.time_domain);
   add(text + ".");
+  if (!section.ties.empty()) {
+    add(fmt::format("A tie with it, within {:.0f} % or what the same winds leave open: {}.",
+                    100.0 * negligible_change, fmt::join(section.ties, "; ")));
+  }
   for (auto& need : unmet_needs(section, report.time_domain)) add(std::move(need));
   add(robustness_text(section));
   add(needs_on_plants(section, false));
@@ -310,20 +320,15 @@ std::vector<std::string> decide_tuning(const Report& report, const TuningSection
                       : "The best controller found for the drive as built is",
                   structure, section.design.beam_rms / millidegree, section.design_speed);
   if (report.time_domain) {
-    text += holds ? fmt::format(" ({:.3f} in one record on the nonlinear antenna)",
-                                report.time_domain->result.wind.beam_rms / millidegree)
+    text += holds ? fmt::format(" on the linear plant ({:.3f} simulated{})",
+                                report.time_domain->own().simulated_rms() / millidegree,
+                                report.time_domain->rms ? "" : " in one record")
                   : " (the run on the nonlinear antenna did not complete)";
   }
   if (!section.budgets.empty() && met) {
     const auto& budget = section.budgets.front();
-    text += fmt::format("; {} {}", budget_text(budget.budget), met_text(section, budget));
-    // In the wind of the simulation the linear speed can be judged.
-    if (report.time_domain &&
-        reached_wind_speed(section, budget) >= report.time_domain->wind_speed &&
-        !(report.time_domain->result.wind.beam_rms <= budget.budget.rms)) {
-      text += fmt::format(" on the linear plant, but not as simulated in {:.3g} m/s",
-                          report.time_domain->wind_speed);
-    }
+    text += fmt::format("; {} {}{}", budget_text(budget.budget), met_text(section, budget),
+                        judged_by(report.time_domain));
   }
   sentences.push_back(text + ".");
   return sentences;

@@ -196,6 +196,13 @@ void describe_decision(io::Visitor& v, const EvaluateSection& section,
          "draw, the rms that 95 % of the draws do not exceed, or the median.");
   v.text("least_mean_rms", name(decision.best),
          "The candidate of the least rms by that, of those fit to be chosen if there are any.");
+  std::vector<std::string> tied;
+  for (std::size_t i = 0; i < decision.tied.size(); ++i) {
+    if (decision.tied[i]) tied.push_back(name(i));
+  }
+  v.texts("tied", tied,
+          "Those fit to be chosen whose rms by that differs from the least by no more than 2 %, or "
+          "than the records of wind leave open.");
   v.text("second_least_mean_rms", name(decision.second),
          "The next: of those fit to be chosen before the others.");
   v.number("difference_at_median",

@@ -75,13 +75,19 @@ void describe_law(io::Visitor& v, const WrittenLaw& written) {
       "Root of the mean square of the beam's rms over the ensemble, of linear loops; null if a "
       "plant is unstable.");
   v.number("nonlinear_factor", law.nonlinear_factor(), unit::ratio,
-           "Simulated rms over that of the linear plant in the same record; 1 without a run, null "
-           "if it did not complete.",
+           "Simulated rms (expected_rms) over the linear one; 1 without a run, null if one did not "
+           "complete.",
            positive);
-  v.number("compared_rms", law.compared_rms(), unit::millidegree,
-           "ensemble_rms times nonlinear_factor: what laws and proposals are compared by; null if "
-           "either is.",
-           positive);
+  v.number(
+      "compared_rms", law.compared_rms(), unit::millidegree,
+      "ensemble_rms times nonlinear_factor, with the rms of the limit cycle in quadrature "
+      "(amplitude over the root of 2): what controllers and proposals are compared by; null if "
+      "one of them is.",
+      positive);
+  v.number("limit_cycle_amplitude", law.effect().amplitude, unit::millidegree,
+           "Half of peak to peak of the boresight, at rest or tracking; 0 without a run.", known);
+  v.object("expected_rms", law.expected,
+           "Simulated in several records of wind; null if that was not asked for.");
   v.object("time_domain", law.time_domain,
            "The law on the proposal's nonlinear antenna; null if that was not asked for.");
   v.list("gains_as_written", gains, "In the engineer's units.", [&](const WrittenGain& gain) {

@@ -4,8 +4,10 @@
 
 #include <boresight/app/report/match_report.hpp>
 #include <boresight/app/tune/tune_verdict.hpp>
+#include <boresight/design/studies/matching_verdict.hpp>
 #include <boresight/io/description/design_results.hpp>
 #include <boresight/io/description/loop_results.hpp>
+#include <boresight/io/description/time_domain_results.hpp>
 #include <boresight/io/description/what_if_description.hpp>
 #include <boresight/io/description/wind_mast_description.hpp>
 
@@ -52,6 +54,11 @@ void describe_point(io::Visitor& v, const MatchPoint& point) {
 }
 
 void describe_time(io::Visitor& v, const MatchTimeDomain& run) {
+  v.object("expected_rms", run.expected,
+           "In wind; null of one not shown free of limit cycles beyond the tightest budget.");
+  v.number("ensemble_rms", run.member_rms, unit::millidegree,
+           "Root of the mean square over the ensemble with these motors, linear; null where "
+           "expected_rms is.");
   v.list("hunting", run.hunting, "At rest, then at the tracking rate.",
          [&](const design::HuntingResult& one) { describe(v, one, io::LimitCycleDetail::study); });
   v.optional_group("reversal", run.reversal, "A slow triangle of the tracking rate.",
@@ -186,6 +193,16 @@ void describe_series(io::Visitor& v, const MatchSection& section, const MatchSer
          [&](const PointLaw& one) { describe_law(v, one); });
 }
 
+void describe_ranked(io::Visitor& v, const MatchSection& section, const design::RankedMotors& one) {
+  const bool there = one.point < section.points.size() && one.series < section.series.size();
+  v.number("flywheel_disks", there ? section.points[one.point].disks : 0.0, unit::ratio,
+           "On each motor.", known);
+  v.text("structure", there ? section.series[one.series].name : "", "Of its controller.");
+  v.number("compared_rms", one.compared_rms, unit::millidegree,
+           "ensemble_rms as simulated, limit cycle in quadrature; null if a plant is unstable.");
+  v.flag("tied", one.tied, "With the least, within 2 % or what the same winds leave open.");
+}
+
 void describe_variants(io::Visitor& v, const MatchVariants& variants) {
   v.text("structure", variants.structure, "Which.");
   v.numbers("flywheel_disks", variants.disks, unit::ratio, "Where.", known);
@@ -290,6 +307,12 @@ void describe(io::Visitor& v, const MatchSection& section) {
          [&](const MatchPoint& point) { describe_point(v, point); });
   v.list("series", section.series, "One a structure.",
          [&](const MatchSeries& series) { describe_series(v, section, series); });
+  std::vector<design::RankedMotors> ranked;
+  if (!v.by_example()) ranked = ranked_motors(section);
+  v.list("compared_motors", ranked,
+         "Motors with their own recommended controller as evaluate compares antennas, least first; "
+         "empty without runs in wind.",
+         [&](const design::RankedMotors& one) { describe_ranked(v, section, one); });
   v.list("variants", section.variants, "How the optimum moves, tuned on single plants.",
          [&](const MatchVariants& variants) { describe_variants(v, variants); });
   v.list("friction_thresholds", section.thresholds,

@@ -146,8 +146,15 @@ CardLine pointing_line(const Report& report, const TuningSection& section) {
                         report.time_domain->wind_speed, mdeg(section.design.beam_rms))
           : fmt::format("{} mdeg rms in {:.3g} m/s wind, linear plant, not simulated",
                         mdeg(section.design.beam_rms), section.design_speed);
+  if (section.effect.amplitude > 0.0 && std::isfinite(section.effect.factor)) {
+    text +=
+        fmt::format("; {} with the limit cycle", mdeg(section.effect.rms(section.design.beam_rms)));
+  }
   if (tightest != section.budgets.end()) {
     text += fmt::format("; budget {}", mdeg(tightest->budget.rms));
+  }
+  if (!section.ties.empty()) {
+    text += fmt::format("; a tie with {}", fmt::join(section.ties, "; "));
   }
   return {"Error per axis", text, std::string(simulated(report) ? in_time : loops)};
 }
@@ -170,7 +177,7 @@ CardLine present_line(const TuningSection& section) {
 }
 
 // The three that matter first: required ones before others, the tightest before wider ones.
-CardLine budget_line(const TuningSection& section) {
+CardLine budget_line(const Report& report, const TuningSection& section) {
   constexpr std::size_t shown = 3;
   std::vector<BudgetResult> order = section.budgets;
   std::ranges::stable_sort(order, {}, [](const BudgetResult& one) {
@@ -194,8 +201,10 @@ CardLine budget_line(const TuningSection& section) {
     budgets.push_back(std::move(text));
   }
   return {"Budgets (mdeg)",
-          budgets.empty() ? "the case states none ([[pointing.budget]])"
-                          : fmt::format("{}", fmt::join(budgets, "; ")),
+          budgets.empty()
+              ? "the case states none ([[pointing.budget]])"
+              : fmt::format("{}; {}", fmt::join(budgets, "; "),
+                            simulated(report) ? "simulated, limit cycle included" : "linear plant"),
           std::string(loops)};
 }
 
@@ -348,7 +357,7 @@ std::vector<CardLine> redesign_card(const Report& report) {
   if (section.design.usable()) {
     card.push_back(pointing_line(report, section));
     card.push_back(present_line(section));
-    card.push_back(budget_line(section));
+    card.push_back(budget_line(report, section));
     card.push_back(stability_line(section));
     if (report.time_domain) card.push_back(limit_cycle_line(*report.time_domain));
   }

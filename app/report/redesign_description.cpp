@@ -9,6 +9,7 @@
 #include <boresight/app/report/redesign_description.hpp>
 #include <boresight/io/description/design_results.hpp>
 #include <boresight/io/description/loop_results.hpp>
+#include <boresight/io/description/time_domain_results.hpp>
 #include <boresight/io/description/wind_mast_description.hpp>
 
 namespace boresight::app {
@@ -202,7 +203,8 @@ void describe_budgets(io::Visitor& v, const TuningSection& section) {
            v.number("rms", result.budget.rms, unit::millidegree, "As rms error of one axis.",
                     above_zero);
            v.number("wind_speed_limit", result.wind_speed_limit, unit::metre_per_second,
-                    "Mean wind speed up to which it is met, gains held.", positive);
+                    "Mean wind speed up to which it is met, gains held, limit cycle included.",
+                    positive);
            v.count("plants_met", result.plants_met,
                    "Plants of the ensemble on which it is met in the wind up to which the case "
                    "needs it, supply torque not counted; null without such a wind or an ensemble.");
@@ -221,6 +223,15 @@ void describe(io::Visitor& v, const TuningSection& section) {
          "What the recommended controller was tuned for: the case's plant alone, or all of the "
          "ensemble.");
   v.object("design", section.design, "The controller recommended, by tune.");
+  v.texts("ties", section.ties,
+          "Other controllers whose simulated rms, limit cycle included, does not differ by more "
+          "than 2 % or than the same winds leave open.");
+  v.object("effect", section.effect,
+           "Of its simulation, at least that of the linear plant: budgets are judged by it.");
+  v.number("judged_rms", section.effect.rms(section.design.beam_rms), unit::millidegree,
+           "What budgets are held against in the design wind: beam rms with that effect; null if a "
+           "run was lost.",
+           positive);
   v.count("seeds_within_1_percent", section.seeds_within_1_percent,
           "Seeds whose verified rms is within 1 % of the best.");
   v.number("encoder_held_rms", section.encoder_held_rms, unit::millidegree,

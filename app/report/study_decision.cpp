@@ -83,8 +83,31 @@ Sentences unstable_now(const TuneSection& section) {
   return sentences;
 }
 
-// Of structures free of limit cycles; `others_hunt`: some were excluded.
-Sentences decide_inertia(const MatchSection& section, bool others_hunt) {
+// Motors compared as evaluate compares antennas, by simulation; empty without runs of several.
+std::string decide_motors(const MatchSection& section) {
+  const auto ranked = ranked_motors(section);
+  const auto built = std::ranges::find(ranked, as_built(section), &design::RankedMotors::point);
+  if (ranked.size() < 2 || built == ranked.end()) return "";
+  std::vector<std::string> figures;
+  for (const auto& motors : ranked) {
+    figures.push_back(fmt::format("{:g} disks{} {:.3f} mdeg with {}",
+                                  section.points[motors.point].disks,
+                                  motors.point == built->point ? " (as built)" : "",
+                                  mdeg(motors.compared_rms), section.series[motors.series].name));
+  }
+  const MatchPoint& best = section.points[ranked.front().point];
+  return fmt::format(
+      "Compared as `evaluate` compares, simulated, over {} plants, limit cycle included: {}: {}.",
+      std::max<std::size_t>(section.members, 1), fmt::join(figures, ", "),
+      !built->tied ? fmt::format("change to {:g} disks, {:.1f} % better than as built", best.disks,
+                                 100.0 * (1.0 - ranked.front().compared_rms / built->compared_rms))
+      : built == ranked.begin() ? std::string("keep the motors as built")
+                                : std::string("a tie, keep the motors as built"));
+}
+
+// Of structures free of limit cycles; `others_hunt`: some were excluded; `compared`: decide_motors
+// decides on the flywheels.
+Sentences decide_inertia(const MatchSection& section, bool others_hunt, bool compared) {
   const MatchSeries* best = recommended_structure(section, [](const MatchSeries&) { return true; });
   if (best == nullptr) {
     return {others_hunt ? "No structure that meets the constraints is shown free of limit cycles "
@@ -96,7 +119,7 @@ Sentences decide_inertia(const MatchSection& section, bool others_hunt) {
   const MatchPoint& point = section.points[best_point];
   const MatchValue& present = best->values[built];
   const MatchSeries* moved = most_moved(section);
-  if (moved != nullptr && weighed(section, *best) && hardly_matters(section)) {
+  if (!compared && moved != nullptr && weighed(section, *best) && hardly_matters(section)) {
     return {fmt::format(
         "Leave the flywheels as they are: with {} loops the rms as built is {:.3f} mdeg in {:g} "
         "m/s, and from {:g} to {:g} disks on each motor no structure's rms changes by more than "
@@ -117,7 +140,7 @@ Sentences decide_inertia(const MatchSection& section, bool others_hunt) {
       best->within_5_percent.lowest, best->within_5_percent.highest)};
   const bool inertia_matters =
       !present.found || present.beam_rms / least - 1.0 >= negligible_change;
-  if (present.found) {
+  if (present.found && !compared) {
     sentences.push_back(first_change(section, *best, others_hunt || section.series.size() > 1));
   }
   if (auto text = measure_friction(section); inertia_matters && !text.empty()) {
@@ -134,8 +157,8 @@ namespace {
 std::string recommended_first(const design::TuningStudy& study) {
   const TunedLaw* law = recommended_law(study);
   if (law == nullptr) return "No controller is recommended: no tuned controller is fit.";
-  const bool simulated = law->in_time && std::isfinite(law->in_time->beam_rms);
-  if (simulated && law->in_time->expected && std::isfinite(law->in_time->expected->rms.value)) {
+  const bool simulated = law->in_time && std::isfinite(law->in_time->rms());
+  if (simulated && law->in_time->expected) {
     const auto& expected = *law->in_time->expected;
     return fmt::format(
         "Recommended: {}, {:.3f} mdeg rms per axis in {:.3g} m/s wind, simulated ({}).",
@@ -143,10 +166,17 @@ std::string recommended_first(const design::TuningStudy& study) {
         interval_text(expected, law->beam_rms));
   }
   return fmt::format("Recommended: {}, {:.3f} mdeg rms per axis in {:.3g} m/s wind, {}.",
-                     name_and_purpose(*law),
-                     mdeg(simulated ? law->in_time->beam_rms : law->beam_rms), law->wind_speed,
+                     name_and_purpose(*law), mdeg(simulated ? law->in_time->rms() : law->beam_rms),
+                     law->wind_speed,
                      simulated ? fmt::format("simulated ({:.3f} linear)", mdeg(law->beam_rms))
                                : std::string("linear plant, not simulated"));
+}
+
+void add_ties(const design::TuningStudy& study, const TunedLaw* recommended, Sentences& sentences) {
+  if (recommended == nullptr) return;
+  if (std::string text = ties_text(study, *recommended); !text.empty()) {
+    sentences.push_back(std::move(text));
+  }
 }
 
 }  // namespace
@@ -154,9 +184,13 @@ std::string recommended_first(const design::TuningStudy& study) {
 std::vector<std::string> decision(const MatchSection& section) {
   MatchSection kept = section;
   std::erase_if(kept.series, [&](const MatchSeries& series) { return hunts(section, series); });
-  Sentences sentences = decide_inertia(kept, kept.series.size() < section.series.size());
+  std::string motors = decide_motors(section);
+  Sentences sentences =
+      decide_inertia(kept, kept.series.size() < section.series.size(), !motors.empty());
+  if (!motors.empty()) sentences.insert(sentences.begin(), std::move(motors));
   if (section.tuned_as_built) {
     sentences.insert(sentences.begin(), "As built: " + recommended_first(*section.tuned_as_built));
+    add_ties(*section.tuned_as_built, recommended_law(*section.tuned_as_built), sentences);
   }
   for (const auto& series : section.series) {
     if (!series.best || !hunts(section, series) || kept.series.empty()) continue;
@@ -174,18 +208,27 @@ std::vector<std::string> decision(const MatchSection& section) {
 
 namespace {
 
-// Whether several candidates are eligible and their means over the samples differ negligibly.
-bool all_alike(const EvaluateSection& section, const DecisionSection& draws) {
-  const auto& losses = draws.ranking.losses;
-  double least = HUGE_VAL, largest = 0.0;
-  int fit = 0;
-  for (std::size_t i = 0; i < draws.candidates.size(); ++i) {
-    if (!section.candidates[draws.candidates[i].candidate].feasible()) continue;
-    ++fit;
-    least = std::min(least, losses[i]);
-    largest = std::max(largest, losses[i]);
+// The eligible candidates that tie with the best, it included, where there are others.
+std::vector<std::string> ties_of(const EvaluateSection& section, const DecisionSection& draws) {
+  std::vector<std::string> names;
+  for (std::size_t i = 0; i < draws.tied.size(); ++i) {
+    if (draws.tied[i]) names.push_back(section.candidates[draws.candidates[i].candidate].name);
   }
-  return fit > 1 && largest < (1.0 + negligible_change) * least;
+  if (names.size() < 2) names.clear();
+  return names;
+}
+
+// Whether every eligible candidate is among them.
+bool all_alike(const EvaluateSection& section, const std::vector<std::string>& ties) {
+  const auto eligible = std::ranges::count_if(section.candidates, &Candidate::feasible);
+  return !ties.empty() && static_cast<std::ptrdiff_t>(ties.size()) == eligible;
+}
+
+// What makes a tie of two simulated or two linear rms.
+std::string tie_rule(const EvaluateSection& section) {
+  return fmt::format(
+      "{:.0f} %{}", 100.0 * negligible_change,
+      section.time_domain ? " or the 95 % interval of the difference over the same winds" : "");
 }
 
 }  // namespace
@@ -202,10 +245,10 @@ std::vector<std::string> decision(const EvaluateSection& section) {
     const std::string currency = section.currency.empty() ? "of cost" : section.currency;
     const auto& ranking = draws.ranking;
     const std::string mean =
-        fmt::format("{:.3f} mdeg rms {} {} {} samples in {:.3g} m/s", ranking.losses[choice],
+        fmt::format("{:.3f} mdeg rms {} {} {} samples in {:.3g} m/s, {}", ranking.losses[choice],
                     measure_phrase(ranking.measure),
                     ranking.measure == design::LossMeasure::mean ? "over" : "of", draws.draws,
-                    section.wind_speed);
+                    section.wind_speed, section.time_domain ? "simulated" : "linear");
     const bool fit = chosen.feasible();
     const std::string yet = none.empty() ? "Choose nothing yet." : none;
     std::string text =
@@ -230,11 +273,15 @@ std::vector<std::string> decision(const EvaluateSection& section) {
                       fmt::join(hunting, ", ")));
     }
     const std::string name = chosen.path.empty() ? "The antenna as it is" : chosen.name;
-    if (all_alike(section, draws)) {
+    const auto ties = ties_of(section, draws);
+    if (all_alike(section, ties)) {
       sentences.push_back(
-          fmt::format("All eligible proposals are within {:.0f} % of one another: choose by their "
+          fmt::format("All eligible proposals tie, within {}: choose by their "
                       "other effects.",
-                      100.0 * negligible_change));
+                      tie_rule(section)));
+    } else if (!ties.empty()) {
+      sentences.push_back(
+          fmt::format("A tie, within {}: {}.", tie_rule(section), fmt::join(ties, ", ")));
     }
     if (fit) {
       sentences.push_back(
@@ -320,6 +367,7 @@ std::vector<std::string> decision(const TuneSection& section,
       sentences.push_back(std::move(others));
     }
   }
+  add_ties(section, recommended, sentences);
   if (limit && limit->least_rms > 0.0) {
     sentences.push_back(
         fmt::format("Lower bound with these sensors, sampling and control effort: {:.3f} mdeg on "
@@ -338,9 +386,10 @@ std::vector<std::string> decision(const MonteCarloSection& section) {
   if (!section.budgets.empty()) {
     const auto& one = section.budgets.front();
     sentences.push_back(
-        fmt::format("{} (band {}, {:.3f} mdeg) is met on {:.1f} % of the plants in {:.3g} m/s.",
+        fmt::format("{} (band {}, {:.3f} mdeg) is met on {:.1f} % of the plants in {:.3g} m/s, "
+                    "{}.",
                     one.budget.name, one.budget.band, mdeg(one.budget.rms), 100.0 * one.met.value,
-                    section.wind_speed));
+                    section.wind_speed, judged_by(section.effect)));
   }
   const auto most = std::ranges::max_element(
       section.correlations, {}, [](const auto& one) { return std::abs(one.with_rms.value); });
@@ -353,6 +402,26 @@ std::vector<std::string> decision(const MonteCarloSection& section) {
   return sentences;
 }
 
+namespace {
+
+// What a simulation says beside a linear rms.
+std::string beside_linear(const std::optional<design::TimeDomainStudy>& simulated) {
+  if (!simulated) return "linear plant, not simulated";
+  const auto own = simulated->own();
+  if (!std::isfinite(own.simulated_rms())) return "linear; its simulation was lost";
+  std::string text =
+      own.rms ? fmt::format("linear; {:.3f} simulated (95 % {:.3f} to {:.3f} over {} winds)",
+                            mdeg(own.rms->rms.value), mdeg(own.rms->rms.lower),
+                            mdeg(own.rms->rms.upper), own.rms->records)
+              : fmt::format("linear; {:.3f} simulated in one record", mdeg(own.simulated_rms()));
+  if (const double amplitude = own.effect().amplitude; amplitude > 0.0) {
+    text += fmt::format(", limit cycle +-{:.2f}", mdeg(amplitude));
+  }
+  return text;
+}
+
+}  // namespace
+
 std::vector<std::string> decision(const BenchmarkReport& report) {
   if (!report.score.stable && report.present_gains && report.controller.law) {
     return {unstable_present_gains(report.controller.law->structure.name())};
@@ -364,9 +433,9 @@ std::vector<std::string> decision(const BenchmarkReport& report) {
                     report.controller.description, report.score.abscissa)};
   }
   const auto& score = report.score;
-  Sentences sentences{fmt::format("{} has {:.3f} mdeg rms per axis in {:.3g} m/s of wind.",
+  Sentences sentences{fmt::format("{} has {:.3f} mdeg rms per axis in {:.3g} m/s of wind, {}.",
                                   report.controller.description, mdeg(score.design_wind.beam_rms),
-                                  score.design_wind.mean_speed)};
+                                  score.design_wind.mean_speed, beside_linear(report.nonlinear))};
   if (score.ensemble) {
     sentences.push_back(fmt::format(
         "It is stable on {} of {} ensemble members and meets the constraints on {}.",

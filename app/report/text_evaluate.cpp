@@ -51,10 +51,22 @@ void fill(std::vector<std::string>& cells, std::size_t columns) {
   cells.resize(std::max(cells.size(), columns), "-");
 }
 
-std::string simulated_text(const design::NonlinearVerification& run) {
-  return run.wind.status == design::RunStatus::complete
-             ? mdeg(run.wind.beam_rms)
-             : std::string(design::to_string(run.wind.status));
+std::string simulated_text(const CandidateLaw& law) {
+  if (!law.time_domain) return "-";
+  const auto& wind = law.time_domain->wind;
+  const design::RunStatus status = law.expected ? law.expected->status : wind.status;
+  if (status != design::RunStatus::complete) return std::string(design::to_string(status));
+  return mdeg(law.expected ? law.expected->rms.value : wind.beam_rms);
+}
+
+// "10 records of wind": what the simulated rms are of.
+std::string records_text(const EvaluateSection& section) {
+  for (const auto& candidate : section.candidates) {
+    for (const auto& law : candidate.laws) {
+      if (law.expected) return fmt::format("{} records of wind", law.expected->records);
+    }
+  }
+  return "one record of wind";
 }
 
 Document time_domain_table(const EvaluateSection& section) {
@@ -66,7 +78,7 @@ Document time_domain_table(const EvaluateSection& section) {
       if (!law.time_domain) continue;
       const auto& run = *law.time_domain;
       std::vector<std::string> cells{candidate.name, law.structure, mdeg(law.design.beam_rms),
-                                     simulated_text(run), fixed(law.nonlinear_factor(), 3)};
+                                     simulated_text(law), fixed(law.nonlinear_factor(), 3)};
       for (const auto& hunting : run.hunting) cells.push_back(hunting_cell(hunting));
       if (run.reversal) {
         cells.resize(7, "-");
@@ -79,14 +91,15 @@ Document time_domain_table(const EvaluateSection& section) {
     }
   }
   return heading("Controllers on the nonlinear antenna") +
-         wrapped(fmt::format(
-                     "Every controller ran on the nonlinear antenna of its proposal, in one record "
-                     "of {:g} s at {:.3g} m/s (seed {}). Compared is the linear rms over the "
-                     "plants times the factor: the simulated rms over the linear plant's in the "
-                     "same record. Losses, speed limits and samples have that factor too.",
-                     section.time_domain->wind_duration, section.wind_speed,
-                     section.time_domain->seeds.front()),
-                 "  ") +
+         wrapped(
+             fmt::format(
+                 "Every controller ran on the nonlinear antenna of its proposal, in {} of {:g} s "
+                 "at {:.3g} m/s (from seed {}). Compared is the linear rms over the plants "
+                 "times the factor, simulated over linear rms, with the limit cycle in "
+                 "quadrature. Losses, speed limits and samples have both too.",
+                 records_text(section), section.time_domain->wind_duration, section.wind_speed,
+                 section.time_domain->seeds.front()),
+             "  ") +
          "\n" + table(rows, "ll") +
          wrapped(hunting_legend() +
                      "; reversal error: peak boresight error (mdeg) at a velocity reversal at "
@@ -129,13 +142,13 @@ Document loop_table(const EvaluateSection& section) {
       const double factor = law.nonlinear_factor();
       cells.push_back(mdeg(law.design.beam_rms));
       if (simulated) {
-        cells.push_back(law.time_domain ? simulated_text(*law.time_domain) : "-");
+        cells.push_back(simulated_text(law));
         cells.push_back(fixed(factor, 3));
       }
       cells.push_back(mdeg(law.compared_rms()));
       if (law.ensemble) {
         const bool all = law.ensemble->stable == static_cast<int>(law.ensemble->members.size());
-        cells.push_back(all ? mdeg(factor * law.ensemble->largest_rms) : "unstable");
+        cells.push_back(all ? mdeg(law.effect().rms(law.ensemble->largest_rms)) : "unstable");
         cells.push_back(law.ensemble->members[law.ensemble->worst].name);
       }
     }
@@ -151,10 +164,12 @@ Document loop_table(const EvaluateSection& section) {
                  "plant: the one farthest beyond its constraints. hydr., zeta: frequency and "
                  "damping of the open-loop hydraulic mode.",
                  section.currency.empty() ? ": stated by no proposal" : " in " + section.currency,
-                 simulated ? "simulated: in one record of wind on the nonlinear antenna; "
-                             "factor: that over the linear plant's rms in the same record; "
-                           : "",
-                 section.ensemble_size, simulated ? ", of linear loops, times the factor" : ""),
+                 simulated ? fmt::format("simulated: in {} on the nonlinear antenna; factor: that "
+                                         "over the linear rms; ",
+                                         records_text(section))
+                           : std::string(),
+                 section.ensemble_size,
+                 simulated ? ", of linear loops, times the factor, with the limit cycle" : ""),
              "  ") +
          oil_modes_part(section);
 }

@@ -116,7 +116,8 @@ Document linear_alone_part(const TuneSection& section) {
                              fmt::join(names, ", "),
                              section.budgets.empty()
                                  ? ""
-                                 : " Speeds up to which a budget is met are of the linear plant."),
+                                 : " Speeds up to which a budget is met are of the linear plant "
+                                   "for these, by simulation with the limit cycle for the others."),
                  "  ");
 }
 

@@ -7,6 +7,7 @@
 #include <boresight/design/problem/pointing.hpp>
 #include <boresight/io/description/design_results.hpp>
 #include <boresight/io/description/loop_results.hpp>
+#include <boresight/io/description/time_domain_results.hpp>
 #include <boresight/io/description/wind_mast_description.hpp>
 
 namespace boresight::app {
@@ -133,9 +134,10 @@ void describe_limits(io::Visitor& v, const TuneSection& section, const TunedLaw&
   v.list("budgets", limits, "One a pointing budget.", [&](const BudgetLimit& one) {
     v.text("name", one.budget.name, "Its name.");
     v.text("band", one.budget.band, "Its band.");
-    v.number("wind_speed_limit", one.wind_speed, unit::metre_per_second,
-             "Mean wind speed up to which the budget is met, supply torque not counted; null: "
-             "beyond 60 m/s.");
+    v.number(
+        "wind_speed_limit", one.wind_speed, unit::metre_per_second,
+        "Mean wind speed up to which the budget is met, by the effect of `simulated` where the "
+        "controller ran, supply torque not counted; null: beyond 60 m/s.");
     describe_share_of_time(v, section.climate, std::min(one.wind_speed, section.supply_wind_speed),
                            "Share of the climate's time up to that speed, or up to the supply's if "
                            "that is less; null without a climate or a stable law.");
@@ -198,6 +200,18 @@ void describe_law(io::Visitor& v, const TuneSection& section, const TunedLaw& ro
   describe_prices(v, tuning.limits);
   v.group_if("design", row.stable(), "The law with its verification; null without a stable one.",
              [&] { describe(v, row.design); });
+  v.group_if("simulated", row.in_time.has_value(),
+             "On the nonlinear antenna at that wind speed; null where it did not run.", [&] {
+               const LawInTime run = row.in_time.value_or(LawInTime{});
+               v.number("budget_rms", row.budget_rms(), unit::millidegree,
+                        "What budgets are held against: the larger of the linear and the simulated "
+                        "rms, limit cycle added in quadrature; null if a run did not complete.");
+               v.flag("limit_cycle_within_budget", run.still,
+                      "No limit cycle beyond the tightest budget.");
+               v.object("effect", row.effect(), "Beyond the linear rms.");
+               v.object("expected_rms", run.expected,
+                        "Over several records of wind; null if there was but one.");
+             });
   v.object("ensemble", row.ensemble,
            "Its gains held on every plant of the ensemble; null without a stable law.");
 }

@@ -95,11 +95,12 @@ std::string unrest_too(const std::vector<design::HuntingResult>& hunting, double
 }
 
 // What a controller that the linear plant prefers does on the nonlinear antenna.
-std::string first_text(const design::NonlinearVerification& first, double error) {
-  std::string text =
-      first.wind.status == RunStatus::complete
-          ? fmt::format("it has {:.3f}", first.wind.beam_rms / millidegree)
-          : fmt::format("its run did not complete ({})", design::to_string(first.wind.status));
+std::string first_text(const design::SimulatedCandidate& candidate, double error) {
+  const design::NonlinearVerification& first = candidate.result;
+  const RunStatus status = candidate.rms ? candidate.rms->status : first.wind.status;
+  std::string text = status == RunStatus::complete
+                         ? fmt::format("it has {:.3f}", candidate.simulated_rms() / millidegree)
+                         : fmt::format("its run did not complete ({})", design::to_string(status));
   const double hunting = design::hunting_amplitude(first.hunting);
   if (!design::holds_still(first.hunting, error)) {
     text += " and " + unrest(first.hunting, error);
@@ -110,18 +111,31 @@ std::string first_text(const design::NonlinearVerification& first, double error)
 }
 
 // What the controller chosen, whose run in wind completed, does better by design::recommend.
-std::string merit(const TimeDomainSection& section, const design::NonlinearVerification& first) {
-  const double rms = section.result.wind.beam_rms, other = first.wind.beam_rms;
-  if (rms < other || !std::isfinite(other)) {
+std::string merit(const TimeDomainSection& section, const design::SimulatedCandidate& first) {
+  const double rms = section.own().simulated_rms(), other = first.simulated_rms();
+  const auto change = figure_change(section.own(), first);
+  const bool tied = change && change->lower <= 0.0 && change->upper >= 0.0;
+  if (!std::isfinite(other) || (rms < other && !tied)) {
     return fmt::format("{} has {:.3f}", section.law, rms / millidegree);
   }
-  const bool tied = rms <= (1.0 + negligible_change) * other;
-  const bool hunts_less =
-      design::hunting_amplitude(section.result.hunting) < design::hunting_amplitude(first.hunting);
+  const bool alike = rms <= (1.0 + negligible_change) * other;
+  const bool hunts_less = design::hunting_amplitude(section.result.hunting) <
+                          design::hunting_amplitude(first.result.hunting);
   return fmt::format("{} has {} and {}", section.law,
-                     tied ? fmt::format("the same rms within {:.0f} %", 100.0 * negligible_change)
-                          : fmt::format("{:.3f}", rms / millidegree),
+                     tied ? fmt::format("{:.3f}, a tie over the same {} winds,", rms / millidegree,
+                                        section.rms->records)
+                     : alike
+                         ? fmt::format("the same rms within {:.0f} %", 100.0 * negligible_change)
+                         : fmt::format("{:.3f}", rms / millidegree),
                      hunts_less ? "a smaller limit cycle" : "fewer gains");
+}
+
+// By more than the winds leave open.
+bool is_better(const TimeDomainSection& section, const design::SimulatedCandidate& first) {
+  const double other = first.simulated_rms();
+  if (!std::isfinite(other)) return true;
+  const auto change = figure_change(section.own(), first);
+  return change ? change->lower > 0.0 : section.own().simulated_rms() < other;
 }
 
 // Why this law and not the one that the linear plant puts first.
@@ -136,19 +150,19 @@ std::string conclude_choice(const TimeDomainSection& section) {
   const auto& hunting = section.result.hunting;
   std::string text = fmt::format(
       "{} has the lowest linear rms ({:.3f} mdeg); on the nonlinear antenna {}: ", first->law,
-      wind.predicted_rms / millidegree, first_text(first->result, error));
+      wind.predicted_rms / millidegree, first_text(*first, error));
   const bool first_still = design::holds_still(first->result.hunting, error);
-  if (!std::isfinite(section.result.wind.beam_rms)) {
+  if (!std::isfinite(section.own().simulated_rms())) {
     text += fmt::format("the run of {} did not complete either", section.law);
   } else if (!design::holds_still(hunting, error)) {
-    text += fmt::format("{}, but {}", merit(section, first->result),
+    text += fmt::format("{}, but {}", merit(section, *first),
                         first_still ? unrest(hunting, error) : unrest_too(hunting, error));
   } else if (!first_still) {
     text += fmt::format("{} has no limit cycle beyond the budget", section.law);
-  } else if (section.result.wind.beam_rms < wind.beam_rms || !std::isfinite(wind.beam_rms)) {
+  } else if (is_better(section, *first)) {
     text += fmt::format("{} is better", section.law);
   } else {
-    text += merit(section, first->result);
+    text += merit(section, *first);
   }
   return text + ". ";
 }
@@ -231,7 +245,7 @@ std::string not_still(const TimeDomainSection& section) {
 
 std::string decide(const TimeDomainSection& section) {
   const double error = section.options.settled_error;
-  const double rms = section.result.wind.beam_rms / millidegree;
+  const double rms = section.own().simulated_rms() / millidegree;
   // No other did either: such a law is never put before one that did.
   if (!std::isfinite(rms)) {
     return fmt::format(
@@ -257,13 +271,15 @@ std::string decide(const TimeDomainSection& section) {
   std::vector<std::string> sentences;
   for (const auto& candidate : section.candidates) {
     const design::WindResult &wind = candidate.result.wind, &chosen = section.result.wind;
+    const double simulated = candidate.simulated_rms();
     const bool fit =
-        wind.status == RunStatus::complete && design::holds_still(candidate.result.hunting, error);
-    const bool lower = wind.beam_rms < chosen.beam_rms || wind.predicted_rms < chosen.predicted_rms;
+        std::isfinite(simulated) && design::holds_still(candidate.result.hunting, error);
+    const bool lower =
+        simulated < section.own().simulated_rms() || wind.predicted_rms < chosen.predicted_rms;
     if (fit || !lower) continue;
-    sentences.push_back(fmt::format(
-        "Not {}, with {:.3f} mdeg on the linear plant: on the nonlinear antenna {}.", candidate.law,
-        wind.predicted_rms / millidegree, first_text(candidate.result, error)));
+    sentences.push_back(
+        fmt::format("Not {}, with {:.3f} mdeg on the linear plant: on the nonlinear antenna {}.",
+                    candidate.law, wind.predicted_rms / millidegree, first_text(candidate, error)));
   }
   if (std::string stroke = assumed_stroke(section); !stroke.empty()) {
     sentences.push_back(std::move(stroke));

@@ -50,8 +50,7 @@ std::string of_the_linear_plant(const TuneSection& section, const TunedLaw& row)
     return fmt::format(" on the linear plant, but it {} on the nonlinear antenna",
                        held_against(row));
   }
-  return fmt::format(" on the linear plant, {} on the nonlinear antenna",
-                     mdeg(row.in_time->beam_rms));
+  return fmt::format(" on the linear plant, {} on the nonlinear antenna", mdeg(row.in_time->rms()));
 }
 
 // The best usable law of each purpose and, if it is another, the one recommended; and what only the
@@ -112,11 +111,14 @@ void conclude_before_and_after(const TuneSection& section, std::vector<std::stri
   }
 }
 
-// Ensemble members on which a controller meets an rms; 0 without an ensemble.
+// Ensemble members on which a controller meets an rms, with what its simulation adds; 0 without an
+// ensemble.
 std::ptrdiff_t plants_kept(const TunedLaw& law, double rms) {
   if (!law.ensemble) return 0;
-  return std::ranges::count_if(law.ensemble->members,
-                               [&](const auto& one) { return one.stable && one.beam_rms <= rms; });
+  const auto effect = law.effect().for_budgets();
+  return std::ranges::count_if(law.ensemble->members, [&](const auto& one) {
+    return one.stable && design::within_budget(effect.rms(one.beam_rms), rms);
+  });
 }
 
 // What a law has of a budget's rms.
@@ -124,7 +126,7 @@ std::string figures_of(const TunedLaw& law) {
   std::string text =
       fmt::format("{} has {} on the case's plant", name_and_purpose(law), mdeg(law.beam_rms));
   if (law.in_time) {
-    text += fmt::format(", {} on the nonlinear antenna", mdeg(law.in_time->beam_rms));
+    text += fmt::format(", {} on the nonlinear antenna", mdeg(law.in_time->rms()));
   }
   if (law.left_out()) text += fmt::format(", where it {}", held_against(law));
   return text;

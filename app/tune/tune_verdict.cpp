@@ -28,8 +28,6 @@ namespace {
 using design::GoalKind;
 using design::GoalRatio;
 
-constexpr double met = 1.0 + 1e-6;
-
 bool tuned(const TunedLaw& row) {
   return row.tuned_for != TunedFor::present;
 }
@@ -95,15 +93,22 @@ std::string standing_goals(const TunedLaw& row, const design::HardGoals& goals) 
   return fmt::format("{}", fmt::join(texts, "; "));
 }
 
-// The rms that budgets are held against, and the linear plant's where it is another.
+// The rms in wind that budgets are held against, and what else the nonlinear antenna adds.
 std::string rms_text(const TunedLaw& row) {
-  if (row.in_time && !std::isfinite(row.in_time->beam_rms)) {
-    return fmt::format("{:.4f} mdeg on the linear plant", row.beam_rms / millidegree);
+  const double linear = row.beam_rms / millidegree;
+  if (!row.in_time) return fmt::format("{:.4f} mdeg", linear);
+  if (!std::isfinite(row.in_time->rms())) {
+    return fmt::format("{:.4f} mdeg on the linear plant", linear);
   }
-  return row.budget_rms() > row.beam_rms
-             ? fmt::format("{:.4f} mdeg on the nonlinear antenna ({:.4f} linear)",
-                           row.budget_rms() / millidegree, row.beam_rms / millidegree)
-             : fmt::format("{:.4f} mdeg", row.beam_rms / millidegree);
+  const double simulated = row.in_time->rms() / millidegree;
+  std::string text =
+      simulated > linear
+          ? fmt::format("{:.4f} mdeg on the nonlinear antenna ({:.4f} linear)", simulated, linear)
+          : fmt::format("{:.4f} mdeg on the linear plant ({:.4f} simulated)", linear, simulated);
+  if (row.in_time->hunting > 0.0) {
+    text += fmt::format(", {:.4f} with the limit cycle", row.budget_rms() / millidegree);
+  }
+  return text;
 }
 
 // What the linear plant puts before the law that is named, and why it is not the one.
@@ -192,9 +197,9 @@ std::vector<std::string> structures_of(const TuneSection& section) {
 
 // Up to which wind speed a law meets a budget.
 std::string reached_text(const TuneSection& section, const TunedLaw& law, double limit) {
-  return fmt::format(
-      "; the budget is met up to {:.3g} m/s{}{}{}", limit, dish_and_mast(section.wind_mast, limit),
-      law.in_time ? " on the linear plant" : "", climate_text(section.climate, limit));
+  return fmt::format("; the budget is met up to {:.3g} m/s{}{}{}", limit,
+                     dish_and_mast(section.wind_mast, limit), law.in_time ? " by simulation" : "",
+                     climate_text(section.climate, limit));
 }
 
 // Behind what no law keeps: why those do not whose rms, at the wind speed of `best` and tuned for
@@ -203,10 +208,11 @@ std::string barred_by_hunting(const TuneSection& section, const TunedLaw& best, 
   bool any = false, seen = true;
   for (const auto* row : rows_at(section, best.wind_speed)) {
     if (row->tuned_for != best.tuned_for || !row->usable() || !row->in_time) continue;
-    if (!std::isfinite(row->in_time->beam_rms) || row->budget_rms() > rms) continue;
+    if (!std::isfinite(row->in_time->rms()) || !design::within_budget(row->wind_rms(), rms))
+      continue;
     if (row->keeps(rms)) continue;
     any = true;
-    seen = seen && row->in_time->hunting > design::hunting_limit(rms);
+    seen = seen && row->in_time->hunting_seen;
   }
   if (!any) return "";
   return seen ? ": the controllers that meet it in wind limit-cycle beyond it"
@@ -230,7 +236,7 @@ void find_unreached_rms(const TuneSection& section, std::vector<Shortfall>& shor
       continue;
     }
     const TunedLaw* best = nearest_to_budget(section, budget.wind_speed);
-    if (best == nullptr || best->keeps(met * budget.rms)) continue;
+    if (best == nullptr || best->keeps(budget.rms)) continue;
     const auto more_of = [&](const TunedLaw& law) {
       return fmt::format(
           ", {} dB on two equal axes in band {}{}",
@@ -239,7 +245,7 @@ void find_unreached_rms(const TuneSection& section, std::vector<Shortfall>& shor
                     3),
           budget.band, law.left_out() ? "" : reached_text(section, law, law.speed_limits[i]));
     };
-    const std::string barred = barred_by_hunting(section, *best, met * budget.rms);
+    const std::string barred = barred_by_hunting(section, *best, budget.rms);
     shortfalls.push_back(
         {fmt::format("The budget '{}' in band {} ({:.4f} mdeg) {} up to {:.3g} m/s{} by {} ({}){}.",
                      budget.name, budget.band, budget.rms / millidegree,
@@ -252,8 +258,8 @@ void find_unreached_rms(const TuneSection& section, std::vector<Shortfall>& shor
   if (!section.beam_rms_goal) return;
   const double speed = section.wind_speeds.front();
   const TunedLaw* best = nearest_to_budget(section, speed);
-  if (best == nullptr || best->keeps(met * *section.beam_rms_goal)) return;
-  const std::string barred = barred_by_hunting(section, *best, met * *section.beam_rms_goal);
+  if (best == nullptr || best->keeps(*section.beam_rms_goal)) return;
+  const std::string barred = barred_by_hunting(section, *best, *section.beam_rms_goal);
   shortfalls.push_back({fmt::format("A boresight error of {:.4f} mdeg rms {} at {:.3g} m/s{}{}.",
                                     *section.beam_rms_goal / millidegree,
                                     barred.empty() ? "cannot be met" : "is met", speed,
@@ -276,12 +282,18 @@ std::string why_not_recommended(const TuneSection& section, const TunedLaw& othe
   };
   if (other.in_time && recommended.in_time) {
     const LawInTime &run = *other.in_time, &chosen = *recommended.in_time;
+    if (const auto change = figure_change(recommended, other);
+        change && change->lower <= 0.0 && change->upper >= 0.0) {
+      return fmt::format(
+          "is a tie over the same {} winds ({:+.1f} % rms, limit cycle included; 95 % {:+.1f} to "
+          "{:+.1f} %)",
+          chosen.expected->records, 100.0 * change->value, 100.0 * change->lower,
+          100.0 * change->upper);
+    }
     const bool hunts_more = run.hunting * (1.0 - negligible_change) > chosen.hunting;
     // A negligible loss in wind is not why, where hunting is.
     const double share = hunts_more ? negligible_change : 0.0;
-    if (run.beam_rms > (1.0 + share) * chosen.beam_rms) {
-      points_worse(run.beam_rms, chosen.beam_rms);
-    }
+    if (run.rms() > (1.0 + share) * chosen.rms()) points_worse(run.rms(), chosen.rms());
     if (hunts_more) {
       reasons.push_back(fmt::format("limit-cycles by +-{:.4f} mdeg instead of +-{:.4f}",
                                     run.hunting / millidegree, chosen.hunting / millidegree));
@@ -304,6 +316,19 @@ std::string why_not_recommended(const TuneSection& section, const TunedLaw& othe
     reasons.push_back(fmt::format("is better by no more than {:.0f} %", 100.0 * negligible_change));
   }
   return fmt::format("{}", fmt::join(reasons, ", and "));
+}
+
+std::string ties_text(const design::TuningStudy& study, const TunedLaw& recommended) {
+  std::vector<std::string> names;
+  for (const auto* row : tied_with(study, recommended)) names.push_back(name_and_purpose(*row));
+  if (names.empty()) return "";
+  return fmt::format(
+      "A tie with {}: {}, {}.", name_and_purpose(recommended), fmt::join(names, ", "),
+      recommended.in_time && recommended.in_time->expected
+          ? fmt::format("within {:.0f} %, or the 95 % interval of the difference "
+                        "over the same {} winds, simulated",
+                        100.0 * negligible_change, recommended.in_time->expected->records)
+          : fmt::format("within {:.0f} %", 100.0 * negligible_change));
 }
 
 std::vector<std::string> TuneSection::not_run_texts() const {

@@ -14,4 +14,8 @@ std::string name_and_purpose(const TunedLaw& row);
 std::string why_not_recommended(const TuneSection& section, const TunedLaw& other,
                                 const TunedLaw& recommended);
 
+/// Names the controllers whose figure is a tie with the recommended one's (design::tied_with), and
+/// by what; empty without any.
+std::string ties_text(const design::TuningStudy& study, const TunedLaw& recommended);
+
 }  // namespace boresight::app

@@ -1,5 +1,6 @@
+#include <algorithm>
 #include <cmath>
-#include <numbers>
+#include <limits>
 
 #include <boresight/design/decisions/assessment.hpp>
 
@@ -18,10 +19,40 @@ Fitness fitness(const Assessment& assessment) {
   return Fitness::fit;
 }
 
+NonlinearEffect nonlinear_effect(const Assessment& assessment) {
+  NonlinearEffect effect;
+  if (const auto& rms = assessment.simulated_rms) {
+    effect.factor = std::isfinite(*rms) ? *rms / assessment.linear_rms
+                                        : std::numeric_limits<double>::infinity();
+  }
+  effect.amplitude = assessment.limit_cycle_amplitude.value_or(0.0);
+  return effect;
+}
+
 double ranking_figure(const Assessment& assessment) {
-  const auto& rms = assessment.simulated_rms;
-  if (!rms || !std::isfinite(*rms)) return assessment.linear_rms;
-  return std::hypot(*rms, assessment.limit_cycle_amplitude.value_or(0.0) / std::numbers::sqrt2);
+  const double wind = assessment.simulated_rms.value_or(assessment.linear_rms);
+  if (!std::isfinite(wind)) return assessment.linear_rms;
+  return std::hypot(wind, limit_cycle_rms(assessment.limit_cycle_amplitude.value_or(0.0)));
+}
+
+void count_budget(double budget, Assessment& assessment) {
+  ++assessment.budgets_required;
+  if (assessment.limit_cycles == LimitCycleVerdict::not_shown) return;
+  const double rms = nonlinear_effect(assessment).for_budgets().rms(assessment.linear_rms);
+  if (within_budget(rms, budget)) ++assessment.budgets_met;
+}
+
+std::optional<numerics::Interval> figure_change(const Assessment& from, const Assessment& to) {
+  if (!from.expected || !to.expected) return std::nullopt;
+  return relative_change({*from.expected, from.limit_cycle_amplitude.value_or(0.0)},
+                         {*to.expected, to.limit_cycle_amplitude.value_or(0.0)});
+}
+
+bool are_tied(const Assessment& one, const Assessment& other, double relative) {
+  const auto [least, largest] = std::minmax({ranking_figure(one), ranking_figure(other)});
+  if (largest <= (1.0 + relative) * least) return true;
+  const auto change = figure_change(one, other);
+  return change && change->lower <= 0.0 && change->upper >= 0.0;
 }
 
 }  // namespace boresight::design

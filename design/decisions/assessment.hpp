@@ -5,6 +5,9 @@
 #include <optional>
 #include <string>
 
+#include <boresight/design/problem/nonlinear_effect.hpp>
+#include <boresight/design/verification/simulated_rms.hpp>
+
 namespace boresight::design {
 
 /// What a controller was tuned for.
@@ -30,9 +33,11 @@ struct Assessment {
   /// Stable and within every constraint on every ensemble member; false: also not asked for.
   bool member_constraints_met = false;
   double linear_rms = std::numeric_limits<double>::quiet_NaN();  // boresight error in wind
-  /// The same on the nonlinear antenna: none where it was not simulated, NaN where the run in wind
+  /// The same on the nonlinear antenna: none where it was not simulated, NaN where a run in wind
   /// did not complete.
   std::optional<double> simulated_rms;
+  /// What that is the mean of; none of a single record.
+  std::optional<SimulatedRms> expected;
   LimitCycleVerdict limit_cycles = LimitCycleVerdict::not_simulated;
   /// Largest amplitude of the boresight's limit cycles; none where not simulated.
   std::optional<double> limit_cycle_amplitude;
@@ -56,9 +61,25 @@ enum class Fitness {
 
 Fitness fitness(const Assessment& assessment);
 
-/// What controllers of equal fitness are ranked by, rad rms: the simulated rms with the limit cycle
-/// added in quadrature as the rms of a sinusoid, sqrt(rms^2 + amplitude^2 / 2); the linear rms
-/// where no run in wind completed.
+/// What its simulation says beyond linear_rms: infinite factor where a run in wind did not
+/// complete, none of it where it was not simulated.
+NonlinearEffect nonlinear_effect(const Assessment& assessment);
+
+/// What controllers of equal fitness are ranked by, rad rms: NonlinearEffect::rms of the linear
+/// rms, which is the simulated rms with the limit cycle; the linear rms where a run in wind did not
+/// complete.
 double ranking_figure(const Assessment& assessment);
+
+/// Counts one budget (rad rms) as required, and as met if NonlinearEffect::for_budgets keeps it, no
+/// run was lost, and limit cycles were looked for with success.
+void count_budget(double budget, Assessment& assessment);
+
+/// How far the ranking figure of one lies above that of another, relative to that, by the same
+/// winds (relative_change); none without those.
+std::optional<numerics::Interval> figure_change(const Assessment& from, const Assessment& to);
+
+/// Whether two ranking figures are a tie: within that relative difference of one another, or within
+/// the interval of figure_change.
+bool are_tied(const Assessment& one, const Assessment& other, double relative);
 
 }  // namespace boresight::design

@@ -40,6 +40,10 @@ std::vector<Candidate> graded(std::span<const Assessment> assessments) {
   return candidates;
 }
 
+bool tied(const Candidate& one, const Candidate& other, double tie) {
+  return are_tied(*one.assessment, *other.assessment, tie);
+}
+
 const Candidate* best_of(const std::vector<Candidate>& candidates,
                          const RecommendOptions& options) {
   const auto accepted = [&](const Candidate& one) { return one.fitness <= options.accepted; };
@@ -54,7 +58,7 @@ const Candidate* best_of(const std::vector<Candidate>& candidates,
   const Candidate* best = least;
   for (const auto& one : candidates) {
     if (!accepted(one) || one.grade() != least->grade()) continue;
-    if (!(one.figure <= (1.0 + options.tie) * least->figure)) continue;
+    if (!tied(one, *least, options.tie)) continue;
     if (one.order() < best->order()) best = &one;
   }
   return best;
@@ -63,11 +67,11 @@ const Candidate* best_of(const std::vector<Candidate>& candidates,
 RecommendationReason reason_against(const Candidate& rival, const Candidate& winner, double tie) {
   if (rival.fitness != winner.fitness) return RecommendationReason::fitness;
   if (rival.grade() != winner.grade()) return RecommendationReason::budgets;
-  const bool tied = rival.figure <= (1.0 + tie) * winner.figure;
-  if (tied && rival.assessment->parts > winner.assessment->parts) {
+  const bool alike = tied(rival, winner, tie);
+  if (alike && rival.assessment->parts > winner.assessment->parts) {
     return RecommendationReason::fewer_parts;
   }
-  if (tied && rival.assessment->purpose != winner.assessment->purpose) {
+  if (alike && rival.assessment->purpose != winner.assessment->purpose) {
     return RecommendationReason::robustness;
   }
   return rival.figure > winner.figure ? RecommendationReason::figure : RecommendationReason::name;
@@ -87,8 +91,9 @@ Recommendation recommend(std::span<const Assessment> candidates, const Recommend
   for (std::size_t i = 0; i < all.size(); ++i) {
     if (result.winner == i) continue;
     RejectedController rejected{i, all[i].fitness, RecommendationReason::fitness,
-                                std::numeric_limits<double>::quiet_NaN()};
+                                std::numeric_limits<double>::quiet_NaN(), false};
     if (best != nullptr) {
+      rejected.tied = all[i].grade() == best->grade() && tied(all[i], *best, options.tie);
       rejected.reason = reason_against(all[i], *best, options.tie);
       rejected.figure_ratio = all[i].figure / best->figure;
       result.reasons.push_back(rejected.reason);

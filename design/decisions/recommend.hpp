@@ -10,7 +10,9 @@
 namespace boresight::design {
 
 struct RecommendOptions {
-  double tie = 0.02;  // relative difference of ranking figures that decides nothing
+  /// Relative difference of ranking figures that decides nothing, as one within the interval of
+  /// figure_change does not (are_tied).
+  double tie = 0.02;
   /// The worst fitness that a winner may have.
   Fitness accepted = Fitness::misses_member;
 };
@@ -31,6 +33,7 @@ struct RejectedController {
   Fitness fitness = Fitness::fit;
   RecommendationReason reason = RecommendationReason::fitness;
   double figure_ratio = 0.0;  // ranking figure over the winner's; NaN without a winner
+  bool tied = false;          // of the winner's fitness and budgets met, its figure a tie
 };
 
 struct Recommendation {
@@ -40,7 +43,7 @@ struct Recommendation {
 };
 
 /// The controller to be used, of those of one antenna in one wind whose fitness is accepted: best
-/// fitness, then most required budgets met, then least ranking figure. Of those within `tie` of the
+/// fitness, then most required budgets met, then least ranking figure. Of those tied with the
 /// least figure the one of fewest parts; then a robust design before a nominal one, the least
 /// figure, the structure's name. Where one candidate was simulated in wind, one that was not is
 /// Fitness::not_shown at best. The choice does not depend on the order of the candidates.

@@ -6,12 +6,10 @@
 
 namespace boresight::design {
 
-std::vector<std::optional<int>> plants_within_budgets(const TrackingProblem& problem,
-                                                      const std::vector<EnsembleMember>& members,
-                                                      const control::ControlLaw& law,
-                                                      const HardGoals& goals,
-                                                      const std::vector<PointingBudget>& budgets,
-                                                      double factor, unsigned threads) {
+std::vector<std::optional<int>> plants_within_budgets(
+    const TrackingProblem& problem, const std::vector<EnsembleMember>& members,
+    const control::ControlLaw& law, const HardGoals& goals,
+    const std::vector<PointingBudget>& budgets, const NonlinearEffect& effect, unsigned threads) {
   std::map<double, EnsembleResult> by_speed;
   std::vector<std::optional<int>> met;
   for (const auto& budget : budgets) {
@@ -26,7 +24,7 @@ std::vector<std::optional<int>> plants_within_budgets(const TrackingProblem& pro
     }
     met.back() =
         static_cast<int>(std::ranges::count_if(found->second.members, [&](const auto& member) {
-          return member.stable && factor * member.beam_rms <= budget.rms;
+          return member.stable && within_budget(effect.rms(member.beam_rms), budget.rms);
         }));
   }
   return met;

@@ -142,4 +142,13 @@ EnsembleResult judge(const TrackingProblem& problem, const std::vector<EnsembleM
   return result;
 }
 
+double rms_over_members(const EnsembleResult& ensemble) {
+  double sum = 0.0;
+  for (const auto& member : ensemble.members) {
+    if (!member.stable) return std::numeric_limits<double>::infinity();
+    sum += member.beam_rms * member.beam_rms;
+  }
+  return std::sqrt(sum / static_cast<double>(ensemble.members.size()));
+}
+
 }  // namespace boresight::design

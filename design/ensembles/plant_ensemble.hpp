@@ -46,4 +46,8 @@ struct EnsembleResult {
 EnsembleResult judge(const TrackingProblem& problem, const std::vector<EnsembleMember>& members,
                      const control::ControlLaw& law, const HardGoals& goals, unsigned threads);
 
+/// Root of the mean square of the members' rms (rad at the sky), which proposals and motors are
+/// compared by; infinite if one is unstable.
+double rms_over_members(const EnsembleResult& ensemble);
+
 }  // namespace boresight::design

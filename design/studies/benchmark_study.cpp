@@ -6,6 +6,7 @@
 #include <boresight/control/controllers/sample_time.hpp>
 #include <boresight/control/controllers/sampled_law.hpp>
 #include <boresight/control/loops/state_space_controller.hpp>
+#include <boresight/design/problem/budget_speeds.hpp>
 #include <boresight/design/studies/benchmark_study.hpp>
 #include <boresight/numerics/angles.hpp>
 #include <boresight/numerics/error.hpp>
@@ -107,6 +108,8 @@ BenchmarkStudy study_rejection(const Mission& mission, const std::vector<Ensembl
     study.nonlinear =
         verify_in_time_domain(mission, problem, *study.controller.law, study.controller.description,
                               options.seed, options.threads, SecondIntegrator::none);
+    study.simulated_budget_speeds = budget_speeds(problem, *study.controller.law, study.budgets,
+                                                  study.nonlinear->own().effect());
   }
   return study;
 }

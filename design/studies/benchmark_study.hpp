@@ -53,6 +53,9 @@ struct BenchmarkStudy {
   /// Of the beam after 1 N m, 1 N m s at the motor shaft (rad of motor): at most 120 s for plots.
   std::vector<control::CoursePoint> step_course, impulse_course;
   std::optional<TimeDomainStudy> nonlinear;
+  /// m/s, one a budget: the score's budget_speeds by that simulation, limit cycle included; empty
+  /// without one.
+  std::vector<double> simulated_budget_speeds;
   NoTimeDomain no_nonlinear = NoTimeDomain::none;
   bool interrupted = false;
 

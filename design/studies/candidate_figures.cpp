@@ -2,6 +2,7 @@
 #include <cmath>
 #include <limits>
 
+#include <boresight/design/problem/budget_speeds.hpp>
 #include <boresight/design/problem/drive_reach.hpp>
 #include <boresight/design/problem/pointing.hpp>
 #include <boresight/design/studies/candidate_figures.hpp>
@@ -46,8 +47,8 @@ CandidateFigures candidate_figures(const Mission& mission, const std::vector<Poi
                                    const std::vector<PointingBudget>& budgets,
                                    const CandidateLaw& tuned) {
   const control::ControlLaw& law = tuned.design.tuning.law;
-  const double factor = tuned.nonlinear_factor();
-  const bool known = std::isfinite(factor);
+  const NonlinearEffect effect = tuned.effect();
+  const bool known = std::isfinite(effect.factor);
   CandidateFigures figures;
   TrackingProblem problem = tracking_problem(mission);
   auto evaluator = make_evaluator(problem);
@@ -62,13 +63,10 @@ CandidateFigures candidate_figures(const Mission& mission, const std::vector<Poi
     return found;
   };
   figures.supply_wind_speed = torque_limited_wind_speed(mission);
-  figures.losses = losses(factor * std::sqrt(evaluation.beam_variance()) / problem.gear_ratio);
-  for (const auto& budget : budgets) {
-    figures.speed_limits.push_back(known ? wind_speed_limit(problem, evaluator, law,
-                                                            evaluation.noise_variance,
-                                                            budget.rms / factor)
-                                         : nan);
-  }
+  figures.losses = losses(effect.rms(std::sqrt(evaluation.beam_variance()) / problem.gear_ratio));
+  figures.speed_limits =
+      known ? budget_speeds(problem, evaluator, law, evaluation.noise_variance, budgets, effect)
+            : std::vector<double>(budgets.size(), nan);
   const double crest = mission.stated_constraints.crest_factor;
   const double mean = std::abs(plant::mean_wind_torque(problem.wind.site, problem.wind.mean_speed) /
                                problem.gear_ratio);
@@ -82,9 +80,9 @@ CandidateFigures candidate_figures(const Mission& mission, const std::vector<Poi
   figures.slew = slew_of(mission.antenna);
   if (!mission.climate.empty()) {
     problem.climate = mission.climate;
-    figures.climate_rms = factor *
-                          std::sqrt(make_evaluator(problem).evaluate(law, false).beam_variance()) /
-                          problem.gear_ratio;
+    figures.climate_rms =
+        effect.rms(std::sqrt(make_evaluator(problem).evaluate(law, false).beam_variance()) /
+                   problem.gear_ratio);
     figures.climate_losses = losses(*figures.climate_rms);
   }
   return figures;

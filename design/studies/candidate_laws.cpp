@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -30,15 +31,6 @@ std::vector<EnsembleMember> members_of(const Mission& as_is, const Mission& prop
   return members;
 }
 
-double over_members(const EnsembleResult& ensemble) {
-  double sum = 0.0;
-  for (const auto& member : ensemble.members) {
-    if (!member.stable) return infinity;
-    sum += member.beam_rms * member.beam_rms;
-  }
-  return std::sqrt(sum / static_cast<double>(ensemble.members.size()));
-}
-
 // Where none is fit the least unfit; of those that miss their goals the nearest to them; null
 // without a stable one.
 const TunedLaw* standing_for(const ControllerStudy& study) {
@@ -64,7 +56,7 @@ CandidateLaw candidate_law(const Mission& mission, const ControllerStudy& study,
   if (!law.stable() || !row.ensemble) return law;
   const EnsembleResult& ensemble = *row.ensemble;
   law.ensemble = ensemble;
-  law.member_rms = over_members(ensemble);
+  law.member_rms = rms_over_members(ensemble);
   law.goals_met = law.design.tuning.status == TuningStatus::optimal &&
                   ensemble.within_goals == static_cast<int>(members.size());
   TrackingProblem problem = tracking_problem(mission);
@@ -72,13 +64,16 @@ CandidateLaw candidate_law(const Mission& mission, const ControllerStudy& study,
   const auto& gains = law.design.tuning.law;
   if (options.time_domain) {
     const auto how = comparison_options(mission, options.seed);
-    const auto* run = study.time_domain ? run_of(*study.time_domain, row) : nullptr;
-    law.time_domain =
-        run != nullptr ? std::optional(*run) : run_in_time_domain(mission, problem, gains, how);
+    auto run = study.time_domain ? run_of(*study.time_domain, row) : std::nullopt;
+    if (!run) run = compare_in_time_domain(mission, problem, {description_of(row), gains}, how);
+    if (run) {
+      law.time_domain = std::move(run->result);
+      law.expected = std::move(run->rms);
+    }
     law.still = !law.time_domain || holds_still(law.time_domain->hunting, how.settled_error);
   }
   law.budgets_met = plants_within_budgets(problem, members, gains, study.tuned.goals,
-                                          mission.budgets, law.nonlinear_factor(), 1);
+                                          mission.budgets, law.effect().for_budgets(), 1);
   return law;
 }
 

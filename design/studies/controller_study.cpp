@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include <boresight/design/problem/budget_speeds.hpp>
 #include <boresight/design/studies/controller_study.hpp>
 #include <boresight/numerics/parallel_loop.hpp>
 
@@ -22,11 +23,18 @@ std::vector<NamedController> alternatives(const TuningStudy& section, const Tune
   return laws;
 }
 
-LawInTime judged(const NonlinearVerification& result, double error) {
+LawInTime judged(const TimeDomainStudy::Candidate& run, double error) {
+  const auto& [law, result, rms] = run;
   return {.still = holds_still(result.hunting, error),
           .hunting = hunting_amplitude(result.hunting),
           .beam_rms = result.wind.beam_rms,
-          .hunting_seen = hunting_seen(result.hunting)};
+          .hunting_seen = hunting_seen(result.hunting),
+          .expected = rms};
+}
+
+void limit_speeds(const Mission& mission, TunedLaw& row) {
+  row.speed_limits = budget_speeds(tracking_problem(mission), row.design.tuning.law,
+                                   mission.budgets, row.effect());
 }
 
 bool needed(const TuningStudy& section, double speed) {
@@ -49,12 +57,13 @@ std::string description_of(const TunedLaw& row) {
   return fmt::format("{}, {}", row.structure, to_string(row.tuned_for));
 }
 
-const NonlinearVerification* run_of(const TimeDomainStudy& section, const TunedLaw& row) {
-  if (section.wind_speed != row.wind_speed) return nullptr;
+std::optional<TimeDomainStudy::Candidate> run_of(const TimeDomainStudy& section,
+                                                 const TunedLaw& row) {
+  if (section.wind_speed != row.wind_speed) return std::nullopt;
   const std::string law = description_of(row);
-  if (section.law == law) return &section.result;
+  if (section.law == law) return section.own();
   const auto one = std::ranges::find(section.candidates, law, &TimeDomainStudy::Candidate::law);
-  return one == section.candidates.end() ? nullptr : &one->result;
+  return one == section.candidates.end() ? std::nullopt : std::optional(*one);
 }
 
 void judge_in_time(const Mission& mission, const TimeDomainStudy* compared, TunedFor purpose,
@@ -65,9 +74,9 @@ void judge_in_time(const Mission& mission, const TimeDomainStudy* compared, Tune
   std::vector<TunedLaw*> to_run;
   for (auto& row : section.laws) {
     if (row.tuned_for != purpose || !row.usable()) continue;
-    if (const auto* result = run_of(*compared, row)) {
-      row.in_time = judged(*result, error);
-      if (result == &compared->result) row.in_time->expected = compared->rms;
+    if (const auto run = run_of(*compared, row)) {
+      row.in_time = judged(*run, error);
+      limit_speeds(mission, row);
     } else if (needed(section, row.wind_speed)) {
       to_run.push_back(&row);
     }
@@ -78,8 +87,11 @@ void judge_in_time(const Mission& mission, const TimeDomainStudy* compared, Tune
     TunedLaw& row = *to_run[i];
     auto problem = tracking_problem(mission);
     problem.wind.mean_speed = row.wind_speed;
-    const auto result = run_in_time_domain(mission, problem, row.design.tuning.law, options);
-    if (result) row.in_time = judged(*result, error);
+    const auto run = compare_in_time_domain(mission, problem,
+                                            {description_of(row), row.design.tuning.law}, options);
+    if (!run) return;
+    row.in_time = judged(*run, error);
+    limit_speeds(mission, row);
   });
 }
 

@@ -44,13 +44,13 @@ std::optional<EnsembleCurves> curves_of(const TuningStudy& study, const TunedLaw
 /// What a simulated controller is called.
 std::string description_of(const TunedLaw& row);
 
-/// What ran of a design among those of a study; null if nothing did.
-const NonlinearVerification* run_of(const TimeDomainStudy& study, const TunedLaw& row);
+/// What ran of a design among those of a study; none if nothing did.
+std::optional<TimeDomainStudy::Candidate> run_of(const TimeDomainStudy& study, const TunedLaw& row);
 
-/// Says of each usable controller of `purpose` what it does on the nonlinear antenna
-/// (TunedLaw::in_time): at the wind speed of `compared` by what ran there, at the speeds that
-/// budgets are needed up to by runs of their own, some seconds a controller. Nothing without
-/// `compared`. The same for any number of threads.
+/// Sets of each usable controller of `purpose` what it does on the nonlinear antenna
+/// (TunedLaw::in_time, and speed_limits by that): at the wind speed of `compared` by what ran
+/// there, at the speeds that budgets are needed up to by runs of their own, some seconds a
+/// controller. Nothing without `compared`. The same for any number of threads.
 void judge_in_time(const Mission& mission, const TimeDomainStudy* compared, TunedFor purpose,
                    std::uint64_t seed, unsigned threads, const std::function<bool()>& interrupted,
                    TuningStudy& study);

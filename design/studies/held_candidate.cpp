@@ -35,7 +35,7 @@ HeldCandidate::HeldCandidate(const plant::Antenna& as_is, const Mission& propose
                              const CandidateLaw& law)
     : as_is_(&as_is),
       proposed_(&proposed.antenna),
-      nonlinear_factor_(law.nonlinear_factor()),
+      effect_(law.effect()),
       problem_(problem_of(proposed)),
       goals_(constraints(proposed)),
       evaluator_(problem_, law.design.tuning.law, goals_) {}
@@ -48,8 +48,8 @@ HeldCandidate::Outcome HeldCandidate::judge(const PlantDraw& draw) {
   if (!stable) return {infinity, false};
   const double wind = problem_.climate.empty() ? values.wind_variance : values.climate_variance;
   Outcome outcome;
-  outcome.rms = nonlinear_factor_ * std::sqrt(wind + values.noise_variance) / problem_.gear_ratio /
-                millidegree;
+  outcome.rms =
+      effect_.rms(std::sqrt(wind + values.noise_variance) / problem_.gear_ratio) / millidegree;
   outcome.within_goals = std::sqrt(values.effort_variance) <= goals_.valve_effort;
   for (std::size_t b = 0; b < values.sensitivity_peaks.size(); ++b) {
     if (values.sensitivity_peaks.at(b) > goals_.sensitivity_peak.at(b)) {

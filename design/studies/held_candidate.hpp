@@ -17,7 +17,7 @@ class HeldCandidate {
   HeldCandidate(const plant::Antenna& as_is, const Mission& proposed, const CandidateLaw& law);
 
   struct Outcome {
-    double rms = 0.0;  // mdeg, of linear loops times the law's nonlinear_factor; infinite: unstable
+    double rms = 0.0;  // mdeg, of linear loops with the law's effect; infinite: unstable
     bool within_goals = false;
   };
 
@@ -26,7 +26,7 @@ class HeldCandidate {
  private:
   const plant::Antenna* as_is_;
   const plant::Antenna* proposed_;
-  double nonlinear_factor_;
+  NonlinearEffect effect_;
   TrackingProblem problem_;
   HardGoals goals_;
   HeldGainsEvaluator evaluator_;

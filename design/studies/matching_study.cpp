@@ -183,8 +183,18 @@ MatchValue look_at(const Mission& mission, const MatchingStudy& study, const Mat
   return value;
 }
 
-// In still air: the linear figures say what wind does.
-MatchTimeDomain run_in_time(const Mission& mission, const MatchPoint& point,
+// Of the members with the motors of a problem.
+double over_ensemble(const TrackingProblem& problem, const PlantEnsemble& ensemble,
+                     double inertia_factor, const control::ControlLaw& law,
+                     const HardGoals& goals) {
+  std::vector<EnsembleMember> members = ensemble.members;
+  for (auto& member : members) member.plant.drive.motor_inertia *= inertia_factor;
+  return rms_over_members(judge(problem, members, law, goals, 1));
+}
+
+MatchTimeDomain run_in_time(const Mission& mission, const PlantEnsemble& ensemble,
+                            const MatchingStudy& study, const MatchOptions& how,
+                            const MatchPoint& point, const MatchValue& value,
                             const control::ControlLaw& law) {
   const plant::Antenna& antenna = mission.antenna;
   const auto problem = tracking_problem(mission, with_disks(mission, point.disks));
@@ -200,7 +210,20 @@ MatchTimeDomain run_in_time(const Mission& mission, const MatchPoint& point,
   options.tracking_rate = antenna.drive.tracking_rate;
   options.limits = {antenna.drive.slew_rate, 0.2 * degree};
   auto result = verify_in_time(problem, loop, options);
-  return {std::move(result.hunting), std::move(result.reversal)};
+  MatchTimeDomain run{std::move(result.hunting), std::move(result.reversal)};
+  if (!value.found || !holds_still(run.hunting, study.tightest_budget)) return run;
+  // The records of wind of verify_in_time_domain.
+  const NonlinearVerificationOptions records;
+  run.expected = simulated_rms(problem, loop,
+                               {.settling = records.settling,
+                                .duration = records.wind_duration,
+                                .tracking_rate = options.tracking_rate,
+                                .seed = how.seed});
+  const double factor =
+      problem.plant.drive.motor_inertia / linear_plant(antenna).drive.motor_inertia;
+  run.member_rms = study.members == 0 ? value.beam_rms
+                                      : over_ensemble(problem, ensemble, factor, law, study.goals);
+  return run;
 }
 
 bool is_chosen(const MatchPoint& point, MatchTimeRuns runs) {
@@ -274,8 +297,7 @@ void tune_as_built(const Mission& mission, const PlantEnsemble& ensemble,
       options.progress("tuning as built", done, all);
     };
   }
-  ControllerStudy controllers =
-      study_controllers(mission, ensemble, tuning, ChoiceDetail::expected);
+  ControllerStudy controllers = study_controllers(mission, ensemble, tuning);
   if (options.interrupted && options.interrupted()) return;
   study.tuned_as_built = std::move(controllers.tuned);
 }
@@ -315,7 +337,8 @@ MatchingStudy study_matching(const Mission& mission, const PlantEnsemble& ensemb
     series.values[p] = look_at(mission, study, point, law, wind);
     if (antenna.nonlinear && !stopped() && law.status != TuningStatus::unstable &&
         is_chosen(point, options.time_runs)) {
-      series.values[p].time_domain = run_in_time(mission, point, law.law);
+      series.values[p].time_domain =
+          run_in_time(mission, ensemble, study, options, point, series.values[p], law.law);
     }
     counter.step();
   });

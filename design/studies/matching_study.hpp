@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <limits>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -17,6 +18,7 @@
 #include <boresight/design/studies/tuning_study.hpp>
 #include <boresight/design/tuning/design_study.hpp>
 #include <boresight/design/verification/nonlinear_verification.hpp>
+#include <boresight/design/verification/simulated_rms.hpp>
 
 namespace boresight::design {
 
@@ -43,10 +45,16 @@ struct MatchPoint {
   double acceleration_of_best_ratio = 0.0;
 };
 
-/// A law on the nonlinear antenna, in still air: at rest and at the tracking rate.
+/// A controller on the nonlinear antenna: in still air, at rest and at the tracking rate, and in
+/// wind.
 struct MatchTimeDomain {
   std::vector<HuntingResult> hunting;
   std::optional<ReversalResult> reversal;
+  /// Over several records of wind; none of one not free of limit cycles beyond the tightest budget.
+  std::optional<SimulatedRms> expected = std::nullopt;
+  /// Linear, root mean square over the ensemble with these motors (rms_over_members), without one
+  /// of the mission's plant (rad at the sky); NaN where `expected` is none.
+  double member_rms = std::numeric_limits<double>::quiet_NaN();
 };
 
 /// One law of the study on the mission's plant. Angles at the sky, one axis.

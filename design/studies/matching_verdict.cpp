@@ -1,5 +1,7 @@
 #include <algorithm>
 #include <cmath>
+#include <optional>
+#include <utility>
 
 #include <boresight/design/decisions/negligible_change.hpp>
 #include <boresight/design/decisions/recommend.hpp>
@@ -80,25 +82,77 @@ bool weighed(const MatchingStudy& study, std::string_view structure) {
   });
 }
 
+namespace {
+
+// A structure's controller at a point that meets every constraint, as recommend() compares it, with
+// the limit cycles of a point where it ran.
+Assessment assessment_of(const MatchSeries& series, std::size_t point, double budget,
+                         const std::vector<HuntingResult>& hunting) {
+  Assessment candidate;
+  candidate.structure = series.name;
+  candidate.purpose = DesignPurpose::robust;
+  candidate.parts = series.curve.structure.gains().size();
+  candidate.stable = candidate.verified = true;
+  candidate.nominal_constraints_met = candidate.member_constraints_met = true;
+  candidate.linear_rms = series.values[point].beam_rms;
+  if (!hunting.empty()) {
+    candidate.limit_cycle_amplitude = hunting_amplitude(hunting);
+    candidate.limit_cycles =
+        limit_cycle_verdict(holds_still(hunting, budget), hunting_seen(hunting));
+  }
+  return candidate;
+}
+
+// None where no controller ran in wind at that point, or none of them is to be chosen.
+std::optional<RankedMotors> motors_at(const MatchingStudy& study, std::size_t point) {
+  std::vector<std::size_t> places;
+  std::vector<Assessment> candidates;
+  for (std::size_t s = 0; s < study.series.size(); ++s) {
+    const MatchValue& value = study.series[s].values[point];
+    if (!value.found || !value.time_domain || !value.time_domain->expected) continue;
+    const MatchTimeDomain& run = *value.time_domain;
+    places.push_back(s);
+    candidates.push_back(assessment_of(study.series[s], point, study.tightest_budget, run.hunting));
+    candidates.back().expected = run.expected;
+    candidates.back().simulated_rms = run.expected->rms.value;
+  }
+  const auto winner = recommend(candidates).winner;
+  if (!winner) return std::nullopt;
+  const std::size_t series = places[*winner];
+  const double members = study.series[series].values[point].time_domain->member_rms;
+  return RankedMotors{point, series, nonlinear_effect(candidates[*winner]).rms(members), false};
+}
+
+SimulatedFigure figure_of(const MatchingStudy& study, const RankedMotors& motors) {
+  const auto& run = study.series[motors.series].values[motors.point].time_domain;
+  return {*run->expected, hunting_amplitude(run->hunting)};
+}
+
+}  // namespace
+
+std::vector<RankedMotors> ranked_motors(const MatchingStudy& study) {
+  std::vector<RankedMotors> ranked;
+  for (std::size_t point = 0; point < study.points.size(); ++point) {
+    if (auto motors = motors_at(study, point)) ranked.push_back(*motors);
+  }
+  std::ranges::stable_sort(ranked, {}, &RankedMotors::compared_rms);
+  for (auto& motors : ranked) {
+    const double open = left_open(figure_of(study, ranked.front()), figure_of(study, motors));
+    motors.tied = motors.compared_rms <=
+                  (1.0 + std::max(negligible_change, open)) * ranked.front().compared_rms;
+  }
+  return ranked;
+}
+
 const MatchSeries* recommended_structure(const MatchingStudy& study,
                                          const std::function<bool(const MatchSeries&)>& counts) {
   std::vector<const MatchSeries*> structures;
   std::vector<Assessment> candidates;
   for (const auto& series : study.series) {
     if (!series.best || !counts(series)) continue;
-    Assessment candidate;
-    candidate.structure = series.name;
-    candidate.purpose = DesignPurpose::robust;
-    candidate.parts = series.curve.structure.gains().size();
-    candidate.stable = candidate.verified = true;
-    candidate.nominal_constraints_met = candidate.member_constraints_met = true;
-    candidate.linear_rms = series.values[*series.best].beam_rms;
-    if (!hunting_of(study, series).empty()) {
-      candidate.limit_cycles =
-          limit_cycle_verdict(!hunts(study, series), hunting_seen(hunting_of(study, series)));
-    }
     structures.push_back(&series);
-    candidates.push_back(std::move(candidate));
+    candidates.push_back(
+        assessment_of(series, *series.best, study.tightest_budget, hunting_of(study, series)));
   }
   const auto winner = recommend(candidates, {.accepted = Fitness::limit_cycle}).winner;
   return winner ? structures[*winner] : nullptr;

@@ -45,6 +45,21 @@ bool weighed(const MatchingStudy& study, std::string_view structure);
 const MatchSeries* recommended_structure(const MatchingStudy& study,
                                          const std::function<bool(const MatchSeries&)>& counts);
 
+/// Motors of the study with their own recommended controller, by what study_proposals compares
+/// antennas by.
+struct RankedMotors {
+  std::size_t point = 0;
+  std::size_t series = 0;
+  /// MatchTimeDomain::member_rms with the effect of its simulation (NonlinearEffect::rms).
+  double compared_rms = 0.0;
+  /// With the first: within negligible_change or left_open of it.
+  bool tied = false;
+};
+
+/// Of each point where controllers ran in wind the one that recommend() chooses, least compared_rms
+/// first. Empty where none ran.
+std::vector<RankedMotors> ranked_motors(const MatchingStudy& study);
+
 /// The structure weighed whose rms changes most over the inertias; null where none is weighed.
 const MatchSeries* most_moved(const MatchingStudy& study);
 

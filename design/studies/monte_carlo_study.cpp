@@ -35,7 +35,7 @@ MonteCarloSummary study_monte_carlo(const Mission& mission, const PlantDistribut
   MonteCarloRun run(monte_carlo_of(mission, distribution, law, options));
   run.work_on(run.missing_blocks(),
               {.threads = options.threads, .stop = options.interrupted, .watch = {}});
-  return summarise(run, mission, distribution, options.seed);
+  return summarise(run, mission, distribution, options.seed, options.threads);
 }
 
 }  // namespace boresight::design

@@ -5,6 +5,7 @@
 
 #include <boresight/design/problem/pointing.hpp>
 #include <boresight/design/studies/monte_carlo_summary.hpp>
+#include <boresight/design/studies/time_domain_study.hpp>
 #include <boresight/numerics/error.hpp>
 
 namespace boresight::design {
@@ -94,10 +95,12 @@ void summarise_losses(const Judged& judged, MonteCarloSummary& section) {
       climate_loss = summarise(mapped(climate_rms, in_band), shares());
     }
   }
+  const NonlinearEffect effect = section.effect.for_budgets();
   for (auto& [budget, met] : section.budgets) {
     const double limit = budget.rms;
-    const auto hits = judged.count(
-        [&](const PlantOutcome& one) { return one.stable() && one.beam_rms <= limit; });
+    const auto hits = judged.count([&](const PlantOutcome& one) {
+      return one.stable() && within_budget(effect.rms(one.beam_rms), limit);
+    });
     met = probability(hits, section.plants);
   }
 }
@@ -166,7 +169,8 @@ void summarise_retuned(const Judged& judged, MonteCarloSummary& section) {
 }  // namespace
 
 MonteCarloSummary summarise(const MonteCarloRun& run, const Mission& mission,
-                            const PlantDistribution& distribution, std::uint64_t seed) {
+                            const PlantDistribution& distribution, std::uint64_t seed,
+                            unsigned threads) {
   const MonteCarlo& study = run.study();
   const Judged judged(run, distribution, seed);
   if (judged.all().empty()) {
@@ -175,6 +179,9 @@ MonteCarloSummary summarise(const MonteCarloRun& run, const Mission& mission,
   MonteCarloSummary section;
   for (const auto& band : mission.bands) section.losses.push_back({band, {}, {}});
   for (const auto& budget : mission.budgets) section.budgets.push_back({budget, {}});
+  if (!section.budgets.empty()) {
+    section.effect = simulated_effect(mission, study.law, seed, threads);
+  }
   section.plants_asked = study.plants;
   section.plants = judged.all().size();
   section.interrupted = section.plants < section.plants_asked;

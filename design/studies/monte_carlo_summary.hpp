@@ -9,6 +9,7 @@
 #include <boresight/design/ensembles/monte_carlo.hpp>
 #include <boresight/design/ensembles/monte_carlo_statistics.hpp>
 #include <boresight/design/ensembles/plant_distribution.hpp>
+#include <boresight/design/problem/nonlinear_effect.hpp>
 #include <boresight/design/problem/pointing_budget.hpp>
 
 namespace boresight::design {
@@ -47,6 +48,9 @@ struct MonteCarloSummary {
     std::optional<DistributionSummary> climate_loss;
   };
   std::vector<BandLoss> losses;
+  /// Of a simulation on the mission's own plant; none of it without Antenna::nonlinear or budgets.
+  NonlinearEffect effect;
+  /// By the linear rms of each plant with that effect (NonlinearEffect::for_budgets).
   struct BudgetChance {
     PointingBudget budget;
     EstimatedNumber met;  // at the design's wind speed; no unstable plant meets one
@@ -78,9 +82,11 @@ struct MonteCarloSummary {
 };
 
 /// What the evaluated plants of a run amount to, against the mission's bands and budgets; the
-/// plants are the draws of that distribution and seed.
-/// @throws Interrupted where no block of plants is whole.
+/// plants are the draws of that distribution and seed. Simulates the controller once, if there are
+/// budgets to judge (simulated_effect).
+/// @throws Interrupted where no block of plants is whole; as verify_in_time.
 MonteCarloSummary summarise(const MonteCarloRun& run, const Mission& mission,
-                            const PlantDistribution& distribution, std::uint64_t seed);
+                            const PlantDistribution& distribution, std::uint64_t seed,
+                            unsigned threads);
 
 }  // namespace boresight::design

@@ -3,6 +3,7 @@
 #include <limits>
 #include <memory>
 #include <mutex>
+#include <numeric>
 #include <utility>
 
 #include <boresight/design/decisions/negligible_change.hpp>
@@ -216,6 +217,27 @@ class Decision {
   ProposalDecision found_;
 };
 
+double left_open_between(const CandidateLaw& one, const CandidateLaw& other) {
+  if (!one.expected || !other.expected) return 0.0;
+  return left_open({*one.expected, one.effect().amplitude},
+                   {*other.expected, other.effect().amplitude});
+}
+
+// Of candidates in their order, with the one of the places that is best.
+std::vector<bool> tied_with(std::size_t best, const std::vector<ProposedDesign>& candidates,
+                            const ProposalDecision& decision, const std::vector<bool>& fit) {
+  const auto& losses = decision.ranking.losses;
+  std::vector<bool> tied(fit.size());
+  const CandidateLaw* least = candidates[decision.candidates[best].candidate].chosen_law();
+  for (std::size_t i = 0; i < fit.size(); ++i) {
+    const CandidateLaw* law = candidates[decision.candidates[i].candidate].chosen_law();
+    if (!fit[i] || !fit[best] || law == nullptr || least == nullptr) continue;
+    const double allowed = std::max(negligible_change, left_open_between(*least, *law));
+    tied[i] = losses[i] <= (1.0 + allowed) * losses[best];
+  }
+  return tied;
+}
+
 double cost_of(const PricedOption& option) {
   return option.cost.value_or(std::numeric_limits<double>::infinity());
 }
@@ -230,7 +252,8 @@ std::size_t worth_its_cost(const std::vector<PricedOption>& options, std::size_t
   std::size_t choice = best;
   bool chosen = false;
   for (std::size_t i = 0; i < options.size(); ++i) {
-    if (!options[i].fit || !(options[i].loss <= (1.0 + negligible_change) * least)) continue;
+    const bool alike = options[i].tied || options[i].loss <= (1.0 + negligible_change) * least;
+    if (!options[i].fit || !alike) continue;
     const double cost = cost_of(options[i]), least_cost = cost_of(options[choice]);
     const bool cheaper = cost < least_cost;
     const bool better = cost == least_cost && options[i].loss < options[choice].loss;
@@ -245,15 +268,17 @@ void rank_candidates(const std::vector<ProposedDesign>& candidates, ProposalDeci
   for (const auto& one : decision.candidates) fit.push_back(candidates[one.candidate].feasible());
   decision.ranking = ranking_losses(decision.statistics.options, fit);
   const auto& losses = decision.ranking.losses;
-  std::vector<PricedOption> priced;
-  std::vector<std::size_t> order;
-  for (std::size_t i = 0; i < losses.size(); ++i) {
-    priced.push_back({fit[i], candidates[decision.candidates[i].candidate].cost, losses[i]});
-    order.push_back(i);
-  }
+  std::vector<std::size_t> order(losses.size());
+  std::iota(order.begin(), order.end(), 0U);
   std::ranges::stable_sort(order, {}, [&](std::size_t i) { return std::pair(!fit[i], losses[i]); });
   decision.best = order.front();
   decision.second = order.size() > 1 ? order[1] : order.front();
+  decision.tied = tied_with(decision.best, candidates, decision, fit);
+  std::vector<PricedOption> priced;
+  for (std::size_t i = 0; i < losses.size(); ++i) {
+    priced.push_back(
+        {fit[i], candidates[decision.candidates[i].candidate].cost, losses[i], decision.tied[i]});
+  }
   decision.worth = worth_its_cost(priced, decision.best);
 }
 

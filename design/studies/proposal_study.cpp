@@ -53,8 +53,16 @@ std::vector<std::size_t> front_of(const std::vector<ProposedDesign>& candidates)
 double CandidateLaw::nonlinear_factor() const {
   if (!time_domain) return 1.0;
   const auto& wind = time_domain->wind;
+  if (expected && expected->status == RunStatus::complete) {
+    return expected->rms.value / wind.predicted_rms;
+  }
+  if (expected) return std::numeric_limits<double>::infinity();
   const bool complete = wind.status == RunStatus::complete;
   return complete ? wind.beam_rms / wind.continuous_rms : std::numeric_limits<double>::infinity();
+}
+
+NonlinearEffect CandidateLaw::effect() const {
+  return {nonlinear_factor(), time_domain ? hunting_amplitude(time_domain->hunting) : 0.0};
 }
 
 std::optional<double> ProposedDesign::reversal_error() const {

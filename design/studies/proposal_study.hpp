@@ -14,8 +14,10 @@
 #include <boresight/design/ensembles/plant_distribution.hpp>
 #include <boresight/design/ensembles/plant_ensemble.hpp>
 #include <boresight/design/problem/mission.hpp>
+#include <boresight/design/problem/nonlinear_effect.hpp>
 #include <boresight/design/tuning/design_study.hpp>
 #include <boresight/design/verification/nonlinear_verification.hpp>
+#include <boresight/design/verification/simulated_rms.hpp>
 #include <boresight/numerics/statistics/sobol_indices.hpp>
 #include <boresight/plant/antenna/antenna_plant.hpp>
 
@@ -45,18 +47,22 @@ struct CandidateLaw {
   /// On the nonlinear antenna of the proposal, at the design's wind speed; none where that was not
   /// asked for, for a law that is not stable and without Antenna::nonlinear.
   std::optional<NonlinearVerification> time_domain;
+  /// Its rms over several records of wind; none without time_domain.
+  std::optional<SimulatedRms> expected;
   /// On how many of the ensemble's plants each budget is met in the wind that it is needed up to,
-  /// by linear loops times nonlinear_factor; none for a budget without such a wind. Empty without a
+  /// by linear loops with its effect; none for a budget without such a wind. Empty without a
   /// stable law.
   std::vector<std::optional<int>> budgets_met;
   /// Hunts by no more than the tightest budget (holds_still); true without a simulation.
   bool still = true;
 
-  /// The simulated beam's rms over that of the linear plant in the same record; 1 without a
-  /// simulation, infinite if that did not complete.
+  /// The expected rms over the linear one, of a single record over that of the linear plant in it;
+  /// 1 without a simulation, infinite if a run did not complete.
   double nonlinear_factor() const;
-  /// What laws and proposals are compared by: member_rms times nonlinear_factor.
-  double compared_rms() const { return member_rms * nonlinear_factor(); }
+  /// That, with the amplitude of its limit cycles.
+  NonlinearEffect effect() const;
+  /// What laws and proposals are compared by: member_rms with its effect.
+  double compared_rms() const { return effect().rms(member_rms); }
   bool stable() const { return design.tuning.status != TuningStatus::unstable; }
   bool usable() const { return goals_met && design.verification.passed && still; }
 };
@@ -73,7 +79,7 @@ struct SlewFigures {
 };
 
 /// What the chosen law and the drive do, at the design's wind speed with the mean of the plant.
-/// Rms, losses and speed limits with the law's nonlinear_factor, also at other wind speeds.
+/// Rms, losses and speed limits with the law's effect, also at other wind speeds.
 struct CandidateFigures {
   std::vector<double> losses;          // dB, one a band
   std::optional<double> climate_rms;   // rad
@@ -146,8 +152,8 @@ enum class NotDrawn { no_stable_law, run_not_completed };
 /// Why a test of the plant is given no value.
 enum class TestsNotValued { fewer_than_two_fit, unstable_on_some_draws };
 
-/// Chances, regrets and what they rest on. Losses are beam rms in mdeg, of linear loops times the
-/// law's nonlinear_factor.
+/// Chances, regrets and what they rest on. Losses are beam rms in mdeg, of linear loops with the
+/// law's effect.
 struct ProposalDecision {
   std::size_t draws = 0;
   std::vector<CandidateDraws> candidates;  // those with a stable law, in the study's order
@@ -157,6 +163,10 @@ struct ProposalDecision {
   std::vector<double> front_shares;
   std::vector<UncertainInput> uncertain;  // that vary
   RankingLosses ranking;                  // ranking_losses of the options
+  /// Fit to be chosen, and tied with `best`: their losses differ by no more than negligible_change,
+  /// or than the records of wind leave open (relative_change of their simulations); one a
+  /// candidate.
+  std::vector<bool> tied;
   /// The two of least loss by that, as places in `candidates`; any that is fit to be chosen comes
   /// before those that are not.
   std::size_t best = 0, second = 0;
@@ -182,15 +192,16 @@ struct PricedOption {
   bool fit = false;  // meets every goal
   std::optional<double> cost;
   double loss = 0.0;  // ranking_losses
+  bool tied = false;  // with the one of least loss that is fit
 };
 
-/// The place of the one to choose: of those that are fit the cheapest whose loss lies within
-/// negligible_change of the least of them, one without a cost counting as dearer than any; of equal
-/// cost the one of less loss. `best` if none is fit.
+/// The place of the one to choose: of those that are fit the cheapest that is tied or whose loss
+/// lies within negligible_change of the least of them, one without a cost counting as dearer than
+/// any; of equal cost the one of less loss. `best` if none is fit.
 std::size_t worth_its_cost(const std::vector<PricedOption>& options, std::size_t best);
 
-/// Sets ranking, best, second and worth by the statistics of a decision; `candidates` as the study
-/// has them.
+/// Sets ranking, best, second, tied and worth by the statistics of a decision; `candidates` as the
+/// study has them.
 void rank_candidates(const std::vector<ProposedDesign>& candidates, ProposalDecision& decision);
 
 /// Plants that may be the true one, whatever a proposal makes of the antenna.

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include <boresight/design/ensembles/budgets_on_plants.hpp>
+#include <boresight/design/problem/budget_speeds.hpp>
 #include <boresight/design/problem/pointing.hpp>
 #include <boresight/design/problem/static_bending.hpp>
 #include <boresight/design/studies/redesign_study.hpp>
@@ -68,10 +69,8 @@ void evaluate_in_wind(const Mission& mission, RecommendedDesign& section) {
     section.wind_alternatives.push_back(
         {model,
          beam_rms_at_speed(alternative, evaluator, transmission, noise, problem.wind.mean_speed)});
-    for (const auto& budget : mission.budgets) {
-      section.wind_alternatives.back().speed_limits.push_back(
-          wind_speed_limit(alternative, evaluator, law, noise, budget.rms));
-    }
+    section.wind_alternatives.back().speed_limits =
+        budget_speeds(alternative, evaluator, law, noise, mission.budgets, section.effect);
   }
   const auto structure =
       plant::structure_response(problem.plant.structure, evaluator.response().frequency);
@@ -88,9 +87,10 @@ void evaluate_in_wind(const Mission& mission, RecommendedDesign& section) {
                               pointing_loss_db(section.static_bending, band.beamwidth,
                                                LossConvention::mean_loss_one_axis)});
   }
-  for (const auto& budget : mission.budgets) {
-    section.budgets.push_back(
-        {budget, wind_speed_limit(problem, evaluator, law, noise, budget.rms)});
+  const auto speeds =
+      budget_speeds(problem, evaluator, law, noise, mission.budgets, section.effect);
+  for (std::size_t i = 0; i < speeds.size(); ++i) {
+    section.budgets.push_back({mission.budgets[i], speeds[i]});
   }
 }
 
@@ -102,8 +102,10 @@ void at_one_speed(RecommendedDesign& section) {
 }
 
 RecommendedDesign recommended_design(const Mission& mission, const TunedLaw& row,
-                                     std::uint64_t seed, const std::vector<Design>& repeated) {
+                                     const NonlinearEffect& effect, std::uint64_t seed,
+                                     const std::vector<Design>& repeated) {
   RecommendedDesign section;
+  section.effect = effect;
   section.structure = row.design.tuning.law.structure;
   section.name = row.structure;
   section.tuned_for = row.tuned_for;
@@ -195,15 +197,24 @@ FlywheelComparison finish_flywheels(FlywheelPlan plan, std::vector<Design>::iter
 // Wind speeds (m/s) up to which a controller keeps the budgets on its own plant.
 std::optional<std::vector<double>> speed_limits(const Mission& mission,
                                                 const TrackingProblem& problem,
-                                                const Design& design) {
+                                                const Design& design,
+                                                const NonlinearEffect& effect) {
   if (design.tuning.status == TuningStatus::unstable) return std::nullopt;
-  control::LoopEvaluator evaluator = make_evaluator(problem);
-  std::vector<double> limits;
-  for (const auto& budget : mission.budgets) {
-    limits.push_back(wind_speed_limit(problem, evaluator, design.tuning.law,
-                                      design.tuning.evaluation.noise_variance, budget.rms));
+  return budget_speeds(problem, make_evaluator(problem), design.tuning.law,
+                       design.tuning.evaluation.noise_variance, mission.budgets, effect);
+}
+
+// Of the recommended controller; none where it misses its constraints.
+std::optional<TimeDomainStudy> time_domain_of(const Mission& mission, ControllerStudy& study,
+                                              const TunedLaw& best, const RedesignTask& task) {
+  if (study.time_domain && study.time_domain->law == description_of(best)) {
+    return std::move(study.time_domain);
   }
-  return limits;
+  if (!best.goals_met) return std::nullopt;
+  auto problem = tracking_problem(mission);
+  problem.wind.mean_speed = best.wind_speed;
+  return verify_in_time_domain(mission, problem, best.design.tuning.law, description_of(best),
+                               task.seed, task.threads, SecondIntegrator::cvodes);
 }
 
 }  // namespace
@@ -232,23 +243,22 @@ RedesignStudy redesign(const Mission& mission, const PlantEnsemble& ensemble,
   const auto first_alternative = designs.begin() + static_cast<std::ptrdiff_t>(seeds.size());
   const auto first_row = first_alternative + static_cast<std::ptrdiff_t>(alternatives.size());
   RedesignStudy result;
+  result.time_domain = time_domain_of(mission, study, best, task);
+  const NonlinearEffect effect =
+      result.time_domain ? result.time_domain->own().effect().for_budgets() : NonlinearEffect{};
   result.recommended =
-      recommended_design(mission, best, task.seed, {designs.begin(), first_alternative});
+      recommended_design(mission, best, effect, task.seed, {designs.begin(), first_alternative});
+  for (const auto* row : tied_with(study.tuned, best)) {
+    result.recommended.ties.push_back(description_of(*row));
+  }
   result.recommended.fitness = fitness(assessment_of(study.tuned, best));
   std::vector<Design> other(first_alternative, first_row);
   improve_along(alternatives, other);
   for (std::size_t i = 0; i < other.size(); ++i) {
-    auto limits = speed_limits(mission, alternatives[i].problem, other[i]);
+    auto limits = speed_limits(mission, alternatives[i].problem, other[i], effect);
     result.alternatives.push_back({std::move(other[i]), std::move(limits)});
   }
   result.flywheels = finish_flywheels(std::move(flywheels), first_row, task.threads);
-  if (study.time_domain && study.time_domain->law == description_of(best)) {
-    result.time_domain = std::move(study.time_domain);
-  } else if (best.goals_met) {
-    result.time_domain = verify_in_time_domain(mission, result.recommended.problem,
-                                               best.design.tuning.law, description_of(best),
-                                               task.seed, task.threads, SecondIntegrator::cvodes);
-  }
   return result;
 }
 
@@ -265,8 +275,8 @@ void evaluate_on(const std::vector<EnsembleMember>& members, unsigned threads,
   }
   design.curves = ensemble_curves(design.problem, members, law, *design.ensemble,
                                   highest_compared_speed(design.design_speed, limits), threads);
-  const auto met =
-      plants_within_budgets(design.problem, members, law, design.goals, budgets, 1.0, threads);
+  const auto met = plants_within_budgets(design.problem, members, law, design.goals, budgets,
+                                         design.effect, threads);
   for (std::size_t i = 0; i < met.size(); ++i) design.budgets[i].plants_met = met[i];
 }
 

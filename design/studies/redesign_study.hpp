@@ -12,7 +12,7 @@
 
 namespace boresight::design {
 
-/// Wind speed up to which a budget is met with the gains fixed.
+/// Wind speed up to which a budget is met with the gains fixed, by RecommendedDesign::effect.
 struct BudgetResult {
   PointingBudget budget;
   double wind_speed_limit = 0.0;  // m/s
@@ -30,6 +30,10 @@ struct RecommendedDesign {
   TrackingProblem problem;              // what was tuned
   HardGoals goals;
   Design design;
+  /// What budgets are judged by beyond the linear rms (NonlinearEffect::for_budgets), also at other
+  /// wind speeds, with other wind models and on ensemble members; of no simulation where none ran.
+  NonlinearEffect effect;
+  std::vector<std::string> ties;  // description_of other controllers that tied_with finds
   /// Gains that the antenna runs on now, evaluated on the same plant.
   struct PresentLaw {
     std::string structure;
@@ -77,7 +81,8 @@ struct RecommendedDesign {
 /// Another antenna that the evidence allows, with the recommended structure tuned for it.
 struct AlternativeDesign {
   Design design;
-  /// Wind speed (m/s) up to which each budget is met; none without a stable controller.
+  /// Wind speed (m/s) up to which each budget is met, with the effect that the recommended design's
+  /// simulation has; none without a stable controller.
   std::optional<std::vector<double>> speed_limits;
 };
 

@@ -1,5 +1,7 @@
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <utility>
 
 #include <boresight/design/problem/drive_reach.hpp>
 #include <boresight/design/studies/time_domain_study.hpp>
@@ -34,11 +36,17 @@ bool held_with_more_stroke(plant::NonlinearAntenna model, double rate) {
   return attainable_rate(model, rate) >= rate;
 }
 
+SimulatedLoop loop_of(const Mission& mission, const TrackingProblem& problem,
+                      const control::ControlLaw& law, double encoder_resolution) {
+  auto loop = make_simulated_loop(problem, plant::nonlinear_antenna(mission.antenna), law);
+  loop.encoder_resolution = encoder_resolution * problem.gear_ratio;
+  return loop;
+}
+
 SimulatedLoop simulate(const Mission& mission, const TrackingProblem& problem,
                        const control::ControlLaw& law, TimeDomainStudy& section) {
-  auto loop = make_simulated_loop(problem, plant::nonlinear_antenna(mission.antenna), law);
+  auto loop = loop_of(mission, problem, law, section.encoder_resolution);
   section.sample_time = loop.sample_time;
-  loop.encoder_resolution = section.encoder_resolution * problem.gear_ratio;
   section.result = verify_in_time(problem, loop, section.options);
   const auto& slew = section.result.slew;
   const double asked = section.options.limits.rate;
@@ -57,20 +65,45 @@ SimulatedRms expected_rms(const TrackingProblem& problem, const SimulatedLoop& l
                         .threads = options.threads});
 }
 
-// Budgets required in this wind are held against the larger of both rms and the limit cycle.
-void count_budgets(const Mission& mission, double wind_speed, const NonlinearVerification& result,
-                   Assessment& assessment) {
-  constexpr double round_off = 1e-6;
-  const double rms = std::max(result.wind.beam_rms, result.wind.predicted_rms);
+// Those required in this wind.
+void count_budgets(const Mission& mission, double wind_speed, Assessment& assessment) {
   for (const auto& budget : mission.budgets) {
-    if (budget.wind_speed != wind_speed) continue;
-    const double limit = (1.0 + round_off) * budget.rms;
-    ++assessment.budgets_required;
-    if (rms <= limit && holds_still(result.hunting, limit)) ++assessment.budgets_met;
+    if (budget.wind_speed == wind_speed) count_budget(budget.rms, assessment);
   }
 }
 
+// `known`: the rms of those runs where they were made already.
+TimeDomainStudy verify(const Mission& mission, const TrackingProblem& problem,
+                       const control::ControlLaw& law, TimeDomainStudy section,
+                       std::optional<SimulatedRms> known) {
+  const SimulatedLoop loop = simulate(mission, problem, law, section);
+  section.rms = known ? std::move(known) : expected_rms(problem, loop, section.options);
+  return section;
+}
+
+// The error of the gains of today in the wind of the verification.
+void add_present(const Mission& mission, const TrackingProblem& problem, TimeDomainStudy& section) {
+  if (mission.present_controllers.empty()) return;
+  const control::ControlLaw& present = mission.present_controllers.front().law;
+  const SimulatedLoop loop = loop_of(mission, problem, present, section.encoder_resolution);
+  section.present = {present.structure.name(), error_in_wind(problem, loop, section.options)};
+}
+
 }  // namespace
+
+NonlinearEffect SimulatedCandidate::effect() const {
+  const double simulated = simulated_rms();
+  return {std::isfinite(simulated) ? simulated / result.wind.predicted_rms
+                                   : std::numeric_limits<double>::infinity(),
+          hunting_amplitude(result.hunting)};
+}
+
+std::optional<numerics::Interval> figure_change(const SimulatedCandidate& from,
+                                                const SimulatedCandidate& to) {
+  if (!from.rms || !to.rms) return std::nullopt;
+  return relative_change({*from.rms, hunting_amplitude(from.result.hunting)},
+                         {*to.rms, hunting_amplitude(to.result.hunting)});
+}
 
 LimitCycleVerdict limit_cycle_verdict(bool within_budget, bool shown) {
   if (within_budget) return LimitCycleVerdict::within_budget;
@@ -78,14 +111,15 @@ LimitCycleVerdict limit_cycle_verdict(bool within_budget, bool shown) {
 }
 
 Assessment assessment_of(const NamedController& controller, const NonlinearVerification& result,
-                         double budget) {
+                         const std::optional<SimulatedRms>& expected, double budget) {
   Assessment assessment;
   assessment.structure = controller.name;
   assessment.parts = controller.law.structure.gains().size();
   assessment.stable = assessment.verified = true;
   assessment.nominal_constraints_met = assessment.member_constraints_met = true;
   assessment.linear_rms = result.wind.predicted_rms;
-  assessment.simulated_rms = result.wind.beam_rms;
+  assessment.simulated_rms = expected ? expected->rms.value : result.wind.beam_rms;
+  assessment.expected = expected;
   assessment.limit_cycle_amplitude = hunting_amplitude(result.hunting);
   assessment.limit_cycles =
       limit_cycle_verdict(holds_still(result.hunting, budget), hunting_seen(result.hunting));
@@ -98,14 +132,8 @@ std::optional<TimeDomainStudy> verify_in_time_domain(
   if (!mission.antenna.nonlinear) return std::nullopt;
   TimeDomainStudy section = plan(mission, problem, description, seed, threads);
   section.options.second_integrator = second == SecondIntegrator::cvodes;
-  const SimulatedLoop loop = simulate(mission, problem, law, section);
-  section.rms = expected_rms(problem, loop, section.options);
-  if (!mission.present_controllers.empty()) {
-    const control::ControlLaw& present = mission.present_controllers.front().law;
-    SimulatedLoop before = loop;
-    before.law = present;
-    section.present = {present.structure.name(), error_in_wind(problem, before, section.options)};
-  }
+  section = verify(mission, problem, law, std::move(section), std::nullopt);
+  add_present(mission, problem, section);
   return section;
 }
 
@@ -116,34 +144,30 @@ std::optional<TimeDomainStudy> choose_in_time_domain(const Mission& mission,
                                                      ChoiceDetail detail) {
   if (laws.empty()) throw InvalidInput("choose_in_time_domain: expected laws, found none");
   if (!mission.antenna.nonlinear) return std::nullopt;
-  std::vector<TimeDomainStudy> sections;  // their results among the candidates
-  std::vector<TimeDomainStudy::Candidate> candidates;
+  std::vector<TimeDomainStudy> sections;
   std::vector<Assessment> assessments;
-  std::vector<SimulatedLoop> loops;
   for (const auto& one : laws) {
     TimeDomainStudy section = plan(mission, problem, one.name, seed, threads);
     section.options.explain = false;
-    loops.push_back(simulate(mission, problem, one.law, section));
-    assessments.push_back(assessment_of(one, section.result, tightest_budget(mission)));
-    count_budgets(mission, problem.wind.mean_speed, section.result, assessments.back());
-    candidates.push_back({one.name, std::move(section.result)});
-    sections.push_back(std::move(section));
+    sections.push_back(verify(mission, problem, one.law, std::move(section), std::nullopt));
+    const TimeDomainStudy& seen = sections.back();
+    assessments.push_back(assessment_of(one, seen.result, seen.rms, tightest_budget(mission)));
+    count_budgets(mission, problem.wind.mean_speed, assessments.back());
   }
   // What is shown of none that is fit is shown of the least unfit.
   const std::size_t best =
       recommend(assessments, {.accepted = Fitness::unstable}).winner.value_or(0);
-  if (detail != ChoiceDetail::verified) {
-    TimeDomainStudy chosen = std::move(sections[best]);
-    chosen.result = candidates[best].result;
-    if (detail == ChoiceDetail::expected) {
-      chosen.rms = expected_rms(problem, loops[best], chosen.options);
-    }
-    if (candidates.size() > 1) chosen.candidates = std::move(candidates);
-    return chosen;
+  TimeDomainStudy chosen = sections[best];
+  if (detail == ChoiceDetail::verified) {
+    TimeDomainStudy whole = plan(mission, problem, laws[best].name, seed, threads);
+    whole.options.second_integrator = true;
+    chosen = verify(mission, problem, laws[best].law, std::move(whole), chosen.rms);
+    add_present(mission, problem, chosen);
   }
-  auto chosen = verify_in_time_domain(mission, problem, laws[best].law, laws[best].name, seed,
-                                      threads, SecondIntegrator::cvodes);
-  if (chosen && candidates.size() > 1) chosen->candidates = std::move(candidates);
+  if (sections.size() == 1) return chosen;
+  for (auto& one : sections) {
+    chosen.candidates.push_back({one.law, std::move(one.result), std::move(one.rms)});
+  }
   return chosen;
 }
 
@@ -162,6 +186,28 @@ std::optional<NonlinearVerification> run_in_time_domain(
   section.options = options;
   simulate(mission, problem, law, section);
   return std::move(section.result);
+}
+
+std::optional<TimeDomainStudy::Candidate> compare_in_time_domain(
+    const Mission& mission, const TrackingProblem& problem, const NamedController& controller,
+    const NonlinearVerificationOptions& options) {
+  if (!mission.antenna.nonlinear) return std::nullopt;
+  TimeDomainStudy section =
+      plan(mission, problem, controller.name, options.seeds.front(), options.threads);
+  section.options = options;
+  section = verify(mission, problem, controller.law, std::move(section), std::nullopt);
+  return TimeDomainStudy::Candidate{controller.name, std::move(section.result),
+                                    std::move(section.rms)};
+}
+
+NonlinearEffect simulated_effect(const Mission& mission, const control::ControlLaw& law,
+                                 std::uint64_t seed, unsigned threads) {
+  if (!mission.antenna.nonlinear) return {};
+  const auto problem = tracking_problem(mission);
+  TimeDomainStudy section = plan(mission, problem, "", seed, threads);
+  section.options.explain = false;
+  section.options.slew_distance = 0.0;
+  return verify(mission, problem, law, std::move(section), std::nullopt).own().effect();
 }
 
 }  // namespace boresight::design

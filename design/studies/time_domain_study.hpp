@@ -13,6 +13,23 @@
 
 namespace boresight::design {
 
+/// One controller of several that were compared on the nonlinear antenna.
+struct SimulatedCandidate {
+  std::string law;  // NamedController::name
+  NonlinearVerification result;
+  std::optional<SimulatedRms> rms = std::nullopt;  // over several records of wind
+
+  /// The rms that it is judged by (rad): over several records, without them of the single one; NaN
+  /// where a run did not complete.
+  double simulated_rms() const { return rms ? rms->rms.value : result.wind.beam_rms; }
+  /// What it says beyond the linear prediction.
+  NonlinearEffect effect() const;
+};
+
+/// relative_change of their rms with the limit cycles; none without records of the same winds.
+std::optional<numerics::Interval> figure_change(const SimulatedCandidate& from,
+                                                const SimulatedCandidate& to);
+
 /// A tuned controller in the time domain, on the nonlinear antenna of its mission.
 struct TimeDomainStudy {
   std::string law;           // NamedController::name
@@ -22,8 +39,7 @@ struct TimeDomainStudy {
   double encoder_resolution = 0.0;
   NonlinearVerificationOptions options;
   NonlinearVerification result;
-  /// What several records of wind say of the rms, of which `result` has one; none of controllers
-  /// that were only compared.
+  /// What several records of wind say of the rms, of which `result` has one.
   std::optional<SimulatedRms> rms;
   /// The mission's first present controller in the record of wind of `result`; its trace is empty
   /// where that run did not complete. None without one, and of controllers that were only compared.
@@ -36,21 +52,20 @@ struct TimeDomainStudy {
   bool slew_hangs_on_stroke = false;
   /// The controllers that this one was chosen from, itself included, influences not told apart;
   /// empty where there was no choice.
-  struct Candidate {
-    std::string law;
-    NonlinearVerification result;
-  };
+  using Candidate = SimulatedCandidate;
   std::vector<Candidate> candidates;
+
+  /// Itself, as one of them.
+  Candidate own() const { return {law, result, rms}; }
 };
 
 /// Whether CVODES repeats the run in wind (integrator_agreement), which takes about as long as all
 /// other runs together.
 enum class SecondIntegrator { none, cvodes };
 
-/// How closely the controller chosen of several is looked at: as the others were; with the interval
-/// of its rms by simulated_rms; or as verify_in_time_domain does with a second integrator, for a
-/// report.
-enum class ChoiceDetail { compared, expected, verified };
+/// How closely the controller chosen of several is looked at: as the others were, or as
+/// verify_in_time_domain does with a second integrator, for a report.
+enum class ChoiceDetail { compared, verified };
 
 /// Simulates a controller on a problem made of the mission: 300 s of wind with every influence
 /// switched off in turn, limit cycles, slow reversals and a slew of one degree at the mission's
@@ -65,10 +80,11 @@ std::optional<TimeDomainStudy> verify_in_time_domain(
 /// `within_budget`: holds_still within the tightest budget; `shown`: hunting_seen.
 LimitCycleVerdict limit_cycle_verdict(bool within_budget, bool shown);
 
-/// A controller that meets every constraint, as recommend() compares it by its simulation.
-/// `budget`: the tightest (rad rms). Of pointing budgets it counts none.
+/// A controller that meets every constraint, as recommend() compares it by its simulation, of the
+/// expected rms where there is one. `budget`: the tightest (rad rms). Of pointing budgets it counts
+/// none.
 Assessment assessment_of(const NamedController& controller, const NonlinearVerification& result,
-                         double budget);
+                         const std::optional<SimulatedRms>& expected, double budget);
 
 /// Of controllers that meet every constraint the one that recommend() chooses by their simulations
 /// and the budgets required in the problem's wind, whatever its fitness; in that detail, with the
@@ -87,5 +103,12 @@ NonlinearVerificationOptions comparison_options(const Mission& mission, std::uin
 std::optional<NonlinearVerification> run_in_time_domain(
     const Mission& mission, const TrackingProblem& problem, const control::ControlLaw& law,
     const NonlinearVerificationOptions& options);
+/// The same with the rms over several records of wind.
+std::optional<TimeDomainStudy::Candidate> compare_in_time_domain(
+    const Mission& mission, const TrackingProblem& problem, const NamedController& controller,
+    const NonlinearVerificationOptions& options);
+/// Its effect in the mission's wind; no effect without Antenna::nonlinear.
+NonlinearEffect simulated_effect(const Mission& mission, const control::ControlLaw& law,
+                                 std::uint64_t seed, unsigned threads);
 
 }  // namespace boresight::design

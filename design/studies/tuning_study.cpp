@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include <boresight/design/problem/budget_speeds.hpp>
 #include <boresight/design/studies/time_domain_study.hpp>
 #include <boresight/design/studies/tuning_study.hpp>
 #include <boresight/design/tuning/structure_parts.hpp>
@@ -148,10 +149,8 @@ class Study {
     control::LoopEvaluator evaluator = make_evaluator(problem);
     const auto evaluation = evaluator.evaluate(law, false);
     row.beam_rms = std::sqrt(evaluation.beam_variance()) / problem.gear_ratio;
-    for (const auto& budget : section_.budgets) {
-      row.speed_limits.push_back(
-          wind_speed_limit(problem, evaluator, law, evaluation.noise_variance, budget.rms));
-    }
+    row.speed_limits = budget_speeds(problem, evaluator, law, evaluation.noise_variance,
+                                     section_.budgets, NonlinearEffect{});
     if (!mission_.climate.empty()) {
       problem.climate = mission_.climate;
       row.climate_rms = std::sqrt(make_evaluator(problem).evaluate(law, false).beam_variance()) /
@@ -225,20 +224,27 @@ bool only_unverified(const std::vector<TunedLaw>& laws) {
          std::ranges::none_of(laws, [&](const auto& row) { return tuned(row) && row.usable(); });
 }
 
-// Relative round-off of a budget that is met to the last digit.
-constexpr double round_off = 1e-6;
-
-void count_budget(const TunedLaw& row, double rms, bool with_simulation, Assessment& assessment) {
-  const double limit = (1.0 + round_off) * rms;
-  ++assessment.budgets_required;
-  if (with_simulation ? row.keeps(limit) : row.beam_rms <= limit) ++assessment.budgets_met;
-}
-
 }  // namespace
 
 std::string_view to_string(TunedFor purpose) {
   static constexpr std::array names{"present", "nominal", "robust"};
   return names.at(static_cast<std::size_t>(purpose));
+}
+
+NonlinearEffect TunedLaw::effect() const {
+  if (!in_time) return {};
+  const double simulated = in_time->rms();
+  return {std::isfinite(simulated) ? simulated / beam_rms : std::numeric_limits<double>::infinity(),
+          in_time->hunting};
+}
+
+double TunedLaw::budget_rms() const {
+  return std::hypot(wind_rms(), limit_cycle_rms(effect().amplitude));
+}
+
+bool TunedLaw::keeps(double rms) const {
+  if (in_time && (!in_time->hunting_seen || !std::isfinite(in_time->rms()))) return false;
+  return within_budget(budget_rms(), rms);
 }
 
 Assessment assessment_of(const TuningStudy& section, const TunedLaw& row, bool with_simulation) {
@@ -254,32 +260,64 @@ Assessment assessment_of(const TuningStudy& section, const TunedLaw& row, bool w
   result.linear_rms = row.beam_rms;
   if (with_simulation && row.in_time) {
     const LawInTime& run = *row.in_time;
-    result.simulated_rms = run.beam_rms;
+    result.simulated_rms = run.rms();
+    result.expected = run.expected;
     result.limit_cycle_amplitude = run.hunting;
     result.limit_cycles = limit_cycle_verdict(run.still, run.hunting_seen);
   }
   for (const auto& budget : section.budgets) {
-    if (budget.wind_speed == row.wind_speed) {
-      count_budget(row, budget.rms, with_simulation, result);
-    }
+    if (budget.wind_speed == row.wind_speed) count_budget(budget.rms, result);
   }
   if (section.beam_rms_goal && row.wind_speed == section.wind_speeds.front()) {
-    count_budget(row, *section.beam_rms_goal, with_simulation, result);
+    count_budget(*section.beam_rms_goal, result);
   }
   return result;
 }
 
-const TunedLaw* recommended_at(const TuningStudy& section, double wind_speed, bool with_simulation,
-                               const RecommendOptions& options) {
+namespace {
+
+// The tuned controllers of one wind speed, and the choice among them.
+struct Choice {
   std::vector<const TunedLaw*> rows;
+  Recommendation recommendation;
+};
+
+Choice choose_at(const TuningStudy& section, double wind_speed, bool with_simulation,
+                 const RecommendOptions& options) {
+  Choice choice;
   std::vector<Assessment> candidates;
   for (const auto& row : section.laws) {
     if (row.tuned_for == TunedFor::present || row.wind_speed != wind_speed) continue;
-    rows.push_back(&row);
+    choice.rows.push_back(&row);
     candidates.push_back(assessment_of(section, row, with_simulation));
   }
-  const auto winner = recommend(candidates, options).winner;
-  return winner ? rows[*winner] : nullptr;
+  choice.recommendation = recommend(candidates, options);
+  return choice;
+}
+
+}  // namespace
+
+const TunedLaw* recommended_at(const TuningStudy& section, double wind_speed, bool with_simulation,
+                               const RecommendOptions& options) {
+  const Choice choice = choose_at(section, wind_speed, with_simulation, options);
+  const auto winner = choice.recommendation.winner;
+  return winner ? choice.rows[*winner] : nullptr;
+}
+
+std::vector<const TunedLaw*> tied_with(const TuningStudy& section, const TunedLaw& recommended) {
+  const Choice choice = choose_at(section, recommended.wind_speed, true, {});
+  std::vector<const TunedLaw*> tied;
+  for (const auto& rejected : choice.recommendation.rejected) {
+    if (rejected.tied) tied.push_back(choice.rows[rejected.index]);
+  }
+  return tied;
+}
+
+std::optional<numerics::Interval> figure_change(const TunedLaw& from, const TunedLaw& to) {
+  if (!from.in_time || !to.in_time) return std::nullopt;
+  const LawInTime &one = *from.in_time, &other = *to.in_time;
+  if (!one.expected || !other.expected) return std::nullopt;
+  return relative_change({*one.expected, one.hunting}, {*other.expected, other.hunting});
 }
 
 const TunedLaw* best_law(const TuningStudy& section, std::optional<double> wind_speed) {
@@ -304,7 +342,7 @@ const TunedLaw* nearest_to_budget(const TuningStudy& section, std::optional<doub
     for (const auto& row : section.laws) {
       if (row.tuned_for != linear->tuned_for || row.wind_speed != linear->wind_speed) continue;
       if (!row.usable() || row.left_out() != left_out) continue;
-      if (row.in_time && !std::isfinite(row.in_time->beam_rms)) continue;
+      if (row.in_time && !std::isfinite(row.in_time->rms())) continue;
       if (nearest == nullptr || row.budget_rms() < nearest->budget_rms()) nearest = &row;
     }
     return nearest;

@@ -32,8 +32,12 @@ struct LawInTime {
   double hunting = 0.0;      // largest amplitude of the beam's limit cycles
   double beam_rms = 0.0;     // in one record of wind; NaN if that run did not complete
   bool hunting_seen = true;  // hunting_seen
-  /// Over several records; of the recommended controller only.
+  /// Over several records of wind.
   std::optional<SimulatedRms> expected = std::nullopt;
+
+  /// What the controller is judged by: the expected rms, without one that of the single record;
+  /// NaN if a run did not complete.
+  double rms() const { return expected ? expected->rms.value : beam_rms; }
 };
 
 /// One row of the table: a law, judged.
@@ -46,30 +50,27 @@ struct TunedLaw {
   bool goals_met = false;
   double beam_rms = 0.0;              // rad at the design's wind speed; NaN without a stable law
   std::optional<double> climate_rms;  // rad, root of the mean square over the site's wind climate
-  std::vector<double> speed_limits;   // m/s, one a budget
+  /// m/s, one a budget: with the effect() of its simulation, where it ran, also at other speeds.
+  std::vector<double> speed_limits;
   std::optional<EnsembleResult> ensemble;
   std::optional<LawInTime> in_time;  // where it ran on the nonlinear antenna
   /// Of a position gain at the upper bound of the search that can be halved or lowered further.
   std::optional<PositionGainTrade> trade;
 
-  /// Whether no budget is to be trusted to it: on the nonlinear antenna it hunts beyond the
-  /// tightest budget, or its run in wind did not complete.
-  bool left_out() const {
-    return in_time && (!in_time->still || !std::isfinite(in_time->beam_rms));
+  /// Whether no budget is to be trusted to it: on the nonlinear antenna it limit-cycles beyond the
+  /// tightest budget, or a run in wind did not complete.
+  bool left_out() const { return in_time && (!in_time->still || !std::isfinite(in_time->rms())); }
+  /// What its simulation says beyond beam_rms.
+  NonlinearEffect effect() const;
+  /// The larger of the linear and the simulated rms in wind, where there is one.
+  double wind_rms() const {
+    return in_time && in_time->rms() > beam_rms ? in_time->rms() : beam_rms;
   }
-  /// What budgets are held against: the larger of the linear and the simulated rms, where there is
-  /// one.
-  double budget_rms() const {
-    return in_time && in_time->beam_rms > beam_rms ? in_time->beam_rms : beam_rms;
-  }
-  /// Whether it keeps within an rms (rad) in wind and, where it ran on the nonlinear antenna, by
-  /// its hunting too: a law that is left_out may yet keep a budget that is not the tightest.
-  bool keeps(double rms) const {
-    const bool still = !in_time || in_time->still ||
-                       (in_time->hunting_seen && in_time->hunting <= hunting_limit(rms));
-    const bool pointed = !in_time || std::isfinite(in_time->beam_rms);
-    return still && pointed && budget_rms() <= rms;
-  }
+  /// What budgets are held against: wind_rms with the limit cycle (NonlinearEffect).
+  double budget_rms() const;
+  /// Whether it keeps within an rms (rad), as count_budget has it: a law that is left_out may yet
+  /// keep a budget that is not the tightest.
+  bool keeps(double rms) const;
   bool stable() const { return design.tuning.status != TuningStatus::unstable; }
   bool usable() const { return goals_met && design.verification.passed; }
 };
@@ -145,6 +146,13 @@ const TunedLaw* recommended_law(const TuningStudy& study, std::optional<double> 
 /// had run.
 Assessment assessment_of(const TuningStudy& study, const TunedLaw& row,
                          bool with_simulation = true);
+
+/// The tuned controllers of its wind speed whose figure is a tie with that of the one recommended
+/// there (RejectedController::tied).
+std::vector<const TunedLaw*> tied_with(const TuningStudy& study, const TunedLaw& recommended);
+
+/// figure_change of two tuned controllers by their simulations.
+std::optional<numerics::Interval> figure_change(const TunedLaw& from, const TunedLaw& to);
 
 /// recommend() over the tuned controllers of one wind speed. Null without a winner.
 const TunedLaw* recommended_at(const TuningStudy& study, double wind_speed, bool with_simulation,

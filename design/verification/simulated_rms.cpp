@@ -1,11 +1,15 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
 
 #include <boresight/control/loops/loop_evaluator.hpp>
+#include <boresight/design/problem/nonlinear_effect.hpp>
+#include <boresight/design/verification/integrator_agreement.hpp>
 #include <boresight/design/verification/simulated_rms.hpp>
 #include <boresight/design/verification/wind_course.hpp>
 #include <boresight/numerics/angles.hpp>
@@ -49,6 +53,11 @@ double mean_square(const VectorXd& errors, Index counted) {
   return (rest - rest.mean()).square().mean();
 }
 
+void widen(numerics::Interval& interval, double numerical_error) {
+  interval.lower = std::min(interval.lower, interval.value - numerical_error);
+  interval.upper = std::max(interval.upper, interval.value + numerical_error);
+}
+
 }  // namespace
 
 SimulatedRms simulated_rms(const TrackingProblem& problem, const SimulatedLoop& loop,
@@ -80,6 +89,7 @@ SimulatedRms simulated_rms(const TrackingProblem& problem, const SimulatedLoop& 
   result.status = *std::ranges::max_element(ends);
   result.records = options.records;
   result.winds = options.winds;
+  result.seed = options.seed;
   result.rms = {nan, nan, nan, nan};
   if (result.status != RunStatus::complete) return result;
   const auto mean = numerics::mean_by_double_sampling(simulated, linear);
@@ -90,7 +100,42 @@ SimulatedRms simulated_rms(const TrackingProblem& problem, const SimulatedLoop& 
   // To first order.
   result.rms.standard_uncertainty =
       mean.value > 0.0 ? 0.5 * mean.standard_uncertainty / result.rms.value : 0.0;
+  widen(result.rms, integrator_agreement_limit * result.rms.value);
+  result.mean_squares = std::move(simulated);
+  result.linear_mean_squares = std::move(linear);
   return result;
+}
+
+std::optional<numerics::Interval> relative_change(const SimulatedFigure& from,
+                                                  const SimulatedFigure& to) {
+  const SimulatedRms &one = from.expected, &other = to.expected;
+  const bool same_records = one.seed == other.seed && one.records == other.records &&
+                            one.winds == other.winds && one.mean_squares.size() >= 4 &&
+                            one.mean_squares.size() == other.mean_squares.size() &&
+                            one.linear_mean_squares.size() == other.linear_mean_squares.size();
+  const auto square = [](double value) { return value * value; };
+  const double cycle = square(limit_cycle_rms(from.amplitude));
+  const double base = square(one.rms.value) + cycle;
+  if (!same_records || !(base > 0.0)) return std::nullopt;
+  const double constant = square(limit_cycle_rms(to.amplitude)) - cycle;
+  const auto mean = numerics::mean_by_double_sampling(
+      other.mean_squares - one.mean_squares, other.linear_mean_squares - one.linear_mean_squares);
+  const auto change = [&](double difference) {
+    return std::sqrt(std::max(0.0, 1.0 + (difference + constant) / base)) - 1.0;
+  };
+  numerics::Interval result;
+  result.value = change(mean.value);
+  result.lower = change(mean.lower);
+  result.upper = change(mean.upper);
+  result.standard_uncertainty = 0.5 * mean.standard_uncertainty / base;
+  // Of either loop's runs.
+  widen(result, std::numbers::sqrt2 * integrator_agreement_limit);
+  return result;
+}
+
+double left_open(const SimulatedFigure& one, const SimulatedFigure& other) {
+  const auto change = relative_change(one, other);
+  return change ? 0.5 * (change->upper - change->lower) : 0.0;
 }
 
 }  // namespace boresight::design

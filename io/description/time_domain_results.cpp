@@ -56,16 +56,6 @@ void describe_wind(Visitor& v, const design::WindResult& wind,
   describe_command_limit(v, wind.at_command_limit);
 }
 
-void describe_interval(Visitor& v, const design::SimulatedRms& found) {
-  describe_status(v, found.status, "How the worst of the runs ended.");
-  v.count("records", found.records, "On the nonlinear antenna.");
-  v.count("winds", found.winds, "Those and further ones, through the linear loop's response.");
-  v.number("rms", found.rms.value, unit::millidegree, "Root of the expected mean square.",
-           positive);
-  v.number("lower", found.rms.lower, unit::millidegree, "End of the 95 % interval.", positive);
-  v.number("upper", found.rms.upper, unit::millidegree, "End of the 95 % interval.", positive);
-}
-
 void describe_integrators(Visitor& v, const design::IntegratorAgreement& both) {
   describe_status(v, both.status,
                   "How the run in wind ended or, if that is complete, the run of CVODES.");
@@ -157,9 +147,8 @@ void describe(Visitor& v, const design::TimeDomainStudy& study) {
           "In wind, against the linear prediction: beam_rms is predicted_rms + chance + sampling + "
           "the sum of differences + joint.",
           [&] { describe_wind(v, result.wind, study.options); });
-  v.optional_group("expected_rms", study.rms,
-                   "Over records of wind of that length; null if there was but one.",
-                   [&](const design::SimulatedRms& rms) { describe_interval(v, rms); });
+  v.object("expected_rms", study.rms,
+           "Over records of wind of that length; null if there was but one.");
   v.optional_group(
       "integrators", result.integrators,
       "The run in wind by a second integrator, CVODES, on the same equations; null if it was not "
@@ -169,12 +158,14 @@ void describe(Visitor& v, const design::TimeDomainStudy& study) {
   describe_reversal(v, result.reversal);
   describe_slew(v, result.slew, settled_error);
   v.list("candidates", study.candidates,
-         "The laws that this one was chosen from by the least simulated rms, itself included; "
-         "empty where there was no choice.",
+         "The controllers that this one was chosen from by the least simulated rms, limit cycle "
+         "included, itself among them; empty where there was no choice.",
          [&](const design::TimeDomainStudy::Candidate& one) {
            v.text("law", one.law, "Its name.");
            describe_status(v, one.result.wind.status, "How its run in wind ended.");
            describe_rms(v, one.result.wind);
+           v.object("expected_rms", one.rms,
+                    "Over several records of wind; null if there was but one.");
            describe_prediction(v, one.result.wind);
            describe_hunting(v, one.result.hunting);
            describe_reversal(v, one.result.reversal);
@@ -192,6 +183,27 @@ void describe(Visitor& v, const design::NonlinearVerification& run) {
            "Of the linear plant, continuous, in the same record.", positive);
   describe_hunting(v, run.hunting);
   describe_reversal(v, run.reversal);
+}
+
+void describe(Visitor& v, const design::SimulatedRms& found) {
+  v.defined_as("simulated_rms", "Boresight rms over several records of wind.");
+  describe_status(v, found.status, "How the worst of the runs ended.");
+  v.count("records", found.records, "On the nonlinear antenna.");
+  v.count("winds", found.winds, "Those and further ones, through the linear loop's response.");
+  v.number("rms", found.rms.value, unit::millidegree, "Root of the expected mean square.",
+           positive);
+  v.number("lower", found.rms.lower, unit::millidegree, "End of the 95 % interval.", positive);
+  v.number("upper", found.rms.upper, unit::millidegree, "End of the 95 % interval.", positive);
+}
+
+void describe(Visitor& v, const design::NonlinearEffect& effect) {
+  v.defined_as("nonlinear_effect",
+               "What a simulation adds to linear rms: sqrt((factor linear)^2 + amplitude^2 / 2).");
+  v.number("factor", effect.factor, unit::ratio,
+           "Simulated over linear rms in wind; 1 without a simulation, null if a run was lost.",
+           positive);
+  v.number("limit_cycle_amplitude", effect.amplitude, unit::millidegree,
+           "Half of peak to peak of the boresight, at rest or tracking.", known);
 }
 
 }  // namespace boresight::io

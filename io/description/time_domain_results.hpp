@@ -13,4 +13,10 @@ void describe(Visitor& v, const design::TimeDomainStudy& study);
 /// rest and at the tracking rate, and in slow reversals.
 void describe(Visitor& v, const design::NonlinearVerification& run);
 
+/// The rms over several records of wind, with its interval.
+void describe(Visitor& v, const design::SimulatedRms& found);
+
+/// What a simulation says beyond linear rms.
+void describe(Visitor& v, const design::NonlinearEffect& effect);
+
 }  // namespace boresight::io

@@ -214,37 +214,42 @@ TEST(TuningVerdict, SaysOnHowManyPlantsTheLawHolds) {
   EXPECT_THAT(decision(report).front(), HasSubstr("Run the drive"));
 }
 
-TEST(TuningVerdict, HoldsABudgetAgainstTheSimulation) {
+TEST(TuningVerdict, SaysOnWhatAVerdictOnABudgetRests) {
   Report report = tuned_report();
-  report.tuning->budgets = {budget(0.5, 12.5)};
+  report.tuning->budgets = {budget(0.5, 11.5, 12.0)};
+  EXPECT_THAT(unmet_needs(*report.tuning, std::nullopt),
+              ElementsAre(HasSubstr("it is met up to 11.5 m/s, by the linear plant.")));
   TimeDomainSection& section = report.time_domain.emplace();
   section.options.settled_error = 0.5 * millidegree;
   section.wind_speed = 12.0;
-  section.result.wind.beam_rms = 0.49 * millidegree;
-  EXPECT_THAT(decision(report).front(),
-              AllOf(HasSubstr("is met up to 12.5 m/s"), Not(HasSubstr("as simulated"))));
+  section.result.wind.predicted_rms = 0.49 * millidegree;
   section.result.wind.beam_rms = 0.51 * millidegree;
-  EXPECT_THAT(
-      decision(report).front(),
-      HasSubstr("is met up to 12.5 m/s on the linear plant, but not as simulated in 12 m/s"));
-  // One that is needed in that wind is not met.
+  EXPECT_THAT(unmet_needs(*report.tuning, report.time_domain),
+              ElementsAre(HasSubstr("11.5 m/s, by simulation (0.510 mdeg in 12 m/s).")));
+  // The rms of several records counts, and the limit cycle is named.
+  section.rms.emplace().rms.value = 0.48 * millidegree;
+  design::HuntingResult rest;
+  rest.limit_cycle = true;
+  rest.beam_amplitude = 0.3 * millidegree;
+  section.result.hunting = {rest};
+  EXPECT_THAT(unmet_needs(*report.tuning, report.time_domain),
+              ElementsAre(HasSubstr("by simulation (0.480 mdeg in 12 m/s, limit cycle of +-0.30 "
+                                    "mdeg).")));
+  // One that is met as far as it is required is no such sentence.
   report.tuning->budgets = {budget(0.5, 12.5, 12.0)};
-  EXPECT_THAT(unmet_needs(*report.tuning, std::nullopt), IsEmpty());
-  EXPECT_THAT(unmet_needs(*report.tuning, report.time_domain),
-              ElementsAre(HasSubstr("it is met up to 12.5 m/s on the linear plant, but on the "
-                                    "nonlinear antenna the controller has 0.510 mdeg in 12 m/s.")));
-  // No more than one whose run did not complete.
+  EXPECT_THAT(unmet_needs(*report.tuning, report.time_domain), IsEmpty());
+  EXPECT_THAT(decision(report).front(), HasSubstr("is met up to 12.5 m/s, by simulation (0.480"));
+  // A run that was lost leaves none.
+  section.rms.reset();
   section.result.wind.beam_rms = std::numeric_limits<double>::quiet_NaN();
+  report.tuning->budgets = {budget(0.5, 0.0, 12.0)};
   EXPECT_THAT(unmet_needs(*report.tuning, report.time_domain),
-              ElementsAre(HasSubstr("the controller does not complete the run in 12 m/s.")));
+              ElementsAre(HasSubstr("it is met in no wind, as the controller does not complete the "
+                                    "run on the nonlinear antenna in 12 m/s.")));
   report.tuning->budgets.clear();
   EXPECT_THAT(decision(report).front(),
               AllOf(HasSubstr("m/s of wind (the run on the nonlinear antenna did not complete)."),
                     Not(HasSubstr("Run the drive"))));
-  section.result.wind.beam_rms = 0.51 * millidegree;
-  // Where the linear figure itself ends below, the simulation says nothing more.
-  report.tuning->budgets = {budget(0.5, 11.0)};
-  EXPECT_THAT(decision(report).front(), Not(HasSubstr("as simulated")));
 }
 
 TEST(TuningVerdict, RunsNoDriveThatHunts) {

@@ -186,7 +186,9 @@ TEST(MatchDecision, PutsNoStructureFirstThatHuntsBeyondTheBudget) {
     section.tightest_budget = 0.5 * millidegree;
     return decision(section);
   };
-  EXPECT_THAT(with(0.7).front(), HasSubstr("with DPF+C loops"));
+  EXPECT_THAT(with(0.5).front(), HasSubstr("with DPF+C loops"));
+  // sqrt(0.1^2 + 0.6^2 / 2) = 0.436 against 0.406, though within the budget.
+  EXPECT_THAT(with(0.6).front(), HasSubstr("with PI loops"));
   const auto barred = with(0.71);
   EXPECT_THAT(barred.front(), HasSubstr("with PI loops"));
   EXPECT_THAT(barred, Contains(HasSubstr("Not DPF+C, 0.100 mdeg on the linear plant: on the "

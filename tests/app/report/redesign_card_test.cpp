@@ -1,4 +1,5 @@
 #include <limits>
+#include <numbers>
 #include <string>
 #include <utility>
 #include <vector>
@@ -128,8 +129,19 @@ TEST(RedesignCard, StatesUpToWhichWindBudgetsAreMet) {
   required.plants_met = 7;
   report.tuning->budgets = {required};
   EXPECT_EQ(line_of(report, "Budgets (mdeg)"),
-            "Ka 0.600 to 11.2 m/s (required 12, on 7 of 30 models)");
+            "Ka 0.600 to 11.2 m/s (required 12, on 7 of 30 models); simulated, limit cycle "
+            "included");
   EXPECT_THAT(line_of(report, "Error per axis"), HasSubstr("; budget 0.600"));
+}
+
+// 0.5 mdeg linear, 4 % more as simulated, and a limit cycle of 0.2 sqrt(2).
+TEST(RedesignCard, AddsTheLimitCycleAndNamesTies) {
+  Report report = report_of_test();
+  report.tuning->effect = {1.04, 0.2 * std::numbers::sqrt2 * millidegree};
+  EXPECT_THAT(line_of(report, "Error per axis"), HasSubstr("; 0.557 with the limit cycle"));
+  EXPECT_THAT(line_of(report, "Error per axis"), Not(HasSubstr("a tie")));
+  report.tuning->ties = {"LL, robust"};
+  EXPECT_THAT(line_of(report, "Error per axis"), HasSubstr("; a tie with LL, robust"));
 }
 
 MatchingSection flywheels(const std::vector<std::vector<double>>& rms) {

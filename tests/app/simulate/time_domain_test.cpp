@@ -149,7 +149,7 @@ TEST(TimeDomain, RecommendsByRmsAndLimitCycleTogether) {
     result.wind.beam_rms = rms * mdeg;
     result.hunting[0].beam_amplitude = hunting * mdeg;
     result.hunting[0].limit_cycle = hunting > 0.0;
-    return assessment_of({"law", {}}, result, error);
+    return assessment_of({"law", {}}, result, std::nullopt, error);
   };
   const auto winner = [](const std::vector<design::Assessment>& candidates) {
     return design::recommend(candidates, {.accepted = design::Fitness::unstable}).winner;
@@ -318,7 +318,9 @@ TEST(TimeDomain, SaysByWhatRuleALawWasChosen) {
   };
   const std::string least =
       "the one above meets most budgets and then has the least simulated rms, limit cycle added in "
-      "quadrature, or fewer gains within 2 % of it.";
+      "quadrature, or fewer gains in a tie with it (2 %, or the 95 % interval of the difference "
+      "over "
+      "the same winds).";
   const std::string limit = "beyond the tightest budget (+-0.7453 mdeg)";
   const std::string some = "Of the controllers free of limit cycles " + limit + ", " + least;
   for (const double hunting : {0.0, 0.3, 5.0}) {
@@ -393,6 +395,15 @@ TEST(TimeDomain, ChoosesTheLeastSimulatedRms) {
   ASSERT_EQ(chosen->candidates.size(), 3U);
   EXPECT_LT(chosen->candidates[1].result.wind.beam_rms, chosen->candidates[0].result.wind.beam_rms);
   EXPECT_EQ(chosen->candidates[1].result.wind.beam_rms, chosen->result.wind.beam_rms);
+  ASSERT_TRUE(chosen->rms);
+  EXPECT_EQ(chosen->candidates[1].simulated_rms(), chosen->rms->rms.value);
+  EXPECT_TRUE(std::isnan(chosen->candidates[2].simulated_rms()));
+  // By the same winds: far apart, and a tie with itself.
+  const auto change = figure_change(chosen->candidates[1], chosen->candidates[0]);
+  ASSERT_TRUE(change);
+  EXPECT_GT(change->lower, 0.02);
+  EXPECT_EQ(figure_change(chosen->own(), chosen->candidates[1])->value, 0.0);
+  EXPECT_FALSE(figure_change(chosen->own(), chosen->candidates[2]));
   EXPECT_FALSE(chosen->result.wind.influences.empty());
   EXPECT_THROW(choose_in_time_domain(mission, problem, {}, 1, 1, design::ChoiceDetail::compared),
                InvalidInput);

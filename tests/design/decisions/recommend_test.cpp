@@ -72,6 +72,58 @@ TEST(RankingFigure, AddsTheLimitCycleAsTheRmsOfASinusoid) {
   EXPECT_DOUBLE_EQ(ranking_figure(simulated(one, 3.0, 4.0 * std::sqrt(2.0))), 5.0);
 }
 
+TEST(CountBudget, HoldsTheLargerRmsWithTheLimitCycleAgainstIt) {
+  const auto met = [](double linear, double rms, double amplitude) {
+    auto one = simulated(fit_controller("PI", linear, 3), rms, amplitude);
+    count_budget(0.527, one);
+    EXPECT_EQ(one.budgets_required, 1U);
+    return one.budgets_met == 1;
+  };
+  // Of 0.527 an rms of 0.4 leaves a limit cycle of sqrt(2 (0.527^2 - 0.4^2)) = 0.4853.
+  EXPECT_TRUE(met(0.39, 0.4, 0.485));
+  EXPECT_FALSE(met(0.39, 0.4, 0.486));
+  EXPECT_FALSE(met(0.41, 0.4, 0.485));
+  EXPECT_FALSE(met(0.39, std::numeric_limits<double>::quiet_NaN(), 0.0));
+  auto hidden = simulated(fit_controller("PI", 0.4, 3), 0.4, 0.0);
+  hidden.limit_cycles = LimitCycleVerdict::not_shown;
+  count_budget(0.527, hidden);
+  EXPECT_EQ(hidden.budgets_met, 0U);
+}
+
+// Ten records about a mean square of 1, of which each differs from the linear loop's by `scatter`
+// in turns, and 100 winds; the rms of all is `scale`.
+Assessment in_records(std::string name, std::size_t parts, double scale, double scatter) {
+  SimulatedRms expected;
+  expected.records = 10;
+  expected.winds = 100;
+  expected.linear_mean_squares =
+      scale * scale * Eigen::VectorXd::LinSpaced(100, 0.8, 1.2).reverse();
+  expected.mean_squares = expected.linear_mean_squares.head(10);
+  for (Eigen::Index i = 0; i < 10; ++i) expected.mean_squares[i] += i % 2 == 0 ? scatter : -scatter;
+  expected.rms.value = scale;
+  auto one = simulated(fit_controller(std::move(name), scale, parts), scale, 0.0);
+  one.expected = expected;
+  return one;
+}
+
+TEST(Recommend, TakesWhatTheSameWindsLeaveOpenForATie) {
+  // 5 % apart: more than the tie, less than records that scatter by a fifth tell.
+  const std::vector open{in_records("LL", 5, 1.0, 0.0), in_records("PI", 3, 1.05, 0.2)};
+  ASSERT_TRUE(figure_change(open[0], open[1]));
+  const auto result = recommend(open);
+  EXPECT_EQ(result.winner, 1U);
+  EXPECT_TRUE(result.rejected.front().tied);
+  EXPECT_EQ(result.rejected.front().reason, RecommendationReason::fewer_parts);
+  // Those that scatter little tell them apart, and ten winds without records of the same decide
+  // nothing more than the tie does.
+  const std::vector apart{in_records("LL", 5, 1.0, 0.0), in_records("PI", 3, 1.05, 0.001)};
+  EXPECT_EQ(recommend(apart).winner, 0U);
+  EXPECT_FALSE(recommend(apart).rejected.front().tied);
+  auto other_winds = open;
+  other_winds[1].expected->seed = 2;
+  EXPECT_EQ(recommend(other_winds).winner, 0U);
+}
+
 TEST(Recommend, PutsEveryFitnessBeforeAnyAdvantageInRms) {
   RecommendOptions any;
   any.accepted = Fitness::unstable;

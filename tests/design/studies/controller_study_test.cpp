@@ -77,6 +77,18 @@ TEST(TunedLaw, KeepsABudgetByTheLargerRmsAndByItsLimitCycle) {
   EXPECT_FALSE(row.keeps(0.46 * millidegree));
 }
 
+TEST(TunedLaw, AddsTheLimitCycleInQuadrature) {
+  TunedLaw row = tuned_row("PI", TunedFor::robust, 0.39);
+  row.in_time = LawInTime{.hunting = 0.34 * millidegree, .beam_rms = 0.40 * millidegree};
+  EXPECT_NEAR(row.budget_rms() / millidegree, 0.4666905, 1e-6);
+  EXPECT_TRUE(row.keeps(0.467 * millidegree));
+  EXPECT_FALSE(row.keeps(0.466 * millidegree));
+  // Though neither the rms nor the limit cycle alone breaks it.
+  EXPECT_LE(row.in_time->hunting, hunting_limit(0.466 * millidegree));
+  row.in_time->hunting_seen = false;
+  EXPECT_FALSE(row.keeps(millidegree));
+}
+
 TEST(TuneStructures, IsTheSameForAnyNumberOfThreadsAndNamesWhatAnInterruptLeftOut) {
   Mission mission = reference::demo_mission();
   mission.structures = {{"PI", control::LoopStructure::named("PI")}};
@@ -112,9 +124,13 @@ TEST(StudyControllers, RunsWhatItRecommendsOnTheNonlinearAntenna) {
   const TunedLaw* best = recommended_or(study, Fitness::limit_cycle);
   ASSERT_NE(best, nullptr);
   ASSERT_TRUE(study.time_domain.has_value());
-  ASSERT_NE(run_of(*study.time_domain, *best), nullptr);
+  const auto run = run_of(*study.time_domain, *best);
+  ASSERT_TRUE(run.has_value());
   ASSERT_TRUE(best->in_time.has_value());
-  EXPECT_EQ(best->in_time->beam_rms, run_of(*study.time_domain, *best)->wind.beam_rms);
+  EXPECT_EQ(best->in_time->beam_rms, run->result.wind.beam_rms);
+  ASSERT_TRUE(best->in_time->expected.has_value());
+  EXPECT_EQ(best->in_time->expected->records, 10);
+  EXPECT_EQ(best->in_time->rms(), best->in_time->expected->rms.value);
   EXPECT_EQ(shown_law(study.tuned, &*study.time_domain), best);
   mission.antenna.nonlinear.reset();
   EXPECT_FALSE(study_controllers(mission, ensemble, {}).time_domain.has_value());

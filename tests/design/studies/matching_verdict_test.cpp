@@ -1,3 +1,4 @@
+#include <cmath>
 #include <string>
 #include <utility>
 #include <vector>
@@ -113,6 +114,52 @@ TEST(MatchingVerdict, FrictionDecidesWithinWhatTheAntennaMayHave) {
   study.thresholds[0].slope = 5.0;
   study.thresholds[0].spread_at_nominal = 0.01;
   EXPECT_EQ(deciding_friction(study), nullptr) << "matters little already";
+}
+
+// Runs in wind of a series: simulated by `factor` over linear, each over members of the nominal
+// rms.
+MatchSeries in_wind(MatchSeries series, double factor, double amplitude, double scatter) {
+  series = hunting(std::move(series), amplitude);
+  for (auto& value : series.values) {
+    MatchTimeDomain& run = *value.time_domain;
+    run.member_rms = value.beam_rms;
+    SimulatedRms& expected = run.expected.emplace();
+    expected.records = expected.winds = 10;
+    const double rms = factor * value.beam_rms;
+    expected.linear_mean_squares = rms * rms * Eigen::VectorXd::LinSpaced(10, 0.8, 1.2);
+    expected.mean_squares = expected.linear_mean_squares;
+    for (Eigen::Index i = 0; i < 10; ++i) {
+      expected.mean_squares[i] *= i % 2 == 0 ? 1.0 + scatter : 1.0 - scatter;
+    }
+    expected.rms.value = rms;
+  }
+  return series;
+}
+
+TEST(MatchingVerdict, RanksMotorsByTheirOwnControllerAsSimulated) {
+  // Linear loops put the first motors and DPF first; as simulated they are the last.
+  const auto study = study_of({in_wind(series_of("PI", {0.40, 0.30, 0.42}), 1.0, 0.1, 1e-5),
+                               in_wind(series_of("DPF", {0.20, 0.29, 0.50}), 2.5, 0.1, 1e-5)});
+  const auto ranked = ranked_motors(study);
+  ASSERT_EQ(ranked.size(), 3U);
+  EXPECT_EQ(ranked[0].point, 1U);
+  EXPECT_EQ(ranked[0].series, 0U);
+  EXPECT_NEAR(ranked[0].compared_rms, std::hypot(0.30, 0.1 / std::sqrt(2.0)), 1e-12);
+  EXPECT_TRUE(ranked[0].tied);
+  EXPECT_EQ(ranked[1].point, 0U);
+  EXPECT_FALSE(ranked[1].tied);
+  EXPECT_TRUE(ranked_motors(study_of({series_of("PI", {0.4, 0.3, 0.42})})).empty());
+}
+
+TEST(MatchingVerdict, CallsMotorsATieThatTheSameWindsDoNotTellApart) {
+  const auto tied = [](double scatter) {
+    auto first = in_wind(series_of("PI", {0.40, 0.42, 0.60}), 1.0, 0.0, 0.0);
+    const auto second = in_wind(series_of("PI", {0.40, 0.42, 0.60}), 1.0, 0.0, scatter);
+    first.values[1] = second.values[1];
+    return ranked_motors(study_of({first})).at(1).tied;
+  };
+  EXPECT_FALSE(tied(1e-5));
+  EXPECT_TRUE(tied(0.2));
 }
 
 TEST(MatchingVerdict, TellsWhatEachVariantChanges) {

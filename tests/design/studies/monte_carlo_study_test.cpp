@@ -1,3 +1,4 @@
+#include <cmath>
 #include <limits>
 
 #include <gtest/gtest.h>
@@ -48,6 +49,29 @@ TEST(StudyMonteCarlo, EvaluatesTheControllerOnTheDrawsOfItsSeed) {
   EXPECT_EQ(alone.judge(plant, false).beam_rms, worst.outcome.beam_rms);
 }
 
+// As many plants meet a budget as have a linear rms below what the simulation leaves of it.
+TEST(StudyMonteCarlo, JudgesBudgetsByTheSimulationOfItsController) {
+  Mission mission = mission_of_test();
+  const auto distribution = PlantDistribution::of_ranges(mission);
+  const MonteCarloOptions options{.plants = 100, .seed = 1};
+  const auto met_at = [&](double budget) {
+    mission.budgets.front().rms = budget;
+    return study_monte_carlo(mission, distribution, law_of_test(), options);
+  };
+  const auto loose = met_at(1.0);
+  const NonlinearEffect effect = loose.effect.for_budgets();
+  ASSERT_TRUE(std::isfinite(effect.factor));
+  const double largest = loose.beam_rms.largest, least = loose.beam_rms.least;
+  const double stable = static_cast<double>(loose.stable) / 100.0;
+  EXPECT_EQ(met_at(effect.rms(largest)).budgets[0].met.value, stable);
+  EXPECT_LT(met_at(0.999 * effect.rms(largest)).budgets[0].met.value, stable);
+  EXPECT_EQ(met_at(0.999 * effect.rms(least)).budgets[0].met.value, 0.0);
+  mission.antenna.nonlinear.reset();
+  const auto linear = met_at(largest);
+  EXPECT_EQ(linear.effect.factor, 1.0);
+  EXPECT_EQ(linear.budgets[0].met.value, stable);
+}
+
 TEST(StudyMonteCarlo, SaysHowProbableItIsThatABudgetIsMet) {
   const Mission mission = mission_of_test();
   const auto distribution = PlantDistribution::of_ranges(mission);
@@ -83,7 +107,7 @@ TEST(StudyMonteCarlo, EndsWithWhatItHas) {
   EXPECT_THROW(study_monte_carlo(mission, distribution, law_of_test(), options), Interrupted);
   MonteCarloRun run(monte_carlo_of(mission, distribution, law_of_test(), options));
   run.work_on({1}, {});
-  const auto summary = summarise(run, mission, distribution, options.seed);
+  const auto summary = summarise(run, mission, distribution, options.seed, 1);
   EXPECT_TRUE(summary.interrupted);
   EXPECT_EQ(summary.plants, 100U);
   EXPECT_EQ(summary.plants_asked, 250U);

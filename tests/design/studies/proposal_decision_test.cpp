@@ -1,3 +1,4 @@
+#include <cmath>
 #include <limits>
 #include <string>
 #include <vector>
@@ -110,6 +111,58 @@ TEST(WorthItsCost, IsTheCheapestWithinWhatDecidesNothing) {
   // At one price the better one.
   EXPECT_EQ(worth_its_cost({{true, 1.0, 1.01}, {true, 1.0, 1.0}}, 1), 1U);
   EXPECT_EQ(worth_its_cost({{false, 0.0, 1.0}, {false, 0.0, 2.0}}, 0), 0U);
+}
+
+TEST(WorthItsCost, IsTheCheapestOfThoseTiedWithTheBest) {
+  const std::vector<PricedOption> options{
+      {true, 0.0, 1.05, true}, {true, 5.0, 1.03, false}, {true, 9.0, 1.0, true}};
+  EXPECT_EQ(worth_its_cost(options, 2), 0U);
+  EXPECT_EQ(worth_its_cost({{false, 0.0, 1.05, true}, {true, 9.0, 1.0, true}}, 1), 1U);
+}
+
+TEST(CandidateLaw, IsComparedWithItsLimitCycleInQuadrature) {
+  CandidateLaw law = reference::held_law("PI", 1.2);
+  law.member_rms = 0.4;
+  EXPECT_NEAR(law.compared_rms(), 0.48, 1e-12);
+  HuntingResult rest;
+  rest.limit_cycle = true;
+  rest.beam_amplitude = 0.34;
+  law.time_domain->hunting = {rest};
+  EXPECT_NEAR(law.compared_rms(), std::hypot(0.48, 0.34 / std::sqrt(2.0)), 1e-12);
+  // Several records count before the one.
+  law.time_domain->wind.predicted_rms = 1.0;
+  law.expected.emplace().rms.value = 1.1;
+  EXPECT_NEAR(law.compared_rms(), std::hypot(0.44, 0.34 / std::sqrt(2.0)), 1e-12);
+  law.expected->status = RunStatus::lost;
+  EXPECT_EQ(law.compared_rms(), std::numeric_limits<double>::infinity());
+}
+
+// The law of ten records of wind whose mean squares differ from the linear loop's in turns.
+void in_records(CandidateLaw& law, double rms, double scatter) {
+  law.time_domain->wind.predicted_rms = 1.0;
+  SimulatedRms& expected = law.expected.emplace();
+  expected.records = 10;
+  expected.winds = 10;
+  expected.linear_mean_squares = Eigen::VectorXd::LinSpaced(10, 0.8, 1.2);
+  expected.mean_squares = rms * rms * expected.linear_mean_squares;
+  for (Eigen::Index i = 0; i < 10; ++i) expected.mean_squares[i] += i % 2 == 0 ? scatter : -scatter;
+  expected.rms.value = rms;
+}
+
+TEST(Decide, TakesWhatTheSameWindsLeaveOpenForATie) {
+  for (const double scatter : {1e-4, 0.3}) {
+    std::vector candidates{candidate_of("as it is", 1.0, 1.0, 0),
+                           candidate_of("no flywheels", 1.0, 1.0, 0)};
+    candidates[0].cost = 0.0;
+    candidates[1].cost = 10.0;
+    in_records(candidates[0].laws[0], 1.04, 0.0);
+    in_records(candidates[1].laws[0], 1.0, scatter);
+    const auto decision = decided(candidates);
+    ASSERT_TRUE(decision);
+    EXPECT_EQ(decision->best, 1U);
+    EXPECT_EQ(decision->tied[0], scatter > 0.1);
+    EXPECT_EQ(decision->worth, scatter > 0.1 ? 0U : 1U);
+  }
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "design/studies/demo_mission.hpp"
+#include <boresight/design/verification/integrator_agreement.hpp>
 #include <boresight/design/verification/simulated_rms.hpp>
 #include <boresight/numerics/error.hpp>
 #include <boresight/plant/nonlinear/nonlinear_drive.hpp>
@@ -33,31 +34,69 @@ TEST(SimulatedRms, IsTheSameForAnyNumberOfThreads) {
   EXPECT_EQ(two.status, RunStatus::complete);
   EXPECT_EQ(one.rms.value, two.rms.value);
   EXPECT_EQ(one.rms.upper, two.rms.upper);
-  EXPECT_LT(one.rms.lower, one.rms.value);
-  EXPECT_GT(one.rms.upper, one.rms.value);
+  EXPECT_LE(one.rms.lower, (1.0 - integrator_agreement_limit) * one.rms.value);
+  EXPECT_GE(one.rms.upper, (1.0 + integrator_agreement_limit) * one.rms.value);
+  // The same loop in the same winds is a tie with itself.
+  const auto change = relative_change({one, 0.0}, {two, 0.0});
+  ASSERT_TRUE(change);
+  EXPECT_EQ(change->value, 0.0);
+  EXPECT_LT(change->lower, 0.0);
+  EXPECT_GT(change->upper, 0.0);
 }
 
-// The truth by 200 records of its own against the intervals of ten each; 95 % of 20 intervals, less
-// three standard deviations of a binomial count.
-TEST(SimulatedRms, CoversTheMeanOfManyRecords) {
-  Setting setting;
-  setting.options.records = 200;
-  setting.options.winds = 200;
-  setting.options.seed = 100000;
-  const double truth = simulated_rms(setting.problem, setting.loop, setting.options).rms.value;
-  setting.options.records = 10;
-  setting.options.winds = 100;
-  constexpr int repetitions = 20;
-  int covered = 0;
-  double width = 0.0;
-  for (int r = 0; r < repetitions; ++r) {
-    setting.options.seed = 1 + 1000 * static_cast<std::uint64_t>(r);
-    const auto found = simulated_rms(setting.problem, setting.loop, setting.options);
-    if (found.rms.lower <= truth && truth <= found.rms.upper) ++covered;
-    width += (found.rms.upper - found.rms.lower) / repetitions;
+// Ten records of which each has the mean square that the linear loop gives it, and 100 winds, about
+// `mean`; every figure is scale^2 of that.
+SimulatedRms on_a_line(double mean, double scale, std::uint64_t seed = 1) {
+  SimulatedRms found;
+  found.records = 10;
+  found.winds = 100;
+  found.seed = seed;
+  found.linear_mean_squares =
+      scale * scale * Eigen::VectorXd::LinSpaced(100, 0.5 * mean, 1.5 * mean);
+  found.mean_squares = found.linear_mean_squares.head(10);
+  found.rms.value = scale * std::sqrt(mean);
+  return found;
+}
+
+TEST(RelativeChange, IsTheRatioOfTheRms) {
+  const auto one = on_a_line(4.0, 1.0), other = on_a_line(4.0, 1.1);
+  const auto change = relative_change({one, 0.0}, {other, 0.0});
+  ASSERT_TRUE(change);
+  EXPECT_NEAR(change->value, 0.1, 1e-9);
+  EXPECT_GT(change->lower, 0.0);
+  const auto back = relative_change({other, 0.0}, {one, 0.0});
+  ASSERT_TRUE(back);
+  EXPECT_NEAR((1.0 + back->value) * (1.0 + change->value), 1.0, 1e-9);
+}
+
+// sqrt(4 + 0.8^2 / 2) over 2.
+TEST(RelativeChange, CountsTheLimitCycle) {
+  const auto one = on_a_line(4.0, 1.0);
+  const auto change = relative_change({one, 0.0}, {one, 0.8});
+  ASSERT_TRUE(change);
+  EXPECT_NEAR(change->value, std::sqrt(1.08) - 1.0, 1e-12);
+}
+
+// What errs alike in one wind is no difference: the interval is far narrower than the two.
+TEST(RelativeChange, IsNarrowerThanTwoIntervalsAndNoNarrowerThanTheIntegration) {
+  const auto one = on_a_line(4.0, 1.0);
+  auto other = one;
+  for (Eigen::Index i = 0; i < other.mean_squares.size(); ++i) {
+    other.mean_squares[i] += i % 2 == 0 ? 1e-9 : -1e-9;
   }
-  EXPECT_GE(covered, 16);
-  EXPECT_LT(width, 0.5 * truth);
+  const auto change = relative_change({one, 0.0}, {other, 0.0});
+  ASSERT_TRUE(change);
+  EXPECT_LT(change->lower, 0.0);
+  EXPECT_GT(change->upper, 0.0);
+  EXPECT_NEAR(left_open({one, 0.0}, {other, 0.0}), std::sqrt(2.0) * integrator_agreement_limit,
+              1e-7);
+}
+
+TEST(RelativeChange, AsksForTheSameRecords) {
+  const auto one = on_a_line(4.0, 1.0);
+  EXPECT_FALSE(relative_change({one, 0.0}, {on_a_line(4.0, 1.0, 2), 0.0}));
+  EXPECT_FALSE(relative_change({one, 0.0}, {SimulatedRms{}, 0.0}));
+  EXPECT_EQ(left_open({one, 0.0}, {SimulatedRms{}, 0.0}), 0.0);
 }
 
 TEST(SimulatedRms, StatesARunThatLosesItsTarget) {

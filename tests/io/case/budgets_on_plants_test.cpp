@@ -34,7 +34,7 @@ TEST(BudgetsOnPlants, AreJudgedInTheirOwnWind) {
   design::PointingBudget unneeded = budget;
   unneeded.wind_speed.reset();
   const std::vector<design::PointingBudget> budgets{budget, stronger, median, unneeded};
-  const auto met = plants_within_budgets(problem, members, law, {}, budgets, 1.0, 1);
+  const auto met = plants_within_budgets(problem, members, law, {}, budgets, {}, 1);
   ASSERT_EQ(met.size(), budgets.size());
   EXPECT_THAT(met[0], Optional(all));
   // Gusts grow with the wind: none is met in twice the design's.
@@ -42,7 +42,7 @@ TEST(BudgetsOnPlants, AreJudgedInTheirOwnWind) {
   EXPECT_NEAR(met[2].value_or(0), all / 2, 1);
   EXPECT_THAT(met[3], Eq(std::nullopt));
   // What the nonlinear antenna adds counts.
-  EXPECT_THAT(plants_within_budgets(problem, members, law, {}, {median}, 100.0, 1),
+  EXPECT_THAT(plants_within_budgets(problem, members, law, {}, {median}, {.factor = 100.0}, 1),
               ElementsAre(Optional(0)));
 }
 

@@ -1,0 +1,29 @@
+#include <boresight/control/loops/loop_evaluator.hpp>
+#include <boresight/design/problem/budget_speeds.hpp>
+
+namespace boresight::design {
+
+std::vector<double> budget_speeds(const TrackingProblem& problem,
+                                  const control::LoopEvaluator& evaluator,
+                                  const control::ControlLaw& law, double noise_variance,
+                                  const std::vector<PointingBudget>& budgets,
+                                  const NonlinearEffect& effect) {
+  const NonlinearEffect held = effect.for_budgets();
+  std::vector<double> speeds;
+  speeds.reserve(budgets.size());
+  for (const auto& budget : budgets) {
+    speeds.push_back(
+        wind_speed_limit(problem, evaluator, law, noise_variance, held.linear_limit(budget.rms)));
+  }
+  return speeds;
+}
+
+std::vector<double> budget_speeds(const TrackingProblem& problem, const control::ControlLaw& law,
+                                  const std::vector<PointingBudget>& budgets,
+                                  const NonlinearEffect& effect) {
+  auto evaluator = make_evaluator(problem);
+  const double noise = evaluator.evaluate(law, false).noise_variance;
+  return budget_speeds(problem, evaluator, law, noise, budgets, effect);
+}
+
+}  // namespace boresight::design

@@ -51,7 +51,7 @@
 
   const first = analyse(start);
   const samples = 200;
-  const step = 40 / first.margins[2].crossover / (samples - 1);
+  const step = 20 / first.margins[2].crossover / (samples - 1);
   const responses = ({ gains, setting }) => [true, false].map((closed) => LoopAnalysis.stepResponse(data, setting, gains, closed, step, samples));
   const first_responses = responses(start);
 

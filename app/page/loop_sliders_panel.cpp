@@ -64,7 +64,8 @@ std::string loop_sliders_panel(std::string_view loop_json) {
     html += slider(one.label, fmt::format("data-setting=\"{}\"", one.key), one.unit, one.span);
   }
   html +=
-      "<button type=\"button\" class=\"reset\">Back to the start</button>\n</div>\n<div><div "
+      "<button type=\"button\" class=\"reset\">Back to the start</button>\n</div>\n<div "
+      "class=\"found\"><div "
       "aria-live=\"polite\"><p class=\"answer\"></p>\n<ul class=\"verdicts\"></ul></div>\n<div "
       "class=\"table margins\"><table><thead><tr><th scope=\"col\">loop cut at</th><th "
       "scope=\"col\" class=\"right\">gain up dB</th><th scope=\"col\" class=\"right\">gain down "

@@ -1,4 +1,3 @@
-#include <algorithm>
 #include <vector>
 
 #include <boresight/io/description/adjustable_loop_description.hpp>
@@ -28,12 +27,6 @@ struct Block {
   control::LoopPath path = control::LoopPath::rate;
   control::BlockKind kind = control::BlockKind::gain;
   std::vector<Gain> gains;
-};
-
-struct BreakLimits {
-  control::LoopBreak loop_break = control::LoopBreak::valve_command;
-  double sensitivity_peak = 0.0;
-  std::optional<double> gain_margin, phase_margin;
 };
 
 std::vector<Block> blocks_of(const control::ControlLaw& law) {
@@ -119,23 +112,6 @@ void describe_wind(Visitor& v, const design::WindCondition& wind) {
   });
 }
 
-void describe_limits(Visitor& v, const design::HardGoals& goals) {
-  std::vector<BreakLimits> breaks;
-  for (std::size_t b = 0; b < control::loop_breaks.size(); ++b) {
-    breaks.push_back({control::loop_breaks.at(b), goals.sensitivity_peak.at(b),
-                      goals.gain_margin.at(b), goals.phase_margin.at(b)});
-  }
-  v.list("loop_breaks", breaks, "Constraints on the loop, cut at each of three places.",
-         [&](const BreakLimits& one) {
-           describe_break(v, "loop_break", one.loop_break);
-           v.number("sensitivity_peak", one.sensitivity_peak, unit::ratio, "Largest Ms allowed.");
-           v.number("gain_margin", one.gain_margin, unit::decibel, "Least; null: no constraint.");
-           v.number("phase_margin", one.phase_margin, unit::degree, "Least; null: no constraint.");
-         });
-  v.number("valve_effort", goals.valve_effort, unit::radian_per_second,
-           "Largest rms of the valve command from sensor noise.");
-}
-
 }  // namespace
 
 void describe(Visitor& v, const design::AdjustableLoop& loop) {
@@ -162,7 +138,11 @@ void describe(Visitor& v, const design::AdjustableLoop& loop) {
   v.number("lowest_frequency", problem.rms_band.lowest, unit::hertz, "Of the rms.", not_negative);
   v.number("highest_frequency", problem.rms_band.highest, unit::hertz, "Of the rms.", positive);
   v.count("points_per_decade", problem.points_per_decade, "Of the frequency grid.");
-  v.group("limits", "Constraints.", [&] { describe_limits(v, loop.goals); });
+  v.group("limits", "Constraints.", [&] {
+    describe_breaks(v, loop.goals);
+    v.number("valve_effort", loop.goals.valve_effort, unit::radian_per_second,
+             "Largest rms of the valve command from sensor noise.", positive);
+  });
 }
 
 }  // namespace boresight::io

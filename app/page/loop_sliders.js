@@ -116,8 +116,10 @@
     for (let value = Math.ceil(bottom * 2) / 2; value <= top; value += 0.5) {
       drawing.append(drawn("path", { d: `M${box.left} ${y(value)}H${box.right}`, stroke: "#e2e2e2" }), drawn("text", { x: box.left - 6, y: y(value) + 4, "text-anchor": "end" }, value));
     }
-    for (let part = 0; part <= 4; ++part) {
-      drawing.append(drawn("text", { x: x(part / 4 * (samples - 1)), y: box.bottom + 17, "text-anchor": "middle" }, Number((part / 4 * step * (samples - 1)).toPrecision(2))));
+    const duration = step * (samples - 1), decade = 10 ** Math.floor(Math.log10(duration / 4));
+    const tick = [5, 2, 1].map((factor) => factor * decade).find((width) => 4 * width <= duration);
+    for (let k = 0; k * tick <= duration; ++k) {
+      drawing.append(drawn("text", { x: x(k * tick / step), y: box.bottom + 17, "text-anchor": "middle" }, Number((k * tick).toPrecision(6))));
     }
     first_responses.forEach((values, k) => drawing.append(line(values, { stroke: "#9aa3ad", "stroke-width": 1.2, "stroke-dasharray": k ? "6 4" : "none" })));
     curves.forEach((values, k) => drawing.append(line(values, { class: k ? "rate" : "position", stroke: k ? "#b4530a" : "#174a74", "stroke-width": 2.2, "stroke-dasharray": k ? "6 4" : "none" })));

@@ -105,7 +105,9 @@
 
   const drawing = panel.querySelector(".steps");
   const draw = (curves) => {
-    const box = { left: 40, right: 505, top: 24, bottom: 205 };
+    const box = { left: 48, right: 500, top: 8, bottom: 195 };
+    // Letters of 12 px or more on a phone too.
+    drawing.setAttribute("font-size", Math.min(12 * Math.max(1, 520 / (drawing.clientWidth || 520)), 20));
     const seen = [...first_responses, ...curves].flat();
     // What an unstable loop does leaves the drawing.
     const top = Math.min(Math.max(1.2, ...seen), 3), bottom = Math.max(Math.min(0, ...seen), -1);
@@ -119,13 +121,12 @@
     const duration = step * (samples - 1), decade = 10 ** Math.floor(Math.log10(duration / 4));
     const tick = [5, 2, 1].map((factor) => factor * decade).find((width) => 4 * width <= duration);
     for (let k = 0; k * tick <= duration; ++k) {
-      drawing.append(drawn("text", { x: x(k * tick / step), y: box.bottom + 17, "text-anchor": "middle" }, Number((k * tick).toPrecision(6))));
+      drawing.append(drawn("text", { x: x(k * tick / step), y: box.bottom + 19, "text-anchor": "middle" }, Number((k * tick).toPrecision(6))));
     }
     first_responses.forEach((values, k) => drawing.append(line(values, { stroke: "#9aa3ad", "stroke-width": 1.2, "stroke-dasharray": k ? "6 4" : "none" })));
     curves.forEach((values, k) => drawing.append(line(values, { class: k ? "rate" : "position", stroke: k ? "#b4530a" : "#174a74", "stroke-width": 2.2, "stroke-dasharray": k ? "6 4" : "none" })));
     drawing.append(drawn("path", { d: `M${box.left} ${box.top}V${box.bottom}H${box.right}`, fill: "none", stroke: "#333" }),
-      drawn("text", { x: (box.left + box.right) / 2, y: box.bottom + 35, "text-anchor": "middle", "font-weight": 600 }, "time (s)"),
-      drawn("text", { x: box.left, y: 13, "font-weight": 600 }, "unit step: position loop (solid), rate loop (dashed); grey: at the start"));
+      drawn("text", { x: (box.left + box.right) / 2, y: box.bottom + 40, "text-anchor": "middle", "font-weight": 600 }, "time (s)"));
   };
 
   // Shells take what stands in quotes as it is.
@@ -158,6 +159,7 @@
     });
   };
   for (const slider of sliders) slider.addEventListener("input", show_soon);
+  addEventListener("resize", show_soon);
   panel.querySelector(".reset").addEventListener("click", () => {
     for (const slider of sliders) slider.value = 0;
     show();

@@ -64,21 +64,25 @@ std::string loop_sliders_panel(std::string_view loop_json) {
     html += slider(one.label, fmt::format("data-setting=\"{}\"", one.key), one.unit, one.span);
   }
   html +=
-      "<button type=\"button\" class=\"reset\">Back to the start</button>\n</div>\n<div "
-      "class=\"found\"><div "
-      "aria-live=\"polite\"><p class=\"answer\"></p>\n<ul class=\"verdicts\"></ul></div>\n<div "
-      "class=\"table margins\"><table><thead><tr><th scope=\"col\">loop cut at</th><th "
-      "scope=\"col\" class=\"right\">gain up dB</th><th scope=\"col\" class=\"right\">gain down "
-      "dB</th><th scope=\"col\" class=\"right\">phase deg</th><th scope=\"col\" "
-      "class=\"right\">Ms</th></tr></thead><tbody></tbody></table></div>\n<svg class=\"steps\" "
-      "viewBox=\"0 0 520 245\" font-size=\"12\" role=\"img\" aria-label=\"step responses of "
-      "position and rate loop\"></svg></div>\n<div class=\"gains\"><button type=\"button\" "
-      "class=\"copy\">Copy the gains for --gains</button><code class=\"gains-text\"></code></div>\n"
+      "<button type=\"button\" class=\"reset\">Back to the start</button>\n</div>\n"
+      "<div class=\"found\"><div aria-live=\"polite\"><p class=\"answer\"></p>\n"
+      "<ul class=\"verdicts\"></ul></div>\n"
+      "<div class=\"table margins\"><table><thead><tr><th scope=\"col\">loop cut at</th>"
+      "<th scope=\"col\" class=\"right\">gain up dB</th>"
+      "<th scope=\"col\" class=\"right\">gain down dB</th>"
+      "<th scope=\"col\" class=\"right\">phase deg</th>"
+      "<th scope=\"col\" class=\"right\">Ms</th></tr></thead><tbody></tbody></table></div>\n"
+      "<svg class=\"steps\" viewBox=\"0 0 520 245\" font-size=\"12\" role=\"img\" "
+      "aria-label=\"step responses of position and rate loop\"></svg>\n"
+      "<p class=\"note\">Response to a unit step: position loop (solid), rate loop alone (dashed); "
+      "grey: at the start.</p></div>\n"
+      "<div class=\"gains\"><button type=\"button\" class=\"copy\">Copy the gains for --gains"
+      "</button><code class=\"gains-text\"></code></div>\n"
       "<p class=\"note\">Linear plant, exact: the browser computes rms, stability, margins and "
-      "step "
-      "responses from masses, springs and gains on this page, as the program does. Limit cycles, "
-      "saturation and perturbed models are not in it: run <code>boresight commission</code> with "
-      "the copied gains before they are loaded. The start is the controller of this report.</p>\n";
+      "step responses from the masses, springs and gains on this page, as the program does. Limit "
+      "cycles, saturation and perturbed models are not included: run <code>boresight "
+      "commission</code> with the copied gains before loading them. The start is the controller of "
+      "this report.</p>\n";
   return html +
          fmt::format("<script type=\"application/json\" class=\"data\">{}</script>\n</div>\n",
                      json_for_script(loop_json));

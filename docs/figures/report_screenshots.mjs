@@ -32,7 +32,9 @@ try {
     await page.locator("input[data-gain='0']").fill("-0.2");
     await page.locator("input[data-setting='wind_speed']").fill("0.3");
     await page.waitForFunction((before) => document.querySelector(".loop-sliders .answer").dataset.rms !== before, start);
+    await page.setViewportSize({ width: 1100, height: 1100 });
     await page.locator(".loop-sliders").screenshot({ path: picture("gains") });
+    await page.setViewportSize({ width: 1100, height: 860 });
     await page.locator(".loop-sliders .reset").click();
     await page.evaluate(() => scrollTo(0, 0));
   });

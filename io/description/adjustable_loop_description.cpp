@@ -1,3 +1,4 @@
+#include <utility>
 #include <vector>
 
 #include <boresight/io/description/adjustable_loop_description.hpp>

@@ -76,21 +76,21 @@ Figure candidates(const TimeDomainSection& section, const std::string& heading) 
   FigurePanel panel;
   FigureSeries linear = make_series("linear prediction", SeriesStyle::bars);
   FigureSeries simulated = make_series("simulated, nonlinear antenna", SeriesStyle::bars);
-  for (const auto& [law, result] : section.candidates) {
+  for (const auto& candidate : section.candidates) {
     const auto place = static_cast<double>(panel.y.categories.size());
-    panel.y.categories.push_back(law);
-    linear.x.push_back(result.wind.predicted_rms / millidegree);
-    simulated.x.push_back(result.wind.beam_rms / millidegree);
+    panel.y.categories.push_back(candidate.law);
+    linear.x.push_back(candidate.result.wind.predicted_rms / millidegree);
+    simulated.x.push_back(candidate.simulated_rms() / millidegree);
     linear.y.push_back(place);
     simulated.y.push_back(place);
   }
   panel.series = {std::move(linear), std::move(simulated)};
-  Figure figure =
-      make_figure("time-domain-laws", heading, "Tuned controllers on the nonlinear antenna",
-                  fmt::format("Boresight rms in one wind record of {:.3g} m/s; the controller of "
-                              "lowest simulated rms is the one verified.",
-                              section.wind_speed),
-                  make_axis("boresight rms", "mdeg"));
+  Figure figure = make_figure(
+      "time-domain-laws", heading, "Tuned controllers on the nonlinear antenna",
+      fmt::format("Boresight rms in wind of {:.3g} m/s, over the same simulated records for "
+                  "all, limit cycle not included.",
+                  section.wind_speed),
+      make_axis("boresight rms", "mdeg"));
   figure.panels.push_back(std::move(panel));
   return figure;
 }

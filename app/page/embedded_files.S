@@ -13,6 +13,18 @@
   embed boresight_page_css, PAGE_CSS
   embed boresight_figures_js, FIGURES_JS
   embed boresight_what_if_js, WHAT_IF_JS
+
+  // One script of several files.
+  .global boresight_loop_sliders_js
+  .global boresight_loop_sliders_js_end
+boresight_loop_sliders_js:
+  .incbin MATRICES_JS
+  .incbin LOOP_MODEL_JS
+  .incbin LOOP_ANALYSIS_JS
+  .incbin LOOP_SLIDERS_JS
+boresight_loop_sliders_js_end:
+  .byte 0
+
 #ifdef PLOTLY_JS
   embed boresight_plotly_js, PLOTLY_JS
 #else

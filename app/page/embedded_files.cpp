@@ -5,6 +5,7 @@ extern "C" {
 extern const char boresight_page_css[], boresight_page_css_end[];
 extern const char boresight_figures_js[], boresight_figures_js_end[];
 extern const char boresight_what_if_js[], boresight_what_if_js_end[];
+extern const char boresight_loop_sliders_js[], boresight_loop_sliders_js_end[];
 extern const char boresight_plotly_js[], boresight_plotly_js_end[];
 }
 
@@ -27,6 +28,10 @@ std::string_view figures_script() {
 
 std::string_view what_if_script() {
   return between(boresight_what_if_js, boresight_what_if_js_end);
+}
+
+std::string_view loop_sliders_script() {
+  return between(boresight_loop_sliders_js, boresight_loop_sliders_js_end);
 }
 
 std::string_view plotting_library() {

@@ -9,6 +9,7 @@
 #include <boresight/app/figures/figure_svg.hpp>
 #include <boresight/app/page/embedded_files.hpp>
 #include <boresight/app/page/html_text.hpp>
+#include <boresight/app/page/loop_sliders_panel.hpp>
 #include <boresight/app/page/page.hpp>
 #include <boresight/app/page/section_methods.hpp>
 #include <boresight/app/page/what_if_panel.hpp>
@@ -232,7 +233,12 @@ std::string security_policy(const std::vector<std::string_view>& scripts) {
 std::string to_html(const Page& page, const Provenance& provenance) {
   FigurePlacer placer(page.figures);
   std::string what_if = page.what_if.empty() ? std::string() : what_if_panel(page.what_if);
-  std::string main = to_html(sections_only(page.document), [&](std::string_view heading) {
+  std::string main;
+  if (!page.adjustable_loop.empty()) {
+    main = "<section id=\"change-gains\"><h2>Change gains, wind and drive</h2>\n" +
+           loop_sliders_panel(page.adjustable_loop) + "</section>\n";
+  }
+  main += to_html(sections_only(page.document), [&](std::string_view heading) {
     SectionAdditions additions{{}, placer.of(heading)};
     if (heading.starts_with("Inertia matching")) std::swap(additions.behind_heading, what_if);
     return additions;
@@ -252,6 +258,7 @@ std::string to_html(const Page& page, const Provenance& provenance) {
     scripts.push_back(plotting_library());
   }
   if (!page.what_if.empty()) scripts.push_back(what_if_script());
+  if (!page.adjustable_loop.empty()) scripts.push_back(loop_sliders_script());
 
   std::string html = fmt::format(
       "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
@@ -275,6 +282,7 @@ std::string to_html(const Page& page, const Provenance& provenance) {
     html += script_html(figures_script());
   }
   if (!page.what_if.empty()) html += script_html(what_if_script());
+  if (!page.adjustable_loop.empty()) html += script_html(loop_sliders_script());
   return html + "</body>\n</html>\n";
 }
 

@@ -31,6 +31,8 @@ struct Page {
   std::vector<Figure> figures;
   /// JSON of the table behind the matching sliders (what_if_description.hpp); empty: none.
   std::string what_if;
+  /// JSON of the loop behind the sliders over gains (adjustable_loop_description.hpp); empty: none.
+  std::string adjustable_loop;
 };
 
 /// How a page was made: enough to make it again, and to see that it is of the same inputs.

@@ -1,3 +1,4 @@
+#include <optional>
 #include <utility>
 
 #include <boresight/app/montecarlo/montecarlo_study.hpp>
@@ -8,6 +9,9 @@
 #include <boresight/app/report/json_writer.hpp>
 #include <boresight/app/report/redesign_card.hpp>
 #include <boresight/app/report/text_report.hpp>
+#include <boresight/design/studies/adjustable_loop.hpp>
+#include <boresight/design/studies/controller_study.hpp>
+#include <boresight/io/description/adjustable_loop_description.hpp>
 #include <boresight/io/description/what_if_description.hpp>
 
 namespace boresight::app {
@@ -27,6 +31,15 @@ Page common(const AnyReport& report, std::string command) {
   return page;
 }
 
+// Of tune the controller it shows, of redesign the recommended one.
+std::optional<design::AdjustableLoop> adjustable_loop_of(const Report& report) {
+  if (report.tuning) return design::adjustable_loop(*report.tuning);
+  if (!report.tuned) return std::nullopt;
+  const auto* shown =
+      design::shown_law(*report.tuned, report.time_domain ? &*report.time_domain : nullptr);
+  return shown != nullptr ? design::adjustable_loop(*report.tuned, *shown) : std::nullopt;
+}
+
 }  // namespace
 
 Page page_of(const Report& report) {
@@ -38,6 +51,7 @@ Page page_of(const Report& report) {
   if (report.matched && report.matched->what_if) {
     page.what_if = json_of(*report.matched->what_if).dump();
   }
+  if (const auto loop = adjustable_loop_of(report)) page.adjustable_loop = json_of(*loop).dump();
   return page;
 }
 

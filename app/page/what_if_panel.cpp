@@ -26,7 +26,8 @@ std::string what_if_panel(std::string_view what_if_json) {
   const auto table = nlohmann::json::parse(what_if_json);
   std::string html =
       "<p class=\"what-if-needs-script only-screen\">The sliders need JavaScript. The same table "
-      "is in the JSON report, under <code>matched.what_if</code>.</p>\n<div class=\"what-if\" "
+      "is in the JSON report, under <code>matched.what_if</code>.</p>\n<div class=\"sliders "
+      "what-if\" "
       "id=\"what-if-panel\" role=\"group\" aria-label=\"What if\" hidden=\"\">\n<div "
       "class=\"knobs\">\n<label>loop structure <select name=\"structure\">";
   for (const auto& name : table.at("structures")) {

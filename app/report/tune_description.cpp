@@ -17,13 +17,6 @@ namespace unit = io::key_units;
 
 constexpr io::NumberForm above_zero{.above = 0.0, .finite = true};
 
-// What the loop must keep, cut at one place.
-struct BreakGoals {
-  control::LoopBreak loop_break = control::LoopBreak::valve_command;
-  double sensitivity_peak = 0.0;
-  std::optional<double> gain_margin, phase_margin;
-};
-
 // A gain of a law as the case writes it.
 struct WrittenGain {
   std::string symbol, name, value;
@@ -35,28 +28,10 @@ struct BudgetLimit {
   double wind_speed = 0.0;  // m/s
 };
 
-void describe_breaks(io::Visitor& v, const design::HardGoals& goals) {
-  std::vector<BreakGoals> breaks;
-  for (std::size_t b = 0; b < control::loop_breaks.size(); ++b) {
-    breaks.push_back({control::loop_breaks.at(b), goals.sensitivity_peak.at(b),
-                      goals.gain_margin.at(b), goals.phase_margin.at(b)});
-  }
-  v.list("loop_breaks", breaks, "Goals of the loop cut at each of three places.",
-         [&](const BreakGoals& one) {
-           io::describe_break(v, "loop_break", one.loop_break);
-           v.number("sensitivity_peak", one.sensitivity_peak, unit::ratio,
-                    "Largest sensitivity allowed.", above_zero);
-           v.number("gain_margin", one.gain_margin, unit::decibel,
-                    "Least, up and down; null: none asked for.");
-           v.number("phase_margin", one.phase_margin, unit::degree, "Least; null: none asked for.");
-         },
-         {.least = control::loop_breaks.size(), .most = control::loop_breaks.size()});
-}
-
 void describe_goals(io::Visitor& v, const TuneSection& section) {
   const design::HardGoals& goals = section.goals;
   const bool over_quantile = section.soft_goal.kind == design::SoftGoalKind::quantile;
-  describe_breaks(v, goals);
+  io::describe_breaks(v, goals);
   v.number("valve_effort", goals.valve_effort, unit::radian_per_second,
            "Largest rms of the noise-driven valve command.", above_zero);
   v.number("bandwidth", goals.bandwidth, unit::hertz_of_radians,

@@ -20,13 +20,24 @@ const shoot = async (name, args, prepare) => {
   execFileSync(program, [...args, "--report", file], { cwd: root, stdio: ["ignore", "ignore", "inherit"] });
   const page = await browser.newPage({ viewport: { width: 1400, height: 860 } });
   await page.goto(`file://${file}`);
-  await prepare(page);
-  await page.screenshot({ path: path.join(root, "docs", "figures", `report-${name}.png`) });
+  const picture = (of) => path.join(root, "docs", "figures", `report-${of}.png`);
+  await prepare(page, picture);
+  await page.screenshot({ path: picture(name) });
   await page.close();
 };
 
 try {
-  await shoot("redesign", ["redesign", "cases/dss14-70m/campaign.toml"], async () => {});
+  await shoot("redesign", ["redesign", "cases/dss14-70m/campaign.toml"], async (page, picture) => {
+    const start = await page.locator(".loop-sliders .answer").getAttribute("data-rms");
+    await page.locator("input[data-gain='0']").fill("-0.2");
+    await page.locator("input[data-setting='wind_speed']").fill("0.3");
+    await page.waitForFunction((before) => document.querySelector(".loop-sliders .answer").dataset.rms !== before, start);
+    await page.setViewportSize({ width: 1100, height: 1100 });
+    await page.locator(".loop-sliders").screenshot({ path: picture("gains") });
+    await page.setViewportSize({ width: 1100, height: 860 });
+    await page.locator(".loop-sliders .reset").click();
+    await page.evaluate(() => scrollTo(0, 0));
+  });
   await shoot("match", ["match", "cases/dss14-70m/case.toml"], async (page) => {
     await page.locator(".what-if select").selectOption({ index: 0 });
     await page.locator(".what-if").evaluate((panel) => panel.closest("section").scrollIntoView());

@@ -1,14 +1,46 @@
+#include <optional>
+#include <vector>
+
 #include <boresight/io/description/loop_results.hpp>
 
 namespace boresight::io {
 
 namespace unit = key_units;
 
+namespace {
+
+// What the loop must keep, cut at one place.
+struct BreakGoals {
+  control::LoopBreak loop_break = control::LoopBreak::valve_command;
+  double sensitivity_peak = 0.0;
+  std::optional<double> gain_margin, phase_margin;
+};
+
+}  // namespace
+
 void describe_break(Visitor& v, std::string_view key, control::LoopBreak loop_break) {
   using enum control::LoopBreak;
   v.word(key, to_string(loop_break),
          {to_string(rate_loop_alone), to_string(valve_command), to_string(position_loop)},
          "Where the loop is cut.");
+}
+
+void describe_breaks(Visitor& v, const design::HardGoals& goals) {
+  std::vector<BreakGoals> breaks;
+  for (std::size_t b = 0; b < control::loop_breaks.size(); ++b) {
+    breaks.push_back({control::loop_breaks.at(b), goals.sensitivity_peak.at(b),
+                      goals.gain_margin.at(b), goals.phase_margin.at(b)});
+  }
+  v.list("loop_breaks", breaks, "Goals of the loop cut at each of three places.",
+         [&](const BreakGoals& one) {
+           describe_break(v, "loop_break", one.loop_break);
+           v.number("sensitivity_peak", one.sensitivity_peak, unit::ratio,
+                    "Largest sensitivity allowed.", {.above = 0.0, .finite = true});
+           v.number("gain_margin", one.gain_margin, unit::decibel,
+                    "Least, up and down; null: none asked for.");
+           v.number("phase_margin", one.phase_margin, unit::degree, "Least; null: none asked for.");
+         },
+         {.least = control::loop_breaks.size(), .most = control::loop_breaks.size()});
 }
 
 void describe(Visitor& v, const control::Margins& margins) {

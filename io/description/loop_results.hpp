@@ -4,6 +4,7 @@
 
 #include <boresight/control/analysis/margins.hpp>
 #include <boresight/control/loops/loop_evaluator.hpp>
+#include <boresight/design/problem/goals.hpp>
 #include <boresight/design/verification/nonlinear_verification.hpp>
 #include <boresight/io/description/visitor.hpp>
 
@@ -11,6 +12,9 @@ namespace boresight::io {
 
 /// Where a loop is cut.
 void describe_break(Visitor& v, std::string_view key, control::LoopBreak loop_break);
+
+/// "loop_breaks": the constraints on a loop cut at each of control::loop_breaks.
+void describe_breaks(Visitor& v, const design::HardGoals& goals);
 
 /// The smallest margins of one loop, cut at one place: gain, phase, delay.
 void describe(Visitor& v, const control::Margins& margins);

@@ -276,6 +276,59 @@ test("sliders give the table's values", async () => {
   await close();
 });
 
+// What the page's own script computes, without the page.
+const analysis = () => {
+  const source = ["matrices", "loop_model", "loop_analysis"].map((name) => readFileSync(path.join(root, "app", "page", `${name}.js`), "utf8")).join("");
+  return new Function(`${source}; return LoopAnalysis;`)();
+};
+
+test("sliders over gains begin with the report's controller", async () => {
+  const { page, troubles, close } = await open("redesign");
+  const panel = page.locator(".loop-sliders");
+  const { design } = made.redesign.json.tuning;
+  const rms = Number(await panel.locator(".answer").getAttribute("data-rms"));
+  // The report's is by adaptive quadrature, the panel's on the program's frequency grid.
+  assert.ok(Math.abs(rms / design.beam_rms_mdeg - 1) < 1e-7, `${rms}, expected ${design.beam_rms_mdeg}`);
+  assert.match(await panel.locator(".verdicts").textContent(), /\u2713/);
+  assert.equal(await panel.locator("tbody tr").count(), 3);
+  const shell = await panel.locator(".gains-text").textContent();
+  const words = [...shell.matchAll(/'([^']*)'|(\S+)/g)].map(([, quoted, bare]) => quoted ?? bare);
+  assert.deepEqual([words[0], words[2]], ["--structure", "--gains"]);
+  assert.equal(words.length - 3, await panel.locator("input[data-gain]").count());
+  assert.deepEqual(troubles, []);
+  await close();
+});
+
+test("sliders over gains, wind and drive give what their numbers make", async () => {
+  const { page, troubles, close } = await open("redesign");
+  const panel = page.locator(".loop-sliders");
+  const data = JSON.parse(await panel.locator("script.data").textContent());
+  const answer = panel.locator(".answer");
+  const first = await answer.getAttribute("data-rms");
+  const scaled = (value, factor) => Number((value * factor).toPrecision(4));
+  const gains = data.blocks.flatMap((block) => block.gains.map(({ value }) => value));
+  gains[0] = scaled(gains[0], 8 ** -0.1);
+  const setting = {
+    wind_speed: scaled(data.wind.mean_speed_m_per_s, 2.5 ** 0.5), oil_stiffness: scaled(data.drive.oil_stiffness_N_m_per_rad, 3 ** 0.2),
+    leakage_rate: data.drive.leakage_rate_per_s, viscous_friction: data.drive.viscous_friction_N_m_s_per_rad,
+  };
+  for (const [slider, value] of [["data-gain='0'", "-0.1"], ["data-setting='wind_speed'", "0.5"], ["data-setting='oil_stiffness'", "0.2"]]) {
+    await panel.locator(`input[${slider}]`).fill(value);
+  }
+  const LoopAnalysis = analysis();
+  const rms = LoopAnalysis.rms(LoopAnalysis.prepare(data, setting), gains).beam * 180e3 / Math.PI;
+  await page.waitForFunction((expected) => Math.abs(document.querySelector(".loop-sliders .answer").dataset.rms / expected - 1) < 1e-9, rms);
+  assert.match(await panel.locator(".gains-text").textContent(), new RegExp(`=${gains[0]}(?![\\d.])`));
+  // All gains at eight times the start's, and back.
+  for (const slider of await panel.locator("input[data-gain]").all()) await slider.fill("1");
+  await page.waitForFunction(() => document.querySelector(".loop-sliders .answer").dataset.rms === "");
+  assert.match(await answer.textContent(), /unstable/);
+  await panel.locator(".reset").click();
+  assert.equal(await answer.getAttribute("data-rms"), first);
+  assert.deepEqual(troubles, []);
+  await close();
+});
+
 test("the table is the study's where they meet", () => {
   const { matched } = made.match.json;
   const table = matched.what_if;

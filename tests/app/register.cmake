@@ -31,8 +31,21 @@ if(NOT CMAKE_BUILD_TYPE STREQUAL Sanitize)
   else()
     boresight_python_test(montecarlo montecarlo_test.py)
   endif()
-  # Report pages in a browser, driven by what npm brings (./dev test does).
+  # What the sliders of a report page compute, against the program.
   find_program(BORESIGHT_NODE node)
+  if(BORESIGHT_NODE)
+    add_executable(loop_settings ${CMAKE_CURRENT_LIST_DIR}/loop_settings.cpp)
+    target_include_directories(loop_settings PRIVATE ${CMAKE_CURRENT_SOURCE_DIR})
+    target_link_libraries(loop_settings PRIVATE boresight_app nlohmann_json::nlohmann_json
+      boresight_warnings)
+    add_test(NAME loop_analysis COMMAND ${BORESIGHT_NODE}
+      ${CMAKE_CURRENT_LIST_DIR}/loop_analysis_test.mjs $<TARGET_FILE:loop_settings>
+      ${PROJECT_SOURCE_DIR})
+    set_tests_properties(loop_analysis PROPERTIES TIMEOUT 600)
+  else()
+    message(STATUS "The sliders of report pages are not tested: node is missing")
+  endif()
+  # Report pages in a browser, driven by what npm brings (./dev test does).
   find_program(BORESIGHT_CHROMIUM chromium)
   set(modules ${PROJECT_SOURCE_DIR}/web/node_modules)
   if(BORESIGHT_NODE AND BORESIGHT_CHROMIUM AND EXISTS ${modules}/playwright-core

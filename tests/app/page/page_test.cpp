@@ -8,6 +8,8 @@
 #include <boresight/app/page/html_text.hpp>
 #include <boresight/app/page/page.hpp>
 #include <boresight/app/page/section_methods.hpp>
+#include <boresight/app/report/json_writer.hpp>
+#include <boresight/io/description/adjustable_loop_description.hpp>
 
 namespace boresight::app {
 namespace {
@@ -124,6 +126,52 @@ TEST(Page, OnlyItsOwnScriptsMayRun) {
   Page still = page_of_two_sections();
   still.figures.clear();
   EXPECT_THAT(to_html(still, provenance), HasSubstr("script-src 'none'"));
+}
+
+// A loop of three gains whose plant has no friction.
+std::string loop_without_friction() {
+  design::AdjustableLoop loop;
+  loop.structure = "PI";
+  loop.law = {control::LoopStructure("three", {{control::LoopPath::rate,
+                                                control::BlockKind::gain,
+                                                {{"rate <gain>", "kr", "1", 0.1, 1.0}}},
+                                               {control::LoopPath::rate,
+                                                control::BlockKind::integral,
+                                                {{"corner", "wi", "rad/s", 0.1, 1.0}}},
+                                               {control::LoopPath::position,
+                                                control::BlockKind::gain,
+                                                {{"position gain", "kp", "1/s", 0.1, 1.0}}}}),
+              {0.2, 0.8, 0.3}};
+  loop.problem.wind.mean_speed = 10.0;
+  loop.problem.plant.drive.oil_stiffness = 50.0;
+  loop.problem.plant.drive.leakage_rate = 1.2;
+  return json_of(loop).dump();
+}
+
+std::size_t count(const std::string& text, const std::string& part) {
+  std::size_t found = 0;
+  for (auto at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) ++found;
+  return found;
+}
+
+TEST(Page, SlidersOverGainsStandFirstAndRunByTheirDigest) {
+  Page page = page_of_two_sections();
+  const std::string digest = "'sha256-" + io::sha256_base64(loop_sliders_script()) + "'";
+  EXPECT_THAT(to_html(page, provenance), Not(HasSubstr(digest)));
+  page.adjustable_loop = loop_without_friction();
+  const std::string html = to_html(page, provenance);
+  EXPECT_THAT(html, HasSubstr(digest));
+  EXPECT_LT(html.find("id=\"change-gains\""), html.find("<h2>Tuned loops"));
+  EXPECT_THAT(html, HasSubstr("rate &lt;gain&gt;"));
+}
+
+TEST(Page, SlidersAreOneAGainAndOneANumberOfTheDriveThatIsNotZero) {
+  Page page = page_of_two_sections();
+  page.adjustable_loop = loop_without_friction();
+  const std::string html = to_html(page, provenance);
+  EXPECT_EQ(count(html, " data-gain=\""), 3U);
+  EXPECT_EQ(count(html, " data-setting=\""), 3U);
+  EXPECT_THAT(html, Not(HasSubstr("data-setting=\"viscous_friction\"")));
 }
 
 TEST(Page, AnInterruptIsSaidAtTheTop) {

@@ -1,7 +1,9 @@
+#include <cmath>
 #include <numbers>
 #include <string>
 #include <vector>
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -27,6 +29,19 @@ TEST(LawByKey, TakesGainsInAnyOrderAndUnit) {
   EXPECT_NEAR(gain(law, "wi"), 2.0 * std::numbers::pi * 0.127, 1e-12);
   EXPECT_DOUBLE_EQ(gain(law, "kp"), 0.2);
   EXPECT_DOUBLE_EQ(gain(law, "wip"), 0.02);
+}
+
+// The text that the sliders of a report page give.
+TEST(LawByKey, TakesEveryGainInItsOwnUnitToTheLastDigit) {
+  const auto structure = control::LoopStructure::named("FULL+N+C");
+  std::vector<std::string> texts;
+  std::vector<double> values;
+  for (const auto& gain : structure.gains()) {
+    values.push_back(std::sqrt(gain.lower * gain.upper));
+    texts.push_back(fmt::format("{}={}{}", gain.symbol, values.back(),
+                                gain.unit == "1" ? "" : " " + gain.unit));
+  }
+  EXPECT_EQ(law_by_key(antenna_of_test(), "FULL+N+C", texts).gains, values);
 }
 
 TEST(LawByKey, SaysWhichGainIsMissingOrWrong) {

@@ -1,0 +1,21 @@
+#include <boresight/design/studies/adjustable_loop.hpp>
+
+namespace boresight::design {
+
+std::optional<AdjustableLoop> adjustable_loop(const RecommendedDesign& recommended) {
+  if (recommended.design.tuning.status == TuningStatus::unstable) return std::nullopt;
+  AdjustableLoop loop{recommended.name, recommended.design.tuning.law, recommended.problem,
+                      recommended.goals};
+  loop.problem.climate.clear();
+  return loop;
+}
+
+std::optional<AdjustableLoop> adjustable_loop(const TuningStudy& study, const TunedLaw& row) {
+  if (!row.stable()) return std::nullopt;
+  AdjustableLoop loop{row.structure, row.design.tuning.law, study.problem, study.goals};
+  loop.problem.wind.mean_speed = row.wind_speed;
+  loop.problem.climate.clear();
+  return loop;
+}
+
+}  // namespace boresight::design

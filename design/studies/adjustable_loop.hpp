@@ -1,0 +1,31 @@
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include <boresight/control/controllers/control_law.hpp>
+#include <boresight/design/problem/goals.hpp>
+#include <boresight/design/problem/tracking_problem.hpp>
+#include <boresight/design/studies/redesign_study.hpp>
+#include <boresight/design/studies/tuning_study.hpp>
+
+namespace boresight::design {
+
+/// A controller on its plant in one wind, with all that its boresight rms, stability, margins and
+/// step responses depend on: what a page computes again as gains, wind speed, oil stiffness,
+/// leakage rate and friction slope change. The rms is that of make_evaluator at the problem's wind
+/// speed; a climate is no part of it.
+struct AdjustableLoop {
+  std::string structure;    // as the user has it
+  control::ControlLaw law;  // stable on the problem's plant
+  TrackingProblem problem;
+  HardGoals goals;
+};
+
+/// The recommended controller of a redesign. None without a stable one.
+std::optional<AdjustableLoop> adjustable_loop(const RecommendedDesign& recommended);
+
+/// A controller of a tuning study at its own wind speed. None if it is not stable.
+std::optional<AdjustableLoop> adjustable_loop(const TuningStudy& study, const TunedLaw& row);
+
+}  // namespace boresight::design

@@ -1,0 +1,42 @@
+#include <gtest/gtest.h>
+
+#include "design/reference_problem.hpp"
+#include <boresight/design/studies/adjustable_loop.hpp>
+
+namespace boresight::design {
+namespace {
+
+TunedLaw tuned_at(double wind_speed) {
+  TunedLaw row;
+  row.structure = "PI";
+  row.wind_speed = wind_speed;
+  row.design.tuning.status = TuningStatus::optimal;
+  row.design.tuning.law = reference::cautious_law();
+  return row;
+}
+
+TEST(AdjustableLoop, IsInTheWindOfItsControllerWithoutTheClimate) {
+  TuningStudy study;
+  study.problem = reference::tracking_problem();
+  study.problem.climate = {{study.problem.wind, 1.0}};
+  const auto loop = adjustable_loop(study, tuned_at(14.0));
+  ASSERT_TRUE(loop.has_value());
+  EXPECT_EQ(loop->structure, "PI");
+  EXPECT_EQ(loop->law.gains, reference::cautious_law().gains);
+  EXPECT_EQ(loop->problem.wind.mean_speed, 14.0);
+  EXPECT_TRUE(loop->problem.climate.empty());
+}
+
+TEST(AdjustableLoop, IsNoneWithoutAStableController) {
+  TunedLaw row = tuned_at(10.0);
+  row.design.tuning.status = TuningStatus::unstable;
+  EXPECT_FALSE(adjustable_loop(TuningStudy{}, row).has_value());
+  RecommendedDesign recommended;
+  recommended.design = row.design;
+  EXPECT_FALSE(adjustable_loop(recommended).has_value());
+  recommended.design.tuning.status = TuningStatus::infeasible;
+  EXPECT_TRUE(adjustable_loop(recommended).has_value());
+}
+
+}  // namespace
+}  // namespace boresight::design

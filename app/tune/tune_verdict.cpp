@@ -345,7 +345,8 @@ TuneSection section_of(const io::Case& antenna, design::TuningStudy study) {
                       io::GainUnits(antenna),
                       antenna.wind.mast,
                       io::demand_assumption(antenna),
-                      {}};
+                      {},
+                      std::nullopt};
   section.shortfalls = find_shortfalls(section);
   return section;
 }

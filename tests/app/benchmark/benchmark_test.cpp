@@ -200,8 +200,8 @@ TEST(Benchmark, ScoresTheAntennaThatRecordsShow) {
   const ScratchFolder folder;
   const io::Case stated = io::read_case(small_case(folder));
   const design::Mission mission = mission_of(stated);
-  io::DesignedAntenna designed{
-      stated, mission, {}, design::PlantDistribution::of_ranges(mission), false};
+  io::DesignedAntenna designed{stated, mission, {}, design::PlantDistribution::of_ranges(mission),
+                               {},     false};
   const auto controller = design::controller_of(mission.present_controllers.front().law, "PI", 0.0);
   auto as_stated = app::benchmark(designed, controller, {}, {});
   designed.antenna.drive.leakage_rate.value *= 2.0;

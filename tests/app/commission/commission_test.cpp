@@ -159,7 +159,9 @@ TEST(Commission, ComparesTwoRecordsOfTheCaseWithoutAPlan) {
       antenna,
       mission,
       {design::EnsembleSource::ranges, {{"one", plant}, {"another", plant}, {"a third", plant}}},
-      design::PlantDistribution::of_ranges(mission)};
+      design::PlantDistribution::of_ranges(mission),
+      {},
+      false};
   const auto report = plan_commission(designed, options);
   ASSERT_TRUE(report.failure);
   EXPECT_THROW(std::rethrow_exception(report.failure), InfeasibleRequirement);

@@ -208,7 +208,8 @@ TEST(RedesignCard, SaysWhatContradictsBeforeAnythingIsBuilt) {
 }
 
 TEST(RedesignCard, AlignsItsLinesBehindTheLabels) {
-  const std::string text = to_text(document_of({{"Load", "PI (robust)", "Tuned loops"}}));
+  const std::string text =
+      to_text(document_of(std::vector<CardLine>{{"Load", "PI (robust)", "Tuned loops"}}));
   EXPECT_EQ(text, "\n  Load            PI (robust) [Tuned loops]\n");
 }
 

@@ -201,10 +201,9 @@ CardLine budget_line(const Report& report, const TuningSection& section) {
     budgets.push_back(std::move(text));
   }
   return {"Budgets (mdeg)",
-          budgets.empty()
-              ? "the case states none ([[pointing.budget]])"
-              : fmt::format("{}; {}", fmt::join(budgets, "; "),
-                            simulated(report) ? "simulated, limit cycle included" : "linear plant"),
+          budgets.empty() ? "the case states none ([[pointing.budget]])"
+                          : fmt::format("{}; {}", fmt::join(budgets, "; "),
+                                        simulated(report) ? "simulated" : "linear"),
           std::string(loops)};
 }
 

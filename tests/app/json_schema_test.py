@@ -347,7 +347,7 @@ class Campaign(unittest.TestCase):
     def test_agrees_with_the_text(self):
         text = run("identify", RECORDED)[1]
         for q in self.found["reconciled"]["quantities"]:
-            scale = 1e-6 if q["posterior"]["unit"] == "Pa" else 1
+            scale = {"Pa": 1e-6, "s": 1e3}.get(q["posterior"]["unit"], 1)
             self.assertIn(f"{q['posterior']['value_si'] * scale:.4g}", text)
         for method in self.found["methods"]:
             self.assertIn(method["name"], text)

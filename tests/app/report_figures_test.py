@@ -79,11 +79,17 @@ class Law(Near):
         self.figures = figures_of(self.found)
         self.design = self.found["tuning"]["design"]
 
+    def judged(self, linear):
+        """What the simulation makes of a linear rms, the limit cycle's in quadrature."""
+        effect = self.found["tuning"]["effect"]
+        return math.hypot(max(1, effect["factor_1"]) * linear,
+                          effect["limit_cycle_amplitude_mdeg"] / math.sqrt(2))
+
     def test_rms_against_wind_passes_through_design_and_budgets(self):
         figure = self.figures["tuned-rms-against-wind"]
         curve = series_of(figure, 0)
         self.assertNear(at(curve, self.found["tuning"]["design_wind_speed_m_per_s"]),
-                        self.design["beam_rms_mdeg"], 3e-3)
+                        self.judged(self.design["beam_rms_mdeg"]), 3e-3)
         marks = {round(mark["y"], 4): mark["x"] for mark in figure["panels"][0]["marks"]}
         for budget in self.found["tuning"]["budgets"]:
             self.assertNear(marks[round(budget["rms_mdeg"], 4)], budget["wind_speed_limit_m_per_s"],
@@ -158,7 +164,7 @@ class Law(Near):
         speed = self.found["tuning"]["design_wind_speed_m_per_s"]
         for bound, key in (("y_lower", "least"), ("y_upper", "largest")):
             value = at({"x": band["x"], "y": band[bound]}, speed)
-            self.assertNear(value, ensemble[f"{key}_beam_rms_mdeg"], 5e-3)
+            self.assertNear(value, self.judged(ensemble[f"{key}_beam_rms_mdeg"]), 5e-3)
 
     def test_error_budget_sums_in_quadrature(self):
         parts, total, apart = self.figures["tuned-error-budget"]["panels"][0]["series"]

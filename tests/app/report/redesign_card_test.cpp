@@ -129,8 +129,7 @@ TEST(RedesignCard, StatesUpToWhichWindBudgetsAreMet) {
   required.plants_met = 7;
   report.tuning->budgets = {required};
   EXPECT_EQ(line_of(report, "Budgets (mdeg)"),
-            "Ka 0.600 to 11.2 m/s (required 12, on 7 of 30 models); simulated, limit cycle "
-            "included");
+            "Ka 0.600 to 11.2 m/s (required 12, on 7 of 30 models); simulated");
   EXPECT_THAT(line_of(report, "Error per axis"), HasSubstr("; budget 0.600"));
 }
 

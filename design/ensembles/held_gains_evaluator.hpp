@@ -41,8 +41,8 @@ struct HeldGainsValues {
 /// Carlo and sensitivity studies, which need thousands of evaluations per second. The frequencies,
 /// the weights of wind and noise and the controller's compensators are computed once. Each plant
 /// costs only its own response at some 300 of these frequencies, without allocation. The values of
-/// a plant do not depend on the plants before it. Copies are independent; do not share one object
-/// between threads.
+/// a plant do not depend on the plants before it. Use one object per thread; copies are
+/// independent.
 class HeldGainsEvaluator {
  public:
   /// Uses the problem's wind, climate, noise, dead time and bands. Its plant determines only the

@@ -64,8 +64,8 @@ struct MonteCarlo {
   bool retune_over_climate = false;
 };
 
-/// Evaluates plants in any order, on one thread. Do not share one object between threads; copies
-/// are independent. The outcome of a plant does not depend on the plants before it.
+/// Evaluates plants in any order, on one thread. Use one object per thread; copies are independent.
+/// The outcome of a plant does not depend on the plants before it.
 class MonteCarloJudge {
  public:
   /// @throws as HeldGainsEvaluator, and InvalidInput as validate(goals).

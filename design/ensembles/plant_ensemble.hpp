@@ -36,8 +36,8 @@ struct EnsembleResult {
   /// Rms of the stable members: smallest, median, 95 % quantile, largest (rad at the sky). NaN if
   /// none is stable.
   double least_rms = 0.0, median_rms = 0.0, high_rms = 0.0, largest_rms = 0.0;
-  /// The member with the largest constraint violation. Of members within 1e-6 of the largest the
-  /// first, so that round-off does not decide.
+  /// The member with the worst normalised constraint (quantity/limit). Of members within 1e-6 of
+  /// the worst the first, so that round-off does not decide.
   std::size_t worst = 0;
 };
 

@@ -10,8 +10,8 @@
 
 namespace boresight::design {
 
-/// Evaluates a candidate's controller with fixed gains on plant after plant. Do not share one
-/// object between threads; copies are independent. The antennas must outlive it.
+/// Evaluates a candidate's controller with fixed gains on plant after plant. Use one object per
+/// thread; copies are independent. The antennas must outlive it.
 class HeldCandidate {
  public:
   HeldCandidate(const plant::Antenna& as_is, const Mission& proposed, const CandidateLaw& law);

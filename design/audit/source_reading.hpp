@@ -28,8 +28,8 @@ const PrintedForm& print_of(const AuditGraph& graph, std::size_t node, Print pri
 
 /// Half a unit of the rounding that a form can hide (SI), from all columns of its statement
 /// together. A coarse print is as certain as a finer one beside it that agrees. A form is exact if
-/// the neighbouring column converts it to the last digit although its own rounding spans at least
-/// ten of the neighbour's units ("5.08 cm (2 in)"); it then hides no rounding.
+/// the neighbouring column converts it to the last digit and its own rounding spans at least ten of
+/// the neighbour's units. Such a form hides no rounding: "5.08 cm (2 in)".
 double hidden_rounding(const Statement& statement, std::size_t form);
 
 /// True if two forms of a statement differ by more than both their half units.

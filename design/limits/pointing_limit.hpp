@@ -37,9 +37,9 @@ struct LimitedLqg {
   SampledDesign design;
 };
 
-/// Lower bound for all sampled controllers. A linear controller whose noise-driven command is E rms
-/// has a boresight mean square (rad^2 at the sky) of at least cost - weight E^2, for each of the
-/// points (control/lqg/noise_effort_lqg.hpp).
+/// Lower bound for all linear sampled controllers (control/lqg/noise_effort_lqg.hpp). With a
+/// noise-driven command of E rms the boresight mean square (rad^2 at the sky) is at least cost -
+/// weight E^2, for each of the points.
 struct EffortBound {
   struct Point {
     double weight = 0.0;  // rad^2 per (rad/s)^2
@@ -103,10 +103,10 @@ struct PointingLimitOptions {
   unsigned threads = 1;
 };
 
-/// Computes the limits of the problem's plant in its wind (or its climate's mean spectrum) under
-/// the constraints on control effort and on Ms at the valve command, and compares the controllers
-/// with them. Each design is evaluated from its closed loop: eigenvalues, covariance, response. The
-/// result does not depend on the number of threads. Takes about a second without members; the
+/// Computes the limits of the problem's plant in its wind (or its climate's mean spectrum) and
+/// compares the controllers with them. The constraints are those on control effort and on Ms at the
+/// valve command. Each design is evaluated from its closed loop: eigenvalues, covariance, response.
+/// The result does not depend on the number of threads. Takes about a second without members; the
 /// robust search takes some 0.3 s per member.
 /// @throws InvalidInput for an encoder or tachometer without noise, a sample time that is not
 /// positive, controllers that are not valid; NumericalFailure for a plant that is not controllable

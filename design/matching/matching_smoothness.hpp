@@ -30,8 +30,8 @@ struct CurveSmoothness {
 
 /// `points`: indices of the curve's controllers, rising, evenly spaced in inertia. Two neighbours
 /// are on one branch if three conditions hold. The same constraints are active on the same plants
-/// at frequencies within 15 %, the same gains are at bounds, and no gain differs by more than a
-/// factor of 1.5.
+/// at frequencies within 15 %. The same gains are at bounds. No gain differs by more than a factor
+/// of 1.5.
 /// @throws InvalidInput for indices beyond the curve.
 CurveSmoothness smoothness(const MatchingCurve& curve, const std::vector<std::size_t>& points);
 

@@ -19,9 +19,10 @@ struct TunedCandidates {
   std::size_t members = 0;  // of each ensemble
 };
 
-/// Runs study_controllers for every antenna. For each structure it returns the design for the same
-/// purpose and wind speed as the antenna's recommended one, evaluated on the members and on the
-/// nonlinear antenna. `starts`: per search. The result does not depend on the number of threads.
+/// Runs study_controllers for every antenna. For each structure it returns the design for the
+/// purpose and wind speed of the antenna's recommended controller. These designs are evaluated on
+/// the members and on the nonlinear antenna. `starts`: per search. The result does not depend on
+/// the number of threads.
 TunedCandidates tune_candidates(const std::vector<ProposedAntenna>& antennas,
                                 const PlantUncertainty& uncertainty, int starts,
                                 const ProposalOptions& options);

@@ -120,10 +120,11 @@ LoopRun run_loop(const SimulatedLoop& loop, const LoopCourse& course,
                  const LoopRunOptions& options = {});
 
 /// Runs the same trajectory on the linear plant (no limits, no converter steps), sampled `finer`
-/// times as often with the same total dead time of one and a half sample times. 1 is the loop as
-/// built; large numbers approach the continuous loop. Starts at rest: only the wind and the noise
-/// of the trajectory act, which determine the whole error of a linear loop. For one seed the noise
-/// is the same only for the same `finer`. @throws InvalidInput as run_loop, and for finer below 1.
+/// times as often. The total dead time stays one and a half sample times of the loop as built.
+/// `finer` = 1 is the loop as built; large numbers approach the continuous loop. Starts at rest:
+/// only the wind and the noise of the trajectory act, which determine the whole error of a linear
+/// loop. For one seed the noise is the same only for the same `finer`. @throws InvalidInput as
+/// run_loop, and for finer below 1.
 LoopRun run_linear_loop(const SimulatedLoop& loop, const LoopCourse& course, int finer = 1,
                         const LoopRunOptions& options = {});
 

@@ -22,47 +22,48 @@ struct AuditNode {
   std::string id;
   std::string description;
   std::string unit;  // SI, for the report
-  /// Ids of the quantities the formula takes, in its order; none for an input.
+  /// Ids of the quantities that the formula takes, in its order; empty for an input.
   std::vector<std::string> parents;
-  /// Value from the parents' values. Empty for an input. May throw InvalidInput where it has none.
+  /// Computes the value from the parents' values. Empty for an input. May throw InvalidInput where
+  /// it has no value.
   std::function<double(std::span<const double>)> formula;
-  /// Where it is printed; an input's first statement is its value.
+  /// Where it is printed; an input's value is its first statement.
   std::vector<Statement> statements;
-  /// A result that others build on: consequences are told in terms of these.
+  /// A headline result: consequences of findings are expressed in terms of these.
   bool headline = false;
 };
 
-/// Quantities and how they follow from each other.
+/// Quantities and their dependences.
 class AuditGraph {
  public:
   using Values = std::map<std::size_t, double>;
 
-  /// The nodes may stand in any order.
-  /// @throws InvalidInput for an id that stands twice, a parent that is not there, a quantity that
-  /// derives from itself, an input without a statement, or a statement without a form.
+  /// The nodes may be in any order.
+  /// @throws InvalidInput for a duplicate id, an unknown parent, a quantity that derives from
+  /// itself, an input without a statement, or a statement without a form.
   explicit AuditGraph(std::vector<AuditNode> nodes);
 
   const std::vector<AuditNode>& nodes() const { return nodes_; }
   const AuditNode& node(std::size_t index) const { return nodes_[index]; }
   bool is_input(std::size_t index) const { return !nodes_[index].formula; }
-  /// @throws InvalidInput for an id that is not there.
+  /// @throws InvalidInput for an unknown id.
   std::size_t index(const std::string& id) const;
 
-  /// The nearest ancestors that are printed somewhere (inputs always are): what a reader of the
-  /// source would compute the node from.
+  /// The nearest ancestors that are printed (inputs always are), from which a reader of the source
+  /// would compute the node.
   const std::vector<std::size_t>& stated_ancestors(std::size_t index) const {
     return stated_ancestors_[index];
   }
-  /// Whether `ancestor` enters the node's formula, directly or through others.
+  /// True if `ancestor` enters the node's formula, directly or through others.
   bool descends_from(std::size_t index, std::size_t ancestor) const;
 
-  /// The node's formula on the given values; quantities not among them are derived in turn, inputs
-  /// taken as first printed. A given value of the node itself does not count.
+  /// Evaluates the node's formula on the given values. Quantities without a given value are derived
+  /// in turn; inputs are taken as first printed. A given value of the node itself is ignored.
   double derive(std::size_t index, const Values& values) const;
-  /// The given value, else the input's, else derived.
+  /// The given value, else the input's, else the derived one.
   double value(std::size_t index, const Values& values) const;
 
-  /// The columns that occur in the forms, ascending; {-1} if there are none.
+  /// The columns of the forms, ascending; {-1} if there are none.
   const std::vector<int>& columns() const { return columns_; }
 
  private:

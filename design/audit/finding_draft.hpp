@@ -11,7 +11,7 @@
 
 namespace boresight::design {
 
-/// A finding with what is still needed to explain it.
+/// A finding with the data needed to explain it.
 struct FindingDraft {
   Finding finding;
   std::size_t node = 0;
@@ -19,8 +19,8 @@ struct FindingDraft {
   std::vector<Departure> departures;
 };
 
-/// Of a statement whose columns conflict, the column that a derived number follows from
-/// (`solved`) or comes nearest to.
+/// For a statement whose columns conflict: the column from which a derived number follows
+/// (`solved`) or to which it is nearest.
 struct ColumnEvidence {
   std::size_t form = 0;
   std::string id;  // of the derived number
@@ -30,12 +30,12 @@ struct ColumnEvidence {
 using EvidenceByStatement =
     std::map<std::pair<std::size_t, std::size_t>, std::vector<ColumnEvidence>>;
 
-/// Writes explanations, causes that several findings share, and the evidence for one column into
-/// the findings. `corrected` has what each departing derived quantity would be.
+/// Adds explanations, common causes of several findings, and the evidence for one column to the
+/// findings. `corrected`: corrected value of each departing derived quantity.
 void explain_drafts(const AuditGraph& graph, std::vector<FindingDraft>& drafts,
                     const AuditGraph::Values& corrected, const EvidenceByStatement& evidence);
 
-/// Recomputes the headline results downstream with the number as printed and as it would be.
+/// Recomputes the dependent headline results with the printed and with the corrected number.
 void add_consequences(const AuditGraph& graph, FindingDraft& draft);
 
 }  // namespace boresight::design

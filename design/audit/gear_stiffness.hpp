@@ -7,10 +7,11 @@
 
 namespace boresight::design {
 
-/// Frequency (Hz) with the bull gear held at which one mode of the antenna, all else kept, makes
-/// its gear spring that stiff (N m/rad at the shaft of antenna_inertia, per antenna inertia where
-/// that is 1). The stiffness falls as the mode rises (plant::make_structure). None up to 1000 Hz,
-/// or too close to the locked-rotor frequency to be meant: less than 0.1 % above it.
+/// Frequency (Hz) of one mode with the bull gear locked at which its gear spring has the given
+/// stiffness, everything else unchanged. Stiffness in N m/rad at the shaft of antenna_inertia, per
+/// antenna inertia where that is 1. The stiffness falls as the mode rises (plant::make_structure).
+/// None up to 1000 Hz, or if less than 0.1 % above the locked-rotor frequency, which is too close
+/// to be intended.
 /// @throws InvalidInput as plant::make_structure, std::out_of_range if there is no such mode.
 std::optional<double> mode_frequency_for(plant::StructureSpecification antenna, std::size_t mode,
                                          double gear_stiffness);

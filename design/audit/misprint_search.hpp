@@ -11,25 +11,25 @@ namespace boresight::design {
 
 enum class FindingKind {
   conversion,   // the columns of one statement differ by more than their rounding
-  derivation,   // a derived number does not follow from what it is derived from
+  derivation,   // a derived number does not follow from its inputs
   restatement,  // an input is printed again with another value
 };
 std::string_view to_string(FindingKind kind);
 
-/// One printed form that departs, and what it would be. SI.
+/// One printed form that departs, and its expected value. SI.
 struct DepartingForm {
   std::string text;
   double printed = 0.0;
   double would_be = 0.0;
   std::string would_be_text;
-  /// Printed rounding of this number and of all that it is computed from.
+  /// Printed rounding of this number and of all numbers it is computed from.
   double tolerance = 0.0;
 
   /// printed / would_be - 1.
   double relative_error() const;
 };
 
-/// What a headline result becomes with the number as printed and as it would be.
+/// A headline result with the number as printed and as corrected.
 struct Consequence {
   std::string id;
   std::string unit;
@@ -46,13 +46,14 @@ struct Finding {
   std::string unit;
   std::string source;
   std::vector<DepartingForm> forms;
-  /// The number departs by more than its own rounding, but the rounding of what it is computed
-  /// from could hide it.
+  /// The number departs by more than its own rounding, but the rounding of its inputs could explain
+  /// it.
   bool within_parents_rounding = false;
-  /// What would make the number follow, each going on after "would follow": "with ...", "as ...",
-  /// "if ...". Where several forms depart it begins with the one it is about: "'1.31 kg.m2' as".
+  /// Changes that would make the number follow, each continuing "would follow": "with ...", "as
+  /// ...", "if ...". Where several forms depart it begins with the form concerned: "'1.31 kg.m2'
+  /// as".
   std::vector<std::string> explanations;
-  /// What speaks for one column where two conflict.
+  /// Evidence for one column where two conflict.
   std::vector<std::string> evidence;
   /// Largest relative change first, at most three.
   std::vector<Consequence> consequences;
@@ -62,10 +63,10 @@ struct Finding {
 /// - columns of a statement that differ by more than the sum of their half units;
 /// - a statement of an input that departs from its value by more than both half units;
 /// - a statement of a derived quantity beyond its own half unit plus the worst case of its stated
-///   ancestors' rounding, each ancestor taken in the same column; a number that has no column of
+///   ancestors' rounding. Each ancestor is taken in the same column; a number without a column of
 ///   its own must follow in any of them. Where an ancestor is printed several times, one that
 ///   reproduces the number is enough.
-/// Findings stand in the order of the nodes; it has no influence on what is found.
+/// Findings are in the order of the nodes; the order does not influence the findings.
 std::vector<Finding> find_misprints(const AuditGraph& graph);
 
 }  // namespace boresight::design

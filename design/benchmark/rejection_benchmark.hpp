@@ -14,46 +14,46 @@
 
 namespace boresight::design {
 
-/// What is measured and how (docs/benchmark-protocol.md). A change of any definition, grid or list
-/// is a new number: scores of different numbers do not compare.
+/// Version of the protocol (docs/benchmark-protocol.md). It increases with every change of a
+/// definition, grid or list; scores of different versions are not comparable.
 inline constexpr int rejection_protocol = 2;
 
 /// Mean wind speeds of the protocol's ladder, m/s.
 inline constexpr std::array rejection_speeds{2.0, 5.0, 8.0, 10.0, 12.0, 15.0, 20.0};
 
-/// A way the wind meets the dish.
+/// A wind direction relative to the dish.
 struct WindAttitudeCoefficient {
   std::string name;
   double torque_coefficient = 0.0;
 };
 
 struct RejectionOptions {
-  /// Beside the problem's own torque coefficient, which is always judged.
+  /// In addition to the problem's own torque coefficient, which is always evaluated.
   std::vector<WindAttitudeCoefficient> attitudes;
   std::vector<EnsembleMember> members;
-  std::vector<double> budgets;  // beam rms an axis, rad at the sky
-  /// s, of the best sampled controller that scores are held against; 0: what the delay is one and a
-  /// half of. A sampled controller has its own.
+  std::vector<double> budgets;  // boresight rms per axis, rad at the sky
+  /// s, of the best sampled controller with which scores are compared; 0: two thirds of the delay.
+  /// A sampled controller uses its own sample time.
   double sample_time = 0.0;
   unsigned threads = 1;
-  /// Asked between parts; true leaves the rest out.
+  /// Polled between parts; true skips the rest.
   std::function<bool()> stop = {};
 };
 
-/// One loop cut.
+/// Score of one loop break.
 struct BreakScore {
   control::LoopBreak loop_break = control::LoopBreak::valve_command;
   /// None where the controller has no such loop.
   std::optional<control::Margins> margins;
 };
 
-/// |beam / torque| at the sky by the torque at the antenna's axis.
+/// |boresight / torque|: angle at the sky per torque at the antenna's axis.
 struct CompliancePoint {
   double frequency = 0.0;   // Hz
   double compliance = 0.0;  // rad/(N m)
 };
 
-/// One rung of the ladder. Rms over the problem's band, rad at the sky, one axis.
+/// One wind speed of the ladder. Rms over the problem's band, rad at the sky, per axis.
 struct WindScore {
   std::string attitude;  // empty: the problem's own coefficient
   double torque_coefficient = 0.0;
@@ -64,7 +64,7 @@ struct WindScore {
   double beam_rms = 0.0;  // with the sensors' noise
 };
 
-/// The controller on one plant that may be the true one.
+/// The controller on one ensemble member.
 struct RejectionMember {
   std::string name;
   bool stable = false;
@@ -81,11 +81,12 @@ struct RejectionEnsemble {
   double largest_rms = 0.0;  // of the stable ones
 };
 
-/// The best that any controller could do, and what no loop sees, at the design wind.
+/// Lower bounds on the rms of any controller, and the flexure beyond the encoder, in the design
+/// wind.
 struct RejectionReference {
-  double encoder_held_rms = 0.0;  // rad: bending with the encoder perfectly still
+  double encoder_held_rms = 0.0;  // rad: flexure beyond the encoder with the encoder at rest
   /// Lower bounds of any linear sampled controller (design/limits/pointing_limit.hpp): at the
-  /// goal's valve effort and at this controller's own. None where a sensor has no noise.
+  /// constraint's control effort and at this controller's own. None where a sensor has no noise.
   std::optional<double> least_rms, least_rms_at_own_effort;
 };
 
@@ -99,25 +100,25 @@ struct RejectionScore {
   control::CourseScore step, impulse;    // per N m, per N m s
   control::PeakGain worst;               // rad/(N m), frequency in rad/s
   double static_compliance = 0.0;        // rad/(N m)
-  double encoder_held_compliance = 0.0;  // the same with the encoder perfectly still: the bending
+  double encoder_held_compliance = 0.0;  // the same with the encoder at rest: the flexure
   std::vector<CompliancePoint> compliance;
   std::array<BreakScore, 3> breaks;
   double noise_rms = 0.0;     // rad
   double valve_effort = 0.0;  // rad/s of motor
-  /// At the problem's wind: torque, and the beam by spectrum and, independently, by Lyapunov
-  /// equations with the wind's shaping filter.
+  /// In the problem's wind: torque, and the boresight rms by spectrum. `lyapunov_rms`: the same,
+  /// independently, by Lyapunov equations with the wind's shaping filter.
   WindScore design_wind;
   double lyapunov_rms = 0.0;
   std::vector<WindScore> winds;
   std::vector<double> budget_speeds;  // m/s; 0 and infinity as wind_speed_limit
   std::optional<RejectionReference> reference;
   std::optional<RejectionEnsemble> ensemble;
-  std::vector<std::string> left_out;  // parts that stop() left out
+  std::vector<std::string> left_out;  // parts skipped by stop()
 };
 
 /// Scores a controller (control::antenna_state_space_controller) on a problem by the protocol. An
-/// unstable closed loop is a result: nothing but its poles is set. The same for any number of
-/// threads. Some 0.1 s, and 1 s for the reference and 0.02 s a member.
+/// unstable closed loop gives a result with only its poles set. The result does not depend on the
+/// number of threads. Takes some 0.1 s, plus 1 s for the reference and 0.02 s per member.
 /// @throws InvalidInput as antenna_state_space_controller, validate(goals); NumericalFailure as
 /// control::ControlledCourse, and if spectrum and Lyapunov equations differ by more than 2 %.
 RejectionScore rejection_benchmark(const TrackingProblem& problem, const HardGoals& goals,

@@ -10,62 +10,62 @@
 
 namespace boresight::design {
 
-/// What a stage of commissioning changes. Their order is that of the work.
+/// The loop that a stage of commissioning changes, in the order of the work.
 enum class StageKind {
-  as_found,           // nothing: the antenna as it runs now
+  as_found,           // no change: the antenna with its present gains
   rate_loop,          // rate path, the position loop open
   pressure_feedback,  // pressure path, the position loop open
   position_loop,      // position path
   compliance,         // compliance path
-  feedforward,        // the commanded motion's own rate and acceleration
+  feedforward,        // rate and acceleration of the commanded motion
 };
 std::string_view to_string(StageKind kind);
 
 struct CommissioningOptions {
   /// Largest factor, up or down, on any gain from one stage to the next; above 1.
   double largest_step = 2.0;
-  /// Largest |S| on any plant at a stage on the way (the last has the design's own).
+  /// Upper limit of Ms on any plant at an intermediate stage (the last has the design's own).
   double sensitivity_limit = 2.5;
-  /// |S| at which a stage is to be given up.
+  /// |S| at which a stage must be aborted.
   double abort_peak = 3.0;
-  /// What is allowed for measuring beyond the band of the plants before a stage is given up: of
+  /// Measurement allowance beyond the band of the plants before a stage is aborted: a fraction of
   /// the step for an overshoot, a factor for an rms.
   double overshoot_allowance = 0.05;
   double rms_allowance = 1.2;
   /// Of the intervals over the plants.
   double confidence = 0.99;
   unsigned threads = 1;
-  /// Asked before every stage; true ends the work (@throws Interrupted).
+  /// Polled before every stage; true ends the work (@throws Interrupted).
   std::function<bool()> stop = {};
-  /// Called with stages worked out and all.
+  /// Called with the numbers of stages done and in total.
   std::function<void(std::size_t, std::size_t)> progress = {};
 };
 
-/// A quantity over the plants that may be the true one.
+/// A quantity over the plant ensemble.
 struct PlantBand {
   double nominal = 0.0;  // on the problem's own
   double least = 0.0, largest = 0.0;
-  /// Interval in which one more plant's value lies with the confidence asked for, by the normal
-  /// distribution with the plants' mean and scatter (Student's prediction interval), of the
-  /// logarithms where all are positive; not within the plants' own least and largest, not below 0.
+  /// Prediction interval for one more plant at the requested confidence: Student's, from the
+  /// plants' mean and scatter under a normal distribution, of the logarithms where all are
+  /// positive. It contains the plants' own least and largest, and does not go below 0.
   double lower = 0.0, upper = 0.0;
 };
 
-/// Beyond any of these: back to the stage before. Each is where the band over the plants ends, with
-/// the allowance for measuring, or earlier: what the worst plant would show with its loop gain
-/// raised until the peak of S is the one to give up at, where that lies beyond the band by half of
-/// the allowance or more.
+/// Limits beyond which the stage is reversed. Each is the end of the band over the plants plus the
+/// measurement allowance, or an earlier value. The earlier value is that of the worst plant with
+/// its loop gain raised until Ms reaches the abort peak. It applies where it exceeds the band by
+/// half of the allowance or more.
 struct AbortLimits {
-  double overshoot = 0.0;          // share of the step
+  double overshoot = 0.0;          // fraction of the step
   double still_valve_rms = 0.0;    // rad/s, in still air
   double still_encoder_rms = 0.0;  // rad of motor; NaN with the position loop open
-  /// Factor on the loop gain (kr, or kp once the position loop is closed) that takes the worst
-  /// plant to the peak at which to give up; infinity where 8 times does not.
+  /// Factor on the loop gain (kr, or kp once the position loop is closed) at which the worst plant
+  /// reaches the abort peak; infinity if a factor of 8 does not.
   double gain_reserve = 0.0;
-  std::string worst_plant;  // the one nearest to it
+  std::string worst_plant;  // the plant nearest to the abort peak
 };
 
-/// What is to be expected in one stage. At the motor, as StageObservation.
+/// Predictions for one stage. At the motor, as StageObservation.
 struct StageExpectation {
   std::size_t plants = 0, stable = 0;
   PlantBand peak, crossover, rise_time, overshoot, settling_time, largest_demand, largest_torque;
@@ -73,55 +73,56 @@ struct StageExpectation {
   PlantBand windy_encoder, windy_tachometer, windy_torque, windy_valve;
   PlantBand beam_rms, move_error;
 
-  /// Whether every plant can do what the stage asks for: only the gains as found may not.
+  /// True if every plant is stable in this stage; only the present gains may fail this.
   bool all_stable() const { return stable == plants; }
 };
 
 struct CommissioningStage {
   StageKind kind = StageKind::as_found;
-  int step = 0, steps = 0;  // number among those of its kind, from 1
+  int step = 0, steps = 0;  // index among the stages of its kind, from 1; their number
   StageLaw law;
   StageExpectation expected;
   AbortLimits abort;
 };
 
-/// From where the antenna is to the law chosen for it.
+/// The stages from the antenna's present gains to the chosen controller.
 struct CommissioningPlan {
-  std::vector<CommissioningStage> stages;  // the first is as found where that is known
-  /// Where no gains were given (or none from which this law can be reached): what the plan starts
-  /// from are the law's own without pressure feedback and compliance compensation, the gains of
-  /// rate and position path and the position integral's corner divided by this factor; the rate
-  /// gain only if `rate_detuned`.
+  std::vector<CommissioningStage> stages;  // the first is as found, where known
+  /// Set where no gains were given, or none from which the controller can be reached. The plan then
+  /// starts from the controller's own gains without pressure feedback and compliance compensation.
+  /// The gains of rate and position path and the position integral's corner are divided by this
+  /// factor; the rate gain only if `rate_detuned`.
   std::optional<double> detuning;
   bool rate_detuned = false;
-  /// What the plan had to do otherwise than asked, a sentence each.
+  /// Deviations of the plan from the options, one sentence each.
   std::vector<std::string> remarks;
-  double largest_step = 0.0;  // the factor kept to; smaller than asked for where that was too much
+  double largest_step = 0.0;  // the factor applied; smaller than requested where that was too large
 
-  /// Of |S| on any plant at any stage but that as found; 0 without stages.
+  /// Ms on any plant at any stage except the one as found; 0 without stages.
   double largest_peak() const;
 };
 
-/// Stages from `found` (nothing: not known) to `target`. Gains go along straight lines in their
-/// logarithms, each in one direction only, by no more than the largest step; blocks that `found`
-/// does not have begin where they do nothing (corners at their bounds) or, with a path of their
-/// own, at a quarter of the target's gain. First the rate path with the position loop open, as far
-/// as every plant allows without pressure feedback; then pressure feedback, the rate path following
-/// where it must wait for it; then the position loop is closed at the gains found (halved until
-/// every plant allows) and raised; then compliance compensation, then feedforward. Every stage is
-/// stable by eigenvalues on the problem's plant and every member, with peaks of S no larger than
-/// `sensitivity_limit` (than the target's own, if that is larger).
-/// The plan is the same for any number of threads. Cost: some 20 ms a stage and plant.
-/// @throws InvalidInput for options out of range, no members, and as control::validate(law);
-/// InfeasibleRequirement where the target itself is unstable on a plant or no such path was found
-/// with steps down to the fourth root of the largest, saying where it ended.
+/// Plans stages from `found` (none: not known) to `target`. Gains follow straight lines in their
+/// logarithms, each in one direction only, by at most the largest step. Blocks that `found` does
+/// not have start with no effect (corners at their bounds) or, with a path of their own, at a
+/// quarter of the target's gain.
+/// The order is: the rate path with the position loop open, as far as every plant allows without
+/// pressure feedback; then pressure feedback, alternately with the rate path where that is limited
+/// by damping. Then the position loop is closed at the gains found (halved until every plant
+/// allows) and raised; then compliance compensation, then feedforward.
+/// Every stage is stable by eigenvalues on the problem's plant and every member, with Ms at most
+/// `sensitivity_limit` (or the target's own, if larger).
+/// The plan does not depend on the number of threads. Cost: some 20 ms per stage and plant.
+/// @throws InvalidInput for options out of range, no members, and as control::validate;
+/// InfeasibleRequirement where the target itself is unstable on a plant, or no such path was found
+/// with steps down to the fourth root of the largest, stating where it ended.
 CommissioningPlan plan_commissioning(const TrackingProblem& problem,
                                      const std::vector<EnsembleMember>& members,
                                      const std::optional<control::ControlLaw>& found,
                                      const control::ControlLaw& target, const CommandedMove& move,
                                      const CommissioningOptions& options = {});
 
-/// The band of a quantity's values over the plants; values that are not finite make it NaN.
+/// The band of a quantity's values over the plants; NaN if a value is not finite.
 /// @throws InvalidInput for fewer than 3 values or a confidence outside (0, 1).
 PlantBand plant_band(double nominal, const std::vector<double>& values, double confidence);
 

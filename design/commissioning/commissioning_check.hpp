@@ -7,14 +7,14 @@
 
 namespace boresight::design {
 
-/// A law as it acts in one stage of commissioning.
+/// A controller as it acts in one stage of commissioning.
 struct StageLaw {
   control::ControlLaw law;
-  bool position_open = false;  // a rate command from outside; position and compliance path rest
+  bool position_open = false;  // external rate command; position and compliance paths inactive
   bool feedforward = false;    // control::plant_feedforward, with the position loop closed
 };
 
-/// Rms of what a recorder shows, at the motor: measured, with the sensors' own noise in it, over
+/// Rms of recorded signals, at the motor: measured values including the sensors' own noise, over
 /// the noise's band. The encoder error is NaN with the position loop open.
 struct RecordedRms {
   double encoder_error = 0.0;  // rad
@@ -23,16 +23,16 @@ struct RecordedRms {
   double valve_command = 0.0;  // rad/s
 };
 
-/// What one plant does under a stage's law; the linear plant: steps within saturation, no friction
-/// curve. All at the motor. NaN but for `stable` where it is unstable.
+/// Response of one linear plant with a stage's controller: steps within saturation, no friction
+/// curve. All at the motor. NaN except `stable` where it is unstable.
 struct StageObservation {
-  bool stable = false;          // by eigenvalues, of what is closed
+  bool stable = false;          // by eigenvalues, of the loops closed
   double abscissa = 0.0;        // 1/s, of the eigenvalue farthest to the right
-  double peak = 0.0;            // largest |S| over the breaks that are closed
+  double peak = 0.0;            // Ms over the breaks that are closed
   double crossover = 0.0;       // rad/s, lowest gain crossover of the outer closed loop
   double rise_time = 0.0;       // s, 10 % to 90 % of a step of the rate or position command
-  double overshoot = 0.0;       // share of the step
-  double settling_time = 0.0;   // s, into 5 %; infinite if not within the time watched
+  double overshoot = 0.0;       // fraction of the step
+  double settling_time = 0.0;   // s, into 5 %; infinite if not within the time simulated
   double largest_demand = 0.0;  // rad/s of valve demand per unit of step
   double largest_torque = 0.0;  // N m per unit of step
   RecordedRms still;            // in still air
@@ -41,24 +41,24 @@ struct StageObservation {
   double move_error = 0.0;  // rad, largest encoder error of the move; NaN with position loop open
 };
 
-/// A move that the command preprocessor could make: rest to rate to rest (at the motor).
+/// A move feasible for the command preprocessor: rest to rate to rest (at the motor).
 struct CommandedMove {
   double rate = 0.0;          // rad/s
   double acceleration = 0.0;  // rad/s2
 };
 
-/// One plant, ready to be looked at under law after law. Not to be shared between threads.
+/// Evaluates controllers on one plant. Use one object per thread.
 class StageObserver {
  public:
-  /// `plant` in the place of the problem's. @throws InvalidInput for a move that is not positive.
+  /// `plant` replaces the problem's. @throws InvalidInput for a move that is not positive.
   StageObserver(const TrackingProblem& problem, const plant::AntennaPlant& plant,
                 const WindTable& wind, const CommandedMove& move);
 
-  /// Largest |S| over the breaks that are closed, infinity for an unstable loop: by the winding
-  /// along the frequencies. Quick. @throws InvalidInput as control::validate.
+  /// Ms over the breaks that are closed, infinity for an unstable loop, by Nyquist encirclements
+  /// along the frequencies. Fast. @throws InvalidInput as control::validate.
   double peak(const StageLaw& stage);
-  /// Everything, stability by eigenvalues. Time responses are exact at their samples, of which the
-  /// time watched, 60 over the crossover, has 6000. @throws as peak.
+  /// All values, stability by eigenvalues. Time responses are exact at their samples; the simulated
+  /// time, 60 over the crossover, has 6000 samples. @throws as peak.
   StageObservation observe(const StageLaw& stage);
 
  private:
@@ -70,8 +70,8 @@ class StageObserver {
   TrackingProblem problem_;
   CommandedMove move_;
   control::LoopEvaluator evaluator_;
-  plant::PlantResponse response_;  // on a grid of 60 points a decade
-  Eigen::ArrayXd wind_spectrum_;   // on it, (N m)^2/Hz
+  plant::PlantResponse response_;  // on a grid of 60 points per decade
+  Eigen::ArrayXd wind_spectrum_;   // on this grid, (N m)^2/Hz
 };
 
 }  // namespace boresight::design

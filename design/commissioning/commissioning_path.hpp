@@ -9,29 +9,31 @@
 
 namespace boresight::design {
 
-/// A stage before it was looked at.
+/// A stage before its evaluation.
 struct PathStage {
   StageKind kind = StageKind::rate_loop;
   StageLaw law;
 };
 
-/// The law of which `found` is a law too, gain by gain of `target`'s structure: paths that found
-/// does not have are left out of its structure, other blocks that it does not have stand where they
-/// do nothing. Nothing if found has a gain or path that the target has not.
+/// Expresses the controller `found` in the structure of `target`, gain by gain. Paths that found
+/// does not have are omitted from the structure; other blocks that it does not have are set to no
+/// effect. None if found has a gain or path that the target does not have.
 std::optional<control::ControlLaw> law_within(const control::ControlLaw& found,
                                               const control::ControlLaw& target);
 
-/// The law without its pressure and compliance path.
+/// The controller without its pressure and compliance paths.
 control::ControlLaw without_torque_paths(const control::ControlLaw& law);
 
-/// The law with the gain of its rate path divided by one factor, gain and integral corner of its
-/// position path by another. The same for both leaves one loop inside the other as it was.
+/// The controller with the gain of its rate path divided by one factor, and gain and integral
+/// corner of its position path by another. Equal factors preserve the relation between inner and
+/// outer loop.
 control::ControlLaw detuned(const control::ControlLaw& law, double rate_factor,
                             double position_factor);
 
-/// The order of work of plan_commissioning, from `start` (a law within the target's structure) to
-/// `target`, both left out but for the start with its position loop open and the target. `allowed`:
-/// whether every plant allows a law. Nothing, and why, where no path of such steps was found.
+/// The sequence of stages of plan_commissioning from `start` (a controller within the target's
+/// structure) to `target`. It excludes both, except the start with its position loop open and the
+/// target. `allowed`: returns whether every plant allows a controller. None, with the reason in
+/// `why_not`, where no path of such steps was found.
 std::optional<std::vector<PathStage>> commissioning_path(
     const control::ControlLaw& start, const control::ControlLaw& target, double largest_step,
     const std::function<bool(const StageLaw&)>& allowed, std::string& why_not);

@@ -11,7 +11,7 @@
 
 namespace boresight::design {
 
-/// A quantity that two records of the drive are compared by.
+/// A quantity by which two records of the drive are compared.
 enum class ComparedQuantity {
   rate_error,     // motor rate less its command, rad/s
   motor_rate,     // rad/s
@@ -28,23 +28,23 @@ struct RatioBand {
 
 struct QuantityComparison {
   ComparedQuantity quantity = ComparedQuantity::motor_rate;
-  /// Why it could not be compared; empty if it was.
+  /// Reason why it could not be compared; empty if it was.
   std::string not_compared;
   RecordComparison comparison;
 };
 
-/// The quantities that both records have, before and after a change of the controller.
+/// Compares the quantities that both records have, before and after a change of the controller.
 /// @throws InvalidInput as compare_records.
 std::vector<QuantityComparison> compare_drive_records(
     const identification::DriveRecord& before, const identification::DriveRecord& after,
     const identification::DriveKnowledge& knowledge);
 
-/// What the first and last stage of a plan say that the ratio should be in the design wind, with
-/// its ends over the plants. None where the plan does not begin with the gains found, a plant is
-/// unstable with them, or the quantity is not predicted.
+/// The ratio predicted by the first and last stage of a plan for the design wind, with its range
+/// over the plants. None where the plan does not begin with the gains found, a plant is unstable
+/// with them, or the quantity is not predicted.
 std::optional<RatioBand> predicted_ratio(const CommissioningPlan& plan, ComparedQuantity quantity);
 
-/// Whether what was measured over all frequencies and what is predicted have values in common.
+/// True if the measured ratio over all frequencies and the prediction overlap.
 bool agrees(const RecordComparison& measured, const RatioBand& predicted);
 
 }  // namespace boresight::design

@@ -10,10 +10,10 @@
 
 namespace boresight::design {
 
-/// What a controller was tuned for.
+/// The purpose of a tuning.
 enum class DesignPurpose { nominal, robust };
 
-/// What a nonlinear simulation at steady rates without wind shows of limit cycles.
+/// Result of a nonlinear simulation at steady rates without wind, for limit cycles.
 enum class LimitCycleVerdict {
   not_simulated,
   within_budget,  // none, or none that exceeds the tightest pointing budget
@@ -25,18 +25,18 @@ enum class LimitCycleVerdict {
 struct Assessment {
   std::string structure;  // decides exact ties, by alphabetical order
   DesignPurpose purpose = DesignPurpose::nominal;
-  std::size_t parts = 0;  // gains of the structure
+  std::size_t parts = 0;  // number of gains of the structure
   bool stable = false;    // on the nominal plant
   /// Stability and constraints on the nominal plant, confirmed by independent code.
   bool verified = false;
   bool nominal_constraints_met = false;
-  /// Stable and within every constraint on every ensemble member; false: also not asked for.
+  /// Stable and within every constraint on every ensemble member; false also if not evaluated.
   bool member_constraints_met = false;
   double linear_rms = std::numeric_limits<double>::quiet_NaN();  // boresight error in wind
   /// The same on the nonlinear antenna: none where it was not simulated, NaN where a run in wind
   /// did not complete.
   std::optional<double> simulated_rms;
-  /// What that is the mean of; none of a single record.
+  /// The estimate from several records behind simulated_rms; none for a single record.
   std::optional<SimulatedRms> expected;
   LimitCycleVerdict limit_cycles = LimitCycleVerdict::not_simulated;
   /// Largest amplitude of the boresight's limit cycles; none where not simulated.
@@ -45,8 +45,8 @@ struct Assessment {
   std::size_t budgets_required = 0, budgets_met = 0;
 };
 
-/// How far a controller may be trusted, best first. The first deficiency found from the end of this
-/// list decides.
+/// Fitness of a controller for use, best first. The last deficiency of this list that applies
+/// decides.
 enum class Fitness {
   fit,             // free of everything below
   misses_budget,   // a required pointing budget
@@ -61,25 +61,25 @@ enum class Fitness {
 
 Fitness fitness(const Assessment& assessment);
 
-/// What its simulation says beyond linear_rms: infinite factor where a run in wind did not
-/// complete, none of it where it was not simulated.
+/// Nonlinear effect of its simulation beyond linear_rms. The factor is infinite where a run in wind
+/// did not complete. No effect where it was not simulated.
 NonlinearEffect nonlinear_effect(const Assessment& assessment);
 
-/// What controllers of equal fitness are ranked by, rad rms: NonlinearEffect::rms of the linear
-/// rms, which is the simulated rms with the limit cycle; the linear rms where a run in wind did not
-/// complete.
+/// The figure that ranks controllers of equal fitness, rad rms: NonlinearEffect::rms of the linear
+/// rms, which is the simulated rms with the limit cycle. It is the linear rms where a run in wind
+/// did not complete.
 double ranking_figure(const Assessment& assessment);
 
-/// Counts one budget (rad rms) as required, and as met if NonlinearEffect::for_budgets keeps it, no
-/// run was lost, and limit cycles were looked for with success.
+/// Counts one budget (rad rms) as required. It counts as met if NonlinearEffect::for_budgets is
+/// within it, no run was lost, and the limit-cycle runs completed.
 void count_budget(double budget, Assessment& assessment);
 
-/// How far the ranking figure of one lies above that of another, relative to that, by the same
-/// winds (relative_change); none without those.
+/// Relative change of the ranking figure from `from` to `to` with its interval, for the same winds
+/// (relative_change). None without the same winds.
 std::optional<numerics::Interval> figure_change(const Assessment& from, const Assessment& to);
 
-/// Whether two ranking figures are a tie: within that relative difference of one another, or within
-/// the interval of figure_change.
+/// True if two ranking figures tie: within that relative difference of one another, or within the
+/// interval of figure_change.
 bool are_tied(const Assessment& one, const Assessment& other, double relative);
 
 }  // namespace boresight::design

@@ -7,13 +7,13 @@
 
 namespace boresight::design {
 
-/// What a recommended controller rests on.
+/// The evidence behind a recommended controller.
 struct Evidence {
   Fitness fitness = Fitness::unstable;
   bool simulated = false;         // on the nonlinear antenna, the run in wind completed
-  bool plant_identified = false;  // from records, instead of from drawings
+  bool plant_identified = false;  // from records instead of drawings
   bool inertias_agree = true;     // independent estimates of the reflected inertia
-  bool resonance_agrees = true;   // the measured hydraulic frequency, with that of the plant
+  bool resonance_agrees = true;   // the measured hydraulic frequency agrees with the plant's
   /// Another interpretation of the evidence changes whether a required budget is met.
   bool verdict_depends_on_interpretation = false;
   /// Largest relative change of the rms by one number of the case within its uncertainty.
@@ -28,7 +28,7 @@ enum class Doubt {
   not_verified,
   not_robust,
   not_simulated,
-  limit_cycle,  // beyond the tightest budget, or not shown that there is none
+  limit_cycle,  // beyond the tightest budget, or freedom from limit cycles not shown
   inertias_disagree,
   resonance_disagrees,
   interpretation_decides,
@@ -41,12 +41,12 @@ struct ConfidenceGrade {
   std::vector<Doubt> doubts;  // in the order of Doubt
 };
 
-/// From which relative change of the rms one uncertain number counts as a doubt.
+/// Relative change of the rms from which one uncertain number counts as a doubt.
 inline constexpr double telling_effect = 0.2;
 
-/// Of the fitness that deficiency which decides it; a missed budget is none that makes a result
-/// less sure. Low with any doubt up to interpretation_decides: then the verdict itself may be
-/// wrong. Moderate with one of the others only: the figures may be off.
+/// Grades the evidence. The deficiency that decides the fitness counts as a doubt, except a missed
+/// budget, which does not reduce confidence. Low with any doubt up to interpretation_decides: the
+/// verdict itself may be wrong. Moderate with other doubts only: the figures may be inaccurate.
 ConfidenceGrade grade(const Evidence& evidence);
 
 }  // namespace boresight::design

@@ -10,21 +10,21 @@
 namespace boresight::design {
 
 struct RecommendOptions {
-  /// Relative difference of ranking figures that decides nothing, as one within the interval of
-  /// figure_change does not (are_tied).
+  /// Relative difference of ranking figures that counts as a tie, as does one within the interval
+  /// of figure_change (are_tied).
   double tie = 0.02;
   /// The worst fitness that a winner may have.
   Fitness accepted = Fitness::misses_member;
 };
 
-/// What decided between the winner and a rival.
+/// The criterion that decided between the winner and a rival.
 enum class RecommendationReason {
   fitness,      // the rival's is worse, or not accepted
   budgets,      // the rival meets fewer required budgets
   figure,       // the rival's ranking figure is larger
   fewer_parts,  // the figures are tied, and the rival has more parts
   robustness,   // the figures are tied, and only the winner was tuned robustly
-  name,         // alike in all of these
+  name,         // equal in all of these
 };
 
 /// A candidate that is not the winner.
@@ -33,19 +33,19 @@ struct RejectedController {
   Fitness fitness = Fitness::fit;
   RecommendationReason reason = RecommendationReason::fitness;
   double figure_ratio = 0.0;  // ranking figure over the winner's; NaN without a winner
-  bool tied = false;          // of the winner's fitness and budgets met, its figure a tie
+  bool tied = false;          // same fitness and budgets met as the winner, figures tied
 };
 
 struct Recommendation {
   std::optional<std::size_t> winner;          // index of the candidates
-  std::vector<RecommendationReason> reasons;  // that rejected a rival, each once, in their order
+  std::vector<RecommendationReason> reasons;  // that rejected a rival, each once, in order
   std::vector<RejectedController> rejected;   // in the order of the candidates
 };
 
-/// The controller to be used, of those of one antenna in one wind whose fitness is accepted: best
-/// fitness, then most required budgets met, then least ranking figure. Of those tied with the
-/// least figure the one of fewest parts; then a robust design before a nominal one, the least
-/// figure, the structure's name. Where one candidate was simulated in wind, one that was not is
+/// Recommends one of the controllers of one antenna in one wind whose fitness is accepted. Best
+/// fitness wins, then most required budgets met, then least ranking figure. Of those tied with the
+/// least figure, the fewest parts win; then a robust design over a nominal one, the least figure,
+/// the structure's name. If one candidate was simulated in wind, one that was not is
 /// Fitness::not_shown at best. The choice does not depend on the order of the candidates.
 /// @throws InvalidInput for a tie that is negative or not finite.
 Recommendation recommend(std::span<const Assessment> candidates,

@@ -9,10 +9,11 @@
 
 namespace boresight::design {
 
-/// On how many plants that may be the true one each budget is met, one number a budget, with the
-/// law's gains held in the wind that the budget is needed up to, whatever the problem's own wind;
-/// none for a budget that states no wind_speed. `effect`: what makes the rms of the linear loops.
-/// The supply's torque is not counted. Does not depend on the thread count.
+/// Number of ensemble members on which each budget is met, one entry per budget. The controller is
+/// evaluated with fixed gains, in the wind up to which the budget is needed, whatever the problem's
+/// own wind. None for a budget that states no wind_speed. `effect`: applied to the rms of the
+/// linear loops. The supply's torque limit is not included. The result does not depend on the
+/// number of threads.
 /// @throws as judge.
 std::vector<std::optional<int>> plants_within_budgets(
     const TrackingProblem& problem, const std::vector<EnsembleMember>& members,

@@ -19,7 +19,7 @@ struct EnsembleBand {
   Eigen::ArrayXd nominal, lower, upper;
 };
 
-/// Of a loop to a unit step of its command, continuous, without command preprocessor and
+/// Response of a loop to a unit step of its command: continuous, without command preprocessor and
 /// feedforward.
 struct StepOverEnsemble {
   Eigen::ArrayXd time;  // s, from 0
@@ -29,12 +29,12 @@ struct StepOverEnsemble {
 /// One controller, gains fixed, on every member of an ensemble, as curves.
 struct EnsembleCurves {
   std::size_t members = 0;
-  std::size_t stable = 0;    // of these; the others are in no range
+  std::size_t stable = 0;    // of these; unstable members are excluded from the ranges
   Eigen::ArrayXd frequency;  // rad/s, rising
   /// |S| at the breaks of control::loop_breaks, in their order.
   std::array<EnsembleBand, 3> sensitivity;
-  /// The stable member of the highest peak of |S| at each break, and that peak over all
-  /// frequencies; no name without a stable member.
+  /// The stable member with the highest Ms at each break, and that Ms over all frequencies. No name
+  /// without a stable member.
   struct Worst {
     std::string member;
     double peak = 0.0;
@@ -47,17 +47,18 @@ struct EnsembleCurves {
   StepOverEnsemble position_step;  // encoder per position command
 };
 
-/// The mean wind speed (m/s) up to which an rms is compared with budgets that are met up to
-/// `speed_limits`: 1.5 times the mean speed, or 8 % beyond a limit up to 3 times the mean speed.
+/// The highest mean wind speed (m/s) at which an rms is compared with budgets that are met up to
+/// `speed_limits`. It is 1.5 times the mean speed, or 8 % beyond a limit up to 3 times the mean
+/// speed.
 double highest_compared_speed(double mean_speed, const std::vector<double>& speed_limits);
 
-/// Sensitivities from 0.01 Hz (or the lowest frequency of the rms band) to the end of the analysis
-/// band, 150 points a decade; rms by the spectrum at 60 speeds up to `highest_speed`, noise
-/// included; steps at 300 times until the nominal loop has settled within 2 % for good, and half as
-/// long again. `judged`: of the same controller on the same members (judge). Does not depend on the
-/// thread count. O(members (grid + states^3)).
+/// Computes the curves. Sensitivities run from 0.01 Hz (or the lowest frequency of the rms band) to
+/// the end of the analysis band, 150 points per decade. The rms is by spectrum at 60 speeds up to
+/// `highest_speed`, noise included. Steps have 300 times, until the nominal loop has settled within
+/// 2 % and half as long again. `judged`: result of the same controller on the same members (judge).
+/// The result does not depend on the number of threads. O(members (grid + states^3)).
 /// @throws InvalidInput where sizes of `members` and `judged` differ, for a highest speed that is
-/// not positive, and as control::validate(law).
+/// not positive, and as control::validate.
 EnsembleCurves ensemble_curves(const TrackingProblem& problem,
                                const std::vector<EnsembleMember>& members,
                                const control::ControlLaw& law, const EnsembleResult& judged,

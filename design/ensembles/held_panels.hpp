@@ -11,15 +11,15 @@
 
 namespace boresight::design {
 
-/// The frequencies of a held law: panels of eight Gauss points in ln w that halve on demand and are
-/// kept from plant to plant, with all that no plant changes: weights of wind, climate and noise,
-/// the law's compensators times the dead time. And the closed loop of one plant on them. Parts of
-/// HeldGainsEvaluator.
+/// The frequencies of a fixed-gain controller: panels of eight Gauss points in ln w, halved on
+/// demand and kept from plant to plant. Each panel stores everything that is common to all plants:
+/// weights of wind, climate and noise, and the controller's compensators times the dead time. The
+/// class also evaluates the closed loop of one plant on the panels. Part of HeldGainsEvaluator.
 class HeldPanels {
  public:
   HeldPanels(const TrackingProblem& problem, const control::ControlLaw& law, bool gusts);
 
-  /// What the panels that cover the band make of a plant, within the tolerance.
+  /// Integrates over the panels that cover the band for one plant, within the tolerance.
   /// @throws NumericalFailure for a response that is not finite.
   void sweep(const plant::AntennaPlant& plant, double tolerance);
 
@@ -28,7 +28,7 @@ class HeldPanels {
     double wind = 0.0, climate = 0.0, noise = 0.0, effort = 0.0, demand = 0.0, torque = 0.0;
   };
   const Sums& sums() const { return sums_; }
-  /// Poles in the right half plane by the winding, of either loop.
+  /// True if neither loop has poles in the right half plane, by Nyquist encirclements.
   bool stable() const;
   std::size_t points() const { return leaves_.size() * numerics::pack_size; }
   double frequency(std::size_t point) const;
@@ -38,19 +38,19 @@ class HeldPanels {
   struct Panel {
     bool weighted = false, noisy = false;
     numerics::RealPack frequency;
-    numerics::RealPack wind, climate;      // (N m)^2 a point
-    numerics::RealPack effort;             // (rad/s)^2 a point, of the open loop's demand by noise
-    numerics::ComplexPack rate, pressure;  // times the dead time
+    numerics::RealPack wind, climate;         // (N m)^2 per point
+    numerics::RealPack effort;                // (rad/s)^2 per point: noise-driven demand, open loop
+    numerics::ComplexPack rate, pressure;     // times the dead time
     numerics::ComplexPack position, bending;  // R P, with the dead time; C
   };
   struct Values {
     numerics::ComplexPack rate_return, both_return;  // 1 + L, position loop open, closed
     std::array<numerics::RealPack, 3> sensitivity_square;
     numerics::RealPack wind, climate, noise, effort, demand, torque;
-    // The last coefficients (panel_rule.hpp) of the variances' densities, of the returns' parts.
+    // Last coefficients (panel_rule.hpp) of the variances' densities and of the return differences.
     control::TailCoefficients beam_tail, effort_tail, climate_tail, demand_tail, torque_tail;
     control::TailCoefficients rate_tail_re, rate_tail_im, both_tail_re, both_tail_im;
-    // Below 0 where a return turns by more than a right angle to the next point.
+    // Below 0 where the phase of a return difference changes by over 90 deg to the next point.
     numerics::RealPack turn;
   };
   void add_panel(double from, double to);

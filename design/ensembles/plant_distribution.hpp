@@ -12,7 +12,7 @@
 
 namespace boresight::design {
 
-/// What is uncertain about a plant, in the order of PlantDraw::values.
+/// The uncertain inputs of a plant, in the order of PlantDraw::values.
 enum class UncertainInput {
   structure_frequency,  // factor on the frequencies of locked rotor and modes
   oil_stiffness,        // factor
@@ -27,8 +27,8 @@ inline constexpr std::size_t uncertain_inputs = 8;
 /// "structure frequency" and so on.
 std::string_view to_string(UncertainInput input);
 
-/// One sample of the plant: factors on the numbers of an antenna, whatever a proposal makes of
-/// them, and the slope of the friction.
+/// One sample of the plant: factors on the numbers of an antenna (after any proposal changes them),
+/// and the friction slope.
 struct PlantDraw {
   std::array<double, uncertain_inputs> values{1.0, 1.0, 1.0, 0.0, 1.0, 1.0, 1.0, 1.0};
 
@@ -39,34 +39,34 @@ struct PlantDraw {
 
 std::vector<plant::AntennaChange> changes_of(const PlantDraw& draw);
 
-/// The distribution of the plant, given what is known of it.
+/// The distribution of the plant, given the available data.
 class PlantDistribution {
  public:
-  /// Independent, uniform over AntennaUncertainty::ranges; inertias and wind torque lognormal with
-  /// the mission's uncertainties.
+  /// Independent inputs: uniform over AntennaUncertainty::ranges; inertias and wind torque
+  /// lognormal with the mission's uncertainties.
   static PlantDistribution of_ranges(const Mission& mission);
-  /// Lognormal with mean and covariance of what the records leave open, about `identified` (the
-  /// mission at the estimate). Where `parts` has no leakage rate, it is as in of_ranges; where it
-  /// has no friction slope, that is uniform from 0 to largest_viscous_friction; where it has the
-  /// valve's lag, the valve's frequency is lognormal, independent of the rest. The wind torque is
-  /// as in of_ranges. Draws that leave the antenna no inertia are passed over.
-  /// @throws InvalidInput for fewer than 20 draws.
+  /// Lognormal with the mean and covariance that remain after identification from records, about
+  /// `identified` (the mission at the estimate). If `parts` has no leakage rate, it is as in
+  /// of_ranges. If `parts` has no friction slope, it is uniform from 0 to largest_viscous_friction.
+  /// If `parts` has the valve's lag, the valve's frequency is lognormal, independent of the rest.
+  /// The wind torque is as in of_ranges. Samples without a positive antenna inertia are skipped.
+  /// @throws InvalidInput for fewer than 20 samples.
   static PlantDistribution of_records(const Mission& identified,
                                       const std::vector<identification::DriveEstimate>& draws,
                                       const identification::IdentifiedParts& parts = {});
 
-  /// Draw number `index` of a seed, whatever was drawn before.
+  /// Sample number `index` of a seed, independent of earlier calls.
   PlantDraw draw(std::uint64_t seed, std::uint64_t index) const;
-  /// The draw whose inputs stand at these shares of their own distributions (0 to 1, both left
-  /// out), as if they were independent. @throws InvalidInput for another number of shares, or one
-  /// outside.
+  /// The sample with each input at this quantile (0 to 1, both excluded) of its own distribution,
+  /// as if the inputs were independent. @throws InvalidInput for another number of quantiles, or
+  /// one outside this range.
   PlantDraw at_shares(const std::vector<double>& shares) const;
   /// Every input at its median.
   PlantDraw median() const;
-  /// Inputs that vary at all.
+  /// Inputs that vary.
   const std::vector<UncertainInput>& inputs() const { return inputs_; }
   EnsembleSource source() const { return source_; }
-  /// Whether an input varies at all.
+  /// True if the input varies.
   bool varies(UncertainInput input) const;
 
  private:

@@ -9,16 +9,17 @@
 
 namespace boresight::design {
 
-/// The 30 plants that a design of the problem's antenna is held against where records say nothing:
-/// the nominal plant; one change at a time: structure frequencies (modes and locked rotor) x 0.95
-/// and x 1.05, oil stiffness x 0.8 and x 1.33, leakage 0.3 times the nominal (0.366 1/s on the
-/// reference antenna); and 24 of a seeded Latin hypercube over frequencies x [0.95, 1.05], oil
-/// stiffness x [0.8, 1.33], leakage x [0.3, 1], friction slope [0, 12] N m s/rad. Names say what
-/// changed.
+/// The 30 perturbed models on which designs of the problem's antenna are evaluated if no records
+/// exist.
+/// First the nominal plant; then one change at a time: structure frequencies (modes and locked
+/// rotor) x 0.95 and x 1.05, oil stiffness x 0.8 and x 1.33, leakage 0.3 times the nominal (0.366
+/// 1/s on the reference antenna). Then 24 of a seeded Latin hypercube over frequencies x [0.95,
+/// 1.05], oil stiffness x [0.8, 1.33], leakage x [0.3, 1], friction slope [0, 12] N m s/rad. Names
+/// state the change.
 /// @throws InvalidInput for a nominal leakage that is not positive.
 std::vector<EnsembleMember> reference_ensemble(const TrackingProblem& problem, std::uint64_t seed);
 
-/// One control law, its gains held, on one member. Rms at the sky in rad, one axis.
+/// One controller, evaluated with fixed gains, on one member. Rms at the sky in rad, per axis.
 struct MemberResult {
   std::string name;
   bool stable = false;                        // by eigenvalues
@@ -32,22 +33,22 @@ struct EnsembleResult {
   std::vector<MemberResult> members;  // in the order given
   int stable = 0;
   int within_goals = 0;
-  /// Of the stable members' rms: smallest, median, 95 % quantile, largest (rad at the sky); NaN if
+  /// Rms of the stable members: smallest, median, 95 % quantile, largest (rad at the sky). NaN if
   /// none is stable.
   double least_rms = 0.0, median_rms = 0.0, high_rms = 0.0, largest_rms = 0.0;
-  /// The member farthest from its goals; of those within 1e-6 of the farthest the first, so that
-  /// the last digits of a build do not choose.
+  /// The member with the worst normalised constraint (quantity/limit). Of members within 1e-6 of
+  /// the worst the first, so that round-off does not decide.
   std::size_t worst = 0;
 };
 
-/// Judges a law with its gains held on every member in place of the problem's plant. Results do not
-/// depend on the thread count. O(members x (grid + states^3)).
-/// @throws InvalidInput without members, and as control::validate(law).
+/// Evaluates a controller with fixed gains on every member instead of the problem's plant. The
+/// result does not depend on the number of threads. O(members x (grid + states^3)).
+/// @throws InvalidInput without members, and as control::validate.
 EnsembleResult judge(const TrackingProblem& problem, const std::vector<EnsembleMember>& members,
                      const control::ControlLaw& law, const HardGoals& goals, unsigned threads);
 
-/// Root of the mean square of the members' rms (rad at the sky), which proposals and motors are
-/// compared by; infinite if one is unstable.
+/// Root of the mean square of the members' rms (rad at the sky), by which proposals and motors are
+/// compared. Infinite if one member is unstable.
 double rms_over_members(const EnsembleResult& ensemble);
 
 }  // namespace boresight::design

@@ -9,19 +9,19 @@
 
 namespace boresight::design {
 
-/// A sampled controller on one plant. Rms at the sky in rad, one axis; NaN if unstable.
+/// A sampled controller on one plant. Rms at the sky in rad, per axis; NaN if unstable.
 struct SampledResult {
   std::string plant;
   double spectral_radius = 0.0;  // largest magnitude of a closed-loop eigenvalue
   double beam_rms = 0.0;
-  double wind_rms = 0.0, noise_rms = 0.0;  // its parts, of the nominal plant only
+  double wind_rms = 0.0, noise_rms = 0.0;  // its parts, on the nominal plant only
   double valve_effort = 0.0;               // rad/s rms of the command from the sensors' noise
-  SampledPeak peak;                        // of |S| at the valve command
+  SampledPeak peak;                        // Ms at the valve command
 
   bool stable() const { return spectral_radius < 1.0; }
 };
 
-/// A controller, its gains held, on the nominal plant and on every member of the ensemble.
+/// A fixed-gain controller on the nominal plant and on every member of the ensemble.
 struct SampledDesign {
   plant::StateSpace controller;
   SampledResult nominal;
@@ -31,41 +31,41 @@ struct SampledDesign {
   double worst_rms = 0.0;
 };
 
-/// An LQG of searched weights.
+/// An LQG with optimised weights.
 struct LimitedLqg {
   LqgWeights weights;  // rms in rad of motor
   SampledDesign design;
 };
 
-/// What no sampled controller gets below: the mean square of the beam (rad^2 at the sky) of every
-/// linear controller whose noise-driven command is E rms is at least cost - weight E^2, for each
-/// of the points (control/lqg/noise_effort_lqg.hpp).
+/// Lower bound for all linear sampled controllers (control/lqg/noise_effort_lqg.hpp). With a
+/// noise-driven command of E rms the boresight mean square (rad^2 at the sky) is at least cost -
+/// weight E^2, for each of the points.
 struct EffortBound {
   struct Point {
     double weight = 0.0;  // rad^2 per (rad/s)^2
     double cost = 0.0;    // rad^2
   };
-  std::vector<Point> points;  // by weight
+  std::vector<Point> points;  // in order of weight
 
-  /// The largest bound of the points as rms (rad at the sky); 0 where none is above.
+  /// The largest bound of the points as rms (rad at the sky); 0 where no bound is positive.
   double least_rms(double valve_effort) const;
 };
 
-/// A law in its sampled form against the limits.
+/// A controller in its sampled form compared with the limits.
 struct LawAgainstLimit {
   std::string name;
   SampledDesign design;
-  double least_rms = 0.0;  // of any controller of the law's own effort
-  // Nominal beam rms of the law over that of each; empty where there is none.
+  double least_rms = 0.0;  // of any controller of the same effort
+  // Nominal boresight rms of the controller over that of each; empty where there is none.
   std::optional<double> to_least, to_margin_limited, to_robustified, to_encoder_held,
       to_full_information;
-  /// The law's worst rms over the robustified LQG's.
+  /// The controller's worst rms over that of the robustified LQG.
   std::optional<double> worst_to_robustified;
 };
 
-/// How far laws are from the best that any controller can do with the same sensors, sampling and
-/// effort. Zero-order hold and one sample of computation delay throughout, wind by its shaping
-/// filter over all time, noise of a sample as its density says.
+/// Compares controllers with the best achievable performance for the same sensors, sampling and
+/// effort. All use a zero-order hold and one sample of computation delay. Wind is by its shaping
+/// filter over all time; the noise of a sample follows its density.
 struct PointingLimit {
   double sample_time = 0.0;        // s
   double computation_delay = 0.0;  // s
@@ -75,19 +75,19 @@ struct PointingLimit {
   double wind_filter_log_error = 0.0;
 
   EffortBound bound;
-  double least_rms = 0.0;  // at the effort limit: the lower bound
-  /// The controller that reaches it, whatever its margins: unconstrained but for the effort.
+  double least_rms = 0.0;  // lower bound at the effort limit
+  /// The controller that reaches the bound, constrained by the effort only, not by margins.
   SampledDesign unconstrained;
-  /// Benchmarks, no bounds; none where no weights keep the goals.
-  std::optional<LimitedLqg> margin_limited;  // peak and effort on the nominal plant
+  /// Benchmarks, not bounds; none where no weights meet the constraints.
+  std::optional<LimitedLqg> margin_limited;  // Ms and effort on the nominal plant
   std::optional<LimitedLqg> robustified;     // the same on every member; none without members
-  /// The least of any controller that knows the whole state, wind included, at each sample without
-  /// error, whatever its effort: what the wind does before the next command but one arrives (to 1
-  /// %, from above).
+  /// The least rms of any controller that measures the whole state, wind included, without error at
+  /// each sample, whatever its effort. It is the effect of the wind before the second-next command
+  /// acts (to 1 %, from above).
   double full_information_rms = 0.0;
-  /// Rms of beam less encoder under the wind with the encoder held perfectly still: bending that no
-  /// encoder sees. The floor of every loop that only keeps its encoder still; no bound, since a
-  /// loop can move the encoder against what it infers of the bending.
+  /// Rms of boresight less encoder angle in the wind with the encoder at rest: flexure beyond the
+  /// encoder. It is the floor of every loop that only keeps its encoder at rest. It is not a bound:
+  /// a loop can move the encoder against its estimate of the flexure.
   double encoder_held_rms = 0.0;
 
   std::vector<LawAgainstLimit> laws;
@@ -103,14 +103,14 @@ struct PointingLimitOptions {
   unsigned threads = 1;
 };
 
-/// Limits of the problem's plant in its wind (or its climate's mean spectrum) under the goals'
-/// valve effort and peak of |S| at the valve command, and the laws against them. Each design is
-/// judged from its closed loop: eigenvalues, covariance, response. The result does not depend on
-/// the number of threads. Without members about a second; the robust search takes some 0.3 s a
-/// member.
+/// Computes the limits of the problem's plant in its wind (or its climate's mean spectrum) and
+/// compares the controllers with them. The constraints are those on control effort and on Ms at the
+/// valve command. Each design is evaluated from its closed loop: eigenvalues, covariance, response.
+/// The result does not depend on the number of threads. Takes about a second without members; the
+/// robust search takes some 0.3 s per member.
 /// @throws InvalidInput for an encoder or tachometer without noise, a sample time that is not
-/// positive, laws that are not valid; NumericalFailure for a plant that cannot be controlled or
-/// observed.
+/// positive, controllers that are not valid; NumericalFailure for a plant that is not controllable
+/// or observable.
 PointingLimit pointing_limit(const TrackingProblem& problem, const HardGoals& goals,
                              const std::vector<EnsembleMember>& members,
                              const std::vector<NamedLaw>& laws,

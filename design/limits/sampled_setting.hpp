@@ -11,10 +11,10 @@
 
 namespace boresight::design {
 
-/// What a sampled controller does on one plant. Rms in rad of motor over all time.
+/// Results of a sampled controller on one plant. Rms in rad of motor over all time.
 struct SampledJudgement {
-  /// Largest magnitude of a closed-loop eigenvalue: stable below 1. Where it is not, rms and effort
-  /// are NaN.
+  /// Largest magnitude of a closed-loop eigenvalue: stable below 1. Otherwise rms and effort are
+  /// NaN.
   double spectral_radius = 0.0;
   double wind_rms = 0.0;
   double noise_rms = 0.0;
@@ -22,28 +22,28 @@ struct SampledJudgement {
   double valve_effort = 0.0;  // rad/s rms of the command from the sensors' noise
 };
 
-/// A local view of |S| = 1/|1 + L| at the valve command.
+/// A local maximum of |S| = 1/|1 + L| at the valve command.
 struct SampledPeak {
   double frequency = 0.0;  // rad/s
   double magnitude = 0.0;
 };
 
 /// One plant with the wind and the sensors' noise of its case, zero-order hold and one sample of
-/// computation delay: prepared once, then controllers are judged on it in O(states^3). A controller
-/// takes any of tachometer, encoder, motor_torque and drives valve_command; its other inputs
-/// (references) rest.
+/// computation delay. It is prepared once; each controller is then evaluated in O(states^3). A
+/// controller takes any of tachometer, encoder, motor_torque and drives valve_command; its other
+/// inputs (references) are 0.
 class SampledSetting {
  public:
-  /// `frequency`: rad/s, rising, where peaks are looked for (below the Nyquist frequency).
-  /// Torque noise of 0 (not stated) counts as a thousandth of the wind's torque.
-  /// @throws InvalidInput for another noise that is not positive (such a sensor leaves nothing to
-  /// estimate), and as control::sampled_problem.
+  /// `frequency`: rad/s, rising, below the Nyquist frequency; the grid of the search for Ms. Torque
+  /// noise of 0 (not stated) is replaced by a thousandth of the wind's torque.
+  /// @throws InvalidInput for another noise that is not positive (a noiseless sensor leaves nothing
+  /// to estimate), and as control::sampled_problem.
   SampledSetting(std::string name, const plant::AntennaPlant& plant,
                  const plant::ShapingFilter& wind, const control::SensorNoise& noise,
                  double sample_time, Eigen::ArrayXd frequency);
 
   const std::string& name() const { return name_; }
-  /// For least beam rms: beam weight 1 and a command weight that is next to nothing.
+  /// For least boresight rms: cost 1 on the boresight and a negligible cost on the command.
   const control::LqgProblem& problem() const { return problem_; }
   const control::SampledLqgProblem& sampled() const { return sampled_; }
   const plant::AntennaPlant& plant() const { return plant_; }
@@ -51,15 +51,15 @@ class SampledSetting {
 
   double spectral_radius(const plant::StateSpace& controller) const;
   SampledJudgement judge(const plant::StateSpace& controller) const;
-  /// Parts of the same of a controller known to be stable here, at half the work and less.
+  /// Parts of the same for a controller known to be stable here, at half the cost or less.
   double beam_rms(const plant::StateSpace& controller) const;
   double valve_effort(const plant::StateSpace& controller) const;
 
-  /// Response of a controller at `frequency`, one column a measured signal (tachometer, encoder,
-  /// motor_torque): the same for every setting of these frequencies.
+  /// Response of a controller at `frequency`, one column per measured signal (tachometer, encoder,
+  /// motor_torque): the same for every setting with these frequencies.
   static Eigen::ArrayXXcd controller_response(const plant::StateSpace& controller,
                                               const Eigen::ArrayXd& frequency);
-  /// The highest |S|, between the frequencies by a parabola in the logarithms.
+  /// Ms, interpolated between the frequencies by a parabola in the logarithms.
   SampledPeak highest_peak(const Eigen::ArrayXXcd& controller_response) const;
 
  private:
@@ -75,7 +75,7 @@ class SampledSetting {
   control::LqgProblem problem_;
   control::SampledLqgProblem sampled_;
   Eigen::ArrayXd frequency_;
-  Eigen::ArrayXXcd response_;  // of the sampled plant, one column a measured signal
+  Eigen::ArrayXXcd response_;  // of the sampled plant, one column per measured signal
 };
 
 }  // namespace boresight::design

@@ -11,13 +11,13 @@
 
 namespace boresight::design {
 
-/// The best law of one structure at one inertia, and what has been tried to better it.
+/// The best controller of one structure at one inertia, and the attempts to improve it.
 struct MatchingCell {
   std::vector<HeldLaw> history;  // each better than the one before
   std::vector<std::size_t> carried{0};
   unsigned version = 0;
   std::vector<unsigned> tried;      // versions of: left, right, the structures, left and right
-  std::vector<double> start_costs;  // ln rms of what each random start ended at
+  std::vector<double> start_costs;  // final ln rms of each random start
   double best_cold = std::numeric_limits<double>::infinity();  // ln rms
   int warm_starts = 0;
   bool searched = false;
@@ -25,32 +25,32 @@ struct MatchingCell {
   const HeldLaw* best() const { return history.empty() ? nullptr : &history.back(); }
 };
 
-/// What neighbours see of a cell between two rounds.
+/// State of a cell between two rounds, as its neighbours read it.
 struct SeenCell {
   std::vector<double> point;  // empty: none
   unsigned version = 0;
 };
 
-/// One motor inertia of match_motors with its plants: searches a law of each structure, and betters
-/// it from those beside it. Keeps references to what it is made of.
+/// One motor inertia of match_motors with its plants. It searches a controller for each structure
+/// and improves it from those of its neighbours. It keeps references to its constructor arguments.
 class MatchingColumn {
  public:
-  /// `parts`: of each structure those that it extends; `number`: of the inertia.
+  /// `parts`: for each structure, those that it extends; `number`: index of the inertia.
   MatchingColumn(const MatchingTask& task, const MatchingOptions& options, const WindTable& wind,
                  const std::vector<std::vector<std::size_t>>& parts, std::size_t number);
 
   long evaluations() const { return evaluations_; }
   SeenCell seen(std::size_t structure) const;
 
-  /// Random starts on the problem's plant; the best two held on all; random starts on those plants
-  /// that matter, and the best of these held.
+  /// Random starts on the problem's plant, with the best two evaluated on all plants. Then random
+  /// starts on the active plants, with the best of these evaluated on all.
   void start(std::size_t structure, int starts);
 
-  /// Tries laws of neighbours (null: none) and of the structures that this one extends, where they
-  /// changed since; whether that was of use.
+  /// Tries controllers of neighbours (null: none) and of the structures that this one extends,
+  /// where they changed since the last try. Returns true if one of them improved the result.
   bool improve(std::size_t structure, const SeenCell* left, const SeenCell* right);
 
-  /// The best law found that is stable by eigenvalues on every plant.
+  /// The best controller found that is stable by eigenvalues on every plant.
   MatchedLaw finish(std::size_t structure);
 
  private:

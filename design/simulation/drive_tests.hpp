@@ -13,13 +13,13 @@
 namespace boresight::design {
 
 /// The analog loop that some tests close around the drive, u = gain (1 + w/s) (command -
-/// tachometer) with w of the corner; u and the rates in rad/s of motor.
+/// tachometer), where w is the corner in rad/s. u and the rates in rad/s of motor.
 struct RateLoop {
   double gain = 0.0;
   double corner = 0.0;  // Hz
 };
 
-/// A drive and what it is tested with. SI, at the motor shaft.
+/// A drive and its test equipment. SI, at the motor shaft.
 struct TestedDrive {
   plant::NonlinearAntenna antenna;
   double slew_rate = 0.0;  // rad/s of motor
@@ -38,25 +38,25 @@ enum class DriveTestKind {
 };
 std::string_view to_string(DriveTestKind kind);
 
-/// The kind of that name, as to_string has it; none for any other.
+/// The kind with that name (to_string); none for any other name.
 std::optional<DriveTestKind> drive_test_kind(std::string_view name);
 
-/// All tests that can be simulated: those of the drive, "tracking" (run_tracking), "slew"
+/// Names of all tests that can be simulated: those of the drive, "tracking" (run_tracking), "slew"
 /// (run_slew).
 const std::vector<std::string>& simulated_test_names();
 
-/// A test of the drive as it is run: a command at the recorder's samples.
+/// A test of the drive: a command at the recorder's samples.
 struct DriveTest {
   DriveTestKind kind = DriveTestKind::slosh;
-  std::string name;               // that of the kind, of a constant speed with its volts
+  std::string name;               // that of the kind; for a constant speed with its volts
   double tachometer_volts = 0.0;  // of a constant speed
   double sample_time = 0.0;       // s
-  bool rate_loop_closed = false;  // the command is the rate loop's; else the valve's
-  bool held = false;              // keeps each value until the next sample; else straight between
+  bool rate_loop_closed = false;  // true: rate loop command; false: valve command
+  bool held = false;              // hold until the next sample; else interpolate linearly
   Eigen::VectorXd command;        // rad/s of motor
 };
 
-/// The tests of one kind, one a record: six of constant speeds, a factor of two apart, one of any
+/// The tests of one kind, one per record: six of constant speeds, a factor of two apart, one of any
 /// other kind. Amplitudes follow from the tachometer's limit and the valve's stroke. Sampled at the
 /// recorder's rate, slosh at 1000 Hz at least.
 /// @throws InvalidInput for a recorder whose sample rate, or whose tachometer's scale or limit, is

@@ -15,7 +15,7 @@ struct MeasuredGusts {
   double sample_time = 0.0;  // s
 };
 
-/// What a simulated antenna tracked, and in which wind.
+/// Tracking rate and wind of a simulated run.
 struct TrackingCourse {
   double rate = 0.0;             // rad/s at the sky
   double mean_wind_speed = 0.0;  // m/s
@@ -24,7 +24,7 @@ struct TrackingCourse {
   std::optional<MeasuredGusts> measured;  // of Mission::wind_record
 };
 
-/// How a simulated antenna slewed. At the sky.
+/// Slew of a simulated run. At the sky.
 struct SlewCourse {
   double distance = 0.0;      // rad
   double largest_rate = 0.0;  // rad/s, of the command
@@ -38,38 +38,40 @@ struct SlewCourse {
 /// wind_torque_at_motor.
 struct PositionTestRecord : SimulatedRecord {
   control::ControlLaw controller;
-  /// What was done: one of them.
+  /// The manoeuvre; exactly one is set.
   std::optional<TrackingCourse> tracking;
   std::optional<SlewCourse> slew;
-  /// Of the beam's error about its mean, once settled (rad at the sky); the mean is the bending of
-  /// the structure under the mean wind, which calibration takes out. None if the run did not get
-  /// that far, or never settled.
+  /// Boresight error about its mean, once settled (rad at the sky). The mean is the static
+  /// deflection of the structure under the mean wind, which calibration removes. None if the run
+  /// ended earlier, or never settled.
   std::optional<double> beam_rms;
   std::optional<double> beam_mean;
   std::optional<double> encoder_rms;
-  /// Tracking: beam rms the linear design predicts for the same wind and noise (rad at the sky).
+  /// Tracking: boresight rms by the linear design for the same wind and noise (rad at the sky).
   std::optional<double> predicted_rms;
-  /// Slew: time from the end of the command until the encoder stays within a millidegree (s), none
-  /// if it does not for the last 10 s, and its largest error after the command's end (rad at the
-  /// sky).
+  /// Slew: time from the end of the command until the encoder stays within a millidegree (s), and
+  /// its largest error after the command's end (rad at the sky). The time is none if the encoder
+  /// has not settled for the last 10 s.
   std::optional<double> settling_time;
   std::optional<double> overshoot;
 };
 
-/// Tracks at the mission's rate in its measured wind, or without one in wind of its design speed
-/// for 600 s, after 60 s to settle: the law in its sampled form (control::AntennaController:
-/// feedforward, anti-windup), all noise, friction, orifices and lines. The controller's sample time
-/// is two thirds of the antenna's dead time, which is one sample of computing and half of one of
-/// holding. The gradient over the dish, which an anemometer does not see, is drawn from the site's
-/// spectrum at the record's mean speed. Wind and noise are the seed's.
+/// Simulates 600 s of tracking at the mission's rate, after 60 s of settling. The wind is the
+/// mission's measured wind, or without one wind of its design speed. The run uses the controller in
+/// its sampled form (control::AntennaController: feedforward, anti-windup), all noise, friction,
+/// orifices and lines. The controller's sample time is two thirds of the antenna's dead time: one
+/// sample of computing plus half a sample of hold. An anemometer does not measure the wind gradient
+/// over the dish. The gradient is therefore sampled from the site's spectrum at the record's mean
+/// speed. Wind and noise depend on the seed.
 /// @throws InvalidInput without Antenna::nonlinear, and as tracking_problem, constraints and
 /// control::validate; NumericalFailure as run_loop.
 PositionTestRecord run_tracking(const Mission& mission, const control::ControlLaw& law,
                                 std::uint64_t seed, const RunProgress& progress);
 
-/// One degree through the command preprocessor, at the mission's slew rate, or at 0.8 times what
-/// the supply can hold against friction if that is less, and at 0.2 deg/s2, or with half the torque
-/// the supply has left at that rate if that is less, in still air, then 60 s of holding.
+/// Simulates a slew of one degree through the command preprocessor in still air, then 60 s of
+/// holding. The rate is the mission's slew rate, or 0.8 times the rate that the supply sustains
+/// against friction, if that is less. The acceleration is 0.2 deg/s2, or that from half the
+/// supply's remaining torque at that rate, if that is less.
 /// @throws as run_tracking, and InfeasibleRequirement if the supply cannot move the antenna.
 PositionTestRecord run_slew(const Mission& mission, const control::ControlLaw& law,
                             std::uint64_t seed, const RunProgress& progress);

@@ -10,22 +10,22 @@
 
 namespace boresight::design {
 
-/// Asked with the part of a run that is done (0..1); false ends it.
+/// Called with the completed fraction of a run (0..1); returning false ends it.
 using RunProgress = std::function<bool(double done)>;
 
-/// A channel as a recorder writes it.
+/// A channel in the form that a recorder writes.
 struct SimulatedChannel {
   std::string name;
   std::string unit;        // of the values
-  int decimals = 6;        // behind the point, so many as show the recorder's steps
-  Eigen::VectorXd values;  // one a sample
+  int decimals = 6;        // decimal places, enough to resolve the recorder's steps
+  Eigen::VectorXd values;  // one per sample
 };
 
-/// What was written in a simulated test, and what happened.
+/// The channels of a simulated test, and its events.
 struct SimulatedRecord {
   std::string test;                        // its name
   std::vector<SimulatedChannel> channels;  // the first one is the time
-  bool complete = true;                    // false: the run was ended before its time
+  bool complete = true;                    // false: the run was interrupted
   double duration = 0.0;                   // s simulated
   double planned_duration = 0.0;           // s; the same if complete
   double sample_time = 0.0;                // s

@@ -11,10 +11,10 @@
 
 namespace boresight::design {
 
-/// A controller on its plant in one wind, with all that its boresight rms, stability, margins and
-/// step responses depend on: what a page computes again as gains, wind speed, oil stiffness,
-/// leakage rate and friction slope change. The rms is that of make_evaluator at the problem's wind
-/// speed; a climate is no part of it.
+/// A controller on its plant in one wind, with everything that determines its boresight rms,
+/// stability, margins and step responses. The page recomputes these when gains, wind speed, oil
+/// stiffness, leakage rate and friction slope change. The rms equals that of make_evaluator at the
+/// problem's wind speed; no wind climate is included.
 struct AdjustableLoop {
   std::string structure;    // as the user has it
   control::ControlLaw law;  // stable on the problem's plant
@@ -22,7 +22,7 @@ struct AdjustableLoop {
   HardGoals goals;
 };
 
-/// The recommended controller of a redesign. None without a stable one.
+/// The recommended controller of a redesign. None if that controller is not stable.
 std::optional<AdjustableLoop> adjustable_loop(const RecommendedDesign& recommended);
 
 /// A controller of a tuning study at its own wind speed. None if it is not stable.

@@ -7,11 +7,11 @@
 
 namespace boresight::design {
 
-/// The laws of one antenna: one a structure, in their order.
+/// The controllers of one antenna: one per structure, in the order of the structures.
 struct TunedCandidate {
   std::vector<CandidateLaw> laws;
   std::optional<std::size_t> chosen;  // ProposedDesign::chosen
-  bool whole = true;                  // no interrupt came before its last law
+  bool whole = true;                  // no interrupt came before its last controller
 };
 
 struct TunedCandidates {
@@ -19,9 +19,10 @@ struct TunedCandidates {
   std::size_t members = 0;  // of each ensemble
 };
 
-/// study_controllers of every antenna, and of each structure the design for the same purpose and
-/// wind speed as the one that stands for the antenna, judged on the members and on the nonlinear
-/// antenna. `starts`: of each search. The same for any number of threads.
+/// Runs study_controllers for every antenna. For each structure it returns the design for the
+/// purpose and wind speed of the antenna's recommended controller. These designs are evaluated on
+/// the members and on the nonlinear antenna. `starts`: per search. The result does not depend on
+/// the number of threads.
 TunedCandidates tune_candidates(const std::vector<ProposedAntenna>& antennas,
                                 const PlantUncertainty& uncertainty, int starts,
                                 const ProposalOptions& options);

@@ -11,45 +11,46 @@
 
 namespace boresight::design {
 
-/// The way to a controller, with what shows on site whether a stage works.
+/// The stages from a present controller to a new one, with the on-site checks of each stage.
 struct CommissionStudy {
   TrackingProblem problem;
-  CommandedMove move;  // of the last stages, at the motor
+  CommandedMove move;  // of the last stages, at the motor shaft
   CommissioningPlan plan;
-  /// Of each stage of the plan the step of the command to make (at the sky: rad/s with the position
-  /// loop open, else rad): 1, 2 or 5 times a power of ten in mdeg, so that no plant takes more than
-  /// a fifth of the valve's stroke or of the supply's torque; at most a fifth of the slew rate, or
-  /// 100 mdeg. NaN where a plant is unstable.
+  /// Command step of each stage of the plan, at the sky: rad/s with the position loop open, else
+  /// rad. Each is 1, 2 or 5 times a power of ten in mdeg. On every plant the step takes at most a
+  /// fifth of the valve's stroke and of the supply's torque. It is at most a fifth of the slew
+  /// rate, or 100 mdeg. NaN where a plant is unstable.
   std::vector<double> steps;
-  /// Beam amplitude (rad) of the controller's limit cycle on the nonlinear antenna, where that is
-  /// beyond the tightest budget, infinite if it did not complete a run without wind; none where it
-  /// is not, or without Antenna::nonlinear.
+  /// Boresight amplitude (rad) of the controller's limit cycle on the nonlinear antenna, if it
+  /// exceeds the tightest budget. Infinite if a run without wind did not complete. None if it is
+  /// within the budget, and without Antenna::nonlinear.
   std::optional<double> limit_cycle;
 };
 
-/// Of a study the controller that stages can lead to: recommended, where only a loss in wind is
-/// accepted, and tuned to meet every constraint on every plant that may be the true one. Null if
-/// there is none.
+/// The controller of a study that commissioning stages can lead to: the recommended one, accepting
+/// at worst a loss in wind. It must be tuned to meet every constraint on every ensemble member.
+/// Null if there is none.
 const TunedLaw* commissionable(const ControllerStudy& study);
 
-/// A gain that acts in a stage: with the position loop open those of position and compliance path
-/// rest.
+/// A gain that acts in a stage. With the position loop open, the gains of the position and
+/// compliance paths do not act.
 struct ActingGain {
-  std::size_t place = 0;  // in the law's gains
-  /// Against the stage before: it has another value, or did not act.
+  std::size_t place = 0;  // index into the controller's gains
+  /// Relative to the stage before: its value differs, or it did not act there.
   bool changed = false;
 };
 
-/// The acting gains in the law's order. `before`: the stage before, null for the first, in which
-/// nothing is changed.
+/// The acting gains in the controller's order. `before`: the stage before; null for the first
+/// stage, whose gains all count as unchanged.
 std::vector<ActingGain> acting_gains(const StageLaw& stage, const StageLaw* before);
 
-/// The move by which the last stages are checked, which any antenna makes: a twentieth of the slew
-/// rate, reached in two seconds. At the motor.
+/// The move that checks the last stages, feasible on every antenna: a twentieth of the slew rate,
+/// reached in two seconds. At the motor shaft.
 CommandedMove commissioning_move(const Mission& mission);
 
-/// Plans the way from the first of the mission's present controllers to `target`, on every member
-/// of the ensemble. The same for any number of threads. @throws as plan_commissioning.
+/// Plans the stages from the first of the mission's present controllers to `target`, on every
+/// member of the ensemble. The result does not depend on the number of threads. @throws as
+/// plan_commissioning.
 CommissionStudy study_commission(const Mission& mission, const PlantEnsemble& ensemble,
                                  const control::ControlLaw& target,
                                  const CommissioningOptions& options, std::uint64_t seed);

@@ -9,48 +9,50 @@
 
 namespace boresight::design {
 
-/// The controllers tuned for an antenna, and what they do on its nonlinear plant.
+/// The controllers tuned for an antenna, and their results on its nonlinear plant.
 struct ControllerStudy {
   TuningStudy tuned;
-  /// Of the controller recommended at the wind speed of best_law, with the others of that speed and
-  /// purpose beside it; none without Antenna::nonlinear and without a usable design.
+  /// Simulation of the controller recommended at the wind speed of best_law, with the other designs
+  /// of that speed and purpose for comparison. None without Antenna::nonlinear, and without a
+  /// usable design.
   std::optional<TimeDomainStudy> time_domain;
 };
 
-/// Every study's way to its controllers, so that all recommend the same one: tune_structures, then
-/// the usable designs of best_law's purpose on the nonlinear antenna (choose_in_time_domain,
-/// judge_in_time). After an interrupt without the latter. `detail` of the time domain decides
-/// nothing. The same for any number of threads.
+/// Tunes and recommends the controllers of every study, so that all recommend the same one. It runs
+/// tune_structures, then simulates the usable designs of best_law's purpose on the nonlinear
+/// antenna (choose_in_time_domain, judge_in_time). An interrupt skips the simulations. `detail`
+/// does not affect the recommendation. The result does not depend on the number of threads.
 /// @throws as tune_structures and verify_in_time.
 ControllerStudy study_controllers(const Mission& mission, const PlantEnsemble& ensemble,
                                   const TuneOptions& options,
                                   ChoiceDetail detail = ChoiceDetail::compared);
 
-/// recommended_law of the study; where nothing is fit for that and a loss in wind is accepted, the
-/// least unfit of those that were simulated; else what recommend() makes of the designs at the
-/// first wind speed with that fitness accepted. Null if there is none.
+/// The recommended_law of the study. Where none is fit and a loss in wind is accepted: the least
+/// unfit of the simulated controllers. Otherwise recommend() over the designs at the first wind
+/// speed, with that fitness accepted. Null if there is none.
 const TunedLaw* recommended_or(const ControllerStudy& study, Fitness accepted);
 
-/// The controller that figures and exported models are of: the one recommended; where none is, that
-/// of the time domain, and without one best_law. Null without a controller.
+/// The controller that figures and exported models show: the recommended one; else that of the time
+/// domain; else best_law. Null without a controller.
 const TunedLaw* shown_law(const TuningStudy& study, const TimeDomainStudy* in_time);
 
-/// A controller of the study on the ensemble that the study was made with, as curves, with rms up
-/// to the speeds that its budgets ask for. None without a stable controller or members.
+/// Curves of a controller of the study on the ensemble that the study was made with. The rms
+/// extends to the speeds that its budgets require. None without a stable controller or without
+/// members.
 /// @throws as ensemble_curves.
 std::optional<EnsembleCurves> curves_of(const TuningStudy& study, const TunedLaw& row,
                                         const PlantEnsemble& ensemble, unsigned threads);
 
-/// What a simulated controller is called.
+/// The description of a simulated controller.
 std::string description_of(const TunedLaw& row);
 
-/// What ran of a design among those of a study; none if nothing did.
+/// The run of a design among those of a study; none if it was not simulated.
 std::optional<TimeDomainStudy::Candidate> run_of(const TimeDomainStudy& study, const TunedLaw& row);
 
-/// Sets of each usable controller of `purpose` what it does on the nonlinear antenna
-/// (TunedLaw::in_time, and speed_limits by that): at the wind speed of `compared` by what ran
-/// there, at the speeds that budgets are needed up to by runs of their own, some seconds a
-/// controller. Nothing without `compared`. The same for any number of threads.
+/// Sets the nonlinear results of each usable controller of `purpose` (TunedLaw::in_time, and
+/// speed_limits from them). At the wind speed of `compared` it uses the runs made there. At the
+/// speeds up to which budgets are needed it makes new runs, some seconds per controller. It does
+/// nothing without `compared`. The result does not depend on the number of threads.
 void judge_in_time(const Mission& mission, const TimeDomainStudy* compared, TunedFor purpose,
                    std::uint64_t seed, unsigned threads, const std::function<bool()>& interrupted,
                    TuningStudy& study);

@@ -11,18 +11,18 @@ namespace boresight::design {
 struct ErrorBudget {
   double wind = 0.0;   // linear plant
   double noise = 0.0;  // of the sensors, linear plant
-  /// What the nonlinear antenna adds in wind: the root of the excess of the simulated mean square
-  /// over the linear one; 0 where there is none or nothing was simulated.
+  /// Increase in wind on the nonlinear antenna: root of the excess of the simulated mean square
+  /// over the linear one. 0 where there is no excess, and without a simulation.
   double nonlinearities = 0.0;
-  double limit_cycle = 0.0;  // of the largest amplitude in boresight, as a sinusoid
+  double limit_cycle = 0.0;  // rms of a sinusoid of the largest boresight amplitude
   /// Root sum of squares of the four above.
   double total = 0.0;
-  /// Magnitude of static_bending, no part of the total: for the pointing model to remove.
+  /// Magnitude of static_bending, not part of the total: the pointing model must remove it.
   double static_flexure = 0.0;
 };
 
-/// Of a stable design. `in_time`: its simulation in the same wind, the expected rms before that of
-/// one record; null if there is none.
+/// Error budget of a stable design. `in_time`: its simulation in the same wind; the expected rms is
+/// preferred to that of one record. Null without a simulation.
 ErrorBudget error_budget(const TrackingProblem& problem, const Design& design,
                          const TimeDomainStudy* in_time);
 

@@ -9,28 +9,28 @@
 
 namespace boresight::design {
 
-/// A law with a name for its user, and the search that found it.
+/// A controller with the name that its user gave it, and the search that found it.
 struct SearchedLaw {
   std::string name;
   const TuningResult* tuning = nullptr;
-  double sample_time = 0.0;  // s, of the controller that runs it; 0: not known
+  double sample_time = 0.0;  // s, of the computer that runs it; 0: unknown
 };
 
-/// What stands in the place of structures once a block that does nothing is left out of them.
+/// A simpler structure, left when an idle block is removed from the named structures.
 struct SimplerStructure {
-  std::string name;  // a usual structure's short name; empty: none has these blocks
+  std::string name;  // a standard structure's short name; empty: none has these blocks
   std::vector<std::string> in_place_of;  // as the user names them
 };
 
-/// A bound of the search that gains of laws end at.
+/// A bound of the search at which gains of controllers end.
 struct ReachedBound {
   control::GainDescription gain;
   bool upper = false;
-  double sample_time = 0.0;       // s, of these laws
+  double sample_time = 0.0;       // s, of these controllers
   std::vector<std::string> laws;  // names
-  /// The kind of block, a lag, lead or notch, that does nothing in a sampled controller, as this
-  /// corner of it ends at its upper bound above highest_frequency(sample_time). None where the
-  /// sample time is not known.
+  /// The kind of block (lag, lead or notch) that has no effect in a sampled controller: this corner
+  /// of it ends at its upper bound above highest_frequency(sample_time). None where the sample time
+  /// is unknown.
   std::optional<control::BlockKind> idle;
   std::vector<SimplerStructure> simpler;
 
@@ -38,14 +38,14 @@ struct ReachedBound {
   double value() const { return upper ? gain.upper : gain.lower; }
 };
 
-/// The highest frequency (rad/s) of a controller with that sample time (s): pi over it.
+/// The highest frequency (rad/s) of a controller with sample time T (s): pi / T.
 double highest_frequency(double sample_time);
 
-/// Each bound once, in the order of the laws. Unstable laws are left out.
+/// Each bound once, in the order of the controllers. Unstable controllers are skipped.
 std::vector<ReachedBound> reached_bounds(const std::vector<SearchedLaw>& laws);
 
-/// Whether a corner of a law ends where no controller with that sample time (s; 0: not known) acts:
-/// whether one of its reached_bounds has a block that is idle.
+/// True if one of the controller's reached_bounds has an idle block: a corner above
+/// highest_frequency(sample_time). `sample_time` in s; 0: unknown.
 bool ends_beyond_sampling(const TuningResult& tuning, double sample_time);
 
 }  // namespace boresight::design

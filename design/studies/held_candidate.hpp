@@ -10,14 +10,14 @@
 
 namespace boresight::design {
 
-/// A law of a candidate with its gains held, on plant after plant. Not to be shared between
-/// threads: copies are independent. The antennas must outlive it.
+/// Evaluates a candidate's controller with fixed gains on plant after plant. Use one object per
+/// thread; copies are independent. The antennas must outlive it.
 class HeldCandidate {
  public:
   HeldCandidate(const plant::Antenna& as_is, const Mission& proposed, const CandidateLaw& law);
 
   struct Outcome {
-    double rms = 0.0;  // mdeg, of linear loops with the law's effect; infinite: unstable
+    double rms = 0.0;  // mdeg, of linear loops with the controller's effect; infinite: unstable
     bool within_goals = false;
   };
 
@@ -32,13 +32,14 @@ class HeldCandidate {
   HeldGainsEvaluator evaluator_;
 };
 
-/// Outcomes of laws on the same draws: draws x laws.
+/// Outcomes of controllers on the same samples: samples x controllers.
 struct DrawnOutcomes {
   Eigen::MatrixXd rms;      // mdeg
-  Eigen::ArrayXXd outside;  // 1 where a goal is broken
+  Eigen::ArrayXXd outside;  // 1 where a constraint is violated
 };
 
-/// None if interrupted. The same for any number of threads.
+/// Evaluates every candidate on the samples. None if interrupted. The result does not depend on the
+/// number of threads.
 std::optional<DrawnOutcomes> judge_draws(const std::vector<HeldCandidate>& held,
                                          const PlantDistribution& distribution,
                                          const ProposalOptions& options);

@@ -5,8 +5,8 @@
 
 namespace boresight::design {
 
-/// The laws of a finished study that were tuned at one wind speed (m/s), and the present gains,
-/// against the least any controller could do there (design/limits/pointing_limit.hpp).
+/// Compares a finished study's controllers of one wind speed (m/s), and the present gains, with the
+/// lower bound for any controller at that speed. See design/limits/pointing_limit.hpp.
 /// @throws as pointing_limit.
 PointingLimit pointing_limit_of(const Mission& mission, const TuningStudy& study,
                                 const PlantEnsemble& ensemble, double wind_speed, unsigned threads);

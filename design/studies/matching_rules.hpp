@@ -6,8 +6,9 @@
 
 namespace boresight::design {
 
-/// The classic rules against the curves of a study that has its points and series: the inertia that
-/// each asks for and, between points by straight lines, what following it costs every structure.
+/// Evaluates the classic rules on the curves of a study that has its points and series. For each
+/// rule: the inertia it requires, and its cost for every structure, interpolated linearly between
+/// points.
 std::vector<RuleVerdict> judge_rules(const Mission& mission, const MatchingStudy& study);
 
 }  // namespace boresight::design

@@ -14,26 +14,26 @@
 
 namespace boresight::design {
 
-/// One plant of a Monte Carlo study that is worth naming.
+/// One plant of a Monte Carlo study that is listed individually.
 struct NotablePlant {
   std::uint64_t index = 0;
   PlantDraw draw;
   PlantOutcome outcome;
 };
 
-/// What the plants of a Monte Carlo study amount to. Rms in rad at the sky, one axis; distributions
-/// are over the plants whose loop is stable, probabilities over all plants that were evaluated.
+/// Summary of the plants of a Monte Carlo study. Rms in rad at the sky, per axis. Distributions are
+/// over the plants whose loop is stable, probabilities over all plants evaluated.
 struct MonteCarloSummary {
   bool interrupted = false;
-  std::uint64_t plants_asked = 0, plants = 0;  // evaluated: blocks that are whole
+  std::uint64_t plants_asked = 0, plants = 0;  // evaluated: complete blocks
   std::vector<UncertainInput> inputs;
   bool climate = false;
   HardGoals goals;
 
   std::uint64_t stable = 0, unstable = 0, undecided = 0;
-  EstimatedNumber instability;     // probability, undecided ones counted
+  EstimatedNumber instability;     // probability, undecided plants counted as unstable
   std::uint64_t confirmed = 0;     // by eigenvalues
-  std::uint64_t contradicted = 0;  // the winding had said otherwise
+  std::uint64_t contradicted = 0;  // Nyquist encirclements gave the opposite verdict
   double confirm_peak = 0.0;
   std::uint64_t confirm_every = 0;
   std::vector<NotablePlant> unstable_plants;  // the first most_listed
@@ -43,22 +43,22 @@ struct MonteCarloSummary {
   std::optional<DistributionSummary> climate_rms;
   struct BandLoss {
     PointingBand band;
-    DistributionSummary loss;  // dB, mean over two equal axes, at the design's wind speed
+    DistributionSummary loss;  // dB, mean for two equal axes, at the design's wind speed
     /// The same, expected over the site's wind climate.
     std::optional<DistributionSummary> climate_loss;
   };
   std::vector<BandLoss> losses;
-  /// Of a simulation on the mission's own plant; none of it without Antenna::nonlinear or budgets.
+  /// Of a simulation on the mission's own plant; empty without Antenna::nonlinear or budgets.
   NonlinearEffect effect;
-  /// By the linear rms of each plant with that effect (NonlinearEffect::for_budgets).
+  /// From the linear rms of each plant with that effect (NonlinearEffect::for_budgets).
   struct BudgetChance {
     PointingBudget budget;
-    EstimatedNumber met;  // at the design's wind speed; no unstable plant meets one
+    EstimatedNumber met;  // at the design's wind speed; unstable plants meet no budget
   };
   std::vector<BudgetChance> budgets;
   struct GoalChance {
     std::string goal;
-    EstimatedNumber broken;  // among all plants, by stable ones
+    EstimatedNumber broken;  // fraction of all plants, violated by stable ones
   };
   std::vector<GoalChance> goals_broken;
   EstimatedNumber all_goals_met;
@@ -68,23 +68,24 @@ struct MonteCarloSummary {
     EstimatedNumber with_rms;  // rank correlation, over stable plants
   };
   std::vector<Correlation> correlations;
-  std::vector<NotablePlant> worst;  // by beam rms, of the stable ones
+  std::vector<NotablePlant> worst;  // stable plants of largest boresight rms
 
-  /// Of laws tuned for each plant alone.
+  /// Of controllers tuned for each plant alone.
   struct Retuned {
-    std::uint64_t found = 0;         // plants for which a law that meets the goals was found
-    std::uint64_t only_retuned = 0;  // of these, those that the held law does not keep stable
+    std::uint64_t found = 0;  // plants for which a controller that meets the constraints was found
+    std::uint64_t only_retuned = 0;  // of these, those that the fixed controller does not stabilise
     DistributionSummary beam_rms;
-    /// Held law's rms over the re-tuned one's, less 1, of plants that both keep stable.
+    /// Rms of the fixed controller over that of the re-tuned one, less 1, on plants that both
+    /// stabilise.
     DistributionSummary price;
   };
   std::optional<Retuned> retuned;
 };
 
-/// What the evaluated plants of a run amount to, against the mission's bands and budgets; the
-/// plants are the draws of that distribution and seed. Simulates the controller once, if there are
-/// budgets to judge (simulated_effect).
-/// @throws Interrupted where no block of plants is whole; as verify_in_time.
+/// Summarises the evaluated plants of a run against the mission's bands and budgets. The plants are
+/// the samples of that distribution and seed. It simulates the controller once if there are budgets
+/// to evaluate (simulated_effect).
+/// @throws Interrupted where no block of plants is complete; as verify_in_time.
 MonteCarloSummary summarise(const MonteCarloRun& run, const Mission& mission,
                             const PlantDistribution& distribution, std::uint64_t seed,
                             unsigned threads);

@@ -10,27 +10,27 @@
 
 namespace boresight::design {
 
-/// The antenna in its wind with a number moved to its lower and upper side.
+/// The antenna in its wind with one number moved to its lower and to its upper value.
 struct MovedNumber {
-  /// Called from any thread. @throws InvalidInput where that leaves no antenna.
+  /// Called from any thread. @throws InvalidInput if the moved number gives no valid antenna.
   std::function<TrackingProblem()> lower, upper;
 };
 
-/// What a controller's rms owes to one number.
+/// The effect of one number on a controller's rms.
 struct NumberEffect {
-  std::size_t number = 0;  // its place among those asked about
-  /// Beam rms (rad, one axis at the sky) with the number lower and higher, gains held. NaN where
-  /// the loop is unstable there.
+  std::size_t number = 0;  // its index in the input
+  /// Boresight rms (rad, per axis at the sky) with the number lower and higher, gains fixed. NaN
+  /// where the loop is unstable.
   double low_rms = 0.0, high_rms = 0.0;
 
-  /// The larger change from `rms` as a share of it; infinite where the loop is unstable.
+  /// The larger change from `rms`, relative to `rms`; infinite where the loop is unstable.
   double change(double rms) const;
 };
 
-/// Numbers moved one at a time with all gains held: the `most` that change the rms (rad) most, the
-/// largest first. Left out is what changes it by less than a thousandth, and what leaves no antenna
-/// on either side. The same for any number of threads.
-/// @throws what MovedNumber throws but for InvalidInput.
+/// Moves one number at a time with all gains fixed. Returns the `most` numbers that change the rms
+/// (rad) most, the largest change first. It omits changes below a thousandth, and numbers that give
+/// no valid antenna on either side. The result does not depend on the number of threads.
+/// @throws what MovedNumber throws except InvalidInput.
 std::vector<NumberEffect> number_effects(const std::vector<MovedNumber>& numbers,
                                          const control::ControlLaw& law, const HardGoals& goals,
                                          double rms, std::size_t most, unsigned threads);

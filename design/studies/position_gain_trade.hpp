@@ -8,27 +8,28 @@
 
 namespace boresight::design {
 
-/// Where a slow rate loop hardly acts, position and rate gain count by their product: how far the
-/// position gain of a controller can be lowered (a hundredfold at most), the product and all other
-/// gains fixed, before the rms on the nominal plant is 1 % larger or the loop unstable.
+/// With a slow, nearly inactive rate loop only the product of position and rate gain matters. The
+/// trade lowers a controller's position gain, at most a hundredfold, with the product and all other
+/// gains fixed. It stops before the rms on the nominal plant is 1 % larger or the loop unstable.
 struct PositionGainTrade {
-  control::ControlLaw law;                       // so lowered
-  std::size_t position_gain = 0, rate_gain = 0;  // places in its gains
+  control::ControlLaw law;                       // with the lowered gain
+  std::size_t position_gain = 0, rate_gain = 0;  // indices into its gains
   double beam_rms = 0.0;                         // rad
-  int within_goals = 0;  // members of the ensemble on which it keeps every constraint
+  int within_goals = 0;  // ensemble members on which it meets every constraint
 };
 
-/// Whether a gain that ends at a bound of its search does so at the upper one: the nearer of the
+/// True if a gain that ends at a bound of its search does so at the upper one: the nearer of the
 /// two in the logarithm.
 bool ends_at_upper(const control::GainDescription& gain, double value);
 
-/// Whether a search ended at the upper bound of the position gain, with a rate gain to trade it
-/// against: gains of the symbols kp and kr.
+/// True if a search ended at the upper bound of the position gain and the structure has a rate
+/// gain: gains of the symbols kp and kr.
 bool ends_at_position_gain(const TuningResult& tuning);
 
-/// The trade of a controller that points within `beam_rms` (rad) on the problem's plant in its
-/// wind, evaluated on members that may be empty. None unless ends_at_position_gain and the position
-/// gain can be halved or lowered further. Ten evaluations of a controller and one of all members.
+/// The trade of a controller whose boresight rms is within `beam_rms` (rad) on the problem's plant
+/// in its wind, evaluated on members (may be empty). None unless ends_at_position_gain and the
+/// position gain can be halved or lowered further. Cost: ten evaluations of a controller and one of
+/// all members.
 std::optional<PositionGainTrade> position_gain_trade(TrackingProblem problem,
                                                      const TuningResult& tuning, double beam_rms,
                                                      const HardGoals& goals,

@@ -7,9 +7,10 @@
 
 namespace boresight::design {
 
-/// Chances, regrets and what decides, of the candidates with a stable law. `missions`: of the
-/// candidates; `as_is`: the antenna that draws are of. None if interrupted, or with fewer than two
-/// of them. The same for any number of threads.
+/// Probabilities, regrets and decisive inputs of the candidates with a stable controller.
+/// `missions`: of the candidates; `as_is`: the antenna that the samples perturb. None if
+/// interrupted, or with fewer than two such candidates. The result does not depend on the number of
+/// threads.
 std::optional<ProposalDecision> decide(const std::vector<ProposedDesign>& candidates,
                                        const plant::Antenna& as_is,
                                        const std::vector<const Mission*>& missions,

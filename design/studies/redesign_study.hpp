@@ -12,29 +12,30 @@
 
 namespace boresight::design {
 
-/// Wind speed up to which a budget is met with the gains fixed, by RecommendedDesign::effect.
+/// Wind speed up to which a budget is met with fixed gains, by RecommendedDesign::effect.
 struct BudgetResult {
   PointingBudget budget;
   double wind_speed_limit = 0.0;  // m/s
-  /// Members of the ensemble on which it is met in the wind that it is needed up to; none for a
-  /// budget that states no such wind and without an ensemble.
+  /// Ensemble members on which it is met in the wind up to which it is needed. None for a budget
+  /// that states no such wind, and without an ensemble.
   std::optional<int> plants_met = std::nullopt;
 };
 
-/// The recommended controller at depth.
+/// The recommended controller in detail.
 struct RecommendedDesign {
   control::LoopStructure structure;
   std::string name;  // of the structure, as the user has it
   TunedFor tuned_for = TunedFor::nominal;
-  Fitness fitness = Fitness::unstable;  // of its assessment_of, by which it was recommended
-  TrackingProblem problem;              // what was tuned
+  Fitness fitness = Fitness::unstable;  // of its assessment_of; decides the recommendation
+  TrackingProblem problem;              // the problem that was tuned
   HardGoals goals;
   Design design;
-  /// What budgets are judged by beyond the linear rms (NonlinearEffect::for_budgets), also at other
-  /// wind speeds, with other wind models and on ensemble members; of no simulation where none ran.
+  /// Effect applied to the linear rms when budgets are evaluated (NonlinearEffect::for_budgets),
+  /// also at other wind speeds, with other wind models and on ensemble members. Without a
+  /// simulation: no effect.
   NonlinearEffect effect;
   std::vector<std::string> ties;  // description_of other controllers that tied_with finds
-  /// Gains that the antenna runs on now, evaluated on the same plant.
+  /// The antenna's present gains, evaluated on the same plant.
   struct PresentLaw {
     std::string structure;
     Design design;
@@ -53,7 +54,7 @@ struct RecommendedDesign {
   struct WindAlternative {
     plant::WindModel model = plant::WindModel::coherence;
     double beam_rms = 0.0;                  // rad, same gains
-    std::vector<double> speed_limits = {};  // m/s, one a budget
+    std::vector<double> speed_limits = {};  // m/s, one per budget
   };
   std::vector<WindAlternative> wind_alternatives;
   /// Rms of the flexure beyond the encoder with the encoder at rest (rad). Not a bound: a loop can
@@ -61,16 +62,16 @@ struct RecommendedDesign {
   double encoder_held_rms = 0.0;
   /// torque_limited_wind_speed.
   double supply_wind_speed = std::numeric_limits<double>::infinity();
-  double static_bending = 0.0;  // rad under the mean wind: calibration's job, not the servo's
+  double static_bending = 0.0;  // rad under the mean wind: the pointing calibration must remove it
   struct BandLoss {
     PointingBand band;
-    double mean_loss_db = 0.0;       // two equal axes, static bending left out
-    double static_bending_db = 0.0;  // what that would add on this axis
+    double mean_loss_db = 0.0;       // two equal axes, static deflection excluded
+    double static_bending_db = 0.0;  // additional loss by the static deflection on this axis
   };
   std::vector<BandLoss> losses;
   std::vector<BudgetResult> budgets;
   std::vector<ClimatePart> climate;  // of the site; empty if it is not known
-  /// The controller with its gains fixed on perturbed models. None without a stable one.
+  /// The controller evaluated with fixed gains on the ensemble. None without a stable one.
   std::optional<EnsembleResult> ensemble;
   /// The same as curves.
   std::optional<EnsembleCurves> curves;
@@ -78,11 +79,12 @@ struct RecommendedDesign {
   std::optional<PositionGainTrade> trade;
 };
 
-/// Another antenna that the evidence allows, with the recommended structure tuned for it.
+/// An alternative antenna consistent with the evidence, with the recommended structure tuned for
+/// it.
 struct AlternativeDesign {
   Design design;
-  /// Wind speed (m/s) up to which each budget is met, with the effect that the recommended design's
-  /// simulation has; none without a stable controller.
+  /// Wind speed (m/s) up to which each budget is met, with the effect of the recommended design's
+  /// simulation. None without a stable controller.
   std::optional<std::vector<double>> speed_limits;
 };
 
@@ -91,9 +93,9 @@ struct FlywheelRow {
   double disks = 0.0;  // on each motor
   std::string label;   // "24 disks", "ratio 1"
   bool as_built = false;
-  double motor_inertia = 0.0;        // kg m2, all motors
+  double motor_inertia = 0.0;        // kg m2, sum over all motors
   double motor_to_load_ratio = 0.0;  // R
-  double reflected_inertia = 0.0;    // kg m2, of all, at the motor shaft
+  double reflected_inertia = 0.0;    // kg m2, total, at the motor shaft
 };
 
 /// One structure tuned at every row, with one friction slope.
@@ -101,7 +103,7 @@ struct FlywheelSeries {
   std::string friction;  // "linear plant", "slope at tracking rate"; empty where one slope is both
   double viscous_friction = 0.0;  // N m s/rad
   control::LoopStructure structure;
-  std::vector<Design> designs;  // one a row
+  std::vector<Design> designs;  // one per row
 };
 
 struct FlywheelComparison {
@@ -109,7 +111,7 @@ struct FlywheelComparison {
   std::vector<FlywheelSeries> series;
 };
 
-/// What a redesign looks at beside the recommended controller.
+/// What a redesign evaluates in addition to the recommended controller.
 struct RedesignTask {
   struct Alternative {
     std::string name;
@@ -124,7 +126,7 @@ struct RedesignTask {
   std::vector<control::LoopStructure> structures;  // of the flywheel comparison
   std::uint64_t seed = 1;
   unsigned threads = 2;
-  /// Called with tasks done and all tasks; may be empty.
+  /// Called with the numbers of tasks done and in total; may be empty.
   std::function<void(std::size_t, std::size_t)> progress;
 };
 
@@ -136,16 +138,16 @@ struct RedesignStudy {
   std::optional<TimeDomainStudy> time_domain;
 };
 
-/// The controller that study_controllers recommends, where none is fit the least unfit; its search
-/// repeated from eight seeds, starting with the task's; its structure tuned for the alternatives;
-/// and the task's structures tuned at each number of disks, with the linear plant's friction and
-/// with the friction curve's slope at the tracking rate.
+/// Evaluates the controller that study_controllers recommends, or the least unfit where none is
+/// fit. It repeats the search from eight seeds, starting with the task's. It tunes the controller's
+/// structure for the alternatives. It tunes the task's structures at each number of disks, with the
+/// linear plant's friction and with the friction curve's slope at the tracking rate.
 /// @throws as study_controllers.
 RedesignStudy redesign(const Mission& mission, const PlantEnsemble& ensemble,
                        const RedesignTask& task);
 
 /// Evaluates the design with its gains fixed on members and counts on how many each budget is met
-/// in its wind. Nothing for an unstable design or without members.
+/// in its wind. Does nothing for an unstable design or without members.
 void evaluate_on(const std::vector<EnsembleMember>& members, unsigned threads,
                  RecommendedDesign& design);
 

@@ -9,10 +9,11 @@
 
 namespace boresight::design {
 
-/// Holds candidates against each other with one structure on both, by the laws tuned for each and
-/// over the draws of `rms` (draws x decision.candidates, mdeg): every pair of different antennas
-/// whose chosen laws differ in structure, with each of the two that was tuned for both.
-/// `missions`: of the candidates; `as_is`: the antenna that draws are of. None if interrupted.
+/// Compares candidates with the same structure on both, using the controllers tuned for each, over
+/// the samples of `rms` (samples x decision.candidates, mdeg). It covers every pair of different
+/// antennas whose chosen controllers differ in structure, and each of the two structures that was
+/// tuned for both. `missions`: of the candidates; `as_is`: the antenna that the samples perturb.
+/// None if interrupted.
 std::optional<std::vector<PairByStructure>> compare_by_structure(
     const ProposalDecision& decision, const Eigen::MatrixXd& rms,
     const std::vector<ProposedDesign>& candidates, const plant::Antenna& as_is,

@@ -13,49 +13,51 @@
 
 namespace boresight::design {
 
-/// One controller of several that were compared on the nonlinear antenna.
+/// One of several controllers compared on the nonlinear antenna.
 struct SimulatedCandidate {
   std::string law;  // NamedController::name
   NonlinearVerification result;
   std::optional<SimulatedRms> rms = std::nullopt;  // over several records of wind
 
-  /// The rms that it is judged by (rad): over several records, without them of the single one; NaN
-  /// where a run did not complete.
+  /// The rms by which it is compared (rad): over several records, or of the single record without
+  /// them. NaN where a run did not complete.
   double simulated_rms() const { return rms ? rms->rms.value : result.wind.beam_rms; }
-  /// What it says beyond the linear prediction.
+  /// Its effect beyond the linear prediction.
   NonlinearEffect effect() const;
 };
 
-/// relative_change of their rms with the limit cycles; none without records of the same winds.
+/// relative_change of their rms, limit cycles included; none without records of the same winds.
 std::optional<numerics::Interval> figure_change(const SimulatedCandidate& from,
                                                 const SimulatedCandidate& to);
 
-/// A tuned controller in the time domain, on the nonlinear antenna of its mission.
+/// A tuned controller simulated on the nonlinear antenna of its mission.
 struct TimeDomainStudy {
   std::string law;           // NamedController::name
   double wind_speed = 0.0;   // m/s, mean
   double sample_time = 0.0;  // s, of the controller
-  /// Steps of the encoder at the sky (rad): those whose rounding error is the encoder noise.
+  /// Encoder steps at the sky (rad) whose rounding error equals the encoder noise.
   double encoder_resolution = 0.0;
   NonlinearVerificationOptions options;
   NonlinearVerification result;
-  /// What several records of wind say of the rms, of which `result` has one.
+  /// The rms over several records of wind, one of which is in `result`.
   std::optional<SimulatedRms> rms;
-  /// The mission's first present controller in the record of wind of `result`; its trace is empty
-  /// where that run did not complete. None without one, and of controllers that were only compared.
+  /// The mission's first present controller in the wind record of `result`; its trace is empty
+  /// where that run did not complete. None without a present controller, and for controllers that
+  /// were only compared.
   struct Present {
     std::string structure;
     ErrorTrace in_wind;
   };
   std::optional<Present> present;
-  /// The slew rate asked for is out of reach only for want of stroke: with twice of it it is not.
+  /// The requested slew rate exceeds the drive's capability only for lack of stroke: twice the
+  /// stroke suffices.
   bool slew_hangs_on_stroke = false;
-  /// The controllers that this one was chosen from, itself included, influences not told apart;
-  /// empty where there was no choice.
+  /// The controllers among which this one was chosen, itself included, without separate influences.
+  /// Empty where there was no choice.
   using Candidate = SimulatedCandidate;
   std::vector<Candidate> candidates;
 
-  /// Itself, as one of them.
+  /// This controller as a candidate.
   Candidate own() const { return {law, result, rms}; }
 };
 
@@ -63,16 +65,16 @@ struct TimeDomainStudy {
 /// other runs together.
 enum class SecondIntegrator { none, cvodes };
 
-/// How closely the controller chosen of several is looked at: as the others were, or as
-/// verify_in_time_domain does with a second integrator, for a report.
+/// Detail of the results for the controller chosen among several: as for the others, or as
+/// verify_in_time_domain with a second integrator, for a report.
 enum class ChoiceDetail { compared, verified };
 
-/// Simulates a controller on a problem made of the mission: 300 s of wind with every influence
-/// switched off in turn, limit cycles, slow reversals and a slew of one degree at the mission's
-/// rate and 0.2 deg/s2, settled within the tightest pointing budget (1 mdeg without one); and the
-/// rms with its interval by simulated_rms. Some 4 s of computing on the 70-m antenna, over
-/// `threads`, and 2 s for a second integrator. None without Antenna::nonlinear. The same for any
-/// number of threads. @throws as verify_in_time.
+/// Simulates a controller on a problem made of the mission: 300 s of wind with each influence
+/// switched off in turn, limit cycles, slow reversals and a slew. The slew covers one degree at the
+/// mission's rate and 0.2 deg/s2, settled within the tightest pointing budget (1 mdeg without one).
+/// It also computes the rms with its interval by simulated_rms. Takes some 4 s of computing on the
+/// 70-m antenna, over `threads`, and 2 s for a second integrator. None without Antenna::nonlinear.
+/// The result does not depend on the number of threads. @throws as verify_in_time.
 std::optional<TimeDomainStudy> verify_in_time_domain(
     const Mission& mission, const TrackingProblem& problem, const control::ControlLaw& law,
     std::string_view description, std::uint64_t seed, unsigned threads, SecondIntegrator second);
@@ -80,15 +82,15 @@ std::optional<TimeDomainStudy> verify_in_time_domain(
 /// `within_budget`: holds_still within the tightest budget; `shown`: hunting_seen.
 LimitCycleVerdict limit_cycle_verdict(bool within_budget, bool shown);
 
-/// A controller that meets every constraint, as recommend() compares it by its simulation, of the
-/// expected rms where there is one. `budget`: the tightest (rad rms). Of pointing budgets it counts
-/// none.
+/// The assessment that recommend() compares, of a controller that meets every constraint, from its
+/// simulation. It uses the expected rms where there is one. `budget`: the tightest (rad rms). It
+/// counts no pointing budgets.
 Assessment assessment_of(const NamedController& controller, const NonlinearVerification& result,
                          const std::optional<SimulatedRms>& expected, double budget);
 
-/// Of controllers that meet every constraint the one that recommend() chooses by their simulations
-/// and the budgets required in the problem's wind, whatever its fitness; in that detail, with the
-/// others' results among its candidates. None without Antenna::nonlinear.
+/// Among controllers that meet every constraint, the one that recommend() chooses by their
+/// simulations and the budgets required in the problem's wind, whatever its fitness. `detail`: of
+/// its results; the others' results are its candidates. None without Antenna::nonlinear.
 /// @throws InvalidInput without controllers; as verify_in_time.
 std::optional<TimeDomainStudy> choose_in_time_domain(const Mission& mission,
                                                      const TrackingProblem& problem,
@@ -96,10 +98,10 @@ std::optional<TimeDomainStudy> choose_in_time_domain(const Mission& mission,
                                                      std::uint64_t seed, unsigned threads,
                                                      ChoiceDetail detail);
 
-/// How many controllers are compared on the nonlinear antenna: as verify_in_time_domain has it, but
-/// for the slew and for telling the influences apart.
+/// Options for comparing several controllers on the nonlinear antenna: as verify_in_time_domain,
+/// without the slew and without separate influences.
 NonlinearVerificationOptions comparison_options(const Mission& mission, std::uint64_t seed);
-/// One of them. None without Antenna::nonlinear. @throws as verify_in_time.
+/// Simulates one of them. None without Antenna::nonlinear. @throws as verify_in_time.
 std::optional<NonlinearVerification> run_in_time_domain(
     const Mission& mission, const TrackingProblem& problem, const control::ControlLaw& law,
     const NonlinearVerificationOptions& options);
@@ -107,7 +109,7 @@ std::optional<NonlinearVerification> run_in_time_domain(
 std::optional<TimeDomainStudy::Candidate> compare_in_time_domain(
     const Mission& mission, const TrackingProblem& problem, const NamedController& controller,
     const NonlinearVerificationOptions& options);
-/// Its effect in the mission's wind; no effect without Antenna::nonlinear.
+/// The controller's nonlinear effect in the mission's wind; no effect without Antenna::nonlinear.
 NonlinearEffect simulated_effect(const Mission& mission, const control::ControlLaw& law,
                                  std::uint64_t seed, unsigned threads);
 

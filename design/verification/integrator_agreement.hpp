@@ -8,29 +8,29 @@
 
 namespace boresight::design {
 
-/// How a run is repeated by a second integrator.
+/// Options for repeating a run with a second integrator.
 struct IntegratorAgreementOptions {
-  double settling = 20.0;  // s at the start that the rms values leave out
+  double settling = 20.0;  // s at the start, excluded from the rms values
   std::uint64_t seed = 1;  // of the sensors' noise
-  /// Of the exponential collocation: those of the run that is checked, LoopRunOptions.
+  /// Of the exponential collocation: as in LoopRunOptions for the run that is checked.
   double relative_tolerance = LoopRunOptions{}.relative_tolerance;
   double absolute_tolerance = LoopRunOptions{}.absolute_tolerance;
-  /// Of CVODES, of the states: an rms to 1e-6 of itself on the reference antenna.
+  /// Of CVODES, on the states: relative rms error of 1e-6 on the reference antenna.
   double cvodes_relative_tolerance = 1e-7;
   double cvodes_absolute_tolerance = 1e-7;
 };
 
-/// One course by two integrators. Both read the same equations (FeedbackSystem), wind, noise and
-/// sampled controller; only the integration differs. Angles at the sky, of the beam's error.
+/// One run by two integrators. Both use the same equations (FeedbackSystem), wind, noise and
+/// sampled controller; only the integration differs. Boresight errors, angles at the sky.
 struct IntegratorAgreement {
-  /// Of the collocation's run or, if that completed, of CVODES'.
+  /// Of the collocation run or, if that completed, of the CVODES run.
   RunStatus status = RunStatus::complete;
   std::string message;    // empty if complete
   double duration = 0.0;  // s compared, after settling
   // NaN for runs that did not complete.
   double collocation_rms = std::numeric_limits<double>::quiet_NaN();  // rad, about the mean
   double cvodes_rms = std::numeric_limits<double>::quiet_NaN();       // rad, about the mean
-  /// rad, of the difference sample by sample, its mean included.
+  /// rad, rms of the difference sample by sample, its mean included.
   double difference_rms = std::numeric_limits<double>::quiet_NaN();
   double cvodes_relative_tolerance = 0.0;
   double cvodes_absolute_tolerance = 0.0;
@@ -41,15 +41,15 @@ struct IntegratorAgreement {
   double ratio() const { return difference_rms / cvodes_rms; }
 };
 
-/// Largest ratio() by which a simulated rms counts as integrated right.
+/// Largest ratio() at which a simulated rms counts as correctly integrated.
 inline constexpr double integrator_agreement_limit = 1e-4;
-/// Whether both runs completed and agree within that limit.
+/// True if both runs completed and agree within that limit.
 bool agree(const IntegratorAgreement& agreement);
 
-/// Runs the course by the exponential collocation (FastIntegrator) and, if that completes, by
-/// CVODES (OdeIntegrator). A run without a usable end is a stated result. The same calls give the
-/// same bits.
-/// @throws InvalidInput for a settling time below 0 or not shorter than the course, and as
+/// Runs the trajectory by the exponential collocation (FastIntegrator) and, if that completes, by
+/// CVODES (OdeIntegrator). A failed run is returned as a result with its status. The same calls
+/// give bit-identical results.
+/// @throws InvalidInput for a settling time below 0 or not shorter than the trajectory, and as
 /// run_loop.
 IntegratorAgreement integrator_agreement(const SimulatedLoop& loop, const LoopCourse& course,
                                          const IntegratorAgreementOptions& options = {});

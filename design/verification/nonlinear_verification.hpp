@@ -14,20 +14,20 @@
 
 namespace boresight::design {
 
-/// What of a tuned loop is looked at in the time domain. Angles and rates at the sky.
+/// Options of the time-domain verification of a tuned loop. Angles and rates at the sky.
 struct NonlinearVerificationOptions {
-  std::vector<std::uint64_t> seeds{1};  // of wind and noise; one run each
+  std::vector<std::uint64_t> seeds{1};  // of wind and noise; one run per seed
   double wind_duration = 300.0;         // s, after settling
-  double settling = 20.0;               // s left out at the start of every run
+  double settling = 20.0;               // s excluded at the start of every run
   double tracking_rate = 0.0;           // rad/s, in wind and for limit cycles: sidereal
   bool explain = true;                  // repeat the runs in wind with each influence off
   bool second_integrator = false;       // repeat the first run in wind by CVODES
   double hunting_duration = 200.0;      // s, after settling; hunting_confirmation
-  double reversal_leg = 20.0;           // s of each way of the slow triangle
+  double reversal_leg = 20.0;           // s in each direction of the slow triangle
   double slew_distance = 0.0;           // rad; 0: no slew
   /// Of the command preprocessor.
   control::CommandLimits limits;
-  /// Encoder error (rad) within which a slew counts as settled, for good.
+  /// Encoder error (rad) within which a slew counts as settled.
   double settled_error = 0.0;
   double settling_watched = 40.0;  // s after the end of the command
   unsigned threads = 1;
@@ -40,86 +40,88 @@ struct ErrorTrace {
   Eigen::VectorXd encoder;    // rad
 };
 
-/// What one influence does to the beam's rms: that of the whole loop less that without it.
+/// Effect of one influence on the boresight rms: that of the whole loop less that without it.
 struct InfluenceResult {
   Influence influence = Influence::friction;
   RunStatus status = RunStatus::complete;  // the worst over the seeds
   double beam_rms_without = 0.0;           // rad; NaN unless complete
-  double difference = 0.0;                 // rad, with less without; NaN unless complete
+  double difference = 0.0;                 // rad, with less without it; NaN unless complete
 };
 
-/// The loop in wind, against the linear prediction. Rms about the mean over all seeds, rad at the
-/// sky; NaN where a run did not complete. The difference from the prediction is the sum
-///   simulated - predicted = chance + sampling + sum of the influences' differences + joint
+/// The loop in wind, compared with the linear prediction. Rms about the mean over all seeds, rad at
+/// the sky; NaN where a run did not complete. The difference from the prediction is the sum
+///   simulated - predicted = realisation error (`chance`) + sampling
+///                           + sum of the influences' differences + interaction (`joint`)
 struct WindResult {
   RunStatus status = RunStatus::complete;
   std::string message;  // of the first run that did not complete
   double beam_rms = 0.0;
   double encoder_rms = 0.0;
   double predicted_rms = 0.0;  // by the spectrum, continuous with exact dead time
-  /// The same records through the linear plant, sampled as built and sixteen times as often.
+  /// The same records through the linear plant, with the actual and 16 times the sampling rate.
   double linear_rms = 0.0;
   double continuous_rms = 0.0;
-  double chance = 0.0;    // continuous - predicted: these records are not the expectation
+  double chance = 0.0;    // realisation error: continuous - predicted
   double sampling = 0.0;  // linear - continuous
   std::vector<InfluenceResult> influences;
-  /// simulated - linear - sum of the influences: what they do together only, and what else the
-  /// nonlinear antenna has beyond the linear plant (lines, offset torque).
+  /// Interaction: simulated - linear - sum of the influences' differences. It includes effects that
+  /// the nonlinear antenna has beyond the linear plant (lines, offset torque).
   double joint = 0.0;
-  double at_command_limit = 0.0;  // share of samples
+  double at_command_limit = 0.0;  // fraction of samples
   /// Of the whole loop with the first seed after settling, both about their means.
   ErrorTrace trace;
 };
 
-/// How many runs look for a limit cycle at each rate, each moved by another step at its start:
-/// whether a loop with stiction comes to rest or swings hangs on where it stops.
+/// Number of limit-cycle runs per rate, each with another initial step. With stiction, the stopping
+/// position decides whether a loop comes to rest or limit-cycles.
 inline constexpr int hunting_starts = 3;
-/// A cycle that is seen is looked at again for so many times as long: against stiction an
-/// integrator swings for minutes, ever less.
+/// Confirmation runs are this many times longer: with stiction, integral action causes slowly
+/// decaying oscillations lasting minutes.
 inline constexpr double hunting_confirmation = 3.0;
 
-/// s that are kept of such a run.
+/// s of such a run that the trace keeps.
 inline constexpr double longest_hunting_trace = 120.0;
 
-/// What the loop does by itself at a steady rate, without wind or noise: of its runs
-/// (hunting_starts) one that did not complete, else the limit cycle of the largest beam amplitude,
-/// else the run of the largest encoder amplitude.
+/// Limit-cycle result at a steady rate, without wind or noise. Of its runs (hunting_starts): one
+/// that did not complete; else the limit cycle of the largest boresight amplitude; else the run of
+/// the largest encoder amplitude.
 struct HuntingResult {
   double rate = 0.0;  // rad/s at the sky
   RunStatus status = RunStatus::complete;
   std::string message;
-  int starts = 0;          // runs that were looked at; 0: not told
+  int starts = 0;          // number of runs; 0: not stated
   int starts_hunting = 0;  // of these, with a limit cycle
-  /// Whether some of its runs came to rest while others did not.
+  /// True if some runs came to rest while others did not.
   bool some_only() const { return limit_cycle && starts_hunting < starts; }
-  /// Half of peak to peak of the true angles in the second half of the run, a straight line taken
-  /// off (rad).
+  /// Half of the peak-to-peak value (rad) of the true angles in the second half of the run, with a
+  /// fitted straight line removed.
   double encoder_amplitude = 0.0;
   double beam_amplitude = 0.0;
-  /// Hz; none with less than two whole periods in that half.
+  /// Hz; none with fewer than two whole periods in that half.
   std::optional<double> frequency;
-  /// Over the same in the quarter before: 1 for a limit cycle, less for one that dies out.
+  /// Ratio to the amplitude in the quarter before: 1 for a limit cycle, less for a decaying
+  /// oscillation.
   double persistence = 0.0;
-  /// The end of that half, at most longest_hunting_trace, the same lines taken off.
+  /// The end of that half, at most longest_hunting_trace, with the same lines removed.
   ErrorTrace trace;
-  /// In one run at least the encoder's amplitude is above half its resolution (or 1e-3 mdeg without
-  /// one) and lasts (persistence above 0.8).
+  /// In at least one run the encoder's amplitude exceeds half its resolution (or 1e-3 mdeg without
+  /// one) and persists (persistence above 0.8).
   bool limit_cycle = false;
 };
 
-/// A slow triangle of the tracking rate either way. Largest error after a reversal until the next,
-/// rad at the sky; the beam's about its mean.
+/// A slow triangle at the tracking rate in both directions. Largest error between one velocity
+/// reversal and the next, rad at the sky; the boresight error about its mean.
 struct ReversalResult {
   RunStatus status = RunStatus::complete;
   std::string message;
   double encoder_error = 0.0;
   double beam_error = 0.0;
-  /// The same without friction: what turning round excites in a linear loop already. NaN if that
-  /// run did not complete.
+  /// The same without friction: the error that a velocity reversal excites in a linear loop. NaN if
+  /// that run did not complete.
   double encoder_error_without_friction = 0.0;
-  double time_of_largest = 0.0;  // s after the reversal, of the encoder's
-  /// From a reversal on, another one after each `leg`: the errors that the above are the largest
-  /// of, with and without friction, the boresight's about its mean.
+  double time_of_largest = 0.0;  // s after the reversal, of the encoder error
+  /// Errors from a reversal on, with further reversals after each `leg`, with and without friction;
+  /// the boresight error about its mean. The values above are the maxima of these traces.
   double leg = 0.0;  // s
   ErrorTrace trace, trace_without_friction;
 };
@@ -129,15 +131,15 @@ struct SlewResult {
   RunStatus status = RunStatus::complete;
   std::string message;
   double distance = 0.0;          // rad at the sky
-  control::CommandLimits limits;  // at the sky, those kept: what the drive can do if that is less
-  bool within_reach = true;       // the drive can do the limits asked for
+  control::CommandLimits limits;  // at the sky, those applied: the drive's capability if smaller
+  bool within_reach = true;       // the drive can reach the limits requested
   double command_time = 0.0;      // s
   double largest_error = 0.0;     // rad, of the encoder from the command, while it moves
   double overshoot = 0.0;         // rad, beyond the target
-  /// s from the end of the command; none if not settled for the last 10 s (or half of what is
-  /// watched).
+  /// s from the end of the command. None if not settled for the last 10 s (or half of the time
+  /// simulated after the command).
   std::optional<double> settling_time;
-  double at_command_limit = 0.0;  // share of samples
+  double at_command_limit = 0.0;  // fraction of samples
 };
 
 struct NonlinearVerification {
@@ -148,25 +150,26 @@ struct NonlinearVerification {
   std::optional<SlewResult> slew;
 };
 
-/// Largest beam amplitude of its limit cycles (rad); 0 without any.
+/// Largest boresight amplitude of its limit cycles (rad); 0 without any.
 double hunting_amplitude(const std::vector<HuntingResult>& hunting);
-/// Whether every hunting run completed.
+/// True if every limit-cycle run completed.
 bool hunting_seen(const std::vector<HuntingResult>& hunting);
-/// The amplitude (rad) of a sinusoid of that rms `error` (rad): a limit cycle up to it keeps within
-/// the error.
+/// The amplitude (rad) of a sinusoid with rms `error` (rad): a limit cycle up to this amplitude
+/// stays within the error.
 double hunting_limit(double error);
-/// Whether the loop keeps its beam within an rms `error` (rad) where nothing but friction and its
-/// own torque moves it: hunting_seen, and no amplitude above the hunting_limit.
+/// True if the loop is free of limit cycles beyond an rms `error` (rad) when only friction and its
+/// own torque act: hunting_seen, and no amplitude above the hunting_limit.
 bool holds_still(const std::vector<HuntingResult>& hunting, double error);
 
-/// The first of verify_in_time's runs in wind alone (WindResult::trace), of another controller
-/// beside the one that is verified. @throws as verify_in_time.
+/// Runs only the first of verify_in_time's runs in wind (WindResult::trace), to compare another
+/// controller with the verified one. @throws as verify_in_time.
 ErrorTrace error_in_wind(const TrackingProblem& problem, const SimulatedLoop& loop,
                          const NonlinearVerificationOptions& options);
 
-/// The loop of a tuned law on the nonlinear antenna: in wind, hunting, reversing, slewing. Runs
-/// that fail or lose the target are stated in their result. The same result for any number of
-/// threads. `problem`: what the law was tuned on, for its wind and the linear prediction.
+/// Runs the loop of a tuned controller on the nonlinear antenna: wind, limit cycles, velocity
+/// reversals, slew. Runs that fail or lose the target are reported in their result. The result does
+/// not depend on the number of threads. `problem`: the tuning problem, for its wind and the linear
+/// prediction.
 /// @throws InvalidInput for options out of range, no seeds, and as run_loop.
 NonlinearVerification verify_in_time(const TrackingProblem& problem, const SimulatedLoop& loop,
                                      const NonlinearVerificationOptions& options);

@@ -9,12 +9,13 @@
 
 namespace boresight::design {
 
-/// Tracking at a constant rate (rad/s of motor) from 0 in that wind torque at the motor shaft (N
-/// m), one sample an interval (s).
+/// Reference trajectory at a constant rate (rad/s of motor) from 0, with the given wind torque at
+/// the motor shaft (N m), one sample per interval (s).
 LoopCourse steady_course(double interval, double rate, Eigen::VectorXd wind_torque);
 
-/// Tracking at a constant rate (rad/s of motor) from 0 in records of the problem's wind for a
-/// duration (s), in steps of the loop's sample time; prepared once for any number of records.
+/// Reference trajectories at a constant rate (rad/s of motor) from 0 in records of the problem's
+/// wind for a duration (s), in steps of the loop's sample time. Prepared once for any number of
+/// records.
 class WindCourses {
  public:
   /// @throws InvalidInput as plant::wind_torque_series.

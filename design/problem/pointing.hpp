@@ -5,8 +5,9 @@
 namespace boresight::design {
 
 /// Half-power beamwidth k lambda/D (rad). k (rad) is 61 to 70 degrees, depending on the
-/// illumination; frequency in Hz, dish diameter in m. @throws InvalidInput unless all are positive,
-/// or for a wavelength longer than the dish diameter, where the beamwidth is undefined.
+/// illumination; frequency in Hz, dish diameter in m.
+/// @throws InvalidInput unless all are positive, or for a wavelength longer than the dish diameter,
+/// where the beamwidth is undefined.
 double half_power_beamwidth(double beamwidth_factor, double frequency, double dish_diameter);
 
 /// Illumination of the aperture by the feed: field over the radius r (0 at the centre, 1 at the

@@ -23,7 +23,8 @@ struct WeibullClimate {
 /// Speeds and weights (sum 1) whose weighted sums are expectations over the climate. Composite
 /// Gauss-Legendre quadrature, accurate to 1e-6 for quantities that grow like powers 1 to 6 of the
 /// speed, such as rms^2, wind torque spectra and pointing losses. Speeds with a weight below 1e-12
-/// are omitted. @throws InvalidInput outside the ranges above.
+/// are omitted.
+/// @throws InvalidInput outside the ranges above.
 std::vector<WeightedSpeed> climate_speeds(const WeibullClimate& climate);
 
 /// The given speeds with their weights scaled to the sum 1; speeds of weight 0 are omitted. @throws
@@ -50,7 +51,8 @@ struct WeibullShapes {
 ///   exp(-(ratio Gamma(1 + 1/shape))^shape) = share.
 /// The fraction falls with the shape above 1.81 times the mean and rises with it up to the mean.
 /// Between the two it has a maximum, so there may be two shapes. Shapes within 0.001 of one another
-/// count as one. @throws InvalidInput outside those ranges.
+/// count as one.
+/// @throws InvalidInput outside those ranges.
 WeibullShapes weibull_shapes(double ratio, double share);
 
 /// A part of a site's climate: one mean speed (m/s, above 0) or a Weibull distribution, and its
@@ -64,7 +66,8 @@ struct ClimatePart {
 /// infinite: all of the time). For a Weibull distribution
 ///   (1 - exp(-(v/scale)^shape))/(1 - exp(-(highest/scale)^shape)),
 /// computed exactly and not from the speeds of climate_speeds. A single speed counts from itself
-/// on. @throws InvalidInput for an empty climate, or no positive weight.
+/// on.
+/// @throws InvalidInput for an empty climate, or no positive weight.
 double share_of_time(const std::vector<ClimatePart>& climate, double speed);
 
 /// The highest mean speed (m/s) in the climate; 0 for an empty climate.

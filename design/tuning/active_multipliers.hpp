@@ -28,7 +28,8 @@ struct Multipliers {
 
 /// Computes the multipliers by nonnegative least squares of the cost's gradient on the gradients of
 /// the active constraints and bounds (C. L. Lawson, R. J. Hanson, Solving Least Squares Problems,
-/// 1974, ch. 23). @throws InvalidInput for inconsistent shapes.
+/// 1974, ch. 23).
+/// @throws InvalidInput for inconsistent shapes.
 Multipliers active_multipliers(const ActiveSet& active);
 
 /// Minimises |matrix x - right_hand_side| subject to every x >= 0.

@@ -67,21 +67,22 @@ struct Design {
 Design solve(const DesignTask& task);
 
 /// Verifies given gains as verify() does for a tuned controller. `tuning.status` is optimal if the
-/// verification passes, infeasible if it fails, and unstable if the loop is unstable. @throws
-/// InvalidInput as control::validate.
+/// verification passes, infeasible if it fails, and unstable if the loop is unstable.
+/// @throws InvalidInput as control::validate.
 Design assess(const TrackingProblem& problem, const control::ControlLaw& law,
               const HardGoals& goals);
 
 /// Tunes a task again from given gains. Replaces the design if the result is verified and better:
 /// feasible where the design was not, or with an objective rms lower by more than a relative 1e-4.
-/// An interrupted tuning is not kept. Returns whether the design was replaced. @throws as tune.
+/// An interrupted tuning is not kept. Returns whether the design was replaced.
+/// @throws as tune.
 bool improve_from(const DesignTask& task, const std::vector<std::vector<double>>& starts,
                   Design& design);
 
 /// Warm-starts each design of a series (one plant changing step by step) from its neighbour's
 /// gains, forwards, then backwards. Verified improvements are kept. This finds optima that the
-/// random starts missed at one point but found at a neighbour. @throws InvalidInput for sizes that
-/// differ.
+/// random starts missed at one point but found at a neighbour.
+/// @throws InvalidInput for sizes that differ.
 void improve_along(const std::vector<DesignTask>& tasks, std::vector<Design>& designs);
 
 /// Solves every task on `threads` threads. Results are in the order of the tasks and do not depend

@@ -59,8 +59,8 @@ struct AntennaControllerOptions {
 /// (SimulationPlan::computation_delay).
 ///
 /// Anti-windup by back calculation (K. J. Astrom, T. Hagglund, PID Controllers, 1995, ch. 3.5) acts
-/// on the angle. The part of the command beyond the limit, divided by the product of the
-/// proportional gains of rate and position path, is subtracted from the reference of the
+/// on the angle. The command's excess over the limit is divided by the product of the proportional
+/// gains of rate and position path. The quotient is subtracted from the reference of the
 /// controller's states. This is the reference that the antenna could have followed (R. Hanus, M.
 /// Kinnaert, J.-L. Henrotte, Conditioning technique, Automatica 23, 1987). One injection unwinds
 /// both integrators: at the limit the states of a PI-PI controller follow 2 s^2 + (wi + wip) s + wi

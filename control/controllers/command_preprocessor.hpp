@@ -16,14 +16,14 @@ struct CommandSample {
 };
 
 /// Converts targets that may jump to a motion command that the antenna can follow, within the
-/// limits of the drive (W. Gawronski, Command preprocessor for radiotelescopes and microwave
-/// antennas, ASME DETC99/VIB-8211, 1999, which also limits rate and acceleration of a sampled
-/// command). Acceleration is constant from sample to sample, so that
+/// limits of the drive. Like W. Gawronski, Command preprocessor for radiotelescopes and microwave
+/// antennas, ASME DETC99/VIB-8211, 1999, it limits rate and acceleration of a sampled command.
+/// Acceleration is constant from sample to sample, so that
 ///   angle' = angle + T (rate + rate')/2,   rate' = rate + T acceleration
 /// hold exactly, also between the samples. The target is reached to the last bit.
 ///
-/// The new rate at each sample is the rate nearest to the target from which the motion can still
-/// reach the target's angle and rate in whole samples without overshoot. With the target's rate
+/// Each sample takes the rate nearest to the target that permits a stop without overshoot: the
+/// motion can still reach the target's angle and rate in whole samples. With the target's rate
 /// subtracted, a rate x > 0 needs at least the stopping distance
 ///   D(x) = T ((n - 1/2) x - A T n (n - 1)/2),   (n - 1) A T < x <= n A T,
 /// which is x^2/(2 A) at whole n and linear in between. The root of T (rate + rate')/2 + D(rate') =

@@ -23,10 +23,10 @@ struct SampledLoop {
 };
 
 /// The closed loop at the sampling instants, exact. Inputs: the plant inputs that the controller
-/// does not drive (held from sample to sample), the external controller inputs, and then
-/// `output`_noise for each sampled output, in the controller's order, added to the sample. Outputs:
-/// those of the plant, then those of the controller (before the delay). States: those of the plant,
-/// the held commands `command`_held_1, ..., then those of the controller.
+/// does not drive (held from sample to sample), the external controller inputs, and then the
+/// noises. Noise `output`_noise is added to the sample of each sampled output, in the controller's
+/// order. Outputs: those of the plant, then those of the controller (before the delay). States:
+/// those of the plant, the held commands `command`_held_1, ..., then those of the controller.
 /// @throws InvalidInput unless the plant is continuous, the controller is sampled, all its outputs
 /// are plant inputs and at least one of its inputs is a plant output; for a negative delay; and as
 /// plant::connect. NumericalFailure for an algebraic loop without solution.

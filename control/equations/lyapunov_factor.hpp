@@ -10,10 +10,10 @@ namespace boresight::control {
 /// computed without forming B B' or P, so that small values keep digits that P itself loses.
 /// Method: S. J. Hammarling, IMA J. Numer. Anal. 2, 1982, in complex arithmetic on the Schur form.
 
-/// U, upper triangular, with U U^H the solution for an upper triangular T (complex Schur form) with
-/// stable eigenvalues, and `b` in the coordinates of T. From the last row upwards each step solves
-/// one triangular system and deflates b by a rank-one term. It takes n^3/3 + 2 n^2 columns complex
-/// operations.
+/// U, upper triangular, with U U^H the solution for an upper triangular T (complex Schur form). The
+/// eigenvalues of T must be stable; `b` is in the coordinates of T. From the last row upwards each
+/// step solves one triangular system and deflates b by a rank-one term. It takes n^3/3 + 2 n^2
+/// columns complex operations.
 Eigen::MatrixXcd triangular_lyapunov_factor(const Eigen::MatrixXcd& t, Eigen::MatrixXcd b,
                                             TimeDomain domain);
 

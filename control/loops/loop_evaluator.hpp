@@ -146,10 +146,10 @@ struct PanelConditions {
 };
 
 /// Evaluates controllers on one plant. The plant enters only through its frequency response, which
-/// is computed once. An evaluation takes some hundred operations per frequency, and ten more per
-/// gain for all gradients (by the adjoint of the closed loop), whatever the number of structural
-/// modes. Dead time is exact. Copies are independent. Use one object in one thread only, because it
-/// keeps its work arrays and the frequencies that evaluations requested.
+/// is computed once. An evaluation takes some hundred operations per frequency. All gradients take
+/// ten more per gain (by the adjoint of the closed loop). The number of structural modes does not
+/// matter. Dead time is exact. Copies are independent. Use one object in one thread only, because
+/// it keeps its work arrays and the frequencies that evaluations requested.
 class LoopEvaluator {
  public:
   /// For a grid (rad/s). Integrals cover the part of it within the band by the trapezoid rule in ln

@@ -95,8 +95,8 @@ struct PointBand {
 /// is measured; H and F are not. Below the hydraulic resonance |H Y0| >> 1 and w_m = w/H: the wind
 /// response there depends on K and lambda only.
 ///
-/// Not included: wind acts on the dish and bends the structure on its way to the shaft, and the
-/// boresight differs from the encoder angle (unless options.bending predicts the difference).
+/// Not included: wind acts on the dish and bends the structure on its way to the shaft. The
+/// difference of boresight and encoder angle is included only if options.bending predicts it.
 class MeasuredChannels {
  public:
   /// `tachometer_corner`: rad/s of F.

@@ -7,20 +7,20 @@
 
 namespace boresight::control {
 
-/// f(t) = C exp(A t) x of a stable, observable A, t >= 0, searched without a time grid: each answer
-/// follows from bounds that hold on whole intervals, which are halved until they decide. For the
+/// f(t) = C exp(A t) x of a stable, observable A, t >= 0, searched without a time grid. Each answer
+/// follows from bounds on whole intervals, which are halved until the bounds decide. For the
 /// observability Gramian W, C W^-1 C' = -2 trace(A) (the trace of A W^-1 + W^-1 A' + W^-1 C'C W^-1
-/// = 0), so that |f(s)| <= sqrt(-2 trace(A)) |x(t)|_W for all s >= t, and the same with A^k x for
-/// the k-th derivative: no fast pole is stepped over and no slow one is cut off, whatever the
-/// eigenvectors. Where the modes are known, the sum of their magnitudes is a second bound, and the
-/// smaller of the two counts. exp(A h) is formed once for each length h = 2^k of an interval.
-/// @throws NumericalFailure by a search that would take more than some 10 s.
+/// = 0). Therefore |f(s)| <= sqrt(-2 trace(A)) |x(t)|_W for all s >= t, and likewise with A^k x for
+/// the k-th derivative. No fast pole is skipped and no slow one is cut off, whatever the
+/// eigenvectors. If the modes are known, the sum of their magnitudes is a second bound, and the
+/// smaller one is used. exp(A h) is formed once for each length h = 2^k of an interval.
+/// @throws NumericalFailure from a search that would take more than about 10 s.
 class DecayingResponse {
  public:
   /// A: n x n, n >= 1; C: 1 x n, not 0. @throws NumericalFailure if A is not stable.
   DecayingResponse(const Eigen::MatrixXd& a, const Eigen::RowVectorXd& c);
   /// The same for a sum of modes, f(t) = sum of Re(amplitude exp(pole t)): real poles with real
-  /// amplitudes and of each pair the one with Im > 0. Keeps the digits of modes of any ratio of
+  /// amplitudes, and the pole with Im > 0 of each pair. Keeps the digits of modes of any ratio of
   /// time constants. Starts from `modal_start`.
   DecayingResponse(const Eigen::VectorXcd& poles, const Eigen::VectorXcd& amplitudes);
   const Eigen::VectorXd& modal_start() const { return modal_start_; }
@@ -38,8 +38,8 @@ class DecayingResponse {
   std::optional<Point> first_reach(const Point& from, double level, double negligible);
   /// The last time from `from` on at which |f| >= level > 0; nothing if there is none.
   std::optional<double> last_beyond(const Point& from, double level);
-  /// The earliest of the largest values of sign f from `from` on, until f stays within
-  /// `negligible`; sign is 1 or -1.
+  /// The earliest maximum of sign f from `from` on, until f stays within `negligible`; sign is 1 or
+  /// -1.
   Point extreme(const Point& from, double sign, double negligible);
 
  private:
@@ -64,7 +64,7 @@ class DecayingResponse {
   Eigen::MatrixXd derivatives_;  // rows C, C A, C A^2
   Eigen::MatrixXd weights_;      // factors of W for x, A^2 x and A^3 x, times sqrt(-2 trace(A))
   double fastest_ = 0.0;         // 1/s
-  double nodes_ = 0.0;           // looked at so far
+  double nodes_ = 0.0;           // evaluated so far
   std::map<int, Eigen::MatrixXd> transitions_;  // exp(A 2^exponent)
 };
 

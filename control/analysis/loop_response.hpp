@@ -14,7 +14,7 @@
 namespace boresight::control {
 
 /// The frequency response of a single-input, single-output open loop with an extra exact dead time,
-/// L(j w) e^(-j w dead_time), and what a search along it has to know. One object a thread.
+/// L(j w) e^(-j w dead_time), with the data for a search along it. Use one object per thread.
 class LoopResponse {
  public:
   /// `function` is named in errors.
@@ -25,17 +25,18 @@ class LoopResponse {
   std::complex<double> at(double angular_frequency);
   Eigen::ArrayXcd at(const Eigen::ArrayXd& angular_frequency);
 
-  /// L at a grid of frequencies, and its relative errors as estimated from the difference between
-  /// reductions from the input and from the output, which round differently: where L is lost in
-  /// rounding (below the poles that ought to be 0) it says so.
+  /// L at a grid of frequencies, and its estimated relative errors. The estimate is the difference
+  /// between reductions from the input and from the output, which round differently. It also shows
+  /// where L is lost in rounding (below poles that ought to be 0).
   LoopOnGrid on_grid(Eigen::ArrayXd angular_frequency);
 
-  /// Poles and zeros of L and poles of the closed loop, in s or z: where L and 1 + L turn.
+  /// Poles and zeros of L and poles of the closed loop, in s or z: the frequencies where L and 1 +
+  /// L vary.
   const Eigen::VectorXcd& features() const { return features_; }
-  /// The same in s, ln(z)/T where sampled.
+  /// The same in s, as ln(z)/T for a sampled loop.
   Eigen::VectorXcd continuous_features() const;
-  /// Whether all poles of the closed loop are inside the stability boundary; without a value for a
-  /// loop without solution (1 + L(infinity) = 0), or with a dead time.
+  /// Whether all poles of the closed loop are inside the stability boundary. No value for a loop
+  /// without solution (1 + L(infinity) = 0), or with a dead time.
   std::optional<bool> closed_loop_stable() const { return closed_loop_stable_; }
 
   double sample_time() const { return response_.sample_time(); }
@@ -43,13 +44,13 @@ class LoopResponse {
   double nyquist_frequency() const;
   /// L at w = 0; infinite for an integrator.
   std::complex<double> at_zero() const { return at_zero_; }
-  /// L without the dead time at the Nyquist frequency, infinite for a pole there; in continuous
+  /// L without the dead time at the Nyquist frequency, infinite for a pole there. In continuous
   /// time the feedthrough, L at infinite frequency.
   std::complex<double> at_highest() const { return at_highest_; }
   double dead_time() const { return dead_time_; }
 
-  /// Adds the phase crossovers at frequency 0 and at the highest frequency (PhaseCrossover) before
-  /// and after those given.
+  /// Adds the phase crossovers at frequency 0 and at the highest frequency (PhaseCrossover), before
+  /// and after the given ones.
   void add_real_ends(std::vector<PhaseCrossover>& crossovers) const;
 
  private:
@@ -57,7 +58,7 @@ class LoopResponse {
   std::complex<double> real_end(double s);
   double error_at(double angular_frequency);
 
-  plant::StateSpace scaled_;  // balanced; A - I in place of A where sampled
+  plant::StateSpace scaled_;  // balanced; A - I instead of A if sampled
   plant::DenseResponse response_, other_;
   double dead_time_;
   Eigen::VectorXcd features_;

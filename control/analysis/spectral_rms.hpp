@@ -12,23 +12,23 @@ struct SpectralRms {
   double rms = 0.0;
   /// Estimate of the relative error of `rms`, from the nested quadrature rules and the tails.
   double relative_error = 0.0;
-  std::size_t evaluations = 0;  // frequencies at which the response was asked
+  std::size_t evaluations = 0;  // number of frequencies evaluated
   bool converged = false;       // relative_error is within the tolerance
 };
 
 struct SpectralRmsOptions {
   double relative_tolerance = 1e-8;
   std::size_t most_evaluations = 200000;
-  /// One-sided spectrum of the noise per Hz at a frequency in Hz, for noise that no filter within
-  /// the system makes. Default: white noise of unit intensity, 2 per Hz.
+  /// One-sided spectrum of the noise per Hz at a frequency in Hz, for noise not shaped by a filter
+  /// within the system. Default: white noise of unit intensity, 2 per Hz.
   std::function<double(double)> spectrum = {};
 };
 
-/// rms of the output for stationary noise at the input: sqrt(1/pi integral |H(j w)|^2 dw) for white
-/// noise of unit intensity (the H2 norm), O(modes) a frequency. Adaptive Gauss-Kronrod quadrature
-/// (7, 15 points) in ln w, panels cut at every lightly damped pole of core and modes that carries
-/// weight, all panels of a generation evaluated together. The system must be stable, which is not
-/// tested here.
+/// Rms of the output for stationary noise at the input, O(modes) per frequency. For white noise of
+/// unit intensity it is sqrt(1/pi integral |H(j w)|^2 dw), the H2 norm. Adaptive Gauss-Kronrod
+/// quadrature (7, 15 points) in ln w. Panels are divided at every lightly damped pole of core and
+/// modes that contributes, and all panels of a generation are evaluated together. The system must
+/// be stable, which is not tested here.
 /// @throws InvalidInput for a tolerance outside 1e-13..0.1; NumericalFailure if the output has no
 /// finite rms: a response that does not fall off towards infinite frequency, or one that is not
 /// finite.

@@ -12,7 +12,7 @@
 
 namespace boresight::control {
 
-/// One control law: a structure with its gains, each positive, in the order of gain_descriptions.
+/// One controller: a structure with its gains, each positive, in the order of gain_descriptions.
 struct ControlLaw {
   LoopStructure structure;
   std::vector<double> gains;
@@ -21,11 +21,11 @@ struct ControlLaw {
 /// @throws InvalidInput for the wrong number of gains or one that is not positive and finite.
 void validate(const ControlLaw& law);
 
-/// The gain of that symbol. @throws InvalidInput if the structure has none.
+/// The gain with that symbol. @throws InvalidInput if the structure has none.
 double gain(const ControlLaw& law, std::string_view symbol);
 
-/// Compensators at s = j w, and the logarithmic derivative of its own compensator by each gain
-/// (d ln X/d ln g).
+/// Compensators at s = j w, and the logarithmic derivative of each compensator with respect to each
+/// of its gains (d ln X/d ln g).
 struct CompensatorResponse {
   std::complex<double> rate;        // R, rad/s of valve command per rad/s of rate error
   std::complex<double> pressure;    // Q, rad/s of valve command per N m; 0 where absent
@@ -35,9 +35,9 @@ struct CompensatorResponse {
 };
 CompensatorResponse compensator_response(const ControlLaw& law, double angular_frequency);
 
-/// The law as a state space: inputs tachometer (rad/s), encoder (rad), motor_torque (N m; only if
-/// pressure or compliance path feed it back), rate_disturbance (rad/s, added to the rate command);
-/// outputs valve_demand (rad/s, before the dead time), rate_command.
+/// State space of the controller. Inputs: tachometer (rad/s), encoder (rad), motor_torque (N m;
+/// only if the pressure or compliance path feeds it back), rate_disturbance (rad/s, added to the
+/// rate command). Outputs: valve_demand (rad/s, before the dead time), rate_command.
 plant::StateSpace to_state_space(const ControlLaw& law);
 
 /// The same with the position loop open: inputs tachometer, motor_torque (only with a pressure

@@ -7,7 +7,12 @@
 
 namespace boresight::control {
 
-/// The compensators of a control law:
+/// The compensators of a controller:
+///   rate       R  of rate command less tachometer
+///   pressure   Q  of motor torque (dynamic pressure feedback)
+///   position   P  of the corrected angle
+///   compliance C  of motor torque: estimates the flexure beyond the encoder (non-collocated)
+///   u = R (r - tachometer) - Q torque,   r = -P (encoder - C torque)
 ///   rate       R  of rate command less tachometer
 ///   pressure   Q  of motor torque (dynamic pressure feedback)
 ///   position   P  of the corrected angle
@@ -28,7 +33,7 @@ enum class BlockKind {
 std::string_view to_string(BlockKind kind);
 std::size_t gain_count(BlockKind kind);
 
-/// What a gain is called, its SI unit, and the bounds a search keeps to.
+/// Name and symbol of a gain, its SI unit, and the bounds of a search.
 struct GainDescription {
   std::string name;
   std::string symbol;
@@ -45,45 +50,46 @@ struct LoopBlock {
 
 inline constexpr std::size_t most_gains = 16;
 
-/// What a drive moves, as far as it says how large the gains of its loops can be.
+/// The load of a drive, as far as it determines the size of the loop gains.
 struct DrivenLoad {
-  double frequency = 2.0;  // Hz: the structure's lowest with the motors held
+  double frequency = 2.0;  // Hz, lowest structure frequency with the motors locked
   double inertia = 0.4;    // kg m2 of the antenna, at the motor shaft
 };
 
-/// Which blocks a control law is made of: a value, cheap to copy. Each path is the product of its
-/// blocks; a path without blocks is absent (pressure, compliance). Gain vectors hold the blocks'
-/// gains in their order.
+/// The blocks of a controller. A value type, cheap to copy. Each path is the product of its blocks;
+/// a path without blocks is absent (pressure, compliance). Gain vectors contain the gains of the
+/// blocks in their order.
 class LoopStructure {
  public:
   /// PI with lag.
   LoopStructure();
-  /// @throws InvalidInput without a gain block in rate or position path, for a block with another
-  /// number of gains than its kind has, more than most_gains in all, bounds that are not 0 < lower
-  /// < upper, a symbol given twice, more leads than lags in a path, an integral in the pressure or
-  /// compliance path, or no washout in the pressure path (it would fight the load).
+  /// @throws InvalidInput for a rate or position path without a gain block, a block with a number
+  /// of gains other than its kind has, more than most_gains in all, bounds that are not 0 < lower <
+  /// upper, a duplicate symbol, more leads than lags in a path, an integral in the pressure or
+  /// compliance path, or a pressure path without a washout (it would oppose the static load).
   LoopStructure(std::string name, std::vector<LoopBlock> blocks);
 
-  // The usual ones, with bounds for loads like the default of DrivenLoad.
+  // The usual structures, with bounds for loads like the default of DrivenLoad.
   static const LoopStructure& pi();                 // rate and position PI
   static const LoopStructure& pi_with_lag();        // PI, lag in the rate loop
   static const LoopStructure& pressure_feedback();  // PI with lag, dynamic pressure feedback
   static const LoopStructure& lead_lag();           // PI with lag and lead
   static const LoopStructure& full();               // lead and pressure feedback
-  /// With compliance compensation added; @throws InvalidInput if it has one.
+  /// Adds compliance compensation. @throws InvalidInput if the structure has it already.
   LoopStructure with_compliance_compensation() const;
-  /// With a notch in the rate loop added.
+  /// Adds a notch in the rate loop.
   LoopStructure with_notch() const;
-  /// By its short name: PI-0, PI, DPF, LL, FULL, each also with +N (notch) and +C (compliance
-  /// compensation). @throws InvalidInput listing them.
+  /// The structure with a short name: PI-0, PI, DPF, LL, FULL, each also with +N (notch) and +C
+  /// (compliance compensation).
+  /// @throws InvalidInput, with a list of the names, for any other name.
   static LoopStructure named(std::string_view short_name);
-  /// With the bounds moved to another load than the default, that of the 70-m antenna DSS-14.
-  /// Plants that are alike but for their units of time and torque have laws that are alike but for
-  /// them: corners and position gain go with the frequency w, the pressure feedback's gain with
-  /// 1/(J w) and the compliance with 1/(J w^2); it is the structure's, as the encoder sees the oil
-  /// spring give way. Rate gain and damping ratios are plain numbers and stay. Bounds move by the
-  /// whole power of ten that is nearest to that factor, 1e-6 to 1e6: they are decades wide, and so
-  /// stand still while an antenna changes a little.
+  /// Rescales the bounds from the default load, that of the 70-m antenna DSS-14, to another load.
+  /// By dynamic similarity, corners and position gain scale with the frequency w, the pressure
+  /// feedback gain with 1/(J w) and the compliance with 1/(J w^2). That compliance is the
+  /// structure's, because the encoder senses the deflection of the oil spring. Rate gain and
+  /// damping ratios are dimensionless and do not change. The factor is rounded to the nearest power
+  /// of ten, 1e-6 to 1e6: small changes of the antenna leave the bounds, which are decades wide,
+  /// unchanged.
   /// @throws InvalidInput unless frequency and inertia are positive and finite
   LoopStructure with_bounds_for(const DrivenLoad& load) const;
 

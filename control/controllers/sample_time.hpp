@@ -2,8 +2,8 @@
 
 namespace boresight::control {
 
-/// The time between the controller's samples (s) that a dead time speaks of, and back: one sample
-/// of computing and half of one of holding.
+/// Converts a dead time to the sample time (s) of the controller, and back. The dead time consists
+/// of one sample of computation and half a sample of hold.
 inline double sample_time_of(double dead_time) {
   return dead_time / 1.5;
 }

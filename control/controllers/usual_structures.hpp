@@ -7,10 +7,11 @@
 
 namespace boresight::control {
 
-/// Short names of the loop structures that are usual, as LoopStructure::named takes them.
+/// Short names of the usual loop structures, as accepted by LoopStructure::named.
 const std::vector<std::string>& usual_structures();
 
-/// The name that --structure takes of a structure: a usual one's short name, else its own.
+/// The name of a structure for --structure: the short name of a usual structure, otherwise its own
+/// name.
 std::string short_name(const LoopStructure& structure);
 
 }  // namespace boresight::control

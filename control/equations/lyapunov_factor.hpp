@@ -6,14 +6,14 @@
 
 namespace boresight::control {
 
-/// Factors of the solution P of A P + P A' + B B' = 0 (sampled: A P A' - P + B B' = 0), found
-/// without forming B B' or P, so that small values keep digits which P has lost: S. J. Hammarling,
-/// IMA J. Numer. Anal. 2, 1982, in complex arithmetic on the Schur form.
+/// Factors of the solution P of A P + P A' + B B' = 0 (sampled: A P A' - P + B B' = 0). They are
+/// computed without forming B B' or P, so that small values keep digits that P itself loses.
+/// Method: S. J. Hammarling, IMA J. Numer. Anal. 2, 1982, in complex arithmetic on the Schur form.
 
-/// U, upper triangular, with U U^H the solution for an upper triangular T (complex Schur form)
-/// whose eigenvalues are stable, and `b` in the coordinates of T. From the last row upwards each
-/// step solves one triangular system and deflates b by a rank-one term: n^3/3 + 2 n^2 columns
-/// complex operations.
+/// U, upper triangular, with U U^H the solution for an upper triangular T (complex Schur form). The
+/// eigenvalues of T must be stable; `b` is in the coordinates of T. From the last row upwards each
+/// step solves one triangular system and deflates b by a rank-one term. It takes n^3/3 + 2 n^2
+/// columns complex operations.
 Eigen::MatrixXcd triangular_lyapunov_factor(const Eigen::MatrixXcd& t, Eigen::MatrixXcd b,
                                             TimeDomain domain);
 
@@ -36,7 +36,7 @@ LyapunovFactor lyapunov_factor(const char* function, const Eigen::MatrixXd& a,
 LyapunovFactor lyapunov_factor(const char* function, const Eigen::MatrixXd& a,
                                const Eigen::MatrixXd& b, TimeDomain domain);
 
-/// L, n x n, with L L' = P: the same made real by one QR decomposition. Lower triangular.
+/// L, n x n, with L L' = P: the same factor made real by one QR decomposition. Lower triangular.
 Eigen::MatrixXd real_lyapunov_factor(const LyapunovFactor& complex);
 
 }  // namespace boresight::control

@@ -11,10 +11,11 @@
 
 namespace boresight::control {
 
-/// How far eigenvalues of A are from being out of the reach of B, by the test of Popov, Belevitch
-/// and Hautus: the rank of [A - s I, B] at every eigenvalue s, and at the means of those that lie
-/// close together (where A has chains the mean is far more exact than its members). From the Schur
-/// form of A with an O(n^2 inputs) triangularisation and inverse iteration at each; no powers of A.
+/// Distance of eigenvalues of A from uncontrollability by B, by the test of Popov, Belevitch and
+/// Hautus. It computes the rank of [A - s I, B] at every eigenvalue s, and at the means of
+/// clustered eigenvalues (where A has chains the mean is far more accurate than its members). Works
+/// on the Schur form of A with an O(n^2 inputs) triangularisation and inverse iteration at each s;
+/// no powers of A.
 class ModeDistance {
  public:
   /// `schur`: of A in balanced states; `b`: in the same states; `norm`: |A|, Frobenius.
@@ -25,14 +26,15 @@ class ModeDistance {
   struct Mode {
     std::complex<double> eigenvalue;
     /// Smallest singular value of [A - s I, B] over |A| (Frobenius), with every column of B scaled
-    /// to |A|: how far, relative to A, the nearest system is in which the mode is out of reach.
+    /// to |A|. This is the distance, relative to A, of the nearest system in which the mode is
+    /// uncontrollable.
     double distance = 0.0;
   };
 
   /// The rank of [A - s, B] at one number, eigenvalue or not.
   Mode test(std::complex<double> s);
-  /// The eigenvalues with Im >= 0 that are not stable and out of reach to `tolerance`. Where the
-  /// mean of a cluster of eigenvalues is out of reach it stands for the cluster.
+  /// The eigenvalues with Im >= 0 that are both unstable and uncontrollable to `tolerance`. If the
+  /// mean of a cluster of eigenvalues is uncontrollable, it represents the cluster.
   std::vector<Mode> unreached_unstable(double tolerance);
 
   /// Stable by more than the rounding of eigenvalues, 10 n eps |A| (10 n eps in sampled time).
@@ -49,8 +51,8 @@ class ModeDistance {
   Eigen::MatrixXcd triangle_, rest_;  // [T - s, B] with B rotated away
 };
 
-/// Those of `modes` that are out of reach in the states as given too. Balancing takes a coupling
-/// that is a rounding error for one that counts and may then scale others out of sight.
+/// Those of `modes` that are uncontrollable in the given states too. Balancing can amplify a
+/// coupling that is only a rounding error and thereby scale down other couplings.
 std::vector<ModeDistance::Mode> confirm_unreached(std::vector<ModeDistance::Mode> modes,
                                                   const Eigen::MatrixXd& a,
                                                   const Eigen::MatrixXd& b, TimeDomain domain,

@@ -14,9 +14,9 @@ struct RiccatiMatrices {
 };
 
 /// Powers of two s for which S^-1 A S, S^-1 G S^-1 and S Q S (S = diag(s)) have rows and columns of
-/// one size: the symplectic balancing of the Hamiltonian matrix [A -G; -Q -A'] (after P. Benner,
-/// SIAM J. Sci. Comput. 22, 2001). A common factor of all s scales X alone. X of the scaled
-/// equation is S X S.
+/// one order of magnitude. This is the symplectic balancing of the Hamiltonian matrix [A -G; -Q
+/// -A'] (after P. Benner, SIAM J. Sci. Comput. 22, 2001). A common factor of all s scales X only. X
+/// of the scaled equation is S X S.
 Eigen::VectorXd riccati_scale(const RiccatiMatrices& matrices);
 
 struct DoublingResult {
@@ -24,14 +24,13 @@ struct DoublingResult {
   int doublings = 0;
 };
 
-/// The stabilising solution of the sampled equation by structure-preserving doubling, or nothing
-/// where it does not converge within 60 doublings (closed-loop eigenvalues within 1e-18 of the
-/// boundary).
+/// The stabilising solution of the sampled equation by structure-preserving doubling. Nothing if it
+/// does not converge within 60 doublings (closed-loop eigenvalues within 1e-18 of the boundary).
 std::optional<DoublingResult> solve_by_doubling(RiccatiMatrices sampled);
 
-/// The sampled equation with the same solution as a continuous one: Cayley transform with the
-/// parameter c > 0 (1/s), which no eigenvalue of A may equal. Nothing where a matrix to be inverted
-/// is singular to working precision.
+/// The sampled equation with the same solution as a continuous one, by a Cayley transform. The
+/// parameter c > 0 (1/s) must not equal an eigenvalue of A. Nothing if a matrix to be inverted is
+/// singular to working precision.
 std::optional<RiccatiMatrices> cayley_transform(const RiccatiMatrices& continuous, double c);
 
 }  // namespace boresight::control

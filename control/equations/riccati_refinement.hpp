@@ -20,10 +20,10 @@ struct RiccatiRefinement {
   int steps = 0;
 };
 
-/// Newton's method from a solution X whose closed loop (A - G X, or (1 + G X)^-1 A) is stable:
-/// each step solves the Lyapunov equation of the closed loop for the residual, until the correction
-/// is below 1e-12 of X or no longer halves. If the closed loop is not stable the result says so in
-/// its margin and X is what it was. `input`: F with F F' = G.
+/// Newton's method from a solution X whose closed loop (A - G X, or (1 + G X)^-1 A) is stable. Each
+/// step solves the Lyapunov equation of the closed loop for the residual, until the correction is
+/// below 1e-12 of X or no longer halves. If the closed loop is not stable, the margin of the result
+/// states so and X is unchanged. `input`: F with F F' = G.
 RiccatiRefinement refine_riccati(const RiccatiMatrices& matrices, const Eigen::MatrixXd& input,
                                  Eigen::MatrixXd x, TimeDomain domain, bool estimate_condition);
 

@@ -9,19 +9,19 @@ enum class TimeDomain { continuous, sampled };
 /// Lyapunov equations in Schur coordinates, with symmetric right-hand sides:
 ///   continuous  T X + X T' = C       (R. H. Bartels, G. W. Stewart, Comm. ACM 15, 1972)
 ///   sampled     T X T' - X = C       (G. Kitagawa, Int. J. Control 25, 1977)
-/// T is the quasi-triangular factor of numerics::real_schur. Real arithmetic, by columns from the
-/// last, with only the upper half of X worked out: about n^3 operations a solution. A 2 x 2 block
-/// on the side of the columns is passed as one complex column, which is a scaling of the two and so
-/// costs no accuracy. The equation must be regular (no two eigenvalues with sum 0, or product 1):
-/// the caller looks at the eigenvalues first.
+/// T is the quasi-triangular factor of numerics::real_schur. The solution proceeds in real
+/// arithmetic by columns from the last and computes only the upper half of X: about n^3 operations.
+/// A 2 x 2 block on the column side is treated as one complex column. This only scales the two
+/// columns and costs no accuracy. The equation must be regular (no two eigenvalues with sum 0, or
+/// product 1). The caller must check the eigenvalues first.
 class SchurLyapunov {
  public:
   /// @throws InvalidInput unless `t` is square.
   SchurLyapunov(Eigen::MatrixXd t, TimeDomain domain);
 
-  /// Puts X, symmetric, in the place of C.
+  /// Replaces C by the symmetric solution X.
   void solve(Eigen::MatrixXd& c);
-  /// The same with T' in the place of T: T' X + X T = C, T' X T - X = C.
+  /// The same with T' instead of T: T' X + X T = C, T' X T - X = C.
   void solve_transposed(Eigen::MatrixXd& c);
 
  private:
@@ -34,8 +34,8 @@ class SchurLyapunov {
 
   TimeDomain domain_;
   Eigen::MatrixXd t_;
-  Eigen::MatrixXd flipped_;  // T' with rows and columns in reverse order, once it is asked for
-  Eigen::MatrixXd column_;   // n x 2: the column or the two that are being solved for
+  Eigen::MatrixXd flipped_;  // T' with reversed rows and columns, computed on request
+  Eigen::MatrixXd column_;   // n x 2: the one or two columns being solved for
   Eigen::MatrixXd known_;    // n x 2: what the later columns contribute
 };
 

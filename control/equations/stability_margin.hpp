@@ -8,11 +8,11 @@
 
 namespace boresight::control {
 
-/// How far inside its stability boundary a system is.
+/// Distance of a system from its stability boundary.
 struct StabilityMargin {
   /// -max Re(eigenvalue), 1/s; in sampled time 1 - max |eigenvalue|; infinity without states.
   double value = 0.0;
-  /// What rounding may have moved an eigenvalue by, n eps |A| (n eps).
+  /// Possible rounding error of an eigenvalue, n eps |A| (n eps).
   double rounding = 0.0;
 
   bool stable() const { return value > rounding; }
@@ -21,10 +21,11 @@ struct StabilityMargin {
 /// `t`: real Schur form of A; `norm`: |A|, Frobenius.
 StabilityMargin stability_margin(const Eigen::MatrixXd& t, double norm, TimeDomain domain);
 
-/// Its value. @throws NumericalFailure, naming `function`, if it is not stable.
+/// The value of the margin. @throws NumericalFailure, naming `function`, if the system is not
+/// stable.
 double require_stable(const char* function, const StabilityMargin& margin, TimeDomain domain);
 
-/// Says in words where the eigenvalue is that makes the system not stable.
+/// Text that states the position of the eigenvalue that makes the system not stable.
 std::string describe_instability(const StabilityMargin& margin, TimeDomain domain);
 
 }  // namespace boresight::control

@@ -8,7 +8,7 @@
 
 namespace boresight::control {
 
-/// A stretch of ln w, and its halves once they were asked for.
+/// A panel in ln w, and its halves once they have been created.
 struct FrequencyPanel {
   double from = 0.0, to = 0.0;
   std::uint32_t first_half = 0;  // the other follows it; 0: not made
@@ -17,39 +17,37 @@ struct FrequencyPanel {
   double half_width() const { return 0.5 * (to - from); }
 };
 
-/// Panels of frequencies that halve where a function of frequency asks for it:
-/// the bisection of adaptive quadrature (P. J. Davis, P. Rabinowitz, Methods of
-/// Numerical Integration, 2nd ed., 1984, sec. 6.2), with its panels kept from
-/// one function to the next. What goes with a panel is its owner's, in arrays
-/// with the same numbers.
+/// Panels of frequencies that are halved where a function of frequency requires it: the bisection
+/// of adaptive quadrature (P. J. Davis, P. Rabinowitz, Methods of Numerical Integration, 2nd ed.,
+/// 1984, sec. 6.2). The panels are reused from one function to the next. The owner keeps the data
+/// of a panel in arrays with the same indices.
 class AdaptivePanels {
  public:
-  /// In ln w: what varies within less is taken for an undamped pole, which
-  /// nothing would resolve.
+  /// Narrowest panel in ln w. Variation within less is treated as an undamped pole, which no panel
+  /// would resolve.
   static constexpr double narrowest = 1e-7;
-  /// Panels kept from one function to the next, and those of one function.
+  /// Largest number of panels kept from one function to the next, and for one function.
   static constexpr std::size_t most = 4000;
   static constexpr std::size_t most_leaves = 4000;
 
   bool empty() const { return panels_.empty(); }
   std::size_t size() const { return panels_.size(); }
   const FrequencyPanel& operator[](std::size_t i) const { return panels_[i]; }
-  /// Those every function starts from, rising.
+  /// The initial panels of every function, rising in frequency.
   const std::vector<std::uint32_t>& first() const { return first_; }
 
-  /// The number of a new panel.
+  /// Adds a panel and returns its index.
   std::uint32_t add(double from, double to);
-  /// From now on the last one is among those that functions start from.
+  /// Adds the last panel to the initial panels of all later functions.
   void start_from_last() { first_.push_back(static_cast<std::uint32_t>(panels_.size() - 1)); }
   void drop_last() { panels_.pop_back(); }
-  /// Where halves have become too many they are dropped, and it is true:
-  /// nothing but the first panels is left, which must have been added before
-  /// all others.
+  /// If there are too many halves, drops all of them and returns true. Only the initial panels
+  /// remain; they must have been added before all others.
   bool drop_halves_if_too_many();
 
-  /// The panels of a function, rising: the first ones, halved until
-  /// `close_enough(i)`, or they are too many. `make(from, to)` adds a panel,
-  /// `evaluate(panels, count)` takes the function there.
+  /// The panels of a function, rising in frequency: the initial ones, halved until
+  /// `close_enough(i)` or until they are too many. `make(from, to)` adds a panel; `evaluate(panels,
+  /// count)` evaluates the function there.
   template <typename Make, typename Evaluate, typename CloseEnough>
   void choose(std::vector<std::uint32_t>& leaves, Make make, Evaluate evaluate,
               CloseEnough close_enough) {
@@ -87,13 +85,12 @@ class AdaptivePanels {
   std::vector<std::uint32_t> first_;
 };
 
-/// ln w of those of the frequencies (Hz) that lie within [lowest, highest].
+/// ln w of the frequencies (Hz) that lie within [lowest, highest].
 std::vector<double> places_within(double lowest, double highest,
                                   std::initializer_list<double> frequencies);
 
-/// The stretches between these places (ln w, in any order), cut into equal
-/// panels no wider than `widest`; narrower ones than AdaptivePanels::narrowest
-/// are left out.
+/// The intervals between these points (ln w, in any order), divided into equal panels no wider than
+/// `widest`. Intervals narrower than AdaptivePanels::narrowest are omitted.
 std::vector<FrequencyPanel> panels_between(std::vector<double> places, double widest);
 
 }  // namespace boresight::control

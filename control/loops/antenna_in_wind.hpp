@@ -8,26 +8,28 @@
 
 namespace boresight::control {
 
-/// The antenna with the shaping filter of its wind torque. Inputs valve_command (rad/s),
-/// wind_white_noise (unit intensity makes the wind's spectrum); outputs tachometer, motor_torque,
-/// encoder, beam as plant::to_state_space, held_command (rad/s: the command that acts).
+/// The antenna with the shaping filter of its wind torque. Inputs: valve_command (rad/s),
+/// wind_white_noise (unit intensity gives the wind spectrum). Outputs: tachometer, motor_torque,
+/// encoder and boresight (`beam`) as plant::to_state_space, held_command (rad/s: the command in
+/// effect).
 plant::StateSpace antenna_in_wind(const plant::AntennaPlant& plant,
                                   const plant::ShapingFilter& wind);
 
-/// Variance of a sample of noise of that rms, white over `bandwidth` (Hz), read every `sample_time`
-/// (s): the same density up to the Nyquist frequency.
+/// Variance of a noise sample read every `sample_time` (s), for noise of this rms that is white
+/// over `bandwidth` (Hz). The samples have the same density up to the Nyquist frequency.
 double sample_variance(double rms, double bandwidth, double sample_time);
 
-/// Beam and valve in steady state, in any sampled loop around antenna_in_wind.
+/// Boresight and valve rms in steady state, in any sampled loop around antenna_in_wind.
 struct SampledPointing {
   double beam_rms = 0.0;      // rad of motor, over all time
-  double wind_rms = 0.0;      // its part from the wind
-  double noise_rms = 0.0;     // its part from the sensors
-  double valve_effort = 0.0;  // rad/s rms of the command from the sensors' noise
+  double wind_rms = 0.0;      // part from the wind
+  double noise_rms = 0.0;     // part from sensor noise
+  double valve_effort = 0.0;  // rad/s rms of the command from sensor noise
 };
 
-/// Wind of unit intensity at wind_white_noise and the noise of the sensors that the controller
-/// takes. @throws as sampled_loop_rms.
+/// With wind of unit intensity at wind_white_noise and the noise of the sensors that the controller
+/// reads.
+/// @throws as sampled_loop_rms.
 SampledPointing sampled_pointing(const SampledLoop& loop, const SensorNoise& noise);
 
 }  // namespace boresight::control

@@ -7,14 +7,14 @@
 
 namespace boresight::control {
 
-/// Order of the rational dead time in the state-space routes; see
+/// Order of the rational dead time in the state-space methods; see
 /// StabilityVerdict::dead_time_residue.
 inline constexpr int delay_order = 8;
 
-/// Plant, control law and rational dead time as one state space. Inputs wind_torque (N m),
-/// encoder_noise (rad), tachometer_noise (rad/s), rate_disturbance (rad/s) and, where the law feeds
-/// torque back, torque_noise (N m); outputs beam, encoder (rad), tachometer (rad/s), motor_torque
-/// (N m), valve_demand (rad/s).
+/// Plant, controller and rational dead time as one state space. Inputs: wind_torque (N m),
+/// encoder_noise (rad), tachometer_noise (rad/s), rate_disturbance (rad/s) and, if the controller
+/// feeds torque back, torque_noise (N m). Outputs: boresight (`beam`) and encoder (rad), tachometer
+/// (rad/s), motor_torque (N m), valve_demand (rad/s).
 plant::StateSpace closed_loop(const plant::AntennaPlant& plant, const ControlLaw& law,
                               double delay);
 
@@ -22,10 +22,10 @@ plant::StateSpace closed_loop(const plant::AntennaPlant& plant, const ControlLaw
 struct StabilityVerdict {
   double rate_loop_abscissa = 0.0;    // 1/s, largest real part with the position loop open
   double closed_loop_abscissa = 0.0;  // 1/s, both closed
-  /// max over frequency of |Delta L / (1 + L)| where Delta L is what the rational dead time leaves
-  /// out, at the valve with both loops closed and with the rate loop alone. Below 1 the exact loop
-  /// has as many unstable poles as the rational one (Nyquist), so the eigenvalues' verdict holds
-  /// for the exact dead time.
+  /// max over frequency of |Delta L / (1 + L)|, at the valve with both loops closed and with the
+  /// rate loop alone. Delta L is the error of the rational dead time. Below 1 the exact loop has as
+  /// many unstable poles as the rational one (Nyquist), so the verdict by eigenvalues holds for the
+  /// exact dead time.
   double dead_time_residue = 0.0;
 
   bool stable() const {
@@ -33,13 +33,14 @@ struct StabilityVerdict {
   }
 };
 
-/// The free angle and the position integrator are removed where the position loop is open: nothing
-/// would restore them. `frequency`: rad/s, the grid on which the residue is taken.
+/// With the position loop open, the free angle and the position integrator are removed, because
+/// nothing restores them. `frequency`: grid (rad/s) for the residue.
 StabilityVerdict stability(const plant::AntennaPlant& plant, const ControlLaw& law, double delay,
                            const Eigen::ArrayXd& frequency);
 
-/// Beam rms (rad of motor) by Lyapunov equations on the state space, independent of the frequency
-/// response: wind through its shaping filter, sensor noise white without band limit.
+/// Boresight rms (rad of motor) by Lyapunov equations on the state space, independent of the
+/// frequency response. Wind enters through its shaping filter; sensor noise is white without band
+/// limit.
 struct LyapunovRms {
   double wind = 0.0;
   double noise = 0.0;

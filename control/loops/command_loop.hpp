@@ -6,17 +6,18 @@
 
 namespace boresight::control {
 
-/// The rate loop from its command, the position loop open: inputs command (rad/s) and wind_torque
-/// (N m), outputs tachometer (rad/s), motor_torque (N m) and valve_demand (rad/s), all at the motor
-/// shaft. Dead time as in closed_loop. @throws InvalidInput as to_state_space of plant and law.
+/// The rate loop with its command as input, position loop open. Inputs: command (rad/s) and
+/// wind_torque (N m). Outputs: tachometer (rad/s), motor_torque (N m) and valve_demand (rad/s), all
+/// at the motor shaft. Dead time as in closed_loop.
+/// @throws InvalidInput as to_state_space of plant and controller.
 plant::StateSpace rate_command_loop(const plant::AntennaPlant& plant, const ControlLaw& law,
                                     double delay);
 
-/// Both loops from the position command and the feedforward signals: inputs command (rad),
+/// Both loops with position command and feedforward signals as inputs. Inputs: command (rad),
 /// rate_disturbance (rad/s, added to the rate command), valve_feedforward (rad/s, added to the
-/// valve demand) and wind_torque (N m), outputs encoder (rad), motor_torque (N m) and whole_demand
+/// valve demand) and wind_torque (N m). Outputs: encoder (rad), motor_torque (N m) and whole_demand
 /// (rad/s, feedforward included), all at the motor shaft. Dead time as in closed_loop.
-/// @throws InvalidInput as to_state_space of plant and law.
+/// @throws InvalidInput as to_state_space of plant and controller.
 plant::StateSpace position_command_loop(const plant::AntennaPlant& plant, const ControlLaw& law,
                                         double delay);
 

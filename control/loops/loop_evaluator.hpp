@@ -20,7 +20,7 @@ struct SensorNoise {
   double encoder_rms = 0.0;     // rad of motor
   double tachometer_rms = 0.0;  // rad/s of motor
   double bandwidth = 25.0;      // Hz
-  double torque_rms = 0.0;      // N m, heard only where a law feeds torque back
+  double torque_rms = 0.0;      // N m, used only if torque is fed back
 };
 
 /// Frequencies (Hz) over which variances are integrated; all of the grid by default.
@@ -29,7 +29,7 @@ struct FrequencyBand {
   double highest = std::numeric_limits<double>::infinity();
 };
 
-/// Where the loop is cut to look at its sensitivity.
+/// The break at which the loop is cut to compute its sensitivity.
 enum class LoopBreak {
   rate_loop_alone,  // at the valve command, position loop open: 1/(1 + L_rate)
   valve_command,    // at the valve command, both loops closed
@@ -39,8 +39,8 @@ inline constexpr std::array loop_breaks{LoopBreak::rate_loop_alone, LoopBreak::v
                                         LoopBreak::position_loop};
 std::string_view to_string(LoopBreak loop_break);
 
-/// The open-loop gain at a break (positive gain with the -1 taken out, so that S = 1/(1 + L)) at
-/// one frequency (rad/s), with exact dead time.
+/// The open-loop gain at a break at one frequency (rad/s), with exact dead time. Negative feedback
+/// is implied: S = 1/(1 + L).
 std::complex<double> loop_gain(const plant::ResponsePoint& response, double frequency,
                                const ControlLaw& law, double delay, LoopBreak loop_break);
 
@@ -71,14 +71,15 @@ class PeakList {
   std::size_t size_ = 0;
 };
 
-/// One control law on one plant, seen through the frequency response. Variances in rad^2 of motor
-/// (beam) and (rad/s)^2 (valve effort); *_log_gradient holds d variance / d ln(gain).
+/// Evaluation of one controller on one plant from the frequency response. Variances in rad^2 of
+/// motor (boresight) and (rad/s)^2 (control effort); *_log_gradient contains d variance / d
+/// ln(gain).
 struct LoopEvaluation {
   double wind_variance = 0.0;
   double noise_variance = 0.0;
   double effort_variance = 0.0;
-  /// Of valve demand, (rad/s)^2, and motor torque, (N m)^2, as the wind drives them: what comes
-  /// near saturation in gusts. 0 unless look_at_gusts() asked for them.
+  /// Variances of valve demand, (rad/s)^2, and motor torque, (N m)^2, caused by wind: the approach
+  /// to saturation in gusts. 0 unless look_at_gusts() requested them.
   double wind_demand_variance = 0.0;
   double wind_torque_variance = 0.0;
   std::array<double, most_gains> wind_log_gradient{};
@@ -87,8 +88,9 @@ struct LoopEvaluation {
   std::array<double, most_gains> wind_demand_log_gradient{};
   std::array<double, most_gains> wind_torque_log_gradient{};
   std::array<PeakList, 3> peaks;  // of |S|, by break
-  /// Closed-loop poles in the right half plane by the winding of 1 + L along the grid, position
-  /// loop open and closed. A quick filter: the verdict is the eigenvalues' (closed_loop.hpp).
+  /// Closed-loop poles in the right half plane by the encirclements of 1 + L along the grid,
+  /// position loop open and closed. This is a fast filter; the stability verdict is that of the
+  /// eigenvalues (closed_loop.hpp).
   int unstable_rate_loop = 0;
   int unstable_closed_loop = 0;
 
@@ -97,72 +99,73 @@ struct LoopEvaluation {
   double highest_peak(LoopBreak loop_break) const;
 };
 
-/// What a loop needs to know of its plant: the response on a grid, and between its points. The
-/// response may be a model's or a measured one.
+/// The plant data of a loop evaluation: the response on a grid, and between its points. The
+/// response may come from a model or a measurement.
 struct LoopChannels {
   plant::PlantResponse response;
   std::function<plant::ResponsePoint(double frequency)> at;
 };
 LoopChannels make_channels(const plant::AntennaPlant& plant, const Eigen::ArrayXd& frequency);
 
-/// Where and how closely an evaluator looks by itself. The frequencies from `analysis.lowest` to
-/// `analysis.highest` are cut into panels of eight Gauss points in ln f: at the edges of rms band
-/// and noise, until the plant's channels are polynomials of that degree within `channel_tolerance`
-/// of their largest value in the panel, and no wider than `widest_panel`. An evaluation halves them
-/// on where its own closed loop asks for it: where poles near the axis leave variances and their
-/// gradients an error near `tolerance` of the variance, or where 1 + L turns by more than a
-/// right angle from point to point.
+/// Range and accuracy of an evaluator that chooses its frequencies. The frequencies from
+/// `analysis.lowest` to `analysis.highest` are divided into panels of eight Gauss points in ln f,
+/// with limits at the edges of rms band and noise. A panel is no wider than `widest_panel`, and the
+/// plant's channels are polynomials of that degree within `channel_tolerance` of their largest
+/// value in it. An evaluation halves panels further where its own closed loop requires it. One
+/// reason is poles near the axis that leave variances and their gradients an error near `tolerance`
+/// of the variance. The other is a 1 + L that turns by more than a right angle from point to point.
 struct LoopQuadrature {
   FrequencyBand analysis{1e-4, 100.0};  // Hz: peaks and stability
-  /// Hz: variances. Where it begins below the analysis band, the density below that is taken for
+  /// Hz: variances. If it begins below the analysis band, the density below that band is assumed
   /// constant.
   FrequencyBand band{};
-  /// Of the whole variance of beam, effort, demand or torque: the estimated error of one panel,
-  /// over the root of its half width in ln f.
+  /// Limit on the estimated error of one panel divided by the square root of its half width in ln
+  /// f, relative to the whole variance of boresight, effort, demand or torque.
   double tolerance = 3e-11;
   double channel_tolerance = 0.1;
   double widest_panel = 2.0;  // in ln f
 };
 
-/// What an evaluator on given frequencies is told beside the plant.
+/// Inputs of an evaluator on given frequencies, in addition to the plant.
 struct GridConditions {
   double delay = 0.0;  // s, of the command
   SensorNoise noise{};
-  /// One-sided spectrum of the wind torque at the motor shaft, (N m)^2/Hz, at the grid's
-  /// frequencies.
+  /// One-sided spectrum of the wind torque at the motor shaft, (N m)^2/Hz, at the frequencies of
+  /// the grid.
   Eigen::ArrayXd wind_spectrum{};
   FrequencyBand band{};  // of the variances; noise: within its bandwidth too
 };
 
-/// The same of an evaluator that chooses its frequencies.
+/// The same for an evaluator that chooses its frequencies.
 struct PanelConditions {
   double delay = 0.0;  // s, of the command
   SensorNoise noise{};
-  /// As above, at a frequency in Hz; smooth: what has kinks is better served on a grid.
+  /// As above, at a frequency in Hz. Must be smooth; use a grid for spectra with kinks.
   std::function<double(double hertz)> wind_spectrum{};
   LoopQuadrature quadrature{};
 };
 
-/// Evaluates control laws on one plant. The plant enters through its frequency response only,
-/// computed once; an evaluation costs some hundred operations a frequency, and ten more a gain for
-/// all gradients (by the adjoint of the closed loop), whatever the number of structural modes; dead
-/// time is exact. A copy is an evaluator of its own. Not to be shared between threads: it keeps its
-/// work arrays, and the frequencies that laws asked for.
+/// Evaluates controllers on one plant. The plant enters only through its frequency response, which
+/// is computed once. An evaluation takes some hundred operations per frequency. All gradients take
+/// ten more per gain (by the adjoint of the closed loop). The number of structural modes does not
+/// matter. Dead time is exact. Copies are independent. Use one object in one thread only, because
+/// it keeps its work arrays and the frequencies that evaluations requested.
 class LoopEvaluator {
  public:
-  /// On a grid (rad/s): integrals run over the part of it within the band by the trapezoid rule in
-  /// ln f; put the edges among the frequencies. Peaks and stability are taken over the whole grid.
-  /// @throws InvalidInput for sizes that differ, less than three frequencies or a grid that does
+  /// For a grid (rad/s). Integrals cover the part of it within the band by the trapezoid rule in ln
+  /// f; include the band edges in the grid. Peaks and stability cover the whole grid.
+  /// @throws InvalidInput for sizes that differ, fewer than three frequencies, or a grid that does
   /// not rise.
   LoopEvaluator(LoopChannels channels, const GridConditions& conditions);
   LoopEvaluator(const plant::AntennaPlant& plant, const Eigen::ArrayXd& frequency,
                 const GridConditions& conditions);
-  /// On frequencies of its own choice (LoopQuadrature): every law's integrals to the stated
-  /// tolerance, however lightly its closed loop is damped. Frequencies that one law asked for are
-  /// at hand for the next; no value depends on what was evaluated before. `channels`: the response
-  /// at a frequency in rad/s, smooth.
-  /// @throws InvalidInput for bands that are not in order or do not meet, or a tolerance or panel
-  /// width that is not positive; NumericalFailure for a response or spectrum that is not finite.
+  /// For adaptively chosen frequencies (LoopQuadrature). The integrals of every controller reach
+  /// the stated tolerance, however lightly its closed loop is damped. Frequencies requested for one
+  /// controller are reused for the next; no value depends on earlier evaluations. `channels`: the
+  /// response at a frequency in rad/s, smooth.
+  /// @throws InvalidInput for bands that are not in order or do not overlap, or a tolerance or
+  /// panel width that is not positive; NumericalFailure for a response or spectrum that is not
+  /// finite.
   LoopEvaluator(std::function<plant::ResponsePoint(double frequency)> channels,
                 PanelConditions conditions);
   LoopEvaluator(const LoopEvaluator& other);
@@ -171,20 +174,21 @@ class LoopEvaluator {
   LoopEvaluator& operator=(LoopEvaluator&& other) noexcept;
   ~LoopEvaluator();
 
-  /// Breaks whose peaks are looked for; all by default.
+  /// Selects the breaks whose peaks are computed; all by default.
   void look_at(std::array<bool, 3> breaks);
-  /// Whether the variances of valve demand and motor torque by wind are taken; not by default.
+  /// Selects whether the variances of valve demand and motor torque by wind are computed; false by
+  /// default.
   void look_at_gusts(bool look);
 
-  /// @throws InvalidInput as validate(law).
+  /// @throws InvalidInput as control::validate.
   LoopEvaluation evaluate(const ControlLaw& law, bool with_gradients);
-  /// How many frequencies the last evaluation took.
+  /// Number of frequencies of the last evaluation.
   std::size_t frequencies_used() const;
 
-  /// |beam / wind torque|^2 of the closed loop at each frequency of the grid, rad^2/(N m)^2.
+  /// |boresight / wind torque|^2 of the closed loop at each frequency of the grid, rad^2/(N m)^2.
   Eigen::ArrayXd wind_transmission(const ControlLaw& law) const;
 
-  /// On the grid, or on the panels that every evaluation starts from.
+  /// Response of the plant on the grid, or on the panels that every evaluation starts from.
   const plant::PlantResponse& response() const;
   double delay() const;
   /// Weights that turn a sum over the response's frequencies into an integral over Hz.

@@ -13,8 +13,8 @@
 
 namespace boresight::control {
 
-/// What a LoopEvaluator works with; it says what the public functions do. Only the evaluator's own
-/// sources include this header, so that a change of it compiles nothing else again.
+/// Internal state of a LoopEvaluator; see the public functions for their meaning. Only the
+/// evaluator's own sources include this header, so that a change of it recompiles nothing else.
 class LoopEvaluator::State {
  public:
   State(LoopChannels channels, const GridConditions& conditions);
@@ -30,7 +30,7 @@ class LoopEvaluator::State {
   const Eigen::ArrayXd& integration_weight() const { return weight_; }
 
  private:
-  // Eight frequencies: responses to the command with the dead time in them.
+  // Eight frequencies: responses to the command, including the dead time.
   struct GridPack {
     numerics::RealPack frequency, period, wind_weight, noise_weight;  // period: 1/frequency
     numerics::ComplexPack tachometer_command, torque_command, encoder_command, beam_command;
@@ -41,20 +41,21 @@ class LoopEvaluator::State {
              double delay);
     void set_weights(std::size_t lane, double wind, double noise);
   };
-  // What a law makes of eight frequencies: weighted integrands, and their tails (panel_rule.hpp).
+  // Values of one controller at eight frequencies: weighted integrands, and their tails
+  // (panel_rule.hpp).
   struct LoopValues {
     numerics::ComplexPack rate_return, both_return;  // 1 + L, position loop open, closed
     std::array<numerics::RealPack, 3> sensitivity_square;
     numerics::RealPack wind, noise, effort, wind_demand, wind_torque;
     TailCoefficients beam_tail, effort_tail, demand_tail, torque_tail;
-    // Below 0 where a return turns by more than a right angle to the next point.
+    // Below 0 where 1 + L turns by more than a right angle to the next point.
     numerics::RealPack turn;
   };
   struct PlacedBlock {
     BlockKind kind = BlockKind::gain;
     std::size_t first_gain = 0;
   };
-  // What a sweep needs of a law.
+  // Data of one controller for a sweep over the frequencies.
   struct Sweep {
     const ControlLaw* law = nullptr;
     std::array<PlacedBlock, most_gains> blocks{};  // path by path
@@ -74,7 +75,8 @@ class LoopEvaluator::State {
     double place = 0.0, value = 0.0;  // ln w, ln|S|^2
   };
 
-  // ln|S|^2 between points, the product of the distances from them, the leaf they are in.
+  // ln|S|^2 between points, the product of the distances from them, and the leaf that contains
+  // them.
   struct Interpolation {
     double value = 0.0, product = 0.0;
     std::size_t leaf = 0;

@@ -10,7 +10,7 @@ namespace boresight::control {
 struct LoopPoint {
   CompensatorResponse compensator;
   std::complex<double> dead_time;
-  std::complex<double> angle;  // what the position path sees of a command: encoder less compliance
+  std::complex<double> angle;  // response of the position path's angle: encoder less compliance
   std::complex<double> rate_return;  // 1 + L, position loop open
   std::complex<double> both_return;  // 1 + L, both closed
 };

@@ -9,8 +9,8 @@
 
 namespace boresight::control {
 
-/// Counts the right-half-plane zeros of 1 + L from its turning along rising frequencies. A quick
-/// filter on a grid that follows L; the eigenvalues' verdict is another matter.
+/// Counts the right-half-plane zeros of 1 + L by its phase change along rising frequencies. This is
+/// a fast filter on a grid that resolves L; the stability verdict is that of the eigenvalues.
 class Winding {
  public:
   /// L starts as c/s^integrators with c > 0.
@@ -20,16 +20,16 @@ class Winding {
       first_value_ = value;
       first_ = false;
     } else if ((last_.imag() < 0.0) != (value.imag() < 0.0)) {
-      // Where the chord meets the real axis: only left of the origin the phase jumps by a turn.
+      // The chord meets the real axis here; the phase jumps by a full turn only left of the origin.
       const double real = last_.real() - last_.imag() * (value.real() - last_.real()) /
                                              (value.imag() - last_.imag());
       if (real < 0.0) turns_ += value.imag() < 0.0 ? 1 : -1;
     }
     last_ = value;
   }
-  /// The first so many of eight values.
+  /// Adds the first `count` of eight values.
   void add(const numerics::ComplexPack& values, std::size_t count) {
-    // Nothing left of the origin is crossed where no value lies left of it.
+    // No crossing left of the origin is possible if no value lies left of it.
     bool left = first_ || last_.real() < 0.0;
     for (std::size_t i = 0; i < numerics::pack_size; ++i) left |= values.re[i] < 0.0;
     for (std::size_t i = left ? 0 : count - 1; i < count; ++i) add({values.re[i], values.im[i]});
@@ -38,8 +38,8 @@ class Winding {
     const double from_start = std::remainder(std::arg(first_value_) - start_, two_pi);
     const double along = std::arg(last_) - std::arg(first_value_) + two_pi * turns_;
     const double to_end = -std::arg(last_);
-    // A stable loop turns by -start from 0 to infinity, where 1 + L is 1; each zero in the right
-    // half plane takes a turn of pi away.
+    // A stable loop turns by -start from 0 to infinity, where 1 + L is 1. Each zero in the right
+    // half plane reduces the turn by pi.
     return static_cast<int>(
         std::lround((-start_ - from_start - along - to_end) / std::numbers::pi));
   }

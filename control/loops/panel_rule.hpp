@@ -12,22 +12,22 @@ namespace boresight::control {
 /// The last four coefficients of a function's Legendre series: of degree 4 to 7.
 using TailCoefficients = numerics::RealLanes<4>;
 
-/// Gauss's rule of eight points on [-1, 1], one pack of frequencies a panel, and what the values at
-/// its points say of the function between them.
+/// Gauss's rule of eight points on [-1, 1], one pack of frequencies per panel, and the estimate of
+/// the function between the points.
 struct PanelRule {
   std::array<double, numerics::pack_size> node{};
   std::array<double, numerics::pack_size> weight{};
   /// Weights of the barycentric formula for the polynomial through the eight values.
   std::array<double, numerics::pack_size> barycentric{};
-  /// By node: Legendre polynomials of degree 4, 5, 6, 7 there, times (2 k + 1)/2: they take
-  /// weighted values to the last four coefficients of their Legendre series.
+  /// By node: Legendre polynomials of degree 4, 5, 6, 7 at the node, times (2 k + 1)/2. They
+  /// transform weighted values to the last four coefficients of their Legendre series.
   std::array<TailCoefficients, numerics::pack_size> tail;
 };
 
-/// The rule; made once.
+/// The rule, computed once.
 const PanelRule& panel_rule();
 
-/// The sum over the nodes of `value` times the rule's tail, or another such array: the last
+/// The sum over the nodes of `value` times the rule's tail or another such array. It gives the last
 /// coefficients of the function with these values, in registers of `width` numbers.
 template <std::size_t width>
 [[gnu::always_inline]] inline void set_tail(
@@ -45,7 +45,8 @@ template <std::size_t width>
   }
 }
 
-/// Of the k-th part the value that follows each; the last of all eight follows itself.
+/// For each value of the k-th part, the value that follows it; the last of all eight is followed by
+/// itself.
 template <std::size_t width, std::size_t... lane>
 [[gnu::always_inline]] inline numerics::RealLanes<width> following(const numerics::RealPack& x,
                                                                    std::size_t k,
@@ -62,7 +63,8 @@ template <std::size_t width, std::size_t... lane>
   return result;
 }
 
-/// The cosine, times the magnitudes, of each value's angle to the next; the last has none.
+/// The cosine, times the magnitudes, of the angle from each value to the next; meaningless for the
+/// last.
 template <std::size_t width>
 [[gnu::always_inline]] inline numerics::RealLanes<width> onward(const numerics::ComplexPack& x,
                                                                 std::size_t k) {
@@ -91,9 +93,9 @@ inline bool any_negative(const numerics::RealPack& x) {
   return any;
 }
 
-/// The same coefficients as squares of their magnitudes in pairs. Poles of the function make them
-/// fall by rho a degree, rho the sum of the half axes of the ellipse through the nearest pole, and
-/// then the rule's own error falls by rho^16.
+/// The squared magnitudes of these coefficients, summed in pairs. Poles of the function make the
+/// coefficients fall by rho per degree, with rho the sum of the half axes of the ellipse through
+/// the nearest pole. The rule's own error then falls by rho^16.
 struct PanelTail {
   double four_five = 0.0;
   double six_seven = 0.0;
@@ -101,7 +103,8 @@ struct PanelTail {
   explicit PanelTail(const TailCoefficients& x)
       : four_five(x[0] * x[0] + x[1] * x[1]), six_seven(x[2] * x[2] + x[3] * x[3]) {}
 
-  /// Estimate of the square of the rule's error, from the last coefficients and how fast they fall.
+  /// Estimate of the square of the rule's error, from the last coefficients and their rate of
+  /// decrease.
   double error_square() const {
     if (!(six_seven > 0.0)) return 0.0;
     if (six_seven >= four_five) return six_seven;

@@ -13,47 +13,48 @@
 
 namespace boresight::control {
 
-/// Any linear controller of the antenna, continuous or sampled, as the functions here take it:
-///   inputs   tachometer (rad/s), encoder (rad), motor_torque (N m), what it does not read left out
-///   output   valve_demand (rad/s), what it asks of the valve; nothing is subtracted outside
-/// all at the motor shaft, and, where its position loop can be opened, both of
+/// Any linear controller of the antenna, continuous or sampled, in the form that these functions
+/// require. All signals are at the motor shaft:
+///   inputs   tachometer (rad/s), encoder (rad), motor_torque (N m); those not read are omitted
+///   output   valve_demand (rad/s), the complete demand; nothing is subtracted outside
+/// If its position loop can be opened, it also has both of
 ///   input    rate_disturbance (rad/s), added to its rate command
 ///   output   rate_command (rad/s), with or without the disturbance at once (feedthrough 1 or 0)
-/// A continuous one acts through a dead time; a sampled one through a zero-order hold, one sample
-/// time after its samples are taken. to_state_space(ControlLaw) is such a controller, as is an
+/// A continuous controller acts through a dead time. A sampled one acts through a zero-order hold,
+/// one sample time after its samples are taken. Examples are to_state_space(ControlLaw) and
 /// lqg_controller.
 ///
-/// Ports that are `reference` or `angle_reference` rest at 0 and are left out, a valve_command is
-/// a valve_demand.
-/// @throws InvalidInput for other ports, none of tachometer, encoder and motor_torque, no
-/// valve_demand, one of rate_disturbance and rate_command without the other, and as
+/// Ports named `reference` or `angle_reference` are set to 0 and removed; a valve_command counts as
+/// valve_demand.
+/// @throws InvalidInput for other ports; without any of tachometer, encoder and motor_torque;
+/// without valve_demand; with only one of rate_disturbance and rate_command; and as
 /// plant::validate.
 plant::StateSpace antenna_state_space_controller(const plant::StateSpace& controller);
 
-/// The same with the position loop open: inputs tachometer and motor_torque as far as it reads
-/// them, output valve_demand, without the states that neither reaches. Where the controller has a
-/// rate_command, that is cut; else its encoder.
+/// The same with the position loop open. Inputs: tachometer and motor_torque, if read; output:
+/// valve_demand. States that neither input reaches are removed. The loop is cut at rate_command if
+/// the controller has one, otherwise at its encoder.
 /// @throws InvalidInput as antenna_state_space_controller, and for a controller that reads neither.
 plant::StateSpace rate_loop_of(const plant::StateSpace& controller);
 
 /// A closed loop at one frequency, at the motor shaft.
 struct ControlledPoint {
-  /// Loop gains, S = 1/(1 + L), in the order of loop_breaks; not a number where the controller has
-  /// no such loop.
+  /// Loop gains, S = 1/(1 + L), in the order of loop_breaks; NaN if the controller has no such
+  /// loop.
   std::array<std::complex<double>, 3> loop_gain;
   std::complex<double> beam_by_wind;  // rad/(N m)
-  /// Beam (rad) and valve demand (rad/s) by the noise of tachometer, encoder and motor torque.
+  /// Boresight (rad) and valve demand (rad/s) by the noise of tachometer, encoder and motor torque.
   std::array<std::complex<double>, 3> beam_by_noise, demand_by_noise;
 };
 
-/// The frequency response of an antenna under a state-space controller: the plant's in O(modes),
-/// the controller's in O(states^2), dead time, hold and samples exact. Under a sampled controller
-/// the loop gain is that of the sampled loop (all aliases in it), and the beam's response is the
-/// part at the frequency of the wind itself: what is folded to other frequencies is left out. One
-/// object a thread.
+/// The frequency response of an antenna with a state-space controller. The plant takes O(modes)
+/// operations, the controller O(states^2); dead time, hold and samples are exact. With a sampled
+/// controller the loop gain is that of the sampled loop (all aliases included). The boresight
+/// response is then the component at the frequency of the wind itself, without the components
+/// folded to other frequencies. Use one object per thread.
 class ControlledAntenna {
  public:
-  /// `delay`: s, dead time of a continuous controller; not read for a sampled one.
+  /// `delay`: s, dead time of a continuous controller; ignored for a sampled one.
   /// @throws InvalidInput as antenna_state_space_controller, and for a negative delay.
   ControlledAntenna(const plant::AntennaPlant& plant, const plant::StateSpace& controller,
                     double delay);
@@ -78,12 +79,12 @@ class ControlledAntenna {
   Eigen::MatrixXcd response_, sampled_response_;
 };
 
-/// The largest |beam / wind torque| over all frequencies between two certified bounds, rad/(N m) of
-/// motor. Under a continuous controller with its exact dead time. Under a sampled one the torque is
-/// held from sample to sample and the beam looked at with the samples: the exact sampled loop; with
-/// more than 80 states in it, where the Hamiltonian matrices take minutes, what a refined grid
-/// sees, the upper bound infinite and `closed` false. The loop must be stable, which is not tested
-/// here.
+/// The largest |boresight / wind torque| over all frequencies, rad/(N m) of motor, between two
+/// certified bounds. For a continuous controller the dead time is exact. For a sampled one the
+/// torque is held from sample to sample and the boresight is evaluated at the samples: the exact
+/// sampled loop. With more than 80 states in that loop the Hamiltonian matrices would take minutes.
+/// The result is then the largest value on a refined grid, with an infinite upper bound and
+/// `closed` false. The loop must be stable, which is not tested here.
 /// @throws as antenna_state_space_controller and peak_gain.
 PeakGain worst_compliance(const plant::AntennaPlant& plant, const plant::StateSpace& controller,
                           double delay, const PeakGainOptions& options = {});

@@ -10,14 +10,14 @@
 
 namespace boresight::control {
 
-/// a + b w^2 + j c w: what a channel is towards zero frequency.
+/// a + b w^2 + j c w: the low-frequency model of a channel.
 struct LowEndFit {
   double constant = 0.0, square = 0.0, odd = 0.0;
   std::complex<double> at(double w) const { return {constant + square * w * w, odd * w}; }
 };
 
-/// The usable points of a measurement and what lies between them: three channels, tachometer,
-/// torque, encoder, per command.
+/// The usable points of a measurement and their interpolation, for three channels per command:
+/// tachometer, torque, encoder.
 struct MeasuredChannels::Data {
   OilSpring oil;
   double tachometer_corner = 0.0;
@@ -31,7 +31,7 @@ struct MeasuredChannels::Data {
       slope;                               // ln G, its angle followed; by ln w
   std::vector<Eigen::Matrix3cd> relative;  // covariance over G_i conj(G_j)
   std::vector<PointBand> unresolved, encoder_assumed;
-  std::vector<bool> encoder_follows;  // a point's, the motor: assumed
+  std::vector<bool> encoder_follows;  // per point: encoder assumed to follow the motor
   double resolved = 1.0;
   LowEndFit tachometer_low, impedance_low, gear_low;
 

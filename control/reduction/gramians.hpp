@@ -15,16 +15,17 @@ struct GramianFactors {
   Eigen::MatrixXd observability;
 };
 
-/// @throws InvalidInput as validate(system); NumericalFailure if the system is not stable by more
-/// than rounding, with the margin.
+/// @throws InvalidInput as validate(system); NumericalFailure, with the margin, if the system is
+/// not stable by more than rounding.
 GramianFactors gramian_factors(const plant::StateSpace& system);
 
 /// P and Q themselves, n x n, symmetric. @throws as gramian_factors.
 Eigen::MatrixXd controllability_gramian(const plant::StateSpace& system);
 Eigen::MatrixXd observability_gramian(const plant::StateSpace& system);
 
-/// The square roots of the eigenvalues of P Q, falling: what each balanced state carries from past
-/// inputs to future outputs. To some 1e-16 of the largest, from the factors of P and Q.
+/// The square roots of the eigenvalues of P Q, in descending order: the energy gain of each
+/// balanced state from past inputs to future outputs. Computed from the factors of P and Q,
+/// accurate to about 1e-16 of the largest.
 /// @throws as gramian_factors.
 Eigen::VectorXd hankel_singular_values(const plant::StateSpace& system);
 

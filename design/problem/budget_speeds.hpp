@@ -8,16 +8,17 @@
 
 namespace boresight::design {
 
-/// Mean wind speeds (m/s) up to which a controller keeps the budgets with its gains held, one a
-/// budget: wind_speed_limit of what NonlinearEffect::for_budgets leaves of each to the linear loop.
-/// `noise_variance` (rad2 of motor): of the loop, as the evaluator has it.
+/// Highest mean wind speeds (m/s) at which a controller with fixed gains meets each budget, one
+/// entry per budget. Computed by wind_speed_limit for the part of the budget that
+/// NonlinearEffect::for_budgets leaves to the linear loop. `noise_variance` (rad2 of motor):
+/// variance of the loop from sensor noise, as computed by the evaluator.
 std::vector<double> budget_speeds(const TrackingProblem& problem,
                                   const control::LoopEvaluator& evaluator,
                                   const control::ControlLaw& law, double noise_variance,
                                   const std::vector<PointingBudget>& budgets,
                                   const NonlinearEffect& effect);
 
-/// The same with an evaluator of its own.
+/// The same, with an evaluator made for the problem.
 std::vector<double> budget_speeds(const TrackingProblem& problem, const control::ControlLaw& law,
                                   const std::vector<PointingBudget>& budgets,
                                   const NonlinearEffect& effect);

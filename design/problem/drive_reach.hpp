@@ -5,14 +5,15 @@
 
 namespace boresight::design {
 
-/// The highest rate up to `wanted` (rad/s of motor) that the supply holds against friction and
-/// offset both ways, to 1e-6 of it; 0 if none.
+/// The highest rate up to `wanted` (rad/s of motor) that the supply sustains against friction and
+/// offset in both directions, to 1e-6 of `wanted`; 0 if none.
 double attainable_rate(const plant::NonlinearAntenna& antenna, double wanted);
 
-/// Rate and acceleration (rad/s, rad/s2 of motor) that leave the drive a reserve: the wanted ones,
-/// or four fifths of the rate that the supply can hold if that is less, and half of what the torque
-/// left at that rate gives the whole antenna, of `inertia` kg m2, if that is less. A rate
-/// or acceleration of 0 or less: the supply cannot move the antenna against its friction.
+/// Achievable rate and acceleration (rad/s, rad/s2 of motor) with a reserve for the drive. The rate
+/// is the wanted one or, if the supply cannot sustain it, four fifths of the attainable rate. The
+/// acceleration is the wanted one or, if less, half of what the remaining torque at that rate gives
+/// the inertia. `inertia`: of the whole antenna, kg m2. A rate or acceleration of 0 or less means
+/// that the supply cannot move the antenna against its friction.
 control::CommandLimits within_reach(const plant::NonlinearAntenna& antenna, double inertia,
                                     const control::CommandLimits& wanted);
 

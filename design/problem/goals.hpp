@@ -10,19 +10,19 @@
 
 namespace boresight::design {
 
-/// What a design must meet. Goals by break are in the order of control::loop_breaks.
+/// The constraints of a design. Those per break are in the order of control::loop_breaks.
 struct HardGoals {
-  /// Largest |S| allowed.
+  /// Largest |S| allowed (Ms).
   std::array<double, 3> sensitivity_peak{2.0, 2.0, 2.0};
   double valve_effort = 0.6;  // rad/s rms of noise-driven valve demand
-  /// Least factor, up or down, by which the gain may change; above 1.
+  /// Smallest gain margin: factor, up or down, by which the gain may change; above 1.
   std::array<std::optional<double>, 3> gain_margin{};
-  /// Least angle to -1 (rad), within (0, pi).
+  /// Smallest phase margin: angle to -1 (rad), within (0, pi).
   std::array<std::optional<double>, 3> phase_margin{};
-  /// Least frequency (rad/s) at which the position loop's |S| reaches 1/sqrt(2).
+  /// Lowest bandwidth: frequency (rad/s) at which the position loop's |S| reaches 1/sqrt(2).
   std::optional<double> bandwidth = std::nullopt;
-  /// Largest valve demand (rad/s) and motor torque (N m) in the problem's wind: what its mean
-  /// takes, and `crest_factor` times the rms of its gusts.
+  /// Largest valve demand (rad/s) and motor torque (N m) in the problem's wind: the value in the
+  /// mean wind plus `crest_factor` times the rms in its gusts.
   std::optional<double> gust_demand = std::nullopt;
   std::optional<double> gust_torque = std::nullopt;
   double crest_factor = 3.5;
@@ -31,22 +31,22 @@ struct HardGoals {
   bool ask_for_margins() const;
 };
 
-/// @throws InvalidInput for a limit that no loop or every loop meets: a peak not above 1, a gain
-/// margin not above 1, a phase margin outside (0, pi), anything else not positive and finite.
+/// @throws InvalidInput for a limit that no loop or every loop meets: Ms not above 1, a gain margin
+/// not above 1, a phase margin outside (0, pi), any other limit not positive and finite.
 void validate(const HardGoals& goals);
 
-/// What a tuning minimises: a beam rms, made of the plants' own.
+/// The objective of a tuning: a boresight rms computed from the rms on each plant.
 enum class SoftGoalKind {
   nominal,     // of the problem's own plant
   expected,    // root of the mean variance over the ensemble
   worst_case,  // the largest over the ensemble
-  quantile,    // the smallest value that a share of the ensemble stays below
+  quantile,    // smallest value that a fraction of the ensemble stays below
 };
 std::string_view to_string(SoftGoalKind kind);
 
 struct SoftGoal {
   SoftGoalKind kind = SoftGoalKind::nominal;
-  double quantile = 0.95;  // share of the members, within (0, 1]
+  double quantile = 0.95;  // fraction of the members, within (0, 1]
 };
 
 enum class GoalKind {
@@ -60,13 +60,12 @@ enum class GoalKind {
 };
 std::string_view to_string(GoalKind kind);
 
-/// One quantity of one loop against its goal.
+/// One normalised constraint (value/limit) of one loop.
 struct GoalRatio {
   GoalKind kind = GoalKind::sensitivity_peak;
   std::optional<control::LoopBreak> loop_break;
-  double frequency = 0.0;  // rad/s; 0 where the quantity is of all frequencies
-  /// Quantity over limit where the limit is the largest allowed, the other way round where it is
-  /// the least: met up to 1.
+  double frequency = 0.0;  // rad/s; 0 where the quantity covers all frequencies
+  /// Value/limit for an upper limit, limit/value for a lower limit. Met up to 1.
   double ratio = 0.0;
   /// d ln(ratio) / d ln(gain).
   std::array<double, control::most_gains> log_gradient{};
@@ -75,17 +74,17 @@ struct GoalRatio {
 /// "sensitivity peak at valve command, 0.84 Hz".
 std::string describe(const GoalRatio& goal);
 
-/// Mean loads of the wind that gusts come on top of, at the motor.
+/// Loads of the mean wind at the motor, to which gusts are added.
 struct MeanWindLoad {
   double torque = 0.0;  // N m
-  double demand = 0.0;  // rad/s: what leaks away at that torque
+  double demand = 0.0;  // rad/s, leakage flow at that torque
 };
 
-/// Goals judged without margins and bandwidth, from one evaluation alone.
+/// Appends the normalised constraints except margins and bandwidth, from one evaluation.
 void append_goal_ratios(const control::LoopEvaluation& evaluation, const HardGoals& goals,
                         const MeanWindLoad& mean, std::vector<GoalRatio>& ratios);
-/// Margins and bandwidth, where asked for, from the loop gain. A bandwidth below the grid counts as
-/// the grid's first frequency.
+/// Appends the constraints on margins and bandwidth, where specified, from the loop gain. A
+/// bandwidth below the grid counts as the grid's first frequency.
 void append_margin_ratios(const control::LoopChannels& channels, double delay,
                           const control::ControlLaw& law, const HardGoals& goals,
                           std::vector<GoalRatio>& ratios);

@@ -5,7 +5,7 @@
 
 namespace boresight::design {
 
-/// A pointing budget as rms error of one axis.
+/// A pointing budget as rms error per axis.
 struct PointingBudget {
   std::string name;
   std::string band;
@@ -15,12 +15,12 @@ struct PointingBudget {
   std::optional<double> wind_speed;  // m/s, up to which it must be met
 };
 
-/// A radio band that the antenna receives or sends in.
+/// A radio band in which the antenna receives or transmits.
 struct PointingBand {
   std::string name;
   double frequency = 0.0;    // Hz
   double beamwidth = 0.0;    // rad
-  std::string illumination;  // that the beamwidth rests on; empty if its factor is stated
+  std::string illumination;  // basis of the beamwidth; empty if its factor is stated
 };
 
 }  // namespace boresight::design

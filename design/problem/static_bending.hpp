@@ -4,8 +4,9 @@
 
 namespace boresight::design {
 
-/// What the mean wind bends the structure between encoder and beam (rad at the sky), the mean
-/// torque over the springs of the modes: no part of any rms, and seen by no encoder.
+/// Static flexure between encoder and boresight under the mean wind (rad at the sky): the mean
+/// torque over the stiffness of the modes. It is not included in any rms, and the encoder does not
+/// sense it (non-collocated).
 double static_bending(const TrackingProblem& problem);
 
 }  // namespace boresight::design

@@ -10,29 +10,31 @@
 
 namespace boresight::design {
 
-/// A tuned law looked at again: eigenvalues of the state space, peaks bracketed over all
-/// frequencies, rms by Lyapunov equations. None uses the tuner's frequency response; only
-/// `spectral_rms`, which the Lyapunov rms is held against, and the dead-time residue of `stability`
-/// do.
+/// Independent check of a tuned controller: eigenvalues of the state space, peaks bracketed over
+/// all frequencies, rms by Lyapunov equations. None of these uses the tuner's frequency response.
+/// Only `spectral_rms`, the comparison value for the Lyapunov rms, and the dead-time residue of
+/// `stability` use it.
 struct Verification {
   control::StabilityVerdict stability;
   std::array<control::PeakGain, 3> peaks;  // of |S|, order of control::loop_breaks
   control::LyapunovRms lyapunov;           // rad of motor
-  /// By the spectrum, over the whole analysis band with noise white throughout, as Lyapunov has it.
+  /// By integration of the spectrum over the whole analysis band, with white noise throughout, as
+  /// in the Lyapunov equations.
   double spectral_rms = 0.0;  // rad of motor
-  /// |lyapunov - spectral|/spectral of the total rms.
+  /// lyapunov - spectral| / spectral, of the total rms.
   double rms_disagreement = 0.0;
-  /// Eigenvalues stable, every peak's upper bound within its goal (1e-6), the valve effort too
-  /// (1e-5, by the spectrum on the problem's grid), the two rms within 0.5 %.
+  /// True if the eigenvalues are stable and every peak's upper bound is within its limit (tolerance
+  /// 1e-6). The control effort must be within its limit too (1e-5, by the spectrum on the problem's
+  /// grid). The two rms values must agree within 0.5 %.
   bool passed = false;
-  /// Why not; empty if passed.
+  /// Reason for a failure; empty if passed.
   std::string failure;
 };
 
 Verification verify(const TrackingProblem& problem, const control::ControlLaw& law,
                     const HardGoals& goals);
 
-/// One thing to tune.
+/// One tuning task.
 struct DesignTask {
   std::string name;
   TrackingProblem problem;
@@ -41,8 +43,9 @@ struct DesignTask {
   TuningOptions options;
 };
 
-/// One tuned, verified design. Rms at the sky in rad, one axis. Where no stable law was found
-/// (tuning.status unstable) rms and effort are NaN, verification and margins empty.
+/// One tuned and verified design. Rms in rad at the sky, per axis. If no stable controller was
+/// found (`tuning.status` unstable), rms and effort are NaN, and verification and margins are
+/// empty.
 struct Design {
   std::string name;
   TuningResult tuning;
@@ -53,36 +56,38 @@ struct Design {
   double wind_rms = 0.0;
   double noise_rms = 0.0;
   double valve_effort = 0.0;  // rad/s
-  /// Margins of the loops cut at each of control::loop_breaks.
+  /// Stability margins with the loop cut at each of control::loop_breaks.
   std::array<control::Margins, 3> margins;
 
-  /// Whether it meets the hard goals and its verification.
+  /// True if the design meets the constraints and passed its verification.
   bool usable() const { return tuning.status == TuningStatus::optimal && verification.passed; }
 };
 
 /// Tunes and verifies one task. @throws as tune.
 Design solve(const DesignTask& task);
 
-/// Gains that nobody tuned, looked at as a tuned law is: `tuning.status` is optimal where the
-/// verification passes, infeasible where it does not, unstable where the loop is.
-/// @throws InvalidInput as control::validate(law).
+/// Verifies given gains as verify() does for a tuned controller. `tuning.status` is optimal if the
+/// verification passes, infeasible if it fails, and unstable if the loop is unstable.
+/// @throws InvalidInput as control::validate.
 Design assess(const TrackingProblem& problem, const control::ControlLaw& law,
               const HardGoals& goals);
 
-/// Tunes a task again from given gains, and keeps what comes out where it is verified and better:
-/// feasible where the design was not, or with a soft goal's rms lower by more than 1e-4 of it.
-/// Whether it did. An interrupted tuning is not kept. @throws as tune.
+/// Tunes a task again from given gains. Replaces the design if the result is verified and better:
+/// feasible where the design was not, or with an objective rms lower by more than a relative 1e-4.
+/// An interrupted tuning is not kept. Returns whether the design was replaced.
+/// @throws as tune.
 bool improve_from(const DesignTask& task, const std::vector<std::vector<double>>& starts,
                   Design& design);
 
 /// Warm-starts each design of a series (one plant changing step by step) from its neighbour's
-/// gains, forwards, then backwards, and keeps what is better and verified: an optimum that random
-/// starts missed at one point is found from the next. @throws InvalidInput for sizes that differ.
+/// gains, forwards, then backwards. Verified improvements are kept. This finds optima that the
+/// random starts missed at one point but found at a neighbour.
+/// @throws InvalidInput for sizes that differ.
 void improve_along(const std::vector<DesignTask>& tasks, std::vector<Design>& designs);
 
-/// Solves every task on `threads` threads; results in the order of the tasks, the same for any
-/// thread count. `progress(done, all)` is called under a lock after each; what
-/// it throws stops the work and comes out of here.
+/// Solves every task on `threads` threads. Results are in the order of the tasks and do not depend
+/// on the thread count. `progress(done, all)` is called under a lock after each task. An exception
+/// thrown by `progress` stops the work and is rethrown.
 std::vector<Design> solve_all(const std::vector<DesignTask>& tasks, unsigned threads,
                               const std::function<void(std::size_t, std::size_t)>& progress);
 

@@ -9,8 +9,9 @@
 
 namespace boresight::design {
 
-/// What a point of the search gives: filled in by the problem's callback, which finds every vector
-/// at its full size. Gradients row by row, one row an entry, one column a variable.
+/// Values and gradients at a point of the search. The problem's callback fills them in; every
+/// vector already has its full size. Gradients are stored row by row: one row per entry, one column
+/// per variable.
 struct ConstrainedValues {
   std::vector<double> objectives;  // the cost is the largest of them
   std::vector<double> objective_gradients;
@@ -22,10 +23,10 @@ struct ConstrainedValues {
   double violation() const;
 };
 
-/// Minimise the largest objective within a box, every constraint at most 0. The callback returns
-/// whether the point is defined (a stable loop, say); of an undefined point nothing is read. NaN or
-/// infinity in a value or gradient counts as undefined. Kinks are welcome: give each smooth branch
-/// as an entry of its own.
+/// Minimise the largest objective within a box, with every constraint at most 0. The callback
+/// returns whether the point is defined (for example a stable loop); values of an undefined point
+/// are not read. A NaN or infinity in a value or gradient counts as undefined. Kinks are permitted:
+/// give each smooth branch as an entry of its own.
 struct ConstrainedProblem {
   std::vector<double> lower, upper;
   std::size_t objectives = 1;
@@ -34,25 +35,28 @@ struct ConstrainedProblem {
 };
 
 struct FeasibleSearchOptions {
-  /// Of one run of the optimiser; a start takes at most 2 (most_restarts + 2) runs.
+  /// Largest number of evaluations of one optimiser run. A start takes at most
+  /// 2 (most_restarts + 2) runs.
   int evaluations_per_run = 150;
-  /// A run is started again from where it ended, at most so often and while the last run lowered
-  /// the cost by more than `worthwhile_gain`.
+  /// Largest number of restarts of a run from its end point. A run is restarted only if the last
+  /// run lowered the cost by more than `worthwhile_gain`.
   int most_restarts = 4;
   double worthwhile_gain = 1e-3;
-  /// A run ends when variables change less than this (relative) or the cost less than this.
+  /// A run ends when the variables change by less than `variable_tolerance` (relative) or the cost
+  /// by less than `cost_tolerance`.
   double variable_tolerance = 1e-7;
   double cost_tolerance = 1e-9;
-  /// The optimiser sees every constraint raised by so much: it ends a rounding error beyond what it
-  /// is told, and only points within the true constraints count.
+  /// Offset added to every constraint that the optimiser receives, because it ends with a rounding
+  /// error beyond its limits. Only points that meet the true constraints are accepted.
   double reserve = 1e-8;
-  /// What an undefined point costs beyond the last defined one: line searches back off.
+  /// Cost of an undefined point above that of the last defined one. It makes line searches back
+  /// off.
   double undefined_penalty = 5.0;
-  /// Steps from an undefined start towards a defined point.
+  /// Largest number of steps from an undefined start to a defined point.
   int retreat_steps = 12;
-  /// Of all starts together.
+  /// Largest number of evaluations of all starts together.
   long most_evaluations = std::numeric_limits<long>::max();
-  /// Asked before every evaluation; true ends the search, what was found stands.
+  /// Polled before every evaluation. True ends the search; results so far are kept.
   std::function<bool()> stop;
 };
 
@@ -62,44 +66,46 @@ struct SearchPoint {
   double violation = 0.0;  // largest constraint
 };
 
-/// Sequential quadratic programming (NLopt's SLSQP) from one start after another, with a record of
-/// its own: every evaluation is looked at here, and only points that meet every constraint can be
-/// the best. The optimiser's own word is not used, its failures are counted and harmless. An
-/// exception of the callback stops the optimiser and comes out of the call. Same calls, same bytes.
+/// Sequential quadratic programming (NLopt's SLSQP) from successive starts, with its own record of
+/// the best points. Every evaluation is checked here, and only a point that meets every constraint
+/// can become the best. The optimiser's return value is not used; its failures are counted and have
+/// no effect. An exception of the callback stops the optimiser and is rethrown. The same calls give
+/// identical results.
 class FeasibleSearch {
  public:
-  /// @throws InvalidInput for bounds that differ in number or are not finite and lower < upper, no
-  /// objective, no callback, or options below 1 (restarts and tolerances: below 0).
+  /// @throws InvalidInput for bounds that differ in number or are not finite with lower < upper,
+  /// for no objective or no callback, and for options below 1 (restarts and tolerances: below 0).
   explicit FeasibleSearch(ConstrainedProblem problem, FeasibleSearchOptions options = {});
 
-  /// The values there (cached for the last point); nothing where the point is undefined.
+  /// Values at a point (cached for the last point); null if the point is undefined.
   /// @throws InvalidInput for a point of another size.
   const ConstrainedValues* evaluate(const std::vector<double>& point);
 
-  /// Uniform within the bounds; the sequence depends on the generator alone.
+  /// A random point, uniform within the bounds. The sequence depends on the generator only.
   std::vector<double> random_point(std::mt19937_64& generator) const;
 
-  /// The first defined point on the straight way from `from` to `towards` (itself if none is).
+  /// The first defined point on the straight line from `from` to `towards`; returns `towards` if
+  /// none is defined before it.
   /// @throws InvalidInput for points of different sizes.
   std::vector<double> retreat(const std::vector<double>& from, const std::vector<double>& towards);
 
-  /// Searches from a start: best feasible point seen from there, if any. A start without a feasible
-  /// point is continued by minimising the largest constraint, and from there again by cost. An
-  /// undefined start that was not retreated from is given up at once.
+  /// Searches from a start. Returns the best feasible point found from there, if any. If a start
+  /// yields no feasible point, the search first minimises the largest constraint and then continues
+  /// by cost. An undefined start ends the search at once; call retreat() first.
   std::optional<SearchPoint> search_from(const std::vector<double>& start);
 
-  /// Minimises the largest constraint from a start, going on beyond 0. Returns the least seen from
-  /// there; nothing if no point was defined.
+  /// Minimises the largest constraint from a start, also below 0. Returns the point of least
+  /// violation found from there; nothing if no point was defined.
   std::optional<SearchPoint> approach_from(const std::vector<double>& start);
 
-  /// The least cost of all feasible points evaluated so far.
+  /// The feasible point of least cost evaluated so far.
   const std::optional<SearchPoint>& best() const { return best_; }
-  /// The least violation of all defined points evaluated so far.
+  /// The defined point of least violation evaluated so far.
   const std::optional<SearchPoint>& nearest() const { return nearest_; }
   long evaluations() const { return evaluations_; }
   long undefined_evaluations() const { return undefined_; }
   int optimiser_failures() const { return failures_; }
-  /// The stop predicate or the cap on all evaluations ended the search.
+  /// True if the stop predicate or the limit on all evaluations ended the search.
   bool stopped() const { return stopped_; }
 
  private:

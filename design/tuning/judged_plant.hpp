@@ -9,9 +9,9 @@
 
 namespace boresight::design {
 
-/// A control law on one plant against its hard goals.
+/// Evaluation of one controller on one plant against its constraints.
 struct PlantJudgement {
-  /// By the winding along the frequencies; nothing below is set where it is false.
+  /// By Nyquist encirclements along the frequencies. If false, the fields below are not set.
   bool stable = false;
   control::LoopEvaluation evaluation;
   std::vector<GoalRatio> ratios;
@@ -20,19 +20,20 @@ struct PlantJudgement {
   double worst_ratio() const;
 };
 
-/// One plant of a tuning, ready to judge law after law. Copies are independent. Not to be shared
-/// between threads.
+/// One plant of a tuning, prepared to evaluate many controllers. Copies are independent. Use
+/// one object in one thread only.
 class JudgedPlant {
  public:
-  /// The problem's own plant. `wind` must be of the problem. `tolerance`: as of
+  /// For the problem's own plant. `wind` must belong to the problem. `tolerance` as in
   /// make_adaptive_evaluator.
   JudgedPlant(std::string name, const TrackingProblem& problem, const HardGoals& goals,
               const WindTable& wind, double tolerance = control::LoopQuadrature{}.tolerance);
 
-  /// Good until the next call. @throws InvalidInput as control::validate(law).
+  /// Evaluates one controller. The reference is valid until the next call. @throws InvalidInput as
+  /// control::validate.
   const PlantJudgement& judge(const control::ControlLaw& law, bool with_gradients);
 
-  /// Of the eigenvalues.
+  /// Stability by the eigenvalues of the closed loop.
   bool stable_by_eigenvalues(const control::ControlLaw& law) const;
 
   const std::string& name() const { return name_; }
@@ -46,7 +47,7 @@ class JudgedPlant {
   MeanWindLoad mean_;
   Eigen::ArrayXd frequency_;  // rad/s, for margins and the eigenvalues' residue
   control::LoopEvaluator evaluator_;
-  /// Gusts are those of the design's wind: beside a climate they take an evaluator of their own.
+  /// Gusts are those of the design wind. With a climate they need an evaluator of their own.
   std::vector<control::LoopEvaluator> gusts_;
   std::vector<control::LoopChannels> channels_;  // where margins are asked for
   PlantJudgement judgement_;

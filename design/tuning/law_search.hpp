@@ -8,24 +8,25 @@
 
 namespace boresight::design {
 
-/// Which plants a search carries: hard goals hold on each of `goals`; the cost is the root of the
-/// mean beam variance of `rms`, or the largest of their rms. Indices into the plants.
+/// Active plants of a search, as indices into the plants. The constraints apply to each of `goals`.
+/// The cost is the root of the mean boresight variance over `rms`, or the largest rms of these if
+/// `largest`.
 struct CarriedPlants {
   std::vector<std::size_t> goals;
   std::vector<std::size_t> rms;
   bool largest = false;
 };
 
-/// The control laws of a structure as points (logarithms of the gains), and back: gains beyond the
-/// bounds of their descriptions are set on them.
+/// Converts controllers of a structure to points (logarithms of the gains), and back. Gains beyond
+/// the bounds of their descriptions are set to the bound.
 std::vector<double> log_gains(const control::ControlLaw& law);
 control::ControlLaw law_at(const control::LoopStructure& structure,
                            const std::vector<double>& point);
 
-/// The search of one structure over several plants: ln of the beam rms is the cost, ln of each goal
-/// ratio (plus `reserve`) a constraint; undefined where a carried plant's loop is unstable. The
-/// plants must outlive the problem, and are used by it. At most three peaks a break, gain margins
-/// and phase margins count.
+/// The search problem of one structure over several plants. The cost is ln of the boresight rms;
+/// the constraints are ln of each normalised constraint plus `reserve`. A point is undefined if the
+/// loop of an active plant is unstable. The plants must outlive the problem, which modifies them.
+/// At most three peaks, gain margins and phase margins per break are constraints.
 ConstrainedProblem law_problem(std::vector<JudgedPlant>& plants, const CarriedPlants& carried,
                                const control::LoopStructure& structure, const HardGoals& goals,
                                double reserve);

@@ -11,38 +11,40 @@
 
 namespace boresight::design {
 
-/// One response that must meet its peaks, at the breaks looked at.
+/// One response that must meet the peak limits, at the breaks with `looked_at` true.
 struct MeasuredMember {
   control::LoopEvaluator evaluator;
   std::array<bool, control::loop_breaks.size()> looked_at;
 };
 
-/// Loops with these channels in the problem's wind and noise; variances over `band` (Hz).
+/// Evaluator for loops with these channels in the problem's wind and noise; variances over `band`
+/// (Hz).
 control::LoopEvaluator measured_evaluator(const MeasuredProblem& problem,
                                           const control::LoopChannels& channels,
                                           control::FrequencyBand band);
 
-/// The searches of one tuning on a measured response, which count themselves in its result. Keeps
-/// references to what it is made of. Points are logarithms of gains.
+/// The searches of one tuning on a measured response. Adds its counts to the tuning result. Keeps
+/// references to the constructor arguments. Points are logarithms of gains.
 class MeasuredSearch {
  public:
   MeasuredSearch(const MeasuredProblem& problem, const control::LoopStructure& structure,
                  const MeasuredGoals& goals, const MeasuredTuningOptions& options);
 
-  /// Distinct optima of random starts on a coarse grid, best first; the point nearest to the goals
-  /// where none meets them; nothing where no stable law was seen.
+  /// Distinct optima of random starts on a coarse grid, best first. If none meets the constraints,
+  /// returns the point nearest to meeting them. Empty if no stable controller was found.
   std::vector<SearchPoint> from_everywhere(MeasuredTuningResult& result);
 
-  /// The best from these starts with the responses of `members`, of which the first is the measured
-  /// one: rms and effort are its; nearest to the goals if none meets them.
+  /// The best point from these starts, with the responses of `members`. The first member is the
+  /// measured response, for which rms and effort are computed. If no point meets the constraints,
+  /// returns the nearest one.
   std::optional<SearchPoint> refine(std::vector<MeasuredMember>& members,
                                     const std::vector<std::vector<double>>& starts,
                                     MeasuredTuningResult& result);
 
-  /// The measured response itself, looked at at every break.
+  /// The measured response itself, constrained at every break.
   MeasuredMember measured(const Eigen::ArrayXd& grid) const;
-  /// The response within `radius` of the measured one's confidence that is worst for the law at
-  /// break `b`, looked at there.
+  /// The worst response for the controller at break `b`, within `radius` of the confidence of the
+  /// measured response. It is constrained at that break only.
   MeasuredMember least_favourable(const control::ControlLaw& law, std::size_t b, double radius,
                                   const Eigen::ArrayXd& grid) const;
   control::ControlLaw law_of(const SearchPoint& point) const;

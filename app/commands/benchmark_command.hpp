@@ -20,7 +20,7 @@ struct BenchmarkArguments {
   std::string part;          // of that file: which state space; empty: as ControllerNames has it
   std::string export_path;   // where the controller in use is written; empty: nowhere
   std::string compare_path;  // another score sheet; empty: none
-  bool sampled = false;      // the law in its sampled form
+  bool sampled = false;      // the controller in its sampled form
   std::uint64_t seed = 1;
   unsigned threads = 0;  // 0: all
 };

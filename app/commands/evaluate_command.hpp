@@ -18,7 +18,7 @@ struct EvaluateArguments {
   std::vector<std::string> goals;       // changes of [goals], KEY=VALUE
   std::size_t draws = 2000;
   int starts = 0;           // 0: as the case has it
-  bool time_domain = true;  // laws run on the nonlinear antenna
+  bool time_domain = true;  // run controllers on the nonlinear antenna
   std::uint64_t seed = 1;
   unsigned threads = 0;  // 0: all
 };

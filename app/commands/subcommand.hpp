@@ -38,7 +38,7 @@ struct Subcommand {
   Outputs* outputs = nullptr;  // of `run`, which keeps them
 };
 
-// Options that commands share.
+// Options common to several commands.
 void add_case(CLI::App& command, std::string& path);
 void add_seed(CLI::App& command, std::uint64_t& seed);
 /// Sets the number to 0, the default: all; see all_or.
@@ -66,7 +66,7 @@ struct Findings {
 
 /// Where what a command found goes, beside standard output.
 struct Outputs {
-  std::string json_path;      // "-": to standard output, in the place of the text; empty: nowhere
+  std::string json_path;      // "-": to standard output instead of the text; empty: nowhere
   std::string report_path;    // of the page; empty: none
   std::string mat_path;       // of the linear models; empty: none
   std::string curves_folder;  // of the figures' points as CSV; empty: none

@@ -26,7 +26,7 @@ struct Candidate : design::ProposedDesign {
   std::vector<std::string> risks;
   std::vector<io::ChangeRow> changes;
   std::vector<io::DerivedChange> consequences;
-  /// Of each law its gains in the engineer's units; empty for one that is not stable.
+  /// Gains of each controller in the engineer's units; empty for an unstable one.
   std::vector<std::vector<std::string>> gains;
 };
 
@@ -50,11 +50,11 @@ struct EvaluateSection {
   int starts = 0;
   std::vector<design::PointingBand> bands;
   std::vector<design::PointingBudget> budgets;
-  /// How laws ran on the nonlinear antenna; none if they did not.
+  /// Options of the controllers' runs on the nonlinear antenna; none without such runs.
   std::optional<design::NonlinearVerificationOptions> time_domain;
   std::vector<Candidate> candidates;  // the antenna as it is first
-  /// On the front of cost and compared_rms, as places in `candidates`, in rising cost; empty if no
-  /// proposal states a cost.
+  /// Candidates on the Pareto front of cost and compared_rms, as indices into `candidates`, by
+  /// increasing cost. Empty if no proposal states a cost.
   std::vector<std::size_t> front;
   std::optional<DecisionSection> decision;
   std::vector<std::string> not_run;  // what an interrupt left out

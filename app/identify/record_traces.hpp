@@ -23,7 +23,7 @@ struct RecordTrace {
   Signal signal = Signal::tachometer;
   std::string channel;  // as the file calls it; empty: the torque of all motors
   ThinnedSeries series;
-  /// What stands in the place of samples that were masked, gaps elsewhere; empty if none was.
+  /// Values that replace masked samples, with gaps elsewhere; empty if none was masked.
   ThinnedSeries masked;
 };
 

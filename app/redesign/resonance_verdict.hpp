@@ -16,8 +16,8 @@ std::string which_was_measured(const io::ResonanceVerdict& verdict);
 /// then which_was_measured.
 std::string resonance_sentence(const io::ResonanceVerdict& verdict);
 
-/// Where they contradict each other the same, and that no plant which laws are held on has that
-/// oil, if so; else empty.
+/// The same where the two contradict each other. States also if no plant of the uncertainty set has
+/// that oil stiffness. Else empty.
 std::string resonance_warning(const std::optional<io::ResonanceVerdict>& verdict);
 
 /// Why the methods have no inertia by the resonance, where it is not rigid; else empty.

@@ -23,11 +23,12 @@ Document document_of(const AuditReport& report);
 std::string audit_summary(const AuditReport& report);
 Document document_of(const PlantSection& section);
 Document document_of(const TuningSection& section);
-/// The table of tuned laws, gains before and after, what limits each, what cannot be reached.
+/// The table of tuned controllers, gains before and after, active constraints, requirements out of
+/// reach.
 Document document_of(const TuneSection& section);
-/// The law on the nonlinear antenna.
+/// The controller on the nonlinear antenna.
 Document document_of(const TimeDomainSection& section);
-/// What each way out of a contradiction in the case would do.
+/// The result of each interpretation of contradictory numbers in the case.
 Document document_of(const std::vector<ChoiceResult>& choices);
 Document document_of(const MatchingSection& section);
 /// Inputs that the records have replaced, before and after.

@@ -27,8 +27,8 @@ std::string slew_out_of_reach(const TimeDomainSection& section);
 /// neither.
 std::string assumed_stroke(const TimeDomainSection& section);
 
-/// In a sentence that the law does not hold the antenna still (design::holds_still) within the
-/// tightest budget; empty if it does.
+/// A sentence if freedom from limit cycles within the tightest budget is not shown
+/// (design::holds_still); else empty.
 std::string not_still(const TimeDomainSection& section);
 
 /// What to do about a controller that is not free of limit cycles; of one that is, which others it

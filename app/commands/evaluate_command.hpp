@@ -23,10 +23,9 @@ struct EvaluateArguments {
   unsigned threads = 0;  // 0: all
 };
 
-/// Tunes the antenna as it is and with each proposal, and compares them. With records the antenna
-/// is the one that they show, and what they leave open is what is uncertain.
-/// @throws InvalidInput for arguments, cases and proposals that cannot be worked on: before
-/// anything is tuned.
+/// Tunes the present antenna and each proposal, and compares them. With records, the antenna is the
+/// identified one, and the uncertainty is what the records leave.
+/// @throws InvalidInput for invalid arguments, cases or proposals, before any tuning.
 Report evaluate_case(const EvaluateArguments& arguments, const std::function<bool()>& interrupted);
 
 Subcommand add_evaluate(CLI::App& program);

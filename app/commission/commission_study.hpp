@@ -102,7 +102,7 @@ CommissionReport plan_commission(const io::DesignedAntenna& designed,
 /// The report, and as text for a terminal.
 Document document_of(const CommissionReport& report);
 std::string to_text(const CommissionReport& report);
-/// The members of the JSON report; docs/commission.schema.json is made of it.
+/// The members of the JSON report, from which docs/commission.schema.json is generated.
 void describe(io::Visitor& v, const CommissionReport& report);
 std::string to_json(const CommissionReport& report);
 

@@ -17,7 +17,8 @@ using design::PairByStructure;
 using design::SameStructure;
 using design::SlewFigures;
 
-/// The antenna as it is, or as a proposal makes it, with what its file says.
+/// The present antenna, or the antenna with a proposal applied, and the data of the proposal's
+/// file.
 struct Candidate : design::ProposedDesign {
   std::string path;  // of the proposal; empty for the antenna as it is
   std::string description;
@@ -30,7 +31,7 @@ struct Candidate : design::ProposedDesign {
   std::vector<std::vector<std::string>> gains;
 };
 
-/// A decision with the words for what it rests on.
+/// A decision with the description of its basis.
 struct DecisionSection : design::ProposalDecision {
   std::string source;               // of the draws
   std::vector<std::string> inputs;  // `uncertain`

@@ -18,8 +18,8 @@ std::string none_chosen(const EvaluateSection& section);
 /// Names of the candidates that are not eligible only because of their limit cycle.
 std::vector<std::string> hunting_candidates(const EvaluateSection& section);
 
-/// The names of the candidates that are not fit to be chosen and yet are the best of all on some
-/// draw: chances to be best and regrets count them.
+/// Names of the candidates that are not eligible but are the best of all in some sample:
+/// probabilities to be best and regrets include them.
 std::vector<std::string> unfit_but_counted(const EvaluateSection& section,
                                            const DecisionSection& decision);
 

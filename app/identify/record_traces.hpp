@@ -17,7 +17,7 @@ struct LoadedCampaign;
 
 namespace boresight::app {
 
-/// What of a record is drawn, SI at the motor shaft, against time (s, as recorded).
+/// The plotted channels of a record, SI at the motor shaft, against time (s, as recorded).
 struct RecordTrace {
   enum class Signal { tachometer, rate_command, valve_command, pressure, torque };
   Signal signal = Signal::tachometer;

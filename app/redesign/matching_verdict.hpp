@@ -9,7 +9,7 @@
 
 namespace boresight::app {
 
-/// What the matching study of a redesign says of changing the motors' inertia.
+/// Conclusions of a redesign's matching study on a change of the motors' inertia.
 class MatchingVerdict {
  public:
   /// The section must have two rows or more, and outlive this.

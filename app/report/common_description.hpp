@@ -15,7 +15,7 @@ class Visitor;
 
 namespace boresight::app {
 
-/// What every schema says of its keys ("$comment").
+/// The remark on keys in every schema ("$comment").
 inline constexpr std::string_view schema_comment =
     "A key that holds a number ends in its unit: _1 (none), _N_m, _mdeg, ... Counts are whole "
     "numbers and have none. null stands for what is infinite, undefined or not there.";

@@ -11,8 +11,8 @@
 
 namespace boresight::app {
 
-// What a report says to do, in a few sentences that stand on their own; its conclusions
-// have the conditions. Fewer where an interrupt left parts out.
+// The recommendations of a report, in a few self-contained sentences; its conclusions state the
+// conditions. Fewer after an interrupt.
 std::vector<std::string> decision(const Report& report);
 std::vector<std::string> decision(const BenchmarkReport& report);
 std::vector<std::string> decision(const MonteCarloSection& section);

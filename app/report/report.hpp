@@ -59,7 +59,7 @@ struct PlantSection {
   double torque_for_wind = 0.0;   // N m, what friction and offset leave of it
   double mean_wind_torque = 0.0;  // N m at the motor, design speed
   std::optional<double> slew_rate_margin = std::nullopt;  // io::slew_rate_margin
-  /// Records whose reconciled estimate the plant is; 0: as the case states it.
+  /// Number of records whose combined estimate the plant is; 0: the plant is as stated in the case.
   std::size_t records = 0;
 };
 
@@ -68,7 +68,7 @@ using MatchingRow = design::FlywheelRow;
 using MatchingSeries = design::FlywheelSeries;
 using MatchingSection = design::FlywheelComparison;
 
-/// The recommended controller at depth, and what of the case's text its report needs.
+/// The recommended controller in detail, and the parts of the case's text that its report needs.
 struct TuningSection : design::RecommendedDesign {
   std::optional<io::WindAttitude> wind_attitude;  // none: one torque coefficient for all
   std::optional<io::WindMast> wind_mast;  // none: the case states speeds at the dish's centre

@@ -11,8 +11,9 @@ namespace boresight::app {
 Document document_of(const Report& report);
 std::string to_text(const Report& report);
 
-// One function a section; each begins with its heading.
-/// What the records say: what is not identifiable, the reconciled estimate, the methods beside it.
+// One function per section; each begins with its heading.
+// Results of the records: quantities that are not identifiable, the combined estimate, the single
+// methods.
 Document document_of(const io::CampaignSection& section);
 /// The records: tests, defects with place and count, everything that was taken for granted.
 Document document_of(const io::CampaignNotes& notes);

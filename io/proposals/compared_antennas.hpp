@@ -18,7 +18,7 @@ struct ComparedAntennas {
   std::string currency;  // of the costs; empty: no proposal states one
 };
 
-/// `structures`: those that are tuned for the antenna as it is and for proposals that name none, as
+/// `structures`: those tuned for the present antenna and for proposals that name none, as in
 /// asked_structures.
 /// @throws InvalidInput (FILE:LINE:COLUMN: KEY: ...) for two proposals of one name or of different
 /// currencies and one called as_it_is; as apply_proposal, mission_of, asked_structures and

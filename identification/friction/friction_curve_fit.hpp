@@ -115,16 +115,16 @@ numerics::Interval offset_of_antenna(const FrictionCurveFit& fit, const Campaign
 /// estimate, the logarithms.
 Eigen::VectorXd friction_gradient(const plant::FrictionCurve& curve, double rate);
 
-/// Change of the fit's estimate in draw number `draw` of a seed, to be used to first order (a
-/// parameter that the data do not determine must not be followed far): its own scatter (`factor`:
-/// the covariance's, n x rank, by numerics::semidefinite_factor) and the transducers' errors of
-/// that draw.
+/// Change of the fit's estimate in sample number `draw` of a seed. Use it to first order only,
+/// since parameters that the data do not determine must not be extrapolated far. It includes the
+/// fit's own scatter and the transducers' errors of that sample. `factor`: of the covariance, n x
+/// rank, by numerics::semidefinite_factor.
 Eigen::VectorXd draw_friction(const FrictionCurveFit& fit, const Eigen::MatrixXd& factor,
                               const InstrumentErrors& errors, std::uint64_t seed,
                               std::uint64_t draw);
 
-/// Gain errors of a draw without what the fit has estimated: the part in which all inlets read high
-/// and all outlets low together, which is `torque_by_common_pressure`.
+/// Gain errors of a sample without the part estimated by the fit: the part in which all inlets read
+/// high and all outlets low together, which is `torque_by_common_pressure`.
 Eigen::VectorXd remaining_gain_errors(const Eigen::VectorXd& pressure_gain, Eigen::Index inlets);
 
 }  // namespace boresight::identification

@@ -80,8 +80,8 @@ struct GreyBoxPosterior {
   /// Where the drive moves one way, friction's level and the offset are one number: by how much
   /// either may be the other's (N m, standard uncertainty; the sign is the motion's). 0 otherwise.
   double one_way = 0.0;
-  /// Where the drive is never fast enough for friction to saturate, standard uncertainty of the
-  /// logarithm of the saturating level, and with it of its rate: slow friction stays as it is.
+  /// If the drive is never fast enough for friction to saturate: standard uncertainty of the
+  /// logarithm of the saturating level, and with it of its rate. Slow friction does not change.
   double unsaturated = 0.0;
 };
 
@@ -96,7 +96,7 @@ GreyBoxPosterior grey_box_posterior(const GreyBoxObjective& objective, const Eig
 /// The drive at a point.
 DriveEstimate drive_estimate(const GreyBoxParameters& parameters, const Eigen::VectorXd& point);
 
-/// Draws from the posterior, discrepancies included; deterministic by seed.
+/// Samples from the posterior, discrepancies included; deterministic by seed.
 std::vector<DriveEstimate> posterior_draws(const GreyBoxParameters& parameters,
                                            const GreyBoxPosterior& posterior, int count,
                                            std::uint64_t seed);

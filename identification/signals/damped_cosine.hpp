@@ -19,8 +19,8 @@ struct RingPole {
 struct RingFitOptions {
   /// Degree of the polynomial under the oscillation (-1: none).
   int trend_degree = 1;
-  /// Hz: slower content is taken out by cosines over the window up to this frequency, and no pole
-  /// is looked for below it (0: only the polynomial).
+  /// Hz: slower content is removed by cosines over the window up to this frequency, and no pole is
+  /// searched for below it (0: only the polynomial).
   double low_frequency_limit = 0.0;
   /// Poles that are present with amplitudes of their own but are not fitted.
   std::vector<RingPole> fixed_poles;

@@ -6,7 +6,7 @@
 
 namespace boresight::app {
 
-/// Which inputs a report's numbers rest on that the linear plant does without.
+/// Inputs on which a report's numbers depend but the linear plant does not.
 struct NonlinearInputs {
   /// simulation.valve_stroke: what a command or a gust may ask of the valve. Always among them for
   /// a case whose goals limit gusts.

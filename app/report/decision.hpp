@@ -19,8 +19,8 @@ std::vector<std::string> decision(const MonteCarloSection& section);
 std::vector<std::string> decision(const CommissionReport& report);
 std::vector<std::string> decision(const SimulationReport& report);
 
-// What the decision of a redesign rests on or leaves open, a sentence or two each; of other
-// commands a resonance_warning, the rest is in their conclusions.
+// Assumptions and open questions of a redesign's decision, one or two sentences each. For other
+// commands a resonance_warning; their conclusions hold the rest.
 std::vector<std::string> reservations(const Report& report);
 
 }  // namespace boresight::app

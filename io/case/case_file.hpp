@@ -183,7 +183,8 @@ struct StructureModeEntry {
 };
 
 struct StructureEntry {
-  /// As stated, or by gear_stiffness; then with what the case says of that, its key included.
+  /// As stated, or computed from gear_stiffness; then with the annotations of that number, its key
+  /// included.
   Quantity locked_rotor_frequency;
   /// Of the gear train between motors, held, and bull gear, at the antenna's axis.
   std::optional<Quantity> gear_stiffness;

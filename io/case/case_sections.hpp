@@ -8,7 +8,7 @@
 
 namespace boresight::io {
 
-/// The key `name`, which must differ from those read before: ids and reports tell by it.
+/// The key `name`, which must differ from those read before: ids and reports use it.
 /// @throws InvalidInput as TableReader does
 std::string read_name(TableReader& entry, std::set<std::string>& names);
 

@@ -116,10 +116,10 @@ struct PlantMode {
 std::vector<PlantMode> plant_modes(const AntennaPlant& plant);
 
 /// The mode in which the whole antenna moves on the oil spring, with the structure's flexure in
-/// series: the lowest of the modes that move the oil. Only this mode remains identifiable as
-/// inertia or stiffness change. With oil stiffer than the structure, the motors' largest motion
-/// passes to successively higher modes. Its oil_share shows whether it is a measure of the oil.
-/// With a gear spring far softer than the oil it is not, and mode_of_oil is.
+/// series: the lowest of the modes that move the oil. Only this mode keeps its identity as inertia
+/// or stiffness change. With oil stiffer than the structure, the motors' largest motion passes from
+/// mode to mode above it. Its oil_share shows whether it is a measure of the oil. With a gear
+/// spring far softer than the oil it is not, and mode_of_oil is.
 /// If friction and leakage overdamp it, its two real poles p1, p2 are returned as one mode of
 /// frequency sqrt(p1 p2) and damping ratio (p1 + p2)/(2 sqrt(p1 p2)) above 1. `modes`: in order of
 /// frequency, as returned by plant_modes.

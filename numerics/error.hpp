@@ -19,8 +19,7 @@ class InvalidInput : public Error {
   using Error::Error;
 };
 
-/// A requirement cannot be met: the message says which and what is the closest reachable.
-/// Exit code 3.
+/// A requirement cannot be met: the message names it and the closest achievable value. Exit code 3.
 class InfeasibleRequirement : public Error {
  public:
   using Error::Error;

@@ -10,10 +10,10 @@ namespace boresight::numerics {
 /// 2014; the published sequence starts at index 0).
 std::uint64_t splitmix64(std::uint64_t state, std::uint64_t index);
 
-/// Standard normal numbers counted, not drawn in turn: number pair `index` of a seed's stream is
-/// the same whatever was asked before, on every standard library (unlike std::normal_distribution).
-/// Streams of one seed are independent, and so are seeds. Box and Muller's transform of two numbers
-/// of splitmix64, so that none lies beyond 8.7.
+/// Counter-based standard normal numbers: number pair `index` of a seed's stream does not depend on
+/// earlier calls or the standard library (unlike std::normal_distribution). Streams of one seed are
+/// independent, and so are seeds. Box-Muller transform of two numbers of splitmix64, so that none
+/// lies beyond 8.7.
 class NormalNumbers {
  public:
   explicit NormalNumbers(std::uint64_t seed, std::uint64_t stream = 0);

@@ -15,7 +15,7 @@ unsigned thread_count(unsigned asked);
 void for_each_index(std::size_t count, unsigned threads,
                     const std::function<void(std::size_t)>& work);
 
-/// Counts the steps of a job that several threads share and reports each, one call at a time.
+/// Counts the steps of a job distributed over several threads and reports each, one call at a time.
 class StepCounter {
  public:
   using Report = std::function<void(std::size_t done, std::size_t all)>;

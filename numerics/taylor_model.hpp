@@ -17,11 +17,11 @@ struct FrequencyInterval {
   double frequency() const { return reciprocal ? 1.0 / centre : centre; }
 };
 
-/// A function on an interval as a parabola and what it may differ from it:
+/// A function on an interval as a parabola with a bound of the remainder:
 ///   |f(x) - (value + slope x + curvature x^2)| <= rest   for |x| <= half_width
 /// (K. Makino, M. Berz, Taylor models and other validated functional inclusion methods,
 /// International Journal of Pure and Applied Mathematics 4, 2003; truncation is enclosed, rounding
-/// estimated). A rest that is infinite or not a number says that nothing is known.
+/// estimated). A rest that is infinite or not a number means that no bound is known.
 struct TaylorModel {
   std::complex<double> value;
   std::complex<double> slope;

@@ -10,13 +10,13 @@ namespace boresight::app {
 /// An input or result that contradicts physics or the rest of the case: a check of
 /// io::check_physics that fails, in words.
 struct Implausibility {
-  /// What the check looks at, in the words of audit_description.cpp: "wave speed".
+  /// Subject of the check, in the words of audit_description.cpp: "wave speed".
   std::string check;
   /// The quantity, by id.
   std::string id;
   /// One sentence with the numbers in it.
   std::string reasoning;
-  /// What it rests on; bending in mdeg.
+  /// The numbers that it uses; deflection in mdeg.
   std::vector<design::CheckedNumber> numbers;
 };
 
@@ -35,7 +35,7 @@ struct AuditReport {
 /// io::audit of the case in words. @throws as that.
 AuditReport audit_report(const io::Case& antenna);
 
-/// How many physical checks fail and what they look at: "3 physical checks fail: wave speed (2),
+/// Number of failed physical checks and their subjects: "3 physical checks fail: wave speed (2),
 /// recorder limit".
 std::string failing_checks(const std::vector<Implausibility>& implausible);
 

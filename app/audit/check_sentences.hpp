@@ -8,7 +8,7 @@
 
 namespace boresight::app {
 
-/// What a sentence is made of: the check, the case that it is of, and what all checks share.
+/// The input of a sentence: the check, its case, and the data common to all checks.
 struct FailedCheck {
   const design::PhysicalCheck& check;
   const io::Case& antenna;

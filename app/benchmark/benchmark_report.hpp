@@ -25,7 +25,7 @@ struct ComparedQuantity {
   std::optional<double> own, other;
 };
 
-/// What of another score sheet is drawn beside one: as its JSON has it.
+/// The data of another score sheet that are drawn for comparison, as in its JSON.
 struct ComparedSheet {
   std::vector<double> frequency, compliance;  // Hz, mdeg/(MN m)
   /// The ladder in this sheet's wind model with the other case's own torque coefficient.
@@ -37,7 +37,7 @@ struct BenchmarkReport : design::BenchmarkStudy {
   std::string case_path, title;
   io::PointingAxis axis;
   std::uint64_t seed = 1;
-  /// Of the controller's file, and where it samples otherwise than the case's delay says.
+  /// Of the controller's file, and on a sample time that differs from the case's delay.
   std::vector<std::string> remarks;
   /// Whether plant and ensemble are what the case's records show, not what it states.
   bool from_records = false;
@@ -62,14 +62,15 @@ BenchmarkReport benchmark(const io::DesignedAntenna& designed,
 /// The report, and as text for a terminal.
 Document document_of(const BenchmarkReport& report);
 std::string to_text(const BenchmarkReport& report);
-/// The members of the JSON sheet; docs/benchmark.schema.json is made of it.
+/// The members of the JSON sheet, from which docs/benchmark.schema.json is generated.
 void describe(io::Visitor& v, const BenchmarkReport& report);
 /// Those of its score alone, which is of a stable loop.
 void describe_score(io::Visitor& v, const BenchmarkReport& report);
 std::string to_json(const BenchmarkReport& report);
 
-/// Puts another score sheet (JSON of this command) beside the report's. @throws InvalidInput for
-/// what is no score sheet, one of an unstable loop and one of another protocol.
+/// Adds another score sheet (JSON of this command) for comparison.
+/// @throws InvalidInput for anything but a score sheet, one of an unstable loop and one of another
+/// protocol.
 void compare_with(BenchmarkReport& report, const std::string& other_json, const std::string& name);
 
 }  // namespace boresight::app

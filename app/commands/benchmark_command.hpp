@@ -20,15 +20,15 @@ struct BenchmarkArguments {
   std::string part;          // of that file: which state space; empty: as ControllerNames has it
   std::string export_path;   // where the controller in use is written; empty: nowhere
   std::string compare_path;  // another score sheet; empty: none
-  bool sampled = false;      // the law in its sampled form
+  bool sampled = false;      // the controller in its sampled form
   std::uint64_t seed = 1;
   unsigned threads = 0;  // 0: all
 };
 
-/// Scores the controller asked for on the antenna that the case states or, of a case with records,
-/// the one that they show. After `interrupted` said yes the report holds what was whole.
-/// @throws InvalidInput for arguments, cases and files that cannot be worked on, Interrupted before
-/// the controller is known; InfeasibleRequirement as recommended_controller.
+/// Scores the requested controller on the antenna of the case or, for a case with records, on the
+/// identified one. After `interrupted` returned true, the report holds the completed parts.
+/// @throws InvalidInput for invalid arguments, cases or files; Interrupted before the controller is
+/// known; InfeasibleRequirement as recommended_controller.
 BenchmarkReport benchmark_case(const BenchmarkArguments& arguments,
                                const std::function<bool()>& interrupted);
 

@@ -14,9 +14,9 @@ struct CommissionArguments {
   CommissionOptions options;
 };
 
-/// With records the plant is the one they show and the plants that may be the true one are drawn
-/// from what they leave open; else from the case's ranges.
-/// @throws as plan_commission; Interrupted after `interrupted` said yes.
+/// With records, the plant is the identified one and the uncertainty set is sampled from the
+/// uncertainty that the records leave. Without records, it is sampled from the case's ranges.
+/// @throws as plan_commission; Interrupted after `interrupted` returned true.
 CommissionReport commission_case(const CommissionArguments& arguments,
                                  const std::function<bool()>& interrupted);
 

@@ -6,8 +6,8 @@
 
 namespace boresight::app {
 
-/// A script that, sourced by the shell, completes the program's commands, options and the values it
-/// knows (structures, tests), and else names of files where a file is wanted.
+/// A shell script that completes the program's commands, options and known values (structures,
+/// tests), and file names where a file is expected.
 std::string bash_completion(const ProgramText& program);
 std::string zsh_completion(const ProgramText& program);
 std::string fish_completion(const ProgramText& program);

@@ -18,15 +18,14 @@ struct EvaluateArguments {
   std::vector<std::string> goals;       // changes of [goals], KEY=VALUE
   std::size_t draws = 2000;
   int starts = 0;           // 0: as the case has it
-  bool time_domain = true;  // laws run on the nonlinear antenna
+  bool time_domain = true;  // run controllers on the nonlinear antenna
   std::uint64_t seed = 1;
   unsigned threads = 0;  // 0: all
 };
 
-/// Tunes the antenna as it is and with each proposal, and compares them. With records the antenna
-/// is the one that they show, and what they leave open is what is uncertain.
-/// @throws InvalidInput for arguments, cases and proposals that cannot be worked on: before
-/// anything is tuned.
+/// Tunes the present antenna and each proposal, and compares them. With records, the antenna is the
+/// identified one, and the uncertainty is what the records leave.
+/// @throws InvalidInput for invalid arguments, cases or proposals, before any tuning.
 Report evaluate_case(const EvaluateArguments& arguments, const std::function<bool()>& interrupted);
 
 Subcommand add_evaluate(CLI::App& program);

@@ -7,7 +7,7 @@
 
 namespace boresight::app {
 
-// The commands that tell of the program itself, from the tree that parses its command line.
+// Commands that document the program itself, from the tree that parses its command line.
 
 /// Shells that `boresight completion` writes for.
 const std::vector<std::string>& completion_shells();

@@ -4,7 +4,8 @@
 
 namespace boresight::app {
 
-/// `boresight montecarlo CASE`: one law on thousands of plants that may be the true one.
+/// `boresight montecarlo CASE`: evaluates one controller, gains fixed, on thousands of perturbed
+/// plant models.
 Subcommand add_montecarlo(CLI::App& program);
 
 }  // namespace boresight::app

@@ -9,7 +9,7 @@ class App;
 
 namespace boresight::app {
 
-/// What a completion may offer for a value beside `words`.
+/// The completions offered for a value in addition to `words`.
 enum class ValueFiles { none, files, folders };
 
 /// One option, flag or argument of a command, in words.
@@ -32,7 +32,7 @@ struct CommandText {
   std::vector<OptionText> options;
 };
 
-/// The command line as help, manual and completion tell of it.
+/// The command line as described in help, manual and completion.
 struct ProgramText {
   std::string description;
   std::vector<OptionText> options;  // of the program itself

@@ -15,7 +15,7 @@ struct Program {
   std::vector<Subcommand> commands;
 };
 
-/// Every command with its options, examples and the options that all share.
+/// Every command with its options and examples, and the options common to all commands.
 Program make_program();
 
 /// Why the program does not take these arguments (its own name left out), in one sentence that

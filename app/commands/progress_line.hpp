@@ -9,8 +9,8 @@ namespace boresight::app {
 /// "90 s", "12 min", "3.5 h": as exact as a forecast is.
 std::string duration_text(double seconds);
 
-/// One line on standard error that says how far the work is and how long it may still take; silent
-/// unless standard error is a terminal, and silent when quiet().
+/// One line on standard error with progress and estimated remaining time. Silent if standard error
+/// is no terminal or quiet() is set.
 class ProgressLine {
  public:
   /// What is being worked on, as the line begins.

@@ -26,11 +26,11 @@ struct SimulateArguments {
   unsigned threads = 1;  // so many records at a time; they do not depend on it
 };
 
-/// Runs the tests on the nonlinear antenna of the case and writes a record of each, TEST.csv
-/// or TEST.mat, into the folder (made if it is not there). `interrupted` is asked now and then, by
-/// one thread at a time; after it said yes the records under way are written up to there, marked as
-/// incomplete, and the rest is left out. A test that fails ends the work too: the report tells of
-/// those before it, `failure` holds the error.
+/// Runs the tests on the nonlinear antenna of the case. Writes a record of each, TEST.csv or
+/// TEST.mat, into the folder, which is created if missing. `interrupted` is called from time to
+/// time, by one thread at a time. After it returned true, records in progress are written up to
+/// that time, marked as incomplete, and the rest is left out. A failed test also ends the work: the
+/// report covers the tests before it, `failure` holds the error.
 struct SimulateOutcome {
   SimulationReport report;
   std::exception_ptr failure;

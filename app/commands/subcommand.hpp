@@ -38,15 +38,15 @@ struct Subcommand {
   Outputs* outputs = nullptr;  // of `run`, which keeps them
 };
 
-// Options that commands share.
+// Options common to several commands.
 void add_case(CLI::App& command, std::string& path);
 void add_seed(CLI::App& command, std::uint64_t& seed);
 /// Sets the number to 0, the default: all; see all_or.
 void add_threads(CLI::App& command, unsigned& threads);
-/// The number of threads asked for, of the machine's for 0.
+/// The requested number of threads; for 0 that of the machine.
 unsigned all_or(unsigned threads);
 
-/// The flag --quiet: neither text nor progress; errors are told all the same.
+/// The flag --quiet: neither text nor progress; errors are still reported.
 void add_quiet(CLI::App& command);
 /// Whether it was given.
 bool quiet();
@@ -55,7 +55,7 @@ bool quiet();
 void watch_for_interrupt();
 bool interrupt_requested();
 
-/// What a command found, in each form that may be asked for; made only if it is.
+/// The results of a command in each output form; computed only on request.
 struct Findings {
   std::function<Document()> document;
   std::function<std::string()> json;
@@ -64,20 +64,20 @@ struct Findings {
   std::function<std::string()> mat = {};
 };
 
-/// Where what a command found goes, beside standard output.
+/// Destinations of a command's results, in addition to standard output.
 struct Outputs {
-  std::string json_path;      // "-": to standard output, in the place of the text; empty: nowhere
+  std::string json_path;      // "-": to standard output instead of the text; empty: nowhere
   std::string report_path;    // of the page; empty: none
   std::string mat_path;       // of the linear models; empty: none
   std::string curves_folder;  // of the figures' points as CSV; empty: none
   bool details = false;       // the whole text to standard output, not its short form
   std::string command_line;   // as it was given, for the page
 
-  /// @throws InvalidInput if one of them cannot be written to. To be asked before the work, not
-  /// after it.
+  /// Call it before the work starts.
+  /// @throws InvalidInput if one of them cannot be written to.
   void require_writable() const;
-  /// The text, or the short form of it, to standard output unless quiet(), or the JSON for the path
-  /// "-"; the rest where it is asked for.
+  /// Writes the text, or its short form, to standard output unless quiet(), or the JSON for the
+  /// path "-". Writes the other forms where requested.
   /// @throws InvalidInput if one cannot be written.
   void deliver(const Findings& findings) const;
 

@@ -23,10 +23,11 @@ struct TuneArguments {
   std::string measured_record;
 };
 
-/// Tunes and judges. With records the plant is the one they show and the ensemble is drawn from
-/// what they leave open; else it is drawn from the case's ranges. After `interrupted` said yes the
-/// report holds the best laws found so far.
-/// @throws InvalidInput for arguments and cases that cannot be worked on: before anything is tuned.
+/// Tunes and evaluates controllers. With records, the plant is the identified one and the ensemble
+/// is sampled from the uncertainty that the records leave. Without records, it is sampled from the
+/// case's ranges. After `interrupted` returned true, the report holds the best controllers found so
+/// far.
+/// @throws InvalidInput for invalid arguments or cases, before any tuning.
 Report tune_case(const TuneArguments& arguments, const std::function<bool()>& interrupted);
 
 Subcommand add_tune(CLI::App& program);

@@ -25,7 +25,7 @@ namespace boresight::app {
 struct CommissionOptions {
   /// Empty: of the controller that study_controllers recommends; DPF of gains given.
   std::string structure;
-  /// The law's gains, KEY=VALUE as [gains] has them; empty: tuned.
+  /// Gains of the controller, KEY=VALUE as in [gains]; empty: tuned.
   std::vector<std::string> gains;
   double largest_step = 2.0;  // factor on a gain from stage to stage
   int starts = 0;             // of the tuning; 0: as the case has it
@@ -80,7 +80,7 @@ struct CommissionReport {
   std::exception_ptr failure;
   std::string no_plan;
   std::optional<double> limit_cycle;  // CommissionStudy::limit_cycle
-  /// What is to be known of gains of a tuned law that ended at a bound of their search.
+  /// Remarks on the gains of a tuned controller that lie at a bound of their search range.
   std::vector<std::string> bounds;
   std::vector<StageSheet> sheets;
   std::string before, after;
@@ -90,18 +90,19 @@ struct CommissionReport {
   std::vector<Figure> figures;
 };
 
-/// Plans the way to the controller recommended (study_controllers), or to the gains given, and
-/// compares two records where asked.
-/// @throws InvalidInput for a structure, gains or records that there are none of; Interrupted;
-/// InfeasibleRequirement if no law of the structure meets the goals on every plant, or no path to
-/// it was found, and NumericalFailure, if no records are compared: else the report holds them.
+/// Plans the path to the recommended controller (study_controllers), or to the given gains.
+/// Compares two records where requested.
+/// @throws InvalidInput for an unknown structure, unknown gains or missing records; Interrupted.
+/// InfeasibleRequirement if no controller of the structure meets the constraints on every plant, or
+/// no path to it was found. NumericalFailure. With compared records, the report holds the last two
+/// errors instead.
 CommissionReport plan_commission(const io::DesignedAntenna& designed,
                                  const CommissionOptions& options);
 
 /// The report, and as text for a terminal.
 Document document_of(const CommissionReport& report);
 std::string to_text(const CommissionReport& report);
-/// The members of the JSON report; docs/commission.schema.json is made of it.
+/// The members of the JSON report, from which docs/commission.schema.json is generated.
 void describe(io::Visitor& v, const CommissionReport& report);
 std::string to_json(const CommissionReport& report);
 

@@ -30,9 +30,9 @@ struct Paragraph {
   std::string label = {};
 };
 
-/// Rows of cells, of which the first `header_rows` name the columns. A row may have fewer cells
-/// than others. A column is to the left ('l') or right ('r') by its letter in `alignment`; columns
-/// beyond it are to the right.
+/// Rows of cells, of which the first `header_rows` name the columns. Rows may have different
+/// numbers of cells. A letter of `alignment` aligns its column left ('l') or right ('r'); further
+/// columns are aligned right.
 struct Table {
   std::vector<std::vector<std::string>> rows;
   std::string alignment;
@@ -44,8 +44,8 @@ struct Verbatim {
   std::string text;
 };
 
-/// The decision, which a terminal shows between title and sections, a page in its own box: not
-/// where it stands here.
+/// The decision. A terminal shows it between title and sections, a page in its own box, regardless
+/// of its position here.
 struct Lead {
   std::vector<Paragraph> paragraphs;
 };
@@ -58,8 +58,8 @@ struct Block {
   bool essential = false;
 };
 
-/// What a report says, apart from how it is shown: to_text (document_text.hpp) is for a terminal,
-/// to_html (document_html.hpp) for a page. Strings added to it are verbatim.
+/// The content of a report, independent of its presentation: to_text (document_text.hpp) for a
+/// terminal, to_html (document_html.hpp) for a page. Strings added to it are verbatim.
 struct Document {
   std::vector<Block> blocks;
 
@@ -83,10 +83,10 @@ Document table(std::vector<std::vector<std::string>> rows, std::string_view alig
 Document verbatim(std::string_view text);
 /// The same blocks, which the short form keeps.
 Document essential(Document document);
-/// The short form: what stands before the first section, and of each section that has essential
-/// blocks its heading and those.
+/// The short form: everything before the first section, and of each section with essential blocks
+/// its heading and those blocks.
 Document short_form(const Document& document);
-/// The two lines that every report begins with; `seed` where the work draws numbers.
+/// The two lines at the start of every report; `seed` for work that uses random numbers.
 Document report_title(std::string_view command, std::string_view title, std::string_view axis,
                       std::string_view case_path, std::optional<std::uint64_t> seed);
 

@@ -7,9 +7,9 @@
 
 namespace boresight::app {
 
-/// What the draws say of the candidates: the least mean and its chances, what of it is not worth
-/// paying for, what the difference of the two best depends on, what to test first. Where no
-/// candidate is fit to be chosen: that alone.
+/// Conclusions from the samples: the least mean and its probability of being best, cost without
+/// benefit, what the difference of the two best depends on, and what to test first. If no candidate
+/// is eligible: only that.
 std::vector<std::string> conclude_draws(const EvaluateSection& section,
                                         const DecisionSection& decision);
 

@@ -17,7 +17,8 @@ using design::PairByStructure;
 using design::SameStructure;
 using design::SlewFigures;
 
-/// The antenna as it is, or as a proposal makes it, with what its file says.
+/// The present antenna, or the antenna with a proposal applied, and the data of the proposal's
+/// file.
 struct Candidate : design::ProposedDesign {
   std::string path;  // of the proposal; empty for the antenna as it is
   std::string description;
@@ -26,11 +27,11 @@ struct Candidate : design::ProposedDesign {
   std::vector<std::string> risks;
   std::vector<io::ChangeRow> changes;
   std::vector<io::DerivedChange> consequences;
-  /// Of each law its gains in the engineer's units; empty for one that is not stable.
+  /// Gains of each controller in the engineer's units; empty for an unstable one.
   std::vector<std::vector<std::string>> gains;
 };
 
-/// A decision with the words for what it rests on.
+/// A decision with the description of its basis.
 struct DecisionSection : design::ProposalDecision {
   std::string source;               // of the draws
   std::vector<std::string> inputs;  // `uncertain`
@@ -50,11 +51,11 @@ struct EvaluateSection {
   int starts = 0;
   std::vector<design::PointingBand> bands;
   std::vector<design::PointingBudget> budgets;
-  /// How laws ran on the nonlinear antenna; none if they did not.
+  /// Options of the controllers' runs on the nonlinear antenna; none without such runs.
   std::optional<design::NonlinearVerificationOptions> time_domain;
   std::vector<Candidate> candidates;  // the antenna as it is first
-  /// On the front of cost and compared_rms, as places in `candidates`, in rising cost; empty if no
-  /// proposal states a cost.
+  /// Candidates on the Pareto front of cost and compared_rms, as indices into `candidates`, by
+  /// increasing cost. Empty if no proposal states a cost.
   std::vector<std::size_t> front;
   std::optional<DecisionSection> decision;
   std::vector<std::string> not_run;  // what an interrupt left out

@@ -8,12 +8,12 @@
 namespace boresight::app {
 
 struct EvaluateOptions : design::ProposalOptions {
-  /// Of the antenna as it is and of proposals that name none; empty: as tune.
+  /// For the present antenna and for proposals that name none; empty: as tune.
   std::vector<std::string> structures;
 };
 
-/// design::study_proposals of the antenna as it is and of every proposal. Without proposals: the
-/// antenna as it is alone.
+/// design::study_proposals of the present antenna and of every proposal. Without proposals: of the
+/// present antenna only.
 /// @throws InvalidInput as io::compared_antennas and study_proposals.
 EvaluateSection evaluate_proposals(const io::Case& antenna,
                                    const std::vector<io::Proposal>& proposals,

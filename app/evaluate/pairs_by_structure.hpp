@@ -6,10 +6,11 @@
 
 namespace boresight::app {
 
-/// What of the difference between such candidates is the law's and what the hardware's, in a
-/// sentence a pair: of proposals with the antenna as it is, and of the two best. Empty without.
+/// Separates the effects of controller and hardware in the difference between two candidates, one
+/// sentence per pair. Pairs: each proposal with the present antenna, and the two best candidates.
+/// Empty without such pairs.
 std::string law_or_hardware(const EvaluateSection& section, const DecisionSection& decision);
-/// Same, only of the pairs that hold the candidate at that place and share a structure.
+/// Same, for the pairs that include the candidate at index `place` and have a structure in common.
 std::string law_or_hardware(const EvaluateSection& section, const DecisionSection& decision,
                             std::size_t place);
 

@@ -8,19 +8,20 @@
 
 namespace boresight::app {
 
-/// Whether two laws of one structure come from different local optima of their searches: the places
-/// of the gains that are more than a factor of 5 apart, which a change of hardware seldom asks of
-/// one optimum. Empty for laws alike, of different structures or without gains.
+/// Indices of the gains that differ by more than a factor of 5 between two controllers of one
+/// structure. Such gains suggest different local optima of the searches: a hardware change seldom
+/// moves one optimum that far. Empty if no gain differs so much, for different structures, or
+/// without gains.
 std::vector<std::size_t> other_family(const CandidateLaw& law, const CandidateLaw& other);
 
-/// Which proposals change the beam's largest error at a reversal, or the acceleration that the
-/// drive reaches, by more than a tenth of what the antenna as it is has, in a sentence each; of
-/// those that change that error or the hunting so, which have a law of an other_family than the
-/// antenna as it is. Empty where none does.
+/// Proposals that change the peak boresight error at a velocity reversal, or the drive's largest
+/// acceleration, by more than a tenth of the present antenna's value; one sentence each. Of the
+/// proposals that so change this error or the limit cycle, it names those whose controller is of an
+/// other_family than the present antenna's. Empty without such proposals.
 std::string changed_motion(const EvaluateSection& section);
 
-/// On how many plants each candidate's law meets the budgets that state a wind they are needed up
-/// to; empty without such budgets.
+/// Number of plants on which each candidate's controller meets the budgets that state a required
+/// wind speed. Empty without such budgets.
 std::string plants_within_needs(const EvaluateSection& section);
 
 }  // namespace boresight::app

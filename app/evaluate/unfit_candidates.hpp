@@ -8,17 +8,18 @@
 
 namespace boresight::app {
 
-/// Why a candidate's law is not to be built, to stand behind its name: "hunts beyond ...".
+/// Reason why a candidate's controller is not eligible, to follow its name: "fails its
+/// verification".
 std::string_view why_not(const Candidate& candidate);
 
 /// That no proposal is fit to be chosen, and why; empty where one is, or without proposals.
 std::string none_chosen(const EvaluateSection& section);
 
-/// The names of the candidates that only their hunting keeps from being chosen.
+/// Names of the candidates that are not eligible only because of their limit cycle.
 std::vector<std::string> hunting_candidates(const EvaluateSection& section);
 
-/// The names of the candidates that are not fit to be chosen and yet are the best of all on some
-/// draw: chances to be best and regrets count them.
+/// Names of the candidates that are not eligible but are the best of all in some sample:
+/// probabilities to be best and regrets include them.
 std::vector<std::string> unfit_but_counted(const EvaluateSection& section,
                                            const DecisionSection& decision);
 

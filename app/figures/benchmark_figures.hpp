@@ -7,9 +7,10 @@
 
 namespace boresight::app {
 
-/// Of a score sheet: compliance against frequency, beam after a step and an impulse of torque, rms
-/// against wind speed by wind model with the budgets, and by yaw and elevation where the case has a
-/// table; the compared sheet's curves beside them. None of an unstable loop.
+/// Figures of a score sheet: compliance against frequency; boresight error after a torque step and
+/// a torque impulse; rms against wind speed per wind model, with the budgets; rms by yaw and
+/// elevation where the case has a table. The curves of a compared sheet are drawn beside them.
+/// Empty for an unstable loop.
 std::vector<Figure> benchmark_figures(const BenchmarkReport& report);
 
 }  // namespace boresight::app

@@ -7,9 +7,9 @@
 
 namespace boresight::app {
 
-/// Of a commissioning plan: gains over the stages, what each stage should show with its band over
-/// the plants and the abort limit, peaks of S by stage; of two records compared their spectra and
-/// the ratio of rms by band.
+/// Figures of a commissioning plan: gains by stage; the expected result of each stage with its band
+/// over the plants and the abort limit; maximum sensitivity Ms by stage. For two compared records:
+/// their spectra and the ratio of rms by band.
 std::vector<Figure> commission_figures(const CommissionReport& report);
 
 }  // namespace boresight::app

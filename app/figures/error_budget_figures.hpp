@@ -10,8 +10,8 @@
 
 namespace boresight::app {
 
-/// The parts of the pointing error and their total, beside the pointing budgets as lines.
-/// `conditions`: of what controller in which wind, in a sentence.
+/// The parts of the pointing error and their total, with the pointing budgets as lines.
+/// `conditions`: the controller and the wind, in a sentence.
 Figure error_budget_figure(const std::string& id, const std::string& section,
                            const std::string& conditions, const design::ErrorBudget& errors,
                            const std::vector<design::PointingBudget>& budgets);

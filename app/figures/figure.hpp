@@ -26,10 +26,10 @@ struct FigureSeries {
   std::string name = {};
   SeriesStyle style = SeriesStyle::line;
   std::vector<double> x = {}, y = {};
-  /// Intervals about the points, empty or of the length of `x`: about lines of y a band, about
-  /// points bars; of style `bars` what the bar spans (without them it spans 0 to the value, along x
-  /// where the y axis has categories, along y otherwise). Bars of several series stand side by
-  /// side, those that say what they span one over the other.
+  /// Intervals about the points, empty or of the length of `x`: a band about lines of y, bars about
+  /// points. For style `bars` they are the extent of the bars. Without them a bar extends from 0 to
+  /// the value, along x if the y axis has categories, else along y. Bars of several series are
+  /// drawn side by side; bars with an extent are drawn on one another.
   std::vector<double> x_lower = {}, x_upper = {}, y_lower = {}, y_upper = {};
   /// What a point is called, empty or of the length of `x`.
   std::vector<std::string> labels = {};
@@ -63,7 +63,7 @@ struct FigurePanel {
   std::vector<FigureCircle> circles;
 };
 
-/// What stands in place of a plot: SVG elements in a box from (0, 0), y downwards.
+/// A drawing instead of a plot: SVG elements in a box from (0, 0), y downwards.
 struct FigureDrawing {
   double width = 0.0, height = 0.0;
   std::string elements = {};  // empty: a plot
@@ -79,7 +79,7 @@ struct Figure {
   FigureAxis x;
   std::vector<FigurePanel> panels;
   bool equal_scales = false;  // one unit of x as long as one of y: a Nyquist plot
-  /// Of a diagram: drawn instead of the panels, which then list its parts by their places.
+  /// For a diagram: drawn instead of the panels, which then list its parts by position.
   FigureDrawing drawing = {};
 };
 

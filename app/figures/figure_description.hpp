@@ -10,8 +10,7 @@ class Visitor;
 
 namespace boresight::app {
 
-/// Every point plotted, in the units that a reader sees. Numbers of six digits; null stands for a
-/// gap.
+/// Every point plotted, in the displayed units. Numbers of six digits; null marks a gap.
 void describe(io::Visitor& v, const Figure& figure);
 /// "figures".
 void describe_figures(io::Visitor& v, const std::vector<Figure>& figures);

@@ -8,8 +8,8 @@
 
 namespace boresight::app {
 
-/// An array of the figures with every point plotted: the `figures` of each report's JSON, and what
-/// a page shows where the pointer is. Numbers of six digits; null stands for a gap.
+/// An array of the figures with every point plotted: the `figures` of each report's JSON, and the
+/// values shown at the pointer on a page. Numbers of six digits; null marks a gap.
 nlohmann::ordered_json figures_json(const std::vector<Figure>& figures);
 
 }  // namespace boresight::app

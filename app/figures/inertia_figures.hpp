@@ -10,12 +10,12 @@
 namespace boresight::app {
 
 /// Reflected inertia and motor-to-load ratio by each method of a campaign with 95 % intervals, the
-/// reconciled estimate first. What lies far beyond the others, or has
-/// no end, goes on beyond the scale.
+/// combined estimate first. Values far beyond the others, and open intervals, are cut off at the
+/// scale.
 std::vector<Figure> inertia_figures(const io::CampaignSection& section);
 
-/// The same of the methods that rest on the case's stated numbers, with the values that the case
-/// prints beside them. (The section's own heading is theirs.)
+/// The same for the methods based on the case's stated numbers, with the values printed in the
+/// case. (The section's own heading is theirs.)
 std::vector<Figure> inertia_figures(const IdentificationSection& section);
 
 }  // namespace boresight::app

@@ -11,7 +11,7 @@ struct Box {
   double left = 0.0, top = 0.0, right = 0.0, bottom = 0.0;
 };
 
-/// A place where a label may stand; the lower the penalty the better, of the order of 1.
+/// A possible place of a label; a lower penalty, of the order of 1, is better.
 struct LabelPlace {
   Box box;
   double penalty = 0.0;
@@ -27,8 +27,8 @@ class LabelPlacement {
   void avoid_segment(double x0, double y0, double x1, double y1);
   void avoid(const Box& box) { taken_.push_back(box); }
 
-  /// The index of the best place, which is taken from then on; none if each lies over another label
-  /// or outside.
+  /// The index of the best place, which is occupied from then on; none if every place overlaps
+  /// another label or lies outside.
   std::optional<std::size_t> place(const std::vector<LabelPlace>& places);
 
  private:

@@ -20,7 +20,7 @@ namespace boresight::app {
 /// closed loop; and the ensemble_figures.
 std::vector<Figure> law_figures(const DrawnLaw& drawn);
 
-/// One of several laws that are drawn side by side.
+/// One of several controllers drawn side by side.
 struct ComparedLaw {
   std::string name;
   control::ControlLaw law;
@@ -42,7 +42,7 @@ Figure rms_against_wind(const std::string& id, const std::string& section,
                         const std::vector<design::PointingBudget>& budgets,
                         const std::optional<design::EnsembleCurves>& curves = std::nullopt);
 
-/// Magnitudes of the sensitivity of laws at one break, with its goal.
+/// Magnitude of the controllers' sensitivities at one loop break, with its constraint.
 Figure compared_sensitivities(const std::string& id, const std::string& section,
                               const design::TrackingProblem& problem,
                               const std::vector<ComparedLaw>& laws, control::LoopBreak loop_break,

@@ -7,8 +7,9 @@
 
 namespace boresight::app {
 
-/// Histogram and cumulative distribution of the beam rms with the budgets, worst plants with their
-/// inputs, rank correlations of rms and inputs with intervals. None without a stable plant.
+/// Histogram and cumulative distribution of the boresight error rms with the budgets; worst plants
+/// with their inputs; rank correlations of rms and inputs with intervals. Empty without a stable
+/// plant.
 std::vector<Figure> montecarlo_figures(const MonteCarloOutcome& outcome);
 
 }  // namespace boresight::app

@@ -6,7 +6,7 @@
 
 namespace boresight::app {
 
-/// Where values stand on paper: `from` at `start`, `to` at `end` (coordinates of the viewBox).
+/// Map from values to the drawing: `from` at `start`, `to` at `end` (coordinates of the viewBox).
 struct PlotAxis {
   AxisScale scale = AxisScale::linear;
   double from = 0.0, to = 1.0;
@@ -35,7 +35,7 @@ struct PlotAxis {
 PlotAxis x_range(const Figure& figure);
 PlotAxis y_range(const Figure& figure, const FigurePanel& panel);
 
-/// How wide a bar of each series is, in units of the axis on which the bars stand.
+/// Width of a bar of each series, in units of the axis on which the bars stand.
 double bar_width(const FigureSeries& series, bool categories);
 
 /// Whether a panel's bars lie along x, from a y axis of names.

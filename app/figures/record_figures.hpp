@@ -8,9 +8,10 @@
 
 namespace boresight::app {
 
-/// One figure a record, refused ones too: motor rate with its command, torque, valve command, and
-/// every pressure that has a defect; each kind of defect of a channel is marked where it is first
-/// seen, what stands in the place of masked samples is drawn over the record. Section "Records".
+/// One figure per record, including rejected ones: motor rate with its command, torque, valve
+/// command, and every pressure channel that has a defect. Each kind of defect of a channel is
+/// marked at its first occurrence. Values that replace masked samples are drawn over the record.
+/// Section "Records".
 /// `traces`: of each record of the notes (campaign_traces).
 std::vector<Figure> record_figures(const io::CampaignNotes& notes,
                                    const std::vector<std::vector<RecordTrace>>& traces);

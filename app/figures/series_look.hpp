@@ -6,8 +6,8 @@
 
 namespace boresight::app {
 
-/// How series differ from each other: by colour (after Okabe and Ito, "Color universal design",
-/// 2008: told apart by the colour-blind), in grey by dashes, marker shapes and hatching.
+/// Distinction of series: by colour (after Okabe and Ito, "Color universal design", 2008:
+/// distinguishable for the colour-blind), in grey by dashes, marker shapes and hatching.
 struct SeriesLook {
   const char* colour = "";
   const char* dashes = "";        // of lines; empty: solid

@@ -8,7 +8,7 @@
 
 namespace boresight::app {
 
-/// Where a series of bars stands among the panel's.
+/// Position of a series of bars among those of the panel.
 struct BarShare {
   std::size_t index = 0, count = 1;
   bool categories = false;  // they stand at names, not at numbers
@@ -19,7 +19,7 @@ std::string curve_svg(const FigureSeries& series, std::size_t look, const PlotAx
                       const PlotAxis& y, bool along_x, const BarShare& share,
                       LabelPlacement& labels);
 
-/// What is drawn whole or not at all: markers and interval bars.
+/// Elements drawn completely or not at all: markers and interval bars.
 std::string points_svg(const FigureSeries& series, std::size_t look, const PlotAxis& x,
                        const PlotAxis& y, LabelPlacement& labels);
 

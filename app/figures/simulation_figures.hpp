@@ -11,8 +11,8 @@ namespace boresight::app {
 /// To be made while the record still has its channels.
 Figure drive_test_figure(const DriveTestSection& record, double torque_per_pressure);
 
-/// A run of the position loop: errors of encoder and beam with the limit of a slew, torque with the
-/// wind's, motor rate, valve command.
+/// A run of the position loop: encoder and boresight errors with the limit of a slew, motor torque
+/// with the wind torque, motor rate, valve command.
 Figure position_test_figure(const PositionTestSection& record);
 
 }  // namespace boresight::app

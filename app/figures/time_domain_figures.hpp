@@ -7,9 +7,9 @@
 
 namespace boresight::app {
 
-/// From the linear prediction to the simulated boresight rms, one contribution after the other,
-/// where the run in wind completed; the trace_figures; and the controllers that the one verified
-/// was chosen from. `section`: heading that they stand under.
+/// From the linear prediction to the simulated boresight rms, one contribution after the other, if
+/// the run in wind completed. Then the trace_figures, and the controllers from which the verified
+/// one was chosen. `section`: their heading.
 std::vector<Figure> time_domain_figures(const TimeDomainSection& section,
                                         const std::string& heading);
 

@@ -8,9 +8,9 @@
 
 namespace boresight::app {
 
-/// The verified controller against time: boresight error in wind, beside that of the present gains
-/// where there are some, with its two parts; limit cycles, or how the loop comes to rest; velocity
-/// reversals with and without friction. Only runs that completed.
+/// The verified controller against time. Boresight error in wind with its two parts, compared with
+/// that of the present gains if there are some; limit cycles, or the decay to rest; velocity
+/// reversals with and without friction. Only completed runs.
 std::vector<Figure> trace_figures(const TimeDomainSection& section, const std::string& heading);
 
 }  // namespace boresight::app

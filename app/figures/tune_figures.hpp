@@ -11,12 +11,13 @@
 namespace boresight::app {
 
 /// Structures side by side, their rms against wind speed, their sensitivities, and the law_figures
-/// of the best law: of those that meet all they must, robust ones before others, the one of least
-/// rms at the design's wind speed. `in_time`: laws on the nonlinear antenna, if they were run.
+/// of the best controller. The best one has the least rms at the design's wind speed among those
+/// that meet every requirement; robust controllers take precedence. `in_time`: controllers on the
+/// nonlinear antenna, if they were run.
 std::vector<Figure> tune_figures(const TuneSection& section,
                                  const std::optional<TimeDomainSection>& in_time);
 
-/// Laws and LQG benchmarks against the lower bound.
+/// Controllers and LQG benchmarks against the lower bound.
 std::vector<Figure> limit_figures(const design::PointingLimit& limit);
 
 }  // namespace boresight::app

@@ -14,10 +14,11 @@ namespace boresight::app {
 std::vector<Figure> tuning_figures(const TuningSection& section,
                                    const std::optional<TimeDomainSection>& in_time);
 
-/// Beam rms by each choice among contradictory numbers.
+/// Boresight error rms for each alternative interpretation of contradictory numbers.
 std::vector<Figure> choices_figures(const std::vector<ChoiceResult>& choices);
 
-/// Beam rms of every series, and hydraulic frequency and damping, against flywheel disks.
+/// Boresight error rms of every series, and hydraulic frequency and damping, against flywheel
+/// disks.
 std::vector<Figure> matching_figures(const MatchingSection& section);
 
 }  // namespace boresight::app

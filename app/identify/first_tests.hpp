@@ -7,8 +7,8 @@
 
 namespace boresight::app {
 
-/// Which tests to record first on the antenna of a case that has no records, and why, in
-/// sentences: by what the case takes for granted and docs/identification.md says a test shows.
+/// The tests to record first on the antenna of a case without records, with reasons, in sentences.
+/// Chosen by the case's assumptions and the tests' uses in docs/identification.md.
 std::vector<std::string> first_tests(const io::Case& antenna);
 
 }  // namespace boresight::app

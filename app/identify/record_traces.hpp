@@ -17,13 +17,13 @@ struct LoadedCampaign;
 
 namespace boresight::app {
 
-/// What of a record is drawn, SI at the motor shaft, against time (s, as recorded).
+/// The plotted channels of a record, SI at the motor shaft, against time (s, as recorded).
 struct RecordTrace {
   enum class Signal { tachometer, rate_command, valve_command, pressure, torque };
   Signal signal = Signal::tachometer;
   std::string channel;  // as the file calls it; empty: the torque of all motors
   ThinnedSeries series;
-  /// What stands in the place of samples that were masked, gaps elsewhere; empty if none was.
+  /// Values that replace masked samples, with gaps elsewhere; empty if none was masked.
   ThinnedSeries masked;
 };
 

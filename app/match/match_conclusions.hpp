@@ -7,8 +7,9 @@
 
 namespace boresight::app {
 
-/// What moves the rms by more than negligible_change instead of the inertia, as
-/// Influences::sentence: the choice of structure as built, and the variants, of structures weighed.
+/// Inputs other than the inertia that change the rms by more than negligible_change, worded by
+/// Influences::sentence. Considered are the choice of structure as built, and the variants of the
+/// structures compared.
 std::string what_matters_more(const MatchSection& section);
 
 /// A few sentences that say what the numbers mean, with their conditions.

@@ -20,7 +20,7 @@ using design::MatchVariant;
 using design::MatchVariants;
 using design::RuleVerdict;
 
-/// What `boresight match` found, and what of the case's text and of the page its report needs.
+/// Results of `boresight match`, and the parts of the case's text and page that its report needs.
 struct MatchSection : design::MatchingStudy {
   std::optional<io::WindMast> wind_mast;       // none: the case states speeds at the dish's centre
   std::optional<design::WhatIfTable> what_if;  // where a page asks for it

@@ -9,9 +9,9 @@
 
 namespace boresight::app {
 
-/// A law as other programs take it. Inputs and outputs as in docs/benchmark-protocol.md.
+/// A controller in a form for other programs. Inputs and outputs as in docs/benchmark-protocol.md.
 struct LawModels {
-  std::string description;  // which law, in words
+  std::string description;  // the controller, in words
   control::ControlLaw law;
   double dead_time = 0.0;        // s, of the loop
   plant::StateSpace controller;  // continuous; the dead time is the loop's
@@ -33,17 +33,17 @@ struct LinearModels {
 
 /// A plant alone.
 LinearModels linear_models(const plant::AntennaPlant& antenna, double gear_ratio);
-/// And a law on it. @throws InvalidInput as control::validate(law).
+/// Also with a controller on the plant. @throws InvalidInput as control::validate.
 LinearModels linear_models(const design::TrackingProblem& problem, const control::ControlLaw& law,
                            const std::string& description);
-/// Of a report of model, redesign or tune: with the law that a tune report recommends (shown_law),
-/// or the tuned one of a redesign if it meets its goals; else the plant alone. None of a report
-/// without a plant.
+/// From a report of model, redesign or tune. The controller is the one that a tune report
+/// recommends (shown_law), or the tuned one of a redesign if it meets its constraints; else the
+/// plant alone. Empty for a report without a plant.
 std::optional<LinearModels> linear_models(const Report& report);
 
-/// A MAT file of version 5 (docs/formats.md): plant with parameters and frequency responses; with a
-/// law gains by symbol, both controllers, the closed loop and its frequency responses. `command`
-/// and `case_path` stand in it as text.
+/// A MAT file of version 5 (docs/formats.md): plant with parameters and frequency responses. With a
+/// controller also gains by symbol, both controllers, the closed loop and its frequency responses.
+/// `command` and `case_path` are stored as text.
 std::string to_mat(const LinearModels& models, const std::string& command,
                    const std::string& case_path);
 /// How a report's models are made a MAT file; empty if it has none.

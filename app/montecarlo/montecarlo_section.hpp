@@ -13,7 +13,7 @@ namespace boresight::app {
 
 using design::NotablePlant;
 
-/// What `boresight montecarlo` found, and what of the case's text its report needs.
+/// Results of `boresight montecarlo`, and the parts of the case's text that its report needs.
 struct MonteCarloSection : design::MonteCarloSummary {
   std::string case_path, title;
   io::PointingAxis axis;
@@ -32,7 +32,7 @@ struct MonteCarloSection : design::MonteCarloSummary {
   std::vector<Figure> figures;
 };
 
-/// By what its budgets are judged: "linear", or what a simulation makes of each linear rms.
+/// Basis of the budget verdicts: "linear", or the simulated equivalent of each linear rms.
 std::string judged_by(const design::NonlinearEffect& effect);
 
 }  // namespace boresight::app

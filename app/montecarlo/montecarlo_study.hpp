@@ -36,13 +36,14 @@ struct MonteCarloOutcome {
   MonteCarloSection section;
 };
 
-/// Draws plants from what the case's records leave open, or from its ranges, and judges one law on
-/// all of them, shared out over threads and ranks; takes up the checkpoint if there is one and
-/// writes it every few seconds. The same for any number of threads and ranks, and however often it
-/// was interrupted. The outcome is rank 0's; an error of one rank comes out of every one.
-/// @throws InvalidInput for arguments and cases that cannot be worked on; InfeasibleRequirement if
-/// no stable law is found; Interrupted if there is no whole block yet; NumericalFailure for a plant
-/// that cannot be judged.
+/// Samples plants from the uncertainty that the case's records leave, or from its ranges. Evaluates
+/// one controller on all of them, distributed over threads and ranks. Resumes from the checkpoint
+/// if there is one, and writes it every few seconds. The result does not depend on the number of
+/// threads, ranks or interruptions. Rank 0 returns the outcome; an error on one rank is thrown on
+/// every rank.
+/// @throws InvalidInput for invalid arguments or cases; InfeasibleRequirement if no stable
+/// controller is found; Interrupted before the first block is complete; NumericalFailure for a
+/// plant that cannot be evaluated.
 MonteCarloOutcome run_montecarlo(const MonteCarloArguments& arguments, Ranks& ranks,
                                  const std::function<bool()>& interrupted);
 

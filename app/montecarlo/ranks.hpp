@@ -25,7 +25,7 @@ class Ranks {
   std::string broadcast(const std::string& bytes);
   /// What every rank has, by rank, on rank 0; nothing on the others.
   std::vector<std::string> gather(const std::string& bytes);
-  /// Whether any rank says yes, on every rank.
+  /// True on every rank if `yes` is true on any rank.
   bool any(bool yes);
 
  private:

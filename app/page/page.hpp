@@ -25,7 +25,7 @@ struct Page {
   Document gains;
   /// The decision, in a few sentences.
   std::vector<std::string> decision;
-  /// What it rests on or leaves open, smaller below it.
+  /// Assumptions and open questions of the decision, in smaller type below it.
   std::vector<std::string> reservations;
   Document document;  // the report's text
   std::vector<Figure> figures;

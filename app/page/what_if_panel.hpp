@@ -5,8 +5,8 @@
 
 namespace boresight::app {
 
-/// The sliders over a table of beam rms, as JSON writes it (what_if_description.hpp): HTML with the
-/// table in it.
+/// HTML sliders over a table of boresight error rms, which is embedded as JSON
+/// (what_if_description.hpp).
 std::string what_if_panel(std::string_view what_if_json);
 
 }  // namespace boresight::app

@@ -6,13 +6,13 @@
 
 namespace boresight::app {
 
-/// Which inputs a report's numbers rest on that the linear plant does without.
+/// Inputs on which a report's numbers depend but the linear plant does not.
 struct NonlinearInputs {
   /// simulation.valve_stroke: what a command or a gust may ask of the valve. Always among them for
   /// a case whose goals limit gusts.
   bool valve_stroke = false;
-  /// Steady motion of the nonlinear antenna (rates and accelerations within reach): valve_stroke,
-  /// and of [simulation] pressures, leakage shares, overlap, air and offset.
+  /// Steady motion of the nonlinear antenna (achievable rates and accelerations): valve_stroke, and
+  /// of [simulation] pressures, leakage fractions, overlap, air and offset.
   bool steady_motion = false;
   /// Runs of the nonlinear antenna in time: steady_motion, and the rest of [simulation] but the
   /// rate loop of the tests; preload_torque only where there is backlash.

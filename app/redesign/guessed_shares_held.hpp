@@ -8,9 +8,9 @@
 
 namespace boresight::app {
 
-/// Appends in a sentence what becomes of a law's linear rms, gains held, where all guessed shares
-/// of wind and beam are elsewhere (io::GuessedShares); `wind_speed` in m/s. Nothing where no share
-/// is a guess or none of them moves the rms by more than a fifth.
+/// Appends a sentence on a controller's linear rms, gains fixed, under other assumed modal
+/// participations of wind and boresight (io::GuessedShares). `wind_speed` in m/s. Appends nothing
+/// if no fraction is assumed or none changes the rms by more than a fifth.
 void conclude_guessed_shares(const io::Case& antenna, const control::ControlLaw& law,
                              double wind_speed, std::vector<std::string>& sentences);
 

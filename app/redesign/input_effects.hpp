@@ -13,9 +13,9 @@
 
 namespace boresight::app {
 
-/// What a tuned law's rms owes to one number of the case, in the case's design wind.
+/// Effect of one number of the case on the rms of a tuned controller, in the case's design wind.
 struct InputEffect : io::MovableNumber, design::NumberEffect {
-  /// Which mode's share of wind or beam it is, by its frequency; empty for any other number.
+  /// Mode whose wind fraction or beam weight this is, by its frequency; empty for any other number.
   std::string mode = {};
 };
 

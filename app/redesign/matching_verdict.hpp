@@ -9,14 +9,14 @@
 
 namespace boresight::app {
 
-/// What the matching study of a redesign says of changing the motors' inertia.
+/// Conclusions of a redesign's matching study on a change of the motors' inertia.
 class MatchingVerdict {
  public:
   /// The section must have two rows or more, and outlive this.
   explicit MatchingVerdict(const MatchingSection& section);
 
-  /// Points whose law misses a hard goal or its verification; any makes the rest of this
-  /// meaningless.
+  /// Number of points whose controller violates a constraint or fails its verification; the rest of
+  /// this verdict is meaningless unless it is 0.
   std::size_t unusable() const { return unusable_; }
   /// Row of the motors as built.
   std::size_t built() const { return built_; }

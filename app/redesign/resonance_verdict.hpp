@@ -8,19 +8,20 @@
 
 namespace boresight::app {
 
-/// The oil_remark of the expected mode, and to make sure which was measured; empty without one and
-/// where the case says which.
+/// The oil_remark of the expected mode, and the advice to verify which mode was measured; empty
+/// without a remark or if the case states the mode.
 std::string which_was_measured(const io::ResonanceVerdict& verdict);
 
 /// Both frequencies, how far they are apart, and the bulk modulus that would make the measured one;
 /// then which_was_measured.
 std::string resonance_sentence(const io::ResonanceVerdict& verdict);
 
-/// Where they contradict each other the same, and that no plant which laws are held on has that
-/// oil, if so; else empty.
+/// The same where the two contradict each other. States also if no plant of the uncertainty set has
+/// that oil stiffness. Else empty.
 std::string resonance_warning(const std::optional<io::ResonanceVerdict>& verdict);
 
-/// Why the methods have no inertia by the resonance, where it is not rigid; else empty.
+/// Reason why the methods have no inertia by the resonance, if the resonance is not rigid; else
+/// empty.
 std::string unread_resonance(const std::optional<io::ResonanceVerdict>& verdict);
 
 /// Ends a sentence on the range of inertia by methods, of which these give least and most: that the

@@ -6,9 +6,9 @@
 
 namespace boresight::app {
 
-/// Where a goal on the valve's demand in gusts limits a law, or stands in the way of any, what that
-/// goal rests on if no number of the valve is stated (demand_assumption): a sentence with a blank
-/// before it, else empty.
+/// Assumptions behind a constraint on the valve's demand in gusts, if no number of the valve is
+/// stated (demand_assumption). Returned where that constraint is active or makes the problem
+/// infeasible: a sentence with a leading blank. Else empty.
 std::string assumed_demand(const design::TuningResult& tuning, const std::string& assumption);
 
 }  // namespace boresight::app

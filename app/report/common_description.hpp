@@ -15,7 +15,7 @@ class Visitor;
 
 namespace boresight::app {
 
-/// What every schema says of its keys ("$comment").
+/// The remark on keys in every schema ("$comment").
 inline constexpr std::string_view schema_comment =
     "A key that holds a number ends in its unit: _1 (none), _N_m, _mdeg, ... Counts are whole "
     "numbers and have none. null stands for what is infinite, undefined or not there.";
@@ -33,8 +33,8 @@ void describe_case(io::Visitor& v, std::string_view path, std::string_view title
 void describe_superseded(io::Visitor& v, const std::vector<io::SupersededInput>& inputs);
 /// "assumed_inputs": inputs whose value or uncertainty is assumed.
 void describe_assumed(io::Visitor& v, const std::vector<io::Quantity>& assumed);
-/// "share_of_time": share of the climate's time up to a speed (m/s); null without a climate, or if
-/// the speed is not a number.
+/// "share_of_time": fraction of the climate's time up to a speed (m/s); null without a climate or
+/// if the speed is not a number.
 void describe_share_of_time(io::Visitor& v, const std::vector<design::ClimatePart>& climate,
                             double speed, std::string_view meaning);
 

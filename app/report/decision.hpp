@@ -11,16 +11,16 @@
 
 namespace boresight::app {
 
-// What a report says to do, in a few sentences that stand on their own; its conclusions
-// have the conditions. Fewer where an interrupt left parts out.
+// The recommendations of a report, in a few self-contained sentences; its conclusions state the
+// conditions. Fewer after an interrupt.
 std::vector<std::string> decision(const Report& report);
 std::vector<std::string> decision(const BenchmarkReport& report);
 std::vector<std::string> decision(const MonteCarloSection& section);
 std::vector<std::string> decision(const CommissionReport& report);
 std::vector<std::string> decision(const SimulationReport& report);
 
-// What the decision of a redesign rests on or leaves open, a sentence or two each; of other
-// commands a resonance_warning, the rest is in their conclusions.
+// Assumptions and open questions of a redesign's decision, one or two sentences each. For other
+// commands a resonance_warning; their conclusions hold the rest.
 std::vector<std::string> reservations(const Report& report);
 
 }  // namespace boresight::app

@@ -6,8 +6,8 @@
 
 namespace boresight::app {
 
-/// A limit cycle in a table, of the beam in mdeg: "+-0.3500", "+-0.3500 (2/5)" where not all runs
-/// have one, "none", or how a run ended that did not complete.
+/// A limit cycle for a table, boresight amplitude in mdeg: "+-0.3500"; "+-0.3500 (2/5)" if only
+/// some runs have one; "none"; or how an incomplete run ended.
 std::string hunting_cell(const design::HuntingResult& hunting);
 
 /// What such cells are, without a full stop.

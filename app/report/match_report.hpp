@@ -13,7 +13,7 @@ namespace boresight::app {
 
 /// The section of the report.
 Document document_of(const MatchSection& section);
-/// One law on the case's plant, its loop cut at one place.
+/// One controller on the case's plant, the loop opened at one place.
 struct MatchMargins {
   control::LoopBreak loop_break = control::LoopBreak::valve_command;
   control::Margins margins;

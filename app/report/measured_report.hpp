@@ -12,13 +12,13 @@ class Visitor;
 
 namespace boresight::app {
 
-/// What was measured, the laws, and what each rests on.
+/// The measurements, the controllers, and the assumptions of each.
 Document document_of(const MeasuredTuneSection& section);
 
 /// "measured_tuning" of docs/report.schema.json.
 void describe(io::Visitor& v, const MeasuredTuneSection& section);
 
-/// A sentence a law.
+/// One sentence per controller.
 std::vector<std::string> conclude(const MeasuredTuneSection& section);
 
 }  // namespace boresight::app

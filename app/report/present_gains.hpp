@@ -4,8 +4,7 @@
 
 namespace boresight::app {
 
-/// What follows where the gains that the antenna is said to run on are unstable on the case's
-/// plant.
+/// Consequence of stated present gains that are unstable on the case's plant.
 std::string unstable_present_gains(const std::string& structure);
 
 }  // namespace boresight::app

@@ -59,7 +59,7 @@ struct PlantSection {
   double torque_for_wind = 0.0;   // N m, what friction and offset leave of it
   double mean_wind_torque = 0.0;  // N m at the motor, design speed
   std::optional<double> slew_rate_margin = std::nullopt;  // io::slew_rate_margin
-  /// Records whose reconciled estimate the plant is; 0: as the case states it.
+  /// Number of records whose combined estimate the plant is; 0: the plant is as stated in the case.
   std::size_t records = 0;
 };
 
@@ -68,14 +68,14 @@ using MatchingRow = design::FlywheelRow;
 using MatchingSeries = design::FlywheelSeries;
 using MatchingSection = design::FlywheelComparison;
 
-/// The recommended controller at depth, and what of the case's text its report needs.
+/// The recommended controller in detail, and the parts of the case's text that its report needs.
 struct TuningSection : design::RecommendedDesign {
   std::optional<io::WindAttitude> wind_attitude;  // none: one torque coefficient for all
   std::optional<io::WindMast> wind_mast;  // none: the case states speeds at the dish's centre
   std::string demand_assumption;          // that a goal on gusts rests on; empty if stated
   std::string ensemble_source;            // of the plants that `ensemble` is about
   io::GainUnits gain_units;
-  /// The numbers of the case that its rms depends on most; empty without a stable law.
+  /// The numbers of the case on which its rms depends most; empty without a stable controller.
   std::vector<InputEffect> input_effects;
 };
 
@@ -88,23 +88,23 @@ struct ChoiceResult {
   double motor_to_load_ratio = 0.0;
   std::optional<design::Design> design;  // none where the choice leaves no plant
   std::string impossible;                // why
-  /// It is another guess of the shares of wind and beam.
+  /// True for another assumption on the modal participation of wind and boresight.
   bool other_shares = false;
-  /// It is another attitude of the same antenna, on its own springs.
+  /// True for another attitude of the same antenna, on its own springs.
   bool other_attitude = false;
-  /// Another source's number or a test's result beside the reference, not a convention of
-  /// reckoning.
+  /// True for another source's number or a test's result that contradicts the reference; false for
+  /// a convention of computation.
   bool contradicts = false;
-  /// Wind speed (m/s) up to which each budget is met with the gains held; none without a stable
-  /// law.
+  /// Wind speed (m/s) up to which each budget is met with these gains fixed; none without a stable
+  /// controller.
   std::optional<std::vector<double>> speed_limits = std::nullopt;
-  /// The measured hydraulic frequency (Hz) that it was to give.
+  /// The measured hydraulic frequency (Hz) that the choice was meant to give.
   std::optional<double> wanted_frequency = std::nullopt;
-  /// What its flexible antenna has in the place of that (resonating_mode, Hz).
+  /// The frequency of its flexible antenna instead (resonating_mode, Hz).
   double resonance = 0.0;
 
-  /// That frequency (Hz) where it is 5 % or more off the wanted one: the choice is then no way out
-  /// of the contradiction.
+  /// That frequency (Hz) if it is 5 % or more off the wanted one: the choice then does not resolve
+  /// the contradiction.
   std::optional<double> missed_resonance() const;
 };
 
@@ -129,8 +129,8 @@ struct Report {
   std::optional<TuningSection> tuning;
   std::optional<MeasuredTuneSection> measured;   // of tune --measured
   std::optional<TuneSection> tuned;              // of the command tune
-  std::optional<TimeDomainSection> time_domain;  // of the best tuned law
-  std::optional<design::PointingLimit> limit;  // of the command tune, at the best law's wind speed
+  std::optional<TimeDomainSection> time_domain;  // of the best tuned controller
+  std::optional<design::PointingLimit> limit;    // of tune, at the best controller's wind speed
   std::vector<ChoiceResult> choices;
   std::optional<MatchingSection> matching;
   std::optional<MatchSection> matched;       // of the command match

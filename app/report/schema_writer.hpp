@@ -59,7 +59,7 @@ class SchemaWriter final : public io::Visitor {
   int optional_ = 0;  // groups of optional members that are open
 };
 
-/// What a schema says of the report as a whole.
+/// Description of the report as a whole in a schema.
 struct SchemaHeading {
   std::string_view title, comment, description;
 };

@@ -7,7 +7,7 @@
 
 namespace boresight::app {
 
-/// The least any controller can do, the benchmarks, and each law against them.
+/// The lower bound of any controller, the benchmarks, and each controller against them.
 Document document_of(const design::PointingLimit& limit);
 
 }  // namespace boresight::app

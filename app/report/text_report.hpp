@@ -11,8 +11,9 @@ namespace boresight::app {
 Document document_of(const Report& report);
 std::string to_text(const Report& report);
 
-// One function a section; each begins with its heading.
-/// What the records say: what is not identifiable, the reconciled estimate, the methods beside it.
+// One function per section; each begins with its heading.
+// Results of the records: quantities that are not identifiable, the combined estimate, the single
+// methods.
 Document document_of(const io::CampaignSection& section);
 /// The records: tests, defects with place and count, everything that was taken for granted.
 Document document_of(const io::CampaignNotes& notes);
@@ -23,11 +24,12 @@ Document document_of(const AuditReport& report);
 std::string audit_summary(const AuditReport& report);
 Document document_of(const PlantSection& section);
 Document document_of(const TuningSection& section);
-/// The table of tuned laws, gains before and after, what limits each, what cannot be reached.
+/// The table of tuned controllers, gains before and after, active constraints, requirements out of
+/// reach.
 Document document_of(const TuneSection& section);
-/// The law on the nonlinear antenna.
+/// The controller on the nonlinear antenna.
 Document document_of(const TimeDomainSection& section);
-/// What each way out of a contradiction in the case would do.
+/// The result of each interpretation of contradictory numbers in the case.
 Document document_of(const std::vector<ChoiceResult>& choices);
 Document document_of(const MatchingSection& section);
 /// Inputs that the records have replaced, before and after.

@@ -8,9 +8,9 @@
 
 namespace boresight::app {
 
-/// A study in the time domain, and what of the case's text its report needs.
+/// A study in the time domain, and the parts of the case's text that its report needs.
 struct TimeDomainSection : design::TimeDomainStudy {
-  /// What the valve's stroke rests on where the case does not know it (demand_assumption).
+  /// Basis of the valve's stroke if the case does not state it (demand_assumption).
   std::string stroke_assumption;
   /// loose_stribeck_text of the case.
   std::string friction_doubt;
@@ -22,13 +22,12 @@ std::optional<TimeDomainSection> section_of(const io::Case& antenna,
 /// In a sentence that the drive cannot slew as the case asks; empty if it can.
 std::string slew_out_of_reach(const TimeDomainSection& section);
 
-/// In a sentence that a valve stroke which the case assumes decides what the nonlinear antenna says
-/// beside the linear one: the rms in wind, or the slew rate. Empty where it is stated or decides
-/// neither.
+/// A sentence if an assumed valve stroke decides the difference between nonlinear and linear
+/// antenna: the rms in wind, or the slew rate. Empty if the stroke is stated or decides neither.
 std::string assumed_stroke(const TimeDomainSection& section);
 
-/// In a sentence that the law does not hold the antenna still (design::holds_still) within the
-/// tightest budget; empty if it does.
+/// A sentence if freedom from limit cycles within the tightest budget is not shown
+/// (design::holds_still); else empty.
 std::string not_still(const TimeDomainSection& section);
 
 /// What to do about a controller that is not free of limit cycles; of one that is, which others it

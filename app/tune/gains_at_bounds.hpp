@@ -10,25 +10,26 @@ namespace boresight::app {
 
 using design::SearchedLaw;
 
-/// One sentence for each bound of the search that gains of tuned laws of a study end at, in the
-/// order of the laws; it names the laws. Behind it what corners_beyond_sampling says of that bound.
-/// Unstable laws are left out.
+/// One sentence per search bound at which gains of a study's tuned controllers lie, in the order of
+/// the controllers; it names them. The result of corners_beyond_sampling for that bound follows.
+/// Unstable controllers are left out.
 std::vector<std::string> gains_at_bounds(const std::vector<SearchedLaw>& laws);
-/// Same, of rows of `tune`'s table; present laws are left out too. `sample_time` (s) as above.
+/// Same, for rows of `tune`'s table; present controllers are left out too. `sample_time` in s, as
+/// above.
 std::vector<std::string> gains_at_bounds(const std::vector<const TunedLaw*>& laws,
                                          double sample_time);
 
-/// One sentence for each corner of a lag, lead or notch that ends at the upper bound of its search
-/// above pi over the sample time, which does nothing that a sampled controller can do: that it is
-/// to be left out, and by which structure. None where the sample time is not known.
+/// One sentence per corner of a lag, lead or notch that lies at the upper bound of its search,
+/// above pi over the sample time. A sampled controller cannot realise such a corner; the sentence
+/// names the structure without it. Empty if the sample time is not known.
 std::vector<std::string> corners_beyond_sampling(const SearchedLaw& law);
 
-/// One sentence for each law whose position gain at its bound is no sharp number
+/// One sentence per controller whose position gain at its bound is ill-determined
 /// (TunedLaw::trade).
 std::vector<std::string> gain_trades(const std::vector<const TunedLaw*>& laws,
                                      const io::GainUnits& units);
 
-/// All that is to be said of gains at bounds of rows of a study: gains_at_bounds, then gain_trades.
+/// All remarks on gains at bounds for rows of a study: gains_at_bounds, then gain_trades.
 std::vector<std::string> about_bounds(const design::TuningStudy& study, const io::GainUnits& units,
                                       const std::vector<const TunedLaw*>& laws);
 

@@ -6,8 +6,8 @@
 
 namespace boresight::app {
 
-/// What the nonlinear antenna has against a law: "hunts by +-7.42 mdeg"; empty where the law did
-/// not run or is not left_out.
+/// Defect of a controller on the nonlinear antenna: "limit-cycles by +-7.42 mdeg". Empty if the
+/// controller was not run or is not left_out.
 std::string held_against(const TunedLaw& row);
 
 }  // namespace boresight::app

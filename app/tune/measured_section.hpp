@@ -22,12 +22,12 @@ struct MeasuredTuneOptions {
   std::function<bool()> interrupted;
 };
 
-/// What `boresight tune --measured` found, and what of the case's text its report needs.
+/// Results of `boresight tune --measured`, and the parts of the case's text that its report needs.
 struct MeasuredTuneSection : design::MeasuredTuningStudy {
   std::string record;
   std::string encoder_column;  // empty: none was used
   std::string oil_source;
-  /// What is assumed and what is not judged, a sentence each.
+  /// Assumptions, and quantities that were not evaluated, a sentence each.
   std::vector<std::string> notes;
 };
 

@@ -19,7 +19,7 @@ struct Shortfall {
   std::string closest;
 };
 
-/// What `boresight tune` found, and what of the case's text its report needs.
+/// Results of `boresight tune`, and the parts of the case's text that its report needs.
 struct TuneSection : design::TuningStudy {
   io::GainUnits gain_units;
   std::optional<io::WindMast> wind_mast;  // none: the case states speeds at the dish's centre

@@ -7,12 +7,12 @@
 
 namespace boresight::app {
 
-/// What of the goals, budgets and plant the laws of a finished study do not reach, with the closest
-/// that they do. Empty if every wind speed has a law that meets everything.
+/// Constraints, budgets and plants for which the controllers of a finished study fall short, with
+/// the closest values reached. Empty if every wind speed has a controller that meets all of them.
 std::vector<Shortfall> find_shortfalls(const TuneSection& section);
 
-/// A few sentences that say what the table means: the best law, before and after, the price of
-/// robustness, what limits.
+/// A few sentences on the table: the best controller, before and after, the price of robustness,
+/// the active constraints.
 std::vector<std::string> conclude(const TuneSection& section);
 
 }  // namespace boresight::app

@@ -6,11 +6,11 @@
 
 namespace boresight::app {
 
-/// What a law is called in sentences: "PI (robust)".
+/// Name of a controller in sentences: "PI (robust)".
 std::string name_and_purpose(const TunedLaw& row);
 
-/// Why a law of the same purpose and wind speed that is not left_out is not the one recommended,
-/// as what it does: "hunts by +-0.4375 mdeg rather than +-0.4246".
+/// Reason why another controller of the same purpose and wind speed, not left_out, is not
+/// recommended: "has 0.4375 mdeg rms instead of 0.4246".
 std::string why_not_recommended(const TuneSection& section, const TunedLaw& other,
                                 const TunedLaw& recommended);
 

@@ -95,16 +95,16 @@ struct ReconciledInertia {
   double upper = 0.0;
   /// Standard deviation between the methods beyond their own uncertainties.
   double between_methods = 0.0;
-  /// Cochran's Q and its degrees of freedom: Q far above them says that the methods contradict one
-  /// another.
+  /// Cochran's Q and its degrees of freedom: Q far above them indicates that the methods contradict
+  /// each other.
   double heterogeneity = 0.0;
   int degrees_of_freedom = 0;
   double motor_to_load_ratio = 0.0;
   double ratio_lower = 0.0;
   double ratio_upper = 0.0;  // infinity where the inertia's interval reaches the motors' own
 
-  /// Whether chance exceeds Cochran's Q less than once in a thousand times: then the mean stands
-  /// for none of the methods, and there is no reconciled inertia.
+  /// True if Cochran's Q has a probability below 0.001: the mean then represents none of the
+  /// methods, and there is no combined estimate of the inertia.
   bool contradictory() const;
 };
 

@@ -25,15 +25,14 @@ struct FrictionCurveOptions {
   /// Standard deviation expected of the tachometer's zero, relative to the rate's limit or largest
   /// value. The fit finds the zero from the two directions.
   double tachometer_zero = 0.002;
-  /// Torque that the model leaves unexplained in one window (relative to the window's own), beside
-  /// the scatter found: keeps fast tests from outweighing slow ones.
+  /// Unexplained torque of one window, relative to the window's own, in addition to the scatter
+  /// found. It keeps fast tests from outweighing slow ones.
   double relative_scatter = 0.003;
   /// Torque disturbances (wind) are taken as independent after this time (s).
   double correlation_time = 20.0;
 };
 
-/// A window's friction as measured: torque less the inertia's and the offset, means over the
-/// window.
+/// Measured friction of a window: torque less those of inertia and offset, means over the window.
 struct FrictionPoint {
   std::size_t record = 0;  // of the campaign
   double time = 0.0;       // s, the window's middle
@@ -46,8 +45,8 @@ struct FrictionPoint {
 struct FittedParameter {
   std::string name;
   numerics::Interval interval;
-  /// False: the data say no more than its order of magnitude (a factor of 2 either way at one
-  /// standard deviation, or little more than was assumed).
+  /// False: the data determine no more than the order of magnitude (a factor of 2 either way at one
+  /// standard deviation, or little more than the prior).
   bool determined = true;
 };
 
@@ -98,8 +97,8 @@ plant::FrictionCurve friction_curve(const Eigen::VectorXd& estimate);
 /// rate: from the fit's covariance alone.
 numerics::Interval friction_as_recorded(const FrictionCurveFit& fit, double rate);
 
-/// The same of the antenna: with the errors that transducers, tachometer scale, displacement and
-/// torque efficiency may have, to first order. Where the rate lies beyond the windows' the law
+/// The same for the antenna: includes the possible errors of transducers, tachometer scale,
+/// displacement and torque efficiency, to first order. Beyond the windows' rates the friction model
 /// extrapolates.
 numerics::Interval friction_of_antenna(const FrictionCurveFit& fit, const Campaign& campaign,
                                        double rate);
@@ -116,16 +115,16 @@ numerics::Interval offset_of_antenna(const FrictionCurveFit& fit, const Campaign
 /// estimate, the logarithms.
 Eigen::VectorXd friction_gradient(const plant::FrictionCurve& curve, double rate);
 
-/// Change of the fit's estimate in draw number `draw` of a seed, to be used to first order (a
-/// parameter that the data do not determine must not be followed far): its own scatter (`factor`:
-/// the covariance's, n x rank, by numerics::semidefinite_factor) and the transducers' errors of
-/// that draw.
+/// Change of the fit's estimate in sample number `draw` of a seed. Use it to first order only,
+/// since parameters that the data do not determine must not be extrapolated far. It includes the
+/// fit's own scatter and the transducers' errors of that sample. `factor`: of the covariance, n x
+/// rank, by numerics::semidefinite_factor.
 Eigen::VectorXd draw_friction(const FrictionCurveFit& fit, const Eigen::MatrixXd& factor,
                               const InstrumentErrors& errors, std::uint64_t seed,
                               std::uint64_t draw);
 
-/// Gain errors of a draw without what the fit has estimated: the part in which all inlets read high
-/// and all outlets low together, which is `torque_by_common_pressure`.
+/// Gain errors of a sample without the part estimated by the fit: the part in which all inlets read
+/// high and all outlets low together, which is `torque_by_common_pressure`.
 Eigen::VectorXd remaining_gain_errors(const Eigen::VectorXd& pressure_gain, Eigen::Index inlets);
 
 }  // namespace boresight::identification

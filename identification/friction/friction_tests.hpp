@@ -12,21 +12,21 @@
 namespace boresight::identification {
 
 struct FrictionTestOptions {
-  /// A tail counts as settled if rate and torque change by less than this share of themselves
-  /// between its two halves.
+  /// A tail counts as settled if rate and torque change between its two halves by less than this
+  /// fraction.
   double settled_share = 0.03;
-  /// Shares of a half period from its end: the longest tail tried and the one taken when none is
-  /// settled.
+  /// Tail lengths as fractions of a half period, measured from its end: the longest one tried, and
+  /// the one used if none is settled.
   double longest_tail = 0.8;
   double unsettled_tail = 0.4;
   double guard_time = 0.1;  // s about clipped or missing samples
-  /// Subtract the inertia times each tail's acceleration: a weak rate loop never quite settles.
-  /// False: the mean torque as it is, as Sommerville has it.
+  /// True: subtract the inertia times each tail's acceleration, as a weak rate loop never quite
+  /// settles. False: use the mean torque (Sommerville).
   bool subtract_inertia = true;
   /// Time after breakaway over which the slow ramp's torque is averaged, s.
   double after_breakaway = 0.25;
-  /// The antenna rests where its rate is below this share of the record's largest, or below five
-  /// standard deviations of the tachometer's noise, for `rest_time` (s).
+  /// The antenna is at rest if its rate stays for `rest_time` (s) below this fraction of the
+  /// record's largest rate, or below five standard deviations of the tachometer noise.
   double rest_share = 0.1;
   double rest_time = 0.3;
   int draws = 400;  // of the Monte Carlo
@@ -61,13 +61,13 @@ struct ConstantSpeedPoint {
   double rate = 0.0;           // rad/s
   numerics::Interval coulomb;  // N m, half the difference of the torques up and down
   numerics::Interval offset;   // N m, half their sum
-  /// N m that the inertia took from the half difference: small where the test has settled.
+  /// Torque (N m) of the inertia removed from the half difference: small if the test has settled.
   double inertia_torque = 0.0;
   std::size_t tails = 0;
   std::size_t unsettled = 0;
 };
 
-/// Changes of a straight friction line and its offset in each draw, in the draws' order.
+/// Changes of a straight friction line and its offset in each sample, in the order of the samples.
 struct LineDraws {
   Eigen::VectorXd intercept;  // N m
   Eigen::VectorXd slope;      // N m s/rad
@@ -77,8 +77,8 @@ struct LineDraws {
 struct ConstantSpeedTests {
   std::vector<SteadyTail> tails;
   std::vector<ConstantSpeedPoint> points;  // by rate
-  /// Through the points, Sommerville section IV.B.1. Exact for two; least squares for more. Only
-  /// where there are two speeds.
+  /// Line through the points, Sommerville section IV.B.1. Exact for two points, least squares for
+  /// more. Only with at least two speeds.
   bool has_line = false;
   numerics::Interval slope;      // N m s/rad
   numerics::Interval intercept;  // N m, "Coulomb friction"
@@ -90,11 +90,11 @@ struct ConstantSpeedTests {
   std::vector<std::string> notes;
 };
 
-/// Friction by constant-speed tests as in Sommerville section IV.B.1, each speed and the straight
-/// line. Half periods follow the rate command, or the tachometer where there is none. Intervals by
-/// Monte Carlo over the instruments, the tails' scatter, displacement and torque efficiency.
-/// `inertia` (kg m2): for what the tails' acceleration takes, reported and subtracted.
-/// @throws NumericalFailure where no constant-speed test has usable half periods both ways.
+/// Friction by constant-speed tests (Sommerville section IV.B.1): each speed, and the straight
+/// line. Half periods follow the rate command, or the tachometer without one. Intervals by Monte
+/// Carlo over the instruments, the tails' scatter, displacement and torque efficiency. `inertia`
+/// (kg m2): for the torque of the tails' acceleration, which is reported and subtracted.
+/// @throws NumericalFailure if no constant-speed test has usable half periods in both directions.
 ConstantSpeedTests constant_speed_tests(const Campaign& campaign,
                                         const numerics::Uncertain& inertia,
                                         const FrictionTestOptions& options = {});
@@ -121,8 +121,8 @@ struct SlowRampTests {
   std::vector<std::string> notes;
 };
 
-/// Breakaway and "Coulomb" friction by slow ramps as in Sommerville section IV.B.2.
-/// @throws NumericalFailure where no slow ramp starts from rest both ways.
+/// Breakaway and "Coulomb" friction by slow ramps (Sommerville section IV.B.2).
+/// @throws NumericalFailure if no slow ramp starts from rest in both directions.
 SlowRampTests slow_ramp_tests(const Campaign& campaign, const FrictionTestOptions& options = {});
 
 /// Standard uncertainty of a series' mean with its samples' correlation: the sum of autocovariances

@@ -17,36 +17,37 @@
 namespace boresight::identification {
 
 struct GreyBoxOptions {
-  /// Samples a second aimed at; 0: eight for every period of the structure's highest stated mode,
+  /// Target sample rate (1/s); 0: eight samples per period of the structure's highest stated mode,
   /// at least 50.
   double sample_rate = 0.0;
-  /// Starts beside that at the priors, drawn from them by the seed.
+  /// Starts in addition to the one at the priors, sampled from the priors by the seed.
   int further_starts = 2;
   int draws = 2000;  // of the posterior, from 100
   std::uint64_t seed = 1;
-  /// s of errors that are taken together as one observation of how far off the model may be.
+  /// Length (s) of errors that count as one observation of the model's error.
   double stretch = 4.0;
-  /// Whether the bulk modulus given is a guess (oil of an unknown kind) and not a measured or
-  /// published number: then records may contradict it.
+  /// True if the given bulk modulus is a guess (unknown kind of oil), not a measured or published
+  /// number. Records may then contradict it.
   bool bulk_modulus_guessed = false;
   GreyBoxDiscrepancy discrepancy;
   unsigned threads = 0;  // at a time; 0: as many as the machine has. Never changes the result.
-  /// Told what is done, and how much of all; false stops with Interrupted.
+  /// Called with the present step and the completed fraction; returns false to stop with
+  /// Interrupted.
   std::function<bool(const std::string& what, double share)> progress;
 };
 
-/// A number with its interval and what it was before the records spoke.
+/// A quantity with its interval before (prior) and after (posterior) the records.
 struct GreyBoxQuantity {
   std::string name;
   std::string unit;
   numerics::Interval posterior;
   numerics::Interval prior;
-  /// Share of the prior's variance that the records took away.
+  /// Fraction of the prior's variance removed by the records.
   double learnt = 0.0;
-  /// Whether the records say anything to speak of (half the variance): if not, the interval is that
-  /// of drawings and data sheets, or of a wide guess where those say nothing. Offset and Coulomb
-  /// level are not, however narrow, where the drive moves one way, the level not where the drive is
-  /// too slow for friction to saturate.
+  /// True if the records remove at least half the variance. Otherwise the interval is that of
+  /// drawings and data sheets, or of a wide guess without them. Always false for offset and Coulomb
+  /// level if the drive moves one way, and for the level if the drive is too slow for friction to
+  /// saturate.
   bool identified = false;
   bool prior_from_drawings = false;
 };
@@ -69,15 +70,15 @@ struct GreyBoxStart {
 };
 
 struct GreyBoxResult {
-  /// Between what fits the records and what is stated. Where it widens the posterior, quantities
-  /// hold only if the stated number that it names is what is wrong.
+  /// Conflict between the records and the stated numbers. If it widens the posterior, the
+  /// quantities are valid only if the stated number it names is the wrong one.
   GreyBoxConflict conflict;
   GreyBoxMotion motion;
   std::vector<GreyBoxParameterResult> parameters;
   std::vector<GreyBoxQuantity> quantities;
-  /// Of the quantities, by their order.
+  /// Of the quantities, in their order.
   Eigen::MatrixXd correlation;
-  /// At the optimum; the draws are for a plant ensemble.
+  /// At the optimum; the samples are for a plant ensemble.
   DriveEstimate estimate;
   std::vector<DriveEstimate> draws;
   std::vector<GreyBoxResidual> residuals;
@@ -86,12 +87,12 @@ struct GreyBoxResult {
   std::vector<std::string> left_out;       // without motor rate or pressures
   std::vector<GreyBoxStart> starts;        // the first is the one at the priors
   numerics::LeastSquaresStatus status = numerics::LeastSquaresStatus::iteration_limit;
-  /// Directions in which the records say more than the priors, of how many; the condition of the
-  /// records' Jacobian with priors, in units of the priors' spreads.
+  /// Number of directions in which the records are more informative than the priors, and of all
+  /// directions. Condition of the records' Jacobian with priors, in units of the priors' spreads.
   Eigen::Index rank = 0;
   Eigen::Index varied = 0;
   double condition = 1.0;
-  /// What the reader must know, in words with numbers.
+  /// Remarks for the reader, in words with numbers.
   std::vector<std::string> notes;
   /// For simulation and for the ranking of tests.
   std::vector<GreyBoxParameters> model;  // one
@@ -104,36 +105,37 @@ struct GreyBoxResult {
   const GreyBoxQuantity& quantity(const std::string& name) const;
 };
 
-/// Fits the nonlinear drive to all records of a campaign at once, and says how sure it is.
+/// Fits the nonlinear drive to all records of a campaign together, with a posterior.
 ///
-/// Each half is driven by what was measured at its port, so that no controller need be known: the
-/// mechanical half (predict_rate) by the pressures' torque, the hydraulic half (predict_pressures)
-/// by the motor rate and the valve's command, which is a rate command of unknown scale where the
-/// rate loop is open and no valve command was recorded. Records in which nothing is known of the
-/// valve serve the mechanical half alone. Parameters have priors of drawings, data sheets and
-/// instruments; the bulk modulus that of `bulk_modulus`, from slosh frequencies, if given. Errors
-/// of each record and half count in units of their own rms, found by turns with the optimum.
+/// Each half is driven by the signals measured at its port, so no controller need be known. The
+/// mechanical half (predict_rate) is driven by the pressures' torque; the hydraulic half
+/// (predict_pressures) by motor rate and valve command. If the rate loop is open and no valve
+/// command was recorded, the latter is a rate command of unknown scale. Records without any
+/// information on the valve serve the mechanical half only. Parameters have priors from drawings,
+/// data sheets and instruments. The bulk modulus has the prior `bulk_modulus`, from slosh
+/// frequencies, if given. Errors of each record and half are weighted by their own rms, found
+/// iteratively with the optimum.
 ///
-/// The posterior is not that of white errors: see grey_box_posterior. Inertia and offset "as
-/// recorded" are what the transducers' errors leave of them, which no test can remove; the
-/// inertia itself has those errors in its interval.
+/// The posterior does not assume white errors: see grey_box_posterior. Inertia and offset "as
+/// recorded" include the transducers' errors, which no test can remove; the interval of the inertia
+/// itself includes those errors.
 /// @throws InvalidInput as prepare_records and GreyBoxParameters, and for options out of range;
-/// NumericalFailure if no start arrives; Interrupted as asked by `progress`.
+/// NumericalFailure if no start converges; Interrupted as requested by `progress`.
 GreyBoxResult fit_grey_box(const Campaign& campaign,
                            const std::optional<numerics::Interval>& bulk_modulus = {},
                            const GreyBoxOptions& options = {});
 
-/// Steady friction torque (N m, true) at a motor rate (rad/s, not 0) with its interval, and whether
-/// the records were at such rates is for the caller to know.
+/// Steady friction torque (N m, true) at a motor rate (rad/s, not 0) with its interval. The caller
+/// must check that the records cover such rates.
 numerics::Interval friction_interval(const GreyBoxResult& result, double rate);
 
-/// Another estimate of one of the quantities, held against the grey box's.
+/// Another estimate of one of the quantities, compared with the grey box's.
 struct GreyBoxComparison {
   std::string name;
   numerics::Interval other;
   double relative = 0.0;  // other less grey box, over the grey box
-  /// The difference over both standard uncertainties' root sum of squares: beyond 2 they
-  /// contradict each other.
+  /// Difference over the root sum of squares of both standard uncertainties; the two contradict
+  /// each other beyond 2.
   double normalised = 0.0;
 };
 

@@ -24,8 +24,8 @@ struct GreyBoxConflict {
   bool beyond_chance() const { return sum > limit; }
 };
 
-/// Judges the optimum. The scales of valve and supply, which enter neither inertia nor stiffness,
-/// count in the sum and not in the widening.
+/// Evaluates the conflict at the optimum. The scales of valve and supply, which enter neither
+/// inertia nor stiffness, count in the sum but not in the widening.
 GreyBoxConflict grey_box_conflict(const GreyBoxParameters& parameters,
                                   const Eigen::VectorXd& point);
 
@@ -44,9 +44,10 @@ struct GreyBoxMotion {
 };
 GreyBoxMotion motion_of(const std::vector<GreyBoxRecord>& records);
 
-/// Tells the posterior what the motion cannot tell apart: offset and Coulomb level where the drive
-/// moves one way, friction's level and the rate at which it saturates where the drive is never
-/// faster than two and a half such rates, or its friction still rises by more than the level.
+/// Inflates the covariance of parameters that the motion cannot separate. These are offset and
+/// Coulomb level if the drive moves one way. They are also friction's level and the rate at which
+/// it saturates, if the drive never exceeds 2.5 such rates or its friction still rises by more than
+/// the level.
 void add_motion_doubts(GreyBoxPosterior& posterior, const GreyBoxParameters& parameters,
                        const GreyBoxMotion& motion);
 

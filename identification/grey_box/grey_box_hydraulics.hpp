@@ -6,8 +6,8 @@
 
 namespace boresight::identification {
 
-/// Coefficients of the hydraulic half, pressures as the torque (N m) that the recorder makes of
-/// them, flows as the recorded motor rate (rad/s) that takes them.
+/// Coefficients of the hydraulic half. Pressures are expressed as the recorded torque (N m), flows
+/// as the recorded motor rate (rad/s).
 struct HydraulicCoefficients {
   enum : Eigen::Index {
     stiffness_1,      // N m/rad: of the oil on the side that drives upwards
@@ -18,10 +18,10 @@ struct HydraulicCoefficients {
     valve_gain,       // rad/s of opening per rad/s of command
     valve_null,       // rad/s of opening without command
     valve_lag,        // s
-    valve_curvature,  // by which share the gain is larger at the largest command
+    valve_curvature,  // relative increase of the gain at the largest command
     line_resistance,  // N m per rad/s: pressure lost between valve and motor ports, each way
     supply_torque,    // N m
-    supply_droop,     // share by which the supply falls at the largest command
+    supply_droop,     // relative fall of the supply at the largest command
     tachometer_zero,  // rad/s
     tachometer_lag,   // s
     correction,       // 1/s
@@ -30,7 +30,7 @@ struct HydraulicCoefficients {
   };
 };
 
-/// What the coefficients are counted in.
+/// Scales of the coefficients.
 struct HydraulicUnits {
   double supply_torque = 0.0;    // N m, as stated
   double return_torque = 0.0;    // N m

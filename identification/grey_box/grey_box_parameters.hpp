@@ -13,20 +13,20 @@
 
 namespace boresight::identification {
 
-/// What the grey box may vary. A parameter that is a positive number is counted by its logarithm.
+/// A parameter of the grey box. A positive one is represented by its logarithm.
 struct GreyBoxParameter {
   std::string name;
   std::string unit;  // SI; empty: a plain number
   bool logarithmic = true;
   double prior = 0.0;   // median
   double spread = 0.0;  // standard deviation, of the logarithm if logarithmic; 0: known
-  /// Whether drawings, data sheets or instruments say so; otherwise a wide guess, there to keep
-  /// what the records do not say within reason.
+  /// True if drawings, data sheets or instruments give the prior. Otherwise it is a wide guess that
+  /// keeps undetermined parameters within reason.
   bool from_drawings = false;
 };
 
-/// The grey box's parameters of a campaign, and how they make the coefficients of its two halves.
-/// Points are in units of the spreads, from the prior: the prior is standard normal there.
+/// The grey box's parameters of a campaign, and their map to the coefficients of its two halves.
+/// Points are distances from the prior in units of the spreads, so the prior is standard normal.
 class GreyBoxParameters {
  public:
   enum : Eigen::Index {
@@ -67,14 +67,14 @@ class GreyBoxParameters {
     pressure_correction,
     valve_lap,
     command_gain,  // opening per rate command, where the rate command drives the valve
-    modes          // share and frequency of each mode of the locked rotor
+    modes          // inertia fraction and frequency of each mode of the locked rotor
   };
   static Eigen::Index share(Eigen::Index mode) { return modes + 2 * mode; }
   static Eigen::Index frequency(Eigen::Index mode) { return modes + 2 * mode + 1; }
 
-  /// Priors of drawings and instruments from the campaign, of the bulk modulus from `bulk`
-  /// if given (from drawings unless `bulk_guessed`), and wide ones of all else about what a glance
-  /// at the records says. A gear inertia of zero is taken as known.
+  /// Sets the priors: from drawings and instruments of the campaign; for the bulk modulus from
+  /// `bulk` if given (from drawings unless `bulk_guessed`). All others are wide, about rough
+  /// estimates from the records. A gear inertia of zero is taken as known.
   /// @throws InvalidInput for knowledge without motors, displacement, volumes, inertias or supply
   /// pressure above the return's, or without records.
   GreyBoxParameters(const Campaign& campaign, const std::vector<GreyBoxRecord>& records,

@@ -13,8 +13,8 @@
 
 namespace boresight::identification {
 
-/// A drive as the grey box sees it, true (not as recorded) but where it says so. SI at the motor
-/// shaft.
+/// Drive parameters estimated by the grey box, true (not as recorded) unless stated otherwise. SI
+/// at the motor shaft.
 struct DriveEstimate {
   double inertia = 0.0;              // kg m2, all of it
   double inertia_as_recorded = 0.0;  // what the recorder's torque and rate show of it
@@ -24,7 +24,7 @@ struct DriveEstimate {
   double bulk_modulus = 0.0;         // Pa
   double leakage_rate = 0.0;         // 1/s
   double offset_as_recorded = 0.0;   // N m, at the campaign's mean pressure
-  /// Level at which friction saturates, N m: what a straight line through high speeds meets.
+  /// Level at which friction saturates (N m): the intercept of a straight line through high speeds.
   double coulomb_level = 0.0;
   double lowest_frequency = 0.0;  // Hz, locked rotor; 0 without structure
   plant::FrictionCurve friction;
@@ -37,39 +37,38 @@ struct DriveEstimate {
   Eigen::VectorXd mode_inertia;    // kg m2, of each mode of the locked rotor
   Eigen::VectorXd mode_frequency;  // Hz
   double mode_damping = 0.0;
-  /// The records contradict the stated numbers that inertia or stiffness rest on: nothing to design
-  /// for.
+  /// True if the records contradict the stated numbers behind inertia or stiffness: do not design
+  /// for this drive.
   bool contradicted = false;
 };
 
-/// By what the models' laws may be off where nothing in the records tells: standard uncertainties
-/// of engineering judgement, kept apart from what the fit says.
+/// Model errors that the records do not show: standard uncertainties by engineering judgement,
+/// separate from the fit's.
 struct GreyBoxDiscrepancy {
-  /// Of the torque balance, relative: friction that changes with load or place, oil torque that is
-  /// not in proportion to pressure. Widens inertia and friction, frequencies by half of it, and the
-  /// offset by its share of the torque over the root of the number of records.
+  /// Of the torque balance, relative: friction that changes with load or position, oil torque that
+  /// is not proportional to pressure. Widens inertia and friction by it, frequencies by half of it.
+  /// Widens the offset by this fraction of the torque over the root of the number of records.
   double torque_balance = 0.003;
-  /// Of the flow balance, relative to the flow: valve and lines other than modelled. Widens the
+  /// Of the flow balance, relative to the flow: unmodelled effects of valve and lines. Widens the
   /// leakage, which is a small part of the flow.
   double flow_balance = 0.003;
-  /// Of the oil's stiffness, relative: waves in the lines, hoses that yield, a bulk modulus that
-  /// changes with pressure.
+  /// Of the oil's stiffness, relative: waves in the lines, compliant hoses, a pressure-dependent
+  /// bulk modulus.
   double stiffness = 0.006;
-  /// Of the valve's lag, relative: a valve of second order is fitted as a lag of first order, which
-  /// comes out 6 % short at a damping ratio of 0.7 (simulated valves of 12 and 45 Hz, swept to 8
-  /// Hz).
+  /// Of the valve's lag, relative. A second-order valve is fitted as a first-order lag, which is 6
+  /// % short at a damping ratio of 0.7 (simulated valves of 12 and 45 Hz, swept to 8 Hz).
   double valve_lag = 0.06;
 };
 
-/// Where the fit has arrived and how far it may be off, in the parameters' points.
+/// The optimum and its uncertainty, as points of the parameters.
 struct GreyBoxPosterior {
   Eigen::VectorXd point;
-  /// Covariance if the model were true and the errors white.
+  /// Covariance under a true model with white errors.
   Eigen::MatrixXd formal;
-  /// Covariance with the errors' correlation and the model's misfit in it; never below `formal`.
+  /// Covariance including the errors' correlation and the model's misfit; never below `formal`.
   Eigen::MatrixXd covariance;
-  /// The part of it that no further record of the same kind would take away: how far the optimum
-  /// moves with the predictions' reach, which a true model's would not.
+  /// The part that further records of the same kind would not remove: the shift of the optimum with
+  /// the prediction horizon, which is zero for a true model.
   Eigen::MatrixXd misfit;
   /// Mean variance of the covariance over the formal one's, by directions.
   double inflation = 1.0;
@@ -81,8 +80,8 @@ struct GreyBoxPosterior {
   /// Where the drive moves one way, friction's level and the offset are one number: by how much
   /// either may be the other's (N m, standard uncertainty; the sign is the motion's). 0 otherwise.
   double one_way = 0.0;
-  /// Where the drive is never fast enough for friction to saturate, standard uncertainty of the
-  /// logarithm of the saturating level, and with it of its rate: slow friction stays as it is.
+  /// If the drive is never fast enough for friction to saturate: standard uncertainty of the
+  /// logarithm of the saturating level, and with it of its rate. Slow friction does not change.
   double unsaturated = 0.0;
 };
 
@@ -97,7 +96,7 @@ GreyBoxPosterior grey_box_posterior(const GreyBoxObjective& objective, const Eig
 /// The drive at a point.
 DriveEstimate drive_estimate(const GreyBoxParameters& parameters, const Eigen::VectorXd& point);
 
-/// Draws from the posterior, discrepancies included; deterministic by seed.
+/// Samples from the posterior, discrepancies included; deterministic by seed.
 std::vector<DriveEstimate> posterior_draws(const GreyBoxParameters& parameters,
                                            const GreyBoxPosterior& posterior, int count,
                                            std::uint64_t seed);

@@ -18,7 +18,7 @@ numerics::LeastSquaresResult search(const GreyBoxObjective& objective, const Eig
 numerics::LeastSquaresResult search_with_scales(GreyBoxObjective& objective,
                                                 const Eigen::VectorXd& start);
 
-/// A point drawn from the priors of the parameters that are but guessed; the others at theirs.
+/// A start with the guessed parameters sampled from their priors and the others at their priors.
 Eigen::VectorXd drawn_start(const GreyBoxParameters& parameters, std::uint64_t seed,
                             std::uint64_t number);
 

@@ -8,24 +8,25 @@
 
 namespace boresight::identification {
 
-/// By how much a test, done once more or for the first time, would shrink an interval.
+/// Reduction of the intervals by one test, repeated or new.
 struct GreyBoxTestGain {
   std::string test;
   TestKind kind = TestKind::other;
   bool done_before = false;  // a record of this kind is in the campaign
-  /// Standard uncertainty after over before, of each of the result's quantities, in their order: 1
-  /// says nothing gained.
+  /// Standard uncertainty after the test over that before, for each of the result's quantities in
+  /// their order; 1: nothing gained.
   std::vector<double> remaining;
 };
 
 /// The tests of a full campaign, as the fitted drive would run them: slosh, ramps, constant speeds
-/// (slow, middle, fast), valve steps and valve sweep. Speeds by what the records reached.
+/// (slow, middle, fast), valve steps and valve sweep. Speeds follow those of the records.
 std::vector<GreyBoxManoeuvre> campaign_tests(const GreyBoxResult& result, double largest_rate);
 
-/// Ranks the tests by what they would gain for a quantity, the best first: each is simulated by the
-/// fitted drive (simulate_drive), its Fisher information, by the records' own prediction errors and
-/// as much discounted as the posterior was widened, added to the posterior's. What no test removes
-/// (transducers' gains, discrepancies of the model's laws) is kept. First order about the optimum.
+/// Ranks the tests by their information gain for a quantity, the best first. Each test is simulated
+/// by the fitted drive (simulate_drive). Its Fisher information, by the records' own prediction
+/// errors, is discounted as much as the posterior was widened and added to the posterior's.
+/// Uncertainty that no test removes (transducers' gains, model discrepancies) is kept. First order
+/// about the optimum.
 /// @throws InvalidInput as GreyBoxResult::quantity.
 std::vector<GreyBoxTestGain> rank_tests(const GreyBoxResult& result, const Campaign& campaign,
                                         const std::string& quantity);

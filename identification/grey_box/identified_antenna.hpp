@@ -40,9 +40,9 @@ std::vector<plant::AntennaChange> identified_changes(const plant::Antenna& anten
                                                      const DriveEstimate& estimate,
                                                      const IdentifiedParts& parts = {});
 
-/// A number of identified_changes by its path (AntennaChange), without those that are scaled, with
-/// the scatter of the draws as standard uncertainty. Draws that leave the antenna no inertia count
-/// for nothing.
+/// A number of identified_changes by its path (AntennaChange), without those that are scaled. Its
+/// standard uncertainty is the samples' scatter. Samples that leave the antenna no inertia are
+/// excluded.
 struct IdentifiedNumber {
   std::string path;
   double value = 0.0;  // SI, as the path's number

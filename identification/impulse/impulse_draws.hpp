@@ -6,22 +6,22 @@
 
 namespace boresight::identification {
 
-/// The Monte Carlo of impulse_momentum: one set of instrument and friction draws, shared by all
+/// The Monte Carlo of impulse_momentum: one set of instrument and friction samples, common to all
 /// estimates.
 class ImpulseDraws {
  public:
-  /// Draws from the friction tests found so far; keeps references to its arguments.
+  /// Samples from the friction tests found so far; keeps references to its arguments.
   ImpulseDraws(const Campaign& campaign, const ImpulseMomentumOptions& options,
                const ImpulseMomentum& tests);
 
   /// Whether the tests allow a treatment.
   bool has(FrictionTreatment treatment) const;
 
-  /// Inertia from windows, with intervals and shares of variance.
+  /// Inertia from windows, with intervals and fractions of variance.
   ImpulseEstimate estimate(WindowRule rule, FrictionTreatment treatment,
                            const std::vector<ImpulseWindow>& windows) const;
 
-  /// The friction curve's own estimate of the inertia; without a curve no more than a name.
+  /// The friction curve's own estimate of the inertia; without a curve only a name.
   ImpulseEstimate whole_records() const;
 
  private:

@@ -10,7 +10,7 @@
 
 namespace boresight::identification {
 
-/// Friction and offset to be taken from a window's impulse: a straight line, sign(w) (intercept +
+/// Friction and offset to subtract from a window's impulse: a straight line, sign(w) (intercept +
 /// slope |w|), or the fitted curve with a change of its parameters.
 struct ImpulseFriction {
   double intercept = 0.0;  // N m
@@ -36,12 +36,12 @@ struct WindowImpulse {
 /// Sets curve_impulse and by_curve.
 void add_curve(const FrictionCurveFit& fit, WindowImpulse& window);
 
-/// How windows are put together.
+/// How windows are combined.
 enum class ImpulsePooling {
   mean_of_quotients,  // each window's impulse over its change of speed, averaged (Sommerville)
   least_squares,      // sum of weight M N over sum of weight M^2, N impulse, M change of speed
-  /// Of windows integrated over speed: per direction the mean of the accelerating ones plus the
-  /// mean of the decelerating ones, a closed path of speeds over which friction and offset cancel.
+  /// For windows integrated over speed. Per direction, the mean of the accelerating ones plus the
+  /// mean of the decelerating ones: a closed path of speeds, over which friction and offset cancel.
   closed_path
 };
 

@@ -13,7 +13,7 @@
 
 namespace boresight::identification {
 
-/// Which windows the impulse is taken over.
+/// The windows used for the impulse.
 enum class WindowRule {
   two_on_the_ramp,     // ramp_windows, averaged
   every_speed_change,  // impulse_windows, pooled
@@ -21,7 +21,7 @@ enum class WindowRule {
   whole_records        // the friction curve's fit, inertia among its parameters
 };
 
-/// What is taken for friction and offset.
+/// The model of friction and offset.
 enum class FrictionTreatment {
   constant_speed_line,  // the straight line and offset of the constant-speed tests
   slow_ramp_line,       // Coulomb friction and offset of the slow ramp, the constant-speed slope
@@ -29,7 +29,7 @@ enum class FrictionTreatment {
   cancelled             // none: it cancels between accelerating and decelerating
 };
 
-/// Share of a source in an estimate's variance.
+/// Fraction of an estimate's variance due to one source.
 struct VarianceShare {
   std::string source;
   double share = 0.0;
@@ -40,17 +40,17 @@ struct ImpulseEstimate {
   WindowRule rule = WindowRule::two_on_the_ramp;
   FrictionTreatment treatment = FrictionTreatment::curve;
   std::string name;
-  /// kg m2, of the antenna: with errors of transducers, tachometer scale, displacement and torque
-  /// efficiency.
+  /// Of the antenna (kg m2); includes errors of transducers, tachometer scale, displacement and
+  /// torque efficiency.
   numerics::Interval inertia;
-  /// The same as the recorder shows torque and rate, without these.
+  /// The same for torque and rate as recorded, without these errors.
   numerics::Interval as_recorded;
   std::vector<VarianceShare> shares;  // largest first
   std::vector<WindowImpulse> windows;
   /// By each window alone, kg m2.
   std::vector<double> by_window;
-  /// Where there is a friction curve, for the other treatments: kg m2 by which they differ from it
-  /// over the same windows. It is in the intervals, as a standard uncertainty.
+  /// Difference (kg m2) of another treatment from the friction curve over the same windows, if
+  /// there is a curve. The intervals include it as a standard uncertainty.
   std::optional<double> friction_model_error;
   std::string note;
 };
@@ -61,7 +61,7 @@ struct ImpulseMomentumOptions {
   ImpulseWindowOptions windows;
   int draws = 400;  // of the Monte Carlo; the tests' own number and seed are replaced by these
   std::uint64_t seed = 1;
-  /// Windows are shortened in the draws at either end by 0, 1 or 2 times this share.
+  /// In the samples, windows are shortened at either end by 0, 1 or 2 times this fraction.
   double shortening = 0.05;
 };
 
@@ -70,22 +70,22 @@ struct ImpulseMomentum {
   std::optional<SlowRampTests> slow_ramp;
   std::optional<FrictionCurveFit> friction;
   std::vector<ImpulseEstimate> estimates;
-  /// The one with the least assumptions: whole records where there is a curve, else the same path.
+  /// The one with the fewest assumptions: whole records if there is a curve, else the same path.
   std::optional<std::size_t> best;
   std::vector<std::string> notes;
   const ImpulseEstimate* find(WindowRule rule, FrictionTreatment treatment) const;
 };
 
-/// Method 3: friction from constant-speed tests, slow ramps and as one curve, and the reflected
-/// inertia from impulse and momentum (Sommerville eqs. 28-31) by every rule and treatment that the
-/// campaign's tests allow; each with a Monte Carlo interval over pressure gains and zeros,
-/// tachometer scale, displacement and torque efficiency, the windows' ends, the friction model's
-/// own scatter, the scatter between windows and the structure's flexibility
-/// (structural_jerk_inertia; Sommerville's two windows take none into account). What the tests do
-/// not allow is in the notes. The mass properties enter only as where the curve's fit starts (with
-/// 30 %). Deterministic by the seed.
-/// @throws InvalidInput for a campaign without records, whose records have different numbers of
-/// motors, or options out of range; NumericalFailure where no estimate is possible.
+/// Method 3: friction from constant-speed tests, slow ramps and as one curve. The reflected inertia
+/// follows from impulse and momentum (Sommerville eqs. 28-31), by every rule and treatment that the
+/// campaign's tests allow. Each estimate has a Monte Carlo interval over pressure gains and zeros,
+/// tachometer scale, displacement and torque efficiency. The interval also covers the windows'
+/// ends, the friction model's scatter, the scatter between windows, and the structure's flexibility
+/// (structural_jerk_inertia). Sommerville's two windows do not account for flexibility. The notes
+/// state what the tests do not allow. The mass properties only set the start of the curve's fit
+/// (with 30 %). Deterministic by the seed.
+/// @throws InvalidInput for a campaign without records, records with different numbers of motors,
+/// or options out of range; NumericalFailure if no estimate is possible.
 ImpulseMomentum impulse_momentum(const Campaign& campaign,
                                  const ImpulseMomentumOptions& options = {});
 

@@ -17,34 +17,35 @@ struct ImpulseWindow {
   double to_rate = 0.0;
 };
 
-/// Sommerville's two windows on a fast ramp (section IV.A): the first from where the rate initially
-/// becomes positive (2 % of the plateau: slow creep before the ramp is not meant) to where the
-/// tachometer reaches its plateau, the second from where it leaves
-/// the plateau, with as many samples. Where the tachometer never reaches its limit the largest rate
-/// of the first half period takes the plateau's place. Empty without a motion upwards.
+/// Sommerville's two windows on a fast ramp (section IV.A). The first extends from where the rate
+/// initially becomes positive to where the tachometer reaches its plateau. Positive means 2 % of
+/// the plateau, which excludes slow creep before the ramp. The second starts where the tachometer
+/// leaves the plateau and has as many samples. If the tachometer never reaches its limit, the
+/// largest rate of the first half period replaces the plateau. Empty without upward motion.
 std::vector<ImpulseWindow> ramp_windows(const Campaign& campaign, std::size_t record);
 
 struct ImpulseWindowOptions {
   double guard_time = 0.1;  // s about clipped or missing samples
-  /// A window's change of speed, at least this share of the largest of all tests.
+  /// Smallest change of speed of a window, as a fraction of the largest of all tests.
   double smallest_change = 0.25;
-  /// Rates below this share of the largest are left out at both ends: about a reversal friction
-  /// follows the contacts' springs and stops, not the steady curve.
+  /// Rates below this fraction of the largest are left out at both ends. About a velocity reversal,
+  /// friction follows the contacts' springs and stops, not the steady curve.
   double lowest_rate = 0.02;
 };
 
-/// Every window of fast-ramp, constant-speed, valve-step and valve-chirp tests over which the
-/// speed, without change of direction and outside guard bands about clipped samples, rises or falls
-/// by a large amount: between turning points of the rate, smoothed over half a period of the lowest
-/// structural mode. At least a period of that mode long; flanks of a period, or of half the window.
+/// Windows of fast-ramp, constant-speed, valve-step and valve-chirp tests over which the speed
+/// rises or falls by a large amount. They lie between turning points of the rate, smoothed over
+/// half a period of the lowest structural mode, without change of direction and outside guard bands
+/// about clipped samples. They are at least a period of that mode long, with flanks of a period, or
+/// of half the window.
 std::vector<ImpulseWindow> impulse_windows(const Campaign& campaign,
                                            const ImpulseWindowOptions& options = {});
 
-/// Windows with the speeds that all of them pass through as their rates: those of one direction,
-/// from the fast ramps where these accelerate and decelerate, else from all tests. Only windows
-/// over at least half of the largest change of speed, long enough to be integrated over speed
-/// (shortest_speed_window), enter. `cut_low` and `cut_high`: shares of the
-/// common speeds left out at either end. Empty where none accelerates or none decelerates.
+/// Windows of one direction, with the common range of their speeds as their rates. They come from
+/// the fast ramps if these accelerate and decelerate, else from all tests. Only windows over at
+/// least half of the largest change of speed are used, long enough to be integrated over speed
+/// (shortest_speed_window). `cut_low` and `cut_high`: fractions of the common speeds left out at
+/// either end. Empty if none accelerates or none decelerates.
 std::vector<ImpulseWindow> common_path(const Campaign& campaign,
                                        const std::vector<ImpulseWindow>& windows, int direction,
                                        double cut_low = 0.0, double cut_high = 0.0);

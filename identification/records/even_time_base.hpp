@@ -29,7 +29,7 @@ class UnusableTimes : public InvalidInput {
   DefectKind kind;
 };
 
-/// As clean_record says. What is found is added to `defects`.
+/// As described at clean_record. Defects found are added to `defects`.
 /// @throws UnusableTimes with the reason if the times cannot be used
 EvenTimeBase even_time_base(const Eigen::VectorXd& time, const DefectOptions& options,
                             std::vector<RecordDefect>& defects);

@@ -24,8 +24,8 @@ Eigen::Index channel_count(const Campaign& campaign);
 /// No errors, for so many pressure channels.
 InstrumentErrors no_instrument_errors(Eigen::Index channels);
 
-/// Draw number `draw` of a seed's errors: independent and normal, of the campaign's standard
-/// uncertainties. The same whatever else was drawn.
+/// Sample number `draw` of a seed's errors: independent and normal, with the campaign's standard
+/// uncertainties. It does not depend on other samples.
 InstrumentErrors draw_instrument_errors(const Campaign& campaign, std::uint64_t seed,
                                         std::uint64_t draw);
 

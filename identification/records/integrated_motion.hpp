@@ -65,10 +65,11 @@ std::vector<MotionWindow> stretches(const std::vector<bool>& usable);
 /// more than half of them repeat a straight line (a coarse resolution).
 double noise_level(const Eigen::VectorXd& signal);
 
-/// C = sum of J_i/w_i^2 (kg m2 s2) of a load that hangs on the rotor by springs: J s^2 of the whole
-/// grows by the factor 1 + C w^2/J below its modes. The lowest locked-rotor mode is taken to carry
-/// between 60 % and all of the antenna's inertia (all of it would make C = J_antenna/w1^2): the
-/// middle with that uniform distribution's standard deviation. 0 where no frequency is known.
+/// C = sum of J_i/w_i^2 (kg m2 s2) of a load coupled to the rotor by springs. Below its modes, J
+/// s^2 of the whole grows by the factor 1 + C w^2/J. The lowest locked-rotor mode is assumed to
+/// carry between 60 % and all of the antenna's inertia; all of it would make C = J_antenna/w1^2.
+/// Returns the middle with that uniform distribution's standard deviation. 0 if no frequency is
+/// known.
 numerics::Uncertain structural_jerk_inertia(const DriveKnowledge& knowledge);
 
 }  // namespace boresight::identification

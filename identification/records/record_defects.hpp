@@ -11,7 +11,7 @@
 
 namespace boresight::identification {
 
-/// What can be wrong with a recorder's file.
+/// Kinds of defects in a recorder's file.
 enum class DefectKind {
   missing_samples,   // no number where one belongs
   missing_times,     // samples without a time
@@ -32,7 +32,7 @@ enum class DefectKind {
 };
 std::string to_string(DefectKind kind);
 
-/// What was done about a defect.
+/// The handling of a defect.
 enum class DefectHandling {
   reported,   // nothing
   left_out,   // samples or channel not used
@@ -59,16 +59,16 @@ struct RecordDefect {
 struct RawChannel {
   std::string name;        // for defects, as the file calls it
   Eigen::VectorXd values;  // NaN: no number
-  /// What the recorder shows no more than, and no less than.
+  /// The recorder's limits for this channel.
   double upper_limit = std::numeric_limits<double>::infinity();
   double lower_limit = -std::numeric_limits<double>::infinity();
 };
 
-/// A record as recorded: any times, anything missing.
+/// A record as recorded: arbitrary times, possibly incomplete.
 struct RawRecord {
   std::string name;
   TestKind test = TestKind::other;
-  /// Whether somebody said so; if not, recognised_test still has to.
+  /// True if the kind of test was stated; else recognised_test has to determine it.
   bool test_known = true;
   bool rate_loop_closed = false;
   Eigen::VectorXd time;                   // s, NaN: none
@@ -78,49 +78,49 @@ struct RawRecord {
 };
 
 struct DefectOptions {
-  /// Fewer samples are no record.
+  /// Records with fewer samples are refused.
   Eigen::Index fewest_samples = 200;
-  /// Within this share of a stated limit a sample is clipped.
+  /// A sample within this fraction of a stated limit counts as clipped.
   double limit_tolerance = 0.0015;
-  /// Samples masked to either side of a clipped stretch: the anti-alias filter has smeared it.
+  /// Samples masked on either side of a clipped stretch, which the anti-alias filter has smeared.
   Eigen::Index guard_samples = 2;
-  /// Times within this share of the sample time of an even grid stand on it.
+  /// Times within this fraction of the sample time count as lying on the even grid.
   double jitter_tolerance = 0.02;
-  /// A pressure that moves less than this share of what the others do is dead.
+  /// A pressure that moves less than this fraction of the others' motion counts as dead.
   double dead_share = 0.02;
-  /// Motors (from 0) whose ports the campaign as a whole shows to be exchanged: both pressures are
-  /// replaced as dead ones are (ColumnConflicts).
+  /// Motors (from 0) whose ports are exchanged according to the campaign as a whole. Both pressures
+  /// are replaced like dead ones (ColumnConflicts).
   std::vector<std::size_t> exchanged_motors;
-  /// Whether the campaign as a whole shows a command to go against the drive: it is left out.
+  /// True if, according to the campaign as a whole, a command opposes the drive: it is left out.
   bool leave_out_rate_command = false;
   bool leave_out_valve_command = false;
 };
 
-/// What speaks against a record's columns having the names and signs they have.
+/// Evidence against the names and signs of a record's columns.
 struct ColumnSuspicions {
-  /// Motors (from 0) whose pressure difference goes against that of the others.
+  /// Motors (from 0) whose pressure difference opposes that of the others.
   std::vector<std::size_t> exchanged_motors;
-  bool rate_command = false;   // goes against the tachometer
-  bool valve_command = false;  // goes against the tachometer
-  bool torque = false;         // works against the motion where friction takes power
+  bool rate_command = false;   // opposes the tachometer
+  bool valve_command = false;  // opposes the tachometer
+  bool torque = false;         // does work on the motion where friction takes power
 };
 
-/// A record without defects, or why there is none.
+/// A record without defects, or the reason for its refusal.
 struct CleanRecord {
   std::optional<DriveRecord> record;
-  /// Why there is none, a sentence.
+  /// Reason for the refusal, a sentence.
   std::string refusal;
   std::vector<RecordDefect> defects;
   ColumnSuspicions suspicions;
-  /// The tachometer is dead: only a slosh test does without. Not yet refused for it where the test
-  /// is still to be recognised.
+  /// True if the tachometer is dead, which only a slosh test tolerates. Not yet a reason for
+  /// refusal if the test is still to be recognised.
   bool without_rate = false;
   /// Motors (from 0) whose inlet, outlet was replaced by the mean of the others'.
   std::vector<std::size_t> replaced_inlets, replaced_outlets;
 };
 
-/// Marks replaced pressures not valid throughout: what looks at each line on its own, as slosh
-/// tests do, must not take the others' mean for a line. No effect without a record.
+/// Marks replaced pressures not valid throughout. An evaluation of each line on its own, such as a
+/// slosh test, must not take the mean of the others for a line. No effect without a record.
 void mask_replaced(CleanRecord& clean);
 
 /// Finds the defects of a record and makes an evenly sampled one with what is not valid marked.

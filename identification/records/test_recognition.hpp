@@ -10,12 +10,12 @@ namespace boresight::identification {
 /// records.
 double fastest_motion(const std::vector<const DriveRecord*>& records);
 
-/// What was probably done in a test, by its commands: with the rate command at rest and the valve
-/// driven, a chirp if the valve crosses its median ever faster, steps if it moves mostly in jumps
-/// and never comes to rest, slosh if it does or the record is shorter than 20 s; with a rate
-/// command, constant speed if it stays near two values, else a ramp, slow if it stays below 15 % of
-/// `fastest` (see fastest_motion). Without commands the tachometer is looked at in their stead, for
-/// constant speed and ramps only. `other` if nothing fits.
+/// The probable kind of a test, from its commands. With the rate command at rest and the valve
+/// driven: a chirp if the valve crosses its median ever faster; steps if it moves mostly in jumps
+/// and never comes to rest; slosh if it does or the record is shorter than 20 s. With a rate
+/// command: constant speed if it stays near two values, else a ramp, slow if it stays below 15 % of
+/// `fastest` (see fastest_motion). Without commands the tachometer is used instead, for constant
+/// speed and ramps only. `other` if nothing fits.
 TestKind recognised_test(const DriveRecord& record, double fastest);
 
 }  // namespace boresight::identification

@@ -9,17 +9,17 @@
 
 namespace boresight::identification {
 
-/// A mode of the structure on a locked rotor as the motor's torque and rate show it.
+/// A mode of the structure on a locked rotor, from the motor's torque and rate.
 struct StructuralMode {
   numerics::Interval frequency;  // Hz
   numerics::Interval damping_ratio;
-  numerics::Interval inertia;  // kg m2, what of the load's swings with this mode
+  numerics::Interval inertia;  // kg m2, the part of the load's that moves with this mode
 };
 
 /// Torque over rate of the motor's shaft,
 ///   Z(s) = B + s [J0 + sum Jk (1 + 2 zk s/wk)/(1 + 2 zk s/wk + (s/wk)^2)],
-/// which no part of the drive's hydraulics enters: J0 is rigid with the motors (with what swings
-/// above the band), each Jk hangs on a mode of the locked rotor.
+/// which is independent of the drive's hydraulics. J0 is rigid with the motors (including modes
+/// above the band); each Jk belongs to a mode of the locked rotor.
 struct MechanicalImpedance {
   numerics::Interval inertia;        // J0 + all Jk, kg m2
   numerics::Interval rigid_inertia;  // J0
@@ -34,12 +34,12 @@ struct MechanicalImpedance {
 /// when its valve command was recorded.
 struct OilRelation {
   numerics::Interval stiffness;  // K, N m/rad
-  /// lambda, 1/s: leakage, and what the valve's orifices add at the record's mean flow.
+  /// lambda, 1/s: leakage, and the contribution of the valve's orifices at the record's mean flow.
   numerics::Interval total_loss_rate;
   /// K q/(2 e_t D) times the mean of 1/(2 (ps - p1)) and 1/(2 (p2 - pr)): orifices in series, flow
   /// q the mean rate's and the leakage's. 1/s
   double orifice_loss_rate = 0.0;
-  /// The difference: leakage alone, 1/s. The orifices' share is taken as known to 6 %.
+  /// Total less orifices: leakage alone, 1/s. The orifices' part is taken as known to 6 %.
   numerics::Interval leakage_rate;
   /// R: pressure lost in the lines, as torque per rate, N m s/rad.
   numerics::Interval line_resistance;
@@ -53,17 +53,17 @@ struct DriveResponseOptions {
   /// hydraulic frequency.
   double lowest_frequency = 0.0;
   double highest_frequency = 0.0;
-  /// Of the knowledge's locked-rotor frequencies, at most this many are fitted.
+  /// Largest number of the knowledge's locked-rotor frequencies that are fitted.
   std::size_t most_modes = 3;
-  /// What a locked-rotor frequency may differ from the structural model's, relative.
+  /// Largest relative difference of a locked-rotor frequency from the structural model's.
   double frequency_tolerance = 0.25;
 };
 
-/// What one record in motion (a chirp; steps do with less accuracy) says.
+/// Result of one record in motion: a chirp, or steps with less accuracy.
 struct DriveResponse {
   std::string record;
   MechanicalImpedance impedance;
-  /// Absent too where the record excites too little below twice the structure's lowest mode.
+  /// Absent also if the record has too little excitation below twice the structure's lowest mode.
   std::optional<OilRelation> oil;
   /// The hydraulic mode that both make at the record's mean speed: the root of
   /// (s + lambda) Z(s) + R s + K = 0 near the expected one. Undamped natural, Hz.
@@ -81,22 +81,22 @@ struct DriveResponse {
 };
 
 /// Fits MechanicalImpedance and OilRelation to the Fourier transforms of torque, rate and valve
-/// command over the longest part of the record in which the drive moves one way. Both relations are
-/// linear in inertias, friction, stiffness and loss; modes' frequencies and dampings by Gauss and
-/// Newton's method with the linear part eliminated. Torque and rate are measured at the same shaft,
-/// so J needs no oil data, no valve and no damping model: friction, which is in phase with the
-/// rate, does not enter. Intervals hold the transducers' scales (all pressures' gains as
-/// independent), the fit's noise and what a change of the band does.
-/// @throws InvalidInput for a record without pressures; NumericalFailure where the drive never
-/// moves one way for long enough or the inertia does not show in the torque.
+/// command. It uses the longest part of the record in which the drive moves one way. Both relations
+/// are linear in inertias, friction, stiffness and loss; modal frequencies and dampings follow by
+/// Gauss-Newton with the linear part eliminated. Torque and rate are measured at the same shaft, so
+/// J needs no oil data, no valve and no damping model. Friction, which is in phase with the rate,
+/// does not enter. Intervals include the transducers' scales (all pressure gains independent), the
+/// fit's noise and the effect of a change of the band.
+/// @throws InvalidInput for a record without pressures; NumericalFailure if the drive never moves
+/// one way for long enough or the inertia does not show in the torque.
 DriveResponse drive_response(const DriveRecord& record, const Campaign& campaign,
                              const DriveResponseOptions& options = {});
 
-/// Relative standard uncertainty of recorded torque changes: each pressure's gain on its own,
-/// torque efficiency and displacement.
+/// Relative standard uncertainty of recorded torque changes: from each pressure's independent gain
+/// error, torque efficiency and displacement.
 double torque_scale_uncertainty(const DriveRecord& record, const Campaign& campaign);
 
-/// Loss rate (1/s) that the valve's orifices add at a mean flow (rad/s of motor) and the mean
+/// Loss rate (1/s) due to the valve's orifices at a mean flow (rad/s of motor) and the mean
 /// pressures over samples `first` .. `first + count` of a record; as
 /// OilRelation::orifice_loss_rate.
 double orifice_loss_rate(const DriveRecord& record, const DriveKnowledge& knowledge,
@@ -104,7 +104,7 @@ double orifice_loss_rate(const DriveRecord& record, const DriveKnowledge& knowle
                          Eigen::Index count);
 
 /// Samples of the longest part in which the drive moves one way faster than a quarter of its usual
-/// speed, with all channels valid to 2 %; less a margin at its begin.
+/// speed, with all channels valid to 2 %; less a margin at its start.
 struct MovingPart {
   Eigen::Index first = 0;
   Eigen::Index samples = 0;

@@ -7,8 +7,8 @@
 /// The steps of drive_response: transforms of a record's moving part and the fits on them.
 namespace boresight::identification {
 
-/// Transforms of a signal and of its derivative over a part, both under Hann's window: the
-/// derivative is taken before the window, so that what is proportional stays so.
+/// Transforms of a signal and of its derivative over a part, both under Hann's window. The
+/// derivative is taken before the window, which preserves proportionality.
 struct WindowedTransforms {
   Eigen::VectorXcd value;
   Eigen::VectorXcd derivative;
@@ -25,7 +25,8 @@ struct FrequencyBand {
   std::complex<double> s(Eigen::Index k) const;
 };
 
-/// Bins between two frequencies (Hz) of a transform with so many; none where there is none between.
+/// Bins between two frequencies (Hz) of a transform with `bins` bins; empty if there is none
+/// between.
 FrequencyBand frequency_band(double lowest, double highest, double bin, Eigen::Index bins);
 
 /// Real coefficients of complex equations, least squares.
@@ -45,7 +46,7 @@ struct BinNoise {
   double rate = 0.0;
 };
 
-/// What is left at twice `highest` (Hz) and at the transforms' end, the larger.
+/// The residual at twice `highest` (Hz) or at the transforms' end, whichever is larger.
 BinNoise bin_noise(const WindowedTransforms& rate, const WindowedTransforms& torque, double highest,
                    double bin);
 
@@ -67,17 +68,17 @@ ImpedanceFit fit_impedance(const WindowedTransforms& rate, const WindowedTransfo
                            const FrequencyBand& band, const BinNoise& noise,
                            const Eigen::VectorXd& centres, Eigen::Index fitted, double tolerance);
 
-/// Whether a band of frequencies (Hz), and its inner part that fit_oil_relation holds against it,
-/// has three bins for each of the relation's five numbers.
+/// True if a band of frequencies (Hz), and the inner part with which fit_oil_relation compares it,
+/// has three bins for each of the relation's five parameters.
 bool shows_oil_relation(double lowest, double highest, double bin);
 
-/// OilRelation without its orifices' share, over `lowest` .. `highest` (Hz). `scale`: relative
+/// OilRelation without its orifices' part, over `lowest` .. `highest` (Hz). `scale`: relative
 /// uncertainty of torque.
 OilRelation fit_oil_relation(const WindowedTransforms& torque, const WindowedTransforms& rate,
                              const WindowedTransforms& command, double lowest, double highest,
                              double bin, double scale, double tachometer);
 
-/// Puts the hydraulic mode of a response's impedance and of an oil relation into it.
+/// Adds the hydraulic mode of a response's impedance and an oil relation to the response.
 void add_hydraulic_mode(DriveResponse& response, const OilRelation& oil);
 
 /// value with a statistical uncertainty and a relative one.

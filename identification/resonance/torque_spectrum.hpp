@@ -34,7 +34,8 @@ struct TorqueSpectrum {
   /// The peak that the paper's procedure takes for the hydraulic mode, and what it is.
   std::optional<SpectralPeak> chosen;
   bool on_harmonic = false;
-  /// Whether the record holds periods enough (some four) to tell a harmonic from what is beside it.
+  /// True if the record has enough periods (about four) to separate a harmonic from its
+  /// surroundings.
   bool harmonics_resolved = false;
   /// Hz, between harmonics that the excitation has about the chosen peak (odd ones only where the
   /// even ones are weak).

@@ -19,8 +19,8 @@ struct RingPole {
 struct RingFitOptions {
   /// Degree of the polynomial under the oscillation (-1: none).
   int trend_degree = 1;
-  /// Hz: slower content is taken out by cosines over the window up to this frequency, and no pole
-  /// is looked for below it (0: only the polynomial).
+  /// Hz: slower content is removed by cosines over the window up to this frequency, and no pole is
+  /// searched for below it (0: only the polynomial).
   double low_frequency_limit = 0.0;
   /// Poles that are present with amplitudes of their own but are not fitted.
   std::vector<RingPole> fixed_poles;
@@ -55,18 +55,17 @@ struct RingFit {
 bool can_fit_rings(Eigen::Index samples, double sample_time, std::size_t starts,
                    const RingFitOptions& options = {});
 
-/// Fits damped cosines that all channels share, each channel with amplitudes and a trend of its
-/// own, by nonlinear least squares in log w and log s with the linear coefficients eliminated
-/// (variable projection: Golub and Pereyra, SIAM J. Numer. Anal. 10, 1973; Kaufman's derivative)
-/// and Levenberg and Marquardt's damping. Channels are weighted by their residuals' rms. The decay
-/// rate is kept above 0.001 over the window's length.
-///
+/// Fits damped cosines common to all channels, with amplitudes and a trend for each channel.
+/// Nonlinear least squares in log w and log s with the linear coefficients eliminated (variable
+/// projection: Golub and Pereyra, SIAM J. Numer. Anal. 10, 1973; Kaufman's derivative) and
+/// Levenberg-Marquardt damping. Channels are weighted by their residuals' rms. The decay rate is at
+/// least 0.001 over the window's length.
 /// `channels`: samples x channels, evenly spaced by `sample_time` (s). `starts` within a fraction
-/// of 1/window length of the truth: ring_starts. Cost: samples x columns x modes x channels an
+/// of 1/window length of the truth: ring_starts. Cost: samples x columns x modes x channels per
 /// iteration.
 /// @throws InvalidInput for no start, fewer samples than four times the coefficients of a channel,
 /// values that are not finite, start frequencies outside 0 .. half the sampling rate;
-/// NumericalFailure where modes cannot be told apart (singular least squares).
+/// NumericalFailure if modes cannot be separated (singular least squares).
 RingFit fit_damped_cosines(const Eigen::MatrixXd& channels, double sample_time,
                            const std::vector<RingPole>& starts, const RingFitOptions& options = {});
 

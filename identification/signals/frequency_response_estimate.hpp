@@ -28,9 +28,9 @@ FrequencyResponseEstimate frequency_response_estimate(
     const SpectralMatrix& spectra, Eigen::Index input, Eigen::Index output,
     ResponseEstimator estimator = ResponseEstimator::h1, double noise_ratio = 1.0);
 
-/// The same inside a loop or with noise at both: S_ry/S_rx with a reference r (the command) that
-/// the noise does not know. Uncertainty from what of the output the response does not explain;
-/// coherence the smaller of the reference's with the two.
+/// The same inside a loop or with noise at both: S_ry/S_rx with a reference r (the command) that is
+/// uncorrelated with the noise. The uncertainty follows from the part of the output that the
+/// response does not explain. The coherence is the smaller of the reference's with the two.
 /// @throws as frequency_response_estimate.
 FrequencyResponseEstimate referenced_response_estimate(const SpectralMatrix& spectra,
                                                        Eigen::Index reference, Eigen::Index input,

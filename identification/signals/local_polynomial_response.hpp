@@ -18,7 +18,7 @@ struct LocalPolynomialOptions {
 };
 
 /// Responses from one input to several outputs at the bins of a record's Fourier transform, with
-/// what the record says of their errors.
+/// their errors estimated from the record.
 struct MultipleResponseEstimate {
   Eigen::VectorXd frequency;  // Hz
   Eigen::MatrixXcd response;  // frequencies x outputs, output per input

@@ -19,7 +19,7 @@ struct SpectrumOptions {
   /// Samples; 0: the power of two nearest below a sixth of the record (the whole record for fewer
   /// than 384 samples).
   Eigen::Index segment_length = 0;
-  double overlap = 0.5;  // 0 .. 0.9, share of a segment
+  double overlap = 0.5;  // 0 .. 0.9, fraction of a segment
   SpectralWindow window = SpectralWindow::hann;
   Detrend detrend = Detrend::mean;
 };

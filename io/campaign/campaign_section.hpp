@@ -26,13 +26,13 @@ struct MethodFailure {
   std::string reason;
 };
 
-/// Of another estimate from the reconciled one.
+/// Difference of another estimate from the combined one.
 struct Difference {
   double relative = 0.0;    // over the reconciled value
   double normalised = 0.0;  // over both standard uncertainties' root sum of squares
 };
 
-/// A method's reflected inertia beside the reconciled one.
+/// A method's reflected inertia, compared with the combined estimate.
 struct InertiaRow {
   std::string name;
   /// Whether this is one of the founding paper's own procedures.
@@ -43,11 +43,11 @@ struct InertiaRow {
   numerics::Interval motor_to_load_ratio;
   std::optional<Difference> difference;  // where there is a reconciled inertia
   std::string assumes;
-  /// Why it differs from the reconciled inertia, in words and numbers.
+  /// Causes of its difference from the combined estimate of the inertia, in words and numbers.
   std::string why;
 };
 
-/// Another estimate of one of the reconciled quantities.
+/// Another estimate of a quantity that has a combined one.
 struct QuantityRow {
   std::string quantity;  // as GreyBoxQuantity::name
   std::string unit;
@@ -100,8 +100,7 @@ struct CampaignSection {
   bool bulk_modulus_guessed = false;
   std::optional<identification::ResonanceResult> resonance;
   std::optional<identification::ImpulseMomentum> impulse;
-  /// The reconciled estimate: one model that explains all records. A plant ensemble takes its
-  /// draws.
+  /// The combined estimate: one model that explains all records. A plant ensemble uses its samples.
   std::optional<identification::GreyBoxResult> grey_box;
   /// In its place where it could not be had: the random-effects mean of the methods,
   /// unless they contradict one another beyond chance.
@@ -111,7 +110,7 @@ struct CampaignSection {
   /// Why all of this is to be doubted: records against stated numbers, or methods against one
   /// another, beyond chance. Empty if nothing is; otherwise the first of the sentences below.
   std::string contradiction;
-  /// What these records cannot tell, plainly.
+  /// Quantities that these records do not determine.
   std::vector<std::string> not_identifiable;
   std::vector<InertiaRow> inertia;
   std::vector<QuantityRow> quantities;

@@ -36,7 +36,7 @@ struct SupersededInput {
   double standard_uncertainty = 0.0;
 };
 
-/// What of the stated case its records have replaced, in the case's order.
+/// Inputs of the stated case that its records replace, in the case's order.
 std::vector<SupersededInput> superseded_inputs(const Case& stated, const Case& identified);
 
 /// Whether one of them has a key that begins so ("friction_curve.").

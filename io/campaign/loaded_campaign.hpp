@@ -18,10 +18,10 @@ struct LoadedCampaign {
   std::vector<std::string> assumptions;
 };
 
-/// Reads and cleans all records of a case, tells the tests that it does not name, and settles what
-/// the records contradict of its columns. `threads`: records read at a time; 0: as many as the
-/// machine has. The result is the same.
-/// @throws InvalidInput as make_campaign, except where most records are refused.
+/// Reads and cleans all records of a case, recognises the tests that it does not name, and resolves
+/// conflicts between the records and its columns. `threads`: records read at a time; 0: as many as
+/// the machine has. The result does not depend on it.
+/// @throws InvalidInput as make_campaign, except if most records are refused.
 LoadedCampaign load_campaign(const Case& antenna, unsigned threads);
 
 /// The records of use and the instruments' uncertainties with dead pressures replaced, as the

@@ -19,11 +19,11 @@ struct LoadedRecord {
 /// has). @throws InvalidInput as make_campaign.
 std::vector<LoadedRecord> load_records(const Case& antenna, unsigned threads);
 
-/// Tells the tests that the case does not name by the data.
+/// Recognises from the data the tests that the case does not name.
 void recognise(const Case& antenna, std::vector<LoadedRecord>& works);
 
-/// Leaves out, or has cleaned again, what identification::column_conflicts says.
-/// @throws InvalidInput where the campaign cannot be used.
+/// Leaves out, or cleans again, the channels named by identification::column_conflicts.
+/// @throws InvalidInput if the campaign cannot be used.
 void settle_conflicts(const Case& antenna, std::vector<LoadedRecord>& works);
 
 }  // namespace boresight::io

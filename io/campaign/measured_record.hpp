@@ -19,9 +19,9 @@ const identification::DriveRecord& record_of_response(const identification::Camp
 /// A column of a record's file with the antenna's angle.
 struct EncoderColumn {
   std::string name;
-  /// rad of motor, one a sample, turned round if the case says that the column is reversed. None:
-  /// its unit is none of an angle, its rows are not the record's samples (some were cut or put on
-  /// another time base), or one is not a number.
+  /// rad of motor, one per sample, negated if the case states that the column is reversed. None if
+  /// its unit is not an angle's, or one value is not a number. None also if its rows are not the
+  /// record's samples (some were cut or put on another time base).
   std::optional<Eigen::VectorXd> motor_angle;
 };
 

@@ -24,15 +24,15 @@ struct RecommendedValues {
   numerics::Interval inertia;              // kg m2, all of it at the motor shaft
   numerics::Interval motor_to_load_ratio;  // eq. 27
 };
-/// Of the grey box; nothing where rejection() says why: neither a mean of methods nor a fit that
-/// contradicts what it rests on is a value to design on.
+/// Values of the grey box; nothing if rejection() gives a reason. Neither a mean of methods nor a
+/// fit that contradicts its own inputs is a basis for a design.
 std::optional<RecommendedValues> recommended(const CampaignSection& section);
 
 /// What a redesign takes from the campaign instead of what the case states; nothing where no value
 /// is recommended, or where what is recommended leaves the antenna no inertia.
 std::vector<SupersededInput> superseded_inputs(const Case& stated, const CampaignSection& section);
 
-/// Records and channels to look at, for one reason.
+/// Records and channels to check, for one reason.
 struct ChannelSuspicion {
   /// As to_string(DefectKind); "not explained" for a record that the fit misses.
   std::string finding;

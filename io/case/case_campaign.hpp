@@ -13,7 +13,7 @@ struct RecordEntry {
   std::string name;
   std::string file;  // as written, relative to the case's folder
   std::string test;  // empty: to be told by the data
-  /// "open", "closed"; empty: to be told by the test and the data.
+  /// "open", "closed"; empty: determined from the test and the data.
   std::string rate_loop;
   std::string description;
   Location location;  // of the file
@@ -69,7 +69,7 @@ struct LineLength {
   Quantity length;
 };
 
-/// What a case says of its recorded campaign, beside the tables all cases have.
+/// The recorded campaign of a case, in addition to the tables that all cases have.
 struct CampaignEntry {
   std::vector<RecordEntry> records;
   RecordColumnsEntry columns;

@@ -23,7 +23,7 @@ struct AssemblyPart {
   std::optional<Quantity> inertia;
 };
 
-/// Bodies that turn together behind the first `stages` reductions. `count` of them, one a motor.
+/// Bodies that turn together behind the first `stages` reductions; `count` of them, one per motor.
 struct RotatingAssembly {
   std::string name;
   std::string description;
@@ -44,7 +44,7 @@ struct GearTrainEntry {
   std::vector<RotatingAssembly> assemblies;
 };
 
-/// The antenna inertia as another place of the source has it.
+/// The antenna inertia according to another passage of the source.
 struct AntennaAlternative {
   std::string name;
   std::optional<Quantity> inertia;            // about the antenna axis
@@ -115,7 +115,8 @@ struct ImpulseResult {
 
 struct DriveEntry {
   Quantity leakage_rate;  // as stated, or by a flow at a pressure
-  /// By a flow: it then goes with the oil's bulk modulus, where a rate that was stated stays.
+  /// True if stated as a flow: the rate then scales with the oil's bulk modulus. A stated rate does
+  /// not.
   bool leakage_by_flow = false;
   Quantity viscous_friction;
   Quantity valve_frequency;
@@ -127,7 +128,7 @@ struct DriveEntry {
   Quantity tracking_rate;
 };
 
-/// Friction that was seen at a steady rate, all motors at the motor shaft.
+/// Friction measured at a steady rate, all motors, at the motor shaft.
 struct SteadyFrictionTest {
   double rate = 0.0;      // rad/s of the motors; 0 for what just moved the antenna
   double torque = 0.0;    // N m
@@ -143,14 +144,15 @@ struct FrictionCurveEntry {
   std::vector<SteadyFrictionTest> tests;
 };
 
-/// What the linear plant leaves out and `boresight simulate` needs, all motors at the motor shaft.
+/// Quantities that the linear plant omits and `boresight simulate` needs, all motors at the motor
+/// shaft.
 struct SimulationEntry {
   Quantity return_pressure;
   Quantity null_leakage_share, case_leakage_share;
   Quantity valve_stroke;            // no-load motor speed with the valve fully open
   bool valve_stroke_stated = true;  // else by the valve's rated flow, or assumed
   Quantity valve_stroke_time;       // from centre to fully open
-  Quantity valve_overlap;           // share of the stroke
+  Quantity valve_overlap;           // fraction of the stroke
   Quantity bristle_stiffness, bristle_damping;
   Quantity line_damping_ratio;
   Quantity makeup_pressure;
@@ -162,7 +164,7 @@ struct SimulationEntry {
   Quantity rate_loop_gain, rate_loop_corner;  // the analog rate loop of the tests
 };
 
-/// How the antenna's recorder writes.
+/// Properties of the antenna's recorder.
 struct RecorderEntry {
   Quantity sample_rate;
   Quantity pressure_gain, pressure_zero, pressure_noise, pressure_resolution, pressure_range;
@@ -181,7 +183,8 @@ struct StructureModeEntry {
 };
 
 struct StructureEntry {
-  /// As stated, or by gear_stiffness; then with what the case says of that, its key included.
+  /// As stated, or computed from gear_stiffness; then with the annotations of that number, its key
+  /// included.
   Quantity locked_rotor_frequency;
   /// Of the gear train between motors, held, and bull gear, at the antenna's axis.
   std::optional<Quantity> gear_stiffness;
@@ -199,11 +202,11 @@ struct StructureEntry {
 
 struct SensorsEntry {
   Quantity encoder_noise, tachometer_noise, noise_bandwidth, tachometer_frequency;
-  std::optional<Quantity> torque_noise;  // of the torque that a law feeds back
+  std::optional<Quantity> torque_noise;  // of the torque that a controller feeds back
 };
 
-/// Where the wind comes from less where the dish points, and the dish's elevation, at which the
-/// torque coefficients were taken from their table (rad).
+/// Attitude (rad) at which the torque coefficients were taken from their table: wind direction less
+/// azimuth of the dish, and elevation of the dish.
 struct WindAttitude {
   double yaw = 0.0;
   double elevation = 0.0;
@@ -254,13 +257,13 @@ struct BudgetEntry {
   std::optional<Quantity> wind_speed;  // up to which it must be met
 };
 
-/// A derived number that the source prints, for the audit.
+/// A derived number printed in the source, for the audit.
 struct StatedEntry {
   std::string quantity;  // id, see docs/case-file.md
   Quantity value;
 };
 
-/// What the case's writer noted by hand about the source: equations, captions, conventions.
+/// The author's notes on the source: equations, captions, conventions.
 struct RemarkEntry {
   std::string place;
   std::string text;
@@ -300,7 +303,7 @@ struct Case {
   std::vector<double> matching_disks;
   std::vector<StatedEntry> stated;
   std::vector<RemarkEntry> remarks;
-  /// What was recorded, and with what.
+  /// The recorded tests and the instruments.
   CampaignEntry campaign;
   /// Every quantity of the file, in file order, for the list of assumptions.
   std::vector<Quantity> quantities;
@@ -312,15 +315,16 @@ Case read_case(const std::string& path);
 /// Same, of a text; files that it names stand relative to the path's folder.
 Case parse_case(std::string_view text, const std::string& path);
 
-/// A loop structure by the name of one of the case's own, or else as control::LoopStructure::named,
-/// with bounds for the case's antenna (LoopStructure::with_bounds_for, driven_load) but for those
-/// of its [[tuning.bound]]s. @throws InvalidInput listing them
+/// A loop structure by the name of one of the case's own, else as control::LoopStructure::named.
+/// Its bounds are for the case's antenna (LoopStructure::with_bounds_for, driven_load), except
+/// those in the case's [[tuning.bound]].
+/// @throws InvalidInput listing them
 control::LoopStructure loop_structure(const Case& antenna, const std::string& name);
-/// The usual structures with lag, so bounded.
+/// The usual structures with lag, with the same bounds.
 std::vector<control::LoopStructure> usual_structures_with_lag(const Case& antenna);
 
-/// Puts other goals in the place of the case's: each change reads KEY=VALUE, with a key and value
-/// of [goals], "valve_effort=0.4 rad/s".
+/// Replaces goals of the case: each change is KEY=VALUE, with a key and value of [goals],
+/// "valve_effort=0.4 rad/s".
 /// @throws InvalidInput for keys and values that [goals] would not take
 void change_goals(GoalsEntry& goals, const std::vector<std::string>& changes);
 

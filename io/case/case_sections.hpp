@@ -8,7 +8,7 @@
 
 namespace boresight::io {
 
-/// The key `name`, which must differ from those read before: ids and reports tell by it.
+/// The key `name`, which must differ from those read before: ids and reports use it.
 /// @throws InvalidInput as TableReader does
 std::string read_name(TableReader& entry, std::set<std::string>& names);
 
@@ -34,9 +34,9 @@ void read_wind(TableReader& file, Case& antenna);
 Quantity at_dish_centre(const WindEntry& wind, const Quantity& stated);
 void read_pointing(TableReader& file, Case& antenna);
 void read_goals(TableReader& file, Case& antenna);
-/// Wind speeds and attitudes by their shares, within [wind].
+/// Wind speeds and attitudes with their fractions of the time, within [wind].
 void read_climate(TableReader& wind, Case& antenna);
-/// Structures of the engineer's own, the gains run on now, what to tune and over which plants.
+/// Custom structures, present gains, what to tune, and the plant ensemble.
 void read_loops(TableReader& file, Case& antenna);
 void read_ensemble(TableReader& file, Case& antenna);
 

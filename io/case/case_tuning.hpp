@@ -15,27 +15,27 @@ namespace boresight::io {
 /// The kind of the gain number `index` of a block.
 Kind gain_kind(control::LoopPath path, control::BlockKind kind, std::size_t index);
 
-/// A loop structure of the engineer's own. `bounds` are those written for each gain in the order of
-/// the gain vector: reports give the gain in the lower one's unit.
+/// A user-defined loop structure. `bounds` are as written for each gain, in the order of the gain
+/// vector; reports give the gain in the lower bound's unit.
 struct LoopEntry {
   control::LoopStructure structure;
   std::vector<Quantity> lower, upper;
   std::vector<Quantity> present;  // of all gains, or none
 };
 
-/// The gains that the antenna runs on now, in the order of the structure's gain vector.
+/// The gains in use at present, in the order of the structure's gain vector.
 struct PresentGainsEntry {
   control::LoopStructure structure;
   std::vector<Quantity> gains;
 };
 
-/// What a tuning minimises over the ensemble of plants that may be the true one.
+/// The objective of a tuning over the plant ensemble.
 enum class SoftGoalKind { nominal, expected, worst_case, quantile };
 std::string_view to_string(SoftGoalKind kind);
 
 struct GoalsEntry {
   Quantity sensitivity_peak;
-  /// At one break, in the order of control::loop_breaks, where it differs.
+  /// At one break, in the order of control::loop_breaks, if it differs.
   std::array<std::optional<Quantity>, 3> peak_at_break;
   Quantity valve_effort;
   Quantity lowest_frequency;
@@ -47,16 +47,17 @@ struct GoalsEntry {
   std::optional<Quantity> beam_rms;      // rad
   SoftGoalKind soft_goal = SoftGoalKind::nominal;
   double quantile = 0.95;
-  /// The rms made least is that over the site's wind climate in the place of the design's speed.
+  /// True if the minimised rms is the one over the site's wind climate instead of that at the
+  /// design's speed.
   bool over_climate = false;
 };
 
-/// A range that members of the ensemble are drawn from, both ends SI.
+/// A range from which ensemble members are sampled, both ends SI.
 struct RangeEntry {
   Quantity lower, upper;
 };
 
-/// Plants that may be the true one; what is left out has the ranges of the reference ensemble.
+/// The uncertainty set; omitted ranges are those of the reference ensemble.
 struct EnsembleEntry {
   long draws = 0;  // beside nominal and corners; 0: as the reference ensemble
   std::optional<RangeEntry> structure_frequency;  // factors
@@ -65,14 +66,14 @@ struct EnsembleEntry {
   std::optional<RangeEntry> viscous_friction;
 };
 
-/// Bounds of the search for one gain of the usual structures, SI, in the place of those that follow
-/// the antenna.
+/// Search bounds for one gain of the usual structures, SI, instead of those derived from the
+/// antenna.
 struct GainBoundEntry {
   std::string symbol;
   std::optional<Quantity> lower, upper;
 };
 
-/// What `boresight tune` works on, unless told otherwise.
+/// Defaults of `boresight tune`.
 struct TuningEntry {
   std::vector<std::string> structures;  // empty: the usual ones
   long starts = 0;                      // 0: as the tuner has it

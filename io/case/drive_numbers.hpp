@@ -12,12 +12,12 @@
 
 namespace boresight::io {
 
-/// What the numbers that a case states of its drive come to. SI, at the motor shaft.
+/// Quantities computed from the drive data of a case. SI, at the motor shaft.
 
 std::vector<plant::GearStage> gear_stages(const Case& antenna);
 double gear_ratio(const Case& antenna);
 
-/// What the bounds of the usual loop structures follow: the antenna on its locked rotor.
+/// The antenna on its locked rotor, from which the bounds of the usual loop structures are derived.
 control::DrivenLoad driven_load(const Case& antenna);
 
 /// Inertia of a solid disk (kg m2) about its axis; value and standard uncertainty to first order.
@@ -28,22 +28,22 @@ Quantity solid_disk(const Quantity& radius, const Quantity& length, const Quanti
 Quantity bulk_modulus_of(const OilEntry& oil);
 
 plant::FrictionCurve friction_curve(const Case& antenna);
-/// Slope of the friction curve at the tracking rate (N m s/rad of motor); negative where friction
-/// falls with the rate there, which is what makes a drive stick and slip.
+/// Slope of the friction curve at the tracking rate (N m s/rad of motor). A negative slope,
+/// friction falling with rate, causes stick-slip.
 double tracking_slope(const Case& antenna);
-/// The same as the viscous friction of a linear plant, 0 at least: a steady loop about a falling
-/// slope is a question for the simulation, which has the whole curve.
+/// The same as the viscous friction of a linear plant, at least 0. Stability on a falling slope
+/// needs the simulation, which has the whole curve.
 double tracking_friction(const Case& antenna);
 /// The motors and the oil between valve and motors, by the case's convention for the oil spring.
 plant::HydraulicDrive hydraulic_drive(const Case& antenna);
-/// Torque of all motors at the supply pressure (N m), the return pressure not taken off.
+/// Torque of all motors at the supply pressure (N m), return pressure not subtracted.
 double supply_torque(const Case& antenna);
 
 /// No-load rate of the motors (rad/s) with the valve fully open, by its rated flow; nothing if the
-/// case does not state that flow. The flow goes with the root of the drop over both edges, which
-/// without load is what the supply has above `return_pressure` (none: 0). The volumetric efficiency
-/// is not in it: without load nothing drives oil past the pistons, and under load that is the
-/// leakage rate.
+/// case does not state that flow. The flow scales with the square root of the drop over both edges.
+/// Without load this drop is the supply pressure less `return_pressure` (none: 0). The volumetric
+/// efficiency is excluded: without load nothing drives oil past the pistons, and under load that
+/// flow is part of the leakage rate.
 std::optional<Quantity> rated_stroke(const Case& antenna,
                                      const std::optional<Quantity>& return_pressure);
 /// The same with simulation.return_pressure, else drive.return_pressure.

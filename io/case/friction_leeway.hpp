@@ -10,30 +10,30 @@
 
 namespace boresight::io {
 
-/// A case's tests at steady rates (FrictionCurveEntry::tests) as the fit takes them, in their
-/// order, for identification::steady_friction_intervals.
+/// A case's tests at steady rates (FrictionCurveEntry::tests), in their order, as input of
+/// identification::steady_friction_intervals.
 std::vector<identification::SteadyFriction> steady_friction(
     const std::vector<SteadyFrictionTest>& tests);
 
-/// Whether an end of the search is all that bounds a number, or it is open by a factor of more than
-/// 1.5.
+/// True if the number is bounded only by the end of the search, or its interval is wider than a
+/// factor of 1.5.
 bool is_loose(const identification::FrictionInterval& interval);
 
-/// The Stribeck rate of a curve that has as many unknowns as tests, where those, each torque moved
-/// by its leeway, leave it loose. None of any other curve.
+/// The Stribeck rate of a curve with as many unknowns as tests, if moving each torque by its leeway
+/// leaves it loose (is_loose). Nothing for any other curve.
 std::optional<identification::FrictionInterval> loose_stribeck_rate(
     const FrictionCurveEntry& curve);
 
-/// That in a sentence, and what hangs on it; empty without one.
+/// States that in a sentence, with the quantities that depend on it; empty without one.
 std::string loose_stribeck_text(const FrictionCurveEntry& curve);
 
-/// Adds that sentence, if there is one, of an antenna that is run on its nonlinear drive.
+/// Adds that sentence, if there is one, for an antenna that is run on its nonlinear drive.
 void conclude_friction_doubt(const Case& antenna, std::vector<std::string>& sentences);
 
 /// "1.75 (its bound) to 3.47 rad/s", "1.75 rad/s (its bound) or less"; of SI numbers.
 std::string in_words(const identification::FrictionInterval& interval, std::string_view unit);
 
-/// How the torques are moved for the intervals: begins a sentence that says what comes of it.
+/// The rule by which the torques are moved for the intervals, as the start of a sentence.
 std::string_view moved_torques();
 
 }  // namespace boresight::io

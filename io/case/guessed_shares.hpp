@@ -10,29 +10,31 @@
 
 namespace boresight::io {
 
-/// Whether a number is assumed without saying how far it may be off.
+/// True for an assumed number without a stated uncertainty.
 bool is_unbounded_guess(const Quantity& quantity);
 
-/// Whether a share of wind or beam is such a guess. One below 0 is none: a part that turns the beam
-/// against itself is known to. One above 1 is: it has what balances such parts.
+/// True for a wind fraction or beam weight that is such an assumption. One below 0 is not: the
+/// author must know of a part that turns the boresight backwards. One above 1 is: it balances such
+/// parts.
 bool is_guessed_share(const Quantity& share);
 
-/// Where the guessed shares of wind and of beam are, of what the stated ones leave of 1: as the
-/// case says; in proportion to the inertia fractions, as if both belonged to all masses alike; all
-/// at the heaviest of those bodies, as if that were the dish.
+/// Placement of the assumed wind fractions and beam weights, which sum to 1 less the stated ones.
+/// as_stated: as in the case. as_inertia: in proportion to the inertia fractions, as if wind and
+/// boresight acted on all masses alike. all_at_heaviest: all at the body of largest inertia, as if
+/// that were the dish.
 enum class GuessedShares { as_stated, as_inertia, all_at_heaviest };
 inline constexpr std::array other_guesses{GuessedShares::as_inertia,
                                           GuessedShares::all_at_heaviest};
 
-/// "wind and beam shares as inertia".
+/// Name in reports, with the words of the case file.
 std::string_view to_string(GuessedShares place);
 
-/// The changes that place the guessed shares of the case's antenna (antenna_of) so; each set of
-/// shares sums to what it did.
+/// The changes that place the assumed fractions of the case's antenna (antenna_of) accordingly;
+/// each set keeps its sum.
 std::vector<plant::AntennaChange> guessed_share_changes(const StructureEntry& structure,
                                                         GuessedShares place);
 
-/// Whether that changes a share by more than 0.02.
+/// True if that changes a fraction by more than 0.02.
 bool moves_guessed_shares(const StructureEntry& structure, GuessedShares place);
 
 }  // namespace boresight::io

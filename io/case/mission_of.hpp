@@ -8,9 +8,9 @@
 /// What a case asks of its antenna, as the design takes it.
 namespace boresight::io {
 
-/// Everything that the case asks of its antenna. Its alternatives: the other convention of the oil
-/// spring, the inertias that other places of the source have, other places of guessed fractions of
-/// wind and boresight.
+/// Requirements of the case on its antenna. Alternative interpretations: the other convention of
+/// the oil spring, the inertias printed elsewhere in the source, other assumed fractions of wind
+/// and boresight.
 /// @throws InvalidInput as antenna_of.
 design::Mission mission_of(const Case& stated);
 
@@ -20,30 +20,31 @@ design::Mission mission_of(const Case& stated);
 std::vector<design::NamedStructure> asked_structures(const Case& stated,
                                                      std::vector<std::string> names = {});
 
-/// The antenna of a case (antenna_of), so changed, in the case's wind.
+/// The antenna of a case (antenna_of) with these changes, in the case's wind.
 /// @throws InvalidInput as antenna_of, plant::changed and plant::linear_plant.
 design::TrackingProblem make_problem(const Case& antenna,
                                      const std::vector<plant::AntennaChange>& changes = {});
 /// Another antenna in the case's wind.
 design::TrackingProblem make_problem(const Case& antenna, const plant::Antenna& other);
 
-/// Mean wind speed (m/s) at which the mean wind torque takes all that friction at the tracking rate
-/// and the offset torque leave of the supply's (torque_for_wind); 0 where they leave nothing,
-/// infinite without mean torque.
+/// Mean wind speed (m/s) at which the mean wind torque uses all available wind torque
+/// (torque_for_wind): the supply's torque less friction at the tracking rate and offset torque. 0
+/// if nothing is available, infinite without mean torque.
 double supply_wind_speed(const Case& antenna, const design::TrackingProblem& problem);
 
-/// Goals against saturation: valve demand within the valve's stroke (largest_demand) and torque
-/// within what friction and offset leave of the supply's (torque_for_wind).
-/// @throws InvalidInput for a crest_factor where they leave nothing.
+/// Constraints against saturation: valve demand within the valve's stroke (largest_demand), and
+/// torque within the available wind torque, the supply's less friction and offset
+/// (torque_for_wind).
+/// @throws InvalidInput for a crest_factor if no torque is available.
 design::HardGoals make_goals(const Case& antenna);
 design::SoftGoal make_soft_goal(const Case& antenna);
 
-/// The winds of the site by their share of the time; empty if the case does not state them.
+/// The winds of the site with their fractions of the time; empty if the case does not state them.
 std::vector<design::WeightedWind> make_climate(const Case& antenna);
 
 std::vector<design::PointingBand> make_bands(const Case& antenna);
 std::vector<design::PointingBudget> make_budgets(const Case& antenna);
-/// Rms error an axis (rad) of the tightest of them; 1 mdeg where the case states none.
+/// Rms error per axis (rad) of the tightest of them; 1 mdeg if the case states none.
 double tightest_budget(const Case& antenna);
 
 }  // namespace boresight::io

@@ -9,33 +9,32 @@
 
 namespace boresight::io {
 
-/// A number of a case that linear plant or wind are made of, and how far it may be off.
+/// A number of a case that enters the linear plant or the wind, with its possible error.
 struct MovableNumber {
   Quantity quantity;
   std::size_t place = 0;  // among the case's such numbers
-  /// Of a mode's share of wind or beam the mode.
+  /// The mode, for a mode's wind fraction or beam weight.
   std::optional<std::size_t> share_of_mode;
-  /// How far it is moved to either side, in its SI unit (Hz for frequencies): by the standard
-  /// uncertainty that the case gives, else, where its value is assumed, by a tenth of it, else by
-  /// the printed digits' rounding.
+  /// Step to either side, in the SI unit (Hz for frequencies): the case's standard uncertainty;
+  /// else, for an assumed value, a tenth of it; else the rounding of the printed digits.
   double moved_by = 0.0;
-  /// Whether that is a tenth or the range below, for want of an uncertainty.
+  /// True if the step is that tenth or the range below, for lack of an uncertainty.
   bool unstated = false;
-  /// Of a share of wind or beam that is guessed so: the values it is moved to, the inertia fraction
-  /// of its body (of the bull gear: what the modes leave) and as far to the other side, but not
-  /// beyond 0 and 1 if it lies between; a tenth where the fraction is nearer than that. moved_by is
-  /// then the larger of the two ways.
+  /// For an assumed wind fraction or beam weight: the two values to which it is moved, value -+
+  /// step. The step is the distance to the inertia fraction of its body (for the bull gear: 1 less
+  /// the modes'), at least half the value. The lower value is at least 0; the upper at most 1, or
+  /// the value itself if above 1. moved_by is the larger of the two distances.
   std::optional<std::pair<double, double>> range;
 };
 
-/// Those that may be off at all, in the case's order. Left out is what was identified from records:
-/// what those leave open is not the case's uncertainty.
+/// The uncertain numbers, in the case's order. Numbers identified from records are left out: the
+/// uncertainty that records leave is not the case's.
 std::vector<MovableNumber> movable_numbers(const Case& antenna);
 
-/// The case with one of its numbers moved to its lower or upper side. Of shares that sum to 1
-/// (wind, beam) the others give way in proportion; what a share loses goes to their inertias. A
-/// leakage rate that a flow makes goes with the oil.
-/// @throws InvalidInput where that leaves no structure.
+/// The case with one of its numbers moved to its lower or upper side. Other wind fractions or
+/// `beam_weight`s are rescaled to a sum of 1. What a fraction loses is distributed in
+/// proportion to inertia. A leakage rate computed from a flow scales with the oil's bulk modulus.
+/// @throws InvalidInput if that leaves no structure.
 Case moved(const Case& antenna, const MovableNumber& number, bool upwards);
 
 }  // namespace boresight::io

@@ -44,8 +44,8 @@ double torque_for_wind(const Case& antenna);
 /// The largest rate (rad/s of motor) that may be asked of the valve: simulation.valve_stroke; else
 /// by its rated flow; else what the slew rate takes.
 double largest_demand(const Case& antenna);
-/// What largest_demand rests on where the case states no number of its valve for it, in words;
-/// empty where it does.
+/// Assumption behind largest_demand, in words, if the case states no number of its valve for it;
+/// else empty.
 std::string demand_assumption(const Case& antenna);
 
 }  // namespace boresight::io

@@ -10,14 +10,15 @@ namespace boresight::io {
 /// @throws NumericalFailure as these and plant::plant_modes.
 plant::PlantMode resonating_mode(const Case& antenna, const plant::AntennaPlant& plant);
 
-/// Whether the measured resonance may be read as the whole antenna, rigid, on the oil spring: it is
-/// of the hydraulic mode of the case's plant, and at least half of that mode's elastic energy is in
-/// the oil. @throws InvalidInput as make_plant, NumericalFailure as resonating_mode.
+/// True if the measured resonance may be read as the whole rigid antenna on the oil spring. It must
+/// be that of the hydraulic mode of the case's plant, with at least half of that mode's elastic
+/// energy in the oil.
+/// @throws InvalidInput as make_plant, NumericalFailure as resonating_mode.
 bool rings_as_rigid(const Case& antenna);
 
-/// Whether less than half of a mode's elastic energy is in the oil, and the mode_of_oil has more
-/// there: it then tells little of the oil. Never of an overdamped mode, whose shares are none of an
-/// energy.
+/// True if less than half of a mode's elastic energy is in the oil and the mode_of_oil has more
+/// there: the mode then carries little information on the oil. Always false for an overdamped mode,
+/// for which energy fractions have no meaning.
 bool little_of_oil(const plant::PlantMode& mode, const plant::PlantMode& mode_of_oil);
 
 }  // namespace boresight::io

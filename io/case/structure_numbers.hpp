@@ -17,11 +17,11 @@ plant::StructureSpecification structure_specification(const StructureEntry& stru
 std::vector<plant::StructureSpecification> structure_specifications(
     const StructureEntry& structure);
 
-/// The locked-rotor frequency (Hz) by which the antenna has this gear stiffness (N m/rad at the
-/// shaft of antenna_inertia, per antenna inertia where that is 1), its modes with the bull gear
-/// held as they are and all above it. The antenna's own locked_rotor_frequency counts for nothing.
-/// @throws InvalidInput where no frequency that rounding tells from the lowest mode has it, and as
-/// plant::make_structure.
+/// The locked-rotor frequency (Hz) at which the antenna has this gear stiffness (N m/rad at the
+/// shaft of antenna_inertia, per antenna inertia where that is 1). Its modes with the bull gear
+/// locked, and all else, are unchanged. The antenna's own locked_rotor_frequency is not used.
+/// @throws InvalidInput if no frequency distinguishable by rounding from the lowest mode has it,
+/// and as plant::make_structure.
 double locked_rotor_frequency_for(plant::StructureSpecification antenna, double gear_stiffness);
 
 }  // namespace boresight::io

@@ -53,7 +53,7 @@ class TableReader {
   /// The quantity, or `value` (SI) where the key is left out: then as assume.
   Quantity quantity_or(std::string_view key, Kind kind, Range range, double value,
                        std::string source);
-  /// A number in the stead of a key that was left out: counts as read, and as assumed. SI.
+  /// A number that replaces an absent key; counts as read and as assumed. SI.
   Quantity assume(std::string_view key, Kind kind, double value, std::string source);
   std::string text(std::string_view key);
   std::optional<std::string> optional_text(std::string_view key);
@@ -75,7 +75,7 @@ class TableReader {
 
   /// Refuses every key of this table that was not read. @throws InvalidInput
   void finish() const;
-  /// Ends in an InvalidInput at the key's place: "expected ..., found ..." is the caller's text.
+  /// Throws an InvalidInput at the key's location; `message` is the text "expected ..., found ...".
   [[noreturn]] void refuse(std::string_view key, const std::string& message) const;
 
  private:

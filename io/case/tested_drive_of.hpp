@@ -19,7 +19,7 @@ plant::NonlinearAntenna make_nonlinear_antenna(const Case& stated);
 /// voltage or its recorder_limit.
 plant::Recorder recorder_of(const Case& stated);
 
-/// The drive as it is tested: its recorder reads pressures at the motors' ends of the oil lines.
+/// The drive under test: its recorder reads pressures at the motors' ends of the oil lines.
 /// @throws InvalidInput as make_nonlinear_antenna and recorder_of, and without lines.
 design::TestedDrive tested_drive_of(const Case& stated);
 

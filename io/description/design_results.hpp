@@ -8,9 +8,9 @@ namespace boresight::io {
 
 /// A mode of the plant.
 void describe(Visitor& v, const plant::PlantMode& mode);
-/// A tuned law with its verification. Angles at the sky, one axis.
+/// A tuned controller with its verification. Angles on the sky, one axis.
 void describe(Visitor& v, const design::Design& design);
-/// A law with its gains held on every member of an ensemble.
+/// A controller evaluated with fixed gains on every member of an ensemble.
 void describe(Visitor& v, const design::EnsembleResult& ensemble);
 
 }  // namespace boresight::io

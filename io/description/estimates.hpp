@@ -5,7 +5,7 @@
 
 namespace boresight::io {
 
-// Numbers estimated from draws; `key` without the unit, which the members' own keys do not name.
+// Numbers estimated from samples; `key` without the unit, which the members' own keys do not name.
 
 void describe_estimate(Visitor& v, std::string_view key, const design::EstimatedNumber& estimate,
                        const KeyUnit& unit, std::string_view meaning);

@@ -10,24 +10,24 @@
 
 namespace boresight::io {
 
-/// Where a loop is cut.
+/// The place where a loop is opened.
 void describe_break(Visitor& v, std::string_view key, control::LoopBreak loop_break);
 
-/// "loop_breaks": the constraints on a loop cut at each of control::loop_breaks.
+/// "loop_breaks": the constraints on a loop opened at each of control::loop_breaks.
 void describe_breaks(Visitor& v, const design::HardGoals& goals);
 
-/// The smallest margins of one loop, cut at one place: gain, phase, delay.
+/// The smallest margins of one loop, opened at one place: gain, phase, delay.
 void describe(Visitor& v, const control::Margins& margins);
-/// The loop's largest sensitivity and where it is.
+/// The loop's maximum sensitivity Ms and its frequency.
 void describe_sensitivity(Visitor& v, const control::Margins& margins);
 
-/// How much of a search for a limit cycle is told.
+/// Detail reported of a search for a limit cycle.
 enum class LimitCycleDetail {
-  score,  // whether there is one, of which beam amplitude and frequency
+  score,  // whether there is one, its boresight amplitude and frequency
   study,  // how many runs had one, and the encoder's amplitude
   full,   // why a run did not complete, and whether the amplitude lasts
 };
-/// What the loop does by itself at a steady rate.
+/// The loop's free motion at a steady rate.
 void describe(Visitor& v, const design::HuntingResult& result, LimitCycleDetail detail);
 
 /// "status": how a run ended.

@@ -5,8 +5,8 @@
 
 namespace boresight::io {
 
-/// Laws against the least any controller could do: every number that a ratio is made of stands
-/// beside it.
+/// Controllers against the lower bound of any controller. Numerator and denominator are given
+/// beside every ratio.
 void describe(Visitor& v, const design::PointingLimit& limit);
 
 }  // namespace boresight::io

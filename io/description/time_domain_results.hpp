@@ -9,14 +9,14 @@ namespace boresight::io {
 /// reversals and in a slew, and the controllers that it was chosen from.
 void describe(Visitor& v, const design::TimeDomainStudy& study);
 
-/// The runs of one of many controllers that are compared: in wind, influences not told apart, at
-/// rest and at the tracking rate, and in slow reversals.
+/// The runs of one of many compared controllers: in wind, influences not separated, at rest and at
+/// the tracking rate, and in slow reversals.
 void describe(Visitor& v, const design::NonlinearVerification& run);
 
 /// The rms over several records of wind, with its interval.
 void describe(Visitor& v, const design::SimulatedRms& found);
 
-/// What a simulation says beyond linear rms.
+/// Results of a simulation beyond linear rms.
 void describe(Visitor& v, const design::NonlinearEffect& effect);
 
 }  // namespace boresight::io

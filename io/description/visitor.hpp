@@ -60,11 +60,11 @@ struct TextForm {
   std::string_view constant = {};
 };
 
-/// Reads the description of a result: `describe(Visitor&, const T&)` names every member of a T
-/// once, in order, with key, value in SI, unit and meaning. A writer of JSON, of the JSON's schema,
-/// and the attributes of a Python class are visitors. A describe function is found beside the type
-/// or in this namespace; it must accept a T as it is constructed by default, whose values mean
-/// nothing, by which visitors learn the form (by_example).
+/// Interface for reading a result: `describe(Visitor&, const T&)` names every member of a T once,
+/// in order, with key, value in SI, unit and meaning. A writer of JSON, of the JSON's schema, and
+/// the attributes of a Python class are visitors. A describe function is found next to the type or
+/// in this namespace. It must accept a default-constructed T, whose values have no meaning and from
+/// which visitors read the form (by_example).
 class Visitor {
  public:
   Visitor() = default;

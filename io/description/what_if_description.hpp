@@ -5,8 +5,8 @@
 
 namespace boresight::io {
 
-/// Laws held on other plants and in other winds: "what_if" of docs/report.schema.json. Rms of five
-/// digits; null where unstable.
+/// Controllers evaluated with fixed gains on other plants and in other winds: "what_if" of
+/// docs/report.schema.json. Rms to five digits; null if unstable.
 void describe(Visitor& v, const design::WhatIfTable& table);
 
 }  // namespace boresight::io

@@ -13,7 +13,7 @@
 
 namespace boresight::io {
 
-/// What a controller's file holds, as it is written there (docs/benchmark-protocol.md).
+/// The content of a controller's file, as written there (docs/benchmark-protocol.md).
 struct ControllerText {
   Eigen::MatrixXd a, b, c, d;
   double sample_time = 0.0;  // s; 0: continuous
@@ -24,8 +24,8 @@ struct ControllerText {
   std::string angles = "motor";
 };
 
-/// What stands in for names that the file does not hold, and which state space is meant where it
-/// holds several.
+/// Substitutes for names that the file does not hold, and the state space to use if it holds
+/// several.
 struct ControllerNames {
   std::vector<std::string> inputs, outputs;
   /// A structure at the top of a MAT file, or a part of `linear_models` in a JSON report, such as
@@ -33,16 +33,17 @@ struct ControllerNames {
   std::string part = {};
 };
 
-/// A controller as control::antenna_state_space_controller takes it, and what was made of the file.
+/// A controller as input of control::antenna_state_space_controller, with remarks on the conversion
+/// of the file.
 struct ControllerFile {
   plant::StateSpace system;
   std::vector<std::string> remarks;
 };
 
-/// Reads a state space of somebody else: MAT of version 5 (either byte order, compressed or not;
-/// matrices A, B, C, D, a number Ts, texts or cells of names) or JSON. Which it is the content
-/// says. @throws InvalidInput naming the file for what is damaged or missing, sizes that do not
-/// fit, elements that are not finite, names and units that are not known.
+/// Reads an external state space: MAT of version 5 (either byte order, compressed or not; matrices
+/// A, B, C, D, a number Ts, texts or cells of names) or JSON. The content determines the format.
+/// @throws InvalidInput naming the file for damaged or missing data, inconsistent sizes, elements
+/// that are not finite, unknown names and units.
 ControllerFile read_controller(const std::string& path, double gear_ratio,
                                const ControllerNames& names = {});
 /// The same of a file's content.
@@ -53,8 +54,8 @@ ControllerText controller_from_mat(std::string_view content, const std::string& 
                                    const std::string& part = {});
 ControllerText controller_from_json(std::string_view content, const std::string& name,
                                     const std::string& part = {});
-/// The part asked for out of those that a file has, or "controller", or none: the file as a whole.
-/// @throws InvalidInput naming the parts there are if the one asked for is not among them.
+/// The requested part out of those in a file; or "controller"; or none: the file as a whole.
+/// @throws InvalidInput naming the available parts if the requested one is not among them.
 std::string chosen_part(const std::vector<std::string>& parts, const std::string& asked,
                         const std::string& file);
 

@@ -18,11 +18,11 @@ struct ReportedController {
 /// one of the case's own, or that of its present gains. @throws InvalidInput as loop_structure.
 control::LoopStructure structure_named(const Case& antenna, const std::string& name);
 
-/// The controller of a report that `boresight tune` or `redesign` wrote as JSON, of `structure`
-/// unless that is empty, by the gains of its design in SI. Of tune's several: at the first wind
-/// speed that has any that is stable the one that the report recommends; where it recommends none
-/// of these, design::recommend by what the report says, whether it meets its goals or not. What the
-/// report does not say (an older one, its verification) counts as good.
+/// The controller of a JSON report by `boresight tune` or `redesign`, of `structure` unless that is
+/// empty, from the gains of its design in SI. Among tune's controllers, the first wind speed with a
+/// stable one is used. There the one that the report recommends is returned. If the report
+/// recommends none of these, design::recommend chooses by the report's data, whether constraints
+/// are met or not. Data missing in an older report, such as its verification, count as good.
 /// @throws InvalidInput naming the file if there is none.
 ReportedController controller_of_report(const Case& antenna, const std::string& path,
                                         const std::string& structure);

@@ -18,8 +18,8 @@ struct InputFile {
 std::string sha256_hex(std::string_view bytes);
 std::string sha256_base64(std::string_view bytes);
 
-/// Every reader of input files tells here what it was given, from any thread, so that a report can
-/// name all that its numbers rest on. The content's SHA-256, in hexadecimal digits.
+/// Registers an input file, from any thread, so that a report can list all inputs. Returns the
+/// content's SHA-256 in hexadecimal digits.
 std::string note_input(const std::string& path, std::string_view content);
 
 /// All noted so far, by path; a file read twice is there once, one that changed meanwhile twice.

@@ -4,7 +4,7 @@
 
 namespace boresight::io {
 
-/// Writes a file whole or not at all: to a temporary beside it, then renamed.
+/// Writes a file atomically: to a temporary file in the same folder, then renamed.
 /// @throws InvalidInput if that is not possible.
 void write_atomically(const std::string& path, const std::string& content);
 

@@ -13,7 +13,7 @@ struct ChangeableNumber {
   const char* key = "";
   Kind kind = Kind::number;
   Range range;  // of the number once changed
-  /// Where it stands in a case; none where the case has no such table.
+  /// Its location in a case; none if the case has no such table.
   Quantity* (*in)(Case& antenna) = nullptr;
 
   std::string path() const { return std::string(table) + "." + key; }

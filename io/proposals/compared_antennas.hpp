@@ -11,14 +11,14 @@ namespace boresight::io {
 /// What the antenna without proposals is called among them.
 inline constexpr std::string_view as_it_is = "as it is";
 
-/// The antenna as it is and what each proposal makes of it, as design::study_proposals takes them.
+/// The present antenna and the antennas of all proposals, as input of design::study_proposals.
 struct ComparedAntennas {
   std::vector<ProposedCase> cases;  // the first without changes
   std::vector<design::ProposedAntenna> antennas;
   std::string currency;  // of the costs; empty: no proposal states one
 };
 
-/// `structures`: those that are tuned for the antenna as it is and for proposals that name none, as
+/// `structures`: those tuned for the present antenna and for proposals that name none, as in
 /// asked_structures.
 /// @throws InvalidInput (FILE:LINE:COLUMN: KEY: ...) for two proposals of one name or of different
 /// currencies and one called as_it_is; as apply_proposal, mission_of, asked_structures and
@@ -26,8 +26,8 @@ struct ComparedAntennas {
 ComparedAntennas compared_antennas(const Case& antenna, const std::vector<Proposal>& proposals,
                                    const std::vector<std::string>& structures = {});
 
-/// Whether they can be compared, to be asked before any work. @throws InvalidInput as
-/// compared_antennas, but for missions and structures.
+/// Checks that they can be compared; call it before any work.
+/// @throws InvalidInput as compared_antennas, except for missions and structures.
 void check_proposals(const Case& antenna, const std::vector<Proposal>& proposals);
 
 }  // namespace boresight::io

@@ -24,7 +24,7 @@ struct ProposedCost {
   std::string currency;
 };
 
-/// What a proposal file says: changes of an antenna as its case describes it.
+/// The content of a proposal file: changes of an antenna as its case describes it.
 struct Proposal {
   std::string path;
   std::string name;
@@ -33,7 +33,7 @@ struct Proposal {
   std::optional<ProposedCost> cost;  // none: nobody has priced it
   Location cost_location;
   std::vector<std::string> risks;
-  /// Loop structures to tune it with; empty: those of the antenna as it is.
+  /// Loop structures to tune it with; empty: those of the present antenna.
   std::vector<std::string> structures;
   Location structures_location;
   std::vector<ProposedChange> changes;  // in the order of docs/proposals.md

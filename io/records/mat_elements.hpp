@@ -16,7 +16,7 @@ struct MatElement {
   std::string_view bytes;
 };
 
-/// What `type` of an element says. Values of the file format.
+/// Meaning of `type` of an element. Values of the file format.
 enum MatType : std::uint32_t { mat_int8 = 1, mat_matrix = 14, mat_compressed = 15 };
 
 /// Walks over the elements that stand one behind the other in some bytes.

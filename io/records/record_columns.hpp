@@ -13,7 +13,7 @@ namespace boresight::io {
 /// A column of a file that was taken for a signal.
 struct ChosenColumn {
   std::size_t index = 0;
-  /// By its name; else the case says so.
+  /// True if recognised by its name; else the case names it.
   bool guessed = false;
 };
 

@@ -5,8 +5,8 @@
 
 namespace boresight::io {
 
-/// A simulated record as its recorder's file has it; of a run that was ended with a comment that
-/// says so.
+/// A simulated record in the form of its recorder's file; a run that ended early has a comment that
+/// states this.
 CsvTable table_of(const design::SimulatedRecord& record);
 
 }  // namespace boresight::io

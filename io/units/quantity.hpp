@@ -7,18 +7,18 @@
 
 namespace boresight::io {
 
-/// What a number rests on.
+/// The basis of a number.
 enum class Basis { unstated, measured, published, inferred, assumed };
 std::string_view to_string(Basis basis);
 
-/// Where in a file something stands; line and column count from 1.
+/// A location in a file; line and column count from 1.
 struct Location {
   std::string file;
   int line = 0;
   int column = 0;
 };
 
-/// One number of a case file with what its writer said about it. SI; frequencies in Hz.
+/// One number of a case file with its author's annotations. SI; frequencies in Hz.
 struct Quantity {
   double value = 0.0;
   /// Standard uncertainty (1 sigma): as given, else the printed rounding's, half_unit / sqrt(3).
@@ -33,7 +33,7 @@ struct Quantity {
   Kind kind = Kind::number;
   Basis basis = Basis::unstated;
   std::string source;
-  /// Who says the uncertainty ("assumed: usual for ...").
+  /// Source of the uncertainty ("assumed: usual for ...").
   std::string uncertainty_source;
   /// Full key path, "oil.line[0].length".
   std::string key;
@@ -43,8 +43,8 @@ struct Quantity {
 /// Standard uncertainty over the value's size; 0 where the value is 0.
 double relative_uncertainty(const Quantity& quantity);
 
-/// A number that follows from `from`, and may from others: said in the same place, by the same
-/// source. Its uncertainty is for the caller to state.
+/// A number computed from `from`, and possibly others: with the same location and source. The
+/// caller sets its uncertainty.
 Quantity derived_quantity(const Quantity& from, Kind kind, double value, std::string_view unit);
 
 /// Physical range of a field, SI. Open ends by default.

@@ -7,7 +7,7 @@
 
 namespace boresight::io {
 
-/// What the messages about a unit need to know of its surroundings.
+/// Context of a unit, for messages.
 struct UnitPlace {
   /// "an inertia (such as kg.m2, lbf.ft.s2)"
   std::string expected;

@@ -25,9 +25,9 @@ struct Unit {
   Dimension dimension;
 };
 
-/// A unit or quantity text that cannot be read one way only. The message reads
+/// Error for a unit or quantity text that is invalid or ambiguous. The message reads
 ///   expected WHAT, found 'TOKEN' in 'TEXT' (REMEDY)
-/// and `column` says where the token begins: characters, not bytes, from 1 within the whole text
+/// and `column` is the start of the token: characters, not bytes, from 1 within the whole text
 /// (number included).
 class UnitError : public InvalidInput {
  public:

@@ -17,9 +17,9 @@ int character_count(std::string_view text);
 /// "a length", "an inertia".
 std::string with_article(std::string_view name);
 
-/// The known name a misspelt one most likely stands for: equal but for case, else within a third of
-/// its letters (at least one, at most three) by insertion, deletion, replacement or swap of
-/// neighbours. Empty if none is near; the first of several equally near.
+/// The known name closest to a misspelt one: equal except for case, else within a third of its
+/// letters (at least one, at most three) by insertion, deletion, replacement or swap of neighbours.
+/// Empty if none is near; the first of several equally near.
 std::string_view nearest_name(std::string_view misspelt, std::span<const std::string_view> known);
 
 }  // namespace boresight::io

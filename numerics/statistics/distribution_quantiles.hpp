@@ -2,10 +2,10 @@
 
 namespace boresight::numerics {
 
-// Quantiles of the usual distributions, by Boost.Math, to 1e-12. `share` within (0, 1).
-// @throws InvalidInput for a share outside, or parameters that are not positive and finite.
+// Quantiles of common distributions, by Boost.Math, to 1e-12. `share`: probability, within (0, 1).
+// @throws InvalidInput for a probability outside, or parameters that are not positive and finite.
 
-/// 97.5 % quantile of the standard normal distribution: within it to both sides lie 95 %.
+/// 97.5 % quantile of the standard normal distribution; 95 % lie between it and its negative.
 constexpr double normal_975 = 1.959963984540054;
 
 /// Student's t of `freedom` degrees.

@@ -12,8 +12,9 @@ struct Interval {
   double upper = 0.0;
 };
 
-/// Interval of the given value from draws about it: their standard deviation and their 2.5 % and
-/// 97.5 % quantiles. @throws InvalidInput for fewer than 20 draws or one that is not finite.
+/// Interval of the given value from samples about it: their standard deviation and their 2.5 % and
+/// 97.5 % quantiles.
+/// @throws InvalidInput for fewer than 20 samples or one that is not finite.
 Interval interval_from_draws(double value, Eigen::VectorXd draws);
 
 /// value +- 1.96 standard uncertainties. @throws InvalidInput for an uncertainty that is negative

@@ -11,9 +11,9 @@ struct PooledMean {
   Uncertain mean;
   /// Standard deviation between the estimates beyond their own uncertainties.
   double between = 0.0;
-  /// Cochran's Q, the sum of the squared departures from the mean by the estimates' own
-  /// uncertainties, and its degrees of freedom: Q far above them says that the estimates contradict
-  /// one another.
+  /// Cochran's Q, the sum of the squared departures from the mean over the estimates' own
+  /// variances, and its degrees of freedom. Q far above them indicates that the estimates
+  /// contradict each other.
   double heterogeneity = 0.0;
   int degrees_of_freedom = 0;
 

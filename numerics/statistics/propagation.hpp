@@ -8,8 +8,7 @@
 
 namespace boresight::numerics {
 
-/// A positive number that other results rest on, with its standard uncertainty (1 sigma, same
-/// unit).
+/// A positive input with its standard uncertainty (1 sigma, same unit).
 struct UncertainInput {
   std::string name;
   double value = 0.0;
@@ -20,12 +19,12 @@ struct UncertainInput {
 struct PropagationTarget {
   std::string name;
   std::function<double(std::span<const double>)> evaluate;
-  /// The result is 1/g of what `evaluate` returns: for ratios with a pole, whose g passes smoothly
+  /// The result is 1/g, g the value of `evaluate`. For ratios with a pole: g passes smoothly
   /// through 0 where the ratio passes through infinity.
   bool reciprocal = false;
 };
 
-/// Share of one input in a result's variance.
+/// Fraction of a result's variance due to one input.
 struct Contribution {
   std::string input;
   double share = 0.0;
@@ -34,15 +33,15 @@ struct Contribution {
 struct PropagatedResult {
   std::string name;
   double value = 0.0;
-  /// First order; for a reciprocal target of the value itself.
+  /// To first order; for a reciprocal target that of the value itself.
   double standard_uncertainty = 0.0;
   /// Central 95 % interval. A reciprocal target's upper end is infinity where g's lower end is not
   /// positive.
   double lower = 0.0;
   double upper = 0.0;
-  /// Share of the draws in which g <= 0 (reciprocal targets only).
+  /// Fraction of the samples with g <= 0 (reciprocal targets only).
   double beyond_pole = 0.0;
-  /// Inputs by share of the first-order variance, largest first; those below 1 % left out.
+  /// Inputs by fraction of the first-order variance, largest first; those below 1 % are left out.
   std::vector<Contribution> contributions;
 };
 
@@ -51,12 +50,12 @@ struct PropagationOptions {
   std::uint64_t seed = 1;
 };
 
-/// Propagates input uncertainties by Monte Carlo (GUM Supplement 1): independent log-normal inputs
-/// with median `value` and logarithmic standard deviation standard_uncertainty/value, so that none
-/// turns negative; the interval is that of the draws' quantiles. The same draws serve every target.
-/// Deterministic by seed. O(draws x targets).
+/// Propagates input uncertainties by Monte Carlo (GUM Supplement 1). Inputs are independent and
+/// log-normal, with median `value` and logarithmic standard deviation standard_uncertainty/value,
+/// so none is negative. The interval has the samples' quantiles. All targets use the same samples.
+/// Deterministic by seed. O(samples x targets).
 /// @throws InvalidInput for an input that is not positive, an uncertainty that is negative, or
-/// fewer than 100 draws.
+/// fewer than 100 samples.
 std::vector<PropagatedResult> propagate(const std::vector<UncertainInput>& inputs,
                                         const std::vector<PropagationTarget>& targets,
                                         const PropagationOptions& options = {});

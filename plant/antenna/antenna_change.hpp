@@ -24,9 +24,9 @@ struct AntennaChange {
 AntennaChange set_to(std::string path, double number);
 AntennaChange scaled_by(std::string path, double factor);
 
-/// The antenna with these changes, made one after the other; all else stays as it is.
+/// The antenna with these changes, applied one after the other; all else is unchanged.
 /// @throws InvalidInput for a path that the antenna does not have, a number that is not finite, and
-/// a number that would change nothing because one of at_shaft has taken its place.
+/// a number without effect because one of at_shaft replaces it.
 Antenna changed(Antenna antenna, const std::vector<AntennaChange>& changes);
 
 /// The paths that an antenna has, in the order of its members.

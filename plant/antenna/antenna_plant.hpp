@@ -13,8 +13,8 @@ struct StructuralMode {
   double inertia = 0.0;        // kg m2
   double stiffness = 0.0;      // N m/rad
   double damping = 0.0;        // N m s/rad
-  double wind_fraction = 0.0;  // share of the wind torque that acts on it
-  double beam_weight = 0.0;    // share of its angle in the beam's angle
+  double wind_fraction = 0.0;  // fraction of the wind torque that acts on it
+  double beam_weight = 0.0;    // fraction of its angle in the boresight angle
 };
 
 /// Bull gear, gearbox spring and structural modes, all at the motor shaft.
@@ -29,7 +29,7 @@ struct Structure {
   std::vector<StructuralMode> modes;
 };
 
-/// How a structure is described by frequencies and inertia shares.
+/// A structure specified by frequencies and inertia fractions.
 struct StructureSpecification {
   struct Mode {
     double frequency = 0.0;  // Hz, with the bull gear locked
@@ -83,11 +83,11 @@ struct AntennaPlant {
   Structure structure;
 };
 
-/// Inertia felt at the motor shaft with the structure taken as rigid (kg m2).
+/// Inertia at the motor shaft of the antenna with a rigid structure (kg m2).
 double reflected_inertia(const AntennaPlant& plant);
 
-/// Inputs valve_command (rad/s), wind_torque (N m); outputs tachometer (rad/s), motor_torque (N m),
-/// encoder (rad of motor, at the bull gear), beam (rad of motor); 8 + 2 modes states.
+/// Inputs valve_command (rad/s), wind_torque (N m). Outputs tachometer (rad/s), motor_torque (N m),
+/// encoder (rad of motor, at the bull gear), `beam` (boresight, rad of motor). 8 + 2 modes states.
 /// The free rotation of the antenna is an eigenvalue at 0.
 /// @throws InvalidInput for a parameter that is not finite, an inertia, stiffness, valve or
 /// tachometer corner that is not positive, or a damping, leakage or friction below 0.
@@ -98,31 +98,31 @@ struct PlantMode {
   std::complex<double> pole;       // rad/s, upper half plane
   double frequency = 0.0;          // |pole|/2 pi, Hz
   double damping_ratio = 0.0;      // -Re(pole)/|pole|
-  std::string description;         // what moves most, or that it is hydraulic_mode; each its own
+  std::string description;         // what moves most, or that it is hydraulic_mode; unique
   double participation = 0.0;      // of the described part, 0..1
   double oil_participation = 0.0;  // of motors and oil spring, whatever moves most
-  /// d ln frequency^2/d ln oil_stiffness, leakage rate kept: without damping the share of the oil
-  /// spring in the mode's elastic energy, 1 for a rigid antenna. Heavy damping may take it out of 0
-  /// to 1.
+  /// d ln frequency^2/d ln oil_stiffness, leakage rate fixed. Without damping this is the oil
+  /// spring's fraction of the mode's elastic energy, 1 for a rigid antenna. With strong damping it
+  /// may leave 0 to 1.
   double oil_share = 0.0;
-  double gear_share = 0.0;  // the same by the gear stiffness, its damping kept
+  double gear_share = 0.0;  // the same by the gear stiffness, its damping fixed
 };
 
-/// Modes in order of frequency; a part's participation is the sum of |left_k right_k| over its
-/// states, normalised to 1 over all. A mode is described by the part of the largest, those of one
-/// description by a number too. hydraulic_mode is called so: with the participation of motors, oil
-/// spring, bull gear and gear spring together, or behind the structural mode that moves more.
+/// Modes in order of frequency. A part's participation is the sum of |left_k right_k| over its
+/// states, normalised to 1 over all parts. A mode is described by the part of largest
+/// participation; equal descriptions are numbered. hydraulic_mode is described as such, with the
+/// participation of motors, oil spring, bull gear and gear spring together. If a structural mode
+/// moves more, that description comes first.
 std::vector<PlantMode> plant_modes(const AntennaPlant& plant);
 
-/// The mode in which the whole antenna swings on the oil spring, the structure bending in series:
-/// the lowest of those that move the oil. It is the only one that stays the same as inertia or
-/// stiffness change; with oil stiffer than the structure the motors' largest swing passes from mode
-/// to mode above it.
-/// Its oil_share says whether it is a measure of the oil: on a gear spring far softer than that it
-/// is not, and mode_of_oil is.
-/// Where friction and leakage overdamp it, its two real poles p1, p2 are given as one mode of
+/// The mode in which the whole antenna moves on the oil spring, with the structure's flexure in
+/// series: the lowest of the modes that move the oil. Only this mode keeps its identity as inertia
+/// or stiffness change. With oil stiffer than the structure, the motors' largest motion passes from
+/// mode to mode above it. Its oil_share shows whether it is a measure of the oil. With a gear
+/// spring far softer than the oil it is not, and mode_of_oil is.
+/// If friction and leakage overdamp it, its two real poles p1, p2 are returned as one mode of
 /// frequency sqrt(p1 p2) and damping ratio (p1 + p2)/(2 sqrt(p1 p2)) above 1. `modes`: in order of
-/// frequency, as plant_modes gives them.
+/// frequency, as returned by plant_modes.
 /// @throws NumericalFailure if no mode moves motors and oil.
 PlantMode hydraulic_mode(const std::vector<PlantMode>& modes);
 

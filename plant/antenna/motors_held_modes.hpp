@@ -6,51 +6,50 @@
 
 namespace boresight::plant {
 
-/// A vibration mode of bull gear and modes on the gear spring with the motors held.
+/// A vibration mode of bull gear and modes on the gear spring with the motors locked.
 struct MotorsHeldMode {
   double frequency = 0.0;         // Hz
   double inertia_fraction = 0.0;  // effective, of the antenna inertia
-  /// Of the gear spring in the mode's elastic energy; effective inertia times (2 pi f)^2 over the
-  /// gear stiffness, so that these sum to 1 as well.
+  /// Fraction of the mode's elastic energy in the gear spring: effective inertia times (2 pi f)^2
+  /// over the gear stiffness. These fractions sum to 1 as well.
   double gear_share = 0.0;
 };
 
-/// These modes, the lowest first: what a hammer test or a finite-element program finds. Undamped;
-/// one more than modes with the bull gear held. With phi the shape, M the inertias and 1 the turn
-/// of the whole antenna, the effective inertia fraction is
+/// These modes, the lowest first, as measured by a hammer test or computed by a finite-element
+/// program. Undamped; one more than modes with the bull gear locked. With phi the shape, M the
+/// inertias and 1 the rotation of the whole antenna, the effective inertia fraction is
 ///   (phi^T M 1)^2 / ((phi^T M phi) (1^T M 1));
 /// the fractions sum to 1, and times (2 pi f)^2 to the gear stiffness over the antenna inertia.
-/// With the frequencies they determine the antenna.
+/// Fractions and frequencies determine the antenna.
 /// @throws InvalidInput unless inertias and stiffnesses are positive; NumericalFailure if the
 /// eigenvalues do not converge.
 std::vector<MotorsHeldMode> motors_held_modes(const Structure& structure);
 
-/// The antennas whose frequencies with the motors held are those stated: locked_rotor_frequency
-/// and, rising from there, those of the modes (at most 8). Each comes back with its modes'
-/// frequencies as they are with the bull gear held, the softest gear spring first; all else is as
-/// stated.
+/// The antennas that have the stated frequencies with the motors locked: locked_rotor_frequency
+/// and, in increasing order, those of the modes (at most 8). Each is returned with its modes'
+/// frequencies for the bull gear locked, the softest gear spring first. All else is as stated.
 ///
 /// With s = (2 pi f)^2, x_i those of the modes with the bull gear held and r_i = J_i/J_b, the
 /// secular equation K_g = s (J_b + sum J_i x_i/(x_i - s)) has the N + 1 stated roots s_0 < ... <
 /// s_N if, for each mode,
 ///   r_i x_i^2 prod_{l != i} |x_l - x_i| = prod_j |s_j - x_i|,    s_{i-1} < x_i < s_i,
 /// (residues of both sides of K_g - s (...) = J_b prod (s_j - s)/prod (x_i - s)). One mode has two
-/// such antennas or none, more modes often several: near the x_i's upper ends the antenna swings as
-/// one body on a soft gear spring at the lowest frequency, near their lower ends the bull gear
-/// alone does on a stiff one at the highest. Heavy modes close to one another have none. Damped
-/// Newton in the logarithms starts from either end of every x_i; antennas that two starts lead to
-/// count once.
+/// such antennas or none, more modes often several. Near the upper ends of the x_i the antenna
+/// moves as one body on a soft gear spring at the lowest frequency. Near their lower ends the bull
+/// gear alone moves on a stiff one at the highest. Closely spaced modes with large effective
+/// inertia have no solution. Damped Newton iterations in the logarithms start from either end of
+/// every x_i; antennas reached from two starts count once.
 ///
 /// @throws InvalidInput for an inertia fraction that is not positive, fractions that do not sum to
-/// less than 1, frequencies that are not positive or do not rise, more than 8 modes, and if no
-/// antenna is found: then with the mode whose inertia fraction, lowered least, gives one.
+/// less than 1, frequencies that are not positive or not increasing, and more than 8 modes. Also if
+/// no antenna is found; the message names the mode whose inertia fraction needs the smallest
+/// reduction to give one.
 std::vector<StructureSpecification> hold_bull_gear_of(const StructureSpecification& motors_held);
 
-/// The one antenna that has the stated frequencies with the motors held, locked_rotor_frequency
-/// and, rising from there, those of the modes, and in whose modes with the motors held the stated
-/// inertia fractions are the effective ones of motors_held_modes; the lowest has the rest of 1.
-/// Each mode comes back with frequency and inertia fraction as they are with the bull gear held;
-/// all else is as stated.
+/// The one antenna that has the stated frequencies with the motors locked: locked_rotor_frequency
+/// and, in increasing order, those of the modes. The stated inertia fractions are the effective
+/// ones of motors_held_modes; the lowest mode has the rest of 1. Each mode is returned with
+/// frequency and inertia fraction for the bull gear locked; all else is as stated.
 ///
 /// The turn of the whole antenna bends the gear spring alone (K 1 = K_g e_b), so that a mode of
 /// s_j = (2 pi f_j)^2 and effective fraction e_j turns the bull gear by (s_j/K_g) sqrt(e_j J) where

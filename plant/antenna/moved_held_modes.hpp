@@ -7,13 +7,14 @@
 
 namespace boresight::plant {
 
-/// The antenna with its frequencies moved to those of the motors held that a test has found, the
-/// lowest first (Hz; nothing: not found). All frequencies are scaled by the lowest one's ratio;
-/// then, one after the other, mode j + 1 is moved until the j-th frequency with the motors held is
-/// the stated one: it lies below that mode and close to it (motors_held_modes.hpp). The lowest mode
-/// and the highest frequency with the motors held, which is mostly the bull gear's on the gear
-/// spring, follow from the rest. Inertias, damping ratios, wind and beam fractions stay.
-/// @return nothing where the lowest frequency is not stated or no antenna was reached.
+/// The antenna with its frequencies changed to those that a test found with the motors locked, the
+/// lowest first (Hz; nothing: not found). All frequencies are scaled by the ratio of the lowest
+/// one. Then mode j + 1 is changed, one after the other, until the j-th frequency with the motors
+/// locked is the stated one. That frequency lies below the mode and close to it
+/// (motors_held_modes.hpp). The lowest mode follows from the rest. So does the highest frequency
+/// with the motors locked, which is mostly that of the bull gear on the gear spring. Inertias,
+/// damping ratios, wind fractions and beam weights stay.
+/// @return nothing if the lowest frequency is not stated or no antenna was reached.
 std::optional<StructureSpecification> with_motors_held_frequencies(
     StructureSpecification antenna, const std::vector<std::optional<double>>& frequencies);
 

@@ -21,7 +21,7 @@ struct StructureResponse {
 StructureResponse structure_response(const Structure& structure, const Eigen::ArrayXd& frequency);
 
 /// Responses from valve command (rad/s) and wind torque (N m) to tachometer (rad/s), motor torque
-/// (N m), encoder and beam (rad of motor) at s = j frequency.
+/// (N m), encoder and boresight (rad of motor) at s = j frequency.
 struct PlantResponse {
   Eigen::ArrayXd frequency;  // rad/s
   Eigen::ArrayXcd tachometer_command, torque_command, encoder_command, beam_command;

@@ -58,8 +58,8 @@ struct CollocationStep {
 /// where the eigenvectors are too nearly dependent.
 class ExponentialCollocation {
  public:
-  /// `horizon`: s, how long behind a step its errors are looked at; 0 or more.
-  /// @throws InvalidInput as feedback_matrices and for a bad horizon; NumericalFailure if the
+  /// `horizon`: time (s) after a step over which its errors are evaluated; 0 or more.
+  /// @throws InvalidInput as feedback_matrices and for an invalid horizon; NumericalFailure if the
   /// linear part overflows within it.
   ExponentialCollocation(const FeedbackSystem& system, double largest_condition,
                          double horizon = 0.0);

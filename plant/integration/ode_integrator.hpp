@@ -9,9 +9,9 @@
 
 namespace boresight::plant {
 
-/// What advance(t) does with the step that would go past t: take it and interpolate back, which is
-/// cheapest, or shorten it to end at t, which is needed where the system must not be asked for
-/// times behind t because an input jumps there.
+/// Treatment by advance(t) of the step that would pass t. interpolate: take the step and
+/// interpolate back, which is cheapest. stop_exactly: shorten the step to end at t, needed if an
+/// input jumps there and the system must not be evaluated beyond t.
 enum class Approach { interpolate, stop_exactly };
 
 /// Where advance() stopped.
@@ -60,14 +60,14 @@ class OdeIntegrator {
   /// s; that of the last stop.
   double time() const;
   const Eigen::VectorXd& state() const;
-  /// dx/dp, states x parameters; without elements unless asked for. Across an event that depends on
-  /// the state or parameters they are those of the law before it: the jump is the caller's to
-  /// apply.
+  /// dx/dp, states x parameters; empty unless requested. Across an event that depends on the state
+  /// or parameters they belong to the equations before it; the caller must apply the jump.
   const Eigen::MatrixXd& sensitivities() const;
 
-  /// Forgets the past of the solution: after a jump of the state, an input or the law of the
-  /// system. At time() with the present state, another one, or also other sensitivities. A function
-  /// of an event that is exactly zero for another state fires neither there nor as it leaves zero.
+  /// Discards the history of the solution, for a jump of the state, of an input or of the system's
+  /// equations. Restarts at time() with the present state, another one, or also other
+  /// sensitivities. An event function that is exactly zero for another state does not fire there,
+  /// nor as it leaves zero.
   /// @throws InvalidInput for wrong sizes or elements that are not finite.
   void restart();
   void restart(const Eigen::VectorXd& x);

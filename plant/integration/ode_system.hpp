@@ -6,11 +6,11 @@ namespace boresight::plant {
 
 /// x' = f(t, x), with all that an implicit integrator wants to know of it. t in s.
 ///
-/// What the functions fill comes in the right shape. They may be asked for states a little off the
-/// solution, in any order, and at a t that an event or the end of an interval lies just before: a
-/// system that changes its law at a time or an event keeps the law of the present piece for all
-/// arguments, and is switched by the owner of the integrator, who then restarts it. A value that is
-/// not finite makes the integrator try a smaller step; exceptions come out of its advance()
+/// Output arguments have the right shape when passed. The functions may be called for states
+/// slightly off the solution, in any order, and at a t just behind an event or the end of an
+/// interval. A system whose equations change at a time or an event must keep the present equations
+/// for all arguments. The integrator's owner switches the system and restarts the integrator. A
+/// value that is not finite makes the integrator try a smaller step. Exceptions leave its advance()
 /// unchanged.
 class OdeSystem {
  public:

@@ -38,8 +38,8 @@ struct FeedbackOptions {
   std::vector<std::string> output_disturbances;
   /// One name for each input of `back`, or none: an input that is added to what `back` takes.
   std::vector<std::string> measurement_noises;
-  /// One name for each input of `forward`, or none: an output that tells what enters `forward`, the
-  /// reference together with what returns.
+  /// One name for each input of `forward`, or none: an output with the total input of `forward`,
+  /// reference plus feedback.
   std::vector<std::string> total_inputs;
 };
 

@@ -28,9 +28,9 @@ struct MinimalRealisation {
   double smallest_kept = 1.0;
 };
 
-/// Removes what inputs do not reach or outputs do not see, by orthogonal staircase transformations
-/// (P. Van Dooren, IEEE Trans. Automatic Control 26(1), 1981) of the system in even units. The
-/// transfer matrix stays. If nothing is to be removed, the system is returned as it is, with its
+/// Removes uncontrollable and unobservable states by orthogonal staircase transformations (P. Van
+/// Dooren, IEEE Trans. Automatic Control 26(1), 1981) of the system in balanced units. The transfer
+/// matrix is unchanged. If nothing is to be removed, the system is returned unchanged, with its
 /// states and their names.
 /// @throws InvalidInput as validate(system), or for a tolerance that is not between 0 and 1.
 MinimalRealisation minimal_realisation(const StateSpace& system,

@@ -14,11 +14,11 @@ enum class LaneWidth { two, four };
 bool available(LaneWidth width);
 LaneWidth widest_lanes();
 
-/// Modes that do not know of each other, advanced sample by sample:
+/// Uncoupled modes, advanced sample by sample:
 ///   z[k+1] = factor z[k] + input u[k],   y[k] = feedthrough u[k] + Re(output z[k]).
-/// A real mode has real numbers throughout, a pair appears once, with twice its output. O(modes) a
-/// sample and nothing allocated while it runs: modes stand in groups of eight side by side, and the
-/// outputs are summed in an order that does not depend on the processor.
+/// A real mode has real numbers throughout; a pair appears once, with twice its output. O(modes)
+/// per sample, without allocation: modes are processed in groups of eight. The outputs are summed
+/// in an order that does not depend on the processor.
 class ModalRecursion {
  public:
   /// factor: k; input: k x inputs; output: outputs x k; feedthrough: outputs x inputs. At rest.

@@ -40,14 +40,14 @@ StateSpace static_gain(const Eigen::MatrixXd& gain, std::vector<std::string> inp
 StateSpace rational(const std::vector<double>& numerator, const std::vector<double>& denominator,
                     const std::string& input, const std::string& output, const std::string& name);
 
-/// Connects systems by name: an input of one that is called as an output of another (or of its
-/// own) is fed from it. What is left of the inputs must be among `external_inputs` (one external
-/// input may feed several systems); the result has exactly `external_inputs` and
-/// `external_outputs`, and all states.
-/// @throws InvalidInput for an output name given twice, a state name given twice, an input that
-/// nothing feeds, an external name that does not exist, or one that is also an output (loop to
-/// outside), or systems of different sample times (a static gain goes with any); NumericalFailure
-/// for an algebraic loop without solution.
+/// Connects systems by name: an input with the name of an output, of another or the same system, is
+/// fed from it. All other inputs must be among `external_inputs` (one external input may feed
+/// several systems). The result has exactly `external_inputs` and `external_outputs`, and all
+/// states.
+/// @throws InvalidInput for an output or state name given twice, an input that nothing feeds, an
+/// external name that does not exist or is also an output (loop to outside), or systems of
+/// different sample times (a static gain fits any). NumericalFailure for an algebraic loop without
+/// solution.
 StateSpace connect(const std::vector<StateSpace>& systems,
                    const std::vector<std::string>& external_inputs,
                    const std::vector<std::string>& external_outputs);

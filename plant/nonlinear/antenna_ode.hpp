@@ -14,10 +14,9 @@
 
 namespace boresight::plant {
 
-/// The nonlinear antenna for OdeIntegrator: the system of to_feedback_system with the events at
-/// which its law has a kink, and with derivatives by its parameters. At an event the owner restarts
-/// the integrator with the state as it is: every law is continuous. Not for several threads at
-/// once.
+/// The nonlinear antenna for OdeIntegrator: the system of to_feedback_system, with events at the
+/// kinks of its equations and with derivatives by its parameters. At an event the owner restarts
+/// the integrator with the same state, as all equations are continuous. Not thread-safe.
 class AntennaOde final : public OdeSystem {
  public:
   /// `parameters`: those to differentiate by; none: no sensitivities.

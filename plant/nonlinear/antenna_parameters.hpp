@@ -32,7 +32,7 @@ const std::vector<AntennaParameter>& antenna_parameters();
 /// Its value; 1 for the relative ones.
 double parameter(const NonlinearAntenna& antenna, AntennaParameter which);
 
-/// The antenna with another value of one parameter, everything else as it is.
+/// The antenna with another value of one parameter, everything else unchanged.
 /// @throws InvalidInput for a value that is not finite, or not above 0 where the parameter must be.
 NonlinearAntenna with_parameter(NonlinearAntenna antenna, AntennaParameter which, double value);
 

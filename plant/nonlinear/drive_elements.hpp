@@ -134,7 +134,7 @@ GearTorque gear_torque(const GearContact& gear, double windup, double windup_rat
 double gear_energy(const GearContact& gear, double windup);
 
 /// @throws InvalidInput naming a parameter that is not finite or out of its range. Limits may be
-/// infinite where their description says so.
+/// infinite if their description allows it.
 void validate(const ServoValve& valve);
 void validate(const OilCircuit& oil);
 void validate(const MotorFriction& friction);

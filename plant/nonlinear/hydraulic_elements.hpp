@@ -10,11 +10,11 @@ namespace boresight::plant {
 
 /// Flow (m3/s) through a sharp-edged orifice for the pressure difference dp (Pa), of dp's sign:
 ///   q = C dp / (dp^2 + dp_s^2)^(1/4),
-/// and dq/ddp. C sqrt(|dp|) well above the transition dp_s (Pa, above 0), straight with slope
-/// C/sqrt(dp_s) well below it, as the laminar flow at small differences, and as smooth as wanted
-/// between (regRoot of Modelica.Fluid): no event is needed where the flow turns round. Short of C
-/// sqrt(|dp|) by the fraction (dp_s/dp)^2/4 above dp_s, and by never more than 0.2545 C sqrt(dp_s).
-/// C in m3/s per sqrt(Pa), at least 0; in other units throughout it holds as well.
+/// and dq/ddp. q tends to C sqrt(|dp|) well above the transition dp_s (Pa, above 0). Well below it,
+/// q is linear with slope C/sqrt(dp_s), like the laminar flow at small differences. It is smooth in
+/// between (regRoot of Modelica.Fluid), so a flow reversal needs no event. It is less than C
+/// sqrt(|dp|) by the fraction (dp_s/dp)^2/4 above dp_s, and by at most 0.2545 C sqrt(dp_s). C in
+/// m3/s per sqrt(Pa), at least 0; other consistent units are possible.
 numerics::Slope orifice(double coefficient, double pressure_difference, double transition);
 
 /// C = Cd A sqrt(2/rho) of an opening A (m2) with discharge coefficient Cd (0.6 to 0.7 for a sharp

@@ -12,8 +12,8 @@
 
 namespace boresight::plant {
 
-/// The antenna with everything that makes it differ from AntennaPlant: orifice flow, pressures on
-/// both sides, lines, bristle friction, gravity's offset, backlash, valve limits.
+/// The antenna with all differences from AntennaPlant: orifice flow, pressures on both sides,
+/// lines, bristle friction, gravity's offset, backlash, valve limits.
 struct NonlinearAntenna {
   ServoValve valve;
   OilCircuit oil;
@@ -21,19 +21,18 @@ struct NonlinearAntenna {
   OffsetTorque offset;
   GearContact gear;
   double motor_inertia = 0.0;      // kg m2: motors, flywheels, gear train, counter-torque motors
-  double viscous_friction = 0.0;   // N m s/rad, beside that of the friction curve
+  double viscous_friction = 0.0;   // N m s/rad, in addition to that of the friction curve
   double tachometer_corner = 0.0;  // rad/s, first-order lag
   StructureModel structure;
 };
 
-/// What a nonlinear antenna needs to know beyond its linear plant and hydraulic drive.
+/// Data of a nonlinear antenna beyond its linear plant and hydraulic drive.
 struct DriveDetails {
   double supply_pressure = 0.0;  // Pa
   double return_pressure = 0.0;  // Pa
   double supply_droop = 0.0;     // Pa per rad/s of port opening
-  /// Shares of the leakage rate that flow through the valve's centre, and from either side to the
-  /// case; the rest flows across the motors. Without either the sides' mean pressure is left to
-  /// drift.
+  /// Fractions of the leakage rate that flow through the valve's centre, and from either side to
+  /// the case. The rest flows across the motors. With neither, the sides' mean pressure drifts.
   double null_leakage_share = 0.1;
   double case_leakage_share = 0.0;
   double stroke_limit = 0.0;  // these four as ServoValve
@@ -42,7 +41,7 @@ struct DriveDetails {
   double null_offset = 0.0;
   double laminar_pressure = 1e4;  // Pa across an edge of the valve
   double makeup_pressure = 0.0;   // Pa
-  /// Rate (1/s) at which an open make-up valve fills a side up.
+  /// Rate (1/s) at which an open make-up valve fills a side.
   double makeup_rate = 100.0;
   double air_fraction = 0.0;
   double oil_density = 0.0;          // kg/m3
@@ -55,16 +54,16 @@ struct DriveDetails {
   double backlash = std::numeric_limits<double>::infinity();
 };
 
-/// The nonlinear antenna whose small motion about rest is that of `plant`, apart from friction and
-/// lines: its viscous friction gives way to the friction of `details`. Sides by their volumes, the
-/// sum of their stiffnesses the plant's oil stiffness.
-/// @throws InvalidInput for a drive as torque_per_pressure, shares that are negative or sum to more
-/// than 1, and as to_feedback_system.
+/// The nonlinear antenna whose small motion about rest is that of `plant`, except for friction and
+/// lines. The friction of `details` replaces the plant's viscous friction. The volumes determine
+/// the sides' stiffnesses, whose sum is the plant's oil stiffness.
+/// @throws InvalidInput for a drive as torque_per_pressure, fractions that are negative or sum to
+/// more than 1, and as to_feedback_system.
 NonlinearAntenna make_nonlinear_antenna(const AntennaPlant& plant, const HydraulicDrive& drive,
                                         const DriveDetails& details);
 
-/// Where the states of to_feedback_system(antenna) stand; the structure's begin at `structure`, the
-/// line modes' follow those.
+/// Indices of the states of to_feedback_system(antenna). The structure's states begin at
+/// `structure`, followed by those of the line modes.
 struct AntennaStates {
   enum : Eigen::Index {
     spool,       // rad/s, valve spool as no-load motor speed
@@ -94,26 +93,28 @@ struct AntennaStates {
 /// Orifice (o the port opening, s(y) a square root that keeps its sign):
 ///   o > 0: q1 = o s(2 (ps - p1)/(ps - pr)), q2 = o s(2 (p2 - pr)/(ps - pr)), and mirrored for o <
 ///   0
-/// so that q1 = q2 = o sqrt(1 - sign(o) T/(ps - pr)) where both sides lie about their mean, as the
-/// physics of the reference antenna has it.
+/// so that q1 = q2 = o sqrt(1 - sign(o) T/(ps - pr)) if both sides lie about their mean, as in the
+/// physics of the reference antenna.
 ///
 /// Inputs: valve_command (rad/s), then the wind forces of the structure (wind_torque). Observed:
-/// tachometer, motor_torque, encoder, beam as to_state_space(AntennaPlant), then motor_rate,
-/// motor_angle, spool, friction_torque (offset included), gear_torque and, for each motor k,
-/// inlet_pressure_k and outlet_pressure_k (Pa), of which positive torque has the inlet higher.
-/// Works at any speed, elevation and pressure; the small-signal model at a point is linearise()'s.
+/// tachometer, motor_torque, encoder, `beam` as in to_state_space(AntennaPlant), then motor_rate,
+/// motor_angle, spool, friction_torque (offset included), gear_torque. For each motor k also
+/// inlet_pressure_k and outlet_pressure_k (Pa); for positive torque the inlet pressure is the
+/// higher. Valid at any speed, elevation and pressure; linearise() computes the small-signal model
+/// at a point.
 /// @throws InvalidInput for a parameter that is not finite or out of its range, naming it.
 FeedbackSystem to_feedback_system(const NonlinearAntenna& antenna);
 
-/// Turn of the whole antenna by one radian of motor, as a direction of the states.
+/// Rotation of the whole antenna by one radian of motor, as a direction of the states.
 Eigen::VectorXd rigid_rotation(const NonlinearAntenna& antenna);
 
-/// At rest and in balance but for offset and friction: both sides at mean pressure, bristles
+/// State at rest, in balance except for offset and friction: both sides at mean pressure, bristles
 /// straight.
 Eigen::VectorXd state_at_rest(const NonlinearAntenna& antenna);
 
-/// Energy stored (J at the motor shaft's scale: N m rad): motors and structure moving, springs, oil
-/// compressed about the mean pressure, bristles bent. Without air; the gear with its preload.
+/// Stored energy (J at the motor shaft's scale: N m rad): kinetic energy of motors and structure,
+/// springs, oil compressed about the mean pressure, bristle deflection. Without air; the gear with
+/// its preload.
 double stored_energy(const NonlinearAntenna& antenna, const Eigen::VectorXd& state);
 
 }  // namespace boresight::plant

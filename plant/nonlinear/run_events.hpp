@@ -27,8 +27,8 @@ struct SampledEvent {
   double share = 0.0;  // of all samples
 };
 
-/// What happened in a run of the nonlinear antenna, judged at the samples of its true motion: what
-/// comes and goes between two of them is not seen, and a time is that of the sample.
+/// Events in a run of the nonlinear antenna, detected at the samples of its true motion. Events
+/// between two samples are missed, and an event has the time of its sample.
 struct RunEvents {
   /// Times by which the motor, after at least 0.1 s of standstill (below 0.1 stribeck_rate, where
   /// the friction curve has lost 1 % of its bump), has turned from where it last stood by four

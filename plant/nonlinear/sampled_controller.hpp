@@ -9,7 +9,7 @@
 
 namespace boresight::plant {
 
-/// A thing with a clock that turns measured signals into commands.
+/// A controller with a clock that computes commands from measured signals.
 class SampledController {
  public:
   SampledController() = default;
@@ -20,33 +20,33 @@ class SampledController {
   virtual ~SampledController() = default;
 
   virtual double sample_time() const = 0;  // s
-  /// Observed outputs of the plant that it reads, and, after them, references from outside.
+  /// Observed outputs of the plant that it reads, followed by external references.
   virtual const std::vector<std::string>& inputs() const = 0;
   /// Inputs of the plant that it drives.
   virtual const std::vector<std::string>& outputs() const = 0;
-  /// Everything measured before is forgotten.
+  /// Discards all earlier measurements.
   virtual void restart() = 0;
-  /// The commands (length of outputs()) that follow from the samples taken at `time` (s), in the
-  /// order of inputs(). Called once a sample time, in order; must not allocate.
+  /// Computes the commands (length of outputs()) from the samples taken at `time` (s), in the order
+  /// of inputs(). Called once per sample time, in order; must not allocate.
   virtual void update(double time, const Eigen::Ref<const Eigen::VectorXd>& measured,
                       Eigen::Ref<Eigen::VectorXd> commands) = 0;
 };
 
-/// A sampled linear law whose commands are held within limits. Beyond a limit the law's states are
-/// driven by what the limit left of the command (back calculation, K. J. Astrom, T. Hagglund, PID
-/// Controllers, 1995, ch. 3.5), so that integrators do not wind up.
+/// A sampled linear controller with limited commands. Beyond a limit its states are driven by the
+/// difference between limited and computed command, which prevents integrator windup (back
+/// calculation, K. J. Astrom, T. Hagglund, PID Controllers, 1995, ch. 3.5).
 class LinearSampledController final : public SampledController {
  public:
   struct Limits {
     /// Largest magnitude of each output; empty: no limits.
     Eigen::VectorXd largest_command;
-    /// How much of each state a command held back by one unit takes off per sample (states x
-    /// outputs); empty: nothing.
+    /// Reduction of each state per sample and per unit of limited command (states x outputs);
+    /// empty: none.
     Eigen::MatrixXd back_calculation;
   };
 
-  /// @throws InvalidInput as validate(law), for a continuous law, and limits that do not fit or are
-  /// not positive.
+  /// @throws InvalidInput as `validate`, for a continuous controller, and for limits of the wrong
+  /// size or not positive.
   explicit LinearSampledController(StateSpace law);
   LinearSampledController(StateSpace law, Limits limits);
 

@@ -24,8 +24,8 @@ enum class Integrator {
   cvodes
 };
 
-/// A run of a feedback system with, if wanted, a digital controller: what enters, how it is sampled
-/// and what is looked at.
+/// A run of a feedback system, optionally with a digital controller: the inputs, their sampling and
+/// the observed signals.
 struct SimulationPlan {
   /// s between the samples of inputs and outputs; the controller's sample time and delay are whole
   /// multiples of it.
@@ -35,8 +35,8 @@ struct SimulationPlan {
   /// Signals from outside, by name: inputs of the system that the controller does not drive, and
   /// the controller's references. One column each.
   std::vector<std::string> signals;
-  /// At t = k interval: samples x signals; the run has samples - 1 intervals. Straight in between,
-  /// but where `held` says that a signal keeps its value until the next sample.
+  /// At t = k interval: samples x signals; the run has samples - 1 intervals. Interpolated
+  /// linearly, except where `held` marks a signal that keeps its value until the next sample.
   Eigen::MatrixXd values;
   std::vector<bool> held;  // one a signal; empty: none
   SampledController* controller = nullptr;

@@ -6,10 +6,10 @@
 
 namespace boresight::plant {
 
-/// A wind torque coefficient C over the attitude of the dish, torque about an axis = 1/2 rho V^2 A
-/// D C with A = pi/4 D^2, as a wind tunnel gives it; bilinear between the table's points. The yaw
-/// is where the wind comes from less where the dish points, in azimuth: 0 with the wind into the
-/// dish's face. Tables whose yaw is reckoned otherwise are to be turned first.
+/// A wind torque coefficient C over the attitude of the dish, as measured in a wind tunnel: axis
+/// torque = 1/2 rho V^2 A D C with A = pi/4 D^2. Bilinear between the table's points. The yaw is
+/// the direction from which the wind comes less the direction in which the dish points, in azimuth:
+/// 0 with the wind into the dish's face. Convert tables with another yaw convention first.
 class TorqueCoefficientTable {
  public:
   /// Yaw and elevation in rad, ascending, at least 2 of each; `coefficients`: yaws x elevations. A
@@ -38,7 +38,7 @@ class TorqueCoefficientTable {
 /// dynamic pressure at 1 mph in the standard's air (1.227 kg/m^3).
 double coefficient_from_eia_222(double coefficient);
 
-/// The coefficients about both axes of the mount, and what is reckoned about each.
+/// The coefficients about both axes of the mount, and quantities computed for each axis.
 struct AxisTorqueTables {
   TorqueCoefficientTable azimuth;
   TorqueCoefficientTable elevation;

@@ -58,9 +58,10 @@ struct CoherenceAverages {
 };
 CoherenceAverages coherence_averages(double decay_per_radius);
 
-/// What share of a gust's amplitude the whole dish takes at a frequency, against one gust over all
-/// of it; 1 at low frequencies. uniform: 1. vickery: 1/(1 + (2 f sqrt(A)/V)^(4/3)). coherence:
-/// sqrt<coh>, of the uniform part. f >= 0 (Hz), V > 0 (m/s).
+/// Fraction of a gust's amplitude that acts on the whole dish at a frequency, relative to a gust
+/// uniform over the dish; 1 at low frequencies. uniform: 1.
+/// vickery: 1/(1 + (2 f sqrt(A)/V)^(4/3)). coherence: sqrt<coh>, of the uniform part.
+/// f >= 0 (Hz), V > 0 (m/s).
 /// @throws InvalidInput for these and as validate.
 double wind_admittance(const WindSite& site, WindModel model, double mean_speed, double frequency);
 

@@ -32,15 +32,16 @@ struct RecordTorqueOptions {
   bool remove_mean = false;
 };
 
-/// The axis torque (N m) that a recorded wind makes, sample for sample: the quasi-static
-/// 1/2 rho V(t)^2 A D C, C the site's torque_coefficient, smoothed over the dish by
-/// wind_admittance at the record's mean speed. The smoothing acts on the torque, since pressures
-/// add up over the dish as squares of the local speeds, and it leaves the mean, that of V^2,
-/// alone: 1/2 rho (mean^2 + variance) A D C. It is without phase, as the anemometer stands at the
-/// dish, and reckoned with the record mirrored at both ends.
+/// The axis torque (N m) of a recorded wind, sample by sample: the quasi-static 1/2 rho V(t)^2 A D
+/// C, C the site's torque_coefficient. It is smoothed over the dish by wind_admittance at the
+/// record's mean speed. The smoothing acts on the torque, since pressures add up over the dish as
+/// squares of the local speeds. It preserves the mean, that of V^2: 1/2 rho (mean^2 + variance) A D
+/// C. It has zero phase, as the anemometer stands at the dish. The record is mirrored at both ends
+/// for the computation.
 ///
-/// One point knows nothing of gradients over the dish: the gradient part of the coherence model is
-/// missing; add one drawn from wind_torque_series (WindTorquePart::gradient) at the mean speed.
+/// One point contains no information on gradients over the dish, so the gradient part of the
+/// coherence model is missing. Add a sample of it from wind_torque_series
+/// (WindTorquePart::gradient) at the mean speed.
 /// @throws InvalidInput as validate of record and site.
 Eigen::VectorXd wind_record_torque(const WindRecord& record, const WindSite& site,
                                    const RecordTorqueOptions& options = {});

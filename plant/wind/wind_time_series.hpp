@@ -21,16 +21,17 @@ StationarySeries wind_torque_series(const WindSite& site, WindModel model, WindT
                                     double mean_speed, double duration, double sample_time,
                                     const StationarySeriesOptions& options = {});
 
-/// One draw of the two independent parts of the wind torque about its mean (N m); their sum is the
-/// torque. The gradient part of the uniform and Vickery models is 0.
+/// One sample of the two independent parts of the wind torque about its mean (N m); their sum is
+/// the torque. The gradient part of the uniform and Vickery models is 0.
 struct WindTorqueParts {
   Eigen::VectorXd uniform;
   Eigen::VectorXd gradient;
 };
 
-/// The uniform part from stream 0 of the seed, which gust_series draws too, and the gradient part
-/// from stream 1: in the uniform model the torque is wind_torque_sensitivity times the gust of the
-/// same seed. @throws InvalidInput as wind_torque_series.
+/// The uniform part from stream 0 of the seed, which gust_series also uses, and the gradient part
+/// from stream 1. In the uniform model the torque is wind_torque_sensitivity times the gust of the
+/// same seed.
+/// @throws InvalidInput as wind_torque_series.
 WindTorqueParts synthesise_wind_torque(const WindSite& site, WindModel model, double mean_speed,
                                        double duration, double sample_time, std::uint64_t seed,
                                        const StationarySeriesOptions& options = {});

@@ -14,7 +14,7 @@ namespace boresight::identification {
 numerics::LeastSquaresResult search(const GreyBoxObjective& objective, const Eigen::VectorXd& start,
                                     const numerics::LeastSquaresOptions& options);
 
-/// By turns search and the objective's scales until these stand still.
+/// Alternates the search and the update of the objective's scales until the scales converge.
 numerics::LeastSquaresResult search_with_scales(GreyBoxObjective& objective,
                                                 const Eigen::VectorXd& start);
 

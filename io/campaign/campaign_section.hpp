@@ -80,7 +80,7 @@ struct Contradiction {
   double normalised = 0.0;
 };
 
-/// A record that was not fitted, and how well the drive fitted to the others foretells it.
+/// A record that was not fitted, and how well the drive fitted to the others predicts it.
 struct HoldOut {
   std::string record;
   identification::GreyBoxHoldOut result;

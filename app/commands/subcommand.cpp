@@ -86,7 +86,7 @@ const std::vector<std::pair<ExitCode, std::string>>& exit_code_meanings() {
       {internal_error, "internal error"},
       {bad_input, "bad input"},
       {infeasible, "constraints infeasible"},
-      {numerical, "numerical failure"},
+      {numerical, "numerical failure, or no value to recommend"},
       {interrupted, "interrupted"}};
   return meanings;
 }

@@ -124,8 +124,8 @@ std::string chances(const EvaluateSection& section, const DecisionSection& decis
       fmt::format(" Intervals: sampling error over {} plants {}.", decision.draws, decision.source);
   if (section.time_domain) {
     text +=
-        " Each simulated/linear rms ratio comes from one wind record and is not sampled. The "
-        "probabilities do not separate proposals that differ by a few per cent.";
+        " Each simulated/linear rms ratio and each limit cycle is that of the case's plant and is "
+        "not sampled. The probabilities do not separate proposals that differ by a few per cent.";
   }
   const auto& outside = decision.candidates[decision.best].outside_goals;
   text += fmt::format(

@@ -46,7 +46,7 @@ Figure structures_figure(const TuneSection& section, double wind_speed,
       "nominal plant, tuned to meet every constraint on {} plants ({}){}.",
       wind_speed, plant::to_string(section.wind_model), section.ensemble_size,
       to_string(section.ensemble_source),
-      in_time ? "; last: simulated on the nonlinear antenna, one wind record" : "");
+      in_time ? "; last: simulated on the nonlinear antenna, limit cycle not included" : "");
   for (const auto& law : section.laws) {
     if (law.wind_speed != wind_speed || law.stable()) continue;
     figure.caption += fmt::format(
@@ -72,15 +72,15 @@ Figure structures_figure(const TuneSection& section, double wind_speed,
   }
   if (in_time && in_time->wind_speed == wind_speed) {
     FigureSeries bars{.name = "nonlinear antenna", .style = SeriesStyle::bars};
-    const auto add = [&](const std::string& name, const design::NonlinearVerification& result) {
+    const auto add = [&](const design::SimulatedCandidate& candidate) {
       for (const auto& law : section.laws) {
-        if (description_of(law) != name || law.wind_speed != wind_speed) continue;
+        if (description_of(law) != candidate.law || law.wind_speed != wind_speed) continue;
         bars.x.push_back(place_of(law.structure));
-        bars.y.push_back(result.wind.beam_rms / millidegree);
+        bars.y.push_back(candidate.simulated_rms() / millidegree);
       }
     };
-    for (const auto& candidate : in_time->candidates) add(candidate.law, candidate.result);
-    if (in_time->candidates.empty()) add(in_time->law, in_time->result);
+    std::ranges::for_each(in_time->candidates, add);
+    if (in_time->candidates.empty()) add(in_time->own());
     bars.name = fmt::format("{} on the nonlinear antenna",
                             in_time->law.substr(in_time->law.rfind(' ') + 1));
     if (!bars.x.empty()) panel.series.push_back(std::move(bars));

@@ -53,7 +53,7 @@ std::vector<std::string> telling_inputs(const TuningSection& section) {
 
 std::string dependence(const Report& report) {
   if (report.command == "identify") {
-    return " and enter the identification";
+    return ", and enter the identification";
   }
   if (!report.tuning) return "; `boresight redesign` ranks them by their effect on the rms";
   constexpr std::size_t most = 3;

@@ -22,6 +22,8 @@ import sys
 DECLARED = re.compile(r"^(?!#|//|namespace\b|using namespace\b|\}|template\b|[A-Z_]+\()"
                       r"(?:\[\[[^\]]*\]\]\s*)?[^\s][^({=;\[]*?(\w+)\s*[({=;\[]")
 TYPE = re.compile(r"^(?:struct|class|enum class|enum|union) (\w+)")
+# Of `constexpr double step = 0.01, length = 90.0;` both names.
+CONSTANT = re.compile(r"(?<![.\w])(\w+) = ")
 # GoogleMock's matchers are declared by a macro, and classes are made of their names.
 MATCHER = re.compile(r"^MATCHER\w*\((\w+)")
 # Of what stands after a dot, an arrow or a scope there is no doubt whose it is.
@@ -45,6 +47,8 @@ def local_names(text):
                 if match := pattern.match(line):
                     names.add(match.group(1))
                     break
+            if line.startswith("constexpr "):
+                names |= set(CONSTANT.findall(line))
     return names - NOT_NAMES
 
 

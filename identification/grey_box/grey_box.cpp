@@ -55,6 +55,18 @@ double leakage_discrepancy(const GreyBoxObjective& objective,
   return flow > 0.0 && leaked > 0.0 ? flow_balance * std::sqrt(flow / leaked) : 0.0;
 }
 
+// Relative standard uncertainty of the valve's lag by what the model leaves out. Between samples
+// the command and the pressures are straight lines, which leaves a tenth of a sample interval: a
+// lag of 5 ms is fitted 1.5 ms short in records of 20 ms.
+double lag_discrepancy(const std::vector<GreyBoxRecord>& records, double lag, double relative) {
+  constexpr double of_an_interval = 0.1;
+  double interval = 0.0;
+  for (const auto& record : records) {
+    if (record.valve.size() > 0) interval = std::max(interval, record.sample_time);
+  }
+  return std::hypot(relative, of_an_interval * interval / lag);
+}
+
 class Progress {
  public:
   explicit Progress(const GreyBoxOptions& options) : options_(options) {}
@@ -275,7 +287,8 @@ GreyBoxResult fit_grey_box(const Campaign& campaign,
   result.posterior = grey_box_posterior(objective, best.x, shifts, options.stretch);
   result.posterior.torque_discrepancy = options.discrepancy.torque_balance;
   result.posterior.stiffness_discrepancy = options.discrepancy.stiffness;
-  result.posterior.lag_discrepancy = options.discrepancy.valve_lag;
+  result.posterior.lag_discrepancy = lag_discrepancy(
+      records, parameters.values(best.x)(P::valve_lag), options.discrepancy.valve_lag);
   result.posterior.leakage_discrepancy =
       leakage_discrepancy(objective, records, parameters, best.x, options.discrepancy.flow_balance);
   const double unknown =

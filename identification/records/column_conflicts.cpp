@@ -41,22 +41,31 @@ class Votes {
   std::string first_;
 };
 
+constexpr const char* against_motion = "inlet above outlet drives against the tachometer";
+
 constexpr const char* ambiguous =
     "which motors have their inlet and outlet exchanged cannot be told, half of them or more go "
     "against the others";
-constexpr const char* against_motion = "inlet above outlet drives against the tachometer";
 
-std::string exchanged_refusal(const RawRecord& raw, const std::vector<std::size_t>& motors,
-                              const Votes& votes) {
+std::string pressure_columns(const RawRecord& raw, const std::vector<std::size_t>& motors) {
   std::string columns;
   for (const std::size_t motor : motors) {
     columns += fmt::format("{}{} and {}", columns.empty() ? "" : ", ", raw.inlet[motor].name,
                            raw.outlet[motor].name);
   }
+  return columns;
+}
+
+std::string ambiguous_refusal(const RawRecord& raw, const std::vector<std::size_t>& motors) {
+  return fmt::format("{} ({})", ambiguous, pressure_columns(raw, motors));
+}
+
+std::string exchanged_refusal(const RawRecord& raw, const std::vector<std::size_t>& motors,
+                              const Votes& votes) {
   return fmt::format(
       "the pressure differences of motors go against one another in {}: {} ({}). Exchange the "
       "columns of the motor that is wired the other way in record_columns.inlet and .outlet",
-      votes.where(), ambiguous, columns);
+      votes.where(), ambiguous, pressure_columns(raw, motors));
 }
 
 std::string torque_refusal(const RawRecord& raw, const Votes& votes) {
@@ -92,7 +101,7 @@ void judge_ports(const JudgedRecord& one, const std::vector<std::size_t>& everyw
   const auto& exchanged = everywhere.empty() ? own : everywhere;
   if (exchanged.empty()) return;
   if (2 * exchanged.size() >= one.raw->inlet.size()) {
-    conflict.refusal = ambiguous;
+    conflict.refusal = ambiguous_refusal(*one.raw, exchanged);
     return;
   }
   conflict.options.exchanged_motors = exchanged;

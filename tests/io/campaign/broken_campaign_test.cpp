@@ -67,6 +67,7 @@ TEST(BrokenCampaign, NamesTheRecordOfSwappedColumns) {
   expect_no_wrong_value(section);
   const auto found = suspicion(section, "reversed sign");
   EXPECT_THAT(found.records, ElementsAre("slow_ramp"));
+  EXPECT_TRUE(found.record_refused);
   EXPECT_THAT(found.explanation, HasSubstr("p1_in and p1_out"));
 }
 

@@ -274,9 +274,9 @@ Document fit_part(const io::CampaignSection& section) {
   text += subheading("correlation of the estimates");
   rows = {{""}};
   for (std::size_t i = 0; i < fit.quantities.size(); ++i) {
-    rows.front().push_back(fmt::format("{}", i + 1));
+    if (i + 1 < fit.quantities.size()) rows.front().push_back(fmt::format("{}", i + 1));
     rows.push_back({fmt::format("{} {}", i + 1, fit.quantities[i].name)});
-    for (std::size_t j = 0; j <= i; ++j) {
+    for (std::size_t j = 0; j < i; ++j) {
       rows.back().push_back(fmt::format(
           "{:+.2f}", fit.correlation(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j))));
     }

@@ -156,9 +156,11 @@ TEST(TuningVerdict, SaysOnHowManyPlantsANeedIsMet) {
 TEST(TuningVerdict, SaysThatANeedIsNotMet) {
   Report report = tuned_report();
   report.tuning->budgets = {budget(0.1, 5.4, 12.0)};
-  EXPECT_THAT(tuning_conclusions(report),
-              Contains(HasSubstr("NOT MET: need (Ka: 0.100 mdeg) is required up to 12 m/s; as "
-                                 "built, with PI with lag (nominal), it is met up to 5.4 m/s.")));
+  EXPECT_THAT(
+      tuning_conclusions(report),
+      Contains(HasSubstr("NOT MET: need (Ka: 0.100 mdeg) is required up to 12 m/s; as "
+                         "built, with PI with lag (nominal), it is met up to 5.4 m/s, by the "
+                         "linear plant.")));
   design::Design unstable;
   unstable.tuning.status = design::TuningStatus::unstable;
   report.tuning->present = {{"PI without lag", unstable}};
@@ -181,7 +183,8 @@ TEST(TuningVerdict, GivesSpeedsOfBudgetsAtTheMastToo) {
   report.tuning->wind_mast = io::WindMast{10.0, 28.0, 0.14, 1.155053};
   EXPECT_THAT(tuning_conclusions(report),
               Contains(AllOf(HasSubstr("required up to 8.09 m/s at the dish, 7 at the mast;"),
-                             HasSubstr("met up to 4.0 m/s at the dish, 3.49 at the mast."))));
+                             HasSubstr("met up to 4.0 m/s at the dish, 3.49 at the mast, by the "
+                                       "linear plant."))));
   EXPECT_THAT(conclude_mast(*report.tuning->wind_mast),
               HasSubstr("divide by 1.155 for the case's 10 m mast"));
   EXPECT_THAT(to_text(document_of(*report.tuning)),
@@ -314,7 +317,8 @@ TEST(TuningVerdict, SaysWhatItDoesNotKnow) {
               Contains(HasSubstr("Friction, limit cycles and slewing were not examined")));
   EXPECT_THAT(sentences, Contains(HasSubstr("the pointing model must remove it")));
   EXPECT_THAT(reservations(report), Contains(HasSubstr("were not examined")));
-  EXPECT_THAT(decision(report), ElementsAre(EndsWith("is met up to 16.9 m/s.")));
+  EXPECT_THAT(decision(report),
+              ElementsAre(EndsWith("is met up to 16.9 m/s, by the linear plant.")));
   report.time_domain.emplace();
   EXPECT_THAT(tuning_conclusions(report), Each(Not(HasSubstr("not examined"))));
   report.tuning->design.verification.passed = false;

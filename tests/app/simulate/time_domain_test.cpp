@@ -125,6 +125,7 @@ TEST(TimeDomain, DecidesForALawThatHoldsStill) {
   chosen.candidates[1].result.hunting = chosen.result.hunting;
   EXPECT_EQ(decide(chosen), "");
   chosen.candidates[1].result.wind.status = design::RunStatus::lost;
+  chosen.candidates[1].result.wind.beam_rms = nan;
   EXPECT_THAT(decide(chosen), HasSubstr("its run did not complete (lost)"));
   // Where all do.
   chosen.result = hunting;

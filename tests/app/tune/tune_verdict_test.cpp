@@ -248,7 +248,7 @@ TEST(Shortfalls, TrustNoBudgetToALawThatHunts) {
             HasSubstr("it limit-cycles by +-5.80 mdeg, and no other robust controller is fit")));
   // A run in wind that did not complete has no simulated rms to be ranked by.
   section.laws[1].in_time->beam_rms = std::numeric_limits<double>::quiet_NaN();
-  EXPECT_EQ(nearest_to_budget(section, 12.0), &section.laws[2]);
+  EXPECT_EQ(nearest_to_budget(section, 12.0), &section.laws[0]);
   section.laws = {section.laws[1]};
   EXPECT_THAT(find_shortfalls(section)[0].closest,
               HasSubstr("FULL (robust) comes nearest with 1.4300 mdeg on the linear plant, "));

@@ -28,6 +28,7 @@ std::string to_csv(const MonteCarloOutcome& outcome) {
       out,
       "plant,structure_frequency_1,oil_stiffness_1,leakage_rate_1,"
       "friction_slope_N_m_s_per_rad,antenna_inertia_1,motor_inertia_1,wind_torque_1,"
+      "valve_frequency_1,"
       "standing,beam_rms_mdeg,climate_beam_rms_mdeg,valve_effort_rad_per_s,rate_loop_peak_1,"
       "valve_command_peak_1,position_loop_peak_1,worst_goal_ratio_1,"
       "retuned_beam_rms_mdeg\n");

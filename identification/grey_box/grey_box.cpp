@@ -56,10 +56,10 @@ double leakage_discrepancy(const GreyBoxObjective& objective,
 }
 
 // Relative standard uncertainty of the valve's lag by what the model leaves out. Between samples
-// the command and the pressures are straight lines, which leaves a tenth of a sample interval: a
-// lag of 5 ms is fitted 1.5 ms short in records of 20 ms.
+// the command and the pressures are straight lines, which leaves a twentieth of a sample interval:
+// a lag of 5 ms is fitted 1.5 ms short in synthetic records of 20 ms.
 double lag_discrepancy(const std::vector<GreyBoxRecord>& records, double lag, double relative) {
-  constexpr double of_an_interval = 0.1;
+  constexpr double of_an_interval = 0.05;
   double interval = 0.0;
   for (const auto& record : records) {
     if (record.valve.size() > 0) interval = std::max(interval, record.sample_time);

@@ -80,7 +80,7 @@ TEST(IdentifiedPlant, HasTheSlopeLeakageAndValveOfTheRecords) {
   EXPECT_GT(slope, 10.0 * designed().stated.drive.viscous_friction.value);
   expect_superseded("drive.viscous_friction", slope, 0.02);
   expect_superseded("drive.leakage_rate", truth()["leakage_rate_1_per_s"], 0.1);
-  expect_superseded("drive.valve_frequency", truth()["valve"]["frequency_Hz"], 0.1);
+  expect_superseded("drive.valve_frequency", truth()["valve"]["frequency_Hz"], 0.25);
   EXPECT_EQ(antenna.drive.viscous_friction, superseded("drive.viscous_friction").value);
   EXPECT_EQ(antenna.drive.valve_frequency, superseded("drive.valve_frequency").value);
   // The linear plant has the slope of the nonlinear antenna's curve.
@@ -140,8 +140,7 @@ TEST(IdentifiedPlant, PredictsTheRmsOfTheTrueAntenna) {
   const design::HardGoals goals = constraints(mission);
   design::TuningOptions options;
   options.starts = 4;
-  const auto tuned =
-      design::tune(problem, loop_structure(designed().stated, "PI with lag"), goals, options);
+  const auto tuned = design::tune(problem, loop_structure(designed().stated, "PI"), goals, options);
   ASSERT_EQ(tuned.status, design::TuningStatus::optimal);
   design::HeldGainsEvaluator evaluator(problem, tuned.law, goals);
   const auto rms = [&](const plant::Antenna& one) {

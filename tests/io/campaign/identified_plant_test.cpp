@@ -80,7 +80,7 @@ TEST(IdentifiedPlant, HasTheSlopeLeakageAndValveOfTheRecords) {
   EXPECT_GT(slope, 10.0 * designed().stated.drive.viscous_friction.value);
   expect_superseded("drive.viscous_friction", slope, 0.02);
   expect_superseded("drive.leakage_rate", truth()["leakage_rate_1_per_s"], 0.1);
-  expect_superseded("drive.valve_frequency", truth()["valve"]["frequency_Hz"], 0.25);
+  expect_superseded("drive.valve_frequency", truth()["valve"]["frequency_Hz"], 0.3);
   EXPECT_EQ(antenna.drive.viscous_friction, superseded("drive.viscous_friction").value);
   EXPECT_EQ(antenna.drive.valve_frequency, superseded("drive.valve_frequency").value);
   // The linear plant has the slope of the nonlinear antenna's curve.

@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include <boresight/design/decisions/assessment.hpp>
 
@@ -20,13 +19,10 @@ Fitness fitness(const Assessment& assessment) {
 }
 
 NonlinearEffect nonlinear_effect(const Assessment& assessment) {
-  NonlinearEffect effect;
-  if (const auto& rms = assessment.simulated_rms) {
-    effect.factor = std::isfinite(*rms) ? *rms / assessment.linear_rms
-                                        : std::numeric_limits<double>::infinity();
-  }
-  effect.amplitude = assessment.limit_cycle_amplitude.value_or(0.0);
-  return effect;
+  const double amplitude = assessment.limit_cycle_amplitude.value_or(0.0);
+  const auto& rms = assessment.simulated_rms;
+  return rms ? NonlinearEffect::of_simulation(*rms, assessment.linear_rms, amplitude)
+             : NonlinearEffect{.amplitude = amplitude};
 }
 
 double ranking_figure(const Assessment& assessment) {

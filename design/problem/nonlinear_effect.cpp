@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include <boresight/design/problem/nonlinear_effect.hpp>
@@ -8,6 +9,11 @@ namespace boresight::design {
 
 double limit_cycle_rms(double amplitude) {
   return amplitude / std::numbers::sqrt2;
+}
+
+NonlinearEffect NonlinearEffect::of_simulation(double simulated, double linear, double amplitude) {
+  return {std::isfinite(simulated) ? simulated / linear : std::numeric_limits<double>::infinity(),
+          amplitude};
 }
 
 double NonlinearEffect::rms(double linear) const {

@@ -15,6 +15,9 @@ struct NonlinearEffect {
   double factor = 1.0;     // simulated over linear rms in wind; infinite where a run was lost
   double amplitude = 0.0;  // of the boresight's limit cycle, rad at the sky
 
+  /// Of a simulated and the linear rms in wind (of one unit), and a limit cycle's amplitude (rad).
+  /// The factor is infinite if `simulated` is not finite, as of a run that was lost.
+  static NonlinearEffect of_simulation(double simulated, double linear, double amplitude);
   /// Rms (rad) including the limit cycle, for a linear rms (rad).
   double rms(double linear) const;
   /// The linear rms (rad) at which rms() equals a budget (rad): the part allowed for wind. 0 if the

@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <utility>
 
 #include <boresight/design/problem/drive_reach.hpp>
@@ -92,10 +91,8 @@ void add_present(const Mission& mission, const TrackingProblem& problem, TimeDom
 }  // namespace
 
 NonlinearEffect SimulatedCandidate::effect() const {
-  const double simulated = simulated_rms();
-  return {std::isfinite(simulated) ? simulated / result.wind.predicted_rms
-                                   : std::numeric_limits<double>::infinity(),
-          hunting_amplitude(result.hunting)};
+  return NonlinearEffect::of_simulation(simulated_rms(), result.wind.predicted_rms,
+                                        hunting_amplitude(result.hunting));
 }
 
 std::optional<numerics::Interval> figure_change(const SimulatedCandidate& from,

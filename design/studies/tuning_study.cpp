@@ -233,9 +233,7 @@ std::string_view to_string(TunedFor purpose) {
 
 NonlinearEffect TunedLaw::effect() const {
   if (!in_time) return {};
-  const double simulated = in_time->rms();
-  return {std::isfinite(simulated) ? simulated / beam_rms : std::numeric_limits<double>::infinity(),
-          in_time->hunting};
+  return NonlinearEffect::of_simulation(in_time->rms(), beam_rms, in_time->hunting);
 }
 
 double TunedLaw::budget_rms() const {

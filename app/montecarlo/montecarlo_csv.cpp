@@ -1,4 +1,7 @@
+#include <algorithm>
 #include <cmath>
+#include <iterator>
+#include <string>
 
 #include <fmt/format.h>
 
@@ -20,18 +23,33 @@ std::string_view standing_text(design::Standing standing) {
   return "stable";
 }
 
+namespace {
+
+// The values of a sample in the order of design::UncertainInput, factors but for the slope.
+std::string input_columns() {
+  std::string columns;
+  for (std::size_t i = 0; i < design::uncertain_inputs; ++i) {
+    const auto input = static_cast<design::UncertainInput>(i);
+    std::string name(design::to_string(input));
+    std::ranges::replace(name, ' ', '_');
+    columns += fmt::format(
+        ",{}{}", name, input == design::UncertainInput::friction_slope ? "_N_m_s_per_rad" : "_1");
+  }
+  return columns;
+}
+
+}  // namespace
+
 std::string to_csv(const MonteCarloOutcome& outcome) {
   const auto& section = outcome.section;
   fmt::memory_buffer text;
   const auto out = std::back_inserter(text);
-  fmt::format_to(
-      out,
-      "plant,structure_frequency_1,oil_stiffness_1,leakage_rate_1,"
-      "friction_slope_N_m_s_per_rad,antenna_inertia_1,motor_inertia_1,wind_torque_1,"
-      "valve_frequency_1,"
-      "standing,beam_rms_mdeg,climate_beam_rms_mdeg,valve_effort_rad_per_s,rate_loop_peak_1,"
-      "valve_command_peak_1,position_loop_peak_1,worst_goal_ratio_1,"
-      "retuned_beam_rms_mdeg\n");
+  fmt::format_to(out,
+                 "plant{},standing,beam_rms_mdeg,climate_beam_rms_mdeg,valve_effort_rad_per_s,rate_"
+                 "loop_peak_1,"
+                 "valve_command_peak_1,position_loop_peak_1,worst_goal_ratio_1,"
+                 "retuned_beam_rms_mdeg\n",
+                 input_columns());
   // An empty cell for what there is not.
   const auto cell = [&](double value) {
     if (std::isfinite(value)) {

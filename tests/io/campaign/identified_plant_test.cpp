@@ -2,6 +2,7 @@
 #include <array>
 #include <cmath>
 #include <fstream>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -19,6 +20,7 @@
 #include <boresight/io/case/case_tuning.hpp>
 #include <boresight/io/case/mission_of.hpp>
 #include <boresight/plant/antenna/motors_held_modes.hpp>
+#include <boresight/plant/antenna/moved_held_modes.hpp>
 #include <boresight/plant/nonlinear/drive_capability.hpp>
 
 namespace boresight::io {
@@ -124,9 +126,7 @@ TEST(IdentifiedPlant, IsDrawnFromWhatTheRecordsLeaveOpen) {
 TEST(IdentifiedPlant, PredictsTheRmsOfTheTrueAntenna) {
   const design::Mission& mission = designed().antenna.mission;
   const design::Mission guessed = mission_of(designed().stated);
-  // Its structure has the identified frequencies, which HasEachLockedRotorFrequencyOfTheRecords
-  // compares with the true ones.
-  const plant::Antenna antenna = changed(
+  plant::Antenna antenna = changed(
       mission.antenna,
       {set_to("at_shaft.motor_inertia", truth()["inertia_motors_and_flywheels"]),
        set_to("at_shaft.gear_train_inertia", truth()["inertia_gears"]),
@@ -135,6 +135,17 @@ TEST(IdentifiedPlant, PredictsTheRmsOfTheTrueAntenna) {
        set_to("drive.leakage_rate", truth()["leakage_rate_1_per_s"]),
        set_to("drive.viscous_friction", true_slope(designed().section.knowledge.tracking_rate)),
        set_to("drive.valve_frequency", truth()["valve"]["frequency_Hz"])});
+
+  // The records show three; the others keep their proportion to the lowest.
+  std::vector<std::optional<double>> frequencies;
+  for (std::size_t j = 0; j < 3; ++j) {
+    frequencies.emplace_back(truth()["locked_rotor_frequencies_Hz"][j]);
+  }
+  const auto moved =
+      plant::with_motors_held_frequencies(structure_specification(guessed.antenna), frequencies);
+  ASSERT_TRUE(moved);
+  antenna.structure.locked_rotor_frequency = moved->locked_rotor_frequency;
+  antenna.structure.modes = moved->modes;
 
   const design::TrackingProblem problem = tracking_problem(mission);
   const design::HardGoals goals = constraints(mission);

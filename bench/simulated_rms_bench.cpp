@@ -2,26 +2,23 @@
 // record and beside the wind of one. CPU time of one thread.
 #include <benchmark/benchmark.h>
 
-#include "../tests/design/studies/demo_mission.hpp"
+#include "../tests/design/verification/demo_loop.hpp"
 #include <boresight/design/verification/simulated_rms.hpp>
 #include <boresight/design/verification/wind_course.hpp>
-#include <boresight/plant/nonlinear/nonlinear_drive.hpp>
 
 namespace {
 
 using namespace boresight;
 using namespace boresight::design;
 
-struct Setting {
-  Mission mission = reference::demo_mission();
-  TrackingProblem problem = tracking_problem(mission);
-  SimulatedLoop loop = make_simulated_loop(
-      problem, plant::nonlinear_antenna(mission.antenna),
-      {control::LoopStructure::pi_with_lag(), {0.1587, 0.42067, 2.6279, 10.258, 0.23531}});
-  SimulatedRmsOptions options{.settling = 20.0,
-                              .tracking_rate = mission.antenna.drive.tracking_rate};
+// Records of the usual length, on one thread.
+struct Setting : reference::DemoLoop {
+  Setting() {
+    options.duration = SimulatedRmsOptions{}.duration;
+    options.threads = 1;
+  }
   WindCourses courses{problem, loop, options.tracking_rate* loop.gear_ratio,
-                      options.settling + options.duration};
+                      options.settling + SimulatedRmsOptions{}.duration};
 };
 
 void rms_of_one_record(benchmark::State& state) {

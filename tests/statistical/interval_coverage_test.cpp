@@ -3,31 +3,21 @@
 
 #include <gtest/gtest.h>
 
-#include "design/studies/demo_mission.hpp"
+#include "design/verification/demo_loop.hpp"
 #include <boresight/design/verification/simulated_rms.hpp>
-#include <boresight/plant/nonlinear/nonlinear_drive.hpp>
 
 namespace boresight::design {
 namespace {
 
-// The demo antenna with its friction, gears and oil, in records of half the usual length: mean
-// squares of much shorter ones are so skewed that a symmetric interval covers less than it states.
-struct Setting {
-  Mission mission = reference::demo_mission();
-  TrackingProblem problem = tracking_problem(mission);
-  SimulatedLoop loop = make_simulated_loop(
-      problem, plant::nonlinear_antenna(mission.antenna),
-      {control::LoopStructure::pi_with_lag(), {0.1587, 0.42067, 2.6279, 10.258, 0.23531}});
-  SimulatedRmsOptions options{.settling = 30.0,
-                              .duration = 150.0,
-                              .tracking_rate = mission.antenna.drive.tracking_rate,
-                              .threads = std::thread::hardware_concurrency()};
-};
-
 // The mean of 200 records is itself the truth to a few tenths of what ten leave open: with the
 // linear loop's response to 4000 winds its own error is small.
 TEST(SimulatedRms, CoversTheMeanOf200RecordsIn90Of100Repetitions) {
-  Setting setting;
+  reference::DemoLoop setting;
+  // Half the usual length: mean squares of much shorter records are so skewed that a symmetric
+  // interval covers less than it states.
+  setting.options.settling = 30.0;
+  setting.options.duration = 150.0;
+  setting.options.threads = std::thread::hardware_concurrency();
   setting.options.records = 200;
   setting.options.winds = 4000;
   setting.options.seed = 1000000;

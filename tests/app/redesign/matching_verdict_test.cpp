@@ -5,6 +5,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "app/redesign/optimal_design.hpp"
 #include <boresight/app/document/document_text.hpp>
 #include <boresight/app/redesign/matching_verdict.hpp>
 #include <boresight/app/report/sky_units.hpp>
@@ -19,14 +20,6 @@ using testing::Contains;
 using testing::Each;
 using testing::HasSubstr;
 using testing::Not;
-
-design::Design design_of(double rms_mdeg) {
-  design::Design design;
-  design.tuning.status = design::TuningStatus::optimal;
-  design.verification.passed = true;
-  design.beam_rms = rms_mdeg * millidegree;
-  return design;
-}
 
 MatchingSeries series_of(const LoopStructure& structure, const std::string& friction, double slope,
                          const std::vector<double>& rms) {

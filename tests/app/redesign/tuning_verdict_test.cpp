@@ -10,6 +10,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "app/redesign/optimal_design.hpp"
 #include <boresight/app/document/document_text.hpp>
 #include <boresight/app/redesign/needed_budgets.hpp>
 #include <boresight/app/redesign/tuning_verdict.hpp>
@@ -32,14 +33,6 @@ using testing::HasSubstr;
 using testing::IsEmpty;
 using testing::Not;
 using testing::StartsWith;
-
-design::Design design_of(double rms_mdeg) {
-  design::Design design;
-  design.tuning.status = design::TuningStatus::optimal;
-  design.verification.passed = true;
-  design.beam_rms = rms_mdeg * millidegree;
-  return design;
-}
 
 Report tuned_report() {
   Report report;

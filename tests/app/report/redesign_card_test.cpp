@@ -7,6 +7,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "app/redesign/optimal_design.hpp"
 #include <boresight/app/document/document_text.hpp>
 #include <boresight/app/report/redesign_card.hpp>
 #include <boresight/numerics/angles.hpp>
@@ -20,12 +21,9 @@ using testing::IsEmpty;
 using testing::Not;
 using testing::StartsWith;
 
-design::Design design_of(double rms_mdeg) {
-  design::Design design;
-  design.tuning.status = design::TuningStatus::optimal;
+design::Design tuned_design(double rms_mdeg) {
+  design::Design design = design_of(rms_mdeg);
   design.tuning.law = {control::LoopStructure::named("PI-0"), {0.15, 0.4, 8.0, 0.15}};
-  design.verification.passed = true;
-  design.beam_rms = rms_mdeg * millidegree;
   return design;
 }
 
@@ -37,7 +35,7 @@ Report report_of_test() {
   section.name = "PI-0";
   section.tuned_for = design::TunedFor::robust;
   section.fitness = design::Fitness::fit;
-  section.design = design_of(0.5);
+  section.design = tuned_design(0.5);
   section.design_speed = 10.0;
   auto& ensemble = section.ensemble.emplace();
   ensemble.members.resize(30);
@@ -113,7 +111,7 @@ TEST(RedesignCard, SaysThatAControllerWasNotSimulated) {
 TEST(RedesignCard, ComparesWithTheGainsOfToday) {
   Report report = report_of_test();
   EXPECT_THAT(line_of(report, "Gains of today"), HasSubstr("[gains]"));
-  report.tuning->present = {{"DPF", design_of(0.7)}};
+  report.tuning->present = {{"DPF", tuned_design(0.7)}};
   EXPECT_EQ(line_of(report, "Gains of today"), "DPF: 0.700 mdeg rms, linear plant");
   report.tuning->present[0].design.tuning.status = design::TuningStatus::unstable;
   EXPECT_THAT(line_of(report, "Gains of today"), HasSubstr("unstable on the plant of the case"));
@@ -152,7 +150,7 @@ MatchingSection flywheels(const std::vector<std::vector<double>>& rms) {
                           1.0 + static_cast<double>(i),
                           control::LoopStructure::pi(),
                           {}};
-    for (const double one : rms[i]) series.designs.push_back(design_of(one));
+    for (const double one : rms[i]) series.designs.push_back(tuned_design(one));
     section.series.push_back(std::move(series));
   }
   return section;

@@ -3,29 +3,18 @@
 
 #include <gtest/gtest.h>
 
-#include "design/studies/demo_mission.hpp"
+#include "design/verification/demo_loop.hpp"
 #include <boresight/design/verification/integrator_agreement.hpp>
 #include <boresight/design/verification/simulated_rms.hpp>
 #include <boresight/numerics/error.hpp>
-#include <boresight/plant/nonlinear/nonlinear_drive.hpp>
 
 namespace boresight::design {
 namespace {
 
-struct Setting {
-  Mission mission = reference::demo_mission();
-  TrackingProblem problem = tracking_problem(mission);
-  SimulatedLoop loop = make_simulated_loop(
-      problem, plant::nonlinear_antenna(mission.antenna),
-      {control::LoopStructure::pi_with_lag(), {0.1587, 0.42067, 2.6279, 10.258, 0.23531}});
-  SimulatedRmsOptions options{.settling = 20.0,
-                              .duration = 60.0,
-                              .tracking_rate = mission.antenna.drive.tracking_rate,
-                              .threads = 2};
-};
+using reference::DemoLoop;
 
 TEST(SimulatedRms, IsTheSameForAnyNumberOfThreads) {
-  Setting setting;
+  DemoLoop setting;
   setting.options.records = 4;
   setting.options.winds = 8;
   const auto two = simulated_rms(setting.problem, setting.loop, setting.options);
@@ -100,7 +89,7 @@ TEST(RelativeChange, AsksForTheSameRecords) {
 }
 
 TEST(SimulatedRms, StatesARunThatLosesItsTarget) {
-  Setting setting;
+  DemoLoop setting;
   setting.options.records = 4;
   setting.options.winds = 4;
   setting.loop.antenna.valve.stroke_limit *= 0.01;
@@ -111,7 +100,7 @@ TEST(SimulatedRms, StatesARunThatLosesItsTarget) {
 }
 
 TEST(SimulatedRms, RefusesTooFewRecords) {
-  Setting setting;
+  DemoLoop setting;
   setting.options.records = 3;
   EXPECT_THROW(simulated_rms(setting.problem, setting.loop, setting.options), InvalidInput);
   setting.options.records = 10;

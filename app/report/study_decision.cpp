@@ -90,7 +90,7 @@ std::string decide_motors(const MatchSection& section) {
   if (ranked.size() < 2 || built == ranked.end()) return "";
   std::vector<std::string> figures;
   for (const auto& motors : ranked) {
-    figures.push_back(fmt::format("{:g} disks{} {:.3f} mdeg with {}",
+    figures.push_back(fmt::format("{:.4g} disks{} {:.3f} mdeg with {}",
                                   section.points[motors.point].disks,
                                   motors.point == built->point ? " (as built)" : "",
                                   mdeg(motors.compared_rms), section.series[motors.series].name));
@@ -99,10 +99,30 @@ std::string decide_motors(const MatchSection& section) {
   return fmt::format(
       "Compared as `evaluate` compares, simulated, over {} plants, limit cycle included: {}: {}.",
       std::max<std::size_t>(section.members, 1), fmt::join(figures, ", "),
-      !built->tied ? fmt::format("change to {:g} disks, {:.1f} % better than as built", best.disks,
-                                 100.0 * (1.0 - ranked.front().compared_rms / built->compared_rms))
+      !built->tied
+          ? fmt::format("change to {:.4g} disks, {:.1f} % better than as built", best.disks,
+                        100.0 * (1.0 - ranked.front().compared_rms / built->compared_rms))
       : built == ranked.begin() ? std::string("keep the motors as built")
                                 : std::string("a tie, keep the motors as built"));
+}
+
+// The least linear rms that a structure reaches, and the range of inertias around it.
+std::string linear_minimum(const MatchSection& section, const MatchSeries& best, bool others_hunt) {
+  const std::size_t place = best.best.value_or(as_built(section));
+  const MatchPoint& point = section.points[place];
+  const double least = best.values[place].beam_rms;
+  const bool least_of_all = std::ranges::none_of(section.series, [&](const MatchSeries& series) {
+    return series.best && series.values[*series.best].beam_rms < least;
+  });
+  const std::string lead = std::string(least_of_all ? "The minimum linear rms"
+                                                    : "The linear rms of the structure to prefer") +
+                           (others_hunt ? ", of those free of limit cycles," : "");
+  return fmt::format(
+      "{} is {:.3f} mdeg in {:.3g} m/s, with {} loops and {:.4g} disks on each motor (ratio "
+      "{:.2f}); "
+      "from {:.1f} to {:.1f} disks it stays within 5 %.",
+      lead, mdeg(least), section.wind_speed, best.name, point.disks, point.motor_to_load_ratio,
+      best.within_5_percent.lowest, best.within_5_percent.highest);
 }
 
 // Of structures free of limit cycles; `others_hunt`: some were excluded; `compared`: decide_motors
@@ -116,7 +136,6 @@ Sentences decide_inertia(const MatchSection& section, bool others_hunt, bool com
   }
   const std::size_t built = as_built(section), best_point = best->best.value_or(built);
   const double least = best->values[best_point].beam_rms;
-  const MatchPoint& point = section.points[best_point];
   const MatchValue& present = best->values[built];
   const MatchSeries* moved = most_moved(section);
   if (!compared && moved != nullptr && weighed(section, *best) && hardly_matters(section)) {
@@ -127,21 +146,15 @@ Sentences decide_inertia(const MatchSection& section, bool others_hunt, bool com
         best->name, mdeg(present.beam_rms), section.wind_speed, section.points.front().disks,
         section.points.back().disks, 100.0 * span_of(*moved), what_matters_more(section))};
   }
-  const bool least_of_all = std::ranges::none_of(section.series, [&](const MatchSeries& series) {
-    return series.best && series.values[*series.best].beam_rms < least;
-  });
-  const std::string lead = std::string(least_of_all ? "The minimum linear rms"
-                                                    : "The linear rms of the structure to prefer") +
-                           (others_hunt ? ", of those free of limit cycles," : "");
-  Sentences sentences{fmt::format(
-      "{} is {:.3f} mdeg in {:.3g} m/s, with {} loops and {:g} disks on each motor (ratio {:.2f}); "
-      "from {:.1f} to {:.1f} disks it stays within 5 %.",
-      lead, mdeg(least), section.wind_speed, best->name, point.disks, point.motor_to_load_ratio,
-      best->within_5_percent.lowest, best->within_5_percent.highest)};
   const bool inertia_matters =
       !present.found || present.beam_rms / least - 1.0 >= negligible_change;
-  if (present.found && !compared) {
-    sentences.push_back(first_change(section, *best, others_hunt || section.series.size() > 1));
+  Sentences sentences;
+  // Linear figures beside the simulated ones that decided would only name another structure.
+  if (!compared) {
+    sentences.push_back(linear_minimum(section, *best, others_hunt));
+    if (present.found) {
+      sentences.push_back(first_change(section, *best, others_hunt || section.series.size() > 1));
+    }
   }
   if (auto text = measure_friction(section); inertia_matters && !text.empty()) {
     sentences.push_back(std::move(text));

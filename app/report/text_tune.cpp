@@ -156,7 +156,7 @@ Document pointing_part(const TuneSection& section) {
   }
   Document text = essential(table(rows, "ll"));
   if (section.wind_mast) text += wrapped(mast_in_words(*section.wind_mast), "  ");
-  text += linear_alone_part(section);
+  text += essential(linear_alone_part(section));
   for (std::size_t i = 0; i < section.budgets.size(); ++i) {
     const auto& budget = section.budgets[i];
     text += essential(verbatim(fmt::format(

@@ -53,7 +53,10 @@ StageSolver::StageSolver(std::shared_ptr<const NonlinearChannels> channels,
   for (auto* vector : {&f_, &spread_}) vector->setZero(stages * q_);
   slope_.setZero(q_, stages * p_);
   matrix_.setZero(size_, size_);
+  reduced_.setZero(size_);
   pivots_.resize(static_cast<std::size_t>(size_));
+  rows_.reserve(static_cast<std::size_t>(stages * q_));
+  entries_.reserve(static_cast<std::size_t>(stages * p_ * q_));
 }
 
 Eigen::Index StageSolver::evaluate(StageValues& values) const {
@@ -78,29 +81,43 @@ bool StageSolver::evaluate_stages() {
   return found < 0;
 }
 
-// I - F W (unknowns n) or I - W F (unknowns z), F the slopes as a block diagonal. Plain loops: the
-// matrices are too small for anything else to pay.
-void StageSolver::form_matrix(const Eigen::MatrixXd& channels_to_stages) {
-  const Eigen::Index all_z = stages * p_, all_n = stages * q_;
-  const double* const slope = slope_.data();
-  const double* const w = channels_to_stages.data();
-  double* const matrix = matrix_.data();
-  if (q_ <= p_) {
-    for (Eigen::Index column = 0; column < all_n; ++column) {
-      const double* factor = w + column * all_z;
-      const double* from = slope;
-      double* to = matrix + column * all_n;
-      for (Eigen::Index stage = 0; stage < stages; ++stage, factor += p_, from += q_ * p_) {
-        for (Eigen::Index i = 0; i < q_; ++i, ++to) {
-          double sum = 0.0;
-          for (Eigen::Index j = 0; j < p_; ++j) sum += from[j * q_ + i] * factor[j];
-          *to = -sum;
-        }
+// The slopes that are not zero, row by row, of the rows that have any. In the other rows of I - F W
+// (a gear in contact, a spool below its slew limit) there is the one of the diagonal only.
+void StageSolver::find_rows() {
+  rows_.clear();
+  entries_.clear();
+  for (Eigen::Index stage = 0; stage < stages; ++stage) {
+    const double* const slope = slope_.data() + stage * p_ * q_;
+    for (Eigen::Index i = 0; i < q_; ++i) {
+      const std::size_t first = entries_.size();
+      for (Eigen::Index j = 0; j < p_; ++j) {
+        if (slope[j * q_ + i] != 0.0) entries_.push_back({stage * p_ + j, slope[j * q_ + i]});
       }
+      if (entries_.size() > first) rows_.push_back({stage * q_ + i, first, entries_.size()});
+    }
+  }
+  size_ = static_cast<Eigen::Index>(rows_.size());
+}
+
+double StageSolver::apply_row(const Row& row, const double* z) const {
+  double sum = 0.0;
+  for (std::size_t k = row.begin; k < row.end; ++k) sum += entries_[k].slope * z[entries_[k].input];
+  return sum;
+}
+
+// I - F W of the rows with slopes (unknowns n) or I - W F (unknowns z), F the slopes as a block
+// diagonal. Plain loops: the matrices are too small for anything else to pay.
+void StageSolver::form_matrix(const Eigen::MatrixXd& channels_to_stages) {
+  const Eigen::Index all_z = stages * p_;
+  const double* const w = channels_to_stages.data();
+  double* to = matrix_.data();
+  if (q_ <= p_) {
+    find_rows();
+    for (const Row& column : rows_) {
+      for (const Row& row : rows_) *to++ = -apply_row(row, w + column.output * all_z);
     }
   } else {
-    const double* factor = slope;
-    double* to = matrix;
+    const double* factor = slope_.data();
     for (Eigen::Index stage = 0; stage < stages; ++stage) {
       const double* const from = w + stage * q_ * all_z;
       for (Eigen::Index column = 0; column < p_; ++column, factor += q_) {
@@ -112,7 +129,7 @@ void StageSolver::form_matrix(const Eigen::MatrixXd& channels_to_stages) {
       }
     }
   }
-  for (Eigen::Index i = 0; i < size_; ++i) matrix[i * size_ + i] += 1.0;
+  for (Eigen::Index i = 0; i < size_; ++i) matrix_.data()[i * size_ + i] += 1.0;
 }
 
 // LU with partial pivoting, in place; the diagonal is left inverted.
@@ -160,6 +177,25 @@ void StageSolver::back_substitute(Eigen::VectorXd& values) const {
   }
 }
 
+// n <- (I - F W)^-1 n: rows without slopes keep their values, which the others see through W.
+void StageSolver::solve_for_outputs(const Eigen::MatrixXd& channels_to_stages, Eigen::VectorXd& n) {
+  for (Eigen::Index k = 0; k < size_; ++k) {
+    double& place = n[rows_[static_cast<std::size_t>(k)].output];
+    reduced_[k] = place;
+    place = 0.0;
+  }
+  if ((n.array() != 0.0).any()) {
+    change_.noalias() = channels_to_stages * n;
+    for (Eigen::Index k = 0; k < size_; ++k) {
+      reduced_[k] += apply_row(rows_[static_cast<std::size_t>(k)], change_.data());
+    }
+  }
+  back_substitute(reduced_);
+  for (Eigen::Index k = 0; k < size_; ++k) {
+    n[rows_[static_cast<std::size_t>(k)].output] = reduced_[k];
+  }
+}
+
 // to = (block diagonal of the slopes) z
 void StageSolver::apply_slopes(const Eigen::VectorXd& z, Eigen::VectorXd& to) const {
   const double* slope = slope_.data();
@@ -188,7 +224,7 @@ StageSolver::Outcome StageSolver::solve(const CollocationStep& step, const Eigen
     form_matrix(step.channels_to_stages);
     if (!factorise()) break;
     if (q_ <= p_) {
-      back_substitute(spread_);
+      solve_for_outputs(step.channels_to_stages, spread_);
       n += spread_;
       change_.noalias() = step.channels_to_stages * spread_;
     } else {
@@ -263,8 +299,8 @@ const Eigen::VectorXd& StageSolver::error(const CollocationStep& step, const Sta
     at_stages = change_;
   } else {
     apply_slopes(change_, spread_);
-    back_substitute(spread_);
     at_stages = change_;
+    solve_for_outputs(step.channels_to_stages, spread_);
     at_stages.noalias() += step.channels_to_stages * spread_;
   }
   later.noalias() = step.error_to_later * defects_;

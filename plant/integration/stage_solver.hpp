@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <memory>
 #include <vector>
 
@@ -52,18 +53,35 @@ class StageSolver {
   void forget() { rate_ = 1.0; }
 
  private:
+  struct Entry {
+    Eigen::Index input;  // of the stacked z
+    double slope;
+  };
+  // Entries of one of the stacked n.
+  struct Row {
+    Eigen::Index output;
+    std::size_t begin, end;
+  };
+
   bool evaluate_stages();
+  void find_rows();
+  double apply_row(const Row& row, const double* z) const;
   void form_matrix(const Eigen::MatrixXd& channels_to_stages);
   bool factorise();
   void back_substitute(Eigen::VectorXd& values) const;
+  void solve_for_outputs(const Eigen::MatrixXd& channels_to_stages, Eigen::VectorXd& n);
   void find_defects(const StageValues& start, const Eigen::VectorXd& n);
   void apply_slopes(const Eigen::VectorXd& z, Eigen::VectorXd& to) const;
 
   std::shared_ptr<const NonlinearChannels> channels_;
-  Eigen::Index p_, q_, size_;
+  Eigen::Index p_, q_;
+  Eigen::Index size_;  // of the matrix in use: 3 p, or the rows with slopes
   Eigen::VectorXd z_, change_, f_, defects_, error_, spread_;
   Eigen::MatrixXd slope_;  // q x 3 p: dn/dz of each stage
+  std::vector<Row> rows_;
+  std::vector<Entry> entries_;
   Eigen::MatrixXd matrix_;
+  Eigen::VectorXd reduced_;  // the unknowns of those rows
   std::vector<Eigen::Index> pivots_;
   double rate_ = 1.0;  // how much an iteration leaves of the error, as last seen
   int iterations_ = 0;

@@ -1,3 +1,4 @@
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <utility>
@@ -14,20 +15,47 @@ namespace {
 constexpr double pi = std::numbers::pi;
 constexpr int nodes = 48;
 
-// Density of the distance r = 2 R t of two random points of the disc, per t.
-double distance_density(double t) {
-  return 16.0 * t / pi * (std::acos(t) - t * std::sqrt((1.0 - t) * (1.0 + t)));
-}
+// One node of the quadrature over the distance r = 2 R t of two random points of the disc.
+struct DistanceNode {
+  double t = 0.0;
+  double weight = 0.0;    // of the node, times the density of the distance
+  double gradient = 0.0;  // mean of y y'/R^2 at that distance
+};
 
-// Mean square distance from the middle of the lens common to two unit discs whose centres are
-// 2 t apart, over that lens: two circular segments, integrated in closed form.
-double lens_mean_square(double t) {
+// t = end sin^2 softens the ends.
+DistanceNode distance_node(double node, double weight, double end) {
+  const double phase = pi / 4.0 * (node + 1.0);
+  const double sine = std::sin(phase);
+  const double t = end * sine * sine;
+  const double step = end * 2.0 * sine * std::cos(phase) * pi / 4.0 * weight;
   const double angle = std::acos(t);
   const double height = std::sqrt((1.0 - t) * (1.0 + t));
   const double area = angle - t * height;
+  // Mean square distance from the middle of the lens common to two unit discs whose centres are
+  // 2 t apart, over that lens, less t^2: two circular segments, integrated in closed form.
   const double tangent_terms = t * t * t * height + t * height * height * height / 3.0;
   const double about_disc = 0.5 * (angle - tangent_terms);
-  return (about_disc - 4.0 / 3.0 * t * height * height * height) / area + t * t;
+  const double lens = (about_disc - 4.0 / 3.0 * t * height * height * height) / area;
+  return {t, 16.0 * t / pi * area * step, 0.5 * lens};
+}
+
+std::array<DistanceNode, nodes> distance_nodes(double end) {
+  static const numerics::GaussRule rule = numerics::gauss_rule(nodes);
+  std::array<DistanceNode, nodes> result;
+  for (std::size_t i = 0; i < result.size(); ++i) {
+    result[i] = distance_node(rule.node[i], rule.weight[i], end);
+  }
+  return result;
+}
+
+CoherenceAverages average(const std::array<DistanceNode, nodes>& over, double exponent) {
+  CoherenceAverages averages;
+  for (const auto& [t, weight, gradient] : over) {
+    const double density = weight * std::exp(-exponent * t);
+    averages.uniform += density;
+    averages.gradient += density * gradient;
+  }
+  return averages;
 }
 
 double disc_area(const WindSite& site) {
@@ -110,21 +138,11 @@ CoherenceAverages coherence_averages(double decay_per_radius) {
         fmt::format("coherence_averages: expected a decay_per_radius of at least 0, found {}",
                     decay_per_radius));
   }
-  static const numerics::GaussRule rule = numerics::gauss_rule(nodes);
+  static const auto whole = distance_nodes(1.0);
   const double exponent = 2.0 * decay_per_radius;
-  // Beyond 45 decay lengths the integrand is below rounding. t = end sin^2 softens the ends.
-  const double end = exponent > 45.0 ? 45.0 / exponent : 1.0;
-  CoherenceAverages averages;
-  for (std::size_t i = 0; i < rule.node.size(); ++i) {
-    const double phase = pi / 4.0 * (rule.node[i] + 1.0);
-    const double sine = std::sin(phase);
-    const double t = end * sine * sine;
-    const double step = end * 2.0 * sine * std::cos(phase) * pi / 4.0 * rule.weight[i];
-    const double density = distance_density(t) * std::exp(-exponent * t) * step;
-    averages.uniform += density;
-    averages.gradient += density * 0.5 * (lens_mean_square(t) - t * t);
-  }
-  return averages;
+  // Beyond 45 decay lengths the integrand is below rounding.
+  return exponent > 45.0 ? average(distance_nodes(45.0 / exponent), exponent)
+                         : average(whole, exponent);
 }
 
 double wind_admittance(const WindSite& site, WindModel model, double mean_speed, double frequency) {

@@ -15,6 +15,8 @@ struct WindCondition {
   plant::WindSite site;
   plant::WindModel model = plant::WindModel::coherence;
   double mean_speed = 0.0;  // m/s
+
+  bool operator==(const WindCondition&) const = default;
 };
 
 /// A wind and the fraction of the time it blows, or its probability.

@@ -195,7 +195,8 @@ double over_ensemble(const TrackingProblem& problem, const PlantEnsemble& ensemb
 MatchTimeDomain run_in_time(const Mission& mission, const PlantEnsemble& ensemble,
                             const MatchingStudy& study, const MatchOptions& how,
                             const MatchPoint& point, const MatchValue& value,
-                            const control::ControlLaw& law) {
+                            const control::ControlLaw& law,
+                            const std::shared_ptr<SharedWinds>& winds) {
   const plant::Antenna& antenna = mission.antenna;
   const auto problem = tracking_problem(mission, with_disks(mission, point.disks));
   const auto nonlinear =
@@ -209,6 +210,7 @@ MatchTimeDomain run_in_time(const Mission& mission, const PlantEnsemble& ensembl
   options.hunting_duration = 120.0;
   options.tracking_rate = antenna.drive.tracking_rate;
   options.limits = {antenna.drive.slew_rate, 0.2 * degree};
+  options.winds = winds;
   auto result = verify_in_time(problem, loop, options);
   MatchTimeDomain run{std::move(result.hunting), std::move(result.reversal)};
   if (!value.found || !holds_still(run.hunting, study.tightest_budget)) return run;
@@ -218,7 +220,8 @@ MatchTimeDomain run_in_time(const Mission& mission, const PlantEnsemble& ensembl
                                {.settling = records.settling,
                                 .duration = records.wind_duration,
                                 .tracking_rate = options.tracking_rate,
-                                .seed = how.seed});
+                                .seed = how.seed,
+                                .shared = winds});
   const double factor =
       problem.plant.drive.motor_inertia / linear_plant(antenna).drive.motor_inertia;
   run.member_rms = study.members == 0 ? value.beam_rms
@@ -325,6 +328,7 @@ MatchingStudy study_matching(const Mission& mission, const PlantEnsemble& ensemb
   tune_curves(mission, ensemble, options, structures, study);
 
   const WindTable wind(tracking_problem(mission));
+  const auto winds = std::make_shared<SharedWinds>();
   const std::size_t all = study.points.size() * structures.size();
   numerics::StepCounter counter(all, [&](std::size_t done, std::size_t of) {
     if (options.progress) options.progress("checking", done, of);
@@ -338,7 +342,7 @@ MatchingStudy study_matching(const Mission& mission, const PlantEnsemble& ensemb
     if (antenna.nonlinear && !stopped() && law.status != TuningStatus::unstable &&
         is_chosen(point, options.time_runs)) {
       series.values[p].time_domain =
-          run_in_time(mission, ensemble, study, options, point, series.values[p], law.law);
+          run_in_time(mission, ensemble, study, options, point, series.values[p], law.law, winds);
     }
     counter.step();
   });

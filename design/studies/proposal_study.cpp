@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include <fmt/format.h>
 
@@ -50,19 +49,16 @@ std::vector<std::size_t> front_of(const std::vector<ProposedDesign>& candidates)
 
 }  // namespace
 
-double CandidateLaw::nonlinear_factor() const {
-  if (!time_domain) return 1.0;
+NonlinearEffect CandidateLaw::effect() const {
+  if (!time_domain) return {};
   const auto& wind = time_domain->wind;
-  if (expected && expected->status == RunStatus::complete) {
-    return expected->rms.value / wind.predicted_rms;
-  }
-  if (expected) return std::numeric_limits<double>::infinity();
-  const bool complete = wind.status == RunStatus::complete;
-  return complete ? wind.beam_rms / wind.continuous_rms : std::numeric_limits<double>::infinity();
+  return NonlinearEffect::of_simulation(expected ? expected->rms.value : wind.beam_rms,
+                                        wind.predicted_rms,
+                                        hunting_amplitude(time_domain->hunting));
 }
 
-NonlinearEffect CandidateLaw::effect() const {
-  return {nonlinear_factor(), time_domain ? hunting_amplitude(time_domain->hunting) : 0.0};
+double CandidateLaw::nonlinear_factor() const {
+  return effect().factor;
 }
 
 std::optional<double> ProposedDesign::reversal_error() const {

@@ -26,6 +26,7 @@ TimeDomainStudy plan(const Mission& mission, const TrackingProblem& problem,
   options.limits = {mission.antenna.drive.slew_rate, 0.2 * degree};
   options.settled_error = tightest_budget(mission);
   options.threads = threads;
+  options.winds = std::make_shared<SharedWinds>();
   return section;
 }
 
@@ -61,7 +62,8 @@ SimulatedRms expected_rms(const TrackingProblem& problem, const SimulatedLoop& l
                         .duration = options.wind_duration,
                         .tracking_rate = options.tracking_rate,
                         .seed = options.seeds.front(),
-                        .threads = options.threads});
+                        .threads = options.threads,
+                        .shared = options.winds});
 }
 
 // Those required in this wind.
@@ -71,12 +73,10 @@ void count_budgets(const Mission& mission, double wind_speed, Assessment& assess
   }
 }
 
-// `known`: the rms of those runs where they were made already.
 TimeDomainStudy verify(const Mission& mission, const TrackingProblem& problem,
-                       const control::ControlLaw& law, TimeDomainStudy section,
-                       std::optional<SimulatedRms> known) {
+                       const control::ControlLaw& law, TimeDomainStudy section) {
   const SimulatedLoop loop = simulate(mission, problem, law, section);
-  section.rms = known ? std::move(known) : expected_rms(problem, loop, section.options);
+  section.rms = expected_rms(problem, loop, section.options);
   return section;
 }
 
@@ -129,7 +129,7 @@ std::optional<TimeDomainStudy> verify_in_time_domain(
   if (!mission.antenna.nonlinear) return std::nullopt;
   TimeDomainStudy section = plan(mission, problem, description, seed, threads);
   section.options.second_integrator = second == SecondIntegrator::cvodes;
-  section = verify(mission, problem, law, std::move(section), std::nullopt);
+  section = verify(mission, problem, law, std::move(section));
   add_present(mission, problem, section);
   return section;
 }
@@ -143,10 +143,12 @@ std::optional<TimeDomainStudy> choose_in_time_domain(const Mission& mission,
   if (!mission.antenna.nonlinear) return std::nullopt;
   std::vector<TimeDomainStudy> sections;
   std::vector<Assessment> assessments;
+  const auto winds = std::make_shared<SharedWinds>();
   for (const auto& one : laws) {
     TimeDomainStudy section = plan(mission, problem, one.name, seed, threads);
     section.options.explain = false;
-    sections.push_back(verify(mission, problem, one.law, std::move(section), std::nullopt));
+    section.options.winds = winds;
+    sections.push_back(verify(mission, problem, one.law, std::move(section)));
     const TimeDomainStudy& seen = sections.back();
     assessments.push_back(assessment_of(one, seen.result, seen.rms, tightest_budget(mission)));
     count_budgets(mission, problem.wind.mean_speed, assessments.back());
@@ -156,9 +158,9 @@ std::optional<TimeDomainStudy> choose_in_time_domain(const Mission& mission,
       recommend(assessments, {.accepted = Fitness::unstable}).winner.value_or(0);
   TimeDomainStudy chosen = sections[best];
   if (detail == ChoiceDetail::verified) {
-    TimeDomainStudy whole = plan(mission, problem, laws[best].name, seed, threads);
-    whole.options.second_integrator = true;
-    chosen = verify(mission, problem, laws[best].law, std::move(whole), chosen.rms);
+    chosen.options.explain = chosen.options.second_integrator = true;
+    explain_in_wind(problem, loop_of(mission, problem, laws[best].law, chosen.encoder_resolution),
+                    chosen.options, chosen.result);
     add_present(mission, problem, chosen);
   }
   if (sections.size() == 1) return chosen;
@@ -192,7 +194,7 @@ std::optional<TimeDomainStudy::Candidate> compare_in_time_domain(
   TimeDomainStudy section =
       plan(mission, problem, controller.name, options.seeds.front(), options.threads);
   section.options = options;
-  section = verify(mission, problem, controller.law, std::move(section), std::nullopt);
+  section = verify(mission, problem, controller.law, std::move(section));
   return TimeDomainStudy::Candidate{controller.name, std::move(section.result),
                                     std::move(section.rms)};
 }
@@ -204,7 +206,7 @@ NonlinearEffect simulated_effect(const Mission& mission, const control::ControlL
   TimeDomainStudy section = plan(mission, problem, "", seed, threads);
   section.options.explain = false;
   section.options.slew_distance = 0.0;
-  return verify(mission, problem, law, std::move(section), std::nullopt).own().effect();
+  return verify(mission, problem, law, std::move(section)).own().effect();
 }
 
 }  // namespace boresight::design

@@ -1,16 +1,15 @@
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
-#include <numbers>
 #include <span>
 #include <utility>
 
 #include <fmt/format.h>
 
 #include <boresight/design/problem/drive_reach.hpp>
+#include <boresight/design/verification/limit_cycle_search.hpp>
 #include <boresight/design/verification/nonlinear_verification.hpp>
-#include <boresight/design/verification/wind_course.hpp>
+#include <boresight/design/verification/steady_run.hpp>
 #include <boresight/numerics/angles.hpp>
 #include <boresight/numerics/error.hpp>
 #include <boresight/numerics/parallel_loop.hpp>
@@ -23,10 +22,6 @@ using Eigen::VectorXd;
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 constexpr int continuous = 16;  // times as many samples stand for a continuous loop
-
-Index whole_samples(double duration, double sample_time) {
-  return static_cast<Index>(std::llround(duration / sample_time));
-}
 
 // What is kept of a run in wind.
 struct WindRun {
@@ -98,21 +93,29 @@ Pooled pool(const WindRun* runs, std::size_t count) {
   return pooled;
 }
 
+LoopCourse first_steps(const LoopCourse& course, Index steps) {
+  const Index kept = std::min(steps, course.reference.size());
+  return {course.interval, course.reference.head(kept), course.reference_rate.head(kept),
+          course.reference_acceleration.head(kept), course.wind_torque.head(kept)};
+}
+
 // Runs in wind: every kind with every seed, the seeds of a kind in a row.
 class WindStudy {
  public:
   WindStudy(const TrackingProblem& problem, const SimulatedLoop& loop,
             const NonlinearVerificationOptions& options)
       : problem_(problem), loop_(loop), options_(options) {
-    const WindCourses courses(problem, loop, options.tracking_rate * loop.gear_ratio,
-                              options.settling + options.wind_duration);
-    for (const std::uint64_t seed : options.seeds) courses_.push_back(courses.course(seed));
+    const auto winds = options.winds ? options.winds : std::make_shared<SharedWinds>();
+    const auto courses = winds->courses({problem, loop, options.tracking_rate * loop.gear_ratio,
+                                         options.settling + options.wind_duration});
+    for (const std::uint64_t seed : options.seeds) courses_.push_back(courses->course(seed));
     if (options.explain) {
       for (const Influence influence : influences) {
         if (has(loop, influence)) switched_.push_back(influence);
       }
     }
-    runs_.resize((switched_.size() + first_switched) * options.seeds.size());
+    const std::size_t kinds = options.explain ? first_switched + switched_.size() : 1;
+    runs_.resize(kinds * options.seeds.size());
   }
 
   std::size_t jobs() const { return runs_.size(); }
@@ -138,7 +141,10 @@ class WindStudy {
   const ErrorTrace& first_trace() const { return runs_.front().trace; }
 
   IntegratorAgreement compare_integrators() const {
-    return integrator_agreement(loop_, courses_.front(),
+    const LoopCourse& course = courses_.front();
+    const Index steps =
+        1 + whole_samples(options_.settling + options_.second_integrator_duration, course.interval);
+    return integrator_agreement(loop_, first_steps(course, steps),
                                 {.settling = options_.settling, .seed = options_.seeds.front()});
   }
 
@@ -157,6 +163,11 @@ class WindStudy {
     control::LoopEvaluator evaluator = make_evaluator(problem_);
     result.predicted_rms =
         std::sqrt(evaluator.evaluate(loop_.law, false).beam_variance()) / loop_.gear_ratio;
+    if (!options_.explain) {
+      result.linear_rms = result.continuous_rms = result.chance = result.sampling = nan;
+      result.joint = nan;
+      return result;
+    }
     result.linear_rms = kind(linear_kind).beam_rms;
     result.continuous_rms = kind(continuous_kind).beam_rms;
     result.chance = result.continuous_rms - result.predicted_rms;
@@ -183,106 +194,6 @@ class WindStudy {
   std::vector<WindRun> runs_;
 };
 
-// The limits of the command preprocessor at the motor.
-control::CommandLimits at_motor(const NonlinearVerificationOptions& options, double gear_ratio) {
-  return {options.limits.rate * gear_ratio, options.limits.acceleration * gear_ratio};
-}
-
-LoopRunOptions without_noise() {
-  LoopRunOptions options;
-  options.noise = false;
-  return options;
-}
-
-// Half of peak to peak about a straight line through the values.
-struct Swing {
-  double amplitude = 0.0;
-  VectorXd values;  // the line taken off
-};
-
-Swing swing_of(const VectorXd& values) {
-  const Index count = values.size();
-  const VectorXd place = VectorXd::LinSpaced(count, -1.0, 1.0);
-  const double slope = place.dot(values) / place.squaredNorm();
-  Swing swing{0.0, values - slope * place};
-  swing.values.array() -= swing.values.mean();
-  swing.amplitude = 0.5 * (swing.values.maxCoeff() - swing.values.minCoeff());
-  return swing;
-}
-
-// Whole periods between upward passages, each armed by a fall below a quarter of the amplitude.
-std::optional<double> frequency_of(const Swing& swing, double interval) {
-  const double threshold = 0.25 * swing.amplitude;
-  bool armed = false;
-  Index first = -1, last = -1, passages = 0;
-  for (Index k = 0; k < swing.values.size(); ++k) {
-    if (swing.values[k] < -threshold) armed = true;
-    if (!armed || swing.values[k] <= threshold) continue;
-    armed = false;
-    ++passages;
-    last = k;
-    if (first < 0) first = k;
-  }
-  if (passages < 3) return std::nullopt;
-  return static_cast<double>(passages - 1) / (interval * static_cast<double>(last - first));
-}
-
-// Steps at the start (rad at the sky): a loop may hunt only once it was disturbed.
-constexpr std::array<double, hunting_starts> nudges{2.0 * millidegree, -1.0 * millidegree,
-                                                    8.0 * millidegree};
-
-HuntingResult watch(const SimulatedLoop& loop, const NonlinearVerificationOptions& options,
-                    double rate, double nudge, double duration) {
-  const double gear = loop.gear_ratio;
-  HuntingResult result;
-  result.rate = rate;
-  const Index samples = whole_samples(options.settling + duration, loop.sample_time);
-  const auto target = [&](double t) {
-    return control::CommandSample{gear * (rate * t + (t > 0.0 ? nudge : 0.0)), gear * rate, 0.0};
-  };
-  const auto course = shaped_course(at_motor(options, gear), loop.sample_time, samples, 1, target);
-  const LoopRun run = run_loop(loop, course, without_noise());
-  result.status = run.status;
-  result.message = run.message;
-  result.encoder_amplitude = result.beam_amplitude = result.persistence = nan;
-  if (run.status != RunStatus::complete) return result;
-  const Index half = whole_samples(0.5 * duration, loop.sample_time);
-  const Index quarter = half / 2;
-  const Swing encoder = swing_of(run.encoder_error.tail(half));
-  result.encoder_amplitude = encoder.amplitude;
-  const Swing beam = swing_of(run.beam_error.tail(half));
-  result.beam_amplitude = beam.amplitude;
-  const Index kept = std::min(half, whole_samples(longest_hunting_trace, loop.sample_time));
-  result.trace = {loop.sample_time, beam.values.tail(kept), encoder.values.tail(kept)};
-  const double before =
-      swing_of(run.encoder_error.segment(run.encoder_error.size() - half - quarter, quarter))
-          .amplitude;
-  result.persistence = before > 0.0 ? encoder.amplitude / before : 1.0;
-  result.frequency = frequency_of(encoder, loop.sample_time);
-  const double least = std::max(0.5 * loop.encoder_resolution / gear, 1e-3 * millidegree);
-  result.limit_cycle = encoder.amplitude > least && result.persistence > 0.8;
-  return result;
-}
-
-HuntingResult hunt(const SimulatedLoop& loop, const NonlinearVerificationOptions& options,
-                   double rate, double nudge) {
-  HuntingResult seen = watch(loop, options, rate, nudge, options.hunting_duration);
-  if (!seen.limit_cycle) return seen;
-  return watch(loop, options, rate, nudge, hunting_confirmation * options.hunting_duration);
-}
-
-// Of the runs at one rate; the first of those alike.
-HuntingResult worst_of(std::span<const HuntingResult> runs) {
-  const auto rank = [](const HuntingResult& run) {
-    if (run.status != RunStatus::complete) return std::pair(2, 0.0);
-    return run.limit_cycle ? std::pair(1, run.beam_amplitude) : std::pair(0, run.encoder_amplitude);
-  };
-  HuntingResult worst = *std::ranges::max_element(runs, {}, rank);
-  worst.starts = static_cast<int>(runs.size());
-  worst.starts_hunting = static_cast<int>(std::ranges::count_if(runs, &HuntingResult::limit_cycle));
-  return worst;
-}
-
 ReversalResult reverse(const SimulatedLoop& loop, const NonlinearVerificationOptions& options) {
   const double gear = loop.gear_ratio;
   const double leg = options.reversal_leg;
@@ -298,8 +209,8 @@ ReversalResult reverse(const SimulatedLoop& loop, const NonlinearVerificationOpt
   };
   const Index settled = whole_samples(options.settling, loop.sample_time);
   const Index per_leg = whole_samples(leg, loop.sample_time);
-  const auto course =
-      shaped_course(at_motor(options, gear), loop.sample_time, settled + legs * per_leg, 1, target);
+  const auto course = shaped_course(limits_at_motor(options, gear), loop.sample_time,
+                                    settled + legs * per_leg, 1, target);
   const LoopRun run = run_loop(loop, course, without_noise());
   LoopRunOptions frictionless = without_noise();
   frictionless.without = {Influence::friction};
@@ -330,7 +241,7 @@ SlewResult slew(const SimulatedLoop& loop, const NonlinearVerificationOptions& o
   const double gear = loop.gear_ratio;
   SlewResult result;
   result.distance = options.slew_distance;
-  const auto wanted = at_motor(options, gear);
+  const auto wanted = limits_at_motor(options, gear);
   const auto limits = within_reach(loop.antenna, plant::reflected_inertia(loop.linear), wanted);
   result.limits = {limits.rate / gear, limits.acceleration / gear};
   result.within_reach = limits.rate == wanted.rate && limits.acceleration == wanted.acceleration;
@@ -402,27 +313,6 @@ void check(const NonlinearVerificationOptions& options) {
 
 }  // namespace
 
-double hunting_amplitude(const std::vector<HuntingResult>& hunting) {
-  double largest = 0.0;
-  for (const auto& run : hunting) {
-    if (run.limit_cycle) largest = std::max(largest, run.beam_amplitude);
-  }
-  return largest;
-}
-
-bool hunting_seen(const std::vector<HuntingResult>& hunting) {
-  return std::ranges::all_of(
-      hunting, [](const HuntingResult& run) { return run.status == RunStatus::complete; });
-}
-
-double hunting_limit(double error) {
-  return std::numbers::sqrt2 * error;
-}
-
-bool holds_still(const std::vector<HuntingResult>& hunting, double error) {
-  return hunting_seen(hunting) && hunting_amplitude(hunting) <= hunting_limit(error);
-}
-
 ErrorTrace error_in_wind(const TrackingProblem& problem, const SimulatedLoop& loop,
                          const NonlinearVerificationOptions& options) {
   NonlinearVerificationOptions one = options;
@@ -432,6 +322,22 @@ ErrorTrace error_in_wind(const TrackingProblem& problem, const SimulatedLoop& lo
   WindStudy wind(problem, loop, one);
   wind.run(0);
   return wind.first_trace();
+}
+
+void explain_in_wind(const TrackingProblem& problem, const SimulatedLoop& loop,
+                     const NonlinearVerificationOptions& options, NonlinearVerification& known) {
+  check(options);
+  WindStudy wind(problem, loop, options);
+  if (options.second_integrator) known.integrators.emplace();
+  // The longest first.
+  numerics::for_each_index(1 + wind.jobs(), options.threads, [&](std::size_t job) {
+    if (job > 0) {
+      wind.run(job - 1);
+    } else if (known.integrators) {
+      *known.integrators = wind.compare_integrators();
+    }
+  });
+  known.wind = wind.result();
 }
 
 NonlinearVerification verify_in_time(const TrackingProblem& problem, const SimulatedLoop& loop,
@@ -444,7 +350,7 @@ NonlinearVerification verify_in_time(const TrackingProblem& problem, const Simul
     rates.push_back(options.tracking_rate);
     result.reversal.emplace();
   }
-  std::vector<HuntingResult> hunting(rates.size() * nudges.size());
+  std::vector<HuntingResult> hunting(rates.size() * hunting_starts);
   if (options.slew_distance != 0.0) result.slew.emplace();
   if (options.second_integrator) result.integrators.emplace();
   // The longest first; the runs in wind are many and even.
@@ -455,7 +361,8 @@ NonlinearVerification verify_in_time(const TrackingProblem& problem, const Simul
       if (result.integrators) *result.integrators = wind.compare_integrators();
     } else if (job < reversal) {
       const std::size_t run = job - first_hunting;
-      hunting[run] = hunt(loop, options, rates[run / nudges.size()], nudges[run % nudges.size()]);
+      hunting[run] =
+          limit_cycle_run(loop, options, rates[run / hunting_starts], run % hunting_starts);
     } else if (job == reversal) {
       if (result.reversal) *result.reversal = reverse(loop, options);
     } else if (job == slewing) {
@@ -464,10 +371,11 @@ NonlinearVerification verify_in_time(const TrackingProblem& problem, const Simul
       wind.run(job - first_wind);
     }
   });
-  for (std::size_t i = 0; i < rates.size(); ++i) {
-    result.hunting.push_back(
-        worst_of(std::span(hunting).subspan(i * nudges.size(), nudges.size())));
-  }
+  result.hunting.resize(rates.size());
+  numerics::for_each_index(rates.size(), options.threads, [&](std::size_t i) {
+    result.hunting[i] = confirmed_limit_cycle(
+        loop, options, rates[i], std::span(hunting).subspan(i * hunting_starts, hunting_starts));
+  });
   result.wind = wind.result();
   return result;
 }

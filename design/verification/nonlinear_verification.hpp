@@ -1,7 +1,9 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -10,6 +12,7 @@
 
 #include <boresight/design/problem/tracking_problem.hpp>
 #include <boresight/design/verification/integrator_agreement.hpp>
+#include <boresight/design/verification/shared_winds.hpp>
 #include <boresight/design/verification/simulated_loop.hpp>
 
 namespace boresight::design {
@@ -20,17 +23,21 @@ struct NonlinearVerificationOptions {
   double wind_duration = 300.0;         // s, after settling
   double settling = 20.0;               // s excluded at the start of every run
   double tracking_rate = 0.0;           // rad/s, in wind and for limit cycles: sidereal
-  bool explain = true;                  // repeat the runs in wind with each influence off
-  bool second_integrator = false;       // repeat the first run in wind by CVODES
-  double hunting_duration = 200.0;      // s, after settling; hunting_confirmation
-  double reversal_leg = 20.0;           // s in each direction of the slow triangle
-  double slew_distance = 0.0;           // rad; 0: no slew
+  bool explain = true;  // repeat the runs in wind by the linear plant and with each influence off
+  bool second_integrator = false;  // repeat the first run in wind by CVODES
+  /// s of that run after settling, at most: a stable loop forgets integration errors.
+  double second_integrator_duration = 100.0;
+  double hunting_duration = 200.0;  // s, after settling; hunting_confirmation
+  double reversal_leg = 20.0;       // s in each direction of the slow triangle
+  double slew_distance = 0.0;       // rad; 0: no slew
   /// Of the command preprocessor.
   control::CommandLimits limits;
   /// Encoder error (rad) within which a slew counts as settled.
   double settled_error = 0.0;
   double settling_watched = 40.0;  // s after the end of the command
   unsigned threads = 1;
+  /// The records of wind, for several controllers in the same; prepared anew if null.
+  std::shared_ptr<SharedWinds> winds = nullptr;
 };
 
 /// Errors of a run at equal intervals from 0 on, at the sky. Empty where the run did not complete.
@@ -49,7 +56,8 @@ struct InfluenceResult {
 };
 
 /// The loop in wind, compared with the linear prediction. Rms about the mean over all seeds, rad at
-/// the sky; NaN where a run did not complete. The difference from the prediction is the sum
+/// the sky; NaN where a run did not complete or was not requested (explain). The difference from
+/// the prediction is the sum
 ///   simulated - predicted = realisation error (`chance`) + sampling
 ///                           + sum of the influences' differences + interaction (`joint`)
 struct WindResult {
@@ -74,9 +82,10 @@ struct WindResult {
 
 /// Number of limit-cycle runs per rate, each with another initial step. With stiction, the stopping
 /// position decides whether a loop comes to rest or limit-cycles.
-inline constexpr int hunting_starts = 3;
+inline constexpr std::size_t hunting_starts = 3;
 /// Confirmation runs are this many times longer: with stiction, integral action causes slowly
-/// decaying oscillations lasting minutes.
+/// decaying oscillations lasting minutes. At each rate the limit cycle of the largest amplitude is
+/// confirmed; if it decays, the next one, and so on.
 inline constexpr double hunting_confirmation = 3.0;
 
 /// s of such a run that the trace keeps.
@@ -89,8 +98,9 @@ struct HuntingResult {
   double rate = 0.0;  // rad/s at the sky
   RunStatus status = RunStatus::complete;
   std::string message;
-  int starts = 0;          // number of runs; 0: not stated
-  int starts_hunting = 0;  // of these, with a limit cycle
+  int starts = 0;  // number of runs; 0: not stated
+  /// Of these, with a limit cycle, which is confirmed (hunting_confirmation) for the result's only.
+  int starts_hunting = 0;
   /// True if some runs came to rest while others did not.
   bool some_only() const { return limit_cycle && starts_hunting < starts; }
   /// Half of the peak-to-peak value (rad) of the true angles in the second half of the run, with a
@@ -165,6 +175,11 @@ bool holds_still(const std::vector<HuntingResult>& hunting, double error);
 /// controller with the verified one. @throws as verify_in_time.
 ErrorTrace error_in_wind(const TrackingProblem& problem, const SimulatedLoop& loop,
                          const NonlinearVerificationOptions& options);
+
+/// Adds to a verification without separate influences what `options` request of its runs in wind:
+/// the influences and the second integrator. The other runs are kept. @throws as verify_in_time.
+void explain_in_wind(const TrackingProblem& problem, const SimulatedLoop& loop,
+                     const NonlinearVerificationOptions& options, NonlinearVerification& known);
 
 /// Runs the loop of a tuned controller on the nonlinear antenna: wind, limit cycles, velocity
 /// reversals, slew. Runs that fail or lose the target are reported in their result. The result does

@@ -11,10 +11,8 @@
 #include <boresight/design/problem/nonlinear_effect.hpp>
 #include <boresight/design/verification/integrator_agreement.hpp>
 #include <boresight/design/verification/simulated_rms.hpp>
-#include <boresight/design/verification/wind_course.hpp>
 #include <boresight/numerics/angles.hpp>
 #include <boresight/numerics/error.hpp>
-#include <boresight/numerics/fourier_transform.hpp>
 #include <boresight/numerics/parallel_loop.hpp>
 #include <boresight/numerics/statistics/double_sampling.hpp>
 
@@ -41,13 +39,6 @@ ArrayXd line_gains(const TrackingProblem& problem, const SimulatedLoop& loop, In
   return evaluator.wind_transmission(loop.law);
 }
 
-// By Parseval, without the mean.
-double linear_mean_square(const VectorXd& torque, const ArrayXd& gains) {
-  const auto count = static_cast<double>(torque.size());
-  const Eigen::VectorXcd spectrum = numerics::fourier_transform(torque);
-  return 2.0 * (spectrum.segment(1, gains.size()).array().abs2() * gains).sum() / (count * count);
-}
-
 double mean_square(const VectorXd& errors, Index counted) {
   const auto rest = errors.tail(counted).array();
   return (rest - rest.mean()).square().mean();
@@ -67,24 +58,29 @@ SimulatedRms simulated_rms(const TrackingProblem& problem, const SimulatedLoop& 
         fmt::format("simulated_rms: expected at least 4 records and as many winds, found {} and {}",
                     options.records, options.winds));
   }
-  const WindCourses courses(problem, loop, options.tracking_rate * loop.gear_ratio,
-                            options.settling + options.duration);
+  const auto shared = options.shared ? options.shared : std::make_shared<SharedWinds>();
+  const SharedWinds::Records records{problem, loop, options.tracking_rate * loop.gear_ratio,
+                                     options.settling + options.duration};
+  const auto courses = shared->courses(records);
   const auto counted = static_cast<Index>(std::llround(options.duration / loop.sample_time));
+  const auto squares =
+      shared->line_squares(records, counted, options.seed, options.winds, options.threads);
+  // By Parseval, without the mean.
   const ArrayXd gains = line_gains(problem, loop, counted);
+  const auto count = static_cast<double>(counted);
   VectorXd linear(options.winds), simulated(options.records);
+  for (Index k = 0; k < linear.size(); ++k) {
+    linear[k] = 2.0 * (squares->col(k) * gains).sum() / (count * count);
+  }
   std::vector<RunStatus> ends(static_cast<std::size_t>(options.records), RunStatus::complete);
-  numerics::for_each_index(
-      static_cast<std::size_t>(options.winds), options.threads, [&](std::size_t i) {
-        const auto k = static_cast<Index>(i);
-        LoopRunOptions how;
-        how.seed = options.seed + i;
-        linear[k] = linear_mean_square(courses.gusts(how.seed).tail(counted), gains);
-        if (k >= simulated.size()) return;
-        const LoopRun run = run_loop(loop, courses.course(how.seed), how);
-        ends[i] = run.status;
-        simulated[k] =
-            run.status == RunStatus::complete ? mean_square(run.beam_error, counted) : nan;
-      });
+  numerics::for_each_index(ends.size(), options.threads, [&](std::size_t i) {
+    LoopRunOptions how;
+    how.seed = options.seed + i;
+    const LoopRun run = run_loop(loop, courses->course(how.seed), how);
+    ends[i] = run.status;
+    simulated[static_cast<Index>(i)] =
+        run.status == RunStatus::complete ? mean_square(run.beam_error, counted) : nan;
+  });
   SimulatedRms result;
   result.status = *std::ranges::max_element(ends);
   result.records = options.records;

@@ -1,11 +1,13 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 
 #include <Eigen/Core>
 
 #include <boresight/design/problem/tracking_problem.hpp>
+#include <boresight/design/verification/shared_winds.hpp>
 #include <boresight/design/verification/simulated_loop.hpp>
 #include <boresight/numerics/statistics/interval.hpp>
 
@@ -20,6 +22,8 @@ struct SimulatedRmsOptions {
   double tracking_rate = 0.0;  // rad/s at the sky
   std::uint64_t seed = 1;      // of the first record; the others follow
   unsigned threads = 1;
+  /// Where those of other controllers in the same wind are; prepared anew if null.
+  std::shared_ptr<SharedWinds> shared = nullptr;
 };
 
 /// The expected boresight rms (rad at the sky, about each record's mean): root of the expected mean
@@ -38,8 +42,9 @@ struct SimulatedRms {
 
 /// Estimates the rms by numerics::mean_by_double_sampling of the records' mean squares. The
 /// nonlinear runs are corrected for the deviation of their winds from a larger set of winds. For
-/// each of these winds the linear loop's mean square follows from its periodogram (one transform
-/// per wind, no run). The result does not depend on the number of threads.
+/// each of these winds the linear loop's mean square follows from its periodogram, without a run;
+/// loops in the same wind share the periodograms. The result does not depend on the number of
+/// threads.
 /// @throws InvalidInput for fewer than 4 records or fewer winds than those; as run_loop.
 SimulatedRms simulated_rms(const TrackingProblem& problem, const SimulatedLoop& loop,
                            const SimulatedRmsOptions& options);

@@ -179,8 +179,6 @@ void describe(Visitor& v, const design::NonlinearVerification& run) {
   v.text_or_null("message", run.wind.message, no_figures);
   describe_rms(v, run.wind);
   describe_prediction(v, run.wind);
-  v.number("linear_rms_of_the_record", run.wind.continuous_rms, unit::millidegree,
-           "Of the linear plant, continuous, in the same record.", positive);
   describe_hunting(v, run.hunting);
   describe_reversal(v, run.reversal);
 }

@@ -30,6 +30,8 @@ struct WindSite {
   double dish_diameter = 0.0;         // m
   /// The spectrum of the gusts, if not Davenport's with the surface_drag above.
   std::optional<GustSpectrum> gusts = std::nullopt;
+
+  bool operator==(const WindSite&) const = default;
 };
 
 /// @throws InvalidInput, naming `function`, unless all is finite, air_density, surface_drag,

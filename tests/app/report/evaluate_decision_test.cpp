@@ -143,7 +143,7 @@ TEST(EvaluateDecision, ChoosesNothingThatHunts) {
     rest.limit_cycle = true;
     rest.beam_amplitude = 3.03 * millidegree;
     law.time_domain.emplace().hunting = {rest};
-    law.time_domain->wind.beam_rms = law.time_domain->wind.continuous_rms = law.member_rms;
+    law.time_domain->wind.beam_rms = law.time_domain->wind.predicted_rms = law.member_rms;
   };
   make_hunt(2);
   rank(section);

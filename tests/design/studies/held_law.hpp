@@ -21,7 +21,7 @@ inline design::CandidateLaw held_law(const std::string& structure, double factor
   tuning.law.gains = {0.15, 0.4, 2.6, 8.0, 0.15};
   auto& run = law.time_domain.emplace();
   run.wind.beam_rms = factor;
-  run.wind.continuous_rms = 1.0;
+  run.wind.predicted_rms = 1.0;
   return law;
 }
 

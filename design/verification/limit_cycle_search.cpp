@@ -1,0 +1,146 @@
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <utility>
+
+#include <boresight/design/verification/limit_cycle_search.hpp>
+#include <boresight/design/verification/steady_run.hpp>
+#include <boresight/numerics/angles.hpp>
+
+namespace boresight::design {
+namespace {
+
+using Eigen::Index;
+using Eigen::VectorXd;
+
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+
+// Half of peak to peak about a straight line through the values.
+struct Swing {
+  double amplitude = 0.0;
+  VectorXd values;  // the line taken off
+};
+
+Swing swing_of(const VectorXd& values) {
+  const Index count = values.size();
+  const VectorXd place = VectorXd::LinSpaced(count, -1.0, 1.0);
+  const double slope = place.dot(values) / place.squaredNorm();
+  Swing swing{0.0, values - slope * place};
+  swing.values.array() -= swing.values.mean();
+  swing.amplitude = 0.5 * (swing.values.maxCoeff() - swing.values.minCoeff());
+  return swing;
+}
+
+// Whole periods between upward passages, each armed by a fall below a quarter of the amplitude.
+std::optional<double> frequency_of(const Swing& swing, double interval) {
+  const double threshold = 0.25 * swing.amplitude;
+  bool armed = false;
+  Index first = -1, last = -1, passages = 0;
+  for (Index k = 0; k < swing.values.size(); ++k) {
+    if (swing.values[k] < -threshold) armed = true;
+    if (!armed || swing.values[k] <= threshold) continue;
+    armed = false;
+    ++passages;
+    last = k;
+    if (first < 0) first = k;
+  }
+  if (passages < 3) return std::nullopt;
+  return static_cast<double>(passages - 1) / (interval * static_cast<double>(last - first));
+}
+
+// Steps at the start (rad at the sky): a loop may hunt only once it was disturbed.
+constexpr std::array<double, hunting_starts> nudges{2.0 * millidegree, -1.0 * millidegree,
+                                                    8.0 * millidegree};
+
+HuntingResult watch(const SimulatedLoop& loop, const NonlinearVerificationOptions& options,
+                    double rate, double nudge, double duration) {
+  const double gear = loop.gear_ratio;
+  HuntingResult result;
+  result.rate = rate;
+  const Index samples = whole_samples(options.settling + duration, loop.sample_time);
+  const auto target = [&](double t) {
+    return control::CommandSample{gear * (rate * t + (t > 0.0 ? nudge : 0.0)), gear * rate, 0.0};
+  };
+  const auto course =
+      shaped_course(limits_at_motor(options, gear), loop.sample_time, samples, 1, target);
+  const LoopRun run = run_loop(loop, course, without_noise());
+  result.status = run.status;
+  result.message = run.message;
+  result.encoder_amplitude = result.beam_amplitude = result.persistence = nan;
+  if (run.status != RunStatus::complete) return result;
+  const Index half = whole_samples(0.5 * duration, loop.sample_time);
+  const Index quarter = half / 2;
+  const Swing encoder = swing_of(run.encoder_error.tail(half));
+  result.encoder_amplitude = encoder.amplitude;
+  const Swing beam = swing_of(run.beam_error.tail(half));
+  result.beam_amplitude = beam.amplitude;
+  const Index kept = std::min(half, whole_samples(longest_hunting_trace, loop.sample_time));
+  result.trace = {loop.sample_time, beam.values.tail(kept), encoder.values.tail(kept)};
+  const double before =
+      swing_of(run.encoder_error.segment(run.encoder_error.size() - half - quarter, quarter))
+          .amplitude;
+  result.persistence = before > 0.0 ? encoder.amplitude / before : 1.0;
+  result.frequency = frequency_of(encoder, loop.sample_time);
+  const double least = std::max(0.5 * loop.encoder_resolution / gear, 1e-3 * millidegree);
+  result.limit_cycle = encoder.amplitude > least && result.persistence > 0.8;
+  return result;
+}
+
+// Of the runs at one rate; the first of those alike.
+std::size_t worst_of(std::span<const HuntingResult> runs) {
+  const auto rank = [](const HuntingResult& run) {
+    if (run.status != RunStatus::complete) return std::pair(2, 0.0);
+    return run.limit_cycle ? std::pair(1, run.beam_amplitude) : std::pair(0, run.encoder_amplitude);
+  };
+  return static_cast<std::size_t>(std::ranges::max_element(runs, {}, rank) - runs.begin());
+}
+
+}  // namespace
+
+HuntingResult limit_cycle_run(const SimulatedLoop& loop,
+                              const NonlinearVerificationOptions& options, double rate,
+                              std::size_t start) {
+  return watch(loop, options, rate, nudges.at(start), options.hunting_duration);
+}
+
+HuntingResult confirmed_limit_cycle(const SimulatedLoop& loop,
+                                    const NonlinearVerificationOptions& options, double rate,
+                                    std::span<HuntingResult> runs) {
+  std::array<bool, hunting_starts> again{};
+  std::size_t place = worst_of(runs);
+  while (runs[place].limit_cycle && !again.at(place)) {
+    again.at(place) = true;
+    runs[place] = watch(loop, options, rate, nudges.at(place),
+                        hunting_confirmation * options.hunting_duration);
+    place = worst_of(runs);
+  }
+  HuntingResult worst = runs[place];
+  worst.starts = static_cast<int>(runs.size());
+  worst.starts_hunting = static_cast<int>(std::ranges::count_if(runs, &HuntingResult::limit_cycle));
+  return worst;
+}
+
+double hunting_amplitude(const std::vector<HuntingResult>& hunting) {
+  double largest = 0.0;
+  for (const auto& run : hunting) {
+    if (run.limit_cycle) largest = std::max(largest, run.beam_amplitude);
+  }
+  return largest;
+}
+
+bool hunting_seen(const std::vector<HuntingResult>& hunting) {
+  return std::ranges::all_of(
+      hunting, [](const HuntingResult& run) { return run.status == RunStatus::complete; });
+}
+
+double hunting_limit(double error) {
+  return std::numbers::sqrt2 * error;
+}
+
+bool holds_still(const std::vector<HuntingResult>& hunting, double error) {
+  return hunting_seen(hunting) && hunting_amplitude(hunting) <= hunting_limit(error);
+}
+
+}  // namespace boresight::design

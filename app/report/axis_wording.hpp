@@ -7,7 +7,8 @@
 namespace boresight::app {
 
 /// "elevation axis"; "azimuth axis, cross-elevation error at 60 deg elevation", or "at the horizon"
-/// where the case states no elevation.
+/// where the case states no elevation; "X axis of an X-Y mount at Y = 30 deg, boresight error =
+/// axis error x cos(Y)".
 std::string words_of(const io::PointingAxis& axis);
 
 }  // namespace boresight::app

@@ -13,5 +13,13 @@ TEST(AxisWording, NamesTheElevationOfCrossElevationErrors) {
   EXPECT_EQ(words_of({"azimuth", {}, 1.0}), "azimuth axis, cross-elevation error at the horizon");
 }
 
+TEST(AxisWording, NamesTheYAngleOfAnXAxis) {
+  EXPECT_EQ(words_of({"X", {}, 0.5, 60.0 * degree}),
+            "X axis of an X-Y mount at Y = 60 deg, boresight error = axis error x cos(Y)");
+  EXPECT_EQ(words_of({"X", {}, 1.0, {}}),
+            "X axis of an X-Y mount at Y = 0 deg, boresight error = axis error x cos(Y)");
+  EXPECT_EQ(words_of({"Y", {}, 1.0, {}}), "Y axis of an X-Y mount");
+}
+
 }  // namespace
 }  // namespace boresight::app

@@ -20,4 +20,13 @@ std::string words_of(const io::PointingAxis& axis) {
   return text;
 }
 
+std::string words_beside(std::string_view title, const io::PointingAxis& axis) {
+  const std::string words = words_of(axis), name = axis.name + " axis";
+  if (title.find(name) == std::string_view::npos) return words;
+  constexpr std::string_view comma = ", ";
+  if (words == name) return {};
+  return words.starts_with(name + std::string(comma)) ? words.substr(name.size() + comma.size())
+                                                      : words;
+}
+
 }  // namespace boresight::app

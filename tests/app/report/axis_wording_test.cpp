@@ -21,5 +21,15 @@ TEST(AxisWording, NamesTheYAngleOfAnXAxis) {
   EXPECT_EQ(words_of({"Y", {}, 1.0, {}}), "Y axis of an X-Y mount");
 }
 
+TEST(AxisWording, OmitsTheAxisThatTheTitleNames) {
+  const io::PointingAxis elevation{"elevation", {}, 1.0};
+  EXPECT_EQ(words_beside("70-m antenna", elevation), "elevation axis");
+  EXPECT_EQ(words_beside("70-m antenna, elevation axis, again", elevation), "");
+  EXPECT_EQ(words_beside("34-m antenna, azimuth axis", {"azimuth", {}, 1.0}),
+            "cross-elevation error at the horizon");
+  const io::PointingAxis x{"X", {}, 1.0, {}};
+  EXPECT_EQ(words_beside("13-m antenna, X axis", x), words_of(x));
+}
+
 }  // namespace
 }  // namespace boresight::app

@@ -68,6 +68,7 @@ void evaluate_on_ensemble(const io::DesignedAntenna& plant, const StudyOptions& 
                   : plant.ensemble.members,
               options.threads, section);
   if (!section.ensemble) return;
+  if (plant.from_records) section.instability = design::instability(*section.ensemble);
   section.ensemble_source =
       plant.from_records ? "sampled from the identified distribution" : "of the case's ensemble";
 }

@@ -182,8 +182,7 @@ CardLine present_line(const Report& report, const TuningSection& section) {
   };
   if (section.present.empty()) {
     return line(section.is_retuned_present
-                    ? "not given ([gains]); the recommended structure is what they would be "
-                      "compared with"
+                    ? "not given; the recommended structure is the present or the simplest one"
                     : "not given ([gains]): no comparison");
   }
   const auto& present = section.present.front();
@@ -193,15 +192,13 @@ CardLine present_line(const Report& report, const TuningSection& section) {
   }
   const design::SimulatedRms* expected = expected_rms(report);
   const bool in_wind = expected != nullptr && present.simulated_rms;
-  const std::string_view violated =
-      present.design.verification.passed ? "" : "; constraints violated";
-  return line(fmt::format("{}{} mdeg rms, {}; recommended {}{}",
-                          present.retuned ? fmt::format("not given; against {}: ",
-                                                        present_label(present.structure, true))
-                                          : present.structure + ": ",
+  return line(fmt::format("{} {} mdeg{}, recommended {}, {}",
+                          present.retuned ? "not given; " + present_label(present.structure, true)
+                                          : present.structure + ":",
                           mdeg(in_wind ? *present.simulated_rms : present.design.beam_rms),
-                          in_wind ? "simulated" : "linear plant",
-                          mdeg(in_wind ? expected->rms.value : section.design.beam_rms), violated));
+                          present.design.verification.passed ? "" : " (constraints violated)",
+                          mdeg(in_wind ? expected->rms.value : section.design.beam_rms),
+                          in_wind ? "simulated" : "linear plant"));
 }
 
 // The three that matter first: required ones before others, the tightest before wider ones.

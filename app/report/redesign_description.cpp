@@ -210,6 +210,9 @@ void describe_budgets(io::Visitor& v, const TuningSection& section) {
            v.text("convention", result.budget.convention, "What the loss is taken of.");
            v.number("rms", result.budget.rms, unit::millidegree, "As rms error of one axis.",
                     above_zero);
+           v.number("required_wind_speed", result.budget.wind_speed, unit::metre_per_second,
+                    "Mean wind speed up to which the case requires it; null if it states none.",
+                    above_zero);
            v.number("wind_speed_limit", result.wind_speed_limit, unit::metre_per_second,
                     "Mean wind speed up to which it is met, gains held, limit cycle included.",
                     positive);

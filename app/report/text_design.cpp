@@ -153,7 +153,8 @@ Document present_part(const TuningSection& section) {
     }
     rows.push_back(std::move(cells));
   }
-  return essential(table(rows, "lrrrrrl") + "\n");
+  Document text = table(rows, "lrrrrrl") + "\n";
+  return section.present.front().retuned ? text : essential(std::move(text));
 }
 
 }  // namespace

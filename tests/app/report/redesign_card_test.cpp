@@ -134,7 +134,7 @@ TEST(RedesignCard, ComparesWithTheRetunedStructureWithoutGainsOfToday) {
             "0.510");
   report.tuning->present.clear();
   report.tuning->is_retuned_present = true;
-  EXPECT_THAT(line_of(report, "Gains of today"), HasSubstr("the recommended structure is what"));
+  EXPECT_THAT(line_of(report, "Gains of today"), HasSubstr("the recommended structure is the present"));
 }
 
 // Of 200 samples that are all stable one in fifty may not be.
@@ -151,7 +151,8 @@ TEST(RedesignCard, CountsUnstableModelsAndBoundsTheirProbability) {
   ensemble.members.resize(200);
   ensemble.stable = ensemble.within_goals = 200;
   report.tuning->instability = design::instability(ensemble);
-  EXPECT_THAT(line_of(report, "Margins"), EndsWith("200/200 models, 0 unstable (95 %: at most 1.8 %)"));
+  EXPECT_THAT(line_of(report, "Margins"),
+              EndsWith("200/200 models, 0 unstable (95 %: at most 1.8 %)"));
 }
 
 TEST(RedesignCard, SaysThatNoModelFitsTheRecords) {

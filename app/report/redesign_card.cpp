@@ -182,7 +182,8 @@ CardLine present_line(const Report& report, const TuningSection& section) {
   };
   if (section.present.empty()) {
     return line(section.is_retuned_present
-                    ? "not given; the recommended structure is the present or the simplest one"
+                    ? fmt::format("not given; the comparison, {}, is the recommended controller",
+                                  present_label(section.name, true))
                     : "not given ([gains]): no comparison");
   }
   const auto& present = section.present.front();

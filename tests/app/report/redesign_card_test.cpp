@@ -134,7 +134,8 @@ TEST(RedesignCard, ComparesWithTheRetunedStructureWithoutGainsOfToday) {
             "0.510");
   report.tuning->present.clear();
   report.tuning->is_retuned_present = true;
-  EXPECT_THAT(line_of(report, "Gains of today"), HasSubstr("the recommended structure is the present"));
+  EXPECT_THAT(line_of(report, "Gains of today"),
+              HasSubstr("PI-0 tuned for this plant, is the recommended controller"));
 }
 
 // Of 200 samples that are all stable one in fifty may not be.

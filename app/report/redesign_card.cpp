@@ -70,7 +70,8 @@ design::ConfidenceGrade confidence(const Report& report, const TuningSection& se
   evidence.fitness = section.fitness;
   evidence.simulated = simulated(report);
   evidence.plant = plant_basis(report);
-  evidence.stable_on_members = unstable_members(section) == 0;
+  evidence.stable_on_members =
+      unstable_members(section) == 0 && !(section.instability && section.instability->value > 0.0);
   evidence.inertias_agree = inertias_agree(report);
   evidence.resonance_agrees = !report.resonance || !report.resonance->contradicts();
   evidence.verdict_depends_on_interpretation = !other_choices_text(report, section).empty() ||
@@ -247,13 +248,13 @@ CardLine stability_line(const TuningSection& section) {
   if (section.ensemble) {
     text += fmt::format("; constraints met on {}/{} models", section.ensemble->within_goals,
                         section.ensemble->members.size());
-    const std::size_t unstable = unstable_members(section);
-    if (section.instability) {
-      text += fmt::format(", {} unstable (95 %: at most {:.2g} %)", unstable,
-                          100.0 * section.instability->upper);
-    } else if (unstable > 0) {
+    if (const std::size_t unstable = unstable_members(section); unstable > 0) {
       text += fmt::format(", {} UNSTABLE", unstable);
     }
+  }
+  if (section.instability) {
+    text += fmt::format("; {:.2g} % unstable over the case's ranges (95 %: at most {:.2g} %)",
+                        100.0 * section.instability->value, 100.0 * section.instability->upper);
   }
   return {"Margins", text, std::string(loops)};
 }

@@ -267,8 +267,8 @@ void describe(io::Visitor& v, const TuningSection& section) {
            "records leave open, otherwise the case's ensemble; null without a stable law.");
   v.group_if(
       "instability", section.instability.has_value(),
-      "Probability that the loop is unstable on a plant, by the ensemble's samples, with its "
-      "95 % interval; null for an ensemble that is not sampled from records.",
+      "Of a redesign from records: probability that the loop is unstable on a sample of the case's "
+      "ranges about the identified plant, with its 95 % interval; null without records.",
       [&] {
         const auto found = section.instability.value_or(design::EstimatedNumber{});
         v.number("value", found.value, unit::ratio, "Unstable samples over all.");

@@ -75,7 +75,8 @@ struct TuningSection : design::RecommendedDesign {
   std::optional<io::WindMast> wind_mast;  // none: the case states speeds at the dish's centre
   std::string demand_assumption;          // that a goal on gusts rests on; empty if stated
   std::string ensemble_source;            // of the plants that `ensemble` is about
-  /// Probability of instability by an `ensemble` of independent samples; none of other ensembles.
+  /// Of a redesign from records: the probability of instability over the ranges of the case about
+  /// the identified plant, which are wider than what the records leave open.
   std::optional<design::EstimatedNumber> instability;
   io::GainUnits gain_units;
   /// The numbers of the case on which its rms depends most; empty without a stable controller.

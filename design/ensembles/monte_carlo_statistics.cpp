@@ -7,7 +7,6 @@
 #include <fmt/format.h>
 
 #include <boresight/design/ensembles/monte_carlo_statistics.hpp>
-#include <boresight/design/ensembles/plant_ensemble.hpp>
 #include <boresight/numerics/error.hpp>
 #include <boresight/numerics/statistics/distribution_quantiles.hpp>
 #include <boresight/numerics/statistics/order_statistics.hpp>
@@ -113,11 +112,6 @@ EstimatedNumber probability(std::uint64_t hits, std::uint64_t draws) {
   const auto k = static_cast<double>(hits), n = static_cast<double>(draws);
   return {k / n, hits == 0 ? 0.0 : boost::math::ibeta_inv(k, n - k + 1.0, tail),
           hits == draws ? 1.0 : boost::math::ibetac_inv(k + 1.0, n - k, tail)};
-}
-
-EstimatedNumber instability(const EnsembleResult& samples) {
-  const std::size_t count = samples.members.size();
-  return probability(count - static_cast<std::size_t>(samples.stable), count);
 }
 
 EstimatedNumber rank_correlation(const std::vector<double>& x, const std::vector<double>& y) {

@@ -6,8 +6,6 @@
 
 namespace boresight::design {
 
-struct EnsembleResult;
-
 /// A number estimated from samples, with its 95 % confidence interval. Infinite ends, or NaN
 /// throughout, where the samples are too few.
 struct EstimatedNumber {
@@ -43,9 +41,6 @@ DistributionSummary summarise(std::vector<double> values, const std::vector<doub
 /// J. Clopper and E. S. Pearson, Biometrika 26, 1934. The coverage is 95 % or more for every true
 /// probability. 0 to 1 without samples. @throws InvalidInput for more hits than samples.
 EstimatedNumber probability(std::uint64_t hits, std::uint64_t draws);
-
-/// Probability that a controller is unstable on a plant, by an ensemble of independent samples.
-EstimatedNumber instability(const EnsembleResult& samples);
 
 /// Spearman's rank correlation, ties at their mean rank. The interval is by Fisher's transformation
 /// with the variance of D. G. Bonett and T. A. Wright, Psychometrika 65, 2000. NaN where either

@@ -8,7 +8,6 @@
 #include "random_numbers.hpp"
 #include "refused_call.hpp"
 #include <boresight/design/ensembles/monte_carlo_statistics.hpp>
-#include <boresight/design/ensembles/plant_ensemble.hpp>
 #include <boresight/numerics/error.hpp>
 
 namespace boresight {
@@ -108,17 +107,6 @@ TEST(Summary, SaysWhereTheDrawsAreTooFew) {
   EXPECT_THROW(design::summarise({1.0}, {0.0}), InvalidInput);
   EXPECT_THAT(reference::Call([] { design::summarise({std::nan("")}, {0.5}); }),
               testing::ThrowsMessage<InvalidInput>("summarise: expected finite values, found nan"));
-}
-
-// 0 of 200: 1 - 0.025^(1/200).
-TEST(Instability, IsBoundedByTheSamplesThatWereStable) {
-  design::EnsembleResult samples;
-  samples.members.resize(200);
-  samples.stable = 200;
-  EXPECT_EQ(design::instability(samples).value, 0.0);
-  EXPECT_NEAR(design::instability(samples).upper, -std::expm1(std::log(0.025) / 200.0), 1e-12);
-  samples.stable = 198;
-  EXPECT_DOUBLE_EQ(design::instability(samples).value, 0.01);
 }
 
 TEST(RankCorrelation, SeesAnyMonotoneRelationAndNoneWhereThereIsNone) {

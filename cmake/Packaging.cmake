@@ -49,7 +49,7 @@ set(CPACK_DEBIAN_PROGRAM_PACKAGE_SHLIBDEPS ON)
 set(CPACK_COMPONENT_PROGRAM_DESCRIPTION "${PROJECT_DESCRIPTION}
 From a case file and recorded tests it identifies the inertia that the motors drive, builds the
 plant, tunes rate and position loops, and says what pointing error is left in wind and what changes
-of the drive would buy. With two worked cases, the 70-m and 64-m antennas of the Deep Space Network.")
+of the drive would buy. With four worked cases, among them the 70-m and 64-m antennas of the Deep Space Network.")
 
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_NAME libboresight-dev)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SECTION libdevel)

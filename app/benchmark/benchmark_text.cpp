@@ -161,8 +161,8 @@ Document document_of(const BenchmarkReport& report) {
   const auto& system = report.controller.system;
   std::vector<std::string> read = system.inputs;
   std::erase(read, "rate_disturbance");
-  Document text = report_title("benchmark", report.title, words_of(report.axis), report.case_path,
-                               std::nullopt);
+  Document text = report_title("benchmark", report.title, words_beside(report.title, report.axis),
+                               report.case_path, std::nullopt);
   text += lead(decision(report));
   text += heading(fmt::format("Disturbance rejection, protocol {}", design::rejection_protocol));
   text += essential(wrapped(

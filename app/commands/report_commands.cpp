@@ -18,9 +18,11 @@
 #include <boresight/app/report/json_report.hpp>
 #include <boresight/app/report/text_report.hpp>
 #include <boresight/design/ensembles/budgets_on_plants.hpp>
+#include <boresight/design/ensembles/plant_distribution.hpp>
 #include <boresight/design/ensembles/plant_ensemble.hpp>
 #include <boresight/design/ensembles/plant_members.hpp>
 #include <boresight/design/problem/pointing_budget.hpp>
+#include <boresight/design/studies/monte_carlo_study.hpp>
 #include <boresight/io/campaign/campaign_identification.hpp>
 #include <boresight/io/campaign/designed_antenna.hpp>
 #include <boresight/io/campaign/recommended_values.hpp>
@@ -59,7 +61,7 @@ void fill_identification(const io::Case& antenna, const StudyOptions& options, R
 }
 
 // The recommended controller, gains fixed, on the ensemble that it was tuned on; of records on more
-// draws of the same distribution.
+// draws of the same distribution, and its stability over the wider ranges of the case.
 void evaluate_on_ensemble(const io::DesignedAntenna& plant, const StudyOptions& options,
                           TuningSection& section) {
   constexpr std::size_t draws = 200;
@@ -68,6 +70,12 @@ void evaluate_on_ensemble(const io::DesignedAntenna& plant, const StudyOptions& 
                   : plant.ensemble.members,
               options.threads, section);
   if (!section.ensemble) return;
+  if (plant.from_records) {
+    section.instability = design::instability(
+        plant.mission, design::PlantDistribution::of_ranges(plant.mission),
+        section.design.tuning.law,
+        {.plants = 1000, .seed = options.seed, .retune = false, .threads = options.threads});
+  }
   section.ensemble_source =
       plant.from_records ? "sampled from the identified distribution" : "of the case's ensemble";
 }

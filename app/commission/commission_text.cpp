@@ -150,8 +150,8 @@ Document plan_part(const CommissionReport& report) {
 }  // namespace
 
 Document document_of(const CommissionReport& report) {
-  Document text = report_title("commission", report.title, words_of(report.axis), report.case_path,
-                               report.seed);
+  Document text = report_title("commission", report.title, words_beside(report.title, report.axis),
+                               report.case_path, report.seed);
   text += lead(decision(report));
   text += heading("Commissioning plan for " + report.structure);
   text += report.failure == nullptr ? plan_part(report)

@@ -96,8 +96,9 @@ Document short_form(const Document& document) {
 
 Document report_title(std::string_view command, std::string_view title, std::string_view axis,
                       std::string_view case_path, std::optional<std::uint64_t> seed) {
-  return verbatim(fmt::format("Boresight {} {}: {} ({})\ncase {}{}\n", BORESIGHT_VERSION, command,
-                              title, axis, case_path, seed ? fmt::format(", seed {}", *seed) : ""));
+  return verbatim(fmt::format("Boresight {} {}: {}{}\ncase {}{}\n", BORESIGHT_VERSION, command,
+                              title, axis.empty() ? "" : fmt::format(" ({})", axis), case_path,
+                              seed ? fmt::format(", seed {}", *seed) : ""));
 }
 
 }  // namespace boresight::app

@@ -86,7 +86,8 @@ Document essential(Document document);
 /// The short form: everything before the first section, and of each section with essential blocks
 /// its heading and those blocks.
 Document short_form(const Document& document);
-/// The two lines at the start of every report; `seed` for work that uses random numbers.
+/// The two lines at the start of every report; `axis` stands in brackets behind the title unless it
+/// is empty; `seed` for work that uses random numbers.
 Document report_title(std::string_view command, std::string_view title, std::string_view axis,
                       std::string_view case_path, std::optional<std::uint64_t> seed);
 

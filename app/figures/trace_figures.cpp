@@ -8,6 +8,7 @@
 #include <boresight/app/figures/figure_parts.hpp>
 #include <boresight/app/figures/thinned_series.hpp>
 #include <boresight/app/figures/trace_figures.hpp>
+#include <boresight/app/report/present_gains.hpp>
 #include <boresight/app/report/sky_units.hpp>
 
 namespace boresight::app {
@@ -44,11 +45,13 @@ FigurePanel error_panel(std::string what) {
 // What the present gains make of the same record.
 std::string present_sentence(const TimeDomainSection& section) {
   if (!section.present) return {};
-  const auto& [structure, in_wind] = *section.present;
+  const auto& [structure, in_wind, retuned] = *section.present;
+  const std::string label = retuned ? present_label(structure, retuned)
+                                    : fmt::format("the present gains ({})", structure);
   if (in_wind.boresight.size() == 0) {
-    return fmt::format(" With the present gains ({}) the run did not complete.", structure);
+    return fmt::format(" With {} the run did not complete.", label);
   }
-  return fmt::format(" With the present gains ({}): {:.3f} mdeg rms in the same record.", structure,
+  return fmt::format(" With {}: {:.3f} mdeg rms in the same record.", label,
                      rms_of(in_wind.boresight));
 }
 
@@ -61,9 +64,9 @@ Figure wind_figure(const TimeDomainSection& section, const std::string& heading)
   FigurePanel whole = error_panel("boresight error");
   if (section.present && section.present->in_wind.boresight.size() > 0) {
     const ErrorTrace& before = section.present->in_wind;
-    whole.series.push_back(error_series("present gains: " + section.present->structure,
-                                        SeriesStyle::dashed, before, before.boresight,
-                                        count(before)));
+    whole.series.push_back(
+        error_series(present_label(section.present->structure, section.present->retuned),
+                     SeriesStyle::dashed, before, before.boresight, count(before)));
   }
   whole.series.push_back(
       error_series(section.law, SeriesStyle::line, trace, trace.boresight, count(trace)));

@@ -10,6 +10,7 @@
 #include <boresight/app/figures/law_figures.hpp>
 #include <boresight/app/figures/tuning_figures.hpp>
 #include <boresight/app/redesign/matching_verdict.hpp>
+#include <boresight/app/report/present_gains.hpp>
 #include <boresight/app/report/sky_units.hpp>
 #include <boresight/design/problem/pointing_budget.hpp>
 
@@ -48,10 +49,11 @@ std::vector<Figure> tuning_figures(const TuningSection& section,
   std::vector<design::PointingBudget> budgets;
   for (const auto& result : section.budgets) budgets.push_back(result.budget);
   std::vector<ComparedLaw> compared{{name, design.tuning.law, noise, section.effect}};
-  for (const auto& [structure, present] : section.present) {
-    if (present.tuning.status == design::TuningStatus::unstable) continue;
-    compared.push_back({"present gains: " + structure, present.tuning.law,
-                        present.tuning.evaluation.noise_variance});
+  for (const auto& present : section.present) {
+    const auto& tuning = present.design.tuning;
+    if (tuning.status == design::TuningStatus::unstable) continue;
+    compared.push_back({present_label(present.structure, present.retuned), tuning.law,
+                        tuning.evaluation.noise_variance});
   }
   figures.push_back(rms_against_wind("tuned-rms-against-wind", title, section.problem, compared,
                                      budgets, section.curves));

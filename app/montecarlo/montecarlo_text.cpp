@@ -170,8 +170,9 @@ Document plants_part(const MonteCarloSection& section, const std::vector<Notable
 }  // namespace
 
 Document document_of(const MonteCarloSection& section) {
-  Document text = report_title("montecarlo", section.title, words_of(section.axis),
-                               section.case_path, section.seed);
+  Document text =
+      report_title("montecarlo", section.title, words_beside(section.title, section.axis),
+                   section.case_path, section.seed);
   if (section.interrupted) {
     text += fmt::format("INTERRUPTED: results cover {} of {} plants.\n", section.plants,
                         section.plants_asked);

@@ -152,11 +152,12 @@ std::string contents_html(const std::vector<Section>& sections) {
 }
 
 std::string header_html(const Page& page) {
-  std::string html = fmt::format(
-      "<header>\n<p class=\"program\">Boresight {} &#183; {}</p>\n<h1>{}</h1>\n"
-      "<p class=\"axis\">{}</p>\n",
-      BORESIGHT_VERSION, escaped_html(page.command), escaped_html(page.title),
-      escaped_html(page.axis));
+  std::string html =
+      fmt::format("<header>\n<p class=\"program\">Boresight {} &#183; {}</p>\n<h1>{}</h1>\n",
+                  BORESIGHT_VERSION, escaped_html(page.command), escaped_html(page.title));
+  if (!page.axis.empty()) {
+    html += fmt::format("<p class=\"axis\">{}</p>\n", escaped_html(page.axis));
+  }
   if (page.interrupted) {
     html +=
         "<p class=\"interrupted\">Interrupted: the results below are complete, others are "

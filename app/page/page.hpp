@@ -16,7 +16,7 @@ namespace boresight::app {
 struct Page {
   std::string command;  // "redesign"
   std::string title;    // of the antenna
-  std::string axis;     // words_of it
+  std::string axis;     // words_beside the title; may be empty
   std::uint64_t seed = 1;
   bool interrupted = false;
   /// A redesign's card, before the decision in a few sentences.

@@ -23,7 +23,7 @@ Page common(const AnyReport& report, std::string command) {
   Page page;
   page.command = std::move(command);
   page.title = report.title;
-  page.axis = words_of(report.axis);
+  page.axis = words_beside(report.title, report.axis);
   page.seed = report.seed;
   page.decision = decision(report);
   page.document = document_of(report);

@@ -51,7 +51,10 @@ std::string present_text(const TuningSection& section, const TuningSection::Pres
     return unstable_present_gains(law.structure);
   }
   std::string text = fmt::format(
-      "The present gains of {} have {:.3f} mdeg rms in {:.3g} m/s{}", law.structure,
+      "{} {:.3f} mdeg rms in {:.3g} m/s{}",
+      law.retuned ? fmt::format("The case states no present gains. {} has",
+                                present_label(law.structure, law.retuned))
+                  : fmt::format("The present gains of {} have", law.structure),
       law.design.beam_rms / millidegree, section.design_speed,
       law.design.verification.passed
           ? ""

@@ -18,9 +18,12 @@ void describe_origin(io::Visitor& v, std::string_view command,
 }
 
 void describe_axis(io::Visitor& v, const io::PointingAxis& axis) {
-  v.word("axis", axis.name, {"elevation", "azimuth"}, "The axis.");
-  v.number("boresight_factor", axis.boresight_factor, {.suffix = "1"},
-           "Boresight error over the axis's: the cosine of the elevation for an azimuth axis.");
+  v.word("axis", axis.name, {"elevation", "azimuth", "X", "Y"},
+         "The axis: X is the lower and Y the upper axis of an X-Y mount.");
+  v.number(
+      "boresight_factor", axis.boresight_factor, {.suffix = "1"},
+      "Boresight error over axis error: the cosine of the elevation for an azimuth axis, of the "
+      "Y angle for an X axis.");
 }
 
 void describe_case(io::Visitor& v, std::string_view path, std::string_view title,

@@ -12,4 +12,8 @@ std::string unstable_present_gains(const std::string& structure) {
       structure);
 }
 
+std::string present_label(const std::string& structure, bool retuned) {
+  return retuned ? structure + " tuned for this plant" : "present gains: " + structure;
+}
+
 }  // namespace boresight::app

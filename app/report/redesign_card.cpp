@@ -13,6 +13,7 @@
 #include <boresight/app/redesign/next_test.hpp>
 #include <boresight/app/report/expected_rms_wording.hpp>
 #include <boresight/app/report/influences.hpp>
+#include <boresight/app/report/present_gains.hpp>
 #include <boresight/app/report/redesign_card.hpp>
 #include <boresight/design/decisions/confidence.hpp>
 #include <boresight/io/campaign/recommended_values.hpp>
@@ -53,11 +54,24 @@ bool inertias_agree(const Report& report) {
          !report.identification->reconciled->contradictory();
 }
 
+// As designed_antenna takes it.
+design::PlantBasis plant_basis(const Report& report) {
+  if (!report.campaign) return design::PlantBasis::drawings;
+  return report.campaign->grey_box ? design::PlantBasis::records : design::PlantBasis::failed_fit;
+}
+
+std::size_t unstable_members(const TuningSection& section) {
+  if (!section.ensemble) return 0;
+  return section.ensemble->members.size() - static_cast<std::size_t>(section.ensemble->stable);
+}
+
 design::ConfidenceGrade confidence(const Report& report, const TuningSection& section) {
   design::Evidence evidence;
   evidence.fitness = section.fitness;
   evidence.simulated = simulated(report);
-  evidence.plant_identified = report.campaign && report.campaign->grey_box;
+  evidence.plant = plant_basis(report);
+  evidence.stable_on_members =
+      unstable_members(section) == 0 && !(section.instability && section.instability->value > 0.0);
   evidence.inertias_agree = inertias_agree(report);
   evidence.resonance_agrees = !report.resonance || !report.resonance->contradicts();
   evidence.verdict_depends_on_interpretation = !other_choices_text(report, section).empty() ||
@@ -85,6 +99,8 @@ std::string_view reason(Doubt doubt) {
       return "resonance contradicts the plant";
     case Doubt::interpretation_decides:
       return "assumed inputs decide";
+    case Doubt::fit_failed:
+      return "no model fits the records";
     case Doubt::plant_not_identified:
       return "no records";
     case Doubt::input_decides:
@@ -156,24 +172,35 @@ CardLine pointing_line(const Report& report, const TuningSection& section) {
   if (!section.ties.empty()) {
     text += fmt::format("; a tie with {}", fmt::join(section.ties, "; "));
   }
-  return {"Error per axis", text, std::string(simulated(report) ? in_time : loops)};
+  return {report.axis.name == "azimuth" ? "Cross-elevation" : "Error per axis", text,
+          std::string(simulated(report) ? in_time : loops)};
 }
 
-CardLine present_line(const TuningSection& section) {
+// Both figures simulated, or both linear.
+CardLine present_line(const Report& report, const TuningSection& section) {
+  const auto line = [](std::string text) {
+    return CardLine{"Gains of today", std::move(text), std::string(loops)};
+  };
   if (section.present.empty()) {
-    return {"Gains of today", "not in the case ([gains]): no comparison", std::string(loops)};
+    return line(section.is_retuned_present
+                    ? fmt::format("not given; the comparison, {}, is the recommended controller",
+                                  present_label(section.name, true))
+                    : "not given ([gains]): no comparison");
   }
   const auto& present = section.present.front();
   if (present.design.tuning.status == design::TuningStatus::unstable) {
-    return {"Gains of today",
-            fmt::format("{}: unstable on the plant of the case; check the case", present.structure),
-            std::string(loops)};
+    return line(
+        fmt::format("{}: unstable on the plant of the case; check the case", present.structure));
   }
-  return {"Gains of today",
-          fmt::format("{}: {} mdeg rms, linear plant{}", present.structure,
-                      mdeg(present.design.beam_rms),
-                      present.design.verification.passed ? "" : "; constraints violated"),
-          std::string(loops)};
+  const design::SimulatedRms* expected = expected_rms(report);
+  const bool in_wind = expected != nullptr && present.simulated_rms;
+  return line(fmt::format("{} {} mdeg{}, recommended {}, {}",
+                          present.retuned ? "not given; " + present_label(present.structure, true)
+                                          : present.structure + ":",
+                          mdeg(in_wind ? *present.simulated_rms : present.design.beam_rms),
+                          present.design.verification.passed ? "" : " (constraints violated)",
+                          mdeg(in_wind ? expected->rms.value : section.design.beam_rms),
+                          in_wind ? "simulated" : "linear plant"));
 }
 
 // The three that matter first: required ones before others, the tightest before wider ones.
@@ -221,6 +248,13 @@ CardLine stability_line(const TuningSection& section) {
   if (section.ensemble) {
     text += fmt::format("; constraints met on {}/{} models", section.ensemble->within_goals,
                         section.ensemble->members.size());
+    if (const std::size_t unstable = unstable_members(section); unstable > 0) {
+      text += fmt::format(", {} UNSTABLE", unstable);
+    }
+  }
+  if (section.instability) {
+    text += fmt::format("; {:.2g} % unstable over the case's ranges (95 %: at most {:.2g} %)",
+                        100.0 * section.instability->value, 100.0 * section.instability->upper);
   }
   return {"Margins", text, std::string(loops)};
 }
@@ -261,8 +295,9 @@ CardLine flywheel_line(const MatchingSection& section) {
   // Other loops than the recommended ones, on the nominal plant.
   const std::string loops_compared =
       fmt::format(" ({}, linear)", control::to_string(series.structure));
-  std::string text = fmt::format("{} {} mdeg, {} as built {}", section.rows[end].label,
-                                 at(series, end), section.rows[built].label, at(series, built));
+  std::string text =
+      fmt::format("{} mdeg with {} as built, {} with {}", at(series, built),
+                  section.rows[built].label, at(series, end), section.rows[end].label);
   const bool better = verdict.change(series, end) < -negligible_change;
   if (verdict.flat() || (!better && !verdict.friction_decides())) {
     return {"Flywheels", "keep: " + text + loops_compared, evidence};
@@ -271,7 +306,7 @@ CardLine flywheel_line(const MatchingSection& section) {
       other != nullptr && verdict.friction_decides()) {
     return {"Flywheels",
             fmt::format("keep until friction is measured: {}; {} and {} with the {}{}", text,
-                        at(*other, end), at(*other, built), other->friction, loops_compared),
+                        at(*other, built), at(*other, end), other->friction, loops_compared),
             evidence};
   }
   return {"Flywheels",
@@ -355,7 +390,7 @@ std::vector<CardLine> redesign_card(const Report& report) {
   std::vector<CardLine> card{controller_line(report, section)};
   if (section.design.usable()) {
     card.push_back(pointing_line(report, section));
-    card.push_back(present_line(section));
+    card.push_back(present_line(report, section));
     card.push_back(budget_line(report, section));
     card.push_back(stability_line(section));
     if (report.time_domain) card.push_back(limit_cycle_line(*report.time_domain));

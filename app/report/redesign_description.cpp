@@ -155,16 +155,24 @@ void describe_bands(io::Visitor& v, const TuningSection& section) {
 
 void describe_present(io::Visitor& v, const TuningSection& section) {
   v.list("present", section.present,
-         "The gains that the antenna runs on now, by the case, on the same plant; empty if it "
-         "states none.",
+         "The gains that the antenna runs on now, by the case, on the same plant; if it states "
+         "none, the present structure, or that of fewest gains, tuned for this plant.",
          [&](const TuningSection::PresentLaw& law) {
            v.text("structure", law.structure, "Its loop structure.");
            v.flag("stable", law.design.tuning.status != design::TuningStatus::unstable,
                   "The loop is stable on the plant.");
+           v.flag("retuned", law.retuned, "Tuned for this plant: the case states no gains.");
            v.flag("goals_met", law.design.verification.passed, "It meets every hard goal.");
            v.number("beam_rms", law.design.beam_rms, unit::millidegree,
-                    "Beam error; null of an unstable loop.", positive);
+                    "Boresight error; null of an unstable loop.", positive);
+           v.number("simulated_rms", law.simulated_rms, unit::millidegree,
+                    "Expected on the nonlinear antenna; null of gains of the case, and if it was "
+                    "not simulated.",
+                    positive);
          });
+  v.flag("is_retuned_present", section.is_retuned_present,
+         "The case states no present gains, and the recommended controller is itself what it "
+         "would be compared with; present is then empty.");
 }
 
 void describe_inputs(io::Visitor& v, const TuningSection& section) {
@@ -201,6 +209,9 @@ void describe_budgets(io::Visitor& v, const TuningSection& section) {
            v.text("band", result.budget.band, "Its band.");
            v.text("convention", result.budget.convention, "What the loss is taken of.");
            v.number("rms", result.budget.rms, unit::millidegree, "As rms error of one axis.",
+                    above_zero);
+           v.number("required_wind_speed", result.budget.wind_speed, unit::metre_per_second,
+                    "Mean wind speed up to which the case requires it; null if it states none.",
                     above_zero);
            v.number("wind_speed_limit", result.wind_speed_limit, unit::metre_per_second,
                     "Mean wind speed up to which it is met, gains held, limit cycle included.",
@@ -254,6 +265,16 @@ void describe(io::Visitor& v, const TuningSection& section) {
   v.object("ensemble", section.ensemble,
            "The design's gains held on plants that may be the true one: drawn from what the "
            "records leave open, otherwise the case's ensemble; null without a stable law.");
+  v.group_if(
+      "instability", section.instability.has_value(),
+      "Of a redesign from records: probability that the loop is unstable on a sample of the case's "
+      "ranges about the identified plant, with its 95 % interval; null without records.",
+      [&] {
+        const auto found = section.instability.value_or(design::EstimatedNumber{});
+        v.number("value", found.value, unit::ratio, "Unstable samples over all.");
+        v.number("lower", found.lower, unit::ratio, "Of the interval.");
+        v.number("upper", found.upper, unit::ratio, "Of the interval.");
+      });
   describe_inputs(v, section);
   describe_budgets(v, section);
 }

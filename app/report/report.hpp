@@ -15,6 +15,7 @@
 #include <boresight/app/simulate/time_domain.hpp>
 #include <boresight/app/tune/measured_section.hpp>
 #include <boresight/app/tune/tune_section.hpp>
+#include <boresight/design/ensembles/monte_carlo_statistics.hpp>
 #include <boresight/design/ensembles/plant_ensemble.hpp>
 #include <boresight/design/limits/pointing_limit.hpp>
 #include <boresight/design/problem/pointing_budget.hpp>
@@ -74,6 +75,9 @@ struct TuningSection : design::RecommendedDesign {
   std::optional<io::WindMast> wind_mast;  // none: the case states speeds at the dish's centre
   std::string demand_assumption;          // that a goal on gusts rests on; empty if stated
   std::string ensemble_source;            // of the plants that `ensemble` is about
+  /// Of a redesign from records: the probability of instability over the ranges of the case about
+  /// the identified plant, which are wider than what the records leave open.
+  std::optional<design::EstimatedNumber> instability;
   io::GainUnits gain_units;
   /// The numbers of the case on which its rms depends most; empty without a stable controller.
   std::vector<InputEffect> input_effects;

@@ -11,6 +11,7 @@
 #include <boresight/app/redesign/tuning_verdict.hpp>
 #include <boresight/app/report/climate_wording.hpp>
 #include <boresight/app/report/loss_wording.hpp>
+#include <boresight/app/report/present_gains.hpp>
 #include <boresight/app/report/sky_units.hpp>
 #include <boresight/app/report/table_columns.hpp>
 #include <boresight/app/report/text_report.hpp>
@@ -133,13 +134,14 @@ std::string plants_text(const TuningSection& section, const BudgetResult& result
   return fmt::format("{}/{}", *result.plants_met, section.ensemble->members.size());
 }
 
-// What the antenna's own gains do; nothing of a case that states none.
+// What the antenna's own gains do, or what stands for them.
 Document present_part(const TuningSection& section) {
   if (section.present.empty()) return {};
   std::vector<std::vector<std::string>> rows{
-      {"present gains", "rms mdeg", "S rate", "S valve", "S pos.", "effort rad/s", "check"}};
-  for (const auto& [structure, design] : section.present) {
-    std::vector<std::string> cells{structure};
+      {"compared with", "rms mdeg", "S rate", "S valve", "S pos.", "effort rad/s", "check"}};
+  for (const auto& present : section.present) {
+    const Design& design = present.design;
+    std::vector<std::string> cells{present_label(present.structure, present.retuned)};
     if (design.tuning.status == design::TuningStatus::unstable) {
       cells.insert(cells.end(), 5, "-");
       cells.emplace_back("UNSTABLE");
@@ -151,7 +153,8 @@ Document present_part(const TuningSection& section) {
     }
     rows.push_back(std::move(cells));
   }
-  return essential(table(rows, "lrrrrrl") + "\n");
+  Document text = table(rows, "lrrrrrl") + "\n";
+  return section.present.front().retuned ? text : essential(std::move(text));
 }
 
 }  // namespace

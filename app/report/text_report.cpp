@@ -58,8 +58,9 @@ Document document_of(const std::vector<io::Quantity>& assumed) {
 namespace {
 
 Document opening_of(const Report& report) {
-  Document text = report_title(report.command, report.title, words_of(report.axis),
-                               report.case_path, report.seed);
+  Document text =
+      report_title(report.command, report.title, words_beside(report.title, report.axis),
+                   report.case_path, report.seed);
   if (report.interrupted)
     text += "INTERRUPTED: the sections below are complete, the rest is missing.\n";
   return text;

@@ -142,8 +142,8 @@ Document runs_part(const SimulationReport& report) {
 }  // namespace
 
 Document document_of(const SimulationReport& report) {
-  Document text =
-      report_title("simulate", report.title, words_of(report.axis), report.case_path, report.seed);
+  Document text = report_title("simulate", report.title, words_beside(report.title, report.axis),
+                               report.case_path, report.seed);
   text += lead(decision(report));
   return text + essential(runs_part(report)) + document_of(report.assumed);
 }

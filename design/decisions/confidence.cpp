@@ -21,13 +21,14 @@ ConfidenceGrade grade(const Evidence& evidence) {
   };
   const Fitness fitness = evidence.fitness;
   doubt(fitness >= Fitness::misses_nominal, Doubt::not_verified);
-  doubt(fitness == Fitness::misses_member, Doubt::not_robust);
+  doubt(fitness == Fitness::misses_member || !evidence.stable_on_members, Doubt::not_robust);
   doubt(!evidence.simulated, Doubt::not_simulated);
   doubt(fitness == Fitness::limit_cycle || fitness == Fitness::not_shown, Doubt::limit_cycle);
   doubt(!evidence.inertias_agree, Doubt::inertias_disagree);
   doubt(!evidence.resonance_agrees, Doubt::resonance_disagrees);
   doubt(evidence.verdict_depends_on_interpretation, Doubt::interpretation_decides);
-  doubt(!evidence.plant_identified, Doubt::plant_not_identified);
+  doubt(evidence.plant == PlantBasis::failed_fit, Doubt::fit_failed);
+  doubt(evidence.plant == PlantBasis::drawings, Doubt::plant_not_identified);
   doubt(!(evidence.largest_effect <= telling_effect), Doubt::input_decides);
   if (result.doubts.empty()) return result;
   result.grade =

@@ -7,11 +7,19 @@
 
 namespace boresight::design {
 
+/// What the plant rests on.
+enum class PlantBasis {
+  drawings,    // the case as stated: no records
+  failed_fit,  // the case as stated: no model fits its records
+  records,     // the model that was fitted to them
+};
+
 /// The evidence behind a recommended controller.
 struct Evidence {
   Fitness fitness = Fitness::unstable;
-  bool simulated = false;         // on the nonlinear antenna, the run in wind completed
-  bool plant_identified = false;  // from records instead of drawings
+  bool simulated = false;  // on the nonlinear antenna, the run in wind completed
+  PlantBasis plant = PlantBasis::drawings;
+  bool stable_on_members = true;  // on every ensemble member that it was evaluated on
   bool inertias_agree = true;     // independent estimates of the reflected inertia
   bool resonance_agrees = true;   // the measured hydraulic frequency agrees with the plant's
   /// Another interpretation of the evidence changes whether a required budget is met.
@@ -32,6 +40,7 @@ enum class Doubt {
   inertias_disagree,
   resonance_disagrees,
   interpretation_decides,
+  fit_failed,
   plant_not_identified,
   input_decides,
 };
@@ -45,8 +54,9 @@ struct ConfidenceGrade {
 inline constexpr double telling_effect = 0.2;
 
 /// Grades the evidence. The deficiency that decides the fitness counts as a doubt, except a missed
-/// budget, which does not reduce confidence. Low with any doubt up to interpretation_decides: the
-/// verdict itself may be wrong. Moderate with other doubts only: the figures may be inaccurate.
+/// budget, which does not reduce confidence. Instability on an ensemble member counts as
+/// not_robust. Low with any doubt up to fit_failed: the verdict itself may be wrong. Moderate with
+/// other doubts only: the figures may be inaccurate.
 ConfidenceGrade grade(const Evidence& evidence);
 
 }  // namespace boresight::design

@@ -87,8 +87,11 @@ struct Mission {
   /// others.
   std::vector<NamedStructure> usual_structures;
   std::vector<NamedController> present_controllers;  // controllers in use on the antenna now
-  int starts = 0;                                    // of each search; 0: the tuner's default
-  double most_disks = 0.0;                           // per motor, of a matching study
+  /// Where the present gains are not known: the name of the present structure, one of `structures`;
+  /// empty if that is not known either.
+  std::string present_structure;
+  int starts = 0;           // of each search; 0: the tuner's default
+  double most_disks = 0.0;  // per motor, of a matching study
 };
 
 /// Tracking problem of the mission's antenna with these changes, in its design wind.

@@ -1,3 +1,4 @@
+#include <cstdint>
 #include <memory>
 #include <utility>
 
@@ -36,6 +37,17 @@ MonteCarloSummary study_monte_carlo(const Mission& mission, const PlantDistribut
   run.work_on(run.missing_blocks(),
               {.threads = options.threads, .stop = options.interrupted, .watch = {}});
   return summarise(run, mission, distribution, options.seed, options.threads);
+}
+
+EstimatedNumber instability(const Mission& mission, const PlantDistribution& distribution,
+                            const control::ControlLaw& law, const MonteCarloOptions& options) {
+  MonteCarloRun run(monte_carlo_of(mission, distribution, law, options));
+  run.work_on(run.missing_blocks(), {.threads = options.threads, .stop = {}, .watch = {}});
+  std::uint64_t unstable = 0;
+  for (std::uint64_t index = 0; index < options.plants; ++index) {
+    if (!run.outcome(index).stable()) ++unstable;
+  }
+  return probability(unstable, options.plants);
 }
 
 }  // namespace boresight::design

@@ -34,4 +34,9 @@ MonteCarloSummary study_monte_carlo(const Mission& mission, const PlantDistribut
                                     const control::ControlLaw& law,
                                     const MonteCarloOptions& options);
 
+/// MonteCarloSummary::instability of that study alone, without its simulation.
+/// @throws as study_monte_carlo, but not Interrupted: it is not polled.
+EstimatedNumber instability(const Mission& mission, const PlantDistribution& distribution,
+                            const control::ControlLaw& law, const MonteCarloOptions& options);
+
 }  // namespace boresight::design

@@ -8,6 +8,7 @@
 #include <boresight/design/problem/pointing.hpp>
 #include <boresight/design/problem/static_bending.hpp>
 #include <boresight/design/studies/redesign_study.hpp>
+#include <boresight/design/studies/retuned_present.hpp>
 #include <boresight/numerics/parallel_loop.hpp>
 #include <boresight/plant/antenna/plant_response.hpp>
 #include <boresight/plant/nonlinear/drive_capability.hpp>
@@ -178,6 +179,29 @@ FlywheelPlan plan_flywheels(const Mission& mission, const RedesignTask& task) {
   return plan;
 }
 
+// What the recommended controller is compared with where the mission states no present gains.
+void compare_with_retuned(const Mission& mission, const TuningStudy& tuned, const TunedLaw& best,
+                          RedesignStudy& result) {
+  if (!mission.present_controllers.empty()) return;
+  RecommendedDesign& section = result.recommended;
+  const TunedLaw* row = retuned_present(tuned, mission.present_structure, best.wind_speed);
+  if (row == nullptr) return;
+  if (row == &best) {
+    section.is_retuned_present = true;
+    return;
+  }
+  const control::ControlLaw& law = row->design.tuning.law;
+  RecommendedDesign::PresentLaw present{row->structure, assess(section.problem, law, section.goals),
+                                        true};
+  if (row->in_time && row->in_time->expected) {
+    present.simulated_rms = row->in_time->expected->rms.value;
+  }
+  if (result.time_domain) {
+    add_present(mission, section.problem, {row->structure, law}, true, *result.time_domain);
+  }
+  section.present.push_back(std::move(present));
+}
+
 FlywheelComparison finish_flywheels(FlywheelPlan plan, std::vector<Design>::iterator design,
                                     unsigned threads) {
   const std::size_t rows = plan.comparison.rows.size();
@@ -252,6 +276,7 @@ RedesignStudy redesign(const Mission& mission, const PlantEnsemble& ensemble,
     result.recommended.ties.push_back(description_of(*row));
   }
   result.recommended.fitness = fitness(assessment_of(study.tuned, best));
+  compare_with_retuned(mission, study.tuned, best, result);
   std::vector<Design> other(first_alternative, first_row);
   improve_along(alternatives, other);
   for (std::size_t i = 0; i < other.size(); ++i) {

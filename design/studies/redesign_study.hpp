@@ -35,12 +35,19 @@ struct RecommendedDesign {
   /// simulation: no effect.
   NonlinearEffect effect;
   std::vector<std::string> ties;  // description_of other controllers that tied_with finds
-  /// The antenna's present gains, evaluated on the same plant.
+  /// The antenna's present gains, evaluated on the same plant; where the mission states none, the
+  /// controller of retuned_present.
   struct PresentLaw {
     std::string structure;
     Design design;
+    bool retuned = false;  // not the antenna's own gains
+    /// Over several records of wind (rad), of a retuned controller that was simulated.
+    std::optional<double> simulated_rms = std::nullopt;
   };
   std::vector<PresentLaw> present;
+  /// The mission states no present gains, and this controller is that of retuned_present: `present`
+  /// is empty.
+  bool is_retuned_present = false;
   double design_speed = 0.0;  // m/s
   plant::WindModel wind_model = plant::WindModel::coherence;
   plant::WindSite wind_site;

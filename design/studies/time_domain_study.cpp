@@ -80,15 +80,21 @@ TimeDomainStudy verify(const Mission& mission, const TrackingProblem& problem,
   return section;
 }
 
-// The error of the gains of today in the wind of the verification.
-void add_present(const Mission& mission, const TrackingProblem& problem, TimeDomainStudy& section) {
+// The mission's own present controller, if it states one.
+void add_own_present(const Mission& mission, const TrackingProblem& problem,
+                     TimeDomainStudy& section) {
   if (mission.present_controllers.empty()) return;
   const control::ControlLaw& present = mission.present_controllers.front().law;
-  const SimulatedLoop loop = loop_of(mission, problem, present, section.encoder_resolution);
-  section.present = {present.structure.name(), error_in_wind(problem, loop, section.options)};
+  add_present(mission, problem, {present.structure.name(), present}, false, section);
 }
 
 }  // namespace
+
+void add_present(const Mission& mission, const TrackingProblem& problem,
+                 const NamedController& controller, bool retuned, TimeDomainStudy& study) {
+  const SimulatedLoop loop = loop_of(mission, problem, controller.law, study.encoder_resolution);
+  study.present = {controller.name, error_in_wind(problem, loop, study.options), retuned};
+}
 
 NonlinearEffect SimulatedCandidate::effect() const {
   return NonlinearEffect::of_simulation(simulated_rms(), result.wind.predicted_rms,
@@ -130,7 +136,7 @@ std::optional<TimeDomainStudy> verify_in_time_domain(
   TimeDomainStudy section = plan(mission, problem, description, seed, threads);
   section.options.second_integrator = second == SecondIntegrator::cvodes;
   section = verify(mission, problem, law, std::move(section));
-  add_present(mission, problem, section);
+  add_own_present(mission, problem, section);
   return section;
 }
 
@@ -161,7 +167,7 @@ std::optional<TimeDomainStudy> choose_in_time_domain(const Mission& mission,
     chosen.options.explain = chosen.options.second_integrator = true;
     explain_in_wind(problem, loop_of(mission, problem, laws[best].law, chosen.encoder_resolution),
                     chosen.options, chosen.result);
-    add_present(mission, problem, chosen);
+    add_own_present(mission, problem, chosen);
   }
   if (sections.size() == 1) return chosen;
   for (auto& one : sections) {

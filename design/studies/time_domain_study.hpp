@@ -41,12 +41,13 @@ struct TimeDomainStudy {
   NonlinearVerification result;
   /// The rms over several records of wind, one of which is in `result`.
   std::optional<SimulatedRms> rms;
-  /// The mission's first present controller in the wind record of `result`; its trace is empty
-  /// where that run did not complete. None without a present controller, and for controllers that
-  /// were only compared.
+  /// The mission's first present controller, or that of add_present, in the wind record of
+  /// `result`; its trace is empty where that run did not complete. None without one, and for
+  /// controllers that were only compared.
   struct Present {
     std::string structure;
     ErrorTrace in_wind;
+    bool retuned = false;  // not the antenna's own gains: of retuned_present
   };
   std::optional<Present> present;
   /// The requested slew rate exceeds the drive's capability only for lack of stroke: twice the
@@ -78,6 +79,11 @@ enum class ChoiceDetail { compared, verified };
 std::optional<TimeDomainStudy> verify_in_time_domain(
     const Mission& mission, const TrackingProblem& problem, const control::ControlLaw& law,
     std::string_view description, std::uint64_t seed, unsigned threads, SecondIntegrator second);
+
+/// Simulates a controller in the wind record of the study's result, as its `present`. The problem
+/// is that of the study. @throws as verify_in_time.
+void add_present(const Mission& mission, const TrackingProblem& problem,
+                 const NamedController& controller, bool retuned, TimeDomainStudy& study);
 
 /// `within_budget`: holds_still within the tightest budget; `shown`: hunting_seen.
 LimitCycleVerdict limit_cycle_verdict(bool within_budget, bool shown);

@@ -43,7 +43,7 @@ Case case_of(TableReader file, const std::string& path) {
   Case antenna;
   antenna.path = path;
   antenna.title = file.text("title");
-  antenna.axis = file.choice("axis", {"elevation", "azimuth"});
+  antenna.axis = file.choice("axis", {"elevation", "azimuth", "X", "Y"});
   read_antenna(file, antenna);
   read_gear_train(file, antenna);
   read_motor(file, antenna);

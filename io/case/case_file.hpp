@@ -59,6 +59,9 @@ struct AntennaEntry {
   Quantity inertia;  // about the antenna axis
   /// Where the dish points in the design wind and at the start of simulated tests.
   std::optional<Quantity> azimuth, elevation;
+  /// Angle of the Y axis of an X-Y mount, 0 with the boresight perpendicular to X; for an X
+  /// axis only.
+  std::optional<Quantity> y_angle;
   std::vector<AntennaAlternative> alternatives;
 };
 

@@ -172,6 +172,10 @@ PresentGainsEntry read_gains(TableReader& table, const Case& antenna) {
       if (auto gain = table.optional_quantity(symbol, kind, range)) found[symbol] = *gain;
     }
   }
+  if (found.empty()) {
+    table.finish();
+    return entry;
+  }
   for (const auto& block : entry.structure.blocks()) {
     for (std::size_t i = 0; i < block.gains.size(); ++i) {
       const auto& symbol = block.gains[i].symbol;

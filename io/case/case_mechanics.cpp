@@ -7,6 +7,7 @@
 #include <boresight/io/case/case_sections.hpp>
 #include <boresight/io/case/drive_numbers.hpp>
 #include <boresight/io/case/modes_file.hpp>
+#include <boresight/io/case/pointing_axis.hpp>
 #include <boresight/io/case/structure_numbers.hpp>
 #include <boresight/io/units/unit_table.hpp>
 #include <boresight/io/units/wording.hpp>
@@ -300,14 +301,22 @@ void read_antenna(TableReader& file, Case& antenna) {
       table.optional_quantity("azimuth", Kind::angle, Range::between(-turn, turn));
   antenna.antenna.elevation =
       table.optional_quantity("elevation", Kind::angle, Range::between(0.0, 0.5 * turn));
+  antenna.antenna.y_angle =
+      table.optional_quantity("y_angle", Kind::angle, Range::between(-0.25 * turn, 0.25 * turn));
+  if (antenna.antenna.y_angle && antenna.axis != "X") {
+    table.refuse("y_angle", "expected it with axis = 'X', of an X-Y mount, only, found it with " +
+                                in_quotes(antenna.axis));
+  }
   constexpr double least_cosine = 0.05;
-  if (antenna.axis == "azimuth" && antenna.antenna.elevation &&
-      std::abs(std::cos(antenna.antenna.elevation->value)) < least_cosine) {
-    table.refuse(
-        "elevation",
-        "expected one at which an azimuth axis moves the boresight, 3 deg or more from the "
-        "zenith, found " +
-            antenna.antenna.elevation->text);
+  if (pointing_axis(antenna).boresight_factor < least_cosine) {
+    const bool azimuth = antenna.axis == "azimuth";
+    table.refuse(azimuth ? "elevation" : "y_angle",
+                 azimuth ? "expected one at which an azimuth axis moves the boresight, 3 deg or "
+                           "more from the zenith, found " +
+                               antenna.antenna.elevation->text
+                         : "expected one at which the X axis moves the boresight, 3 deg or more "
+                           "from -90 and 90 deg, found " +
+                               antenna.antenna.y_angle->text);
   }
   std::set<std::string> names;
   for (auto& entry : table.tables("alternative")) {
@@ -398,7 +407,7 @@ void read_structure(TableReader& file, Case& antenna) {
       table.optional_quantity("lowest_predicted", Kind::frequency, Range::positive(1000.0));
   if (structure.lowest_predicted) {
     structure.lowest_predicted_axis =
-        table.choice("lowest_predicted_axis", {"elevation", "azimuth"});
+        table.choice("lowest_predicted_axis", {"elevation", "azimuth", "X", "Y"});
   }
   for (auto& entry : table.tables("prediction")) {
     auto& frequencies = antenna.campaign.locked_rotor_frequencies;

@@ -46,8 +46,9 @@ SimulationEntry read_drive_details(TableReader& table, const Case& antenna) {
                  "expected an antenna.elevation, at which tests begin, beside it, found none");
   }
   if ((entry.offset_cosine || entry.offset_sine) && antenna.axis != "elevation") {
-    table.refuse(entry.offset_cosine ? "offset_cosine" : "offset_sine",
-                 "expected it for the elevation axis only, found it for the azimuth axis");
+    table.refuse(
+        entry.offset_cosine ? "offset_cosine" : "offset_sine",
+        "expected it for the elevation axis only, found it for the " + antenna.axis + " axis");
   }
   entry.preload_torque =
       table.quantity_or("preload_torque", Kind::torque, Range::positive(1e9),

@@ -26,7 +26,7 @@ struct LoopEntry {
 /// The gains in use at present, in the order of the structure's gain vector.
 struct PresentGainsEntry {
   control::LoopStructure structure;
-  std::vector<Quantity> gains;
+  std::vector<Quantity> gains;  // empty where the case states the structure alone
 };
 
 /// The objective of a tuning over the plant ensemble.

@@ -245,6 +245,15 @@ design::Mission mission_of(const Case& stated) {
     mission.usual_structures.push_back({short_name(structure), structure});
   }
   mission.present_controllers = present_controllers(stated);
+  if (stated.present_gains && stated.present_gains->gains.empty()) {
+    const control::LoopStructure& present = stated.present_gains->structure;
+    mission.present_structure = short_name(present);
+    const auto tuned = std::ranges::find(mission.structures, mission.present_structure,
+                                         &design::NamedStructure::name);
+    if (tuned == mission.structures.end()) {
+      mission.structures.push_back({mission.present_structure, present});
+    }
+  }
   mission.starts = static_cast<int>(stated.tuning.starts);
   if (!stated.matching_disks.empty()) mission.most_disks = stated.matching_disks.back();
   return mission;

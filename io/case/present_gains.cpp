@@ -31,6 +31,7 @@ control::ControlLaw law_of(const control::LoopStructure& structure,
 GainUnits::GainUnits(const Case& stated) {
   const auto add = [&](const control::LoopStructure& structure,
                        const std::vector<Quantity>& gains) {
+    if (gains.empty()) return;
     Written written{structure, {}};
     for (const auto& gain : gains) {
       const std::string unit = unit_of(gain.text);
@@ -61,12 +62,11 @@ std::vector<design::NamedController> present_controllers(const Case& stated) {
   std::vector<design::NamedController> controllers;
   const auto add = [&](const control::LoopStructure& structure,
                        const std::vector<Quantity>& gains) {
+    if (gains.empty()) return;
     controllers.push_back({short_name(structure), law_of(structure, gains)});
   };
   if (stated.present_gains) add(stated.present_gains->structure, stated.present_gains->gains);
-  for (const auto& loop : stated.loops) {
-    if (!loop.present.empty()) add(loop.structure, loop.present);
-  }
+  for (const auto& loop : stated.loops) add(loop.structure, loop.present);
   return controllers;
 }
 

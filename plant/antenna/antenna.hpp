@@ -101,8 +101,9 @@ struct ShaftNumbers {
 struct Antenna {
   double inertia = 0.0;    // kg m2, about the antenna axis
   double elevation = 0.0;  // rad, where the motor angle is 0
-  /// Boresight error at the sky over the error of the axis: 1 of an elevation axis, the cosine of
-  /// the elevation of an azimuth axis, whose boresight error is cross-elevation.
+  /// Boresight error at the sky over the error of the axis: 1 for an elevation axis, the cosine of
+  /// the elevation for an azimuth axis, whose boresight error is cross-elevation, and the cosine of
+  /// the Y angle for the lower axis of an X-Y mount.
   double boresight_factor = 1.0;
   GearTrain gear_train;
   HydraulicDrive hydraulics;

@@ -1,5 +1,7 @@
+#include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <vector>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -8,6 +10,8 @@
 #include "scratch_folder.hpp"
 #include <boresight/design/tuning/structure_parts.hpp>
 #include <boresight/io/case/case_file.hpp>
+#include <boresight/io/case/mission_of.hpp>
+#include <boresight/io/case/present_gains.hpp>
 
 namespace boresight::app {
 namespace {
@@ -165,6 +169,27 @@ TEST(CaseTuning, ReadsThePresentGainsInTheEngineersUnits) {
   EXPECT_DOUBLE_EQ(gains[3].value, hertz);
   EXPECT_EQ(gains[3].text, "1 Hz");
   EXPECT_EQ(gains[3].key, "gains.wp");
+}
+
+// Of an antenna whose gains nobody knows the structure alone is stated.
+TEST(CaseTuning, TakesThePresentStructureWithoutGains) {
+  const io::Case antenna = with("[gains]\nstructure = 'LL+N'\n");
+  ASSERT_TRUE(antenna.present_gains.has_value());
+  EXPECT_TRUE(antenna.present_gains->gains.empty());
+  EXPECT_TRUE(io::present_controllers(antenna).empty());
+  const control::LoopStructure& present = antenna.present_gains->structure;
+  EXPECT_EQ(io::GainUnits(antenna).texts({present, std::vector(present.gains().size(), 1.0)}),
+            io::GainUnits().texts({present, std::vector(present.gains().size(), 1.0)}));
+  const design::Mission mission = io::mission_of(antenna);
+  EXPECT_EQ(mission.present_structure, "LL+N");
+  // It is tuned beside the usual ones, once.
+  EXPECT_EQ(std::ranges::count(mission.structures, "LL+N", &design::NamedStructure::name), 1);
+  EXPECT_EQ(io::mission_of(with("[gains]\nstructure = 'PI'\n")).structures.size() + 1,
+            mission.structures.size());
+  EXPECT_EQ(io::mission_of(with(tables())).present_structure, "");
+  EXPECT_THAT(refusal("[gains]\nstructure = 'PI'\nkr = '1'\n"), HasSubstr("gains.wi: "));
+  EXPECT_THAT(refusal("[gains]\nstructure = 'PI'\nkq = '1'\n"),
+              HasSubstr("gains.kq: expected one of the keys"));
 }
 
 TEST(CaseTuning, WeighsTheSitesWind) {

@@ -16,6 +16,7 @@ namespace boresight::app {
 namespace {
 
 using testing::AllOf;
+using testing::EndsWith;
 using testing::HasSubstr;
 using testing::IsEmpty;
 using testing::Not;
@@ -112,9 +113,68 @@ TEST(RedesignCard, ComparesWithTheGainsOfToday) {
   Report report = report_of_test();
   EXPECT_THAT(line_of(report, "Gains of today"), HasSubstr("[gains]"));
   report.tuning->present = {{"DPF", tuned_design(0.7)}};
-  EXPECT_EQ(line_of(report, "Gains of today"), "DPF: 0.700 mdeg rms, linear plant");
+  EXPECT_EQ(line_of(report, "Gains of today"),
+            "DPF: 0.700 mdeg rms, linear plant; recommended 0.500");
   report.tuning->present[0].design.tuning.status = design::TuningStatus::unstable;
   EXPECT_THAT(line_of(report, "Gains of today"), HasSubstr("unstable on the plant of the case"));
+}
+
+// Simulated figures are compared with simulated ones.
+TEST(RedesignCard, ComparesWithTheRetunedStructureWithoutGainsOfToday) {
+  Report report = report_of_test();
+  report.tuning->present = {{"PI", tuned_design(0.7), true}};
+  EXPECT_EQ(line_of(report, "Gains of today"),
+            "not given; against PI tuned for this plant: 0.700 mdeg rms, linear plant; recommended "
+            "0.500");
+  report.tuning->present[0].simulated_rms = 0.72 * millidegree;
+  auto& expected = report.time_domain->rms.emplace();
+  expected.rms = {0.51 * millidegree, 0.01 * millidegree, 0.49 * millidegree, 0.53 * millidegree};
+  EXPECT_EQ(line_of(report, "Gains of today"),
+            "not given; against PI tuned for this plant: 0.720 mdeg rms, simulated; recommended "
+            "0.510");
+  report.tuning->present.clear();
+  report.tuning->is_retuned_present = true;
+  EXPECT_THAT(line_of(report, "Gains of today"),
+              HasSubstr("PI-0 tuned for this plant, is the recommended controller"));
+}
+
+TEST(RedesignCard, CountsUnstableModels) {
+  Report report = report_of_test();
+  EXPECT_THAT(line_of(report, "Margins"), Not(HasSubstr("UNSTABLE")));
+  EXPECT_THAT(line_of(report, "Load"), StartsWith("PI-0"));
+  report.tuning->ensemble->stable = 29;
+  EXPECT_THAT(line_of(report, "Margins"), EndsWith("30/30 models, 1 UNSTABLE"));
+  EXPECT_THAT(line_of(report, "Confidence"),
+              StartsWith("low: constraints violated within the uncertainty set"));
+  EXPECT_THAT(line_of(report, "Recommended"), StartsWith("PI-0"));
+}
+
+// Records leave less open than the case's ranges, but hold for the conditions of the tests only.
+TEST(RedesignCard, StatesInstabilityBeyondWhatRecordsLeaveOpen) {
+  Report report = report_of_test();
+  report.tuning->instability = {0.0, 0.0, 0.0037};
+  EXPECT_THAT(line_of(report, "Margins"),
+              EndsWith("0 % unstable over the case's ranges (95 %: at most 0.37 %)"));
+  EXPECT_THAT(line_of(report, "Load"), StartsWith("PI-0"));
+  report.tuning->instability = {0.009, 0.0041, 0.017};
+  EXPECT_THAT(line_of(report, "Margins"),
+              EndsWith("0.9 % unstable over the case's ranges (95 %: at most 1.7 %)"));
+  EXPECT_THAT(line_of(report, "Recommended"), StartsWith("PI-0"));
+}
+
+TEST(RedesignCard, SaysThatNoModelFitsTheRecords) {
+  Report report = report_of_test();
+  EXPECT_THAT(line_of(report, "Confidence"), HasSubstr("no records"));
+  report.campaign.emplace();
+  EXPECT_THAT(line_of(report, "Confidence"), StartsWith("low: no model fits the records"));
+  EXPECT_THAT(line_of(report, "Confidence"), Not(HasSubstr("no records")));
+}
+
+TEST(RedesignCard, NamesTheErrorOfAnAzimuthAxisCrossElevation) {
+  Report report = report_of_test();
+  report.axis.name = "azimuth";
+  EXPECT_EQ(line_of(report, "Error per axis"), "");
+  EXPECT_THAT(line_of(report, "Cross-elevation"), StartsWith("0.520 mdeg rms"));
 }
 
 TEST(RedesignCard, StatesUpToWhichWindBudgetsAreMet) {
@@ -160,17 +220,17 @@ TEST(RedesignCard, ChangesFlywheelsOnlyForWhatDecides) {
   Report report = report_of_test();
   report.matching = flywheels({{0.499, 0.5}});
   EXPECT_THAT(line_of(report, "Flywheels"),
-              StartsWith("keep: 0 disks 0.499 mdeg, 24 disks as built 0.500 (PI"));
+              StartsWith("keep: 0.500 mdeg with 24 disks as built, 0.499 with 0 disks (PI"));
   report.matching = flywheels({{0.6, 0.5}});
   EXPECT_THAT(line_of(report, "Flywheels"), StartsWith("keep: "));
   report.matching = flywheels({{0.4, 0.5}});
   EXPECT_THAT(line_of(report, "Flywheels"),
-              AllOf(StartsWith("change: 0 disks 0.400 mdeg, 24 disks as built 0.500"),
+              AllOf(StartsWith("change: 0.500 mdeg with 24 disks as built, 0.400 with 0 disks"),
                     HasSubstr("boresight evaluate")));
   report.matching = flywheels({{0.4, 0.5}, {0.47, 0.471}});
   EXPECT_THAT(line_of(report, "Flywheels"),
               AllOf(StartsWith("keep until friction is measured"),
-                    HasSubstr("; 0.470 and 0.471 with the slope at tracking rate ("),
+                    HasSubstr("; 0.471 and 0.470 with the slope at tracking rate ("),
                     HasSubstr(", linear)")));
 }
 

@@ -14,7 +14,8 @@ using testing::IsEmpty;
 Evidence sound() {
   Evidence evidence;
   evidence.fitness = Fitness::fit;
-  evidence.simulated = evidence.plant_identified = true;
+  evidence.simulated = true;
+  evidence.plant = PlantBasis::records;
   return evidence;
 }
 
@@ -25,7 +26,7 @@ TEST(Confidence, IsHighWithoutDoubts) {
 
 TEST(Confidence, IsModerateWhereFiguresMayBeOff) {
   Evidence evidence = sound();
-  evidence.plant_identified = false;
+  evidence.plant = PlantBasis::drawings;
   EXPECT_EQ(grade(evidence).grade, Confidence::moderate);
   evidence = sound();
   evidence.largest_effect = telling_effect;
@@ -64,6 +65,8 @@ TEST(Confidence, IsLowWhereTheVerdictMayBeWrong) {
   is_low([](Evidence& e) { e.resonance_agrees = false; }, Doubt::resonance_disagrees);
   is_low([](Evidence& e) { e.verdict_depends_on_interpretation = true; },
          Doubt::interpretation_decides);
+  is_low([](Evidence& e) { e.plant = PlantBasis::failed_fit; }, Doubt::fit_failed);
+  is_low([](Evidence& e) { e.stable_on_members = false; }, Doubt::not_robust);
 }
 
 TEST(Confidence, ListsEveryDoubt) {

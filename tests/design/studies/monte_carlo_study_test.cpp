@@ -27,6 +27,16 @@ control::ControlLaw law_of_test() {
   return reference::held_law("PI", 1.0).design.tuning.law;
 }
 
+// As each plant alone is judged.
+double unstable_fraction(const Mission& mission, const PlantDistribution& distribution,
+                         const control::ControlLaw& law, const MonteCarloOptions& options) {
+  const MonteCarlo study = monte_carlo_of(mission, distribution, law, options);
+  MonteCarloJudge judge(study);
+  int unstable = 0;
+  for (std::uint64_t i = 0; i < study.plants; ++i) unstable += judge.judge(i).stable() ? 0 : 1;
+  return static_cast<double>(unstable) / static_cast<double>(study.plants);
+}
+
 // What one plant is given is its draw's, and the summary holds every plant.
 TEST(StudyMonteCarlo, EvaluatesTheControllerOnTheDrawsOfItsSeed) {
   const Mission mission = mission_of_test();
@@ -47,6 +57,21 @@ TEST(StudyMonteCarlo, EvaluatesTheControllerOnTheDrawsOfItsSeed) {
   MonteCarloJudge alone(monte_carlo_of(mission, distribution, law_of_test(), options));
   const auto plant = linear_plant(changed(mission.antenna, changes_of(worst.draw)));
   EXPECT_EQ(alone.judge(plant, false).beam_rms, worst.outcome.beam_rms);
+}
+
+TEST(Instability, IsThatOfTheStudy) {
+  const Mission mission = mission_of_test();
+  const auto distribution = PlantDistribution::of_ranges(mission);
+  const MonteCarloOptions options{.plants = 150, .seed = 3};
+  control::ControlLaw law = law_of_test();
+  const double position_gain = law.gains[3];
+  // From the tuned gain to one far beyond the gain margin.
+  for (const double factor : {1.0, 100.0}) {
+    law.gains[3] = factor * position_gain;
+    const auto alone = instability(mission, distribution, law, options);
+    EXPECT_EQ(alone.value == 1.0, factor == 100.0) << factor;
+    EXPECT_EQ(alone.value, unstable_fraction(mission, distribution, law, options));
+  }
 }
 
 // As many plants meet a budget as have a linear rms below what the simulation leaves of it.

@@ -1,4 +1,6 @@
+#include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -59,14 +61,18 @@ std::string simulated_text(const CandidateLaw& law) {
   return mdeg(law.expected ? law.expected->rms.value : wind.beam_rms);
 }
 
-// "10 records of wind": what the simulated rms are of.
+// "4 to 10 records of wind": what the simulated rms are of.
 std::string records_text(const EvaluateSection& section) {
+  std::vector<int> records;
   for (const auto& candidate : section.candidates) {
     for (const auto& law : candidate.laws) {
-      if (law.expected) return fmt::format("{} records of wind", law.expected->records);
+      if (law.expected) records.push_back(law.expected->records);
     }
   }
-  return "one record of wind";
+  if (records.empty()) return "one record of wind";
+  const auto [least, most] = std::ranges::minmax(records);
+  return least == most ? fmt::format("{} records of wind", most)
+                       : fmt::format("{} to {} records of wind", least, most);
 }
 
 Document time_domain_table(const EvaluateSection& section) {

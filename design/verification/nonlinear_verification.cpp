@@ -59,7 +59,7 @@ WindRun keep(const SimulatedLoop& loop, const LoopRun& run, Index settled) {
   kept.status = run.status;
   kept.message = run.message;
   if (run.status != RunStatus::complete) return kept;
-  const Index rest = run.beam_error.size() - settled;
+  const Index rest = run.beam_error.size() - 1 - settled;
   kept.beam_variance = variance(run.beam_error.tail(rest));
   kept.encoder_variance = variance(run.encoder_error.tail(rest));
   kept.at_command_limit = share_at_limit(loop, run);
@@ -134,7 +134,7 @@ class WindStudy {
     runs_[job] = keep(loop_, run, settled);
     if (kind != whole_kind || seed != 0) return;
     ErrorTrace& trace = runs_[job].trace;
-    trace = last_errors(run, course.interval, course.reference.size() - settled);
+    trace = last_errors(run, course.interval, course.reference.size() - 1 - settled);
     if (trace.encoder.size() > 0) trace.encoder = about_mean(trace.encoder);
   }
 

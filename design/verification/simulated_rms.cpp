@@ -58,6 +58,10 @@ SimulatedRms simulated_rms(const TrackingProblem& problem, const SimulatedLoop& 
         fmt::format("simulated_rms: expected at least 4 records and as many winds, found {} and {}",
                     options.records, options.winds));
   }
+  if (options.known.size() > options.records) {
+    throw InvalidInput(fmt::format("simulated_rms: expected at most {} known records, found {}",
+                                   options.records, options.known.size()));
+  }
   const auto shared = options.shared ? options.shared : std::make_shared<SharedWinds>();
   const SharedWinds::Records records{problem, loop, options.tracking_rate * loop.gear_ratio,
                                      options.settling + options.duration};
@@ -72,15 +76,19 @@ SimulatedRms simulated_rms(const TrackingProblem& problem, const SimulatedLoop& 
   for (Index k = 0; k < linear.size(); ++k) {
     linear[k] = 2.0 * (squares->col(k) * gains).sum() / (count * count);
   }
+  const Index known = options.known.size();
+  simulated.head(known) = options.known;
   std::vector<RunStatus> ends(static_cast<std::size_t>(options.records), RunStatus::complete);
-  numerics::for_each_index(ends.size(), options.threads, [&](std::size_t i) {
-    LoopRunOptions how;
-    how.seed = options.seed + i;
-    const LoopRun run = run_loop(loop, courses->course(how.seed), how);
-    ends[i] = run.status;
-    simulated[static_cast<Index>(i)] =
-        run.status == RunStatus::complete ? mean_square(run.beam_error, counted) : nan;
-  });
+  numerics::for_each_index(
+      ends.size() - static_cast<std::size_t>(known), options.threads, [&](std::size_t i) {
+        const Index k = known + static_cast<Index>(i);
+        LoopRunOptions how;
+        how.seed = options.seed + static_cast<std::uint64_t>(k);
+        const LoopRun run = run_loop(loop, courses->course(how.seed), how);
+        ends[static_cast<std::size_t>(k)] = run.status;
+        simulated[k] =
+            run.status == RunStatus::complete ? mean_square(run.beam_error, counted) : nan;
+      });
   SimulatedRms result;
   result.status = *std::ranges::max_element(ends);
   result.records = options.records;
@@ -105,17 +113,17 @@ SimulatedRms simulated_rms(const TrackingProblem& problem, const SimulatedLoop& 
 std::optional<numerics::Interval> relative_change(const SimulatedFigure& from,
                                                   const SimulatedFigure& to) {
   const SimulatedRms &one = from.expected, &other = to.expected;
-  const bool same_records = one.seed == other.seed && one.records == other.records &&
-                            one.winds == other.winds && one.mean_squares.size() >= 4 &&
-                            one.mean_squares.size() == other.mean_squares.size() &&
-                            one.linear_mean_squares.size() == other.linear_mean_squares.size();
+  const Index common = std::min(one.mean_squares.size(), other.mean_squares.size());
+  const bool same_winds = one.seed == other.seed && one.winds == other.winds && common >= 4 &&
+                          one.linear_mean_squares.size() == other.linear_mean_squares.size();
   const auto square = [](double value) { return value * value; };
   const double cycle = square(limit_cycle_rms(from.amplitude));
   const double base = square(one.rms.value) + cycle;
-  if (!same_records || !(base > 0.0)) return std::nullopt;
+  if (!same_winds || !(base > 0.0)) return std::nullopt;
   const double constant = square(limit_cycle_rms(to.amplitude)) - cycle;
   const auto mean = numerics::mean_by_double_sampling(
-      other.mean_squares - one.mean_squares, other.linear_mean_squares - one.linear_mean_squares);
+      other.mean_squares.head(common) - one.mean_squares.head(common),
+      other.linear_mean_squares - one.linear_mean_squares);
   const auto change = [&](double difference) {
     return std::sqrt(std::max(0.0, 1.0 + (difference + constant) / base)) - 1.0;
   };

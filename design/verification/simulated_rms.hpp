@@ -21,6 +21,8 @@ struct SimulatedRmsOptions {
   double duration = 300.0;     // s of a record after that
   double tracking_rate = 0.0;  // rad/s at the sky
   std::uint64_t seed = 1;      // of the first record; the others follow
+  /// Mean squares (rad2) of the first records, where they were run already.
+  Eigen::VectorXd known = {};
   unsigned threads = 1;
   /// Where those of other controllers in the same wind are; prepared anew if null.
   std::shared_ptr<SharedWinds> shared = nullptr;
@@ -45,7 +47,8 @@ struct SimulatedRms {
 /// each of these winds the linear loop's mean square follows from its periodogram, without a run;
 /// loops in the same wind share the periodograms. The result does not depend on the number of
 /// threads.
-/// @throws InvalidInput for fewer than 4 records or fewer winds than those; as run_loop.
+/// @throws InvalidInput for fewer than 4 records, fewer winds than those, and more known records;
+/// as run_loop.
 SimulatedRms simulated_rms(const TrackingProblem& problem, const SimulatedLoop& loop,
                            const SimulatedRmsOptions& options);
 
@@ -56,10 +59,10 @@ struct SimulatedFigure {
 };
 
 /// Relative change of sqrt(rms^2 + limit_cycle_rms(amplitude)^2) from one loop to another, with its
-/// 95 % interval. Both had the same winds. The interval is by mean_by_double_sampling of the
+/// 95 % interval, over the records that both ran. The interval is by mean_by_double_sampling of the
 /// differences of the records' mean squares, which is narrower than from two separate intervals. It
-/// is never narrower than the integration error allows. None for runs that did not complete or have
-/// different records.
+/// is never narrower than the integration error allows. None for runs that did not complete or were
+/// in different winds.
 std::optional<numerics::Interval> relative_change(const SimulatedFigure& from,
                                                   const SimulatedFigure& to);
 

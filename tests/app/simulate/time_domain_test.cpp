@@ -399,6 +399,9 @@ TEST(TimeDomain, ChoosesTheLeastSimulatedRms) {
   ASSERT_TRUE(chosen->rms);
   EXPECT_EQ(chosen->candidates[1].simulated_rms(), chosen->rms->rms.value);
   EXPECT_GT(chosen->candidates[2].simulated_rms(), chosen->candidates[1].simulated_rms());
+  // One that is far behind is not run in all records.
+  EXPECT_EQ(chosen->rms->records, 10);
+  EXPECT_EQ(chosen->candidates[0].rms->records, 4);
   // By the same winds: far apart, and a tie with itself.
   const auto change = figure_change(chosen->candidates[1], chosen->candidates[0]);
   ASSERT_TRUE(change);

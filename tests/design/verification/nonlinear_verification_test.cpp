@@ -153,7 +153,7 @@ TEST(NonlinearVerification, TracesHaveTheirResultsRmsAmplitudeAndPeak) {
   const auto result = verify_in_time(problem, loop, wanted);
   ASSERT_EQ(result.wind.status, RunStatus::complete) << result.wind.message;
   const ErrorTrace& wind = result.wind.trace;
-  ASSERT_EQ(wind.boresight.size(), 3001);  // 60 s
+  ASSERT_EQ(wind.boresight.size(), 3000);  // 60 s
   const auto rms = [](const Eigen::VectorXd& errors) {
     return std::sqrt(errors.squaredNorm() / static_cast<double>(errors.size()));
   };

@@ -1,5 +1,6 @@
 #include <cmath>
 #include <cstdint>
+#include <memory>
 
 #include <gtest/gtest.h>
 
@@ -31,6 +32,48 @@ TEST(SimulatedRms, IsTheSameForAnyNumberOfThreads) {
   EXPECT_EQ(change->value, 0.0);
   EXPECT_LT(change->lower, 0.0);
   EXPECT_GT(change->upper, 0.0);
+}
+
+TEST(SimulatedRms, TakesOverRecordsThatWereRun) {
+  DemoLoop setting;
+  setting.options.records = 4;
+  setting.options.winds = 12;
+  setting.options.duration = 20.0;
+  const auto few = simulated_rms(setting.problem, setting.loop, setting.options);
+  setting.options.records = 6;
+  const auto whole = simulated_rms(setting.problem, setting.loop, setting.options);
+  setting.options.known = few.mean_squares;
+  setting.options.shared = std::make_shared<SharedWinds>();
+  const auto more = simulated_rms(setting.problem, setting.loop, setting.options);
+  EXPECT_EQ(more.mean_squares, whole.mean_squares);
+  EXPECT_EQ(more.rms.upper, whole.rms.upper);
+  // Not run again: what is stated of them stands.
+  setting.options.known = 2.0 * few.mean_squares;
+  EXPECT_EQ(simulated_rms(setting.problem, setting.loop, setting.options).mean_squares.head(4),
+            2.0 * few.mean_squares);
+  setting.options.records = 4;
+  setting.options.known = whole.mean_squares;
+  EXPECT_THROW(simulated_rms(setting.problem, setting.loop, setting.options), InvalidInput);
+}
+
+TEST(SharedWinds, PreparesTheRecordsOfOneWindOnce) {
+  const DemoLoop setting;
+  SharedWinds winds;
+  const SharedWinds::Records records{setting.problem, setting.loop, 0.0, 10.0};
+  const auto first = winds.courses(records);
+  EXPECT_EQ(winds.courses(records), first);
+  const auto squares = winds.line_squares(records, 400, 3, 5, 2);
+  EXPECT_EQ(winds.line_squares(records, 400, 3, 5, 1), squares);
+  EXPECT_EQ(squares->rows(), 199);
+  EXPECT_NE(winds.line_squares(records, 400, 4, 5, 1), squares);
+  TrackingProblem stronger = setting.problem;
+  stronger.wind.mean_speed *= 2.0;
+  EXPECT_NE(winds.courses({stronger, setting.loop, 0.0, 10.0}), first);
+  // By Parseval, of the seed's own gusts about their mean.
+  const Eigen::VectorXd gusts = first->gusts(4).tail(400);
+  const double variance = (gusts.array() - gusts.mean()).square().mean();
+  const double by_lines = 2.0 * squares->col(1).sum() / (400.0 * 400.0);
+  EXPECT_NEAR(by_lines / variance, 1.0, 1e-3);  // without the line of half the sampling rate
 }
 
 // Ten records of which each has the mean square that the linear loop gives it, and 100 winds, about
@@ -81,7 +124,20 @@ TEST(RelativeChange, IsNarrowerThanTwoIntervalsAndNoNarrowerThanTheIntegration) 
               1e-7);
 }
 
-TEST(RelativeChange, AsksForTheSameRecords) {
+// Of a loop with four records and one with ten, over the four.
+TEST(RelativeChange, ComparesTheRecordsThatBothRan) {
+  const auto one = on_a_line(4.0, 1.0);
+  auto few = on_a_line(4.0, 1.1);
+  few.records = 4;
+  few.mean_squares.conservativeResize(4);
+  const auto change = relative_change({one, 0.0}, {few, 0.0});
+  ASSERT_TRUE(change);
+  EXPECT_NEAR(change->value, 0.1, 1e-9);
+  few.mean_squares.conservativeResize(3);
+  EXPECT_FALSE(relative_change({one, 0.0}, {few, 0.0}));
+}
+
+TEST(RelativeChange, AsksForTheSameWinds) {
   const auto one = on_a_line(4.0, 1.0);
   EXPECT_FALSE(relative_change({one, 0.0}, {on_a_line(4.0, 1.0, 2), 0.0}));
   EXPECT_FALSE(relative_change({one, 0.0}, {SimulatedRms{}, 0.0}));

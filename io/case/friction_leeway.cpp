@@ -1,5 +1,7 @@
 #include <fmt/format.h>
 
+#include <boresight/io/case/case_file.hpp>
+#include <boresight/io/case/case_friction.hpp>
 #include <boresight/io/case/friction_leeway.hpp>
 
 namespace boresight::io {
@@ -40,7 +42,7 @@ std::string loose_stribeck_text(const FrictionCurveEntry& curve) {
 
 void conclude_friction_doubt(const Case& antenna, std::vector<std::string>& sentences) {
   if (!antenna.simulation) return;
-  std::string doubt = loose_stribeck_text(antenna.friction_curve);
+  std::string doubt = loose_stribeck_text(*antenna.friction_curve);
   if (!doubt.empty()) sentences.push_back(std::move(doubt));
 }
 

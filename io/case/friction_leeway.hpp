@@ -6,7 +6,8 @@
 #include <vector>
 
 #include <boresight/identification/friction/steady_friction.hpp>
-#include <boresight/io/case/case_file.hpp>
+#include <boresight/io/case/case_declaration.hpp>
+#include <boresight/io/case/case_friction.hpp>
 
 namespace boresight::io {
 

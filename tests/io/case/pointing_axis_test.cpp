@@ -8,6 +8,7 @@
 #include "io/edited_case.hpp"
 #include <boresight/design/tuning/design_study.hpp>
 #include <boresight/io/case/antenna_of.hpp>
+#include <boresight/io/case/case_mechanics.hpp>
 #include <boresight/io/case/mission_of.hpp>
 #include <boresight/io/case/pointing_axis.hpp>
 #include <boresight/numerics/angles.hpp>
@@ -18,8 +19,8 @@ namespace {
 Case azimuth_case(double elevation) {
   Case stated = read_case(case_path("dss14-70m"));
   stated.axis = "azimuth";
-  stated.antenna.elevation = Quantity{};
-  stated.antenna.elevation->value = elevation * degree;
+  stated.antenna->elevation = Quantity{};
+  stated.antenna->elevation->value = elevation * degree;
   return stated;
 }
 
@@ -28,7 +29,7 @@ TEST(PointingAxis, FactorIsTheCosineOfTheElevationOfAnAzimuthAxis) {
   EXPECT_NEAR(pointing_axis(azimuth_case(120.0)).boresight_factor, 0.5, 1e-15);
   EXPECT_NEAR(antenna_of(azimuth_case(80.0)).boresight_factor, std::cos(80.0 * degree), 1e-15);
   Case stated = azimuth_case(60.0);
-  stated.antenna.elevation.reset();
+  stated.antenna->elevation.reset();
   EXPECT_EQ(pointing_axis(stated).boresight_factor, 1.0);
   EXPECT_FALSE(pointing_axis(stated).elevation);
   Case elevation = azimuth_case(60.0);

@@ -5,6 +5,7 @@
 #include <boresight/app/audit/check_sentences.hpp>
 #include <boresight/io/case/case_drive.hpp>
 #include <boresight/io/case/case_file.hpp>
+#include <boresight/io/case/case_friction.hpp>
 #include <boresight/io/case/case_tests.hpp>
 #include <boresight/io/case/friction_leeway.hpp>
 

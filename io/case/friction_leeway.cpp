@@ -5,7 +5,9 @@
 #include <boresight/io/case/friction_leeway.hpp>
 
 namespace boresight::io {
+namespace {
 
+// Input of identification::steady_friction_intervals, in the order of the tests.
 std::vector<identification::SteadyFriction> steady_friction(
     const std::vector<SteadyFrictionTest>& tests) {
   std::vector<identification::SteadyFriction> points;
@@ -13,6 +15,8 @@ std::vector<identification::SteadyFriction> steady_friction(
   for (const auto& test : tests) points.push_back({test.rate, test.torque, test.leeway});
   return points;
 }
+
+}  // namespace
 
 bool is_loose(const identification::FrictionInterval& interval) {
   constexpr double widest_factor = 1.5;

@@ -8,6 +8,7 @@
 
 #include "io/one_record.hpp"
 #include <boresight/io/case/case_campaign.hpp>
+#include <boresight/io/case/case_simulation.hpp>
 #include <boresight/io/case/case_tests.hpp>
 
 namespace boresight::io {

@@ -6,6 +6,7 @@
 #include <boresight/design/studies/controller_study.hpp>
 #include <boresight/design/studies/matching_verdict.hpp>
 #include <boresight/io/campaign/designed_antenna.hpp>
+#include <boresight/io/case/case_file.hpp>
 #include <boresight/io/case/present_gains.hpp>
 #include <boresight/io/proposals/compared_antennas.hpp>
 #include <boresight/numerics/angles.hpp>

@@ -5,6 +5,9 @@
 
 #include <boresight/app/audit/audit_report.hpp>
 #include <boresight/io/case/case_file.hpp>
+#include <boresight/io/case/case_motor.hpp>
+#include <boresight/io/case/case_sensors.hpp>
+#include <boresight/io/case/case_wind.hpp>
 #include <boresight/io/case/drive_numbers.hpp>
 #include <boresight/io/case/plant_numbers.hpp>
 #include <boresight/numerics/error.hpp>
@@ -65,17 +68,17 @@ void add_case(py::module_& module) {
       .def_property_readonly(
           "motor_inertia",
           [](const Case& antenna) {
-            return io::motor_inertia(antenna, antenna.motor.flywheel_disks);
+            return io::motor_inertia(antenna, antenna.motor->flywheel_disks);
           },
           "All motors with their flywheels, kg m2")
       .def_property_readonly(
-          "flywheel_disks", [](const Case& antenna) { return antenna.motor.flywheel_disks; },
+          "flywheel_disks", [](const Case& antenna) { return antenna.motor->flywheel_disks; },
           "On each motor")
       .def_property_readonly(
-          "controller_delay", [](const Case& antenna) { return antenna.controller_delay.value; },
+          "controller_delay", [](const Case& antenna) { return antenna.controller->delay.value; },
           "Dead time on the valve command, s")
       .def_property_readonly(
-          "wind_speed", [](const Case& antenna) { return antenna.wind.design_speed.value; },
+          "wind_speed", [](const Case& antenna) { return antenna.wind->design_speed.value; },
           "Mean speed of the design wind, m/s")
       .def("__repr__", [](const Case& antenna) {
         return fmt::format("<boresight.Case {}: {}>", antenna.path, antenna.title);

@@ -10,6 +10,8 @@
 #include <boresight/app/redesign/sections.hpp>
 #include <boresight/io/campaign/campaign_identification.hpp>
 #include <boresight/io/campaign/recommended_values.hpp>
+#include <boresight/io/case/case_campaign.hpp>
+#include <boresight/io/case/case_file.hpp>
 #include <boresight/numerics/error.hpp>
 #include <boresight/python/bindings.hpp>
 #include <boresight/python/interruptible.hpp>
@@ -51,7 +53,7 @@ Identification identify(const io::Case& antenna, std::uint64_t seed, unsigned th
     };
     result.report.identification = app::identify(antenna, options);
     result.report.assumed = app::identification_inputs(antenna);
-    if (!antenna.campaign.records.empty()) {
+    if (!antenna.campaign->records.empty()) {
       result.report.campaign = io::identify_campaign(antenna, options);
       result.report.superseded = io::superseded_inputs(antenna, *result.report.campaign);
     }

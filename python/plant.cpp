@@ -7,6 +7,8 @@
 
 #include <boresight/app/redesign/sections.hpp>
 #include <boresight/io/case/antenna_of.hpp>
+#include <boresight/io/case/case_file.hpp>
+#include <boresight/io/case/case_motor.hpp>
 #include <boresight/io/case/plant_numbers.hpp>
 #include <boresight/plant/antenna/antenna_change.hpp>
 #include <boresight/plant/antenna/gear_train.hpp>
@@ -36,7 +38,7 @@ Plant make_plant(const io::Case& antenna, std::optional<double> flywheel_disks,
   result.state_space = plant::to_state_space(section.plant);
   section.reflected_inertia = plant::reflected_inertia(section.plant);
   section.motor_to_load_ratio = plant::motor_to_load_ratio(
-      io::motor_inertia(antenna, flywheel_disks.value_or(antenna.motor.flywheel_disks)),
+      io::motor_inertia(antenna, flywheel_disks.value_or(antenna.motor->flywheel_disks)),
       section.reflected_inertia);
   section.rigid_frequency =
       plant::hydraulic_frequency(section.plant.drive.oil_stiffness, section.reflected_inertia);

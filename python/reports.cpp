@@ -4,6 +4,7 @@
 #include <boresight/app/redesign/assumed_inputs.hpp>
 #include <boresight/app/report/json_report.hpp>
 #include <boresight/app/report/text_report.hpp>
+#include <boresight/io/case/case_file.hpp>
 #include <boresight/python/bindings.hpp>
 #include <boresight/python/results.hpp>
 

@@ -14,6 +14,9 @@
 #include <boresight/app/tune/tune_verdict.hpp>
 #include <boresight/design/studies/controller_study.hpp>
 #include <boresight/io/campaign/designed_antenna.hpp>
+#include <boresight/io/case/case_file.hpp>
+#include <boresight/io/case/case_goals.hpp>
+#include <boresight/io/case/case_tuning.hpp>
 #include <boresight/io/description/loop_results.hpp>
 #include <boresight/python/bindings.hpp>
 #include <boresight/python/described_class.hpp>
@@ -38,7 +41,7 @@ Tuning tune(io::Case antenna, const std::vector<std::string>& structures,
             int starts, std::uint64_t seed, unsigned threads) {
   std::vector<std::string> changes;
   for (const auto& [key, value] : goals) changes.push_back(fmt::format("{}={}", key, value));
-  io::change_goals(antenna.goals, changes);
+  io::change_goals(*antenna.goals, changes);
   app::structure_option(antenna, structures);
   Tuning result{{report_of(antenna, "tune", seed)}};
   auto study = interruptible([&](const StopRequest& stop) {

@@ -8,6 +8,13 @@
 
 #include <boresight/app/audit/check_sentences.hpp>
 #include <boresight/app/redesign/resonance_verdict.hpp>
+#include <boresight/io/case/case_drive.hpp>
+#include <boresight/io/case/case_file.hpp>
+#include <boresight/io/case/case_mechanics.hpp>
+#include <boresight/io/case/case_motor.hpp>
+#include <boresight/io/case/case_structure.hpp>
+#include <boresight/io/case/case_tests.hpp>
+#include <boresight/io/case/case_wind.hpp>
 #include <boresight/io/case/structure_numbers.hpp>
 #include <boresight/numerics/angles.hpp>
 #include <boresight/plant/antenna/motors_held_modes.hpp>
@@ -46,12 +53,12 @@ std::string gear_remedy(const FailedCheck& failed) {
   const design::CheckedEntry& entry = failed.check.entries.at(0);
   if (explanation == "other_antenna") {
     const plant::StructureSpecification other =
-        io::structure_specifications(failed.antenna.structure)
+        io::structure_specifications(*failed.antenna.structure)
             .at(static_cast<std::size_t>(entry.value));
     return fmt::format(
         "Another antenna with these motors-locked frequencies has {:.4g} N.m/rad with {}, {}. To "
         "select it, state these as effective_fraction instead of inertia_fraction.",
-        failed.antenna.antenna.inertia.value * plant::make_structure(other).gear_stiffness,
+        failed.antenna.antenna->inertia.value * plant::make_structure(other).gear_stiffness,
         held_frequencies(other), effective_fractions(other));
   }
   if (explanation == "inputs") {
@@ -80,7 +87,7 @@ std::string inertia_remainder_sentence(const FailedCheck& failed) {
 
 std::string resonance_expected_sentence(const FailedCheck& failed) {
   std::string others;
-  const auto& alternatives = failed.antenna.antenna.alternatives;
+  const auto& alternatives = failed.antenna.antenna->alternatives;
   for (std::size_t i = 0; i < alternatives.size(); ++i) {
     others += fmt::format("; the flexible antenna has {:.3f} Hz with the inertia of {}",
                           failed.check.numbers.at(5 + i).value, alternatives[i].name);
@@ -100,9 +107,9 @@ std::string resonance_damping_sentence(const FailedCheck& failed) {
       "The {} of the case has the damping ratio {:.3g} (leakage rate {:.3g} 1/s, viscous friction "
       "{:.3g} N.m.s/rad, structural damping). Measured is {:.3g}, more than a factor of 2 {}: "
       "leakage or friction is {} than stated{}.{}",
-      failed.antenna.resonance_of_oil ? "mode with most energy in the oil" : "hydraulic mode",
-      expected, failed.antenna.drive.leakage_rate.value,
-      failed.antenna.drive.viscous_friction.value, measured, above ? "above" : "below",
+      failed.antenna.resonance->of_oil ? "mode with most energy in the oil" : "hydraulic mode",
+      expected, failed.antenna.drive->leakage_rate.value,
+      failed.antenna.drive->viscous_friction.value, measured, above ? "above" : "below",
       above ? "larger" : "smaller",
       above ? ", or a nonlinear effect damped that test: dry friction, or pressure-dependent flow "
               "through an open valve"
@@ -132,7 +139,7 @@ std::string coincidence_sentence(const FailedCheck& failed) {
 }
 
 std::string inertia_against_dish_sentence(const FailedCheck& failed) {
-  const io::AntennaEntry& antenna = failed.antenna.antenna;
+  const io::AntennaEntry& antenna = *failed.antenna.antenna;
   const auto& figure = failed.check.numbers.front();
   return fmt::format(
       "'{}' over the fifth power of the dish's '{}' is {:.2g} kg/m3. DSS-14: {:.3g} kg/m3 about "
@@ -150,12 +157,12 @@ std::string flywheel_rim_sentence(const FailedCheck& failed) {
       "At the slew rate of '{}' ({:.3g} rad/s at the motors) the rim of a flywheel disk of radius "
       "'{}' runs at {:.3g} m/s. Plain steel disks with a bore yield from about 200 m/s: check "
       "radius and unit, slew rate and gear ratio.",
-      failed.antenna.drive.slew_rate.text, failed["motor rate at slew rate"],
-      failed.antenna.motor.disk_radius.value().text, failed["rim speed"]);
+      failed.antenna.drive->slew_rate.text, failed["motor rate at slew rate"],
+      failed.antenna.motor->disk_radius.value().text, failed["rim speed"]);
 }
 
 std::string flywheel_inertia_sentence(const FailedCheck& failed) {
-  const io::MotorEntry& motor = failed.antenna.motor;
+  const io::MotorEntry& motor = *failed.antenna.motor;
   const double disks = failed["flywheel disks"], rest = failed["all else at the motors"];
   return fmt::format(
       "{:.0f} flywheel disks of {:.3g} kg.m2 on each of {} motors have {:.3g} kg.m2, {:.0f} times "
@@ -178,7 +185,7 @@ std::string wave_speed_sentence(const FailedCheck& failed) {
 }
 
 std::string structural_bound_sentence(const FailedCheck& failed) {
-  const io::StructureEntry& structure = failed.antenna.structure;
+  const io::StructureEntry& structure = *failed.antenna.structure;
   return fmt::format(
       "'{}' is the lowest structural frequency predicted for the {} axis; it does not bound the "
       "resonances of the {} axis.",
@@ -199,9 +206,9 @@ std::string structural_predictions_sentence(const FailedCheck& failed) {
       "structure.prediction. The mode frequencies or inertia fractions are not those of the "
       "structural model{}.",
       fmt::join(apart, ", "),
-      failed.antenna.structure.motors_held ? ""
-                                           : ", or motors-locked frequencies are stated as "
-                                             "bull-gear-locked ones (structure.mode_frequencies)");
+      failed.antenna.structure->motors_held ? ""
+                                            : ", or motors-locked frequencies are stated as "
+                                              "bull-gear-locked ones (structure.mode_frequencies)");
 }
 
 std::string structural_shares_sentence(const FailedCheck& failed) {
@@ -219,13 +226,13 @@ std::string structural_shares_sentence(const FailedCheck& failed) {
       "dominates the pointing error: take the fractions from a structural model "
       "(structure.modes_file).",
       fmt::join(shares, " and "), failed["bending by the stated shares"] / millidegree,
-      failed.antenna.wind.design_speed.value,
+      failed.antenna.wind->design_speed.value,
       failed["bending by the shares of the inertia"] / millidegree);
 }
 
 std::string motors_held_sentence(const FailedCheck& failed) {
   const auto& springs = failed.check.numbers;
-  const auto antennas = io::structure_specifications(failed.antenna.structure);
+  const auto antennas = io::structure_specifications(*failed.antenna.structure);
   std::vector<std::string> others;
   for (std::size_t i = 1; i < antennas.size(); ++i) {
     others.push_back(fmt::format("{:.3g} N.m/rad with {}, {}", springs.at(i).value,
@@ -273,7 +280,7 @@ std::string carrier_frequency_sentence(const FailedCheck& failed) {
       "At '{}' the wavelength is {:.3g} m for a dish of {:.3g} m: a beam {:.2g} deg wide needs no "
       "pointing.",
       failed.check.entries.at(0).text, failed["wavelength"],
-      failed.antenna.antenna.dish_diameter.value, failed["beam width"] / degree);
+      failed.antenna.antenna->dish_diameter.value, failed["beam width"] / degree);
 }
 
 constexpr std::array of_antenna{

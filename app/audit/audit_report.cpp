@@ -7,6 +7,8 @@
 
 #include <boresight/app/audit/audit_report.hpp>
 #include <boresight/app/audit/check_sentences.hpp>
+#include <boresight/io/case/case_file.hpp>
+#include <boresight/io/case/case_statements.hpp>
 #include <boresight/numerics/angles.hpp>
 
 namespace boresight::app {
@@ -41,10 +43,12 @@ std::vector<Implausibility> implausibilities(const io::Case& antenna,
 
 AuditReport audit_report(const io::Case& antenna) {
   io::CaseAudit found = io::audit(antenna);
+  std::vector<Remark> remarks;
+  for (const auto& remark : antenna.remarks) remarks.push_back({remark.place, remark.text});
   return {antenna.title,
           std::move(found.findings),
           implausibilities(antenna, found.physics),
-          antenna.remarks,
+          std::move(remarks),
           found.checked,
           std::move(found.compared)};
 }

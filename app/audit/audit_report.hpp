@@ -20,13 +20,19 @@ struct Implausibility {
   std::vector<design::CheckedNumber> numbers;
 };
 
+/// A note of the case's author on a place of the source.
+struct Remark {
+  std::string place;
+  std::string text;
+};
+
 /// What an audit of a case found, in words.
 struct AuditReport {
   std::string title;
   std::vector<design::Finding> findings;
   std::vector<Implausibility> implausible;
   /// The case writer's own, what no recomputation can find.
-  std::vector<io::RemarkEntry> remarks;
+  std::vector<Remark> remarks;
   /// As of io::CaseAudit.
   std::size_t checked = 0;
   std::vector<std::string> compared;

@@ -3,6 +3,10 @@
 #include <fmt/format.h>
 
 #include <boresight/app/audit/check_sentences.hpp>
+#include <boresight/io/case/case_drive.hpp>
+#include <boresight/io/case/case_file.hpp>
+#include <boresight/io/case/case_friction.hpp>
+#include <boresight/io/case/case_tests.hpp>
 #include <boresight/io/case/friction_leeway.hpp>
 
 namespace boresight::app {
@@ -20,7 +24,7 @@ std::string taken_by_friction(const FailedCheck& failed, bool at_rest) {
   }
   return fmt::format(
       "at the slew rate of '{}' ({:.3g} rad/s at the motors) it is {:.3g} N.m, mostly from {} {}",
-      failed.antenna.drive.slew_rate.text, failed.physics.shaft.slew_rate,
+      failed.antenna.drive->slew_rate.text, failed.physics.shaft.slew_rate,
       failed["friction at slew rate"], most.id, as_written(most));
 }
 
@@ -33,9 +37,9 @@ std::string known_by(std::span<const design::CheckedEntry> entries) {
 
 std::string friction_slope_sentence(const FailedCheck& failed) {
   const auto& numbers = failed.check.numbers;
-  const bool rings = failed.antenna.resonance_frequency.has_value();
+  const bool rings = failed.antenna.resonance->frequency.has_value();
   std::string text = fmt::format("'{}' as viscous friction",
-                                 failed.antenna.friction_tests.constant_speed_slope.value().text);
+                                 failed.antenna.friction_tests->constant_speed_slope.value().text);
   // Behind the supply's torque and power four for each reading of the slope's unit.
   for (std::size_t i = 2; i + 3 < numbers.size(); i += 4) {
     const bool first = i == 2;
@@ -48,7 +52,7 @@ std::string friction_slope_sentence(const FailedCheck& failed) {
   }
   return text + fmt::format(". The supply gives {:.3g} N.m, {:.3g} kW{}.", failed["supply torque"],
                             1e-3 * failed["supply power at slew rate"],
-                            failed.antenna.drive.supply_pressure.basis == io::Basis::assumed
+                            failed.antenna.drive->supply_pressure.basis == io::Basis::assumed
                                 ? " (from an assumed pressure)"
                                 : "");
 }
@@ -83,7 +87,7 @@ std::string friction_test_line_sentence(const FailedCheck& failed) {
 }
 
 std::string friction_curve_tests_sentence(const FailedCheck& failed) {
-  const io::FrictionCurveEntry& curve = failed.antenna.friction_curve;
+  const io::FrictionCurveEntry& curve = *failed.antenna.friction_curve;
   const auto rate = io::loose_stribeck_rate(curve).value();
   std::string most;
   if (rate.moved_most_by) {
@@ -113,7 +117,7 @@ std::string slew_rate_without_load_sentence(const FailedCheck& failed) {
       "Slewing at '{}' needs {:.3g} rad/s at the motors; the fully open valve gives {:.3g} rad/s "
       "without load {}, {:.0f} % of that. The antenna cannot slew so fast, or a value of valve, "
       "supply, motors or gear ratio is wrong.",
-      failed.antenna.drive.slew_rate.text, slewing, reached, known_by(failed.check.entries),
+      failed.antenna.drive->slew_rate.text, slewing, reached, known_by(failed.check.entries),
       100.0 * reached / slewing);
 }
 
@@ -126,7 +130,7 @@ std::string slew_rate_under_load_sentence(const FailedCheck& failed) {
       "supply's torque above the return. The fully open valve gives {:.3g} rad/s without load {}, "
       "but {:.3g} rad/s under this load, {:.0f} % of the slew rate. The slew rate is out of reach, "
       "or a value of friction, valve, supply, motors or gear ratio is wrong.",
-      failed.antenna.drive.slew_rate.text, slewing, load,
+      failed.antenna.drive->slew_rate.text, slewing, load,
       failed.check.explanation == "friction" ? "friction" : "friction and offset",
       100.0 * load / failed["supply torque above the return's"], failed["valve stroke"],
       known_by(failed.check.entries), reached, 100.0 * reached / slewing);

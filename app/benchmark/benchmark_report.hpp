@@ -10,7 +10,7 @@
 #include <boresight/app/simulate/time_domain.hpp>
 #include <boresight/design/studies/benchmark_study.hpp>
 #include <boresight/io/campaign/designed_antenna.hpp>
-#include <boresight/io/case/case_file.hpp>
+#include <boresight/io/case/case_declaration.hpp>
 #include <boresight/io/case/pointing_axis.hpp>
 
 namespace boresight::io {

@@ -4,6 +4,7 @@
 
 #include <boresight/app/benchmark/benchmark_report.hpp>
 #include <boresight/app/redesign/assumed_inputs.hpp>
+#include <boresight/io/case/case_file.hpp>
 
 namespace boresight::app {
 namespace {

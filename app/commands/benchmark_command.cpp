@@ -12,6 +12,8 @@
 #include <boresight/app/tune/chosen_controller.hpp>
 #include <boresight/app/tune/structure_option.hpp>
 #include <boresight/control/controllers/sample_time.hpp>
+#include <boresight/io/case/case_file.hpp>
+#include <boresight/io/case/case_sensors.hpp>
 #include <boresight/io/case/drive_numbers.hpp>
 #include <boresight/io/case/present_gains.hpp>
 #include <boresight/io/exchange/controller_file.hpp>
@@ -97,7 +99,7 @@ BenchmarkReport benchmark_case(const BenchmarkArguments& arguments,
   arguments.outputs.require_writable();
   if (!arguments.export_path.empty()) io::require_writable(arguments.export_path);
   const double sample_time =
-      arguments.sampled ? control::sample_time_of(antenna.controller_delay.value) : 0.0;
+      arguments.sampled ? control::sample_time_of(antenna.controller->delay.value) : 0.0;
   const auto named = named_one(arguments, antenna, sample_time);
   const std::string other =
       arguments.compare_path.empty() ? std::string() : text_of(arguments.compare_path);

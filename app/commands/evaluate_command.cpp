@@ -18,6 +18,8 @@
 #include <boresight/app/report/text_report.hpp>
 #include <boresight/app/tune/structure_option.hpp>
 #include <boresight/io/campaign/designed_antenna.hpp>
+#include <boresight/io/case/case_file.hpp>
+#include <boresight/io/case/case_goals.hpp>
 #include <boresight/io/case/friction_leeway.hpp>
 #include <boresight/io/files/write_atomically.hpp>
 #include <boresight/io/proposals/compared_antennas.hpp>
@@ -59,7 +61,7 @@ int run(EvaluateArguments arguments) {
 
 Report evaluate_case(const EvaluateArguments& arguments, const std::function<bool()>& interrupted) {
   io::Case antenna = io::read_case(arguments.case_path);
-  io::change_goals(antenna.goals, arguments.goals);
+  io::change_goals(*antenna.goals, arguments.goals);
   std::vector<io::Proposal> proposals;
   for (const auto& path : arguments.proposals) proposals.push_back(io::read_proposal(path));
   io::check_proposals(antenna, proposals);

@@ -17,6 +17,7 @@
 #include <boresight/app/tune/structure_option.hpp>
 #include <boresight/design/studies/what_if_study.hpp>
 #include <boresight/io/campaign/designed_antenna.hpp>
+#include <boresight/io/case/case_file.hpp>
 #include <boresight/io/case/friction_leeway.hpp>
 #include <boresight/io/files/write_atomically.hpp>
 #include <boresight/numerics/error.hpp>

@@ -26,6 +26,10 @@
 #include <boresight/io/campaign/campaign_identification.hpp>
 #include <boresight/io/campaign/designed_antenna.hpp>
 #include <boresight/io/campaign/recommended_values.hpp>
+#include <boresight/io/case/case_campaign.hpp>
+#include <boresight/io/case/case_file.hpp>
+#include <boresight/io/case/case_tests.hpp>
+#include <boresight/io/case/case_tuning.hpp>
 #include <boresight/io/case/mission_of.hpp>
 #include <boresight/io/files/write_atomically.hpp>
 
@@ -51,7 +55,7 @@ struct Command {
 
 void fill_identification(const io::Case& antenna, const StudyOptions& options, Report& report) {
   report.identification = identify(antenna, options);
-  if (antenna.campaign.records.empty()) return;
+  if (antenna.campaign->records.empty()) return;
   // Drawn before the methods run, which free what the files held.
   io::LoadedCampaign loaded = load_campaign(antenna, options.threads);
   const auto traces = campaign_traces(loaded);
@@ -110,11 +114,11 @@ const std::vector<Command>& commands() {
       {"audit", "recompute every derived value of the case; list inconsistencies",
        [](const io::Case& antenna, const StudyOptions&, Report& report) {
          report.audit = audit_report(antenna);
-         if (antenna.campaign.records.empty()) return;
+         if (antenna.campaign->records.empty()) return;
          report.conclusions.push_back(
              fmt::format("The audit does not read the case's {} records: `boresight identify {}` "
                          "lists the values that they contradict.",
-                         antenna.campaign.records.size(), report.case_path));
+                         antenna.campaign->records.size(), report.case_path));
        }},
       {"identify",
        "inertia and motor-to-load ratio by each method, with intervals; with records, the whole "

@@ -25,6 +25,9 @@
 #include <boresight/design/simulation/drive_tests.hpp>
 #include <boresight/design/simulation/test_runs.hpp>
 #include <boresight/io/campaign/designed_antenna.hpp>
+#include <boresight/io/case/case_drive.hpp>
+#include <boresight/io/case/case_file.hpp>
+#include <boresight/io/case/case_simulation.hpp>
 #include <boresight/io/case/drive_numbers.hpp>
 #include <boresight/io/case/field.hpp>
 #include <boresight/io/case/tested_drive_of.hpp>
@@ -187,7 +190,7 @@ class Campaign {
   void keep(std::size_t run, design::DriveTestRecord& record) {
     auto section = section_of(std::move(record));
     report_.figures.push_back(drive_test_figure(
-        section, io::supply_torque(antenna_) / antenna_.drive.supply_pressure.value));
+        section, io::supply_torque(antenna_) / antenna_.drive->supply_pressure.value));
     write(run, section);
     report_.drive.push_back(std::move(section));
   }

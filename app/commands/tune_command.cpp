@@ -20,6 +20,8 @@
 #include <boresight/design/studies/controller_study.hpp>
 #include <boresight/design/studies/limit_study.hpp>
 #include <boresight/io/campaign/designed_antenna.hpp>
+#include <boresight/io/case/case_file.hpp>
+#include <boresight/io/case/case_goals.hpp>
 #include <boresight/io/case/mission_of.hpp>
 #include <boresight/io/files/write_atomically.hpp>
 #include <boresight/io/units/wording.hpp>
@@ -44,7 +46,7 @@ std::vector<double> read_speeds(const std::vector<std::string>& texts) {
 
 Report tune_case(const TuneArguments& arguments, const std::function<bool()>& interrupted) {
   io::Case antenna = io::read_case(arguments.case_path);
-  io::change_goals(antenna.goals, arguments.goals);
+  io::change_goals(*antenna.goals, arguments.goals);
   design::TuneOptions options;
   options.wind_speeds = read_speeds(arguments.speeds);
   options.starts = arguments.starts;

@@ -12,6 +12,9 @@
 #include <boresight/app/tune/structure_option.hpp>
 #include <boresight/design/studies/commission_study.hpp>
 #include <boresight/io/campaign/compared_records.hpp>
+#include <boresight/io/case/case_file.hpp>
+#include <boresight/io/case/case_tuning.hpp>
+#include <boresight/io/case/case_wind.hpp>
 #include <boresight/io/exchange/gains_by_key.hpp>
 #include <boresight/numerics/error.hpp>
 
@@ -77,7 +80,7 @@ CommissionReport plan_commission(const io::DesignedAntenna& designed,
   report.ensemble_source = to_string(ensemble.source);
   report.ensemble_size = ensemble.members.size();
   report.wind_speed = designed.mission.wind.mean_speed;
-  report.wind_model = antenna.wind.model;
+  report.wind_model = antenna.wind->model;
   report.gear_ratio = gear_ratio(designed.mission.antenna);
   report.before = options.before;
   report.after = options.after;

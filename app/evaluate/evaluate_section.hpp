@@ -6,7 +6,8 @@
 #include <vector>
 
 #include <boresight/design/studies/proposal_study.hpp>
-#include <boresight/io/proposals/proposed_case.hpp>
+#include <boresight/io/proposals/change_rows.hpp>
+#include <boresight/plant/wind/wind_mast.hpp>
 
 namespace boresight::app {
 
@@ -42,8 +43,8 @@ struct DecisionSection : design::ProposalDecision {
 struct EvaluateSection {
   double wind_speed = 0.0;  // m/s
   plant::WindModel wind_model = plant::WindModel::coherence;
-  std::optional<io::WindMast> wind_mast;  // none: the case states speeds at the dish's centre
-  bool climate = false;                   // the case has one
+  std::optional<plant::WindMast> wind_mast;  // none: the case states speeds at the dish's centre
+  bool climate = false;                      // the case has one
   bool minimises_climate = false;
   std::string currency;  // empty: no proposal states a cost
   std::string ensemble_source;

@@ -2,6 +2,8 @@
 
 #include <boresight/app/evaluate/evaluate_study.hpp>
 #include <boresight/app/uncertainty/distribution_source.hpp>
+#include <boresight/io/case/case_file.hpp>
+#include <boresight/io/case/case_wind.hpp>
 #include <boresight/io/case/present_gains.hpp>
 #include <boresight/io/proposals/compared_antennas.hpp>
 #include <boresight/numerics/error.hpp>
@@ -85,7 +87,7 @@ EvaluateSection evaluate_proposals(const io::Case& antenna,
   section.budgets = mission.budgets;
   section.wind_speed = mission.wind.mean_speed;
   section.wind_model = mission.wind.model;
-  section.wind_mast = antenna.wind.mast;
+  section.wind_mast = antenna.wind->mast;
   section.climate = !mission.climate.empty();
   section.minimises_climate = mission.minimises_climate;
   section.currency = compared.currency;

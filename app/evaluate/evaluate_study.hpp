@@ -4,6 +4,8 @@
 #include <vector>
 
 #include <boresight/app/evaluate/evaluate_section.hpp>
+#include <boresight/io/case/case_declaration.hpp>
+#include <boresight/io/proposals/proposal.hpp>
 
 namespace boresight::app {
 

@@ -4,6 +4,11 @@
 #include <fmt/ranges.h>
 
 #include <boresight/app/identify/first_tests.hpp>
+#include <boresight/io/case/case_campaign.hpp>
+#include <boresight/io/case/case_file.hpp>
+#include <boresight/io/case/case_friction.hpp>
+#include <boresight/io/case/case_oil.hpp>
+#include <boresight/io/case/case_simulation.hpp>
 
 namespace boresight::app {
 namespace {
@@ -50,8 +55,8 @@ std::string how_to_practise(const io::Case& antenna) {
   std::vector<std::string> missing;
   if (!antenna.simulation) missing.emplace_back("[simulation]");
   if (!antenna.recorder) missing.emplace_back("[recorder]");
-  if (!antenna.campaign.tachometer) missing.emplace_back("[tachometer]");
-  if (antenna.campaign.lines.empty()) missing.emplace_back("[[oil.line]]");
+  if (!antenna.campaign->tachometer) missing.emplace_back("[tachometer]");
+  if (antenna.campaign->lines.empty()) missing.emplace_back("[[oil.line]]");
   return fmt::format(
       "`boresight simulate {} valve-steps slow-ramp constant-speed` simulates such records to try "
       "out their evaluation{}. Name your records by [[record]]; docs/records.md lists the accepted "
@@ -63,7 +68,7 @@ std::string how_to_practise(const io::Case& antenna) {
 }  // namespace
 
 std::vector<std::string> first_tests(const io::Case& antenna) {
-  const bool modulus_known = antenna.oil.bulk_modulus && measured(*antenna.oil.bulk_modulus);
+  const bool modulus_known = antenna.oil->bulk_modulus && measured(*antenna.oil->bulk_modulus);
   std::vector<std::string> sentences{
       "The case has no records: these results rest on the values that it states.",
       "First record small valve steps about a constant speed and a valve sweep (valve-steps, "
@@ -72,8 +77,8 @@ std::vector<std::string> first_tests(const io::Case& antenna) {
   sentences.push_back(
       fmt::format("Then record a slow ramp and constant speeds in both directions, some below the "
                   "rate at which friction levels off: {}.",
-                  shown_friction(antenna.friction_curve)));
-  if (!modulus_known && antenna.oil.lines.empty()) {
+                  shown_friction(*antenna.friction_curve)));
+  if (!modulus_known && antenna.oil->lines.empty()) {
     sentences.emplace_back(
         "A slosh test with a transducer at the motor end of each line measures the oil's bulk "
         "modulus.");

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include <boresight/io/case/case_file.hpp>
+#include <boresight/io/case/case_declaration.hpp>
 
 namespace boresight::app {
 

@@ -1,12 +1,15 @@
 #include <utility>
 
 #include <boresight/app/match/match_section.hpp>
+#include <boresight/io/case/case_drive.hpp>
+#include <boresight/io/case/case_file.hpp>
+#include <boresight/io/case/case_wind.hpp>
 
 namespace boresight::app {
 
 MatchSection section_of(const io::Case& antenna, design::MatchingStudy study) {
-  return {std::move(study), antenna.wind.mast, std::nullopt,
-          antenna.drive.viscous_friction.basis == io::Basis::measured};
+  return {std::move(study), antenna.wind->mast, std::nullopt,
+          antenna.drive->viscous_friction.basis == io::Basis::measured};
 }
 
 std::string label_of(const MatchPoint& point) {

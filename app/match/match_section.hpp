@@ -5,7 +5,8 @@
 
 #include <boresight/design/studies/matching_study.hpp>
 #include <boresight/design/studies/what_if_study.hpp>
-#include <boresight/io/case/case_file.hpp>
+#include <boresight/io/case/case_declaration.hpp>
+#include <boresight/plant/wind/wind_mast.hpp>
 
 namespace boresight::app {
 
@@ -22,7 +23,7 @@ using design::RuleVerdict;
 
 /// Results of `boresight match`, and the parts of the case's text and page that its report needs.
 struct MatchSection : design::MatchingStudy {
-  std::optional<io::WindMast> wind_mast;       // none: the case states speeds at the dish's centre
+  std::optional<plant::WindMast> wind_mast;    // none: the case states speeds at the dish's centre
   std::optional<design::WhatIfTable> what_if;  // where a page asks for it
   bool friction_measured = false;              // the linear plant's friction slope
 };

@@ -6,8 +6,9 @@
 
 #include <boresight/app/figures/figure.hpp>
 #include <boresight/design/studies/monte_carlo_summary.hpp>
-#include <boresight/io/case/case_file.hpp>
+#include <boresight/io/case/case_declaration.hpp>
 #include <boresight/io/case/pointing_axis.hpp>
+#include <boresight/io/units/quantity.hpp>
 
 namespace boresight::app {
 

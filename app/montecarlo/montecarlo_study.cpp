@@ -17,6 +17,8 @@
 #include <boresight/app/uncertainty/distribution_source.hpp>
 #include <boresight/design/studies/monte_carlo_study.hpp>
 #include <boresight/io/campaign/designed_antenna.hpp>
+#include <boresight/io/case/case_file.hpp>
+#include <boresight/io/case/case_tuning.hpp>
 #include <boresight/io/case/present_gains.hpp>
 #include <boresight/io/exchange/monte_carlo_checkpoint.hpp>
 #include <boresight/io/exchange/reported_controller.hpp>

@@ -3,6 +3,10 @@
 #include <string_view>
 
 #include <boresight/app/redesign/assumed_inputs.hpp>
+#include <boresight/io/case/case_campaign.hpp>
+#include <boresight/io/case/case_file.hpp>
+#include <boresight/io/case/case_goals.hpp>
+#include <boresight/io/case/case_simulation.hpp>
 
 namespace boresight::app {
 namespace {
@@ -18,9 +22,9 @@ constexpr std::array instrument_keys{"pressure_gain"sv, "pressure_zero"sv, "tach
 
 bool rests_on_simulation(const io::Case& antenna, std::string_view name,
                          const NonlinearInputs& uses) {
-  const bool records = !antenna.campaign.records.empty() && !antenna.campaign.return_pressure;
+  const bool records = !antenna.campaign->records.empty() && !antenna.campaign->return_pressure;
   if (name == "return_pressure" && records) return true;
-  if (name == "valve_stroke" && (uses.valve_stroke || antenna.goals.crest_factor)) return true;
+  if (name == "valve_stroke" && (uses.valve_stroke || antenna.goals->crest_factor)) return true;
   if (name.starts_with("rate_loop_")) return uses.rate_loop;
   if (std::ranges::find(steady_keys, name) != steady_keys.end()) {
     return uses.steady_motion || uses.time_runs;
@@ -31,7 +35,7 @@ bool rests_on_simulation(const io::Case& antenna, std::string_view name,
 
 bool rests_on_recorder(const io::Case& antenna, std::string_view name,
                        const NonlinearInputs& uses) {
-  const bool records = !antenna.campaign.records.empty() && !antenna.campaign.instruments;
+  const bool records = !antenna.campaign->records.empty() && !antenna.campaign->instruments;
   return uses.recorder ||
          (records && std::ranges::find(instrument_keys, name) != instrument_keys.end());
 }

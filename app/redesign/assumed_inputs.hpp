@@ -2,7 +2,8 @@
 
 #include <vector>
 
-#include <boresight/io/case/case_file.hpp>
+#include <boresight/io/case/case_declaration.hpp>
+#include <boresight/io/units/quantity.hpp>
 
 namespace boresight::app {
 

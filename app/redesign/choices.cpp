@@ -6,6 +6,8 @@
 
 #include <boresight/app/redesign/choices.hpp>
 #include <boresight/io/audit/antenna_readings.hpp>
+#include <boresight/io/case/case_drive.hpp>
+#include <boresight/io/case/case_file.hpp>
 
 namespace boresight::app {
 namespace {
@@ -22,7 +24,7 @@ std::string oil_text(const io::Case& antenna, const AntennaReading& reading) {
       "bulk modulus of {:.3g} GPa{} for which the flexible antenna resonates at the measured {:g} "
       "Hz",
       reading.bulk_modulus / gigapascal,
-      antenna.drive.leakage_by_flow ? ", and the leakage rate with it," : ",",
+      antenna.drive->leakage_by_flow ? ", and the leakage rate with it," : ",",
       reading.wanted_frequency.value_or(0.0));
 }
 
@@ -31,7 +33,7 @@ std::string stiffness_text(const io::Case& antenna, const AntennaReading& readin
   return fmt::format(
       "oil spring {} by a factor of {:.3g}{} so that the rigid masses resonate at {:g} Hz",
       factor < 1.0 ? "lowered" : "raised", std::max(factor, 1.0 / factor),
-      antenna.drive.leakage_by_flow ? ", and the leakage rate with it," : "",
+      antenna.drive->leakage_by_flow ? ", and the leakage rate with it," : "",
       reading.wanted_frequency.value_or(0.0));
 }
 

@@ -6,6 +6,13 @@
 
 #include <boresight/app/redesign/sections.hpp>
 #include <boresight/io/case/antenna_of.hpp>
+#include <boresight/io/case/case_file.hpp>
+#include <boresight/io/case/case_friction.hpp>
+#include <boresight/io/case/case_mechanics.hpp>
+#include <boresight/io/case/case_motor.hpp>
+#include <boresight/io/case/case_statements.hpp>
+#include <boresight/io/case/case_structure.hpp>
+#include <boresight/io/case/case_tests.hpp>
 #include <boresight/io/case/drive_evidence.hpp>
 #include <boresight/io/case/drive_numbers.hpp>
 #include <boresight/io/case/mission_of.hpp>
@@ -43,7 +50,7 @@ void identify_sensors(const io::Case& antenna, const StudyOptions& options,
             draws)
             .front();
   }
-  const io::FrictionTestsEntry& tests = antenna.friction_tests;
+  const io::FrictionTestsEntry& tests = *antenna.friction_tests;
   if (tests.slow_ramp_up && tests.slow_ramp_down) {
     const auto results = numerics::propagate(
         {input(*tests.slow_ramp_up), input(*tests.slow_ramp_down)},
@@ -122,7 +129,7 @@ std::string stated_masses(const io::Case& antenna) {
            });
   };
   std::string text = "the case's inertias of motors and antenna";
-  if (std::ranges::any_of(antenna.gear_train.assemblies, solid)) {
+  if (std::ranges::any_of(antenna.gear_train->assemblies, solid)) {
     text += ", solid disks for gears of which it gives the size";
   }
   return text;
@@ -155,7 +162,7 @@ IdentificationSection identify(const io::Case& antenna, const StudyOptions& opti
   const auto estimates = independent_estimates(methods);
   if (estimates.size() > 1) {
     section.reconciled =
-        identification::reconcile(estimates, motor_inertia(antenna, antenna.motor.flywheel_disks));
+        identification::reconcile(estimates, motor_inertia(antenna, antenna.motor->flywheel_disks));
   }
   identify_sensors(antenna, options, section);
   return section;
@@ -167,14 +174,16 @@ PlantSection describe_plant(const io::Case& antenna) {
   section.gear_ratio = io::gear_ratio(antenna);
   section.reflected_inertia = plant::reflected_inertia(section.plant);
   section.motor_to_load_ratio = plant::motor_to_load_ratio(
-      motor_inertia(antenna, antenna.motor.flywheel_disks), section.reflected_inertia);
+      motor_inertia(antenna, antenna.motor->flywheel_disks), section.reflected_inertia);
   section.rigid_frequency =
       plant::hydraulic_frequency(section.plant.drive.oil_stiffness, section.reflected_inertia);
   section.tracking_slope = io::tracking_slope(antenna);
   section.friction = io::friction_curve(antenna);
-  section.friction_tests = antenna.friction_curve.tests;
+  for (const auto& test : antenna.friction_curve->tests) {
+    section.friction_tests.push_back({{test.rate, test.torque, test.leeway}, test.residual});
+  }
   section.modes = plant::plant_modes(section.plant);
-  section.motors_held = antenna.structure.motors_held;
+  section.motors_held = antenna.structure->motors_held;
   section.hydraulic = plant::hydraulic_mode(section.modes);
   section.supply_torque = io::supply_torque(antenna);
   section.torque_for_wind = io::torque_for_wind(antenna);

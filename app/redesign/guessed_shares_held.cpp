@@ -8,6 +8,8 @@
 #include <boresight/app/report/influences.hpp>
 #include <boresight/app/report/sky_units.hpp>
 #include <boresight/design/ensembles/plant_ensemble.hpp>
+#include <boresight/io/case/case_file.hpp>
+#include <boresight/io/case/case_structure.hpp>
 #include <boresight/io/case/guessed_shares.hpp>
 #include <boresight/io/case/mission_of.hpp>
 
@@ -18,7 +20,7 @@ namespace {
 double held_rms(const io::Case& antenna, const control::ControlLaw& law, double wind_speed,
                 io::GuessedShares place) {
   design::TrackingProblem problem =
-      make_problem(antenna, guessed_share_changes(antenna.structure, place));
+      make_problem(antenna, guessed_share_changes(*antenna.structure, place));
   problem.wind.mean_speed = wind_speed;
   return design::judge(problem, {{"the case's", problem.plant}}, law, {}, 1)
       .members.front()
@@ -35,7 +37,7 @@ void conclude_guessed_shares(const io::Case& antenna, const control::ControlLaw&
   std::vector<std::string> others;
   bool apart = false;
   for (const auto place : io::other_guesses) {
-    if (!moves_guessed_shares(antenna.structure, place)) continue;
+    if (!moves_guessed_shares(*antenna.structure, place)) continue;
     const double rms = held_rms(antenna, law, wind_speed, place);
     apart = apart || std::abs(rms / own - 1.0) > telling_change;
     others.push_back(fmt::format("{:.3f} mdeg with {}", rms / millidegree, to_string(place)));

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include <boresight/control/controllers/control_law.hpp>
-#include <boresight/io/case/case_file.hpp>
+#include <boresight/io/case/case_declaration.hpp>
 
 namespace boresight::app {
 

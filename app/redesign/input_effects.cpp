@@ -7,6 +7,8 @@
 #include <boresight/app/redesign/input_effects.hpp>
 #include <boresight/app/report/influences.hpp>
 #include <boresight/app/report/sky_units.hpp>
+#include <boresight/io/case/case_file.hpp>
+#include <boresight/io/case/case_structure.hpp>
 #include <boresight/io/case/mission_of.hpp>
 #include <boresight/io/case/structure_numbers.hpp>
 
@@ -59,7 +61,7 @@ std::vector<InputEffect> input_effects(const io::Case& antenna, const control::C
   std::vector<InputEffect> effects;
   for (const auto& effect : number_effects(moved_numbers, law, goals, rms, most, threads)) {
     const io::MovableNumber& number = numbers[effect.number];
-    effects.push_back({number, effect, mode_text(antenna.structure, number)});
+    effects.push_back({number, effect, mode_text(*antenna.structure, number)});
   }
   return effects;
 }

@@ -8,7 +8,7 @@
 #include <boresight/control/controllers/control_law.hpp>
 #include <boresight/design/problem/goals.hpp>
 #include <boresight/design/studies/number_effects.hpp>
-#include <boresight/io/case/case_file.hpp>
+#include <boresight/io/case/case_declaration.hpp>
 #include <boresight/io/case/movable_numbers.hpp>
 
 namespace boresight::app {

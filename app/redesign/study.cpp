@@ -6,6 +6,12 @@
 #include <boresight/app/redesign/choices.hpp>
 #include <boresight/app/redesign/sections.hpp>
 #include <boresight/io/campaign/designed_antenna.hpp>
+#include <boresight/io/case/case_file.hpp>
+#include <boresight/io/case/case_goals.hpp>
+#include <boresight/io/case/case_mechanics.hpp>
+#include <boresight/io/case/case_motor.hpp>
+#include <boresight/io/case/case_tuning.hpp>
+#include <boresight/io/case/case_wind.hpp>
 #include <boresight/io/case/drive_numbers.hpp>
 #include <boresight/io/case/plant_numbers.hpp>
 
@@ -13,7 +19,7 @@ namespace boresight::app {
 namespace {
 
 std::vector<control::LoopStructure> matched_structures(const io::Case& antenna) {
-  std::vector<std::string> names = antenna.tuning.structures;
+  std::vector<std::string> names = antenna.tuning->structures;
   if (names.empty()) names = {"PI", "PI-0"};
   std::vector<control::LoopStructure> structures;
   for (const auto& name : names) structures.push_back(io::loop_structure(antenna, name));
@@ -22,8 +28,8 @@ std::vector<control::LoopStructure> matched_structures(const io::Case& antenna) 
 
 // The case's own numbers, as built, and those of ratio 1 by every inertia of the antenna.
 std::vector<design::RedesignTask::Disks> matched_disks(const io::Case& antenna) {
-  std::vector<double> counts = antenna.matching_disks;
-  const double as_built = antenna.motor.flywheel_disks;
+  std::vector<double> counts = antenna.matching->disks;
+  const double as_built = antenna.motor->flywheel_disks;
   if (std::ranges::find(counts, as_built) == counts.end()) counts.push_back(as_built);
   std::vector<design::RedesignTask::Disks> disks;
   for (const double count : counts) {
@@ -35,7 +41,7 @@ std::vector<design::RedesignTask::Disks> matched_disks(const io::Case& antenna) 
     }
   };
   add_unit_ratio(gear_train_inertia(antenna) + antenna_inertia(antenna), "ratio 1");
-  for (const auto& alternative : antenna.antenna.alternatives) {
+  for (const auto& alternative : antenna.antenna->alternatives) {
     add_unit_ratio(gear_train_inertia(antenna) + antenna_inertia(antenna, alternative),
                    "ratio 1 by " + alternative.name);
   }
@@ -48,8 +54,8 @@ TuningSection section_of(const io::Case& antenna, design::RecommendedDesign desi
                          unsigned threads) {
   TuningSection section;
   static_cast<design::RecommendedDesign&>(section) = std::move(design);
-  section.wind_attitude = antenna.wind.attitude;
-  section.wind_mast = antenna.wind.mast;
+  section.wind_attitude = antenna.wind->attitude;
+  section.wind_mast = antenna.wind->mast;
   section.demand_assumption = io::demand_assumption(antenna);
   section.gain_units = io::GainUnits(antenna);
   if (section.design.tuning.status != design::TuningStatus::unstable) {

@@ -96,7 +96,7 @@ void describe(io::Visitor& v, const AuditReport& report) {
          [&](const design::Finding& finding) { describe_finding(v, finding); });
   v.list("implausible", report.implausible, "Physical checks that fail.",
          [&](const Implausibility& one) { describe_implausible(v, one); });
-  v.list("remarks", report.remarks, "The case writer's own.", [&](const io::RemarkEntry& remark) {
+  v.list("remarks", report.remarks, "The case writer's own.", [&](const Remark& remark) {
     v.text("place", remark.place, "Where in the source.");
     v.text("text", remark.text, "What is there.");
   });

@@ -226,7 +226,7 @@ void describe(io::Visitor& v, const EvaluateSection& section) {
   v.defined_as("evaluated", "Proposals, each re-tuned on the same draws of what is uncertain.");
   v.number("wind_speed", section.wind_speed, unit::metre_per_second, "Mean, of the design.", known);
   v.text("wind_model", plant::to_string(section.wind_model), "Its model.");
-  v.optional_members(section.wind_mast, [&](const io::WindMast& mast) {
+  v.optional_members(section.wind_mast, [&](const plant::WindMast& mast) {
     v.object("wind_mast", mast, "Where the case names one.");
   });
   v.flag("wind_climate_stated", section.climate, "The case states one.");

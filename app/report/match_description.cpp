@@ -320,7 +320,7 @@ void describe(io::Visitor& v, const MatchSection& section) {
          [&](const FrictionThreshold& one) { describe_threshold(v, one); });
   v.list("rules", section.rules, "Classic rules, judged.",
          [&](const RuleVerdict& rule) { describe_rule(v, section, rule); });
-  v.optional_members(section.wind_mast, [&](const io::WindMast& mast) {
+  v.optional_members(section.wind_mast, [&](const plant::WindMast& mast) {
     v.object("wind_mast", mast, "Where the case names one.");
   });
   v.optional_members(section.tuned_as_built,

@@ -27,7 +27,7 @@ void describe_curve(io::Visitor& v, const PlantSection& section) {
   v.number("viscous", curve.viscous_friction, slope_unit, "Slope at high rates.", not_negative);
   v.list("tests", section.friction_tests,
          "At steady rates, through which the curve goes; empty if the case states it.",
-         [&](const io::SteadyFrictionTest& test) {
+         [&](const FrictionTestRow& test) {
            v.number("motor_rate", test.rate, unit::radian_per_second,
                     "0 for what just moves the antenna.", not_negative);
            v.number("torque", test.torque, unit::newton_metre, "All motors.", not_negative);

@@ -254,7 +254,7 @@ void describe(io::Visitor& v, const TuningSection& section) {
            positive);
   v.number("static_bending", section.static_bending, unit::millidegree,
            "Bending by the mean wind; not in the rms.");
-  v.optional_members(section.wind_mast, [&](const io::WindMast& mast) {
+  v.optional_members(section.wind_mast, [&](const plant::WindMast& mast) {
     v.object("wind_mast", mast, "Where the case names one.");
   });
   describe_goals(v, section.goals);

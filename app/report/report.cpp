@@ -2,6 +2,7 @@
 #include <utility>
 
 #include <boresight/app/report/report.hpp>
+#include <boresight/io/case/case_file.hpp>
 
 namespace boresight::app {
 

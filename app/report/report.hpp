@@ -20,9 +20,12 @@
 #include <boresight/design/limits/pointing_limit.hpp>
 #include <boresight/design/problem/pointing_budget.hpp>
 #include <boresight/design/studies/redesign_study.hpp>
+#include <boresight/identification/friction/steady_friction.hpp>
 #include <boresight/io/campaign/campaign_section.hpp>
 #include <boresight/io/campaign/identified_case.hpp>
 #include <boresight/io/case/pointing_axis.hpp>
+#include <boresight/plant/wind/torque_coefficients.hpp>
+#include <boresight/plant/wind/wind_mast.hpp>
 
 namespace boresight::app {
 
@@ -42,6 +45,11 @@ struct IdentificationSection {
   bool pounds_force = false;
 };
 
+/// A test at a steady rate, and its residual over the curve through all tests (N m).
+struct FrictionTestRow : identification::SteadyFriction {
+  double residual = 0.0;
+};
+
 struct PlantSection {
   plant::AntennaPlant plant;
   double gear_ratio = 1.0;
@@ -51,7 +59,7 @@ struct PlantSection {
   double tracking_slope = 0.0;   // N m s/rad, of the friction curve
   plant::FrictionCurve friction;
   /// The case's tests at steady rates that the friction curve goes through; empty if it is stated.
-  std::vector<io::SteadyFrictionTest> friction_tests;
+  std::vector<FrictionTestRow> friction_tests;
   std::vector<plant::PlantMode> modes;
   plant::PlantMode hydraulic;
   /// The case states its structure's frequencies with the motors held.
@@ -71,10 +79,10 @@ using MatchingSection = design::FlywheelComparison;
 
 /// The recommended controller in detail, and the parts of the case's text that its report needs.
 struct TuningSection : design::RecommendedDesign {
-  std::optional<io::WindAttitude> wind_attitude;  // none: one torque coefficient for all
-  std::optional<io::WindMast> wind_mast;  // none: the case states speeds at the dish's centre
-  std::string demand_assumption;          // that a goal on gusts rests on; empty if stated
-  std::string ensemble_source;            // of the plants that `ensemble` is about
+  std::optional<plant::WindAttitude> wind_attitude;  // none: one torque coefficient for all
+  std::optional<plant::WindMast> wind_mast;  // none: the case states speeds at the dish's centre
+  std::string demand_assumption;             // that a goal on gusts rests on; empty if stated
+  std::string ensemble_source;               // of the plants that `ensemble` is about
   /// Of a redesign from records: the probability of instability over the ranges of the case about
   /// the identified plant, which are wider than what the records leave open.
   std::optional<design::EstimatedNumber> instability;

@@ -161,7 +161,7 @@ Document document_of(const AuditReport& report) {
                     "", "    ");
   }
   if (!report.remarks.empty()) page += subheading("Remarks by the case's writer", "") + "\n";
-  for (const io::RemarkEntry& remark : report.remarks) {
+  for (const Remark& remark : report.remarks) {
     page += wrapped(fmt::format("{:2}. {}: {}", ++number, remark.place, remark.text), "", "    ");
   }
   page += subheading("Summary", "") + "\n";

@@ -18,7 +18,8 @@ namespace {
 // What single torques make of the curve, and whether anything is left to check it by.
 std::string friction_doubts(const PlantSection& section, bool exact) {
   constexpr double worth_telling = 0.02;  // of the number
-  const auto points = io::steady_friction(section.friction_tests);
+  const std::vector<identification::SteadyFriction> points(section.friction_tests.begin(),
+                                                           section.friction_tests.end());
   const auto intervals = identification::steady_friction_intervals(points);
   std::vector<std::string> moved;
   if (intervals.stribeck_rate) {

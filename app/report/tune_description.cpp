@@ -219,7 +219,7 @@ void describe(io::Visitor& v, const TuneSection& section) {
            v.text("infeasible", one.infeasible, "What it is.");
            v.text("closest", one.closest, "What comes nearest.");
          });
-  v.optional_members(section.wind_mast, [&](const io::WindMast& mast) {
+  v.optional_members(section.wind_mast, [&](const plant::WindMast& mast) {
     v.object("wind_mast", mast, "Where the case names one.");
   });
 }

@@ -1,6 +1,8 @@
 #include <fmt/format.h>
 
 #include <boresight/app/simulate/simulated_tests.hpp>
+#include <boresight/io/case/case_file.hpp>
+#include <boresight/io/case/case_wind.hpp>
 #include <boresight/io/case/mission_of.hpp>
 #include <boresight/io/case/tested_drive_of.hpp>
 #include <boresight/numerics/angles.hpp>
@@ -39,7 +41,7 @@ std::string wind_of(const design::TrackingCourse& course, const io::Case& antenn
       "the measured wind {}, mean {:.3g} m/s, gusts {:.3g} m/s rms, sampled every "
       "{:.3g} s ({} model; the linear prediction takes its mean speed and the {} "
       "spectrum)",
-      antenna.wind.record_path, course.mean_wind_speed, course.measured->rms,
+      antenna.wind->record_path, course.mean_wind_speed, course.measured->rms,
       course.measured->sample_time, model, spectrum);
 }
 

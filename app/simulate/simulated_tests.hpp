@@ -4,7 +4,7 @@
 #include <string>
 
 #include <boresight/design/simulation/test_runs.hpp>
-#include <boresight/io/case/case_file.hpp>
+#include <boresight/io/case/case_declaration.hpp>
 
 namespace boresight::app {
 

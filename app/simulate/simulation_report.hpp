@@ -8,6 +8,7 @@
 #include <boresight/app/figures/figure.hpp>
 #include <boresight/app/simulate/simulated_tests.hpp>
 #include <boresight/io/case/pointing_axis.hpp>
+#include <boresight/io/units/quantity.hpp>
 
 namespace boresight::io {
 class Visitor;

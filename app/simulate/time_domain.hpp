@@ -4,7 +4,7 @@
 #include <string>
 
 #include <boresight/design/studies/time_domain_study.hpp>
-#include <boresight/io/case/case_file.hpp>
+#include <boresight/io/case/case_declaration.hpp>
 
 namespace boresight::app {
 

@@ -10,6 +10,8 @@
 #include <boresight/app/report/influences.hpp>
 #include <boresight/app/report/sky_units.hpp>
 #include <boresight/app/simulate/time_domain.hpp>
+#include <boresight/io/case/case_file.hpp>
+#include <boresight/io/case/case_friction.hpp>
 #include <boresight/io/case/drive_numbers.hpp>
 #include <boresight/io/case/friction_leeway.hpp>
 #include <boresight/io/case/plant_numbers.hpp>
@@ -230,7 +232,7 @@ std::optional<TimeDomainSection> section_of(const io::Case& antenna,
                                             std::optional<design::TimeDomainStudy> study) {
   if (!study) return std::nullopt;
   return TimeDomainSection{std::move(*study), io::demand_assumption(antenna),
-                           io::loose_stribeck_text(antenna.friction_curve)};
+                           io::loose_stribeck_text(*antenna.friction_curve)};
 }
 
 std::string not_still(const TimeDomainSection& section) {

@@ -5,6 +5,8 @@
 
 #include <boresight/app/tune/chosen_controller.hpp>
 #include <boresight/app/tune/tune_section.hpp>
+#include <boresight/io/case/case_file.hpp>
+#include <boresight/io/case/case_tuning.hpp>
 #include <boresight/io/case/present_gains.hpp>
 #include <boresight/io/exchange/reported_controller.hpp>
 #include <boresight/numerics/error.hpp>

@@ -6,7 +6,7 @@
 #include <boresight/control/controllers/control_law.hpp>
 #include <boresight/design/studies/controller_study.hpp>
 #include <boresight/io/campaign/designed_antenna.hpp>
-#include <boresight/io/case/case_file.hpp>
+#include <boresight/io/case/case_declaration.hpp>
 
 namespace boresight::app {
 

@@ -6,6 +6,7 @@
 
 #include <boresight/app/tune/measured_section.hpp>
 #include <boresight/io/campaign/measured_record.hpp>
+#include <boresight/io/case/case_tuning.hpp>
 #include <boresight/io/case/mission_of.hpp>
 #include <boresight/io/units/wording.hpp>
 #include <boresight/numerics/error.hpp>

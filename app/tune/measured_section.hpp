@@ -6,7 +6,7 @@
 #include <vector>
 
 #include <boresight/design/studies/measured_tuning_study.hpp>
-#include <boresight/io/case/case_file.hpp>
+#include <boresight/io/case/case_declaration.hpp>
 
 namespace boresight::app {
 

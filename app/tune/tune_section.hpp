@@ -6,6 +6,7 @@
 
 #include <boresight/design/studies/controller_study.hpp>
 #include <boresight/io/case/present_gains.hpp>
+#include <boresight/plant/wind/wind_mast.hpp>
 
 namespace boresight::app {
 
@@ -22,7 +23,7 @@ struct Shortfall {
 /// Results of `boresight tune`, and the parts of the case's text that its report needs.
 struct TuneSection : design::TuningStudy {
   io::GainUnits gain_units;
-  std::optional<io::WindMast> wind_mast;  // none: the case states speeds at the dish's centre
+  std::optional<plant::WindMast> wind_mast;  // none: the case states speeds at the dish's centre
   /// What goals on the valve's demand in gusts rest on where no number of it is stated.
   std::string demand_assumption;
   std::vector<Shortfall> shortfalls;

@@ -18,6 +18,8 @@
 #include <boresight/design/problem/pointing.hpp>
 #include <boresight/design/problem/pointing_budget.hpp>
 #include <boresight/design/studies/gains_at_bounds.hpp>
+#include <boresight/io/case/case_file.hpp>
+#include <boresight/io/case/case_wind.hpp>
 #include <boresight/io/case/drive_numbers.hpp>
 #include <boresight/io/case/plant_numbers.hpp>
 #include <boresight/numerics/angles.hpp>
@@ -343,7 +345,7 @@ std::vector<std::string> TuneSection::not_run_texts() const {
 TuneSection section_of(const io::Case& antenna, design::TuningStudy study) {
   TuneSection section{std::move(study),
                       io::GainUnits(antenna),
-                      antenna.wind.mast,
+                      antenna.wind->mast,
                       io::demand_assumption(antenna),
                       {},
                       std::nullopt};

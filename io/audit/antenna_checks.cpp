@@ -3,6 +3,14 @@
 #include <string>
 
 #include <boresight/io/audit/case_checks.hpp>
+#include <boresight/io/case/case_drive.hpp>
+#include <boresight/io/case/case_file.hpp>
+#include <boresight/io/case/case_mechanics.hpp>
+#include <boresight/io/case/case_motor.hpp>
+#include <boresight/io/case/case_pointing.hpp>
+#include <boresight/io/case/case_statements.hpp>
+#include <boresight/io/case/case_structure.hpp>
+#include <boresight/io/case/case_tuning.hpp>
 #include <boresight/io/case/member_ranges.hpp>
 #include <boresight/numerics/angles.hpp>
 
@@ -10,7 +18,7 @@ namespace boresight::io {
 
 void check_inertia_against_dish(const Case& antenna, PhysicalChecks& found) {
   constexpr double wide_factor = 10.0;
-  const AntennaEntry& dish = antenna.antenna;
+  const AntennaEntry& dish = *antenna.antenna;
   const auto [least, most] = std::ranges::minmax(dss14_inertia_figures);
   auto& check = begin_check(found, "inertia_against_dish", dish.inertia.key);
   check.add("inertia over diameter^5", dish.inertia.value / std::pow(dish.dish_diameter.value, 5),
@@ -22,7 +30,7 @@ void check_inertia_against_dish(const Case& antenna, PhysicalChecks& found) {
 void check_flywheels(const Case& antenna, PhysicalChecks& found) {
   constexpr double fastest_rim = 150.0;  // m/s
   constexpr double heaviest_disks = 10.0;
-  const MotorEntry& motor = antenna.motor;
+  const MotorEntry& motor = *antenna.motor;
   if (motor.disk_radius) {
     auto& check = begin_check(found, "flywheel_rim", motor.disk_radius->key);
     check.add("motor rate at slew rate", found.shaft.slew_rate, "rad/s");
@@ -44,7 +52,7 @@ void check_carrier_frequencies(const Case& antenna, PhysicalChecks& found) {
   const auto check = [&](const BandEntry& band, const Quantity& frequency) {
     const double wavelength = speed_of_light / frequency.value;
     const double beam_deg =
-        band.beamwidth_factor.value * wavelength / antenna.antenna.dish_diameter.value / degree;
+        band.beamwidth_factor.value * wavelength / antenna.antenna->dish_diameter.value / degree;
     auto& one = begin_check(found, "carrier_frequency", "band." + band.name + ".frequency");
     one.entries = {{one.quantity, frequency.text, frequency.value}};
     one.add("wavelength", wavelength, "m");
@@ -59,7 +67,7 @@ void check_carrier_frequencies(const Case& antenna, PhysicalChecks& found) {
 }
 
 void check_ensemble_ranges(const Case& antenna, PhysicalChecks& found) {
-  const EnsembleEntry& ensemble = antenna.ensemble;
+  const EnsembleEntry& ensemble = *antenna.ensemble;
   const design::MemberRanges ranges = member_ranges(antenna);
   const design::MemberRanges spread = spread_of_stated(antenna);
   auto& check = begin_check(found, "ensemble_range", "ensemble");
@@ -75,12 +83,12 @@ void check_ensemble_ranges(const Case& antenna, PhysicalChecks& found) {
     check.add(key + " upper", range.upper / scale, "1", least.upper / scale);
   };
   compare(ensemble.structure_frequency, "structure_frequency",
-          antenna.structure.locked_rotor_frequency.key, ranges.structure_frequency,
+          antenna.structure->locked_rotor_frequency.key, ranges.structure_frequency,
           spread.structure_frequency, 1.0);
   compare(ensemble.oil_stiffness, "oil_stiffness", "oil.bulk_modulus", ranges.oil_stiffness,
           spread.oil_stiffness, 1.0);
   compare(ensemble.leakage_rate, "leakage_rate", "drive.leakage_rate", ranges.leakage_rate,
-          spread.leakage_rate, antenna.drive.leakage_rate.value);
+          spread.leakage_rate, antenna.drive->leakage_rate.value);
 }
 
 }  // namespace boresight::io

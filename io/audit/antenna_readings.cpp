@@ -6,6 +6,11 @@
 #include <boresight/io/audit/antenna_readings.hpp>
 #include <boresight/io/audit/resonance_verdict.hpp>
 #include <boresight/io/case/antenna_of.hpp>
+#include <boresight/io/case/case_file.hpp>
+#include <boresight/io/case/case_mechanics.hpp>
+#include <boresight/io/case/case_oil.hpp>
+#include <boresight/io/case/case_structure.hpp>
+#include <boresight/io/case/case_tests.hpp>
 #include <boresight/io/case/plant_numbers.hpp>
 #include <boresight/io/case/resonating_mode.hpp>
 #include <boresight/plant/antenna/antenna_change.hpp>
@@ -34,7 +39,7 @@ class Readings {
     reading.reflected_inertia = plant::reflected_inertia(plant);
     reading.motor_to_load_ratio =
         plant::motor_to_load_ratio(plant::motor_inertia(other), reading.reflected_inertia);
-    if (stated_.resonance_frequency) {
+    if (stated_.resonance->frequency) {
       reading.resonance = resonating_mode(stated_, plant).frequency;
     }
     readings_.push_back(std::move(reading));
@@ -117,7 +122,7 @@ void add_resonance(const Case& antenna, double frequency, double other, Readings
   readings.add_test(ReadingKind::inertia_by_resonance, "stiffness right, inertia from resonance",
                     found, own);
   readings.add_test(ReadingKind::inertia_by_resonance,
-                    antenna.oil.efficiency_in_stiffness
+                    antenna.oil->efficiency_in_stiffness
                         ? "inertia from resonance, no efficiencies"
                         : "inertia from resonance, with efficiencies",
                     plant::inertia_from_resonance(other, frequency), other);
@@ -138,13 +143,13 @@ void add_resonance(const Case& antenna, double frequency, double other, Readings
 std::vector<AntennaReading> antenna_readings(const Case& antenna) {
   Readings readings(antenna);
   readings.add(ReadingKind::as_stated, "reference", Changes{});
-  for (const auto& alternative : antenna.antenna.alternatives) {
+  for (const auto& alternative : antenna.antenna->alternatives) {
     AntennaReading& reading =
         readings.add(ReadingKind::other_inertia, "antenna of " + alternative.name,
                      changes_of(antenna, alternative));
     (alternative.keeps_springs ? reading.other_attitude : reading.contradicts) = true;
   }
-  const bool efficient = antenna.oil.efficiency_in_stiffness;
+  const bool efficient = antenna.oil->efficiency_in_stiffness;
   const double other = oil_stiffness(
       antenna, efficient ? plant::EfficiencyInStiffness::none : plant::EfficiencyInStiffness::both);
   // A convention changes no oil, and so no leakage rate.
@@ -158,16 +163,16 @@ std::vector<AntennaReading> antenna_readings(const Case& antenna) {
                  fmt::format("antenna of gear spring {:.3g} N.m/rad", spring), antennas[i]);
   }
   for (const auto place : other_guesses) {
-    if (!moves_guessed_shares(antenna.structure, place)) continue;
+    if (!moves_guessed_shares(*antenna.structure, place)) continue;
     AntennaReading& reading =
         readings.add(ReadingKind::guessed_shares, std::string(to_string(place)),
-                     guessed_share_changes(antenna.structure, place));
+                     guessed_share_changes(*antenna.structure, place));
     reading.other_shares = true;
     reading.shares = place;
   }
-  if (antenna.resonance_frequency) {
+  if (antenna.resonance->frequency) {
     const std::size_t first = readings.count();
-    const double frequency = antenna.resonance_frequency->value;
+    const double frequency = antenna.resonance->frequency->value;
     add_resonance(antenna, frequency, other, readings);
     readings.made_for(frequency, first);
   }

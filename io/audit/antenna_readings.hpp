@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include <boresight/io/case/case_file.hpp>
+#include <boresight/io/case/case_declaration.hpp>
 #include <boresight/io/case/guessed_shares.hpp>
 #include <boresight/plant/antenna/antenna.hpp>
 

@@ -1,5 +1,6 @@
 #include <boresight/io/audit/case_audit.hpp>
 #include <boresight/io/audit/case_graph.hpp>
+#include <boresight/io/case/case_file.hpp>
 
 namespace boresight::io {
 

@@ -3,6 +3,7 @@
 #include <string>
 
 #include <boresight/io/audit/physical_checks.hpp>
+#include <boresight/io/units/quantity.hpp>
 
 /// The checks of check_physics, one by one: each appends what came of it to `found`, and reads what
 /// else is there.

@@ -8,6 +8,13 @@
 #include <fmt/format.h>
 
 #include <boresight/io/audit/case_graph.hpp>
+#include <boresight/io/case/case_file.hpp>
+#include <boresight/io/case/case_mechanics.hpp>
+#include <boresight/io/case/case_motor.hpp>
+#include <boresight/io/case/case_oil.hpp>
+#include <boresight/io/case/case_pointing.hpp>
+#include <boresight/io/case/case_statements.hpp>
+#include <boresight/io/case/case_tests.hpp>
 #include <boresight/plant/antenna/gear_train.hpp>
 #include <boresight/plant/antenna/hydraulics.hpp>
 
@@ -96,10 +103,10 @@ class GraphBuilder {
   }
 
   void add_parts_and_assemblies() {
-    if (case_.gear_train.density) {
-      input("gear_train.density", "density of the gear train", *case_.gear_train.density);
+    if (case_.gear_train->density) {
+      input("gear_train.density", "density of the gear train", *case_.gear_train->density);
     }
-    for (const RotatingAssembly& assembly : case_.gear_train.assemblies) {
+    for (const RotatingAssembly& assembly : case_.gear_train->assemblies) {
       std::vector<std::string> parts;
       for (const AssemblyPart& part : assembly.parts) {
         parts.push_back(add_part(assembly, part));
@@ -133,12 +140,12 @@ class GraphBuilder {
   }
 
   std::string ratio_id(std::size_t stages) const {
-    return stages == case_.gear_train.stages.size() ? "gear_ratio"
-                                                    : fmt::format("gear_ratio.{}", stages);
+    return stages == case_.gear_train->stages.size() ? "gear_ratio"
+                                                     : fmt::format("gear_ratio.{}", stages);
   }
 
   void add_gear_train() {
-    const auto& stages = case_.gear_train.stages;
+    const auto& stages = case_.gear_train->stages;
     std::vector<std::string> teeth;
     for (std::size_t i = 0; i < stages.size(); ++i) {
       const std::string stage = fmt::format("gear_train.stage[{}]", i);
@@ -158,7 +165,7 @@ class GraphBuilder {
   }
 
   void add_flywheel_disk() {
-    const MotorEntry& motor = case_.motor;
+    const MotorEntry& motor = *case_.motor;
     if (!motor.disk_radius || !motor.disk_length || !motor.disk_density) return;
     input("motor.disk_radius", "radius of a flywheel disk", *motor.disk_radius);
     input("motor.disk_length", "length of a flywheel disk", *motor.disk_length);
@@ -173,7 +180,7 @@ class GraphBuilder {
     std::vector<std::string> loads;
     std::vector<std::string> one_train{"motor.inertia"};
     std::vector<double> shares{1.0};
-    for (const RotatingAssembly& assembly : case_.gear_train.assemblies) {
+    for (const RotatingAssembly& assembly : case_.gear_train->assemblies) {
       const auto count = static_cast<double>(assembly.count);
       std::vector<std::string> parents{"assembly." + assembly.name + ".inertia"};
       if (assembly.stages > 0) parents.push_back(ratio_id(assembly.stages));
@@ -185,15 +192,15 @@ class GraphBuilder {
       one_train.push_back(loads.back());
       shares.push_back(1.0 / count);
     }
-    input("antenna.inertia", "inertia about the antenna's axis", case_.antenna.inertia);
+    input("antenna.inertia", "inertia about the antenna's axis", case_.antenna->inertia);
     loads.emplace_back("load_inertia.antenna");
     derived(loads.back(), "antenna inertia at the motor", Kind::inertia,
             {"antenna.inertia", "gear_ratio"},
             [](Arguments body) { return plant::reflected_inertia(body[0], body[1]); });
     derived("load_inertia", "load inertia at the motor", Kind::inertia, loads, sum, true);
 
-    const auto motors = static_cast<double>(case_.motor.count);
-    input("motor.inertia", "inertia of one motor with its flywheel", case_.motor.inertia);
+    const auto motors = static_cast<double>(case_.motor->count);
+    input("motor.inertia", "inertia of one motor with its flywheel", case_.motor->inertia);
     derived("motor_inertia", "inertia of all motors", Kind::inertia, {"motor.inertia"},
             [motors](Arguments motor) { return motors * motor[0]; });
     derived("reflected_inertia", "inertia felt at the motor", Kind::inertia,
@@ -214,7 +221,7 @@ class GraphBuilder {
   }
 
   void add_oil() {
-    const OilEntry& oil = case_.oil;
+    const OilEntry& oil = *case_.oil;
     if (oil.density) input("oil.density", "density of the oil", *oil.density);
     std::vector<std::string> moduli;
     for (const OilLine& line : oil.lines) {
@@ -236,14 +243,14 @@ class GraphBuilder {
           [](Arguments values) { return sum(values) / static_cast<double>(values.size()); });
       if (oil.bulk_modulus) node.statements.push_back(statement_of(*oil.bulk_modulus));
     }
-    input("motor.displacement", "displacement of one motor", case_.motor.displacement);
-    input("motor.torque_efficiency", "torque efficiency", case_.motor.torque_efficiency);
+    input("motor.displacement", "displacement of one motor", case_.motor->displacement);
+    input("motor.torque_efficiency", "torque efficiency", case_.motor->torque_efficiency);
     input("motor.volumetric_efficiency", "volumetric efficiency",
-          case_.motor.volumetric_efficiency);
+          case_.motor->volumetric_efficiency);
     input("oil.volume_1", "oil volume V1", oil.volume_1);
     input("oil.volume_2", "oil volume V2", oil.volume_2);
     plant::HydraulicDrive drive;
-    drive.motor_count = static_cast<double>(case_.motor.count);
+    drive.motor_count = static_cast<double>(case_.motor->count);
     drive.efficiency_in_stiffness = oil.efficiency_in_stiffness
                                         ? plant::EfficiencyInStiffness::both
                                         : plant::EfficiencyInStiffness::none;
@@ -272,8 +279,8 @@ class GraphBuilder {
   }
 
   void add_tests() {
-    if (case_.resonance_frequency) {
-      input("resonance.frequency", "hydraulic resonance", *case_.resonance_frequency);
+    if (case_.resonance->frequency) {
+      input("resonance.frequency", "hydraulic resonance", *case_.resonance->frequency);
       derived(
           "resonance.reflected_inertia", "inertia from the hydraulic resonance", Kind::inertia,
           {"oil_stiffness", "resonance.frequency"},
@@ -288,7 +295,7 @@ class GraphBuilder {
       add_ratio_to_motors(method);
     }
     if (case_.tachometer) add_tachometer(*case_.tachometer);
-    const auto& [coulomb, slope, up, down] = case_.friction_tests;
+    const auto& [coulomb, slope, up, down] = *case_.friction_tests;
     if (!up || !down) return;
     input("friction.slow_ramp.up", "friction and offset, upward slow ramp", *up);
     input("friction.slow_ramp.down", "friction and offset, downward slow ramp", *down);

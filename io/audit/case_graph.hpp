@@ -1,7 +1,8 @@
 #pragma once
 
 #include <boresight/design/audit/audit_graph.hpp>
-#include <boresight/io/case/case_file.hpp>
+#include <boresight/io/case/case_declaration.hpp>
+#include <boresight/io/units/units.hpp>
 
 namespace boresight::io {
 

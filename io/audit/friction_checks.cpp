@@ -6,6 +6,12 @@
 #include <utility>
 
 #include <boresight/io/audit/case_checks.hpp>
+#include <boresight/io/case/case_drive.hpp>
+#include <boresight/io/case/case_file.hpp>
+#include <boresight/io/case/case_friction.hpp>
+#include <boresight/io/case/case_mechanics.hpp>
+#include <boresight/io/case/case_motor.hpp>
+#include <boresight/io/case/case_tests.hpp>
 #include <boresight/io/case/drive_numbers.hpp>
 #include <boresight/io/case/friction_leeway.hpp>
 #include <boresight/numerics/angles.hpp>
@@ -98,13 +104,13 @@ struct SlopeReading {
 // What it would do, within the damping ratio and the torque given.
 void add_effect(const Case& antenna, const ShaftNumbers& shaft, const SlopeReading& reading,
                 double most_damping, double most_torque, design::PhysicalCheck& check) {
-  const auto& intercept = antenna.friction_tests.constant_speed_coulomb;
+  const auto& intercept = antenna.friction_tests->constant_speed_coulomb;
   const double torque = (intercept ? intercept->value : 0.0) + reading.slope * shaft.slew_rate;
   check.add("slope " + reading.name, reading.slope, "N.m.s/rad");
   check.add(
       "damping ratio " + reading.name,
       plant::hydraulic_damping(shaft.oil_stiffness, shaft.motors + shaft.gear_train + shaft.antenna,
-                               antenna.drive.leakage_rate.value, reading.slope),
+                               antenna.drive->leakage_rate.value, reading.slope),
       "1", -design::unbounded, most_damping);
   check.add("torque at slew rate " + reading.name, torque, "N.m", -design::unbounded, most_torque);
   check.add("power at slew rate " + reading.name, torque * shaft.slew_rate, "W");
@@ -113,8 +119,8 @@ void add_effect(const Case& antenna, const ShaftNumbers& shaft, const SlopeReadi
 }  // namespace
 
 MotorTorque torque_of_supply(const Case& antenna, const ShaftNumbers& shaft) {
-  const MotorEntry& motor = antenna.motor;
-  const double relative = std::hypot(relative_uncertainty(antenna.drive.supply_pressure),
+  const MotorEntry& motor = *antenna.motor;
+  const double relative = std::hypot(relative_uncertainty(antenna.drive->supply_pressure),
                                      relative_uncertainty(motor.displacement),
                                      relative_uncertainty(motor.torque_efficiency));
   return {shaft.supply_torque, relative * shaft.supply_torque};
@@ -122,10 +128,10 @@ MotorTorque torque_of_supply(const Case& antenna, const ShaftNumbers& shaft) {
 
 // The rates at which the curve falls and levels off hardly show at slew rate.
 MotorTorque friction_at_slew_rate(const Case& antenna, const ShaftNumbers& shaft) {
-  const FrictionCurveEntry& entry = antenna.friction_curve;
+  const FrictionCurveEntry& entry = *antenna.friction_curve;
   const plant::FrictionCurve curve = friction_curve(antenna);
   const double rate = shaft.slew_rate;
-  const double of_rate = rate * relative_uncertainty(antenna.drive.slew_rate);
+  const double of_rate = rate * relative_uncertainty(antenna.drive->slew_rate);
   return {
       plant::friction_torque(curve, rate),
       std::hypot(
@@ -138,7 +144,7 @@ bool friction_stops_slewing(const Case& antenna, const ShaftNumbers& shaft) {
 }
 
 void check_friction_slope(const Case& antenna, PhysicalChecks& found) {
-  const FrictionTestsEntry& tests = antenna.friction_tests;
+  const FrictionTestsEntry& tests = *antenna.friction_tests;
   if (!tests.constant_speed_slope) return;
   constexpr double rpm = two_pi / 60.0;
   const ShaftNumbers& shaft = found.shaft;
@@ -147,7 +153,7 @@ void check_friction_slope(const Case& antenna, PhysicalChecks& found) {
   check.add("supply torque", shaft.supply_torque, "N.m");
   check.add("supply power at slew rate", shaft.supply_torque * shaft.slew_rate, "W");
   add_effect(antenna, shaft, {"at the motor's shaft", slope},
-             antenna.resonance_frequency ? 1.0 : design::unbounded, shaft.supply_torque, check);
+             antenna.resonance->frequency ? 1.0 : design::unbounded, shaft.supply_torque, check);
   if (!check.holds && antenna.tachometer) {
     const TachometerEntry& tachometer = *antenna.tachometer;
     add_effect(antenna, shaft,
@@ -162,7 +168,7 @@ void check_friction_slope(const Case& antenna, PhysicalChecks& found) {
 }
 
 void check_friction_against_supply(const Case& antenna, PhysicalChecks& found) {
-  const FrictionCurveEntry& curve = antenna.friction_curve;
+  const FrictionCurveEntry& curve = *antenna.friction_curve;
   const MotorTorque supply = torque_of_supply(antenna, found.shaft);
   const MotorTorque starting{curve.breakaway.value, curve.breakaway.standard_uncertainty};
   const MotorTorque slewing = friction_at_slew_rate(antenna, found.shaft);
@@ -171,7 +177,7 @@ void check_friction_against_supply(const Case& antenna, PhysicalChecks& found) {
   const MotorTorque& friction = at_rest ? starting : slewing;
   const Quantity& most = at_rest ? curve.breakaway : largest_part(curve, found.shaft.slew_rate);
   auto& check = begin_check(found, "friction_against_supply", most.key);
-  check.entries = {entry_of(most), entry_of(antenna.drive.supply_pressure)};
+  check.entries = {entry_of(most), entry_of(antenna.drive->supply_pressure)};
   check.explanation = at_rest ? "breakaway" : "slewing";
   if (above(friction, 1.0, supply)) check.explanation += "_beyond_supply";
   check.add("breakaway", starting.value, "N.m");
@@ -182,8 +188,8 @@ void check_friction_against_supply(const Case& antenna, PhysicalChecks& found) {
 }
 
 void check_friction_tests(const Case& antenna, PhysicalChecks& found) {
-  const FrictionTestsEntry& tests = antenna.friction_tests;
-  const FrictionCurveEntry& curve = antenna.friction_curve;
+  const FrictionTestsEntry& tests = *antenna.friction_tests;
+  const FrictionCurveEntry& curve = *antenna.friction_curve;
   if (const auto& intercept = tests.constant_speed_coulomb) {
     compare(*intercept, intercepts_of(curve), "N.m", found);
   }
@@ -193,7 +199,7 @@ void check_friction_tests(const Case& antenna, PhysicalChecks& found) {
 }
 
 void check_friction_curve_tests(const Case& antenna, PhysicalChecks& found) {
-  const FrictionCurveEntry& curve = antenna.friction_curve;
+  const FrictionCurveEntry& curve = *antenna.friction_curve;
   if (curve.tests.empty()) return;
   const auto rate = loose_stribeck_rate(curve);
   auto& check = begin_check(found, "friction_curve_tests", "friction_curve.test", !rate);
@@ -205,7 +211,7 @@ void check_friction_curve_tests(const Case& antenna, PhysicalChecks& found) {
 }
 
 void check_coulomb_levels(const Case& antenna, PhysicalChecks& found) {
-  const FrictionTestsEntry& tests = antenna.friction_tests;
+  const FrictionTestsEntry& tests = *antenna.friction_tests;
   if (!tests.constant_speed_coulomb || !tests.slow_ramp_up || !tests.slow_ramp_down) return;
   const double intercept = tests.constant_speed_coulomb->value;
   const double ramp = 0.5 * (tests.slow_ramp_up->value + tests.slow_ramp_down->value);

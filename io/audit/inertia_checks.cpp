@@ -3,6 +3,9 @@
 #include <vector>
 
 #include <boresight/io/audit/case_checks.hpp>
+#include <boresight/io/case/case_file.hpp>
+#include <boresight/io/case/case_statements.hpp>
+#include <boresight/io/case/case_tests.hpp>
 #include <boresight/io/case/resonating_mode.hpp>
 #include <boresight/plant/antenna/hydraulics.hpp>
 
@@ -22,12 +25,12 @@ std::string id_of(const ImpulseResult& result) {
 
 std::vector<MeasuredInertia> measured_inertias(const Case& antenna, const ShaftNumbers& shaft) {
   std::vector<MeasuredInertia> inertias;
-  if (antenna.resonance_frequency) {
+  if (antenna.resonance->frequency) {
     const std::string id = "resonance.reflected_inertia";
     if (rings_as_rigid(antenna)) {
-      inertias.push_back(
-          {id, "recomputed",
-           plant::inertia_from_resonance(shaft.oil_stiffness, antenna.resonance_frequency->value)});
+      inertias.push_back({id, "recomputed",
+                          plant::inertia_from_resonance(shaft.oil_stiffness,
+                                                        antenna.resonance->frequency->value)});
     }
     for (const StatedEntry& stated : antenna.stated) {
       // The summary prints it again.
@@ -85,7 +88,7 @@ void check_coincidences(const Case& antenna, PhysicalChecks& found) {
 }
 
 void check_impulse_order(const Case& antenna, PhysicalChecks& found) {
-  const FrictionTestsEntry& tests = antenna.friction_tests;
+  const FrictionTestsEntry& tests = *antenna.friction_tests;
   if (!tests.constant_speed_coulomb || !tests.slow_ramp_up || !tests.slow_ramp_down) return;
   const double slow_ramp = 0.5 * (tests.slow_ramp_up->value + tests.slow_ramp_down->value);
   const auto subtracted = [&](const ImpulseResult& result) {

@@ -2,6 +2,9 @@
 
 #include <boresight/design/audit/source_reading.hpp>
 #include <boresight/io/audit/case_checks.hpp>
+#include <boresight/io/case/case_drive.hpp>
+#include <boresight/io/case/case_file.hpp>
+#include <boresight/io/case/case_mechanics.hpp>
 #include <boresight/io/case/drive_numbers.hpp>
 
 namespace boresight::io {
@@ -28,13 +31,13 @@ design::CheckedEntry entry_of(const Quantity& quantity) {
 ShaftNumbers shaft_numbers(const Case& antenna, const design::AuditGraph& graph) {
   ShaftNumbers shaft;
   shaft.motors = from_nearest_prints(graph, "motor_inertia");
-  for (const RotatingAssembly& assembly : antenna.gear_train.assemblies) {
+  for (const RotatingAssembly& assembly : antenna.gear_train->assemblies) {
     shaft.gear_train += from_nearest_prints(graph, "load_inertia." + assembly.name);
   }
   shaft.antenna = from_nearest_prints(graph, "load_inertia.antenna");
   shaft.oil_stiffness = from_nearest_prints(graph, "oil_stiffness");
   shaft.supply_torque = supply_torque(antenna);
-  shaft.slew_rate = antenna.drive.slew_rate.value * from_nearest_prints(graph, "gear_ratio");
+  shaft.slew_rate = antenna.drive->slew_rate.value * from_nearest_prints(graph, "gear_ratio");
   return shaft;
 }
 

@@ -4,6 +4,11 @@
 
 #include <boresight/io/audit/case_checks.hpp>
 #include <boresight/io/case/antenna_of.hpp>
+#include <boresight/io/case/case_file.hpp>
+#include <boresight/io/case/case_mechanics.hpp>
+#include <boresight/io/case/case_oil.hpp>
+#include <boresight/io/case/case_statements.hpp>
+#include <boresight/io/case/case_tests.hpp>
 #include <boresight/io/case/plant_numbers.hpp>
 #include <boresight/io/case/resonating_mode.hpp>
 #include <boresight/plant/antenna/antenna_change.hpp>
@@ -35,7 +40,7 @@ void check_expected_resonance(const Case& antenna, PhysicalChecks& found) {
   check.add("standard uncertainties", verdict.deviation(), "1", 0.0,
             ResonanceVerdict::contradicting_deviation);
   if (!check.holds) {
-    for (const AntennaAlternative& alternative : antenna.antenna.alternatives) {
+    for (const AntennaAlternative& alternative : antenna.antenna->alternatives) {
       check.add(alternative.name,
                 flexible_mode(antenna, changes_of(antenna, alternative)).frequency, "Hz");
     }
@@ -44,12 +49,12 @@ void check_expected_resonance(const Case& antenna, PhysicalChecks& found) {
 }
 
 void check_resonance_damping(const Case& antenna, PhysicalChecks& found) {
-  if (!antenna.resonance_damping) return;
+  if (!antenna.resonance->damping) return;
   // Read off a decay by eye, and of a plant whose friction is a straight line.
   constexpr double agrees = 2.0;
   const double expected = flexible_mode(antenna).damping_ratio;
   auto& check = begin_check(found, "resonance_damping", "resonance.damping_ratio");
-  check.add("measured", antenna.resonance_damping->value, "1", expected / agrees,
+  check.add("measured", antenna.resonance->damping->value, "1", expected / agrees,
             expected * agrees);
   check.add("expected", expected, "1");
 }
@@ -67,7 +72,7 @@ void check_wave_speeds(const Case& antenna, PhysicalChecks& found) {
         std::hypot(relative_uncertainty(line.length), relative_uncertainty(line.slosh_frequency));
     waves.push_back({"line." + line.name + ".slosh_frequency", speed, speed * relative, restated});
   };
-  for (const OilLine& line : antenna.oil.lines) {
+  for (const OilLine& line : antenna.oil->lines) {
     add(line, line.slosh_frequency, false);
     for (const StatedEntry& stated : antenna.stated) {
       if (stated.quantity == waves.back().id) add(line, stated.value, true);

@@ -5,6 +5,11 @@
 
 #include <boresight/io/audit/resonance_verdict.hpp>
 #include <boresight/io/case/antenna_of.hpp>
+#include <boresight/io/case/case_file.hpp>
+#include <boresight/io/case/case_mechanics.hpp>
+#include <boresight/io/case/case_motor.hpp>
+#include <boresight/io/case/case_structure.hpp>
+#include <boresight/io/case/case_tests.hpp>
 #include <boresight/io/case/drive_evidence.hpp>
 #include <boresight/io/case/member_ranges.hpp>
 #include <boresight/io/case/plant_numbers.hpp>
@@ -44,10 +49,10 @@ double expected_uncertainty(const Case& antenna, double expected) {
   double variance = 0.0;
   const std::vector<std::vector<plant::AntennaChange>> all{
       bulk_modulus_times(antenna, 1.0 + oil),
-      {plant::scaled_by("at_shaft.antenna_inertia", upward(antenna.antenna.inertia))},
-      {plant::scaled_by("at_shaft.motor_inertia", upward(antenna.motor.inertia))},
+      {plant::scaled_by("at_shaft.antenna_inertia", upward(antenna.antenna->inertia))},
+      {plant::scaled_by("at_shaft.motor_inertia", upward(antenna.motor->inertia))},
       {plant::scaled_by("structure.frequencies",
-                        upward(antenna.structure.locked_rotor_frequency))}};
+                        upward(antenna.structure->locked_rotor_frequency))}};
   for (const auto& moved : all) {
     variance += std::pow(resonance(antenna, moved) - expected, 2);
   }
@@ -81,16 +86,16 @@ std::optional<double> bulk_modulus_for(const Case& antenna, double frequency) {
 }
 
 std::optional<ResonanceVerdict> resonance_verdict(const Case& antenna) {
-  if (!antenna.resonance_frequency) return std::nullopt;
+  if (!antenna.resonance->frequency) return std::nullopt;
   ResonanceVerdict verdict;
-  verdict.measured = antenna.resonance_frequency->value;
+  verdict.measured = antenna.resonance->frequency->value;
   const plant::AntennaPlant plant = make_plant(antenna);
-  verdict.of_oil = antenna.resonance_of_oil;
+  verdict.of_oil = antenna.resonance->of_oil;
   verdict.rigid = rings_as_rigid(antenna);
   verdict.mode = resonating_mode(antenna, plant);
   verdict.oil_mode = plant::mode_of_oil(plant::plant_modes(plant));
   verdict.expected = verdict.mode.frequency;
-  verdict.standard_uncertainty = std::hypot(antenna.resonance_frequency->standard_uncertainty,
+  verdict.standard_uncertainty = std::hypot(antenna.resonance->frequency->standard_uncertainty,
                                             expected_uncertainty(antenna, verdict.expected));
   verdict.stated_bulk_modulus = bulk_modulus(antenna);
   verdict.bulk_modulus = bulk_modulus_for(antenna, verdict.measured);

@@ -3,7 +3,7 @@
 #include <optional>
 
 #include <boresight/io/campaign/designed_antenna.hpp>
-#include <boresight/io/case/case_file.hpp>
+#include <boresight/io/case/case_declaration.hpp>
 #include <boresight/plant/antenna/antenna_plant.hpp>
 
 namespace boresight::io {

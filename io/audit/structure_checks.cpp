@@ -5,6 +5,10 @@
 #include <boresight/design/audit/gear_stiffness.hpp>
 #include <boresight/design/problem/static_bending.hpp>
 #include <boresight/io/audit/case_checks.hpp>
+#include <boresight/io/case/case_campaign.hpp>
+#include <boresight/io/case/case_file.hpp>
+#include <boresight/io/case/case_mechanics.hpp>
+#include <boresight/io/case/case_structure.hpp>
 #include <boresight/io/case/mission_of.hpp>
 #include <boresight/io/case/structure_numbers.hpp>
 #include <boresight/plant/antenna/motors_held_modes.hpp>
@@ -14,7 +18,7 @@ namespace {
 
 // With every body's shares of wind and beam those of the inertia.
 Case with_inertial_shares(Case antenna) {
-  StructureEntry& structure = antenna.structure;
+  StructureEntry& structure = *antenna.structure;
   double bull_gear = 1.0;
   for (auto& mode : structure.modes) {
     mode.wind_fraction.value = mode.beam_weight.value = mode.inertia_fraction.value;
@@ -30,7 +34,7 @@ double mean_bending(const Case& antenna) {
 }
 
 double gear_stiffness_at_axis(const Case& antenna, const plant::StructureSpecification& structure) {
-  return antenna.antenna.inertia.value * plant::make_structure(structure).gear_stiffness;
+  return antenna.antenna->inertia.value * plant::make_structure(structure).gear_stiffness;
 }
 
 double factor_between(double one, double other) {
@@ -45,15 +49,15 @@ double agreeing_factor(const Case& antenna, const Quantity& stiffness) {
     return quantity.uncertainty_given ? relative_uncertainty(quantity) : 0.0;
   };
   // The plant's goes with the inertia and with the square of the frequencies.
-  const double uncertainty = std::hypot(stated(stiffness), stated(antenna.antenna.inertia),
-                                        2.0 * stated(antenna.structure.locked_rotor_frequency));
+  const double uncertainty = std::hypot(stated(stiffness), stated(antenna.antenna->inertia),
+                                        2.0 * stated(antenna.structure->locked_rotor_frequency));
   return std::max(least, 1.0 + deviations * uncertainty);
 }
 
 // What would make the plant's gear spring as stiff as stated.
 void explain_gear_stiffness(const Case& antenna, double stiffness, double agreeing,
                             design::PhysicalCheck& check) {
-  const StructureEntry& structure = antenna.structure;
+  const StructureEntry& structure = *antenna.structure;
   if (structure.motors_held) {
     check.explanation = "held_frequencies";
     const auto antennas = structure_specifications(structure);
@@ -76,7 +80,7 @@ void explain_gear_stiffness(const Case& antenna, double stiffness, double agreei
   check.entries = {entry_of(heaviest->frequency)};
   const auto frequency = design::mode_frequency_for(
       structure_specification(structure), static_cast<std::size_t>(heaviest - modes.begin()),
-      stiffness / antenna.antenna.inertia.value);
+      stiffness / antenna.antenna->inertia.value);
   check.explanation = frequency ? "heaviest_mode" : "inputs";
   if (frequency) check.add("heaviest mode for it", *frequency, "Hz");
 }
@@ -84,7 +88,7 @@ void explain_gear_stiffness(const Case& antenna, double stiffness, double agreei
 }  // namespace
 
 void check_structural_bound(const Case& antenna, PhysicalChecks& found) {
-  const StructureEntry& structure = antenna.structure;
+  const StructureEntry& structure = *antenna.structure;
   if (!structure.lowest_predicted) return;
   auto& check = begin_check(found, "structural_bound", "structure.lowest_predicted",
                             structure.lowest_predicted_axis == antenna.axis);
@@ -96,7 +100,7 @@ void check_structural_bound(const Case& antenna, PhysicalChecks& found) {
 void check_structural_shares(const Case& antenna, PhysicalChecks& found) {
   constexpr double large = 0.5, clear_factor = 3.0;
   auto& check = begin_check(found, "structural_shares", "structure.mode");
-  for (const auto& mode : antenna.structure.modes) {
+  for (const auto& mode : antenna.structure->modes) {
     const Quantity& inertia = mode.inertia_fraction;
     for (const Quantity* share : {&mode.wind_fraction, &mode.beam_weight}) {
       // Those of a modes file were computed, and are nobody's guess.
@@ -117,11 +121,11 @@ void check_structural_shares(const Case& antenna, PhysicalChecks& found) {
 }
 
 void check_structural_predictions(const Case& antenna, PhysicalChecks& found) {
-  const auto& predicted = antenna.campaign.locked_rotor_frequencies;
+  const auto& predicted = antenna.campaign->locked_rotor_frequencies;
   if (predicted.empty()) return;
   constexpr double agrees = 0.05;
   const auto own =
-      plant::motors_held_modes(plant::make_structure(structure_specification(antenna.structure)));
+      plant::motors_held_modes(plant::make_structure(structure_specification(*antenna.structure)));
   auto& check = begin_check(found, "structural_predictions", "structure.prediction");
   for (std::size_t i = 0; i < std::min(own.size(), predicted.size()); ++i) {
     const Quantity& one = predicted[i];
@@ -135,8 +139,8 @@ void check_structural_predictions(const Case& antenna, PhysicalChecks& found) {
 }
 
 void check_motors_held_antennas(const Case& antenna, PhysicalChecks& found) {
-  if (!antenna.structure.motors_held) return;
-  const auto antennas = structure_specifications(antenna.structure);
+  if (!antenna.structure->motors_held) return;
+  const auto antennas = structure_specifications(*antenna.structure);
   auto& check =
       begin_check(found, "motors_held", "structure.mode_frequencies", antennas.size() < 2);
   for (std::size_t i = 0; i < antennas.size(); ++i) {
@@ -147,9 +151,9 @@ void check_motors_held_antennas(const Case& antenna, PhysicalChecks& found) {
 }
 
 void check_gear_stiffness(const Case& antenna, PhysicalChecks& found) {
-  const auto& stated = antenna.structure.gear_stiffness;
+  const auto& stated = antenna.structure->gear_stiffness;
   if (!stated) return;
-  const double own = gear_stiffness_at_axis(antenna, structure_specification(antenna.structure));
+  const double own = gear_stiffness_at_axis(antenna, structure_specification(*antenna.structure));
   const double agreeing = agreeing_factor(antenna, *stated);
   auto& check = begin_check(found, "gear_stiffness", stated->key,
                             factor_between(own, stated->value) <= agreeing);

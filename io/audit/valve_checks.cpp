@@ -5,6 +5,11 @@
 
 #include <boresight/io/audit/case_checks.hpp>
 #include <boresight/io/case/antenna_of.hpp>
+#include <boresight/io/case/case_campaign.hpp>
+#include <boresight/io/case/case_drive.hpp>
+#include <boresight/io/case/case_file.hpp>
+#include <boresight/io/case/case_simulation.hpp>
+#include <boresight/io/case/case_tests.hpp>
 #include <boresight/io/case/drive_numbers.hpp>
 #include <boresight/plant/nonlinear/drive_capability.hpp>
 
@@ -23,7 +28,7 @@ std::vector<Stroke> strokes_of(const Case& antenna) {
     const Quantity& stroke = antenna.simulation->valve_stroke;
     strokes.push_back({{entry_of(stroke)}, stroke});
   }
-  const DriveEntry& drive = antenna.drive;
+  const DriveEntry& drive = *antenna.drive;
   if (const auto rated = rated_stroke(antenna);
       rated && drive.valve_rated_flow && drive.valve_rated_pressure_drop) {
     strokes.push_back(
@@ -42,8 +47,8 @@ double allowance(const Quantity& one, const Quantity& other, double size) {
 double excess_uncertainty(const Case& antenna, const ShaftNumbers& shaft,
                           const plant::LoadedDrive& drive, const Quantity& stroke) {
   const double square = std::pow(shaft.slew_rate / stroke.value, 2);
-  const double of_share =
-      2.0 * std::hypot(relative_uncertainty(antenna.drive.slew_rate), relative_uncertainty(stroke));
+  const double of_share = 2.0 * std::hypot(relative_uncertainty(antenna.drive->slew_rate),
+                                           relative_uncertainty(stroke));
   return std::hypot(friction_at_slew_rate(antenna, shaft).uncertainty,
                     drive.available() * square * of_share,
                     torque_of_supply(antenna, shaft).uncertainty * (1.0 - square));
@@ -75,7 +80,7 @@ double motor_rate_per_volt(const TachometerEntry& tachometer) {
 
 void check_valve_stroke(const Case& antenna, PhysicalChecks& found) {
   const double slewing = found.shaft.slew_rate;
-  const double of_slewing = slewing * relative_uncertainty(antenna.drive.slew_rate);
+  const double of_slewing = slewing * relative_uncertainty(antenna.drive->slew_rate);
   const std::vector<Stroke> strokes = strokes_of(antenna);
   for (const Stroke& stroke : strokes) {
     auto& check = begin_check(found, "slew_rate_without_load", "drive.slew_rate");
@@ -98,7 +103,7 @@ void check_valve_stroke(const Case& antenna, PhysicalChecks& found) {
 }
 
 void check_return_pressures(const Case& antenna, PhysicalChecks& found) {
-  const auto& recorded = antenna.campaign.return_pressure;
+  const auto& recorded = antenna.campaign->return_pressure;
   if (!recorded || !antenna.simulation) return;
   const Quantity& simulated = antenna.simulation->return_pressure;
   const double allowed =

@@ -6,6 +6,14 @@
 
 #include <boresight/io/campaign/campaign.hpp>
 #include <boresight/io/campaign/loaded_campaign.hpp>
+#include <boresight/io/case/case_campaign.hpp>
+#include <boresight/io/case/case_drive.hpp>
+#include <boresight/io/case/case_file.hpp>
+#include <boresight/io/case/case_mechanics.hpp>
+#include <boresight/io/case/case_motor.hpp>
+#include <boresight/io/case/case_oil.hpp>
+#include <boresight/io/case/case_simulation.hpp>
+#include <boresight/io/case/case_structure.hpp>
 #include <boresight/io/case/drive_evidence.hpp>
 #include <boresight/io/case/drive_numbers.hpp>
 #include <boresight/io/case/field.hpp>
@@ -124,30 +132,30 @@ identification::DriveKnowledge drive_knowledge(const Case& antenna, CampaignNote
   knowledge.volume_1 = evidence.volume_1;
   knowledge.volume_2 = evidence.volume_2;
   knowledge.efficiency_in_stiffness = evidence.efficiency_in_stiffness;
-  for (const auto& line : antenna.campaign.lines) {
+  for (const auto& line : antenna.campaign->lines) {
     knowledge.line_lengths.push_back(uncertain(line.length));
   }
   if (knowledge.line_lengths.empty()) {
     notes.assumptions.emplace_back("no oil.line: slosh tests cannot give a bulk modulus");
-  } else if (knowledge.line_lengths.size() != static_cast<std::size_t>(antenna.motor.count)) {
+  } else if (knowledge.line_lengths.size() != static_cast<std::size_t>(antenna.motor->count)) {
     notes.assumptions.push_back(
         fmt::format("{} oil lines for {} motors: the first was taken as the shortest, the last as "
                     "the longest",
-                    knowledge.line_lengths.size(), antenna.motor.count));
+                    knowledge.line_lengths.size(), antenna.motor->count));
   }
-  for (const auto& frequency : antenna.campaign.locked_rotor_frequencies) {
+  for (const auto& frequency : antenna.campaign->locked_rotor_frequencies) {
     knowledge.locked_rotor_frequencies.push_back(uncertain(frequency));
   }
   if (knowledge.locked_rotor_frequencies.empty()) {
     knowledge.locked_rotor_frequencies.push_back(
-        uncertain(antenna.structure.locked_rotor_frequency));
+        uncertain(antenna.structure->locked_rotor_frequency));
     notes.assumptions.push_back(
         fmt::format("no structure.prediction: {} gives the only structural mode known",
-                    antenna.structure.locked_rotor_frequency.key));
+                    antenna.structure->locked_rotor_frequency.key));
   }
-  knowledge.supply_pressure = antenna.drive.supply_pressure.value;
-  if (antenna.campaign.return_pressure) {
-    knowledge.return_pressure = antenna.campaign.return_pressure->value;
+  knowledge.supply_pressure = antenna.drive->supply_pressure.value;
+  if (antenna.campaign->return_pressure) {
+    knowledge.return_pressure = antenna.campaign->return_pressure->value;
   } else if (antenna.simulation) {
     knowledge.return_pressure = antenna.simulation->return_pressure.value;
     notes.assumptions.emplace_back(
@@ -156,26 +164,26 @@ identification::DriveKnowledge drive_knowledge(const Case& antenna, CampaignNote
     notes.assumptions.emplace_back("no drive.return_pressure: taken as zero");
   }
   if (!(knowledge.supply_pressure > knowledge.return_pressure)) {
-    const Quantity& supply = antenna.drive.supply_pressure;
+    const Quantity& supply = antenna.drive->supply_pressure;
     refuse_at(supply.location, supply.key,
               fmt::format("expected a supply pressure above the return's, {:.4g} Pa, found {} "
                           "({:.4g} Pa)",
                           knowledge.return_pressure, supply.text, supply.value));
   }
-  if (!antenna.oil.efficiency_in_stiffness) {
+  if (!antenna.oil->efficiency_in_stiffness) {
     notes.assumptions.push_back(fmt::format(
         "oil.efficiency_in_stiffness = false: what records show is K with both efficiencies, since "
         "torque counts with one and flow with the other; K = beta D^2 (1/V1 + 1/V2) alone would be "
         "{:.4f} times the oil stiffness found here",
         1.0 / (knowledge.torque_efficiency.value * knowledge.volumetric_efficiency.value)));
   }
-  knowledge.tracking_rate = antenna.drive.tracking_rate.value * gear_ratio(antenna);
+  knowledge.tracking_rate = antenna.drive->tracking_rate.value * gear_ratio(antenna);
   return knowledge;
 }
 
 identification::Campaign make_campaign(const Case& antenna, LoadedCampaign loaded,
                                        CampaignNotes& notes) {
-  const auto& entries = antenna.campaign.records;
+  const auto& entries = antenna.campaign->records;
   auto& works = loaded.records;
   const identification::Instruments stated = loaded.instruments;
   identification::Campaign campaign;

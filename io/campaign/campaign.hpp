@@ -5,7 +5,7 @@
 
 #include <boresight/identification/records/drive_record.hpp>
 #include <boresight/identification/records/record_defects.hpp>
-#include <boresight/io/case/case_file.hpp>
+#include <boresight/io/case/case_declaration.hpp>
 
 namespace boresight::io {
 

@@ -4,6 +4,14 @@
 #include <fmt/format.h>
 
 #include <boresight/io/campaign/campaign_comparison.hpp>
+#include <boresight/io/case/case_campaign.hpp>
+#include <boresight/io/case/case_drive.hpp>
+#include <boresight/io/case/case_file.hpp>
+#include <boresight/io/case/case_friction.hpp>
+#include <boresight/io/case/case_motor.hpp>
+#include <boresight/io/case/case_oil.hpp>
+#include <boresight/io/case/case_statements.hpp>
+#include <boresight/io/case/case_tests.hpp>
 #include <boresight/io/case/drive_numbers.hpp>
 #include <boresight/io/case/plant_numbers.hpp>
 #include <boresight/plant/antenna/friction.hpp>
@@ -118,7 +126,7 @@ class Records {
 
 void compare_friction(const CampaignSection& section, const Case& antenna,
                       Contradictions& contradictions) {
-  const auto& tests = antenna.friction_tests;
+  const auto& tests = *antenna.friction_tests;
   if (section.impulse && section.impulse->constant_speed &&
       section.impulse->constant_speed->has_line) {
     const auto& found = *section.impulse->constant_speed;
@@ -127,7 +135,7 @@ void compare_friction(const CampaignSection& section, const Case& antenna,
     contradictions.compare(tests.constant_speed_slope, "N m s/rad", found.slope,
                            "constant-speed tests");
   }
-  const auto& curve = antenna.friction_curve;
+  const auto& curve = *antenna.friction_curve;
   const bool assumed = curve.coulomb.basis == Basis::assumed;
   std::vector<const FrictionRow*> tested;
   for (const auto& row : section.friction) {
@@ -170,7 +178,7 @@ void compare_stated(const Case& antenna, const Records& records, const CampaignS
     } else if (id == "bulk_modulus") {
       compare("Pa", records.bulk_modulus(), records.by_bulk_modulus());
     } else if (id == "oil_stiffness") {
-      compare("N m/rad", records.oil_stiffness(antenna.oil.efficiency_in_stiffness), "grey box");
+      compare("N m/rad", records.oil_stiffness(antenna.oil->efficiency_in_stiffness), "grey box");
     } else if (id == "resonance.frequency") {
       compare("Hz", records.frequency(), "rings after valve steps");
     } else if (id == "friction.slow_ramp.coulomb") {
@@ -178,10 +186,10 @@ void compare_stated(const Case& antenna, const Records& records, const CampaignS
     } else if (id == "friction.slow_ramp.offset") {
       compare("N m", records.slow_ramp(true), "slow ramp");
     }
-    for (std::size_t i = 0; i < antenna.campaign.lines.size(); ++i) {
+    for (std::size_t i = 0; i < antenna.campaign->lines.size(); ++i) {
       // Lines and motors are one to one only where there are as many.
-      if (antenna.campaign.lines.size() != static_cast<std::size_t>(antenna.motor.count)) break;
-      const std::string line = "line." + antenna.campaign.lines[i].name;
+      if (antenna.campaign->lines.size() != static_cast<std::size_t>(antenna.motor->count)) break;
+      const std::string line = "line." + antenna.campaign->lines[i].name;
       if (id == line + ".bulk_modulus") compare("Pa", records.line(i, true), "slosh");
       if (id == line + ".slosh_frequency") compare("Hz", records.line(i, false), "slosh");
     }
@@ -217,11 +225,11 @@ void compare_drawings(const CampaignSection& section, Contradictions& contradict
 std::vector<Contradiction> contradictions(const CampaignSection& section, const Case& antenna) {
   Contradictions contradictions;
   const Records records(section);
-  contradictions.compare(antenna.resonance_frequency, "Hz", records.frequency(),
+  contradictions.compare(antenna.resonance->frequency, "Hz", records.frequency(),
                          "rings after valve steps");
-  contradictions.compare(antenna.oil.bulk_modulus, "Pa", records.bulk_modulus(),
+  contradictions.compare(antenna.oil->bulk_modulus, "Pa", records.bulk_modulus(),
                          records.by_bulk_modulus());
-  contradictions.compare(antenna.drive.leakage_rate, antenna.drive.leakage_rate.key, "1/s",
+  contradictions.compare(antenna.drive->leakage_rate, antenna.drive->leakage_rate.key, "1/s",
                          records.quantity("leakage rate"), "grey box");
   compare_stated(antenna, records, section, contradictions);
   compare_friction(section, antenna, contradictions);

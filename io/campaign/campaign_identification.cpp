@@ -10,6 +10,9 @@
 #include <boresight/identification/resonance/drive_response.hpp>
 #include <boresight/io/campaign/campaign_comparison.hpp>
 #include <boresight/io/campaign/campaign_identification.hpp>
+#include <boresight/io/case/case_file.hpp>
+#include <boresight/io/case/case_oil.hpp>
+#include <boresight/io/case/case_tests.hpp>
 #include <boresight/io/case/plant_numbers.hpp>
 #include <boresight/numerics/parallel_loop.hpp>
 
@@ -80,7 +83,7 @@ Interval stated_bulk_modulus(const Case& antenna) {
   const double value = bulk_modulus(antenna);
   constexpr double by_air = 0.15;
   double uncertainty = by_air * value;
-  if (const auto& stated = antenna.oil.bulk_modulus; stated && is_vouched_for(*stated)) {
+  if (const auto& stated = antenna.oil->bulk_modulus; stated && is_vouched_for(*stated)) {
     uncertainty = stated->standard_uncertainty;
   }
   return numerics::normal_interval(value, uncertainty);
@@ -95,7 +98,7 @@ void choose_bulk_modulus(const Case& antenna, CampaignSection& section) {
     }
   }
   section.bulk_modulus_stated = best == nullptr;
-  const auto& stated = antenna.oil.bulk_modulus;
+  const auto& stated = antenna.oil->bulk_modulus;
   const bool vouched_for = stated && is_vouched_for(*stated);
   section.bulk_modulus_guessed = best == nullptr && !vouched_for;
   section.bulk_modulus = best != nullptr ? *best : stated_bulk_modulus(antenna);

@@ -5,6 +5,8 @@
 #include <fmt/format.h>
 
 #include <boresight/io/campaign/campaign_comparison.hpp>
+#include <boresight/io/case/case_file.hpp>
+#include <boresight/io/case/case_oil.hpp>
 #include <boresight/numerics/angles.hpp>
 #include <boresight/numerics/statistics/distribution_quantiles.hpp>
 
@@ -126,7 +128,7 @@ std::string why_spectrum(const CampaignSection& section,
   }
   const auto& knowledge = section.knowledge;
   const double both = knowledge.torque_efficiency.value * knowledge.volumetric_efficiency.value;
-  const bool with = antenna.oil.efficiency_in_stiffness;
+  const bool with = antenna.oil->efficiency_in_stiffness;
   why += fmt::format(
       "Efficiency convention: efficiencies {} the stiffness here; the other way it would read "
       "{:.4g} kg.m2 ({:+.1f} %).",

@@ -3,6 +3,8 @@
 
 #include <boresight/io/campaign/compared_records.hpp>
 #include <boresight/io/campaign/loaded_record.hpp>
+#include <boresight/io/case/case_campaign.hpp>
+#include <boresight/io/case/case_file.hpp>
 #include <boresight/numerics/error.hpp>
 
 namespace boresight::io {
@@ -29,7 +31,7 @@ std::vector<design::QuantityComparison> compare_records_of(const Case& antenna,
                                                            const std::string& before,
                                                            const std::string& after,
                                                            unsigned threads) {
-  if (antenna.campaign.records.empty()) {
+  if (antenna.campaign->records.empty()) {
     throw InvalidInput(fmt::format(
         "{}: expected [[record]]s to compare, found none: name both records in the case",
         antenna.path));

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include <boresight/design/commissioning/drive_record_comparison.hpp>
-#include <boresight/io/case/case_file.hpp>
+#include <boresight/io/case/case_declaration.hpp>
 
 namespace boresight::io {
 

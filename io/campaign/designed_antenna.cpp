@@ -5,6 +5,8 @@
 #include <boresight/design/ensembles/plant_members.hpp>
 #include <boresight/io/campaign/campaign_identification.hpp>
 #include <boresight/io/campaign/designed_antenna.hpp>
+#include <boresight/io/case/case_campaign.hpp>
+#include <boresight/io/case/case_file.hpp>
 #include <boresight/io/case/mission_of.hpp>
 #include <boresight/numerics/error.hpp>
 #include <boresight/plant/antenna/friction.hpp>
@@ -66,7 +68,7 @@ DesignedAntenna designed_antenna(const Case& stated, const std::optional<Campaig
 
 DesignedAntenna designed_antenna(const Case& stated, std::uint64_t seed, unsigned threads,
                                  const std::function<bool()>& interrupted) {
-  if (stated.campaign.records.empty()) return designed_antenna(stated, std::nullopt, seed);
+  if (stated.campaign->records.empty()) return designed_antenna(stated, std::nullopt, seed);
   IdentificationOptions study;
   study.seed = seed;
   study.threads = threads;

@@ -8,6 +8,7 @@
 #include <boresight/design/ensembles/plant_distribution.hpp>
 #include <boresight/io/campaign/campaign_section.hpp>
 #include <boresight/io/campaign/identified_case.hpp>
+#include <boresight/io/case/case_file.hpp>
 
 namespace boresight::io {
 

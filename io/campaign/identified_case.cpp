@@ -8,6 +8,14 @@
 
 #include <boresight/io/campaign/identified_case.hpp>
 #include <boresight/io/case/antenna_of.hpp>
+#include <boresight/io/case/case_drive.hpp>
+#include <boresight/io/case/case_file.hpp>
+#include <boresight/io/case/case_friction.hpp>
+#include <boresight/io/case/case_mechanics.hpp>
+#include <boresight/io/case/case_motor.hpp>
+#include <boresight/io/case/case_oil.hpp>
+#include <boresight/io/case/case_simulation.hpp>
+#include <boresight/io/case/case_structure.hpp>
 #include <boresight/io/case/structure_numbers.hpp>
 #include <boresight/numerics/error.hpp>
 
@@ -51,19 +59,19 @@ class Replacement {
 };
 
 void set_oil(Case& antenna, Replacement& replace, const plant::HydraulicDrive& found) {
-  if (!antenna.oil.bulk_modulus) {
+  if (!antenna.oil->bulk_modulus) {
     // The mean of the lines gives way to one number, which then has to have a key.
-    antenna.oil.bulk_modulus = Quantity{};
-    antenna.oil.bulk_modulus->kind = Kind::pressure;
-    antenna.oil.bulk_modulus->key = "oil.bulk_modulus";
+    antenna.oil->bulk_modulus = Quantity{};
+    antenna.oil->bulk_modulus->kind = Kind::pressure;
+    antenna.oil->bulk_modulus->key = "oil.bulk_modulus";
   }
-  replace.set(*antenna.oil.bulk_modulus, "oil.bulk_modulus");
-  replace.put(antenna.oil.volume_1, found.volume_1, antenna.oil.volume_1.standard_uncertainty);
-  replace.put(antenna.oil.volume_2, found.volume_2, antenna.oil.volume_2.standard_uncertainty);
+  replace.set(*antenna.oil->bulk_modulus, "oil.bulk_modulus");
+  replace.put(antenna.oil->volume_1, found.volume_1, antenna.oil->volume_1.standard_uncertainty);
+  replace.put(antenna.oil->volume_2, found.volume_2, antenna.oil->volume_2.standard_uncertainty);
 }
 
 void set_drive(Case& antenna, Replacement& replace, const IdentifiedParts& parts) {
-  FrictionCurveEntry& curve = antenna.friction_curve;
+  FrictionCurveEntry& curve = *antenna.friction_curve;
   replace.set(curve.coulomb, "friction_curve.coulomb");
   replace.set(curve.breakaway, "friction_curve.breakaway");
   replace.set(curve.stribeck_rate, "friction_curve.stribeck_rate");
@@ -71,10 +79,10 @@ void set_drive(Case& antenna, Replacement& replace, const IdentifiedParts& parts
   replace.set(curve.saturating_rate, "friction_curve.saturating_rate");
   replace.set(curve.viscous, "friction_curve.viscous");
   if (parts.friction_curve) curve.tests.clear();
-  replace.set(antenna.drive.leakage_rate, "drive.leakage_rate");
-  if (parts.leakage_rate) antenna.drive.leakage_by_flow = false;
-  replace.set(antenna.drive.viscous_friction, "drive.viscous_friction");
-  replace.set(antenna.drive.valve_frequency, "drive.valve_frequency");
+  replace.set(antenna.drive->leakage_rate, "drive.leakage_rate");
+  if (parts.leakage_rate) antenna.drive->leakage_by_flow = false;
+  replace.set(antenna.drive->viscous_friction, "drive.viscous_friction");
+  replace.set(antenna.drive->valve_frequency, "drive.valve_frequency");
   if (!antenna.simulation) return;
   replace.set(antenna.simulation->offset_torque, "simulation.offset_torque");
   replace.set(antenna.simulation->bristle_stiffness, "simulation.bristle_stiffness");
@@ -83,7 +91,7 @@ void set_drive(Case& antenna, Replacement& replace, const IdentifiedParts& parts
 
 // The case's modes by their frequencies with the bull gear held.
 void set_bull_gear_held(Case& antenna, Replacement& replace, const plant::AntennaStructure& found) {
-  std::vector<StructureModeEntry>& modes = antenna.structure.modes;
+  std::vector<StructureModeEntry>& modes = antenna.structure->modes;
   for (std::size_t i = 0; i < modes.size() && i < found.modes.size(); ++i) {
     const std::string path = fmt::format("structure.mode[{}].frequency", i);
     replace.put(modes[i].frequency, found.modes[i].frequency,
@@ -96,8 +104,8 @@ void set_bull_gear_held(Case& antenna, Replacement& replace, const plant::Antenn
 // that the records show, the others in proportion to the lowest.
 void set_motors_held(Case& antenna, Replacement& replace, const DriveEstimate& estimate,
                      const IdentifiedParts& parts, double scale) {
-  std::vector<StructureModeEntry>& modes = antenna.structure.modes;
-  StructureEntry each = antenna.structure;
+  std::vector<StructureModeEntry>& modes = antenna.structure->modes;
+  StructureEntry each = *antenna.structure;
   for (std::size_t i = 0; i < modes.size(); ++i) {
     const std::size_t j = i + 1;
     const bool known = j < parts.frequencies.size() && parts.frequencies[j] &&
@@ -153,14 +161,15 @@ Case with_identified(const Case& antenna, const DriveEstimate& estimate,
   const Numbers numbers = identified_numbers(own, estimate, draws, parts);
   Case identified = antenna;
   Replacement replace(identified, numbers);
-  replace.set(identified.motor.inertia, "motor.inertia");
-  replace.set(identified.antenna.inertia, "antenna.inertia");
+  replace.set(identified.motor->inertia, "motor.inertia");
+  replace.set(identified.antenna->inertia, "antenna.inertia");
   set_oil(identified, replace, found.hydraulics);
   set_drive(identified, replace, parts);
   if (estimate.lowest_frequency > 0.0) {
-    const double scale = estimate.lowest_frequency / antenna.structure.locked_rotor_frequency.value;
-    replace.set(identified.structure.locked_rotor_frequency, "structure.locked_rotor_frequency");
-    if (identified.structure.motors_held) {
+    const double scale =
+        estimate.lowest_frequency / antenna.structure->locked_rotor_frequency.value;
+    replace.set(identified.structure->locked_rotor_frequency, "structure.locked_rotor_frequency");
+    if (identified.structure->motors_held) {
       set_motors_held(identified, replace, estimate, parts, scale);
     } else {
       set_bull_gear_held(identified, replace, found.structure);
@@ -174,12 +183,12 @@ IdentifiedParts taken_parts(const Case& antenna, const GreyBoxResult& found) {
   const auto narrower = [&](const Quantity& stated, const char* quantity) {
     return is_narrower(stated, found.quantity(quantity).posterior);
   };
-  const DriveEntry& drive = antenna.drive;
+  const DriveEntry& drive = *antenna.drive;
   if (narrower(drive.leakage_rate, "leakage rate")) parts.leakage_rate = false;
   if (narrower(drive.viscous_friction, "tracking friction slope")) {
     parts.friction_slope = false;
   }
-  if (is_narrower(antenna.friction_curve, found.quantity("Coulomb level").posterior)) {
+  if (is_narrower(*antenna.friction_curve, found.quantity("Coulomb level").posterior)) {
     parts.friction_curve = false;
   }
   const numerics::Interval& lag = found.quantity("valve lag").posterior;

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include <boresight/identification/grey_box/identified_antenna.hpp>
-#include <boresight/io/case/case_file.hpp>
+#include <boresight/io/case/case_declaration.hpp>
 
 namespace boresight::io {
 

@@ -3,6 +3,9 @@
 #include <fmt/format.h>
 
 #include <boresight/io/campaign/loaded_campaign.hpp>
+#include <boresight/io/case/case_campaign.hpp>
+#include <boresight/io/case/case_file.hpp>
+#include <boresight/io/case/case_simulation.hpp>
 #include <boresight/numerics/error.hpp>
 
 namespace boresight::io {
@@ -11,7 +14,7 @@ namespace {
 identification::Instruments make_instruments(const Case& antenna,
                                              std::vector<std::string>& assumptions) {
   identification::Instruments instruments;
-  if (const auto& entry = antenna.campaign.instruments) {
+  if (const auto& entry = antenna.campaign->instruments) {
     instruments.pressure_gain = entry->pressure_gain.value;
     instruments.pressure_zero = entry->pressure_zero.value;
     instruments.tachometer_scale = entry->tachometer_gain.value;
@@ -36,7 +39,7 @@ identification::Instruments make_instruments(const Case& antenna,
 }  // namespace
 
 LoadedCampaign load_campaign(const Case& antenna, unsigned threads) {
-  if (antenna.campaign.records.empty()) {
+  if (antenna.campaign->records.empty()) {
     throw InvalidInput(
         fmt::format("{}: record: expected a list of tables [[record]], found none", antenna.path));
   }

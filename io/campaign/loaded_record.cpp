@@ -10,6 +10,8 @@
 #include <boresight/identification/records/test_recognition.hpp>
 #include <boresight/io/campaign/loaded_record.hpp>
 #include <boresight/io/campaign/raw_record.hpp>
+#include <boresight/io/case/case_campaign.hpp>
+#include <boresight/io/case/case_file.hpp>
 #include <boresight/io/case/field.hpp>
 #include <boresight/io/records/record_columns.hpp>
 #include <boresight/io/records/record_file.hpp>
@@ -81,7 +83,7 @@ void check_names(const Case& antenna, const std::vector<LoadedRecord>& works) {
               fmt::format("expected a column of one record at least, found {}{} where they have {}",
                           in_quotes(name), did_you_mean(name, names), columns_of(all)));
   };
-  const RecordColumnsEntry& entry = antenna.campaign.columns;
+  const RecordColumnsEntry& entry = antenna.campaign->columns;
   for (const auto* command : {&entry.rate_command, &entry.valve_command}) {
     if (*command) check((*command)->name, (*command)->location, (*command)->key);
   }
@@ -130,7 +132,7 @@ std::string to_string(TestKind test) {
 }
 
 std::vector<LoadedRecord> load_records(const Case& antenna, unsigned threads) {
-  const auto& entries = antenna.campaign.records;
+  const auto& entries = antenna.campaign->records;
   std::vector<LoadedRecord> works(entries.size());
   numerics::for_each_index(works.size(), numerics::thread_count(threads),
                            [&](std::size_t i) { load(antenna, entries[i], works[i]); });
@@ -146,7 +148,7 @@ void recognise(const Case& antenna, std::vector<LoadedRecord>& works) {
   const double fastest = identification::fastest_motion(all);
   for (std::size_t i = 0; i < works.size(); ++i) {
     identification::CleanRecord& clean = works[i].clean;
-    if (!clean.record || !antenna.campaign.records[i].test.empty()) continue;
+    if (!clean.record || !antenna.campaign->records[i].test.empty()) continue;
     works[i].notes.test_guessed = true;
     clean.record->test = identification::recognised_test(*clean.record, fastest);
     works[i].raw.test = clean.record->test;

@@ -7,6 +7,8 @@
 #include <fmt/ranges.h>
 
 #include <boresight/io/campaign/measured_record.hpp>
+#include <boresight/io/case/case_campaign.hpp>
+#include <boresight/io/case/case_file.hpp>
 #include <boresight/io/case/drive_numbers.hpp>
 #include <boresight/io/records/record_columns.hpp>
 #include <boresight/io/records/record_file.hpp>
@@ -70,7 +72,7 @@ std::optional<EncoderColumn> encoder_column(const Case& antenna, const RecordNot
     return encoder;
   }
   const bool turned =
-      std::ranges::any_of(antenna.campaign.columns.reversed,
+      std::ranges::any_of(antenna.campaign->columns.reversed,
                           [&](const std::string& name) { return is_named(*column, name); });
   const double scale = unit->factor * gear_ratio(antenna) * (turned ? -1.0 : 1.0);
   encoder.motor_angle = scale * Eigen::Map<const Eigen::VectorXd>(column->values.data(), samples);

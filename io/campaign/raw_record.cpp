@@ -6,6 +6,9 @@
 #include <fmt/format.h>
 
 #include <boresight/io/campaign/raw_record.hpp>
+#include <boresight/io/case/case_campaign.hpp>
+#include <boresight/io/case/case_file.hpp>
+#include <boresight/io/case/case_motor.hpp>
 #include <boresight/io/case/drive_numbers.hpp>
 #include <boresight/io/case/field.hpp>
 #include <boresight/io/records/record_columns.hpp>
@@ -26,11 +29,11 @@ Dimension product(const Dimension& a, const Dimension& b) {
 class Mapper {
  public:
   Mapper(const Case& antenna, const RecordTable& table, RecordNotes& notes)
-      : antenna_(antenna), campaign_(antenna.campaign), table_(table), notes_(notes) {}
+      : antenna_(antenna), campaign_(*antenna.campaign), table_(table), notes_(notes) {}
 
   identification::RawRecord map() {
     const RecordColumnsEntry& entry = campaign_.columns;
-    const ChosenColumns chosen = choose_columns(table_, entry, antenna_.motor.count);
+    const ChosenColumns chosen = choose_columns(table_, entry, antenna_.motor->count);
     notes_.remarks.insert(notes_.remarks.end(), chosen.remarks.begin(), chosen.remarks.end());
     identification::RawRecord raw;
     raw.tachometer = tachometer(chosen.tachometer);

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include <boresight/io/campaign/recommended_values.hpp>
+#include <boresight/io/case/case_file.hpp>
 #include <boresight/numerics/error.hpp>
 #include <boresight/numerics/statistics/order_statistics.hpp>
 

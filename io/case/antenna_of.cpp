@@ -4,9 +4,18 @@
 #include <fmt/format.h>
 
 #include <boresight/io/case/antenna_of.hpp>
+#include <boresight/io/case/case_campaign.hpp>
+#include <boresight/io/case/case_drive.hpp>
+#include <boresight/io/case/case_file.hpp>
+#include <boresight/io/case/case_mechanics.hpp>
+#include <boresight/io/case/case_motor.hpp>
+#include <boresight/io/case/case_oil.hpp>
+#include <boresight/io/case/case_sensors.hpp>
+#include <boresight/io/case/case_simulation.hpp>
 #include <boresight/io/case/drive_numbers.hpp>
 #include <boresight/io/case/pointing_axis.hpp>
 #include <boresight/io/case/structure_numbers.hpp>
+#include <boresight/io/units/quantity.hpp>
 #include <boresight/numerics/error.hpp>
 
 namespace boresight::io {
@@ -18,7 +27,7 @@ numerics::Uncertain uncertain(const Quantity& quantity) {
 
 numerics::Uncertain part_inertia(const Case& stated, const AssemblyPart& part) {
   if (part.inertia) return uncertain(*part.inertia);
-  const std::optional<Quantity>& density = stated.gear_train.density;
+  const std::optional<Quantity>& density = stated.gear_train->density;
   if (!part.radius || !part.length || !density) {
     throw InvalidInput(
         fmt::format("part_inertia: '{}' has neither inertia nor dimensions", part.name));
@@ -28,11 +37,11 @@ numerics::Uncertain part_inertia(const Case& stated, const AssemblyPart& part) {
 
 std::vector<double> line_lengths(const Case& stated) {
   std::vector<double> given;
-  for (const auto& line : stated.campaign.lines) given.push_back(line.length.value);
+  for (const auto& line : stated.campaign->lines) given.push_back(line.length.value);
   if (given.empty()) return {};
-  const auto motors = static_cast<std::size_t>(stated.motor.count);
+  const auto motors = static_cast<std::size_t>(stated.motor->count);
   std::ranges::sort(given);
-  if (given.size() >= motors) return {given.begin(), given.begin() + stated.motor.count};
+  if (given.size() >= motors) return {given.begin(), given.begin() + stated.motor->count};
   if (motors == 1) return {given.front()};
   std::vector<double> lengths;
   for (std::size_t i = 0; i < motors; ++i) {
@@ -48,12 +57,12 @@ std::optional<double> value_of(const std::optional<Quantity>& quantity) {
 
 double return_pressure_of(const Case& stated) {
   if (stated.simulation) return stated.simulation->return_pressure.value;
-  return value_of(stated.campaign.return_pressure).value_or(0.0);
+  return value_of(stated.campaign->return_pressure).value_or(0.0);
 }
 
 plant::GearTrain gear_train_of(const Case& stated) {
   plant::GearTrain train{gear_stages(stated), {}};
-  for (const RotatingAssembly& assembly : stated.gear_train.assemblies) {
+  for (const RotatingAssembly& assembly : stated.gear_train->assemblies) {
     train.assemblies.push_back({assembly_inertia(stated, assembly).value,
                                 static_cast<double>(assembly.count), assembly.stages});
   }
@@ -70,7 +79,7 @@ plant::NonlinearDrive nonlinear_drive_of(const Case& stated, const SimulationEnt
   drive.valve_overlap = entry.valve_overlap.value;
   drive.makeup_pressure = entry.makeup_pressure.value;
   drive.air_fraction = entry.air_fraction.value;
-  if (stated.oil.density) drive.oil_density = stated.oil.density->value;
+  if (stated.oil->density) drive.oil_density = stated.oil->density->value;
   drive.line_lengths = line_lengths(stated);
   drive.line_damping_ratio = entry.line_damping_ratio.value;
   drive.bristle_stiffness = entry.bristle_stiffness.value;
@@ -110,15 +119,15 @@ numerics::Uncertain assembly_inertia(const Case& stated, const RotatingAssembly&
 
 plant::Antenna drive_of(const Case& stated) {
   plant::Antenna antenna;
-  antenna.inertia = stated.antenna.inertia.value;
-  if (stated.antenna.elevation) antenna.elevation = stated.antenna.elevation->value;
+  antenna.inertia = stated.antenna->inertia.value;
+  if (stated.antenna->elevation) antenna.elevation = stated.antenna->elevation->value;
   antenna.boresight_factor = pointing_axis(stated).boresight_factor;
   antenna.gear_train = gear_train_of(stated);
   antenna.hydraulics = hydraulic_drive(stated);
-  const MotorEntry& motor = stated.motor;
+  const MotorEntry& motor = *stated.motor;
   antenna.flywheels = {motor.inertia.value, motor.flywheel_disks, motor.disk_inertia.value,
                        motor.flywheel_disks};
-  const DriveEntry& drive = stated.drive;
+  const DriveEntry& drive = *stated.drive;
   antenna.drive = {drive.leakage_rate.value,
                    drive.viscous_friction.value,
                    drive.valve_frequency.value,
@@ -130,18 +139,18 @@ plant::Antenna drive_of(const Case& stated) {
                    value_of(drive.valve_rated_flow),
                    value_of(drive.valve_rated_pressure_drop)};
   antenna.friction_curve = friction_curve(stated);
-  const SensorsEntry& sensors = stated.sensors;
+  const SensorsEntry& sensors = *stated.sensors;
   antenna.sensors = {sensors.encoder_noise.value, sensors.tachometer_noise.value,
                      sensors.torque_noise ? sensors.torque_noise->value : 0.0,
                      sensors.noise_bandwidth.value, sensors.tachometer_frequency.value};
-  antenna.dead_time = stated.controller_delay.value;
+  antenna.dead_time = stated.controller->delay.value;
   if (stated.simulation) antenna.nonlinear = nonlinear_drive_of(stated, *stated.simulation);
   return antenna;
 }
 
 plant::Antenna antenna_of(const Case& stated) {
   plant::Antenna antenna = drive_of(stated);
-  antenna.structure = structure_of(structure_specification(stated.structure));
+  antenna.structure = structure_of(structure_specification(*stated.structure));
   return antenna;
 }
 
@@ -152,7 +161,7 @@ plant::AntennaPlant make_plant(const Case& stated,
 
 std::vector<plant::Antenna> antennas_of(const Case& stated) {
   std::vector<plant::Antenna> antennas;
-  for (const auto& specification : structure_specifications(stated.structure)) {
+  for (const auto& specification : structure_specifications(*stated.structure)) {
     antennas.push_back(drive_of(stated));
     antennas.back().structure = structure_of(specification);
   }

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include <boresight/io/case/case_file.hpp>
+#include <boresight/io/case/case_declaration.hpp>
 #include <boresight/numerics/statistics/uncertain.hpp>
 #include <boresight/plant/antenna/antenna_change.hpp>
 

@@ -4,6 +4,9 @@
 
 #include <fmt/format.h>
 
+#include <boresight/io/case/case_campaign.hpp>
+#include <boresight/io/case/case_file.hpp>
+#include <boresight/io/case/case_motor.hpp>
 #include <boresight/io/case/case_sections.hpp>
 #include <boresight/io/units/wording.hpp>
 
@@ -133,7 +136,7 @@ InstrumentsEntry read_instruments(TableReader& table) {
 }  // namespace
 
 void read_campaign(TableReader& file, Case& antenna) {
-  CampaignEntry& campaign = antenna.campaign;
+  CampaignEntry& campaign = *antenna.campaign;
   std::set<std::string> names;
   for (auto& table : file.tables("record")) {
     RecordEntry entry;
@@ -157,7 +160,7 @@ void read_campaign(TableReader& file, Case& antenna) {
     campaign.records.push_back(std::move(entry));
   }
   if (auto table = file.optional_table("record_columns")) {
-    campaign.columns = read_columns(*table, antenna.motor.count);
+    campaign.columns = read_columns(*table, antenna.motor->count);
   }
   if (auto table = file.optional_table("instruments")) {
     campaign.instruments = read_instruments(*table);

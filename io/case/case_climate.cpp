@@ -9,7 +9,10 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <boresight/io/case/case_file.hpp>
+#include <boresight/io/case/case_mechanics.hpp>
 #include <boresight/io/case/case_sections.hpp>
+#include <boresight/io/case/case_wind.hpp>
 #include <boresight/io/units/wording.hpp>
 #include <boresight/numerics/angles.hpp>
 
@@ -125,7 +128,7 @@ double read_coefficient(TableReader& entry, const Case& antenna, double directio
       entry.optional_quantity("elevation", Kind::angle, Range::between(0.0, 0.5 * turn));
   const auto coefficient =
       entry.optional_quantity("torque_coefficient", Kind::number, Range::not_negative(10.0));
-  const auto& table = antenna.wind.torque_table;
+  const auto& table = antenna.wind->torque_table;
   if (!table) {
     if (!coefficient) {
       entry.refuse("torque_coefficient",
@@ -154,12 +157,12 @@ double read_coefficient(TableReader& entry, const Case& antenna, double directio
 void read_climate(TableReader& wind, Case& antenna) {
   std::vector<design::WeightedSpeed> speeds;
   for (auto& entry : wind.tables("climate")) {
-    antenna.wind.climate_parts.push_back(read_part(entry, antenna.wind));
-    std::ranges::copy(speeds_of(antenna.wind.climate_parts.back()), std::back_inserter(speeds));
+    antenna.wind->climate_parts.push_back(read_part(entry, *antenna.wind));
+    std::ranges::copy(speeds_of(antenna.wind->climate_parts.back()), std::back_inserter(speeds));
   }
-  if (!speeds.empty()) antenna.wind.climate = design::climate_speeds(speeds);
-  const auto& attitude = antenna.wind.attitude;
-  const auto& azimuth = antenna.antenna.azimuth;
+  if (!speeds.empty()) antenna.wind->climate = design::climate_speeds(speeds);
+  const auto& attitude = antenna.wind->attitude;
+  const auto& azimuth = antenna.antenna->azimuth;
   const double direction = attitude && azimuth ? attitude->yaw + azimuth->value : 0.0;
   double weights = 0.0, squares = 0.0;
   for (auto& entry : wind.tables("attitude")) {
@@ -170,7 +173,7 @@ void read_climate(TableReader& wind, Case& antenna) {
     // The torque's spectrum goes with the coefficient's square, and so does every loss.
     squares += weight * coefficient * coefficient;
   }
-  if (weights > 0.0) antenna.wind.climate_torque_coefficient = std::sqrt(squares / weights);
+  if (weights > 0.0) antenna.wind->climate_torque_coefficient = std::sqrt(squares / weights);
 }
 
 }  // namespace boresight::io

@@ -3,7 +3,14 @@
 
 #include <fmt/format.h>
 
+#include <boresight/io/case/case_campaign.hpp>
+#include <boresight/io/case/case_drive.hpp>
+#include <boresight/io/case/case_file.hpp>
+#include <boresight/io/case/case_oil.hpp>
 #include <boresight/io/case/case_sections.hpp>
+#include <boresight/io/case/case_sensors.hpp>
+#include <boresight/io/case/case_structure.hpp>
+#include <boresight/io/case/case_tests.hpp>
 #include <boresight/io/case/drive_numbers.hpp>
 #include <boresight/numerics/angles.hpp>
 
@@ -68,7 +75,7 @@ void read_tachometer(TableReader& table, Case& antenna) {
     antenna.tachometer = {*entry.voltage, *entry.shaft_speed, *entry.motor_teeth,
                           *entry.tachometer_teeth, *entry.recorder_limit};
   }
-  antenna.campaign.tachometer = std::move(entry);
+  antenna.campaign->tachometer = std::move(entry);
 }
 
 // beta (1/V1 + 1/V2) flow/pressure, with its uncertainty to first order.
@@ -89,8 +96,8 @@ Quantity leakage_rate_by_flow(const OilEntry& oil, const Quantity& flow, const Q
 
 void check_drive(const TableReader& table, const Case& antenna) {
   need_together(table, "valve_rated_flow", "valve_rated_pressure_drop");
-  const auto& back = antenna.campaign.return_pressure;
-  if (back && back->value >= antenna.drive.supply_pressure.value) {
+  const auto& back = antenna.campaign->return_pressure;
+  if (back && back->value >= antenna.drive->supply_pressure.value) {
     table.refuse("return_pressure",
                  "expected a pressure below supply_pressure, found one that is not");
   }
@@ -100,7 +107,7 @@ void check_drive(const TableReader& table, const Case& antenna) {
 
 void read_oil(TableReader& file, Case& antenna) {
   TableReader table = file.table("oil");
-  OilEntry& oil = antenna.oil;
+  OilEntry& oil = *antenna.oil;
   oil.density = table.optional_quantity("density", Kind::density, Range::between(500.0, 2000.0));
   oil.bulk_modulus =
       table.optional_quantity("bulk_modulus", Kind::pressure, Range::between(1e7, 1e10));
@@ -114,7 +121,7 @@ void read_oil(TableReader& file, Case& antenna) {
     const auto slosh_frequency =
         entry.optional_quantity("slosh_frequency", Kind::frequency, Range::positive(10000.0));
     entry.finish();
-    antenna.campaign.lines.push_back({name, length});
+    antenna.campaign->lines.push_back({name, length});
     if (slosh_frequency) oil.lines.push_back({name, length, *slosh_frequency});
   }
   table.finish();
@@ -122,7 +129,7 @@ void read_oil(TableReader& file, Case& antenna) {
     table.refuse("bulk_modulus",
                  "expected a bulk modulus, or lines with slosh frequencies, found neither");
   }
-  if (!oil.density && !antenna.campaign.lines.empty()) {
+  if (!oil.density && !antenna.campaign->lines.empty()) {
     table.refuse("density",
                  "expected a density of the oil for the pressure waves in its lines, found none");
   }
@@ -130,18 +137,18 @@ void read_oil(TableReader& file, Case& antenna) {
 
 void read_tests(TableReader& file, Case& antenna) {
   if (auto table = file.optional_table("resonance")) {
-    antenna.resonance_frequency =
+    antenna.resonance->frequency =
         table->quantity("frequency", Kind::frequency, Range::positive(1000.0));
-    antenna.resonance_damping =
+    antenna.resonance->damping =
         table->optional_quantity("damping_ratio", Kind::number, Range::positive(1.0));
     if (table->optional_text("mode")) {
-      antenna.resonance_of_oil = table->choice("mode", {"lowest", "oil"}) == "oil";
+      antenna.resonance->of_oil = table->choice("mode", {"lowest", "oil"}) == "oil";
     }
     table->finish();
   }
   if (auto table = file.optional_table("tachometer")) read_tachometer(*table, antenna);
   if (auto table = file.optional_table("friction_tests")) {
-    FrictionTestsEntry& tests = antenna.friction_tests;
+    FrictionTestsEntry& tests = *antenna.friction_tests;
     const Range torque = Range::positive();
     tests.constant_speed_coulomb =
         table->optional_quantity("constant_speed_coulomb", Kind::torque, torque);
@@ -165,7 +172,7 @@ void read_tests(TableReader& file, Case& antenna) {
 
 void read_drive(TableReader& file, Case& antenna) {
   TableReader table = file.table("drive");
-  DriveEntry& drive = antenna.drive;
+  DriveEntry& drive = *antenna.drive;
   const Range decay = Range::positive(1000.0);
   const auto leakage_rate = table.optional_quantity("leakage_rate", Kind::rate_constant, decay);
   const auto leakage_flow =
@@ -183,7 +190,7 @@ void read_drive(TableReader& file, Case& antenna) {
       table.optional_quantity("valve_rated_pressure_drop", Kind::pressure, Range::positive(1e9));
   drive.supply_pressure =
       table.quantity("supply_pressure", Kind::pressure, Range::between(1e4, 1e9));
-  antenna.campaign.return_pressure =
+  antenna.campaign->return_pressure =
       table.optional_quantity("return_pressure", Kind::pressure, Range::not_negative(1e8));
   drive.slew_rate = table.quantity("slew_rate", Kind::angular_rate, Range::positive(10.0));
   drive.tracking_rate = table.quantity("tracking_rate", Kind::angular_rate, Range::positive(1.0));
@@ -197,7 +204,7 @@ void read_drive(TableReader& file, Case& antenna) {
   }
   if (leakage_rate) drive.leakage_rate = *leakage_rate;
   if (leakage_flow && leakage_pressure) {
-    drive.leakage_rate = leakage_rate_by_flow(antenna.oil, *leakage_flow, *leakage_pressure);
+    drive.leakage_rate = leakage_rate_by_flow(*antenna.oil, *leakage_flow, *leakage_pressure);
     drive.leakage_by_flow = true;
     if (drive.leakage_rate.value > decay.maximum) {
       table.refuse("leakage_flow", fmt::format("expected a leakage rate of at most {:g} 1/s, found "
@@ -217,9 +224,9 @@ void read_drive(TableReader& file, Case& antenna) {
 
 void read_sensors(TableReader& file, Case& antenna) {
   TableReader table = file.table("sensors");
-  SensorsEntry& sensors = antenna.sensors;
+  SensorsEntry& sensors = *antenna.sensors;
   read_encoder(table, sensors);
-  const double slew = antenna.drive.slew_rate.value * gear_ratio(antenna);
+  const double slew = antenna.drive->slew_rate.value * gear_ratio(antenna);
   sensors.tachometer_noise = table.quantity_or(
       "tachometer_noise", Kind::angular_rate, Range::not_negative(), usual_tachometer_noise * slew,
       "usual: 0.02 rad/s with motors that turn at 125 rad/s at slew");
@@ -229,7 +236,7 @@ void read_sensors(TableReader& file, Case& antenna) {
       table.quantity("noise_bandwidth", Kind::frequency, Range::positive(1e6));
   sensors.tachometer_frequency =
       table.quantity_or("tachometer_frequency", Kind::frequency, Range::positive(1e6),
-                        10.0 * antenna.structure.locked_rotor_frequency.value,
+                        10.0 * antenna.structure->locked_rotor_frequency.value,
                         "usual: ten times the locked-rotor frequency");
   table.finish();
   if (sensors.encoder_noise.key.empty()) {
@@ -237,7 +244,7 @@ void read_sensors(TableReader& file, Case& antenna) {
   }
 
   TableReader controller = file.table("controller");
-  antenna.controller_delay = controller.quantity("delay", Kind::time, Range::positive(10.0));
+  antenna.controller->delay = controller.quantity("delay", Kind::time, Range::positive(10.0));
   controller.finish();
 }
 

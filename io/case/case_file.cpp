@@ -1,8 +1,23 @@
 #include <algorithm>
 #include <set>
 
+#include <boresight/io/case/case_campaign.hpp>
+#include <boresight/io/case/case_drive.hpp>
 #include <boresight/io/case/case_file.hpp>
+#include <boresight/io/case/case_friction.hpp>
+#include <boresight/io/case/case_goals.hpp>
+#include <boresight/io/case/case_mechanics.hpp>
+#include <boresight/io/case/case_motor.hpp>
+#include <boresight/io/case/case_oil.hpp>
+#include <boresight/io/case/case_pointing.hpp>
 #include <boresight/io/case/case_sections.hpp>
+#include <boresight/io/case/case_sensors.hpp>
+#include <boresight/io/case/case_simulation.hpp>
+#include <boresight/io/case/case_statements.hpp>
+#include <boresight/io/case/case_structure.hpp>
+#include <boresight/io/case/case_tests.hpp>
+#include <boresight/io/case/case_tuning.hpp>
+#include <boresight/io/case/case_wind.hpp>
 #include <boresight/io/case/table_reader.hpp>
 #include <boresight/io/units/wording.hpp>
 
@@ -76,6 +91,13 @@ std::string read_name(TableReader& entry, std::set<std::string>& names) {
   return name;
 }
 
+Case::Case() = default;
+Case::Case(const Case& other) = default;
+Case::Case(Case&& other) noexcept = default;
+Case& Case::operator=(const Case& other) = default;
+Case& Case::operator=(Case&& other) noexcept = default;
+Case::~Case() = default;
+
 Case read_case(const std::string& path) {
   return case_of(TableReader::open(path), path);
 }
@@ -83,6 +105,7 @@ Case read_case(const std::string& path) {
 Case parse_case(std::string_view text, const std::string& path) {
   return case_of(TableReader::parse(text, path), path);
 }
+
 std::optional<Kind> stated_kind(const std::string& id, const Case& antenna) {
   static const std::set<std::string> inertias{"load_inertia",
                                               "load_inertia.antenna",
@@ -100,12 +123,12 @@ std::optional<Kind> stated_kind(const std::string& id, const Case& antenna) {
   if (id == "tachometer.scale") return Kind::tachometer_scale;
   if (id == "friction.slow_ramp.coulomb" || id == "friction.slow_ramp.offset") return Kind::torque;
   if (id.starts_with("load_inertia.") &&
-      names_one_of(id, "load_inertia.", "", antenna.gear_train.assemblies)) {
+      names_one_of(id, "load_inertia.", "", antenna.gear_train->assemblies)) {
     return Kind::inertia;
   }
-  if (names_one_of(id, "line.", ".bulk_modulus", antenna.oil.lines)) return Kind::pressure;
-  if (names_one_of(id, "line.", ".slosh_frequency", antenna.oil.lines)) return Kind::frequency;
-  if (names_one_of(id, "line.", ".length", antenna.oil.lines)) return Kind::length;
+  if (names_one_of(id, "line.", ".bulk_modulus", antenna.oil->lines)) return Kind::pressure;
+  if (names_one_of(id, "line.", ".slosh_frequency", antenna.oil->lines)) return Kind::frequency;
+  if (names_one_of(id, "line.", ".length", antenna.oil->lines)) return Kind::length;
   if (names_one_of(id, "band.", ".frequency", antenna.bands)) return Kind::frequency;
   if (names_one_of(id, "impulse.", ".reflected_inertia", antenna.impulse_results)) {
     return Kind::inertia;

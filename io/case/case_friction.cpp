@@ -7,6 +7,9 @@
 #include <fmt/format.h>
 
 #include <boresight/identification/friction/steady_friction.hpp>
+#include <boresight/io/case/case_file.hpp>
+#include <boresight/io/case/case_friction.hpp>
+#include <boresight/io/case/case_motor.hpp>
 #include <boresight/io/case/case_sections.hpp>
 #include <boresight/io/case/drive_numbers.hpp>
 #include <boresight/io/units/wording.hpp>
@@ -76,8 +79,8 @@ SteadyTest read_test(TableReader& entry, const Case& antenna) {
     test.torque = pressure->value * torque_per_pressure;
     test.leeway = leeway_of(*pressure) * torque_per_pressure;
     test.relative_uncertainty = std::hypot(relative_uncertainty(*pressure),
-                                           relative_uncertainty(antenna.motor.displacement),
-                                           relative_uncertainty(antenna.motor.torque_efficiency));
+                                           relative_uncertainty(antenna.motor->displacement),
+                                           relative_uncertainty(antenna.motor->torque_efficiency));
   }
   return test;
 }
@@ -151,14 +154,14 @@ void read_tests_of_curve(TableReader& curve, std::vector<TableReader>& entries, 
   if (*rates.rbegin() == 0.0) {
     curve.refuse("test", "expected a test at a rate above 0, found only one at rest");
   }
-  fit_tests(tests, antenna.friction_curve);
+  fit_tests(tests, *antenna.friction_curve);
 }
 
 }  // namespace
 
 void read_friction_curve(TableReader& file, Case& antenna) {
   TableReader curve = file.table("friction_curve");
-  FrictionCurveEntry& friction = antenna.friction_curve;
+  FrictionCurveEntry& friction = *antenna.friction_curve;
   auto entries = curve.tables("test");
   if (!entries.empty()) {
     read_tests_of_curve(curve, entries, antenna);

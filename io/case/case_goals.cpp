@@ -3,6 +3,10 @@
 
 #include <fmt/format.h>
 
+#include <boresight/io/case/case_drive.hpp>
+#include <boresight/io/case/case_file.hpp>
+#include <boresight/io/case/case_goals.hpp>
+#include <boresight/io/case/case_motor.hpp>
 #include <boresight/io/case/case_sections.hpp>
 #include <boresight/io/case/drive_numbers.hpp>
 #include <boresight/io/units/wording.hpp>
@@ -72,7 +76,7 @@ namespace {
 
 // Without counts of its own the study goes to twice what the antenna has, in six steps or ones.
 void read_matching(TableReader& file, Case& antenna) {
-  const auto built = static_cast<long>(antenna.motor.flywheel_disks);
+  const auto built = static_cast<long>(antenna.motor->flywheel_disks);
   const long usual_most = built > 0 ? 2 * built : 12;
   std::optional<long> most;
   std::optional<long> step;
@@ -84,7 +88,7 @@ void read_matching(TableReader& file, Case& antenna) {
   const long last = most.value_or(usual_most);
   const long by = step.value_or(std::max(1L, last / 6));
   for (long disks = 0; disks <= last; disks += by) {
-    antenna.matching_disks.push_back(static_cast<double>(disks));
+    antenna.matching->disks.push_back(static_cast<double>(disks));
   }
 }
 
@@ -92,12 +96,12 @@ void read_matching(TableReader& file, Case& antenna) {
 
 void read_goals(TableReader& file, Case& antenna) {
   TableReader table = file.table("goals");
-  GoalsEntry& goals = antenna.goals;
+  GoalsEntry& goals = *antenna.goals;
   goals.sensitivity_peak = table.quantity("sensitivity_peak", Kind::number, peak_range);
   constexpr double usual_effort = 0.6 / 125.0;
   goals.valve_effort =
       table.quantity_or("valve_effort", Kind::angular_rate, effort_range,
-                        usual_effort * antenna.drive.slew_rate.value * gear_ratio(antenna),
+                        usual_effort * antenna.drive->slew_rate.value * gear_ratio(antenna),
                         "usual: 0.6 rad/s with motors that turn at 125 rad/s at slew");
   goals.lowest_frequency = table.quantity("lowest_frequency", Kind::frequency, lowest_range);
   goals.highest_frequency = table.quantity("highest_frequency", Kind::frequency, highest_range);

@@ -8,7 +8,9 @@
 #include <fmt/ranges.h>
 
 #include <boresight/control/controllers/usual_structures.hpp>
+#include <boresight/io/case/case_file.hpp>
 #include <boresight/io/case/case_sections.hpp>
+#include <boresight/io/case/case_tuning.hpp>
 #include <boresight/io/case/drive_numbers.hpp>
 #include <boresight/io/case/field.hpp>
 #include <boresight/io/units/wording.hpp>
@@ -283,7 +285,7 @@ control::LoopStructure loop_structure(const Case& antenna, const std::string& na
   }
   if (is_usual(name)) {
     return bounded(control::LoopStructure::named(name).with_bounds_for(driven_load(antenna)),
-                   antenna.tuning.bounds);
+                   antenna.tuning->bounds);
   }
   std::vector<std::string_view> known(control::usual_structures().begin(),
                                       control::usual_structures().end());
@@ -310,7 +312,7 @@ void read_loops(TableReader& file, Case& antenna) {
   if (tuning) {
     std::set<std::string> symbols;
     for (auto& bound : tuning->tables("bound")) {
-      antenna.tuning.bounds.push_back(read_bound(bound, symbols));
+      antenna.tuning->bounds.push_back(read_bound(bound, symbols));
     }
   }
   // Its structure has those bounds.
@@ -319,13 +321,13 @@ void read_loops(TableReader& file, Case& antenna) {
   }
   if (tuning) {
     if (tuning->has("structures")) {
-      antenna.tuning.structures = tuning->texts("structures");
+      antenna.tuning->structures = tuning->texts("structures");
     } else {
       tuning->optional_text("structures");  // a known key all the same
     }
-    antenna.tuning.starts = tuning->optional_integer("starts", 1, 100000).value_or(0);
+    antenna.tuning->starts = tuning->optional_integer("starts", 1, 100000).value_or(0);
     tuning->finish();
-    for (const auto& name : antenna.tuning.structures) {
+    for (const auto& name : antenna.tuning->structures) {
       try {
         loop_structure(antenna, name);
       } catch (const InvalidInput& error) {
@@ -338,7 +340,7 @@ void read_loops(TableReader& file, Case& antenna) {
 void read_ensemble(TableReader& file, Case& antenna) {
   auto table = file.optional_table("ensemble");
   if (!table) return;
-  EnsembleEntry& ensemble = antenna.ensemble;
+  EnsembleEntry& ensemble = *antenna.ensemble;
   ensemble.draws = table->optional_integer("draws", 1, 10000).value_or(0);
   const Range factor = Range::between(0.05, 20.0);
   ensemble.structure_frequency = read_range(*table, "structure_frequency", Kind::number, factor);

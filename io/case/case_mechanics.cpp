@@ -4,7 +4,12 @@
 
 #include <fmt/format.h>
 
+#include <boresight/io/case/case_campaign.hpp>
+#include <boresight/io/case/case_file.hpp>
+#include <boresight/io/case/case_mechanics.hpp>
+#include <boresight/io/case/case_motor.hpp>
 #include <boresight/io/case/case_sections.hpp>
+#include <boresight/io/case/case_structure.hpp>
 #include <boresight/io/case/drive_numbers.hpp>
 #include <boresight/io/case/modes_file.hpp>
 #include <boresight/io/case/pointing_axis.hpp>
@@ -72,7 +77,7 @@ void take_modes_file(TableReader& table, const std::string& name, Case& antenna)
   }
   const std::string path = beside_case(antenna.path, name);
   const auto held = read_modes_file(path);
-  const double inertia = antenna.antenna.inertia.value;
+  const double inertia = antenna.antenna->inertia.value;
   if (std::abs(held.antenna_inertia - inertia) > 0.2 * inertia) {
     throw InvalidInput(
         fmt::format("{}: expected an inertia of the free turn within 20 % of antenna.inertia, "
@@ -86,7 +91,7 @@ void take_modes_file(TableReader& table, const std::string& name, Case& antenna)
     quantity.location = table.location("modes_file");
     return quantity;
   };
-  StructureEntry& structure = antenna.structure;
+  StructureEntry& structure = *antenna.structure;
   structure.bull_gear_wind_fraction = number(held.bull_gear_wind_fraction);
   structure.bull_gear_beam_weight = number(held.bull_gear_beam_weight);
   for (const auto& mode : held.modes) {
@@ -162,7 +167,7 @@ void solve_motors_held(const TableReader& table, StructureEntry& structure) {
 void derive_locked_rotor_frequency(const TableReader& table, Case& antenna) {
   const char* const key = "locked_rotor_frequency";
   if (table.has(key)) return;
-  StructureEntry& structure = antenna.structure;
+  StructureEntry& structure = *antenna.structure;
   const auto& stated = structure.gear_stiffness;
   if (!stated) {
     table.refuse(key, "expected locked_rotor_frequency or gear_stiffness, found neither");
@@ -173,7 +178,7 @@ void derive_locked_rotor_frequency(const TableReader& table, Case& antenna) {
                                                         : "a modes_file"));
   }
   const plant::StructureSpecification per_inertia = structure_specification(structure);
-  const double stiffness = stated->value / antenna.antenna.inertia.value;
+  const double stiffness = stated->value / antenna.antenna->inertia.value;
   double frequency = 0.0, stiffer = 0.0;
   try {
     frequency = locked_rotor_frequency_for(per_inertia, stiffness);
@@ -293,17 +298,17 @@ void take_motor_inertias(const TableReader& table, const MotorInertias& stated, 
 
 void read_antenna(TableReader& file, Case& antenna) {
   TableReader table = file.table("antenna");
-  antenna.antenna.dish_diameter =
+  antenna.antenna->dish_diameter =
       table.quantity("dish_diameter", Kind::length, Range::between(0.5, 1000.0));
-  antenna.antenna.inertia = table.quantity("inertia", Kind::inertia, Range::positive());
+  antenna.antenna->inertia = table.quantity("inertia", Kind::inertia, Range::positive());
   constexpr double turn = two_pi;
-  antenna.antenna.azimuth =
+  antenna.antenna->azimuth =
       table.optional_quantity("azimuth", Kind::angle, Range::between(-turn, turn));
-  antenna.antenna.elevation =
+  antenna.antenna->elevation =
       table.optional_quantity("elevation", Kind::angle, Range::between(0.0, 0.5 * turn));
-  antenna.antenna.y_angle =
+  antenna.antenna->y_angle =
       table.optional_quantity("y_angle", Kind::angle, Range::between(-0.25 * turn, 0.25 * turn));
-  if (antenna.antenna.y_angle && antenna.axis != "X") {
+  if (antenna.antenna->y_angle && antenna.axis != "X") {
     table.refuse("y_angle", "expected it with axis = 'X', of an X-Y mount, only, found it with " +
                                 in_quotes(antenna.axis));
   }
@@ -313,10 +318,10 @@ void read_antenna(TableReader& file, Case& antenna) {
     table.refuse(azimuth ? "elevation" : "y_angle",
                  azimuth ? "expected one at which an azimuth axis moves the boresight, 3 deg or "
                            "more from the zenith, found " +
-                               antenna.antenna.elevation->text
+                               antenna.antenna->elevation->text
                          : "expected one at which the X axis moves the boresight, 3 deg or more "
                            "from -90 and 90 deg, found " +
-                               antenna.antenna.y_angle->text);
+                               antenna.antenna->y_angle->text);
   }
   std::set<std::string> names;
   for (auto& entry : table.tables("alternative")) {
@@ -334,14 +339,14 @@ void read_antenna(TableReader& file, Case& antenna) {
                                           "reflected_inertia (at the motor shaft), found ") +
                                   (alternative.inertia ? "both" : "neither"));
     }
-    antenna.antenna.alternatives.push_back(std::move(alternative));
+    antenna.antenna->alternatives.push_back(std::move(alternative));
   }
   table.finish();
 }
 
 void read_gear_train(TableReader& file, Case& antenna) {
   TableReader table = file.table("gear_train");
-  GearTrainEntry& train = antenna.gear_train;
+  GearTrainEntry& train = *antenna.gear_train;
   train.density = table.optional_quantity("density", Kind::density, Range::between(100.0, 25000.0));
   for (auto& entry : table.tables("stage", true)) {
     GearStageEntry stage;
@@ -366,7 +371,7 @@ void read_gear_train(TableReader& file, Case& antenna) {
 
 void read_motor(TableReader& file, Case& antenna) {
   TableReader table = file.table("motor");
-  MotorEntry& motor = antenna.motor;
+  MotorEntry& motor = *antenna.motor;
   motor.count = table.integer("count", 1, 1000);
   motor.flywheel_disks = static_cast<double>(table.integer("flywheel_disks", 0, 10000));
   const MotorInertias inertias = read_motor_inertias(table);
@@ -380,7 +385,7 @@ void read_motor(TableReader& file, Case& antenna) {
 
 void read_structure(TableReader& file, Case& antenna) {
   TableReader table = file.table("structure");
-  StructureEntry& structure = antenna.structure;
+  StructureEntry& structure = *antenna.structure;
   const Range damping = Range::between(0.0, 1.0);
   const Range share = Range::between(0.0, 1.0);
   const Range fractions = Range::positive(1.0);
@@ -410,7 +415,7 @@ void read_structure(TableReader& file, Case& antenna) {
         table.choice("lowest_predicted_axis", {"elevation", "azimuth", "X", "Y"});
   }
   for (auto& entry : table.tables("prediction")) {
-    auto& frequencies = antenna.campaign.locked_rotor_frequencies;
+    auto& frequencies = antenna.campaign->locked_rotor_frequencies;
     frequencies.push_back(entry.quantity("frequency", Kind::frequency, Range::positive(1000.0)));
     entry.finish();
     if (frequencies.size() > 1 && frequencies.back().value <= frequencies.rbegin()[1].value) {

@@ -7,6 +7,9 @@
 #include <fmt/format.h>
 
 #include <boresight/design/problem/pointing.hpp>
+#include <boresight/io/case/case_file.hpp>
+#include <boresight/io/case/case_mechanics.hpp>
+#include <boresight/io/case/case_pointing.hpp>
 #include <boresight/io/case/case_sections.hpp>
 
 namespace boresight::io {
@@ -67,9 +70,10 @@ void read_beamwidth_factor(TableReader& entry, const Case& antenna, BandEntry& b
                              said == 0 ? "none" : "several"));
   }
   if (measured) {
-    stated = factor_by_beamwidth(entry, *measured,
-                                 design::half_power_beamwidth(1.0, band.frequency.value,
-                                                              antenna.antenna.dish_diameter.value));
+    stated =
+        factor_by_beamwidth(entry, *measured,
+                            design::half_power_beamwidth(1.0, band.frequency.value,
+                                                         antenna.antenna->dish_diameter.value));
   }
   if (like) {
     const BandEntry& other = band_above(entry, antenna.bands, *like);
@@ -130,7 +134,7 @@ void read_pointing(TableReader& file, Case& antenna) {
     budget.wind_speed =
         entry.optional_quantity("wind_speed", Kind::speed, Range::between(0.1, 60.0));
     if (budget.wind_speed) {
-      budget.wind_speed = at_dish_centre(antenna.wind, *budget.wind_speed);
+      budget.wind_speed = at_dish_centre(*antenna.wind, *budget.wind_speed);
     }
     entry.finish();
     if (!budget.loss && !budget.rms) {

@@ -3,7 +3,7 @@
 #include <set>
 #include <string>
 
-#include <boresight/io/case/case_file.hpp>
+#include <boresight/io/case/case_declaration.hpp>
 #include <boresight/io/case/table_reader.hpp>
 
 namespace boresight::io {

@@ -1,4 +1,9 @@
+#include <boresight/io/case/case_drive.hpp>
+#include <boresight/io/case/case_file.hpp>
+#include <boresight/io/case/case_friction.hpp>
+#include <boresight/io/case/case_mechanics.hpp>
 #include <boresight/io/case/case_sections.hpp>
+#include <boresight/io/case/case_simulation.hpp>
 #include <boresight/io/case/drive_numbers.hpp>
 
 namespace boresight::io {
@@ -15,7 +20,7 @@ void read_valve_stroke(TableReader& table, const Case& antenna, SimulationEntry&
     entry.valve_stroke = *rated;
   } else {
     entry.valve_stroke = table.assume("valve_stroke", Kind::angular_rate,
-                                      1.2 * antenna.drive.slew_rate.value * gear_ratio(antenna),
+                                      1.2 * antenna.drive->slew_rate.value * gear_ratio(antenna),
                                       "1.2 times the slew rate at the motor");
   }
 }
@@ -41,7 +46,7 @@ SimulationEntry read_drive_details(TableReader& table, const Case& antenna) {
   entry.offset_torque = table.quantity("offset_torque", Kind::torque);
   entry.offset_cosine = table.optional_quantity("offset_cosine", Kind::torque);
   entry.offset_sine = table.optional_quantity("offset_sine", Kind::torque);
-  if ((entry.offset_cosine || entry.offset_sine) && !antenna.antenna.elevation) {
+  if ((entry.offset_cosine || entry.offset_sine) && !antenna.antenna->elevation) {
     table.refuse(entry.offset_cosine ? "offset_cosine" : "offset_sine",
                  "expected an antenna.elevation, at which tests begin, beside it, found none");
   }
@@ -57,11 +62,11 @@ SimulationEntry read_drive_details(TableReader& table, const Case& antenna) {
   entry.rate_loop_gain = table.quantity("rate_loop_gain", Kind::number, Range::positive(1e4));
   entry.rate_loop_corner =
       table.quantity("rate_loop_corner", Kind::frequency, Range::positive(1e4));
-  if (entry.return_pressure.value >= antenna.drive.supply_pressure.value) {
+  if (entry.return_pressure.value >= antenna.drive->supply_pressure.value) {
     table.refuse("return_pressure",
                  "expected a pressure below drive.supply_pressure, found one that is not");
   }
-  if (antenna.friction_curve.coulomb.value <= 0.0) {
+  if (antenna.friction_curve->coulomb.value <= 0.0) {
     table.refuse("bristle_stiffness",
                  "expected a friction_curve.coulomb above 0 for the bristles to hold, found 0");
   }

@@ -1,13 +1,12 @@
 #pragma once
 
-#include <array>
 #include <cstddef>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include <boresight/control/controllers/loop_structure.hpp>
-#include <boresight/design/problem/wind_climate.hpp>
+#include <boresight/io/case/case_declaration.hpp>
 #include <boresight/io/units/quantity.hpp>
 
 namespace boresight::io {
@@ -27,29 +26,6 @@ struct LoopEntry {
 struct PresentGainsEntry {
   control::LoopStructure structure;
   std::vector<Quantity> gains;  // empty where the case states the structure alone
-};
-
-/// The objective of a tuning over the plant ensemble.
-enum class SoftGoalKind { nominal, expected, worst_case, quantile };
-std::string_view to_string(SoftGoalKind kind);
-
-struct GoalsEntry {
-  Quantity sensitivity_peak;
-  /// At one break, in the order of control::loop_breaks, if it differs.
-  std::array<std::optional<Quantity>, 3> peak_at_break;
-  Quantity valve_effort;
-  Quantity lowest_frequency;
-  Quantity highest_frequency;
-  std::optional<Quantity> gain_margin;   // dB, at every break
-  std::optional<Quantity> phase_margin;  // rad, at every break
-  std::optional<Quantity> bandwidth;     // rad/s, of the position loop
-  std::optional<Quantity> crest_factor;  // of the torque in gusts, against the supply's
-  std::optional<Quantity> beam_rms;      // rad
-  SoftGoalKind soft_goal = SoftGoalKind::nominal;
-  double quantile = 0.95;
-  /// True if the minimised rms is the one over the site's wind climate instead of that at the
-  /// design's speed.
-  bool over_climate = false;
 };
 
 /// A range from which ensemble members are sampled, both ends SI.
@@ -79,5 +55,13 @@ struct TuningEntry {
   long starts = 0;                      // 0: as the tuner has it
   std::vector<GainBoundEntry> bounds;   // of every study that searches gains
 };
+
+/// A loop structure by the name of one of the case's own, else as control::LoopStructure::named.
+/// Its bounds are for the case's antenna (LoopStructure::with_bounds_for, driven_load), except
+/// those in the case's [[tuning.bound]].
+/// @throws InvalidInput listing them
+control::LoopStructure loop_structure(const Case& antenna, const std::string& name);
+/// The usual structures with lag, with the same bounds.
+std::vector<control::LoopStructure> usual_structures_with_lag(const Case& antenna);
 
 }  // namespace boresight::io

@@ -4,7 +4,10 @@
 
 #include <fmt/format.h>
 
+#include <boresight/io/case/case_file.hpp>
+#include <boresight/io/case/case_mechanics.hpp>
 #include <boresight/io/case/case_sections.hpp>
+#include <boresight/io/case/case_wind.hpp>
 #include <boresight/io/units/unit_table.hpp>
 #include <boresight/io/units/wording.hpp>
 #include <boresight/numerics/angles.hpp>
@@ -83,7 +86,8 @@ Gusts read_gusts(TableReader& table) {
   return {plant::eurocode_gusts(value(height), roughness, lowest), height};
 }
 
-std::optional<WindMast> read_mast(TableReader& table, const std::optional<Quantity>& height) {
+std::optional<plant::WindMast> read_mast(TableReader& table,
+                                         const std::optional<Quantity>& height) {
   const auto mast_height =
       table.optional_quantity("mast_height", Kind::length, Range::positive(1e4));
   if (!mast_height) {
@@ -101,8 +105,8 @@ std::optional<WindMast> read_mast(TableReader& table, const std::optional<Quanti
                               .quantity_or("shear_exponent", Kind::number, Range::between(0.0, 1.0),
                                            0.14, "power law over open country")
                               .value;
-  return WindMast{mast_height->value, height->value, exponent,
-                  std::pow(height->value / mast_height->value, exponent)};
+  return plant::WindMast{mast_height->value, height->value, exponent,
+                         std::pow(height->value / mast_height->value, exponent)};
 }
 
 // Gusts are as strong at either height, and the less of the mean speed where that is more.
@@ -156,7 +160,7 @@ plant::TorqueCoefficientTable read_torque_table(const std::string& path) {
 }
 
 void read_torque_coefficient(TableReader& table, Case& antenna) {
-  WindEntry& wind = antenna.wind;
+  WindEntry& wind = *antenna.wind;
   const auto file = table.optional_text("torque_table");
   if (!file) {
     if (table.has("direction")) {
@@ -175,15 +179,15 @@ void read_torque_coefficient(TableReader& table, Case& antenna) {
   constexpr double turn = two_pi;
   const double direction =
       table.quantity("direction", Kind::angle, Range::between(-turn, turn)).value;
-  if (!antenna.antenna.azimuth || !antenna.antenna.elevation) {
+  if (!antenna.antenna->azimuth || !antenna.antenna->elevation) {
     table.refuse("torque_table",
                  "expected antenna.azimuth and antenna.elevation, where the dish points, beside "
                  "it, found not both");
   }
   const std::string path = beside_case(antenna.path, *file);
   wind.torque_table = read_torque_table(path);
-  double yaw = std::remainder(direction - antenna.antenna.azimuth->value, turn);
-  const double elevation = antenna.antenna.elevation->value;
+  double yaw = std::remainder(direction - antenna.antenna->azimuth->value, turn);
+  const double elevation = antenna.antenna->elevation->value;
   wind.attitude = {yaw, elevation};
   try {
     wind.torque_coefficient.value = wind.torque_table->at(yaw, elevation);
@@ -254,7 +258,7 @@ Quantity at_dish_centre(const WindEntry& wind, const Quantity& stated) {
 
 void read_wind(TableReader& file, Case& antenna) {
   TableReader table = file.table("wind");
-  WindEntry& wind = antenna.wind;
+  WindEntry& wind = *antenna.wind;
   wind.model = table.choice("model", {"uniform", "vickery", "coherence"});
   wind.design_speed = table.quantity("design_speed", Kind::speed, Range::between(0.1, 60.0));
   wind.air_density = table.quantity("air_density", Kind::density, Range::between(0.1, 2.0));

@@ -1,7 +1,7 @@
 #pragma once
 
 #include <boresight/identification/campaign/inertia_methods.hpp>
-#include <boresight/io/case/case_file.hpp>
+#include <boresight/io/case/case_declaration.hpp>
 
 namespace boresight::io {
 

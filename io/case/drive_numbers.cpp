@@ -3,14 +3,23 @@
 
 #include <fmt/format.h>
 
+#include <boresight/io/case/case_campaign.hpp>
+#include <boresight/io/case/case_drive.hpp>
+#include <boresight/io/case/case_file.hpp>
+#include <boresight/io/case/case_friction.hpp>
+#include <boresight/io/case/case_mechanics.hpp>
+#include <boresight/io/case/case_motor.hpp>
+#include <boresight/io/case/case_oil.hpp>
+#include <boresight/io/case/case_simulation.hpp>
+#include <boresight/io/case/case_structure.hpp>
 #include <boresight/io/case/drive_numbers.hpp>
 
 namespace boresight::io {
 
 std::vector<plant::GearStage> gear_stages(const Case& antenna) {
   std::vector<plant::GearStage> stages;
-  stages.reserve(antenna.gear_train.stages.size());
-  for (const GearStageEntry& stage : antenna.gear_train.stages) {
+  stages.reserve(antenna.gear_train->stages.size());
+  for (const GearStageEntry& stage : antenna.gear_train->stages) {
     stages.push_back({stage.driven_teeth.value, stage.driving_teeth.value});
   }
   return stages;
@@ -22,8 +31,8 @@ double gear_ratio(const Case& antenna) {
 
 control::DrivenLoad driven_load(const Case& antenna) {
   const double ratio = gear_ratio(antenna);
-  return {antenna.structure.locked_rotor_frequency.value,
-          antenna.antenna.inertia.value / (ratio * ratio)};
+  return {antenna.structure->locked_rotor_frequency.value,
+          antenna.antenna->inertia.value / (ratio * ratio)};
 }
 
 Quantity solid_disk(const Quantity& radius, const Quantity& length, const Quantity& density) {
@@ -60,14 +69,14 @@ Quantity bulk_modulus_of(const OilEntry& oil) {
 }
 
 plant::FrictionCurve friction_curve(const Case& antenna) {
-  const FrictionCurveEntry& curve = antenna.friction_curve;
+  const FrictionCurveEntry& curve = *antenna.friction_curve;
   return {curve.coulomb.value,    curve.breakaway.value,       curve.stribeck_rate.value,
           curve.saturating.value, curve.saturating_rate.value, curve.viscous.value};
 }
 
 double tracking_slope(const Case& antenna) {
   return plant::friction_slope(friction_curve(antenna),
-                               antenna.drive.tracking_rate.value * gear_ratio(antenna));
+                               antenna.drive->tracking_rate.value * gear_ratio(antenna));
 }
 
 double tracking_friction(const Case& antenna) {
@@ -75,8 +84,8 @@ double tracking_friction(const Case& antenna) {
 }
 
 plant::HydraulicDrive hydraulic_drive(const Case& antenna) {
-  const MotorEntry& motor = antenna.motor;
-  const OilEntry& oil = antenna.oil;
+  const MotorEntry& motor = *antenna.motor;
+  const OilEntry& oil = *antenna.oil;
   return {static_cast<double>(motor.count),
           motor.displacement.value,
           motor.torque_efficiency.value,
@@ -89,23 +98,24 @@ plant::HydraulicDrive hydraulic_drive(const Case& antenna) {
 }
 
 double supply_torque(const Case& antenna) {
-  return antenna.drive.supply_pressure.value * plant::torque_per_pressure(hydraulic_drive(antenna));
+  return antenna.drive->supply_pressure.value *
+         plant::torque_per_pressure(hydraulic_drive(antenna));
 }
 
 std::optional<Quantity> rated_stroke(const Case& antenna,
                                      const std::optional<Quantity>& return_pressure) {
-  const auto& flow = antenna.drive.valve_rated_flow;
-  const auto& drop = antenna.drive.valve_rated_pressure_drop;
+  const auto& flow = antenna.drive->valve_rated_flow;
+  const auto& drop = antenna.drive->valve_rated_pressure_drop;
   if (!flow || !drop) return std::nullopt;
-  const Quantity& supply = antenna.drive.supply_pressure;
-  const Quantity& displacement = antenna.motor.displacement;
+  const Quantity& supply = antenna.drive->supply_pressure;
+  const Quantity& displacement = antenna.motor->displacement;
   const double driving = supply.value - (return_pressure ? return_pressure->value : 0.0);
   const double of_driving =
       std::hypot(supply.standard_uncertainty,
                  return_pressure ? return_pressure->standard_uncertainty : 0.0) /
       driving;
   const double rate = flow->value * std::sqrt(driving / drop->value) /
-                      (static_cast<double>(antenna.motor.count) * displacement.value);
+                      (static_cast<double>(antenna.motor->count) * displacement.value);
   Quantity stroke = derived_quantity(*flow, Kind::angular_rate, rate, "rad/s");
   stroke.standard_uncertainty =
       stroke.value *
@@ -117,7 +127,7 @@ std::optional<Quantity> rated_stroke(const Case& antenna,
 
 std::optional<Quantity> rated_stroke(const Case& antenna) {
   return rated_stroke(antenna, antenna.simulation ? antenna.simulation->return_pressure
-                                                  : antenna.campaign.return_pressure);
+                                                  : antenna.campaign->return_pressure);
 }
 
 }  // namespace boresight::io

@@ -5,7 +5,8 @@
 #include <vector>
 
 #include <boresight/control/controllers/loop_structure.hpp>
-#include <boresight/io/case/case_file.hpp>
+#include <boresight/io/case/case_declaration.hpp>
+#include <boresight/io/units/quantity.hpp>
 #include <boresight/plant/antenna/friction.hpp>
 #include <boresight/plant/antenna/gear_train.hpp>
 #include <boresight/plant/antenna/hydraulics.hpp>

@@ -1,9 +1,13 @@
 #include <fmt/format.h>
 
+#include <boresight/io/case/case_file.hpp>
+#include <boresight/io/case/case_friction.hpp>
 #include <boresight/io/case/friction_leeway.hpp>
 
 namespace boresight::io {
+namespace {
 
+// Input of identification::steady_friction_intervals, in the order of the tests.
 std::vector<identification::SteadyFriction> steady_friction(
     const std::vector<SteadyFrictionTest>& tests) {
   std::vector<identification::SteadyFriction> points;
@@ -11,6 +15,8 @@ std::vector<identification::SteadyFriction> steady_friction(
   for (const auto& test : tests) points.push_back({test.rate, test.torque, test.leeway});
   return points;
 }
+
+}  // namespace
 
 bool is_loose(const identification::FrictionInterval& interval) {
   constexpr double widest_factor = 1.5;
@@ -40,7 +46,7 @@ std::string loose_stribeck_text(const FrictionCurveEntry& curve) {
 
 void conclude_friction_doubt(const Case& antenna, std::vector<std::string>& sentences) {
   if (!antenna.simulation) return;
-  std::string doubt = loose_stribeck_text(antenna.friction_curve);
+  std::string doubt = loose_stribeck_text(*antenna.friction_curve);
   if (!doubt.empty()) sentences.push_back(std::move(doubt));
 }
 

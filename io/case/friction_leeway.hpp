@@ -6,14 +6,9 @@
 #include <vector>
 
 #include <boresight/identification/friction/steady_friction.hpp>
-#include <boresight/io/case/case_file.hpp>
+#include <boresight/io/case/case_declaration.hpp>
 
 namespace boresight::io {
-
-/// A case's tests at steady rates (FrictionCurveEntry::tests), in their order, as input of
-/// identification::steady_friction_intervals.
-std::vector<identification::SteadyFriction> steady_friction(
-    const std::vector<SteadyFrictionTest>& tests);
 
 /// True if the number is bounded only by the end of the search, or its interval is wider than a
 /// factor of 1.5.

@@ -6,8 +6,10 @@
 
 #include <fmt/format.h>
 
+#include <boresight/io/case/case_structure.hpp>
 #include <boresight/io/case/guessed_shares.hpp>
 #include <boresight/io/case/structure_numbers.hpp>
+#include <boresight/io/units/quantity.hpp>
 
 namespace boresight::io {
 namespace {

@@ -4,7 +4,8 @@
 #include <string_view>
 #include <vector>
 
-#include <boresight/io/case/case_file.hpp>
+#include <boresight/io/case/case_declaration.hpp>
+#include <boresight/io/units/quantity.hpp>
 #include <boresight/plant/antenna/antenna_change.hpp>
 #include <boresight/plant/antenna/antenna_plant.hpp>
 

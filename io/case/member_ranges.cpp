@@ -1,8 +1,14 @@
 #include <algorithm>
 #include <numbers>
 
+#include <boresight/io/case/case_drive.hpp>
+#include <boresight/io/case/case_file.hpp>
+#include <boresight/io/case/case_oil.hpp>
+#include <boresight/io/case/case_structure.hpp>
+#include <boresight/io/case/case_tuning.hpp>
 #include <boresight/io/case/member_ranges.hpp>
 #include <boresight/io/case/plant_numbers.hpp>
+#include <boresight/io/units/quantity.hpp>
 
 namespace boresight::io {
 namespace {
@@ -27,8 +33,8 @@ design::Ends spread(const Quantity& quantity, double scale) {
 }  // namespace
 
 design::MemberRanges member_ranges(const Case& antenna) {
-  const EnsembleEntry& ensemble = antenna.ensemble;
-  const double leakage = antenna.drive.leakage_rate.value;
+  const EnsembleEntry& ensemble = *antenna.ensemble;
+  const double leakage = antenna.drive->leakage_rate.value;
   const design::MemberRanges spread = spread_of_stated(antenna);
   return {stated(ensemble.structure_frequency, both({0.95, 1.05}, spread.structure_frequency)),
           stated(ensemble.oil_stiffness, both({0.8, 1.33}, spread.oil_stiffness)),
@@ -37,10 +43,10 @@ design::MemberRanges member_ranges(const Case& antenna) {
 }
 
 design::MemberRanges spread_of_stated(const Case& antenna) {
-  const Quantity& leakage = antenna.drive.leakage_rate;
-  const double friction = antenna.drive.viscous_friction.value;
-  return {spread(antenna.structure.locked_rotor_frequency, 1.0),
-          antenna.oil.bulk_modulus ? spread(*antenna.oil.bulk_modulus, 1.0) : design::Ends{},
+  const Quantity& leakage = antenna.drive->leakage_rate;
+  const double friction = antenna.drive->viscous_friction.value;
+  return {spread(antenna.structure->locked_rotor_frequency, 1.0),
+          antenna.oil->bulk_modulus ? spread(*antenna.oil->bulk_modulus, 1.0) : design::Ends{},
           spread(leakage, leakage.value),
           {friction, friction}};
 }

@@ -6,6 +6,14 @@
 #include <boresight/control/controllers/usual_structures.hpp>
 #include <boresight/design/problem/pointing.hpp>
 #include <boresight/io/case/antenna_of.hpp>
+#include <boresight/io/case/case_file.hpp>
+#include <boresight/io/case/case_goals.hpp>
+#include <boresight/io/case/case_mechanics.hpp>
+#include <boresight/io/case/case_motor.hpp>
+#include <boresight/io/case/case_oil.hpp>
+#include <boresight/io/case/case_pointing.hpp>
+#include <boresight/io/case/case_tuning.hpp>
+#include <boresight/io/case/case_wind.hpp>
 #include <boresight/io/case/guessed_shares.hpp>
 #include <boresight/io/case/member_ranges.hpp>
 #include <boresight/io/case/mission_of.hpp>
@@ -29,21 +37,21 @@ plant::WindModel wind_model(const std::string& name) {
 }
 
 design::WindCondition wind_of(const Case& stated) {
-  const WindEntry& wind = stated.wind;
+  const WindEntry& wind = *stated.wind;
   return {{wind.air_density.value, wind.gusts.surface_drag, wind.torque_coefficient.value,
            wind.gradient_coefficient.value, wind.coherence_decay.value,
-           stated.antenna.dish_diameter.value, wind.gusts},
+           stated.antenna->dish_diameter.value, wind.gusts},
           wind_model(wind.model),
           wind.design_speed.value};
 }
 
 std::vector<design::WeightedWind> climate_of(const Case& stated) {
   design::WindCondition wind = wind_of(stated);
-  if (stated.wind.climate_torque_coefficient) {
-    wind.site.torque_coefficient = *stated.wind.climate_torque_coefficient;
+  if (stated.wind->climate_torque_coefficient) {
+    wind.site.torque_coefficient = *stated.wind->climate_torque_coefficient;
   }
   std::vector<design::WeightedWind> winds;
-  for (const auto& one : stated.wind.climate) {
+  for (const auto& one : stated.wind->climate) {
     wind.mean_speed = one.speed;
     winds.push_back({wind, one.weight});
   }
@@ -91,32 +99,32 @@ double stated_uncertainty(const Quantity& quantity) {
 design::AntennaUncertainty uncertainty_of(const Case& stated) {
   design::AntennaUncertainty uncertainty;
   uncertainty.ranges = member_ranges(stated);
-  if (stated.ensemble.draws > 0) {
-    uncertainty.draws = static_cast<std::size_t>(stated.ensemble.draws);
+  if (stated.ensemble->draws > 0) {
+    uncertainty.draws = static_cast<std::size_t>(stated.ensemble->draws);
   }
-  uncertainty.antenna_inertia = relative_uncertainty(stated.antenna.inertia);
-  uncertainty.motor_inertia = relative_uncertainty(stated.motor.inertia);
-  uncertainty.wind_torque = std::hypot(stated_uncertainty(stated.wind.torque_coefficient),
-                                       stated_uncertainty(stated.wind.air_density));
+  uncertainty.antenna_inertia = relative_uncertainty(stated.antenna->inertia);
+  uncertainty.motor_inertia = relative_uncertainty(stated.motor->inertia);
+  uncertainty.wind_torque = std::hypot(stated_uncertainty(stated.wind->torque_coefficient),
+                                       stated_uncertainty(stated.wind->air_density));
   return uncertainty;
 }
 
 std::vector<design::AlternativeAntenna> alternatives_of(const Case& stated) {
-  const bool with_efficiency = stated.oil.efficiency_in_stiffness;
+  const bool with_efficiency = stated.oil->efficiency_in_stiffness;
   std::vector<design::AlternativeAntenna> alternatives{
       {with_efficiency ? "oil stiffness without efficiencies" : "oil stiffness with efficiencies",
        {plant::set_to(
            "at_shaft.oil_stiffness",
            oil_stiffness(stated, with_efficiency ? plant::EfficiencyInStiffness::none
                                                  : plant::EfficiencyInStiffness::both))}}};
-  for (const auto& alternative : stated.antenna.alternatives) {
+  for (const auto& alternative : stated.antenna->alternatives) {
     alternatives.push_back(
         {"antenna inertia of " + alternative.name, changes_of(stated, alternative)});
   }
   for (const auto place : other_guesses) {
-    if (!moves_guessed_shares(stated.structure, place)) continue;
+    if (!moves_guessed_shares(*stated.structure, place)) continue;
     alternatives.push_back(
-        {std::string(to_string(place)), guessed_share_changes(stated.structure, place)});
+        {std::string(to_string(place)), guessed_share_changes(*stated.structure, place)});
   }
   return alternatives;
 }
@@ -125,9 +133,9 @@ std::vector<design::AlternativeAntenna> alternatives_of(const Case& stated) {
 design::Mission asked_of(const Case& stated) {
   design::Mission mission;
   mission.wind = wind_of(stated);
-  mission.rms_band = {stated.goals.lowest_frequency.value, stated.goals.highest_frequency.value};
-  mission.stated_constraints = stated_constraints_of(stated.goals);
-  mission.limits_gusts = stated.goals.crest_factor.has_value();
+  mission.rms_band = {stated.goals->lowest_frequency.value, stated.goals->highest_frequency.value};
+  mission.stated_constraints = stated_constraints_of(*stated.goals);
+  mission.limits_gusts = stated.goals->crest_factor.has_value();
   return mission;
 }
 
@@ -156,7 +164,7 @@ design::HardGoals make_goals(const Case& antenna) {
 }
 
 design::SoftGoal make_soft_goal(const Case& antenna) {
-  return objective_of(antenna.goals);
+  return objective_of(*antenna.goals);
 }
 
 std::vector<design::WeightedWind> make_climate(const Case& antenna) {
@@ -169,7 +177,7 @@ std::vector<design::PointingBand> make_bands(const Case& antenna) {
   for (const auto& band : antenna.bands) {
     bands.push_back({band.name, band.frequency.value,
                      design::half_power_beamwidth(band.beamwidth_factor.value, band.frequency.value,
-                                                  antenna.antenna.dish_diameter.value),
+                                                  antenna.antenna->dish_diameter.value),
                      band.illumination});
   }
   return bands;
@@ -207,7 +215,7 @@ double tightest_budget(const Case& antenna) {
 
 std::vector<design::NamedStructure> asked_structures(const Case& stated,
                                                      std::vector<std::string> names) {
-  if (names.empty()) names = stated.tuning.structures;
+  if (names.empty()) names = stated.tuning->structures;
   if (names.empty()) {
     names = {"PI", "DPF", "LL", "FULL", "PI+C", "DPF+C"};
     for (const auto& loop : stated.loops) names.push_back(loop.structure.name());
@@ -228,18 +236,18 @@ design::Mission mission_of(const Case& stated) {
   mission.uncertainty = uncertainty_of(stated);
   mission.alternatives = alternatives_of(stated);
   mission.climate = climate_of(stated);
-  mission.climate_parts = stated.wind.climate_parts;
-  mission.torque_table = stated.wind.torque_table;
-  mission.wind_record = stated.wind.record;
+  mission.climate_parts = stated.wind->climate_parts;
+  mission.torque_table = stated.wind->torque_table;
+  mission.wind_record = stated.wind->record;
   const auto& dish = stated.antenna;
-  if (dish.azimuth && dish.elevation) {
-    mission.pointing = {dish.azimuth->value, dish.elevation->value};
+  if (dish->azimuth && dish->elevation) {
+    mission.pointing = {dish->azimuth->value, dish->elevation->value};
   }
   mission.bands = make_bands(stated);
   mission.budgets = make_budgets(stated);
-  mission.objective = objective_of(stated.goals);
-  if (stated.goals.beam_rms) mission.rms_goal = stated.goals.beam_rms->value;
-  mission.minimises_climate = stated.goals.over_climate;
+  mission.objective = objective_of(*stated.goals);
+  if (stated.goals->beam_rms) mission.rms_goal = stated.goals->beam_rms->value;
+  mission.minimises_climate = stated.goals->over_climate;
   mission.structures = asked_structures(stated);
   for (const auto& structure : usual_structures_with_lag(stated)) {
     mission.usual_structures.push_back({short_name(structure), structure});
@@ -254,8 +262,8 @@ design::Mission mission_of(const Case& stated) {
       mission.structures.push_back({mission.present_structure, present});
     }
   }
-  mission.starts = static_cast<int>(stated.tuning.starts);
-  if (!stated.matching_disks.empty()) mission.most_disks = stated.matching_disks.back();
+  mission.starts = static_cast<int>(stated.tuning->starts);
+  if (!stated.matching->disks.empty()) mission.most_disks = stated.matching->disks.back();
   return mission;
 }
 

@@ -3,7 +3,7 @@
 #include <vector>
 
 #include <boresight/design/problem/mission.hpp>
-#include <boresight/io/case/case_file.hpp>
+#include <boresight/io/case/case_declaration.hpp>
 
 /// What a case asks of its antenna, as the design takes it.
 namespace boresight::io {

@@ -3,10 +3,19 @@
 #include <cmath>
 #include <string_view>
 
+#include <boresight/io/case/case_drive.hpp>
+#include <boresight/io/case/case_file.hpp>
+#include <boresight/io/case/case_mechanics.hpp>
+#include <boresight/io/case/case_motor.hpp>
+#include <boresight/io/case/case_oil.hpp>
+#include <boresight/io/case/case_sensors.hpp>
+#include <boresight/io/case/case_structure.hpp>
+#include <boresight/io/case/case_wind.hpp>
 #include <boresight/io/case/guessed_shares.hpp>
 #include <boresight/io/case/movable_numbers.hpp>
 #include <boresight/io/case/plant_numbers.hpp>
 #include <boresight/io/case/structure_numbers.hpp>
+#include <boresight/plant/wind/gust_spectrum.hpp>
 
 namespace boresight::io {
 namespace {
@@ -31,21 +40,21 @@ bool frequency_by_stiffness(const StructureEntry& structure) {
 
 // Those that a case keeps as quantities, in its order.
 std::vector<Quantity*> quantities_of(Case& c) {
-  std::vector<Quantity*> places{&c.antenna.dish_diameter,   &c.antenna.inertia,
-                                &c.motor.inertia,           &c.motor.displacement,
-                                &c.motor.torque_efficiency, &c.motor.volumetric_efficiency};
-  add(places, c.oil.bulk_modulus);
-  if (!c.oil.bulk_modulus) {
-    add(places, c.oil.density);
-    for (auto& line : c.oil.lines) {
+  std::vector<Quantity*> places{&c.antenna->dish_diameter,   &c.antenna->inertia,
+                                &c.motor->inertia,           &c.motor->displacement,
+                                &c.motor->torque_efficiency, &c.motor->volumetric_efficiency};
+  add(places, c.oil->bulk_modulus);
+  if (!c.oil->bulk_modulus) {
+    add(places, c.oil->density);
+    for (auto& line : c.oil->lines) {
       places.push_back(&line.length);
       places.push_back(&line.slosh_frequency);
     }
   }
   places.insert(places.end(),
-                {&c.oil.volume_1, &c.oil.volume_2, &c.drive.leakage_rate, &c.drive.viscous_friction,
-                 &c.drive.valve_frequency, &c.drive.valve_damping});
-  StructureEntry& structure = c.structure;
+                {&c.oil->volume_1, &c.oil->volume_2, &c.drive->leakage_rate,
+                 &c.drive->viscous_friction, &c.drive->valve_frequency, &c.drive->valve_damping});
+  StructureEntry& structure = *c.structure;
   if (structure.gear_stiffness && frequency_by_stiffness(structure)) {
     places.push_back(&*structure.gear_stiffness);
   } else {
@@ -58,11 +67,12 @@ std::vector<Quantity*> quantities_of(Case& c) {
                                  &mode.wind_fraction, &mode.beam_weight});
     add(places, mode.effective_fraction);
   }
-  places.insert(places.end(), {&c.sensors.encoder_noise, &c.sensors.tachometer_noise,
-                               &c.sensors.noise_bandwidth, &c.sensors.tachometer_frequency});
-  add(places, c.sensors.torque_noise);
-  places.insert(places.end(), {&c.controller_delay, &c.wind.air_density, &c.wind.torque_coefficient,
-                               &c.wind.gradient_coefficient, &c.wind.coherence_decay});
+  places.insert(places.end(), {&c.sensors->encoder_noise, &c.sensors->tachometer_noise,
+                               &c.sensors->noise_bandwidth, &c.sensors->tachometer_frequency});
+  add(places, c.sensors->torque_noise);
+  places.insert(places.end(),
+                {&c.controller->delay, &c.wind->air_density, &c.wind->torque_coefficient,
+                 &c.wind->gradient_coefficient, &c.wind->coherence_decay});
   // What another number of the case gives has no key of its own, and what records gave no text.
   std::erase_if(places, [](const Quantity* one) { return one->key.empty() || one->text.empty(); });
   return places;
@@ -72,7 +82,7 @@ std::vector<Quantity*> quantities_of(Case& c) {
 std::vector<Input> linear_inputs(Case& c) {
   std::vector<Input> inputs;
   for (Quantity* quantity : quantities_of(c)) inputs.push_back({quantity, &quantity->value});
-  plant::GustSpectrum& gusts = c.wind.gusts;
+  plant::GustSpectrum& gusts = c.wind->gusts;
   for (const auto& [key, value] :
        {std::pair{"wind.surface_drag", &gusts.surface_drag},
         std::pair{"wind.turbulence_intensity", &gusts.turbulence_intensity},
@@ -159,9 +169,9 @@ std::pair<double, double> guessed_range(double share, double inertia_fraction) {
 MovableNumber planned(const Case& antenna, const Quantity& stated) {
   MovableNumber number;
   number.quantity = stated;
-  number.share_of_mode = mode_of(antenna.structure, stated);
+  number.share_of_mode = mode_of(*antenna.structure, stated);
   number.unstated = is_unbounded_guess(stated);
-  const auto fraction = inertia_fraction_of(antenna.structure, stated);
+  const auto fraction = inertia_fraction_of(*antenna.structure, stated);
   if (fraction && is_guessed_share(stated)) {
     number.range = guessed_range(stated.value, *fraction);
     number.moved_by =
@@ -178,21 +188,21 @@ void move(Case& antenna, std::size_t which, double by) {
   double* moved = input.value;
   // A number that works converted, as of a wind mast, moves by the same share.
   if (input.stated->value != 0.0) by *= *moved / input.stated->value;
-  for (auto& group : shares(antenna.structure)) {
+  for (auto& group : shares(*antenna.structure)) {
     if (std::ranges::find(group, moved, &Share::value) != group.end()) make_room(group, moved, by);
   }
   *moved += by;
-  StructureEntry& structure = antenna.structure;
+  StructureEntry& structure = *antenna.structure;
   if (structure.gear_stiffness && moved == &structure.gear_stiffness->value) {
     structure.locked_rotor_frequency.value = locked_rotor_frequency_for(
-        structure_specification(structure), *moved / antenna.antenna.inertia.value);
+        structure_specification(structure), *moved / antenna.antenna->inertia.value);
   }
 }
 
 // Of the oil on both sides (Pa/m3): a leakage flow makes a leakage rate in proportion to it.
 double pressure_per_volume(const Case& antenna) {
   return bulk_modulus(antenna) *
-         (1.0 / antenna.oil.volume_1.value + 1.0 / antenna.oil.volume_2.value);
+         (1.0 / antenna.oil->volume_1.value + 1.0 / antenna.oil->volume_2.value);
 }
 
 }  // namespace
@@ -217,8 +227,8 @@ Case moved(const Case& antenna, const MovableNumber& number, bool upwards) {
   }
   Case result = antenna;
   move(result, number.place, by);
-  if (antenna.drive.leakage_by_flow) {
-    result.drive.leakage_rate.value *= pressure_per_volume(result) / pressure_per_volume(antenna);
+  if (antenna.drive->leakage_by_flow) {
+    result.drive->leakage_rate.value *= pressure_per_volume(result) / pressure_per_volume(antenna);
   }
   return result;
 }

@@ -5,7 +5,8 @@
 #include <utility>
 #include <vector>
 
-#include <boresight/io/case/case_file.hpp>
+#include <boresight/io/case/case_declaration.hpp>
+#include <boresight/io/units/quantity.hpp>
 
 namespace boresight::io {
 

@@ -3,6 +3,10 @@
 
 #include <fmt/format.h>
 
+#include <boresight/io/case/case_drive.hpp>
+#include <boresight/io/case/case_file.hpp>
+#include <boresight/io/case/case_mechanics.hpp>
+#include <boresight/io/case/case_simulation.hpp>
 #include <boresight/io/case/drive_numbers.hpp>
 #include <boresight/io/case/plant_numbers.hpp>
 #include <boresight/numerics/error.hpp>
@@ -20,7 +24,7 @@ double motor_inertia(const Case& antenna, double disks) {
 }
 
 double antenna_inertia(const Case& antenna) {
-  return plant::reflected_inertia(antenna.antenna.inertia.value, gear_ratio(antenna));
+  return plant::reflected_inertia(antenna.antenna->inertia.value, gear_ratio(antenna));
 }
 
 double antenna_inertia(const Case& antenna, const AntennaAlternative& alternative) {
@@ -43,7 +47,7 @@ std::vector<plant::AntennaChange> changes_of(const Case& antenna,
 }
 
 double bulk_modulus(const Case& antenna) {
-  return bulk_modulus_of(antenna.oil).value;
+  return bulk_modulus_of(*antenna.oil).value;
 }
 
 double oil_stiffness(const Case& antenna, plant::EfficiencyInStiffness efficiency) {
@@ -58,14 +62,14 @@ double oil_stiffness(const Case& antenna) {
 
 std::vector<plant::AntennaChange> bulk_modulus_times(const Case& antenna, double factor) {
   std::vector changes{plant::scaled_by("at_shaft.oil_stiffness", factor)};
-  if (antenna.drive.leakage_by_flow) {
+  if (antenna.drive->leakage_by_flow) {
     changes.push_back(plant::scaled_by("drive.leakage_rate", factor));
   }
   return changes;
 }
 
 double largest_viscous_friction(const Case& antenna) {
-  return std::max(tracking_friction(antenna), antenna.drive.viscous_friction.value);
+  return std::max(tracking_friction(antenna), antenna.drive->viscous_friction.value);
 }
 
 std::optional<double> disks_at_unit_ratio(const Case& antenna, double load_inertia) {

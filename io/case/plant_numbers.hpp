@@ -5,7 +5,7 @@
 #include <vector>
 
 #include <boresight/io/case/antenna_of.hpp>
-#include <boresight/io/case/case_file.hpp>
+#include <boresight/io/case/case_declaration.hpp>
 #include <boresight/plant/antenna/antenna_change.hpp>
 
 namespace boresight::io {

@@ -4,7 +4,10 @@
 #include <fmt/format.h>
 
 #include <boresight/control/controllers/usual_structures.hpp>
+#include <boresight/io/case/case_file.hpp>
+#include <boresight/io/case/case_tuning.hpp>
 #include <boresight/io/case/present_gains.hpp>
+#include <boresight/io/units/quantity.hpp>
 
 namespace boresight::io {
 namespace {

@@ -5,7 +5,7 @@
 
 #include <boresight/control/controllers/control_law.hpp>
 #include <boresight/design/problem/mission.hpp>
-#include <boresight/io/case/case_file.hpp>
+#include <boresight/io/case/case_declaration.hpp>
 
 namespace boresight::io {
 

@@ -1,4 +1,6 @@
 #include <boresight/io/case/antenna_of.hpp>
+#include <boresight/io/case/case_file.hpp>
+#include <boresight/io/case/case_tests.hpp>
 #include <boresight/io/case/resonating_mode.hpp>
 
 namespace boresight::io {
@@ -10,14 +12,14 @@ constexpr double half = 0.5;
 
 plant::PlantMode resonating_mode(const Case& antenna, const plant::AntennaPlant& plant) {
   const auto modes = plant::plant_modes(plant);
-  return antenna.resonance_of_oil ? plant::mode_of_oil(modes) : plant::hydraulic_mode(modes);
+  return antenna.resonance->of_oil ? plant::mode_of_oil(modes) : plant::hydraulic_mode(modes);
 }
 
 bool rings_as_rigid(const Case& antenna) {
   const auto modes = plant::plant_modes(make_plant(antenna));
   const plant::PlantMode hydraulic = plant::hydraulic_mode(modes);
   const bool of_it =
-      !antenna.resonance_of_oil || plant::mode_of_oil(modes).frequency == hydraulic.frequency;
+      !antenna.resonance->of_oil || plant::mode_of_oil(modes).frequency == hydraulic.frequency;
   return of_it && hydraulic.oil_share >= half;
 }
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <boresight/io/case/case_file.hpp>
+#include <boresight/io/case/case_declaration.hpp>
 #include <boresight/plant/antenna/antenna_plant.hpp>
 
 namespace boresight::io {

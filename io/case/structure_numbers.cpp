@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include <boresight/io/case/case_structure.hpp>
 #include <boresight/io/case/structure_numbers.hpp>
 #include <boresight/numerics/angles.hpp>
 #include <boresight/numerics/error.hpp>

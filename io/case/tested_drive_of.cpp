@@ -3,6 +3,10 @@
 #include <fmt/format.h>
 
 #include <boresight/io/case/antenna_of.hpp>
+#include <boresight/io/case/case_campaign.hpp>
+#include <boresight/io/case/case_drive.hpp>
+#include <boresight/io/case/case_file.hpp>
+#include <boresight/io/case/case_simulation.hpp>
 #include <boresight/io/case/drive_numbers.hpp>
 #include <boresight/io/case/tested_drive_of.hpp>
 #include <boresight/numerics/error.hpp>
@@ -21,7 +25,7 @@ constexpr const char* recorded_only = "; tracking and slew need none";
 }
 
 plant::TachometerRecording tachometer_of(const Case& stated, const RecorderEntry& recorder) {
-  const auto& tachometer = stated.campaign.tachometer;
+  const auto& tachometer = stated.campaign->tachometer;
   if (!tachometer) {
     refuse_missing(stated, "tachometer", "the scale the recorder writes motor rates in");
   }
@@ -83,7 +87,7 @@ design::TestedDrive tested_drive_of(const Case& stated) {
   }
   const SimulationEntry& entry = *stated.simulation;
   drive.rate_loop = {entry.rate_loop_gain.value, entry.rate_loop_corner.value};
-  drive.slew_rate = stated.drive.slew_rate.value * gear_ratio(stated);
+  drive.slew_rate = stated.drive->slew_rate.value * gear_ratio(stated);
   drive.recorder = recorder_of(stated);
   return drive;
 }

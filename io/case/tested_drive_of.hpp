@@ -1,7 +1,7 @@
 #pragma once
 
 #include <boresight/design/simulation/drive_tests.hpp>
-#include <boresight/io/case/case_file.hpp>
+#include <boresight/io/case/case_declaration.hpp>
 
 /// What a case's antenna is simulated with.
 namespace boresight::io {

@@ -2,7 +2,7 @@
 
 namespace boresight::io {
 
-void describe(Visitor& v, const WindMast& mast) {
+void describe(Visitor& v, const plant::WindMast& mast) {
   const KeyUnit metre{.suffix = "m"};
   const NumberForm positive{.above = 0.0, .finite = true};
   v.defined_as("wind_mast",

@@ -1,11 +1,11 @@
 #pragma once
 
-#include <boresight/io/case/case_file.hpp>
 #include <boresight/io/description/visitor.hpp>
+#include <boresight/plant/wind/wind_mast.hpp>
 
 namespace boresight::io {
 
 /// The mast that the case's wind speeds are from.
-void describe(Visitor& v, const WindMast& mast);
+void describe(Visitor& v, const plant::WindMast& mast);
 
 }  // namespace boresight::io

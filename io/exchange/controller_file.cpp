@@ -10,6 +10,7 @@
 #include <fmt/ranges.h>
 
 #include <boresight/control/loops/state_space_controller.hpp>
+#include <boresight/io/case/case_tuning.hpp>
 #include <boresight/io/case/table_reader.hpp>
 #include <boresight/io/exchange/controller_file.hpp>
 #include <boresight/io/exchange/reported_controller.hpp>

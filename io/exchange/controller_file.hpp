@@ -8,7 +8,7 @@
 #include <Eigen/Core>
 
 #include <boresight/control/controllers/control_law.hpp>
-#include <boresight/io/case/case_file.hpp>
+#include <boresight/io/case/case_declaration.hpp>
 #include <boresight/plant/linear/state_space.hpp>
 
 namespace boresight::io {

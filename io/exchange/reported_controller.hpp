@@ -3,7 +3,7 @@
 #include <string>
 
 #include <boresight/control/controllers/control_law.hpp>
-#include <boresight/io/case/case_file.hpp>
+#include <boresight/io/case/case_declaration.hpp>
 
 namespace boresight::io {
 

@@ -3,7 +3,8 @@
 #include <functional>
 #include <vector>
 
-#include <boresight/io/case/case_file.hpp>
+#include <boresight/io/case/case_declaration.hpp>
+#include <boresight/io/units/quantity.hpp>
 
 namespace boresight::io {
 

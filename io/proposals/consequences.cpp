@@ -3,6 +3,15 @@
 #include <limits>
 
 #include <boresight/io/case/antenna_of.hpp>
+#include <boresight/io/case/case_drive.hpp>
+#include <boresight/io/case/case_file.hpp>
+#include <boresight/io/case/case_friction.hpp>
+#include <boresight/io/case/case_goals.hpp>
+#include <boresight/io/case/case_motor.hpp>
+#include <boresight/io/case/case_oil.hpp>
+#include <boresight/io/case/case_sensors.hpp>
+#include <boresight/io/case/case_simulation.hpp>
+#include <boresight/io/case/case_structure.hpp>
 #include <boresight/io/case/drive_numbers.hpp>
 #include <boresight/io/case/mission_of.hpp>
 #include <boresight/io/case/plant_numbers.hpp>
@@ -15,7 +24,7 @@ namespace boresight::io {
 namespace {
 
 double all_motors(const Case& antenna) {
-  return motor_inertia(antenna, antenna.motor.flywheel_disks);
+  return motor_inertia(antenna, antenna.motor->flywheel_disks);
 }
 
 double load(const Case& antenna) {
@@ -32,7 +41,7 @@ double wind_torque(const Case& antenna) {
 }
 
 double sky_friction(const Case& antenna) {
-  const auto& curve = antenna.friction_curve;
+  const auto& curve = *antenna.friction_curve;
   return (curve.coulomb.value + curve.saturating.value) * gear_ratio(antenna);
 }
 
@@ -46,7 +55,7 @@ double no_load_motor_rate(const Case& antenna) {
 // With the bull gear held; infinite without modes.
 double lowest_mode(const Case& antenna) {
   double lowest = std::numeric_limits<double>::infinity();
-  for (const auto& mode : structure_specification(antenna.structure).modes) {
+  for (const auto& mode : structure_specification(*antenna.structure).modes) {
     lowest = std::min(lowest, mode.frequency);
   }
   return lowest;
@@ -72,39 +81,39 @@ constexpr Derived derived[] = {
      [](const Case& c) { return make_plant(c).structure.gear_stiffness; },
      "w^2 (Jb + sum Ji/(1 - (w/wi)^2)), w with the rotor locked, wi with the bull gear held"},
     {"locked-rotor frequency", "Hz",
-     [](const Case& c) { return c.structure.locked_rotor_frequency.value; },
+     [](const Case& c) { return c.structure->locked_rotor_frequency.value; },
      "the gear spring under a structure that stays", "structure.locked_rotor_frequency"},
     {"lowest mode with the bull gear held", "Hz", lowest_mode,
      "all frequencies with the motors held and the inertia fractions, solved anew", "", true},
     {"motor-to-load ratio", "1", [](const Case& c) { return all_motors(c) / load(c); },
      "motors over gear train and antenna"},
-    {"volume 1", "m3", [](const Case& c) { return c.oil.volume_1.value; }, "line lengths",
+    {"volume 1", "m3", [](const Case& c) { return c.oil->volume_1.value; }, "line lengths",
      "oil.volume_1"},
-    {"volume 2", "m3", [](const Case& c) { return c.oil.volume_2.value; }, "line lengths",
+    {"volume 2", "m3", [](const Case& c) { return c.oil->volume_2.value; }, "line lengths",
      "oil.volume_2"},
     {"oil stiffness K", "N.m/rad", [](const Case& c) { return oil_stiffness(c); },
      "et ev beta D^2 (1/V1 + 1/V2)"},
-    {"leakage rate", "1/s", [](const Case& c) { return c.drive.leakage_rate.value; },
+    {"leakage rate", "1/s", [](const Case& c) { return c.drive->leakage_rate.value; },
      "C beta (1/V1 + 1/V2), C a property of the hardware", "drive.leakage_rate"},
     {"leakage damper K/lambda", "N.m.s/rad",
-     [](const Case& c) { return oil_stiffness(c) / c.drive.leakage_rate.value; }, "D^2/C"},
+     [](const Case& c) { return oil_stiffness(c) / c.drive->leakage_rate.value; }, "D^2/C"},
     {"rigid oil resonance", "Hz", rigid_frequency, "sqrt(K/J)/2 pi, all inertia rigid"},
     {"supply torque", "N.m", supply_torque, "supply pressure x D x torque efficiency"},
     {"valve stroke, no-load motor rate", "rad/s", no_load_motor_rate,
      "flow over D; flow with the root of the pressure", "simulation.valve_stroke"},
-    {"valve effort allowed", "rad/s", [](const Case& c) { return c.goals.valve_effort.value; },
+    {"valve effort allowed", "rad/s", [](const Case& c) { return c.goals->valve_effort.value; },
      "the same share of the valve's stroke"},
     {"torque noise", "N.m",
-     [](const Case& c) { return c.sensors.torque_noise ? c.sensors.torque_noise->value : 0.0; },
+     [](const Case& c) { return c.sensors->torque_noise ? c.sensors->torque_noise->value : 0.0; },
      "pressure noise x D", "sensors.torque_noise"},
     {"encoder noise at the motor", "mrad",
-     [](const Case& c) { return 1e3 * c.sensors.encoder_noise.value * gear_ratio(c); },
+     [](const Case& c) { return 1e3 * c.sensors->encoder_noise.value * gear_ratio(c); },
      "noise at the sky x gear ratio"},
     {"slew rate at the motor", "rad/s",
-     [](const Case& c) { return c.drive.slew_rate.value * gear_ratio(c); },
+     [](const Case& c) { return c.drive->slew_rate.value * gear_ratio(c); },
      "rate at the sky x gear ratio"},
     {"tracking rate at the motor", "rad/s",
-     [](const Case& c) { return c.drive.tracking_rate.value * gear_ratio(c); },
+     [](const Case& c) { return c.drive->tracking_rate.value * gear_ratio(c); },
      "rate at the sky x gear ratio"},
     {"friction slope at the tracking rate", "N.m.s/rad", tracking_friction,
      "the friction curve's slope at that motor rate"},
@@ -112,9 +121,9 @@ constexpr Derived derived[] = {
      "the same at the motor shaft, x gear ratio"},
     {"mean wind torque at the motors", "N.m", wind_torque,
      "torque on the dish over the gear ratio"},
-    {"dead time", "s", [](const Case& c) { return c.controller_delay.value; },
+    {"dead time", "s", [](const Case& c) { return c.controller->delay.value; },
      "one and a half samples", "controller.delay"},
-    {"noise bandwidth", "Hz", [](const Case& c) { return c.sensors.noise_bandwidth.value; },
+    {"noise bandwidth", "Hz", [](const Case& c) { return c.sensors->noise_bandwidth.value; },
      "half the sampling rate", "sensors.noise_bandwidth"},
     {"slew rate at the sky within the stroke", "deg/s",
      [](const Case& c) { return no_load_motor_rate(c) / gear_ratio(c) / degree; },
@@ -127,7 +136,7 @@ std::vector<DerivedChange> consequences_of(const Case& before, const Case& after
   constexpr double rounding = 1e-9;
   std::vector<DerivedChange> found;
   for (const auto& one : derived) {
-    if (one.motors_held && !before.structure.motors_held) continue;
+    if (one.motors_held && !before.structure->motors_held) continue;
     const double was = one.value(before), is = one.value(after);
     if (!std::isfinite(was) || !std::isfinite(is)) continue;
     if (std::abs(is - was) <= rounding * std::max(std::abs(was), std::abs(is))) continue;

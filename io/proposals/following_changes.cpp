@@ -4,6 +4,17 @@
 #include <fmt/format.h>
 
 #include <boresight/control/controllers/sample_time.hpp>
+#include <boresight/io/case/case_campaign.hpp>
+#include <boresight/io/case/case_drive.hpp>
+#include <boresight/io/case/case_file.hpp>
+#include <boresight/io/case/case_goals.hpp>
+#include <boresight/io/case/case_mechanics.hpp>
+#include <boresight/io/case/case_motor.hpp>
+#include <boresight/io/case/case_oil.hpp>
+#include <boresight/io/case/case_sensors.hpp>
+#include <boresight/io/case/case_simulation.hpp>
+#include <boresight/io/case/case_structure.hpp>
+#include <boresight/io/case/case_tuning.hpp>
 #include <boresight/io/case/drive_numbers.hpp>
 #include <boresight/io/case/field.hpp>
 #include <boresight/io/case/plant_numbers.hpp>
@@ -14,18 +25,18 @@ namespace boresight::io {
 namespace {
 
 double motors_displacement(const Case& antenna) {
-  return static_cast<double>(antenna.motor.count) * antenna.motor.displacement.value;
+  return static_cast<double>(antenna.motor->count) * antenna.motor->displacement.value;
 }
 
 double compliance_of_sides(const Case& antenna) {
-  return 1.0 / antenna.oil.volume_1.value + 1.0 / antenna.oil.volume_2.value;
+  return 1.0 / antenna.oil->volume_1.value + 1.0 / antenna.oil->volume_2.value;
 }
 
 // As rated_stroke has it.
 double no_load_pressure(const Case& antenna) {
   const std::optional<Quantity> returned =
-      antenna.simulation ? antenna.simulation->return_pressure : antenna.campaign.return_pressure;
-  return antenna.drive.supply_pressure.value - (returned ? returned->value : 0.0);
+      antenna.simulation ? antenna.simulation->return_pressure : antenna.campaign->return_pressure;
+  return antenna.drive->supply_pressure.value - (returned ? returned->value : 0.0);
 }
 
 // A number of the same antenna in other terms, as uncertain for its size.
@@ -67,11 +78,11 @@ void follow_ensemble(const Case& before, Case& after) {
     range->lower.value *= factor;
     range->upper.value *= factor;
   };
-  scale(after.ensemble.leakage_rate,
-        after.drive.leakage_rate.value / before.drive.leakage_rate.value);
+  scale(after.ensemble->leakage_rate,
+        after.drive->leakage_rate.value / before.drive->leakage_rate.value);
   const double friction = tracking_friction(before);
   if (friction > 0.0) {
-    scale(after.ensemble.viscous_friction, tracking_friction(after) / friction);
+    scale(after.ensemble->viscous_friction, tracking_friction(after) / friction);
   }
 }
 
@@ -147,27 +158,27 @@ void follow_sampling(const Case& before, const Proposal& proposal, Case& after) 
   if (rate != nullptr) {
     const double sample = 1.0 / rate->number.value;
     if (delay == nullptr) {
-      after.controller_delay.value = control::dead_time_of(sample);
-      after.controller_delay.text = fmt::format("{:.4g} s", after.controller_delay.value);
-    } else if (after.controller_delay.value < 0.5 * sample) {
+      after.controller->delay.value = control::dead_time_of(sample);
+      after.controller->delay.text = fmt::format("{:.4g} s", after.controller->delay.value);
+    } else if (after.controller->delay.value < 0.5 * sample) {
       refuse_change(*delay,
                     fmt::format("expected at least the {:.4g} s that holding a sample takes at "
                                 "controller.sample_rate, found {:.4g} s",
-                                0.5 * sample, after.controller_delay.value));
+                                0.5 * sample, after.controller->delay.value));
     }
     if (proposal.find("sensors.noise_bandwidth") == nullptr) {
-      after.sensors.noise_bandwidth.value = 0.5 * rate->number.value;
-      after.sensors.noise_bandwidth.text = fmt::format("{:g} Hz", 0.5 * rate->number.value);
+      after.sensors->noise_bandwidth.value = 0.5 * rate->number.value;
+      after.sensors->noise_bandwidth.text = fmt::format("{:g} Hz", 0.5 * rate->number.value);
     }
   }
   // The fastest thing a loop must see: below half the rate, or it comes back as another
   // frequency.
-  const double fastest = std::max(fastest_mode(before.structure), fastest_mode(after.structure));
+  const double fastest = std::max(fastest_mode(*before.structure), fastest_mode(*after.structure));
   const double sampled = rate != nullptr
                              ? rate->number.value
-                             : 1.0 / control::sample_time_of(after.controller_delay.value);
+                             : 1.0 / control::sample_time_of(after.controller->delay.value);
   const auto* slow = rate != nullptr ? rate : delay;
-  const bool slower = sampled < 1.0 / control::sample_time_of(before.controller_delay.value);
+  const bool slower = sampled < 1.0 / control::sample_time_of(before.controller->delay.value);
   if (slow != nullptr && slower && sampled < 2.0 * fastest) {
     refuse_change(
         *slow, fmt::format("expected a sampling of at least {:.4g} Hz, twice the fastest mode of "
@@ -179,9 +190,9 @@ void follow_sampling(const Case& before, const Proposal& proposal, Case& after) 
 }
 
 void follow_drive(const Case& before, const Proposal& proposal, Case& after) {
-  const auto& own = before.motor;
-  for (auto& assembly : after.gear_train.assemblies) {
-    if (assembly.count == own.count) assembly.count = after.motor.count;
+  const auto& own = *before.motor;
+  for (auto& assembly : after.gear_train->assemblies) {
+    if (assembly.count == own.count) assembly.count = after.motor->count;
   }
   const double displaced = motors_displacement(after) / motors_displacement(before);
   double opened = 1.0;
@@ -189,32 +200,32 @@ void follow_drive(const Case& before, const Proposal& proposal, Case& after) {
     if (no_load_pressure(after) <= 0.0) {
       refuse_change(*pressure, fmt::format("expected more than {}.return_pressure, found {:.4g} Pa",
                                            after.simulation ? "simulation" : "drive",
-                                           after.drive.supply_pressure.value));
+                                           after.drive->supply_pressure.value));
     }
     opened = std::sqrt(no_load_pressure(after) / no_load_pressure(before));
   }
-  if (after.drive.valve_rated_flow && before.drive.valve_rated_flow) {
-    opened *= after.drive.valve_rated_flow->value / before.drive.valve_rated_flow->value;
+  if (after.drive->valve_rated_flow && before.drive->valve_rated_flow) {
+    opened *= after.drive->valve_rated_flow->value / before.drive->valve_rated_flow->value;
   }
   const auto stated = [&](std::string_view key) {
     const auto* change = proposal.find(key);
     return change != nullptr && !change->multiplies;
   };
-  if (after.sensors.torque_noise && !stated("sensors.torque_noise")) {
-    after.sensors.torque_noise->value *= displaced;
+  if (after.sensors->torque_noise && !stated("sensors.torque_noise")) {
+    after.sensors->torque_noise->value *= displaced;
   }
   if (!stated("drive.leakage_rate")) {
-    after.drive.leakage_rate.value *= bulk_modulus(after) / bulk_modulus(before) *
-                                      compliance_of_sides(after) / compliance_of_sides(before) *
-                                      static_cast<double>(after.motor.count) /
-                                      static_cast<double>(own.count);
+    after.drive->leakage_rate.value *= bulk_modulus(after) / bulk_modulus(before) *
+                                       compliance_of_sides(after) / compliance_of_sides(before) *
+                                       static_cast<double>(after.motor->count) /
+                                       static_cast<double>(own.count);
   }
   double stroke = opened / displaced;
   if (after.simulation && before.simulation) {
     if (!stated("simulation.valve_stroke")) after.simulation->valve_stroke.value *= stroke;
     stroke = after.simulation->valve_stroke.value / before.simulation->valve_stroke.value;
   }
-  after.goals.valve_effort.value *= stroke;
+  after.goals->valve_effort.value *= stroke;
   follow_gear(before, after);
   follow_ensemble(before, after);
 }

@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include <boresight/io/case/case_file.hpp>
+#include <boresight/io/case/case_declaration.hpp>
 #include <boresight/io/proposals/proposal.hpp>
 
 namespace boresight::io {

@@ -5,6 +5,16 @@
 
 #include <boresight/control/controllers/sample_time.hpp>
 #include <boresight/io/case/antenna_of.hpp>
+#include <boresight/io/case/case_campaign.hpp>
+#include <boresight/io/case/case_file.hpp>
+#include <boresight/io/case/case_friction.hpp>
+#include <boresight/io/case/case_mechanics.hpp>
+#include <boresight/io/case/case_motor.hpp>
+#include <boresight/io/case/case_oil.hpp>
+#include <boresight/io/case/case_sensors.hpp>
+#include <boresight/io/case/case_simulation.hpp>
+#include <boresight/io/case/case_structure.hpp>
+#include <boresight/io/case/case_tuning.hpp>
 #include <boresight/io/case/drive_numbers.hpp>
 #include <boresight/io/case/field.hpp>
 #include <boresight/io/case/plant_numbers.hpp>
@@ -38,7 +48,7 @@ class Application {
     if (const auto* rate = proposal_.find("controller.sample_rate")) {
       note_before(rate->key,
                   fmt::format("{:.4g} Hz by the delay",
-                              1.0 / control::sample_time_of(before_.controller_delay.value)));
+                              1.0 / control::sample_time_of(before_.controller->delay.value)));
     }
     follow_sampling(before_, proposal_, after_);
     follow_drive(before_, proposal_, after_);
@@ -80,21 +90,21 @@ class Application {
       mean.kind = Kind::pressure;
       mean.text = fmt::format("{:.6g} Pa", mean.value);
       mean.key = "oil.bulk_modulus";
-      Quantity own = after_.oil.bulk_modulus.value_or(mean);
+      Quantity own = after_.oil->bulk_modulus.value_or(mean);
       if (modulus != nullptr) {
         note_before("oil.bulk_modulus", own.text);
         own = changed(*modulus, own);
         check_changed_range(*modulus, Kind::pressure, Range::between(1e7, 1e10), own.value);
       }
-      after_.oil.bulk_modulus = own;
+      after_.oil->bulk_modulus = own;
     }
     if (lengths == nullptr) return;
     const double factor = lengths->number.value;
-    for (auto& line : after_.oil.lines) {
+    for (auto& line : after_.oil->lines) {
       line.length.value *= factor;
       line.slosh_frequency.value /= factor;
     }
-    for (auto& line : after_.campaign.lines) line.length.value *= factor;
+    for (auto& line : after_.campaign->lines) line.length.value *= factor;
     const auto* share = proposal_.find("oil.line_share");
     const bool stated =
         proposal_.find("oil.volume_1") != nullptr || proposal_.find("oil.volume_2") != nullptr;
@@ -108,7 +118,7 @@ class Application {
       if (!(kept > 0.0)) {
         refuse_change(*share, "expected volumes to be left when the lines are gone, found none");
       }
-      for (Quantity* volume : {&after_.oil.volume_1, &after_.oil.volume_2}) volume->value *= kept;
+      for (Quantity* volume : {&after_.oil->volume_1, &after_.oil->volume_2}) volume->value *= kept;
     } else if (!stated) {
       refuse_change(*lengths,
                     "expected line_share (the share of each volume that is lines) or the volumes "
@@ -138,7 +148,7 @@ class Application {
   }
 
   void apply_gear() {
-    auto& train = after_.gear_train;
+    auto& train = *after_.gear_train;
     for (const auto& change : proposal_.changes) {
       if (change.key.starts_with("gear_train.stage[")) {
         const auto number = static_cast<std::size_t>(std::stoul(change.key.substr(17)));
@@ -164,7 +174,7 @@ class Application {
   void change_assembly(const ProposedChange& change) {
     const std::string name =
         change.key.substr(20, change.key.size() - 20 - std::string_view("].inertia").size());
-    auto& assemblies = after_.gear_train.assemblies;
+    auto& assemblies = after_.gear_train->assemblies;
     const auto found = std::ranges::find(assemblies, name, &RotatingAssembly::name);
     if (found == assemblies.end()) {
       std::vector<std::string_view> known;
@@ -211,11 +221,11 @@ class Application {
   void apply_modes() {
     if (const auto* change = proposal_.find("structure.mode_frequencies")) {
       note_before(change->key, "the case's");
-      for (auto& mode : after_.structure.modes) mode.frequency = changed(*change, mode.frequency);
+      for (auto& mode : after_.structure->modes) mode.frequency = changed(*change, mode.frequency);
     }
     if (const auto* change = proposal_.find("structure.mode_damping_ratios")) {
       note_before(change->key, "the case's");
-      for (auto& mode : after_.structure.modes) {
+      for (auto& mode : after_.structure->modes) {
         mode.damping_ratio = changed(*change, mode.damping_ratio);
         check_changed_range(*change, Kind::number, Range::between(0.0, 1.0),
                             mode.damping_ratio.value);
@@ -223,8 +233,8 @@ class Application {
     }
     const auto* modes = proposal_.find("structure.mode_frequencies");
     const auto* locked = proposal_.find("structure.locked_rotor_frequency");
-    for (const auto& mode : after_.structure.modes) {
-      const double rotor = after_.structure.locked_rotor_frequency.value;
+    for (const auto& mode : after_.structure->modes) {
+      const double rotor = after_.structure->locked_rotor_frequency.value;
       if (mode.frequency.value > rotor) continue;
       const std::string message = fmt::format(
           "expected a locked-rotor frequency below every mode with the bull gear held (the gear "
@@ -234,7 +244,7 @@ class Application {
         refuse_change(locked != nullptr ? *locked : *modes, message);
     }
     try {
-      structure_specifications(after_.structure);
+      structure_specifications(*after_.structure);
     } catch (const InvalidInput& error) {
       if (locked != nullptr || modes != nullptr) {
         refuse_change(locked != nullptr ? *locked : *modes, error.what());
@@ -248,13 +258,13 @@ class Application {
     if (change == nullptr) return;
     note_before(change->key, fmt::format("{:.5g} N.m/rad by the locked-rotor frequency",
                                          make_plant(before_).structure.gear_stiffness));
-    stiffen_gear(*change, after_.structure);
+    stiffen_gear(*change, *after_.structure);
   }
 
   // Disks, count and inertia as built.
   void apply_motor() {
-    MotorEntry& motor = after_.motor;
-    const MotorEntry& own = before_.motor;
+    MotorEntry& motor = *after_.motor;
+    const MotorEntry& own = *before_.motor;
     if (const auto* change = proposal_.find("motor.count")) {
       const double count = changed(*change, static_cast<double>(own.count));
       if (count < 1.0 || std::abs(count - std::round(count)) > 1e-9) {
@@ -302,7 +312,7 @@ class Application {
   }
 
   void check_friction() const {
-    const auto& curve = after_.friction_curve;
+    const auto& curve = *after_.friction_curve;
     const auto* change = first_of({"friction_curve.breakaway", "friction_curve.coulomb"});
     if (change != nullptr && curve.breakaway.value < curve.coulomb.value) {
       refuse_change(*change, fmt::format("expected friction_curve.breakaway of at least "
@@ -341,11 +351,11 @@ class Application {
       return own != nullptr && own->value == change.number.value;
     }
     const double value = change.number.value;
-    if (change.key == "motor.count") return value == static_cast<double>(before_.motor.count);
-    if (change.key == "motor.flywheel_disks") return value == before_.motor.flywheel_disks;
+    if (change.key == "motor.count") return value == static_cast<double>(before_.motor->count);
+    if (change.key == "motor.flywheel_disks") return value == before_.motor->flywheel_disks;
     if (change.key == "oil.bulk_modulus") return value == bulk_modulus(before_);
     if (change.key == "controller.sample_rate") {
-      return control::dead_time_of(1.0 / value) == before_.controller_delay.value;
+      return control::dead_time_of(1.0 / value) == before_.controller->delay.value;
     }
     if (change.key.starts_with("gear_train.stage["))
       return gear_ratio(after_) == gear_ratio(before_);

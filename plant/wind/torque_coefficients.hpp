@@ -62,4 +62,11 @@ AxisTorques mean_wind_torque(const WindSite& site, const AxisTorqueTables& table
 AxisTorques wind_torque_sensitivity(const WindSite& site, const AxisTorqueTables& tables,
                                     double yaw, double elevation, double mean_speed);
 
+/// Attitude (rad) at which the torque coefficients were taken from their table: wind direction less
+/// azimuth of the dish, and elevation of the dish.
+struct WindAttitude {
+  double yaw = 0.0;
+  double elevation = 0.0;
+};
+
 }  // namespace boresight::plant

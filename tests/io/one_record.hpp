@@ -7,6 +7,8 @@
 #include <gtest/gtest.h>
 
 #include <boresight/io/campaign/campaign.hpp>
+#include <boresight/io/case/case_campaign.hpp>
+#include <boresight/io/case/case_file.hpp>
 #include <boresight/numerics/error.hpp>
 
 namespace boresight::io {
@@ -23,7 +25,7 @@ inline Case case_of(const std::string& campaign) {
 struct OneRecord {
   explicit OneRecord(const std::string& campaign, const std::string& record)
       : antenna(case_of(campaign)) {
-    std::erase_if(antenna.campaign.records,
+    std::erase_if(antenna.campaign->records,
                   [&](const RecordEntry& entry) { return entry.name != record; });
     std::ifstream file(folder_of(campaign) + "/" + record + ".csv");
     std::stringstream content;
@@ -32,7 +34,7 @@ struct OneRecord {
     // A name for each test: they run side by side.
     path = testing::TempDir() + "/" +
            testing::UnitTest::GetInstance()->current_test_info()->name() + ".csv";
-    antenna.campaign.records.at(0).file = path;
+    antenna.campaign->records.at(0).file = path;
   }
   identification::Campaign make() {
     std::ofstream(path) << text;

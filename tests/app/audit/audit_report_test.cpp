@@ -14,6 +14,8 @@
 #include <boresight/app/report/text_report.hpp>
 #include <boresight/design/problem/static_bending.hpp>
 #include <boresight/io/case/antenna_of.hpp>
+#include <boresight/io/case/case_structure.hpp>
+#include <boresight/io/case/case_tests.hpp>
 #include <boresight/io/case/drive_numbers.hpp>
 #include <boresight/io/case/mission_of.hpp>
 
@@ -126,7 +128,7 @@ TEST(CheckSentences, SayWhatTheResonanceIsExpectedToBe) {
       EditedCase().replace("[resonance]\n", "[resonance]\ndamping_ratio = \"0.3\"\n").text(),
       "case.toml");
   const auto of_damping = [&](double measured) {
-    antenna.resonance_damping->value = measured;
+    antenna.resonance->damping->value = measured;
     return said_of(antenna, "resonance damping", "resonance.damping_ratio");
   };
   EXPECT_THAT(of_damping(0.07),
@@ -136,10 +138,10 @@ TEST(CheckSentences, SayWhatTheResonanceIsExpectedToBe) {
                     Not(HasSubstr("dry friction")), Not(HasSubstr("elastic energy"))));
   EXPECT_THAT(of_damping(0.31),
               HasSubstr("larger than stated, or a nonlinear effect damped that test"));
-  antenna.structure.locked_rotor_frequency.value = 0.2;
+  antenna.structure->locked_rotor_frequency.value = 0.2;
   EXPECT_THAT(of_damping(0.3), AllOf(HasSubstr("The hydraulic mode of the case has"),
                                      HasSubstr("% of that mode's elastic energy is in the oil")));
-  antenna.resonance_of_oil = true;
+  antenna.resonance->of_oil = true;
   EXPECT_THAT(of_damping(1.0), HasSubstr("The mode with most energy in the oil of the case has"));
 }
 

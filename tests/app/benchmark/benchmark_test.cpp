@@ -9,6 +9,8 @@
 #include "io/edited_case.hpp"
 #include <boresight/app/commands/benchmark_command.hpp>
 #include <boresight/io/case/antenna_of.hpp>
+#include <boresight/io/case/case_drive.hpp>
+#include <boresight/io/case/case_tuning.hpp>
 #include <boresight/io/case/mission_of.hpp>
 #include <boresight/io/case/present_gains.hpp>
 
@@ -204,7 +206,7 @@ TEST(Benchmark, ScoresTheAntennaThatRecordsShow) {
                                {},     false};
   const auto controller = design::controller_of(mission.present_controllers.front().law, "PI", 0.0);
   auto as_stated = app::benchmark(designed, controller, {}, {});
-  designed.antenna.drive.leakage_rate.value *= 2.0;
+  designed.antenna.drive->leakage_rate.value *= 2.0;
   designed.mission = mission_of(designed.antenna);
   designed.ensemble.source = design::EnsembleSource::records;
   designed.ensemble.members = {{"draw 1", make_plant(designed.antenna)}};

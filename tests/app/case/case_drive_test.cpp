@@ -9,7 +9,13 @@
 #include "io/edited_case.hpp"
 #include <boresight/app/redesign/assumed_inputs.hpp>
 #include <boresight/identification/campaign/inertia_methods.hpp>
+#include <boresight/io/case/case_drive.hpp>
 #include <boresight/io/case/case_file.hpp>
+#include <boresight/io/case/case_goals.hpp>
+#include <boresight/io/case/case_oil.hpp>
+#include <boresight/io/case/case_sensors.hpp>
+#include <boresight/io/case/case_simulation.hpp>
+#include <boresight/io/case/case_structure.hpp>
 #include <boresight/io/case/drive_evidence.hpp>
 #include <boresight/io/case/drive_numbers.hpp>
 #include <boresight/io/case/plant_numbers.hpp>
@@ -38,7 +44,7 @@ const std::string by_flow =
 
 TEST(CaseDrive, TurnsALeakageFlowIntoTheRate) {
   const io::Case antenna = with(stated_rate, by_flow);
-  const io::OilEntry& oil = antenna.oil;
+  const io::OilEntry& oil = *antenna.oil;
   ASSERT_TRUE(oil.bulk_modulus);
   const double v1 = oil.volume_1.value;
   const double v2 = oil.volume_2.value;
@@ -47,7 +53,7 @@ TEST(CaseDrive, TurnsALeakageFlowIntoTheRate) {
   };
   const double beta = oil.bulk_modulus->value;
   const double flow = 1.1e-3 / 60.0;
-  const io::Quantity& leakage = antenna.drive.leakage_rate;
+  const io::Quantity& leakage = antenna.drive->leakage_rate;
   const double nominal = rate(beta, v1, v2, flow, 7e6);
   EXPECT_NEAR(leakage.value, nominal, 1e-12 * nominal);
   EXPECT_EQ(leakage.kind, io::Kind::rate_constant);
@@ -66,7 +72,7 @@ TEST(CaseDrive, NeedsADensityForLinesAlone) {
   EditedCase edited("dss14-64m");
   edited.replace_line("density = { value = \"850 kg/m3\"", "");
   const io::Case antenna = io::parse_case(edited.text(), "case.toml");
-  EXPECT_FALSE(antenna.oil.density);
+  EXPECT_FALSE(antenna.oil->density);
   EXPECT_EQ(oil_stiffness(antenna), oil_stiffness(io::read_case(case_path("dss14-64m"))));
   EXPECT_NO_THROW(identification::identify_inertia(make_evidence(antenna), {100, 1}));
   EXPECT_THAT(refusal_of(edited.text() + "\n[[oil.line]]\nname = \"one\"\nlength = \"13 m\"\n"),
@@ -78,8 +84,8 @@ TEST(CaseDrive, TakesTheBulkModulusOfTheLinesForLeakage) {
   edited.replace("bulk_modulus = {", "# bulk_modulus = {").replace(stated_rate, by_flow);
   const io::Case antenna = io::parse_case(edited.text(), "case.toml");
   const double lines = (std::pow(2 * 13.11 * 46.3, 2) + std::pow(2 * 15.60 * 38.3, 2)) / 2 * 850.0;
-  EXPECT_NEAR(antenna.drive.leakage_rate.value,
-              with(stated_rate, by_flow).drive.leakage_rate.value * lines / 1229e6, 1e-9);
+  EXPECT_NEAR(antenna.drive->leakage_rate.value,
+              with(stated_rate, by_flow).drive->leakage_rate.value * lines / 1229e6, 1e-9);
 }
 
 TEST(CaseDrive, TakesLeakageInOneWayOnly) {
@@ -108,7 +114,7 @@ TEST(CaseDrive, FindsTheStrokeByTheRatedFlow) {
   edited.replace(stated_stroke, "\n# valve_stroke = {").replace(damping, rated);
   const io::Case antenna = io::parse_case(edited.text(), "case.toml");
   const double driving =
-      antenna.drive.supply_pressure.value - antenna.simulation->return_pressure.value;
+      antenna.drive->supply_pressure.value - antenna.simulation->return_pressure.value;
   const double stroke = 57e-3 / 60.0 * std::sqrt(driving / 7e6) / (4.0 * 38.329e-6 / (2.0 * pi));
   const auto no_load_rate = io::rated_stroke(antenna);
   ASSERT_TRUE(no_load_rate);
@@ -127,8 +133,8 @@ TEST(CaseDrive, FindsTheStrokeByTheRatedFlow) {
   const auto alone = io::rated_stroke(linear);
   ASSERT_TRUE(alone);
   EXPECT_EQ(io::largest_demand(linear), alone->value);
-  linear.drive.valve_rated_flow.reset();
-  EXPECT_EQ(io::largest_demand(linear), linear.drive.slew_rate.value * gear_ratio(linear));
+  linear.drive->valve_rated_flow.reset();
+  EXPECT_EQ(io::largest_demand(linear), linear.drive->slew_rate.value * gear_ratio(linear));
   EXPECT_THAT(refusal(damping, "valve_rated_flow = \"57 L/min\"\n" + damping),
               HasSubstr("drive.valve_rated_pressure_drop: expected valve_rated_flow and "
                         "valve_rated_pressure_drop together"));
@@ -161,14 +167,14 @@ TEST(CaseDrive, FindsByTheRestWhatFewEngineersKnow) {
                          .replace_line("valve_effort = {", "")
                          .text(),
                      "case.toml");
-  const double motors_at_slew = antenna.drive.slew_rate.value * gear_ratio(antenna);
-  EXPECT_EQ(antenna.drive.viscous_friction.value, io::tracking_friction(antenna));
-  EXPECT_GT(antenna.drive.viscous_friction.value, 0.0);
-  EXPECT_DOUBLE_EQ(antenna.sensors.tachometer_noise.value, 0.02 / 125.0 * motors_at_slew);
-  EXPECT_DOUBLE_EQ(antenna.sensors.tachometer_frequency.value,
-                   10.0 * antenna.structure.locked_rotor_frequency.value);
-  EXPECT_DOUBLE_EQ(antenna.sensors.encoder_noise.value, 2.0 * pi / 1048576.0 / std::sqrt(12.0));
-  EXPECT_DOUBLE_EQ(antenna.goals.valve_effort.value, 0.6 / 125.0 * motors_at_slew);
+  const double motors_at_slew = antenna.drive->slew_rate.value * gear_ratio(antenna);
+  EXPECT_EQ(antenna.drive->viscous_friction.value, io::tracking_friction(antenna));
+  EXPECT_GT(antenna.drive->viscous_friction.value, 0.0);
+  EXPECT_DOUBLE_EQ(antenna.sensors->tachometer_noise.value, 0.02 / 125.0 * motors_at_slew);
+  EXPECT_DOUBLE_EQ(antenna.sensors->tachometer_frequency.value,
+                   10.0 * antenna.structure->locked_rotor_frequency.value);
+  EXPECT_DOUBLE_EQ(antenna.sensors->encoder_noise.value, 2.0 * pi / 1048576.0 / std::sqrt(12.0));
+  EXPECT_DOUBLE_EQ(antenna.goals->valve_effort.value, 0.6 / 125.0 * motors_at_slew);
   const auto assumed = assumed_inputs(antenna);
   for (const auto* key :
        {"drive.viscous_friction", "sensors.tachometer_noise", "sensors.tachometer_frequency",
@@ -186,7 +192,7 @@ TEST(CaseDrive, FindsByTheRestWhatFewEngineersKnow) {
                          .text(),
                      "case.toml");
   ASSERT_LT(io::tracking_slope(falling), 0.0);
-  EXPECT_EQ(falling.drive.viscous_friction.value, 0.0);
+  EXPECT_EQ(falling.drive->viscous_friction.value, 0.0);
   EXPECT_THAT(refusal_of(EditedCase().replace_line("encoder_noise = {", "").text()),
               HasSubstr("sensors.encoder_noise: expected either encoder_noise or encoder_bits"));
   EXPECT_THAT(refusal("encoder_noise = {", "encoder_bits = 20\nencoder_noise = {"),
@@ -199,10 +205,10 @@ TEST(CaseDrive, RefusesAReturnAboveTheSupply) {
 }
 
 TEST(CaseGoals, CountsFlywheelsByWhatTheAntennaHas) {
-  EXPECT_EQ(with("most_disks = 24\nstep = 3\n", "").matching_disks.back(), 48.0);
-  EXPECT_EQ(with("most_disks = 24\nstep = 3\n", "").matching_disks.size(), 7U);
-  EXPECT_EQ(with("[matching]\nmost_disks = 24\nstep = 3\n", "").matching_disks.size(), 7U);
-  EXPECT_EQ(with("step = 3\n", "").matching_disks[1], 4.0);
+  EXPECT_EQ(with("most_disks = 24\nstep = 3\n", "").matching->disks.back(), 48.0);
+  EXPECT_EQ(with("most_disks = 24\nstep = 3\n", "").matching->disks.size(), 7U);
+  EXPECT_EQ(with("[matching]\nmost_disks = 24\nstep = 3\n", "").matching->disks.size(), 7U);
+  EXPECT_EQ(with("step = 3\n", "").matching->disks[1], 4.0);
 }
 
 }  // namespace

@@ -13,6 +13,7 @@
 #include <boresight/app/identify/first_tests.hpp>
 #include <boresight/app/redesign/sections.hpp>
 #include <boresight/app/report/text_report.hpp>
+#include <boresight/io/case/case_friction.hpp>
 #include <boresight/io/case/drive_numbers.hpp>
 #include <boresight/io/case/friction_leeway.hpp>
 
@@ -50,7 +51,7 @@ TEST(CaseFriction, GoesThroughTestsAtSteadyRates) {
                               60.0 + 0.1 * motor_rate));
   }
   const io::Case antenna = io::parse_case(tested(tests), "case.toml");
-  const io::FrictionCurveEntry& curve = antenna.friction_curve;
+  const io::FrictionCurveEntry& curve = *antenna.friction_curve;
   // Three tests and three numbers: it goes through all of them.
   EXPECT_NEAR(curve.breakaway.value, 90.0, 1e-9);
   EXPECT_NEAR(plant::friction_torque(io::friction_curve(antenna), 20.0), 62.0, 1e-9);
@@ -70,7 +71,7 @@ TEST(CaseFriction, CountsTestsAsMeasuredAndKeepsWhatTheCurveLeavesOfThem) {
     tests += test(both.substr(0, bar), "torque = \"" + both.substr(bar + 1) + "\"");
   }
   const io::Case antenna = io::parse_case(tested(tests), "case.toml");
-  const io::FrictionCurveEntry& curve = antenna.friction_curve;
+  const io::FrictionCurveEntry& curve = *antenna.friction_curve;
   for (const io::Quantity* quantity : {&curve.coulomb, &curve.breakaway, &curve.stribeck_rate}) {
     EXPECT_EQ(quantity->basis, io::Basis::measured) << quantity->key;
   }
@@ -79,7 +80,7 @@ TEST(CaseFriction, CountsTestsAsMeasuredAndKeepsWhatTheCurveLeavesOfThem) {
   EXPECT_NEAR(curve.tests[3].residual,
               75.0 - plant::friction_torque(io::friction_curve(antenna), curve.tests[3].rate),
               1e-9);
-  EXPECT_TRUE(io::read_case(case_path("dss14-70m")).friction_curve.tests.empty());
+  EXPECT_TRUE(io::read_case(case_path("dss14-70m")).friction_curve->tests.empty());
   EXPECT_THAT(first_tests(antenna), Contains(HasSubstr("they check the measured friction curve")));
   EXPECT_THAT(to_text(document_of(describe_plant(antenna))),
               AllOf(HasSubstr("Friction curve through 4 tests at steady rates: Coulomb "),
@@ -88,11 +89,11 @@ TEST(CaseFriction, CountsTestsAsMeasuredAndKeepsWhatTheCurveLeavesOfThem) {
   const io::Case guessed = io::parse_case(
       tested(test("0.1 deg/s", "torque = { value = \"60 N.m\", basis = \"assumed\" }")),
       "case.toml");
-  EXPECT_EQ(guessed.friction_curve.coulomb.basis, io::Basis::assumed);
+  EXPECT_EQ(guessed.friction_curve->coulomb.basis, io::Basis::assumed);
   const io::Case one =
       io::parse_case(tested(test("0.1 deg/s", "torque = \"60 N.m\"")), "case.toml");
-  EXPECT_EQ(one.friction_curve.coulomb.basis, io::Basis::measured);
-  EXPECT_EQ(one.friction_curve.stribeck_rate.basis, io::Basis::inferred) << "one test shows none";
+  EXPECT_EQ(one.friction_curve->coulomb.basis, io::Basis::measured);
+  EXPECT_EQ(one.friction_curve->stribeck_rate.basis, io::Basis::inferred) << "one test shows none";
 }
 
 // Tests at 0, 5.236, 62.83 and 209.4 rad/s of the motors, and further ones.
@@ -127,8 +128,8 @@ std::vector<Implausibility> of_the_curve(const io::Case& antenna) {
 TEST(CaseFriction, SaysThatACurveHangsOnTheLastDigitOfATorque) {
   const io::Case antenna = io::parse_case(
       case_of_torques({"\"19 N.m\"", "\"12 N.m\"", "\"15 N.m\"", "\"23 N.m\""}), "case.toml");
-  ASSERT_EQ(antenna.friction_curve.tests.size(), 4U);
-  EXPECT_NEAR(antenna.friction_curve.tests[1].leeway, 0.5, 1e-12);
+  ASSERT_EQ(antenna.friction_curve->tests.size(), 4U);
+  EXPECT_NEAR(antenna.friction_curve->tests[1].leeway, 0.5, 1e-12);
   // With 14.5 N.m the line begins at 10.856 N.m, and 12 N.m stand 0.839 N.m above it.
   EXPECT_THAT(model_of(antenna),
               AllOf(HasSubstr("the Stribeck rate is 1.75 (its bound) to 3.47 rad/s, breakaway is "
@@ -144,7 +145,7 @@ TEST(CaseFriction, SaysThatACurveHangsOnTheLastDigitOfATorque) {
             HasSubstr("rad/s by the torques as stated, is 1.75 (its bound) to 3.47 rad/s, moved"),
             HasSubstr("moved most by friction_curve.test[2] of 15 N.m at 62.83 rad/s")));
   EXPECT_THAT(
-      io::loose_stribeck_text(antenna.friction_curve),
+      io::loose_stribeck_text(*antenna.friction_curve),
       HasSubstr(
           "rate of 2.64 rad/s, which the 4 tests, as many as the curve has unknowns, "
           "leave at 1.75 (its bound) to 3.47 rad/s as one torque is moved by its uncertainty"));
@@ -166,10 +167,10 @@ TEST(CaseFriction, DoubtsNoCurveThatItsTestsCheckOrTell) {
       case_of_torques({"\"19.00 N.m\"", "{ value = \"12 N.m\", uncertainty = \"0.01 N.m\" }",
                        "\"15.00 N.m\"", "\"23.00 N.m\""}),
       "case.toml");
-  EXPECT_NEAR(told.friction_curve.tests[0].leeway, 0.005, 1e-12);
-  EXPECT_NEAR(told.friction_curve.tests[1].leeway, 0.01, 1e-12);
+  EXPECT_NEAR(told.friction_curve->tests[0].leeway, 0.005, 1e-12);
+  EXPECT_NEAR(told.friction_curve->tests[1].leeway, 0.01, 1e-12);
   EXPECT_THAT(of_the_curve(told), IsEmpty());
-  EXPECT_EQ(io::loose_stribeck_text(told.friction_curve), "");
+  EXPECT_EQ(io::loose_stribeck_text(*told.friction_curve), "");
   EXPECT_THAT(model_of(told),
               AllOf(HasSubstr("no degree of freedom is left"), HasSubstr("the Stribeck rate is 2."),
                     Not(HasSubstr("bound)")), Not(HasSubstr("breakaway is"))));
@@ -203,7 +204,7 @@ TEST(CaseFriction, TakesRatesOfTheMotors) {
   const io::Case by_motor = io::parse_case(
       tested(motor_test("0 rpm", "torque = \"90 N.m\"") + motor_test("100 rpm", torque)),
       "case.toml");
-  const auto& tests = by_motor.friction_curve.tests;
+  const auto& tests = by_motor.friction_curve->tests;
   ASSERT_EQ(tests.size(), 2U);
   EXPECT_EQ(tests[0].rate, 0.0);
   EXPECT_NEAR(tests[1].rate, 10.0 * std::numbers::pi / 3.0, 1e-12);
@@ -215,7 +216,7 @@ TEST(CaseFriction, TakesRatesOfTheMotors) {
   for (const double rate : {0.1, 3.0, 100.0}) {
     EXPECT_NEAR(plant::friction_torque(curve, rate), plant::friction_torque(other, rate), 1e-9);
   }
-  EXPECT_EQ(by_motor.friction_curve.coulomb.basis, io::Basis::measured);
+  EXPECT_EQ(by_motor.friction_curve->coulomb.basis, io::Basis::measured);
 }
 
 TEST(CaseFriction, RefusesARateOfNeitherShaftOrOfBoth) {
@@ -241,11 +242,11 @@ TEST(CaseFriction, TakesPressuresOverTheMotors) {
   const double pressure = 60.0 / plant::torque_per_pressure(io::hydraulic_drive(by_torque));
   const io::Case by_pressure = io::parse_case(
       tested(test("0.1 deg/s", fmt::format("pressure = \"{:.12g} Pa\"", pressure))), "case.toml");
-  EXPECT_NEAR(by_pressure.friction_curve.coulomb.value, 60.0, 1e-9);
+  EXPECT_NEAR(by_pressure.friction_curve->coulomb.value, 60.0, 1e-9);
   // What all tests share, displacement and efficiency, moves none against another.
   const io::Case coarse =
       io::parse_case(tested(test("0.1 deg/s", "pressure = \"1.0 MPa\"")), "case.toml");
-  const io::SteadyFrictionTest& one = coarse.friction_curve.tests.front();
+  const io::SteadyFrictionTest& one = coarse.friction_curve->tests.front();
   EXPECT_NEAR(one.leeway / one.torque, 0.05, 1e-9);
 }
 

@@ -12,6 +12,7 @@
 #include <boresight/app/audit/audit_report.hpp>
 #include <boresight/app/redesign/assumed_inputs.hpp>
 #include <boresight/io/case/case_file.hpp>
+#include <boresight/io/case/case_motor.hpp>
 #include <boresight/numerics/error.hpp>
 
 namespace boresight::app {
@@ -37,7 +38,7 @@ TEST(CaseMotor, FindsADisksInertiaByItsDimensions) {
       "disk_length = {{ value = \"12.7 mm\", uncertainty = \"2 %\" }}",
       radius);
   const io::Case antenna = io::parse_case(edited(disk, sizes), "case.toml");
-  const io::Quantity& inertia = antenna.motor.disk_inertia;
+  const io::Quantity& inertia = antenna.motor->disk_inertia;
   EXPECT_NEAR(inertia.value, 0.012358, 1e-12 * 0.012358);
   EXPECT_EQ(inertia.kind, io::Kind::inertia);
   // The fourth power of 1 %, 2 %, and steel is taken as it is.
@@ -48,7 +49,7 @@ TEST(CaseMotor, FindsADisksInertiaByItsDimensions) {
       assumed, [](const io::Quantity& one) { return one.key == "motor.disk_density"; }));
   const io::Case stated =
       io::parse_case(edited(disk, sizes + "\ndisk_density = \"7850 kg/m3\""), "c");
-  EXPECT_EQ(stated.motor.disk_inertia.value, inertia.value);
+  EXPECT_EQ(stated.motor->disk_inertia.value, inertia.value);
   EXPECT_EQ(assumed_inputs(stated).size() + 1, assumed.size());
 }
 
@@ -73,8 +74,8 @@ TEST(CaseMotor, KeepsAStatedInertiaBesideADisksDimensions) {
   };
   const io::Case plain = io::parse_case(EditedCase().text(), "case.toml");
   const io::Case same = with_length("12.7 mm");
-  EXPECT_EQ(same.motor.disk_inertia.value, 0.012358);
-  EXPECT_EQ(same.motor.disk_inertia.key, "motor.disk_inertia");
+  EXPECT_EQ(same.motor->disk_inertia.value, 0.012358);
+  EXPECT_EQ(same.motor->disk_inertia.key, "motor.disk_inertia");
   EXPECT_THAT(of_the_disk(same), testing::IsEmpty());
   EXPECT_THAT(audit_report(same).compared, testing::Contains("motor.disk_inertia"));
   // No result rests on its being of steel.
@@ -92,14 +93,14 @@ TEST(CaseMotor, KeepsAStatedInertiaBesideADisksDimensions) {
 
 TEST(CaseMotor, FindsOneInertiaByTheOtherAndTheDisks) {
   const io::Case both = io::parse_case(EditedCase().text(), "case.toml");
-  const io::MotorEntry& motor = both.motor;
+  const io::MotorEntry& motor = *both.motor;
   const double disks = 24.0 * motor.disk_inertia.value;
   const io::Case without_rotor = io::parse_case(edited(rotor, ""), "case.toml");
-  EXPECT_DOUBLE_EQ(without_rotor.motor.rotor_inertia.value, motor.inertia.value - disks);
-  EXPECT_EQ(without_rotor.motor.inertia.value, motor.inertia.value);
+  EXPECT_DOUBLE_EQ(without_rotor.motor->rotor_inertia.value, motor.inertia.value - disks);
+  EXPECT_EQ(without_rotor.motor->inertia.value, motor.inertia.value);
   const io::Case without_built = io::parse_case(edited(built, ""), "case.toml");
-  EXPECT_DOUBLE_EQ(without_built.motor.inertia.value, motor.rotor_inertia.value + disks);
-  EXPECT_NEAR(without_built.motor.inertia.standard_uncertainty,
+  EXPECT_DOUBLE_EQ(without_built.motor->inertia.value, motor.rotor_inertia.value + disks);
+  EXPECT_NEAR(without_built.motor->inertia.standard_uncertainty,
               std::hypot(motor.rotor_inertia.standard_uncertainty,
                          24.0 * motor.disk_inertia.standard_uncertainty),
               1e-15);

@@ -17,6 +17,8 @@
 #include <boresight/app/redesign/sections.hpp>
 #include <boresight/app/report/text_report.hpp>
 #include <boresight/io/case/antenna_of.hpp>
+#include <boresight/io/case/case_mechanics.hpp>
+#include <boresight/io/case/case_structure.hpp>
 #include <boresight/io/case/drive_numbers.hpp>
 #include <boresight/io/case/structure_numbers.hpp>
 #include <boresight/plant/antenna/antenna_change.hpp>
@@ -103,7 +105,7 @@ TEST(MotorsHeldCase, IsTheAntennaThatHasTheseFrequencies) {
 TEST(MotorsHeldCase, MovesWithAStatedFrequency) {
   io::Case antenna = parsed(restated());
   auto expected = plant::motors_held_modes(make_plant(antenna).structure);
-  antenna.structure.modes[1].frequency.value *= 1.01;
+  antenna.structure->modes[1].frequency.value *= 1.01;
   expected[2].frequency *= 1.01;
   const auto moved = plant::motors_held_modes(make_plant(antenna).structure);
   const auto scaled = plant::motors_held_modes(
@@ -169,7 +171,7 @@ TEST(MotorsHeldCase, LetsTheOtherAntennaBeAChoiceOfTheRedesign) {
 
 TEST(EffectiveFractionCase, IsTheOneAntenna) {
   const io::Case antenna = parsed(of_effective_fraction("0.25"));
-  const auto& mode = antenna.structure.modes.at(0);
+  const auto& mode = antenna.structure->modes.at(0);
   // The bull gear has (sum e f^2)^2/sum e f^4.
   const double lowest = 0.75 * 1.9 * 1.9, second = 0.25 * 3.4 * 3.4;
   const double bull_gear =
@@ -179,7 +181,7 @@ TEST(EffectiveFractionCase, IsTheOneAntenna) {
   EXPECT_THAT(mode.inertia_fraction.key, IsEmpty());
   EXPECT_EQ(mode.effective_fraction.value().key, "structure.mode[0].effective_fraction");
   EXPECT_EQ(mode.frequency.value, 3.4);
-  const auto antennas = io::structure_specifications(antenna.structure);
+  const auto antennas = io::structure_specifications(*antenna.structure);
   ASSERT_THAT(antennas, SizeIs(1));
   EXPECT_NEAR(antennas[0].modes.at(0).frequency, 2.326, 5e-4);
   EXPECT_NEAR(antennas[0].modes.at(0).inertia_fraction, mode.inertia_fraction.value, 1e-15);
@@ -213,15 +215,15 @@ TEST(EffectiveFractionCase, IsTheAntennaThatHasThem) {
   for (std::size_t i = 0; i < found.modes.size(); ++i) {
     EXPECT_NEAR(found.modes[i].stiffness / expected.modes[i].stiffness, 1.0, 1e-9);
     EXPECT_NEAR(found.modes[i].inertia / expected.modes[i].inertia, 1.0, 1e-9);
-    EXPECT_NEAR(antenna.structure.modes[i].inertia_fraction.value,
-                stated.structure.modes[i].inertia_fraction.value, 1e-9);
+    EXPECT_NEAR(antenna.structure->modes[i].inertia_fraction.value,
+                stated.structure->modes[i].inertia_fraction.value, 1e-9);
   }
 }
 
 TEST(EffectiveFractionCase, MovesWithAStatedNumber) {
   io::Case antenna = parsed(of_effective_fraction("0.25"));
-  antenna.structure.modes[0].effective_fraction.value().value = 0.3;
-  antenna.structure.locked_rotor_frequency.value = 1.8;
+  antenna.structure->modes[0].effective_fraction.value().value = 0.3;
+  antenna.structure->locked_rotor_frequency.value = 1.8;
   const auto held = plant::motors_held_modes(make_plant(antenna).structure);
   EXPECT_NEAR(held.at(0).frequency, 1.8, 1e-9);
   EXPECT_NEAR(held.at(0).inertia_fraction, 0.7, 1e-9);
@@ -288,8 +290,8 @@ TEST(GearStiffnessCase, HasTheLockedRotorFrequencyThatMakesIt) {
     const io::Case antenna =
         parsed(by_gear_stiffness(fmt::format("{:.17g} N.m/rad", factor * own)));
     EXPECT_NEAR(spring_at_axis(antenna) / (factor * own), 1.0, 1e-9);
-    const io::Quantity& frequency = antenna.structure.locked_rotor_frequency;
-    EXPECT_LT(frequency.value, antenna.structure.modes.at(0).frequency.value);
+    const io::Quantity& frequency = antenna.structure->locked_rotor_frequency;
+    EXPECT_LT(frequency.value, antenna.structure->modes.at(0).frequency.value);
     EXPECT_EQ(std::abs(frequency.value - 2.0) < 1e-9, factor == 1.0);
     EXPECT_EQ(frequency.kind, io::Kind::frequency);
     EXPECT_EQ(frequency.key, "structure.gear_stiffness");
@@ -307,7 +309,7 @@ TEST(GearStiffnessCase, HasTheLockedRotorFrequencyThatMakesIt) {
 
 TEST(GearStiffnessCase, IsStatedInAnyUnitOfItsKind) {
   const io::Case antenna = parsed(by_gear_stiffness("1.2e11 lbf.ft/rad"));
-  ASSERT_TRUE(antenna.structure.gear_stiffness.has_value());
+  ASSERT_TRUE(antenna.structure->gear_stiffness.has_value());
   EXPECT_NEAR(spring_at_axis(antenna) / (1.2e11 * 0.3048 * 4.4482216152605), 1.0, 1e-9);
   EXPECT_THAT(refusal_of(by_gear_stiffness("1.2e11 lbf.ft").text()),
               HasSubstr("structure.gear_stiffness.value: expected a stiffness"));
@@ -321,9 +323,9 @@ TEST(GearStiffnessCase, OfARigidAntennaIsThatOfOneBody) {
   edited.replace_line("bull_gear_wind_fraction", "bull_gear_wind_fraction = \"1\"");
   edited.replace_line("bull_gear_beam_weight", "bull_gear_beam_weight = \"1\"");
   const io::Case antenna = parsed(edited);
-  ASSERT_THAT(antenna.structure.modes, IsEmpty());
-  EXPECT_NEAR(antenna.structure.locked_rotor_frequency.value,
-              std::sqrt(1e11 / antenna.antenna.inertia.value) / (2.0 * std::numbers::pi), 1e-9);
+  ASSERT_THAT(antenna.structure->modes, IsEmpty());
+  EXPECT_NEAR(antenna.structure->locked_rotor_frequency.value,
+              std::sqrt(1e11 / antenna.antenna->inertia.value) / (2.0 * std::numbers::pi), 1e-9);
 }
 
 TEST(GearStiffnessCase, IsRefusedWhereItMakesNoFrequency) {

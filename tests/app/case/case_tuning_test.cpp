@@ -10,6 +10,12 @@
 #include "scratch_folder.hpp"
 #include <boresight/design/tuning/structure_parts.hpp>
 #include <boresight/io/case/case_file.hpp>
+#include <boresight/io/case/case_goals.hpp>
+#include <boresight/io/case/case_mechanics.hpp>
+#include <boresight/io/case/case_pointing.hpp>
+#include <boresight/io/case/case_structure.hpp>
+#include <boresight/io/case/case_tuning.hpp>
+#include <boresight/io/case/case_wind.hpp>
 #include <boresight/io/case/mission_of.hpp>
 #include <boresight/io/case/present_gains.hpp>
 
@@ -61,8 +67,8 @@ TEST(CaseTuning, ReadsAStructureOfTheEngineersOwn) {
   EXPECT_DOUBLE_EQ(loop.present[1].value, 0.127 * hertz);
   EXPECT_EQ(loop.present[1].source, "set in 1988");
   EXPECT_EQ(io::loop_structure(antenna, "PI with a second lag"), loop.structure);
-  EXPECT_THAT(antenna.tuning.structures, testing::ElementsAre("PI", "PI-0"));
-  EXPECT_EQ(antenna.tuning.starts, 4);
+  EXPECT_THAT(antenna.tuning->structures, testing::ElementsAre("PI", "PI-0"));
+  EXPECT_EQ(antenna.tuning->starts, 4);
 }
 
 // A structure stated block by block is the usual one of the same blocks.
@@ -111,8 +117,8 @@ TEST(CaseTuning, BoundsFollowTheAntenna) {
     EXPECT_EQ(bounds_of(io::loop_structure(reference, "FULL+N+C")), bounds_of(named)) << antenna;
   }
   io::Case small = with("");
-  small.structure.locked_rotor_frequency.value = 9.0;
-  small.antenna.inertia.value *= 1e-3;
+  small.structure->locked_rotor_frequency.value = 9.0;
+  small.antenna->inertia.value *= 1e-3;
   const auto structure = io::loop_structure(small, "PI+C");
   const auto& gains = structure.gains();
   EXPECT_DOUBLE_EQ(gains[3].upper, 300.0);  // kp
@@ -195,27 +201,27 @@ TEST(CaseTuning, TakesThePresentStructureWithoutGains) {
 TEST(CaseTuning, WeighsTheSitesWind) {
   const io::Case antenna = with(tables());
   double sum = 0.0, at_12 = 0.0;
-  for (const auto& one : antenna.wind.climate) {
+  for (const auto& one : antenna.wind->climate) {
     sum += one.weight;
     if (one.speed == 12.0) at_12 += one.weight;
   }
   EXPECT_NEAR(sum, 1.0, 1e-12);
   EXPECT_NEAR(at_12, 0.1, 1e-9);
-  EXPECT_NEAR(design::share_of_time(antenna.wind.climate_parts, 20.0), 1.0, 1e-12);
-  EXPECT_NEAR(design::share_of_time(antenna.wind.climate_parts, 10.0),
+  EXPECT_NEAR(design::share_of_time(antenna.wind->climate_parts, 20.0), 1.0, 1e-12);
+  EXPECT_NEAR(design::share_of_time(antenna.wind->climate_parts, 10.0),
               0.9 * std::expm1(-4.0) / std::expm1(-16.0), 1e-12);
-  ASSERT_TRUE(antenna.wind.climate_torque_coefficient.has_value());
-  EXPECT_NEAR(*antenna.wind.climate_torque_coefficient, std::sqrt(0.75 * 0.01 + 0.25 * 0.04),
+  ASSERT_TRUE(antenna.wind->climate_torque_coefficient.has_value());
+  EXPECT_NEAR(*antenna.wind->climate_torque_coefficient, std::sqrt(0.75 * 0.01 + 0.25 * 0.04),
               1e-12);
 }
 
 TEST(CaseTuning, TakesCasesWithoutAnyOfIt) {
   const io::Case antenna = io::parse_case(EditedCase().text(), "case.toml");
   EXPECT_TRUE(antenna.loops.empty());
-  EXPECT_TRUE(antenna.wind.climate.empty());
-  EXPECT_TRUE(antenna.tuning.structures.empty());
-  EXPECT_FALSE(antenna.present_gains || antenna.goals.gain_margin || antenna.goals.bandwidth);
-  EXPECT_EQ(antenna.goals.soft_goal, io::SoftGoalKind::nominal);
+  EXPECT_TRUE(antenna.wind->climate.empty());
+  EXPECT_TRUE(antenna.tuning->structures.empty());
+  EXPECT_FALSE(antenna.present_gains || antenna.goals->gain_margin || antenna.goals->bandwidth);
+  EXPECT_EQ(antenna.goals->soft_goal, io::SoftGoalKind::nominal);
 }
 
 TEST(CaseTuning, RefusesStructuresThatAreNone) {
@@ -281,7 +287,7 @@ TEST(CaseGoals, ReadsGoalsAtEachBreakAndOfTheEnsemble) {
                                   "soft_goal = \"quantile\"\nquantile = \"90 %\"\n")
           .text(),
       "case.toml");
-  const io::GoalsEntry& goals = antenna.goals;
+  const io::GoalsEntry& goals = *antenna.goals;
   EXPECT_FALSE(goals.peak_at_break[0].has_value());
   ASSERT_TRUE(goals.peak_at_break[1] && goals.gain_margin && goals.phase_margin &&
               goals.bandwidth && goals.crest_factor && goals.beam_rms);
@@ -301,7 +307,7 @@ TEST(CaseGoals, RefusesAQuantileOfNothing) {
 }
 
 TEST(CaseGoals, AreChangedByKeyAndValue) {
-  io::GoalsEntry goals = io::parse_case(EditedCase().text(), "case.toml").goals;
+  io::GoalsEntry goals = *io::parse_case(EditedCase().text(), "case.toml").goals;
   io::change_goals(goals,
                    {"sensitivity_peak=1.7", "valve_effort=0.4 rad/s", "soft_goal=worst_case"});
   EXPECT_DOUBLE_EQ(goals.sensitivity_peak.value, 1.7);

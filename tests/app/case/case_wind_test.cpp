@@ -14,6 +14,9 @@
 #include <boresight/app/simulate/simulated_tests.hpp>
 #include <boresight/design/tuning/tuner.hpp>
 #include <boresight/io/case/case_file.hpp>
+#include <boresight/io/case/case_pointing.hpp>
+#include <boresight/io/case/case_tuning.hpp>
+#include <boresight/io/case/case_wind.hpp>
 #include <boresight/io/case/drive_numbers.hpp>
 #include <boresight/io/case/mission_of.hpp>
 #include <boresight/io/case/tested_drive_of.hpp>
@@ -158,22 +161,22 @@ TEST(CaseWind, RaisesTheMastsWindToTheDish) {
   const io::Case at_dish = with("");
   const io::Case on_mast = with("mast_height = \"10 m\"\nheight = \"40 m\"");
   const double ratio = std::pow(4.0, 0.14);
-  ASSERT_TRUE(on_mast.wind.mast);
-  EXPECT_NEAR(on_mast.wind.mast->speed_ratio, ratio, 1e-12);
-  EXPECT_NEAR(on_mast.wind.design_speed.value, ratio * 10.0, 1e-12);
-  EXPECT_NEAR(io::relative_uncertainty(on_mast.wind.design_speed),
-              io::relative_uncertainty(at_dish.wind.design_speed), 1e-15);
-  ASSERT_EQ(on_mast.wind.climate.size(), at_dish.wind.climate.size());
-  for (std::size_t i = 0; i < at_dish.wind.climate.size(); ++i) {
-    EXPECT_NEAR(on_mast.wind.climate[i].speed, ratio * at_dish.wind.climate[i].speed, 1e-9);
-    EXPECT_NEAR(on_mast.wind.climate[i].weight, at_dish.wind.climate[i].weight, 1e-9);
+  ASSERT_TRUE(on_mast.wind->mast);
+  EXPECT_NEAR(on_mast.wind->mast->speed_ratio, ratio, 1e-12);
+  EXPECT_NEAR(on_mast.wind->design_speed.value, ratio * 10.0, 1e-12);
+  EXPECT_NEAR(io::relative_uncertainty(on_mast.wind->design_speed),
+              io::relative_uncertainty(at_dish.wind->design_speed), 1e-15);
+  ASSERT_EQ(on_mast.wind->climate.size(), at_dish.wind->climate.size());
+  for (std::size_t i = 0; i < at_dish.wind->climate.size(); ++i) {
+    EXPECT_NEAR(on_mast.wind->climate[i].speed, ratio * at_dish.wind->climate[i].speed, 1e-9);
+    EXPECT_NEAR(on_mast.wind->climate[i].weight, at_dish.wind->climate[i].weight, 1e-9);
   }
   EXPECT_NEAR(on_mast.budgets.front().wind_speed.value().value, ratio * 15.0, 1e-12);
   // Gusts are as strong at either height, in m/s.
-  EXPECT_NEAR(plant::gust_variance(on_mast.wind.gusts, ratio * 10.0),
-              plant::gust_variance(at_dish.wind.gusts, 10.0), 1e-12);
-  const auto& raised = on_mast.wind.record.value().speed;
-  const auto& recorded = at_dish.wind.record.value().speed;
+  EXPECT_NEAR(plant::gust_variance(on_mast.wind->gusts, ratio * 10.0),
+              plant::gust_variance(at_dish.wind->gusts, 10.0), 1e-12);
+  const auto& raised = on_mast.wind->record.value().speed;
+  const auto& recorded = at_dish.wind->record.value().speed;
   EXPECT_NEAR(raised.mean(), ratio * recorded.mean(), 1e-9);
   EXPECT_NEAR(raised[3] - raised[7], recorded[3] - recorded[7], 1e-12);
   // The exponent counts among the assumptions where the case does not state it.
@@ -184,8 +187,8 @@ TEST(CaseWind, RaisesTheMastsWindToTheDish) {
   EXPECT_EQ(exponent->text, "0.14");
   const io::Case stated =
       with("mast_height = \"10 m\"\nheight = \"40 m\"\nshear_exponent = \"0.2\"");
-  EXPECT_NEAR(stated.wind.design_speed.value, std::pow(4.0, 0.2) * 10.0, 1e-12);
-  EXPECT_THAT(mast_in_words(stated.wind.mast.value()),
+  EXPECT_NEAR(stated.wind->design_speed.value, std::pow(4.0, 0.2) * 10.0, 1e-12);
+  EXPECT_THAT(mast_in_words(stated.wind->mast.value()),
               testing::AllOf(HasSubstr("40 m above ground"), HasSubstr("its 10 m mast"),
                              HasSubstr("times 1.32"), HasSubstr("exponent 0.2")));
 }
@@ -193,7 +196,7 @@ TEST(CaseWind, RaisesTheMastsWindToTheDish) {
 TEST(CaseWind, KeepsTheSpectrumsOwnHeightBesideAMast) {
   const ScratchFolder folder;
   const auto gusts = [&](const std::string& lines) {
-    return edited_case(folder, EditedCase().replace(drag, lines)).wind.gusts;
+    return edited_case(folder, EditedCase().replace(drag, lines)).wind->gusts;
   };
   const std::string mast = "\nheight = \"40 m\"\nmast_height = \"10 m\"";
   const double ratio = std::pow(4.0, 0.14);
@@ -257,8 +260,8 @@ TEST(CaseWind, TakesTheCoefficientFromTheTableWhereTheDishPoints) {
   const io::Case antenna = edited_case(folder, case_with_table());
   // Half way between 0.15 in the face and -0.03 in the back.
   EXPECT_NEAR(make_problem(antenna).wind.site.torque_coefficient, 0.06, 1e-12);
-  ASSERT_TRUE(antenna.wind.attitude);
-  EXPECT_NEAR(antenna.wind.attitude->yaw, 90.0 * degree, 1e-12);
+  ASSERT_TRUE(antenna.wind->attitude);
+  EXPECT_NEAR(antenna.wind->attitude->yaw, 90.0 * degree, 1e-12);
   // 350 - 110 = 240, which is -120: a third of the way from the back.
   EditedCase other = case_with_table();
   other.replace("\"200 deg\"", "\"350 deg\"");

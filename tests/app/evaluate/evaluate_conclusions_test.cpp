@@ -137,7 +137,7 @@ TEST(EvaluateConclusions, CompareNothingWhereNoProposalIsFit) {
 TEST(EvaluateConclusions, SayWhatSpeedsAreOnTheMast) {
   EvaluateSection section;
   section.ensemble_size = 30;
-  section.wind_mast = io::WindMast{10.0, 28.0, 0.14, 1.155};
+  section.wind_mast = plant::WindMast{10.0, 28.0, 0.14, 1.155};
   section.budgets.resize(1);
   section.budgets[0].name = "tracking";
   section.budgets[0].wind_speed = 8.08537;

@@ -6,6 +6,7 @@
 
 #include "io/edited_case.hpp"
 #include <boresight/app/identify/first_tests.hpp>
+#include <boresight/io/case/case_friction.hpp>
 
 namespace boresight::app {
 namespace {
@@ -20,7 +21,7 @@ std::string advice(const io::Case& antenna) {
 
 TEST(FirstTests, NameWhatOfTheFrictionCurveIsNotMeasured) {
   io::Case antenna = io::read_case(case_path("dss14-64m"));
-  io::FrictionCurveEntry& curve = antenna.friction_curve;
+  io::FrictionCurveEntry& curve = *antenna.friction_curve;
   EXPECT_THAT(advice(antenna), HasSubstr("they give the friction curve, so far not measured"));
   curve.coulomb.basis = io::Basis::measured;
   curve.breakaway.basis = io::Basis::measured;

@@ -6,6 +6,7 @@
 
 #include "io/edited_case.hpp"
 #include <boresight/app/identify/first_tests.hpp>
+#include <boresight/io/case/case_oil.hpp>
 
 namespace boresight::app {
 namespace {
@@ -27,7 +28,7 @@ TEST(FirstTests, GoByWhatTheCaseTakesForGranted) {
   EXPECT_THAT(advice(bare), HasSubstr("the case lacks [simulation], [recorder], [tachometer], "
                                       "[[oil.line]]"));
   EXPECT_THAT(advice(bare), HasSubstr("slosh"));
-  bare.oil.bulk_modulus->basis = io::Basis::measured;
+  bare.oil->bulk_modulus->basis = io::Basis::measured;
   EXPECT_THAT(advice(bare), Not(HasSubstr("slosh")));
 }
 

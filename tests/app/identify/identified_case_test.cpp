@@ -7,6 +7,9 @@
 #include <boresight/io/campaign/designed_antenna.hpp>
 #include <boresight/io/campaign/identified_case.hpp>
 #include <boresight/io/case/antenna_of.hpp>
+#include <boresight/io/case/case_file.hpp>
+#include <boresight/io/case/case_motor.hpp>
+#include <boresight/io/case/case_structure.hpp>
 #include <boresight/io/case/drive_numbers.hpp>
 #include <boresight/io/case/mission_of.hpp>
 #include <boresight/io/case/plant_numbers.hpp>
@@ -40,7 +43,7 @@ TEST(IdentifiedCase, IsThePlantOfTheEstimate) {
   const io::Case identified = with_identified(antenna, found);
   const auto plant = make_plant(identified);
   EXPECT_NEAR(plant::reflected_inertia(plant), found.inertia, 1e-12);
-  EXPECT_NEAR(motor_inertia(identified, identified.motor.flywheel_disks), found.motor_inertia,
+  EXPECT_NEAR(motor_inertia(identified, identified.motor->flywheel_disks), found.motor_inertia,
               1e-12);
   EXPECT_NEAR(plant.drive.oil_stiffness, found.oil_stiffness, 1e-10);
   EXPECT_NEAR(bulk_modulus(identified), found.bulk_modulus, 1e-3);
@@ -48,11 +51,11 @@ TEST(IdentifiedCase, IsThePlantOfTheEstimate) {
   EXPECT_EQ(plant::friction_torque(io::friction_curve(identified), 3.0),
             plant::friction_torque(found.friction, 3.0));
   // All of the structure in proportion to its lowest frequency.
-  const double scale = 1.9 / antenna.structure.locked_rotor_frequency.value;
-  ASSERT_EQ(identified.structure.modes.size(), antenna.structure.modes.size());
-  for (std::size_t i = 0; i < antenna.structure.modes.size(); ++i) {
-    EXPECT_NEAR(identified.structure.modes[i].frequency.value,
-                scale * antenna.structure.modes[i].frequency.value, 1e-12);
+  const double scale = 1.9 / antenna.structure->locked_rotor_frequency.value;
+  ASSERT_EQ(identified.structure->modes.size(), antenna.structure->modes.size());
+  for (std::size_t i = 0; i < antenna.structure->modes.size(); ++i) {
+    EXPECT_NEAR(identified.structure->modes[i].frequency.value,
+                scale * antenna.structure->modes[i].frequency.value, 1e-12);
   }
 }
 

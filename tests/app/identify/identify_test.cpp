@@ -15,6 +15,8 @@
 #include <boresight/app/report/text_report.hpp>
 #include <boresight/io/campaign/campaign_comparison.hpp>
 #include <boresight/io/campaign/campaign_identification.hpp>
+#include <boresight/io/case/case_file.hpp>
+#include <boresight/io/case/case_tests.hpp>
 #include <boresight/plant/antenna/friction.hpp>
 
 namespace boresight::app {

@@ -11,6 +11,9 @@
 #include <boresight/app/report/match_report.hpp>
 #include <boresight/app/tune/structure_option.hpp>
 #include <boresight/io/case/antenna_of.hpp>
+#include <boresight/io/case/case_drive.hpp>
+#include <boresight/io/case/case_file.hpp>
+#include <boresight/io/case/case_simulation.hpp>
 #include <boresight/io/case/drive_numbers.hpp>
 #include <boresight/io/case/mission_of.hpp>
 #include <boresight/io/case/plant_numbers.hpp>
@@ -98,7 +101,7 @@ TEST(Match, WithoutAStrokeNoRoundingTakesTheSlewRate) {
   io::Case antenna = big_antenna();
   antenna.simulation.reset();
   const double ratio = io::gear_ratio(antenna);
-  double& rate = antenna.drive.slew_rate.value;
+  double& rate = antenna.drive->slew_rate.value;
   rate *= 0.1;
   while (rate * ratio / ratio >= rate) rate = std::nextafter(rate, 1.0);
   const MatchSection section = matched(antenna, small_options({"PI-0"}));

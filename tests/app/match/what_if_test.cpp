@@ -7,7 +7,9 @@
 #include <boresight/design/ensembles/monte_carlo.hpp>
 #include <boresight/design/studies/what_if_study.hpp>
 #include <boresight/design/tuning/design_study.hpp>
+#include <boresight/io/case/case_drive.hpp>
 #include <boresight/io/case/case_file.hpp>
+#include <boresight/io/case/case_wind.hpp>
 #include <boresight/io/case/drive_numbers.hpp>
 #include <boresight/io/case/mission_of.hpp>
 
@@ -18,8 +20,8 @@ namespace {
 design::MatchingStudy study_of_one_law(const io::Case& antenna) {
   design::MatchingStudy section;
   section.goals = make_goals(antenna);
-  section.wind_speed = antenna.wind.design_speed.value;
-  section.friction = antenna.drive.viscous_friction.value;
+  section.wind_speed = antenna.wind->design_speed.value;
+  section.friction = antenna.drive->viscous_friction.value;
   section.tracking_friction = io::tracking_friction(antenna);
   design::DesignTask task;
   task.problem = make_problem(antenna);

@@ -11,6 +11,7 @@
 #include <boresight/app/report/json_writer.hpp>
 #include <boresight/app/report/linear_models_description.hpp>
 #include <boresight/control/controllers/sample_time.hpp>
+#include <boresight/io/case/case_sensors.hpp>
 #include <boresight/io/case/drive_numbers.hpp>
 #include <boresight/io/case/mission_of.hpp>
 #include <boresight/io/exchange/controller_file.hpp>
@@ -70,7 +71,7 @@ TEST(LinearModels, ComeBackBitByBitFromMatAndJson) {
   expect_same(io::controller_from_json(json, "r.json"), loop.controller);
   EXPECT_EQ(loop.controller.sample_time, 0.0);
   EXPECT_EQ(loop.sampled_controller.sample_time,
-            control::sample_time_of(antenna().controller_delay.value));
+            control::sample_time_of(antenna().controller->delay.value));
   EXPECT_EQ(mat, to_mat(written, "redesign", "case.toml"));
 }
 

@@ -11,6 +11,7 @@
 #include <boresight/app/redesign/assumed_inputs.hpp>
 #include <boresight/app/simulate/time_domain.hpp>
 #include <boresight/design/problem/drive_reach.hpp>
+#include <boresight/io/case/case_campaign.hpp>
 #include <boresight/io/case/tested_drive_of.hpp>
 
 namespace boresight::app {
@@ -134,7 +135,7 @@ TEST(AssumedInputs, OfSimulatedTestsFollowTheTests) {
 
 TEST(AssumedInputs, OfRecordsNameWhatStandsInForInstruments) {
   io::Case antenna = reference();
-  antenna.campaign.records.emplace_back();
+  antenna.campaign->records.emplace_back();
   EXPECT_THAT(listed(assumed_inputs(antenna)),
               UnorderedElementsAre("simulation.return_pressure", "recorder.pressure_gain",
                                    "recorder.pressure_zero", "recorder.tachometer_gain"));

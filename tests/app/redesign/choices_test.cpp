@@ -8,6 +8,7 @@
 
 #include "io/oil_case.hpp"
 #include <boresight/app/redesign/choices.hpp>
+#include <boresight/io/case/case_tests.hpp>
 
 namespace boresight::app {
 namespace {

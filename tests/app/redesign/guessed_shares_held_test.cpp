@@ -10,6 +10,7 @@
 #include <boresight/app/redesign/guessed_shares_held.hpp>
 #include <boresight/app/report/sky_units.hpp>
 #include <boresight/design/tuning/design_study.hpp>
+#include <boresight/io/case/case_structure.hpp>
 #include <boresight/io/case/guessed_shares.hpp>
 #include <boresight/io/case/mission_of.hpp>
 
@@ -35,7 +36,7 @@ std::vector<std::string> sentences_of(const io::Case& antenna) {
 TEST(GuessedSharesHeld, AreWorthASentenceWhereTheyMoveTheRms) {
   const io::Case antenna = io::read_case(case_path("dss14-70m"));
   const auto rms_of = [&](io::GuessedShares place) {
-    auto problem = make_problem(antenna, guessed_share_changes(antenna.structure, place));
+    auto problem = make_problem(antenna, guessed_share_changes(*antenna.structure, place));
     problem.wind.mean_speed = 10.0;
     return design::assess(problem, law(), make_goals(antenna)).beam_rms / millidegree;
   };
@@ -47,7 +48,7 @@ TEST(GuessedSharesHeld, AreWorthASentenceWhereTheyMoveTheRms) {
                   rms_of(io::GuessedShares::as_stated), rms_of(io::GuessedShares::as_inertia),
                   rms_of(io::GuessedShares::all_at_heaviest)))));
   io::Case known = antenna;
-  for (auto& mode : known.structure.modes) {
+  for (auto& mode : known.structure->modes) {
     mode.wind_fraction.basis = mode.beam_weight.basis = io::Basis::measured;
   }
   EXPECT_THAT(sentences_of(known), IsEmpty());

@@ -13,6 +13,8 @@
 #include <boresight/app/redesign/input_effects.hpp>
 #include <boresight/app/report/sky_units.hpp>
 #include <boresight/design/tuning/design_study.hpp>
+#include <boresight/io/case/case_sensors.hpp>
+#include <boresight/io/case/case_wind.hpp>
 #include <boresight/io/case/mission_of.hpp>
 
 namespace boresight::app {
@@ -64,7 +66,7 @@ TEST(InputEffects, AreWhatTheClosedLoopSays) {
   // An assumed number without an uncertainty is moved by a tenth; the torque goes with it as well.
   const InputEffect& coefficient = effect_of(effects, "wind.torque_coefficient");
   EXPECT_TRUE(coefficient.unstated);
-  EXPECT_DOUBLE_EQ(coefficient.moved_by, 0.1 * antenna.wind.torque_coefficient.value);
+  EXPECT_DOUBLE_EQ(coefficient.moved_by, 0.1 * antenna.wind->torque_coefficient.value);
   // Davenport's gusts go with the root of the drag, also where it is converted from a mast.
   const InputEffect& drag = effect_of(effects, "wind.surface_drag");
   EXPECT_NEAR(drag.high_rms, std::hypot(std::sqrt(1.1) * design.wind_rms, design.noise_rms),
@@ -72,7 +74,7 @@ TEST(InputEffects, AreWhatTheClosedLoopSays) {
   // What is moved is the plant that a case with that number has: here of the dead time.
   const InputEffect& delay = effect_of(effects, "controller.delay");
   io::Case later = antenna;
-  later.controller_delay.value += delay.moved_by;
+  later.controller->delay.value += delay.moved_by;
   EXPECT_NEAR(delay.high_rms, design::assess(make_problem(later), law, make_goals(later)).beam_rms,
               1e-5 * design.beam_rms);
   // In falling order, the same for any number of threads, and cut where asked.

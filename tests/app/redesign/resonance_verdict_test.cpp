@@ -15,6 +15,8 @@
 #include <boresight/app/report/decision.hpp>
 #include <boresight/app/report/text_report.hpp>
 #include <boresight/io/case/antenna_of.hpp>
+#include <boresight/io/case/case_structure.hpp>
+#include <boresight/io/case/case_tests.hpp>
 #include <boresight/io/case/member_ranges.hpp>
 #include <boresight/io/case/resonating_mode.hpp>
 #include <boresight/plant/antenna/hydraulics.hpp>
@@ -126,7 +128,7 @@ TEST(ResonanceVerdict, SaysThatTheMethodsFigureIsOfARigidAntenna) {
 TEST(ResonanceVerdict, SaysWhereItsModeTellsLittleOfTheOil) {
   io::Case antenna = with_oil(1.229e9);
   EXPECT_EQ(which_was_measured(resonance_verdict(antenna).value()), "");
-  antenna.structure.locked_rotor_frequency.value = 0.2;
+  antenna.structure->locked_rotor_frequency.value = 0.2;
   const auto verdict = resonance_verdict(antenna);
   ASSERT_TRUE(verdict);
   EXPECT_LT(verdict->mode.oil_share, 0.1);
@@ -141,7 +143,7 @@ TEST(ResonanceVerdict, SaysWhereItsModeTellsLittleOfTheOil) {
                   verdict->oil_mode.frequency, verdict->oil_mode.damping_ratio,
                   100.0 * verdict->oil_mode.oil_share)));
   // Where the case says so it is compared with that mode, and with the oil that makes it.
-  antenna.resonance_of_oil = true;
+  antenna.resonance->of_oil = true;
   const auto of_oil = resonance_verdict(antenna);
   ASSERT_TRUE(of_oil);
   EXPECT_EQ(of_oil->expected, verdict->oil_mode.frequency);
@@ -151,10 +153,10 @@ TEST(ResonanceVerdict, SaysWhereItsModeTellsLittleOfTheOil) {
             Not(HasSubstr("Check which"))));
   ASSERT_TRUE(of_oil->bulk_modulus);
   io::Case other = with_oil(*of_oil->bulk_modulus);
-  other.structure.locked_rotor_frequency.value = 0.2;
-  other.resonance_of_oil = true;
+  other.structure->locked_rotor_frequency.value = 0.2;
+  other.resonance->of_oil = true;
   EXPECT_NEAR(resonance_verdict(other)->expected, 0.97, 1e-5);
-  antenna.resonance_of_oil = false;
+  antenna.resonance->of_oil = false;
   EXPECT_THAT(to_text(document_of(describe_plant(antenna))),
               HasSubstr("of that mode's elastic energy"));
   // Motors and gear train alone on the oil spring.
@@ -167,7 +169,7 @@ TEST(ResonanceVerdict, SaysWhereItsModeTellsLittleOfTheOil) {
 TEST(RingsAsRigid, NeedsTheOilInTheMode) {
   io::Case antenna = with_oil(1.229e9);
   EXPECT_TRUE(rings_as_rigid(antenna));
-  antenna.resonance_of_oil = true;  // the same mode
+  antenna.resonance->of_oil = true;  // the same mode
   EXPECT_TRUE(rings_as_rigid(antenna));
   const auto of_resonance = [](const io::Case& one) {
     return std::ranges::count(identify(one, {}).inertia.methods,
@@ -175,9 +177,9 @@ TEST(RingsAsRigid, NeedsTheOilInTheMode) {
                               &identification::InertiaMethod::kind);
   };
   EXPECT_EQ(of_resonance(antenna), 1);
-  antenna.structure.locked_rotor_frequency.value = 0.2;
+  antenna.structure->locked_rotor_frequency.value = 0.2;
   for (const bool of_oil : {true, false}) {
-    antenna.resonance_of_oil = of_oil;
+    antenna.resonance->of_oil = of_oil;
     EXPECT_FALSE(rings_as_rigid(antenna));
     EXPECT_EQ(of_resonance(antenna), 0);
     for (const auto& choice : plant_choices(antenna)) {
@@ -191,7 +193,7 @@ TEST(RingsAsRigid, IsToldWhereNoInertiaIsReadOffTheResonance) {
   const auto unread = HasSubstr("The measured 0.97 Hz give no inertia");
   EXPECT_THAT(conclude(report), Each(Not(unread)));
   io::Case soft = with_oil(1.229e9);
-  soft.structure.locked_rotor_frequency.value = 0.2;
+  soft.structure->locked_rotor_frequency.value = 0.2;
   report = report_of(soft);
   EXPECT_THAT(conclude(report), Contains(unread));
   EXPECT_EQ(unread_resonance({}), "");
@@ -201,8 +203,8 @@ TEST(ResonatingMode, IsSaidByTheCase) {
   const auto with_mode = [](const std::string& mode) {
     return EditedCase().replace("[resonance]\n", "[resonance]\nmode = \"" + mode + "\"\n").text();
   };
-  EXPECT_TRUE(io::parse_case(with_mode("oil"), "case.toml").resonance_of_oil);
-  EXPECT_FALSE(io::parse_case(with_mode("lowest"), "case.toml").resonance_of_oil);
+  EXPECT_TRUE(io::parse_case(with_mode("oil"), "case.toml").resonance->of_oil);
+  EXPECT_FALSE(io::parse_case(with_mode("lowest"), "case.toml").resonance->of_oil);
   EXPECT_THAT(refusal_of(with_mode("second")), HasSubstr("resonance.mode: expected one of"));
 }
 

@@ -18,6 +18,8 @@
 #include <boresight/app/report/sky_units.hpp>
 #include <boresight/app/report/text_report.hpp>
 #include <boresight/app/report/wind_mast.hpp>
+#include <boresight/io/case/case_file.hpp>
+#include <boresight/io/case/case_tuning.hpp>
 
 namespace boresight::app {
 namespace {
@@ -173,7 +175,7 @@ TEST(TuningVerdict, GivesSpeedsOfBudgetsAtTheMastToo) {
   Report report = tuned_report();
   report.tuning->budgets = {budget(0.1, 4.03, 8.08537)};
   EXPECT_THAT(tuning_conclusions(report), Each(Not(HasSubstr("at the mast"))));
-  report.tuning->wind_mast = io::WindMast{10.0, 28.0, 0.14, 1.155053};
+  report.tuning->wind_mast = plant::WindMast{10.0, 28.0, 0.14, 1.155053};
   EXPECT_THAT(tuning_conclusions(report),
               Contains(AllOf(HasSubstr("required up to 8.09 m/s at the dish, 7 at the mast;"),
                              HasSubstr("met up to 4.0 m/s at the dish, 3.49 at the mast, by the "

@@ -11,6 +11,8 @@
 #include "app/program_run.hpp"
 #include "io/edited_case.hpp"
 #include <boresight/app/simulate/simulated_tests.hpp>
+#include <boresight/io/case/case_friction.hpp>
+#include <boresight/io/case/case_simulation.hpp>
 #include <boresight/numerics/angles.hpp>
 #include <boresight/numerics/error.hpp>
 
@@ -54,8 +56,8 @@ TEST(SimulatedTests, SayWhatWasDoneToTheDrive) {
 
 TEST(SimulatedTests, NameTheCaseWhoseSupplyCannotMoveTheAntenna) {
   io::Case antenna = reference_case();
-  antenna.friction_curve.coulomb.value = 400.0;
-  antenna.friction_curve.breakaway.value = 400.0;
+  antenna.friction_curve->coulomb.value = 400.0;
+  antenna.friction_curve->breakaway.value = 400.0;
   const control::ControlLaw law{control::LoopStructure::named("PI"), {0.15, 0.4, 2.6, 8.0, 0.15}};
   try {
     run_position_test(antenna, "slew", law, 1, {});

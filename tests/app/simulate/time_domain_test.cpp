@@ -12,6 +12,7 @@
 #include "io/edited_case.hpp"
 #include <boresight/app/report/json_writer.hpp>
 #include <boresight/app/simulate/time_domain.hpp>
+#include <boresight/io/case/case_simulation.hpp>
 #include <boresight/io/case/mission_of.hpp>
 #include <boresight/io/description/time_domain_results.hpp>
 #include <boresight/numerics/angles.hpp>

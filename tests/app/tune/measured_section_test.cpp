@@ -12,6 +12,7 @@
 #include <boresight/app/report/measured_report.hpp>
 #include <boresight/app/tune/measured_section.hpp>
 #include <boresight/control/loops/closed_loop.hpp>
+#include <boresight/io/case/case_file.hpp>
 #include <boresight/io/case/drive_numbers.hpp>
 #include <boresight/io/case/mission_of.hpp>
 #include <boresight/numerics/error.hpp>

@@ -18,6 +18,10 @@
 #include <boresight/design/problem/pointing_budget.hpp>
 #include <boresight/design/studies/limit_study.hpp>
 #include <boresight/io/case/antenna_of.hpp>
+#include <boresight/io/case/case_drive.hpp>
+#include <boresight/io/case/case_friction.hpp>
+#include <boresight/io/case/case_goals.hpp>
+#include <boresight/io/case/case_sensors.hpp>
 #include <boresight/io/case/drive_numbers.hpp>
 #include <boresight/io/case/mission_of.hpp>
 #include <boresight/io/case/plant_numbers.hpp>
@@ -54,7 +58,7 @@ TEST(PointingLimitOf, SamplesAsOftenAsTheCasesDelaySays) {
   section.goals = make_goals(antenna);
   double last = 0.0;
   for (const double sample_time : {0.005, 0.02}) {
-    antenna.controller_delay.value = 1.5 * sample_time;
+    antenna.controller->delay.value = 1.5 * sample_time;
     const design::Mission mission = mission_of(antenna);
     const auto limit = pointing_limit_of(mission, section, {}, mission.wind.mean_speed, 1);
     EXPECT_DOUBLE_EQ(limit.sample_time, sample_time);
@@ -70,7 +74,7 @@ TEST(Shortfalls, NoLawHoldsWhatTheSupplyCannot) {
   section.supply_wind_speed = supply_wind_speed(antenna, make_problem(antenna));
   // At that speed mean wind, friction of tracking and gravity take all of the supply's torque.
   const double friction = plant::friction_torque(
-      io::friction_curve(antenna), antenna.drive.tracking_rate.value * gear_ratio(antenna));
+      io::friction_curve(antenna), antenna.drive->tracking_rate.value * gear_ratio(antenna));
   EXPECT_GT(friction, 0.0);
   EXPECT_NEAR(plant::mean_wind_torque(make_problem(antenna).wind.site, section.supply_wind_speed) /
                       io::gear_ratio(antenna) +
@@ -91,9 +95,9 @@ TEST(Shortfalls, NoLawHoldsWhatTheSupplyCannot) {
 
 TEST(Shortfalls, NoWindIsHeldWhereFrictionTakesTheSupply) {
   io::Case antenna = io::read_case(case_path("dss14-70m"));
-  antenna.friction_curve.coulomb.value = io::supply_torque(antenna);
+  antenna.friction_curve->coulomb.value = io::supply_torque(antenna);
   EXPECT_EQ(supply_wind_speed(antenna, make_problem(antenna)), 0.0);
-  antenna.goals.crest_factor = antenna.goals.sensitivity_peak;
+  antenna.goals->crest_factor = antenna.goals->sensitivity_peak;
   EXPECT_THAT(reference::Call([&] { make_goals(antenna); }),
               testing::ThrowsMessage<InvalidInput>(HasSubstr("above friction and offset")));
 }
@@ -121,15 +125,15 @@ TEST(Shortfalls, NameTheStrokeThatIsAssumed) {
 // Friction that falls with the rate has no place in a linear plant, and stops no study.
 TEST(PlantMembers, TakeNoFallingFriction) {
   io::Case antenna = io::read_case(case_path("dss14-70m"));
-  auto& curve = antenna.friction_curve;
+  auto& curve = *antenna.friction_curve;
   curve.saturating.value = 0.0;
   curve.breakaway.value = 10.0 * curve.coulomb.value;
-  curve.stribeck_rate.value = antenna.drive.tracking_rate.value * gear_ratio(antenna);
+  curve.stribeck_rate.value = antenna.drive->tracking_rate.value * gear_ratio(antenna);
   EXPECT_LT(io::tracking_slope(antenna), 0.0);
   EXPECT_EQ(io::tracking_friction(antenna), 0.0);
   for (const auto& member : design::plant_members(mission_of(antenna), 1)) {
     EXPECT_GE(member.plant.drive.viscous_friction, 0.0);
-    EXPECT_LE(member.plant.drive.viscous_friction, antenna.drive.viscous_friction.value);
+    EXPECT_LE(member.plant.drive.viscous_friction, antenna.drive->viscous_friction.value);
   }
 }
 

@@ -204,7 +204,7 @@ TEST(TuneConclusions, SayThatABoundOnlyStopsAFlatDirection) {
 
 TEST(Shortfalls, TrustNoBudgetToALawThatHunts) {
   TuneSection section = section_with_need();
-  section.wind_mast = io::WindMast{10.0, 28.0, 0.14, 1.2};
+  section.wind_mast = plant::WindMast{10.0, 28.0, 0.14, 1.2};
   section.laws = {law_in_time("DPF+C", 1.0, 7.4, 1.05), law_in_time("LL", 1.1, 0.2, 1.5),
                   law_in_time("PI", 1.5, 0.2, 1.6)};
   // The linear plant's best meets the budget, and hunts; the second misses it on the nonlinear one.

@@ -11,6 +11,9 @@
 #include "io/oil_case.hpp"
 #include <boresight/io/audit/antenna_readings.hpp>
 #include <boresight/io/case/antenna_of.hpp>
+#include <boresight/io/case/case_mechanics.hpp>
+#include <boresight/io/case/case_structure.hpp>
+#include <boresight/io/case/case_tests.hpp>
 #include <boresight/io/case/drive_evidence.hpp>
 #include <boresight/io/case/guessed_shares.hpp>
 
@@ -73,13 +76,13 @@ TEST(AntennaReadings, KeepSpringsWhereTheAlternativeDoes) {
                       "case.toml");
   };
   const auto structure_of = [](const Case& antenna) {
-    const auto& name = antenna.antenna.alternatives.front().name;
+    const auto& name = antenna.antenna->alternatives.front().name;
     return linear_plant(reading_of(antenna, "antenna of " + name).antenna.value()).structure;
   };
   const Case springs = with_alternative("springs"), frequencies = with_alternative("frequencies");
   const auto own = make_plant(springs).structure, kept = structure_of(springs);
   const auto choice = [](const Case& antenna) {
-    return reading_of(antenna, "antenna of " + antenna.antenna.alternatives.front().name);
+    return reading_of(antenna, "antenna of " + antenna.antenna->alternatives.front().name);
   };
   EXPECT_TRUE(choice(springs).other_attitude && !choice(springs).contradicts);
   EXPECT_TRUE(choice(frequencies).contradicts && !choice(frequencies).other_attitude);
@@ -137,9 +140,9 @@ TEST(AntennaReadings, TakeOtherSharesOfGuessesOnly) {
   // None where no share is a guess, and not the case's own again.
   Case known = guessing_antenna(), own = guessing_antenna();
   const auto shares = [](Case& antenna) {
-    std::vector<Quantity*> all{&antenna.structure.bull_gear_wind_fraction,
-                               &antenna.structure.bull_gear_beam_weight};
-    for (auto& mode : antenna.structure.modes) {
+    std::vector<Quantity*> all{&antenna.structure->bull_gear_wind_fraction,
+                               &antenna.structure->bull_gear_beam_weight};
+    for (auto& mode : antenna.structure->modes) {
       all.insert(all.end(), {&mode.wind_fraction, &mode.beam_weight});
     }
     return all;
@@ -147,12 +150,12 @@ TEST(AntennaReadings, TakeOtherSharesOfGuessesOnly) {
   for (Quantity* share : shares(known)) share->basis = Basis::measured;
   EXPECT_THAT(share_readings(known), IsEmpty());
   double rest = 1.0;
-  for (auto& mode : own.structure.modes) {
+  for (auto& mode : own.structure->modes) {
     rest -= mode.inertia_fraction.value;
     mode.wind_fraction.value = mode.beam_weight.value = mode.inertia_fraction.value;
   }
-  own.structure.bull_gear_wind_fraction.value = own.structure.bull_gear_beam_weight.value = rest;
-  EXPECT_FALSE(moves_guessed_shares(own.structure, GuessedShares::as_inertia));
+  own.structure->bull_gear_wind_fraction.value = own.structure->bull_gear_beam_weight.value = rest;
+  EXPECT_FALSE(moves_guessed_shares(*own.structure, GuessedShares::as_inertia));
   EXPECT_THAT(share_readings(own), testing::ElementsAre("wind and beam shares all at one"));
   // A guess that says how far it may be off is one of the ensemble's, not of these.
   for (Quantity* share : shares(own)) share->uncertainty_given = true;

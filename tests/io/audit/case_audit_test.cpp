@@ -8,6 +8,9 @@
 
 #include "io/edited_case.hpp"
 #include <boresight/io/audit/case_audit.hpp>
+#include <boresight/io/case/case_friction.hpp>
+#include <boresight/io/case/case_mechanics.hpp>
+#include <boresight/io/case/case_statements.hpp>
 
 namespace boresight::io {
 namespace {
@@ -262,11 +265,11 @@ TEST(Audit, FindsNothingInACaseThatFollows) {
   Case clean = small();
   clean.remarks.clear();
   clean.stated.clear();
-  clean.gear_train.density.reset();
-  clean.friction_curve.viscous.value = 0.2;
-  double load = clean.antenna.inertia.value / (ratio_5 * ratio_5);
+  clean.gear_train->density.reset();
+  clean.friction_curve->viscous.value = 0.2;
+  double load = clean.antenna->inertia.value / (ratio_5 * ratio_5);
   const double ratios[] = {1.0, ratio_1, ratio_2, ratio_3, ratio_4};
-  for (RotatingAssembly& assembly : clean.gear_train.assemblies) {
+  for (RotatingAssembly& assembly : clean.gear_train->assemblies) {
     assembly.parts.clear();
     assembly.inertia->also.clear();
     load += 4.0 * assembly.inertia->value / (ratios[assembly.stages] * ratios[assembly.stages]);

@@ -9,6 +9,8 @@
 
 #include "io/audit/failed_checks.hpp"
 #include <boresight/io/audit/case_checks.hpp>
+#include <boresight/io/case/case_friction.hpp>
+#include <boresight/io/case/case_tests.hpp>
 #include <boresight/io/case/drive_numbers.hpp>
 
 namespace boresight::io {
@@ -142,22 +144,22 @@ TEST(FrictionTests, DoNotContradictTheCurveAtAnySpeeds) {
     check_friction_tests(antenna, found);
     ASSERT_EQ(found.checks.size(), 2U);
     ASSERT_THAT(found.checks, Each(testing::Field(&design::PhysicalCheck::holds, true)))
-        << antenna.friction_tests.constant_speed_slope->value << " "
-        << antenna.friction_tests.constant_speed_coulomb->value;
+        << antenna.friction_tests->constant_speed_slope->value << " "
+        << antenna.friction_tests->constant_speed_coulomb->value;
   }
 }
 
 // Where friction falls with the rate, lines through tests may have a slope below 0.
 TEST(FrictionTests, MayFallByHalfMoreThanTheCurve) {
   Case antenna = read_case(case_path("dss14-64m"));
-  const FrictionCurveEntry& curve = antenna.friction_curve;
+  const FrictionCurveEntry& curve = *antenna.friction_curve;
   const double steepest = curve.viscous.value - std::sqrt(2.0 / std::numbers::e) *
                                                     (curve.breakaway.value - curve.coulomb.value) /
                                                     curve.stribeck_rate.value;
   ASSERT_LT(steepest, 0.0);
-  antenna.friction_tests.constant_speed_slope = exactly(1.4 * steepest);
+  antenna.friction_tests->constant_speed_slope = exactly(1.4 * steepest);
   EXPECT_THAT(failed(antenna, "friction_test_line"), IsEmpty());
-  antenna.friction_tests.constant_speed_slope = exactly(1.7 * steepest);
+  antenna.friction_tests->constant_speed_slope = exactly(1.7 * steepest);
   EXPECT_EQ(failed(antenna, "friction_test_line").size(), 1U);
 }
 
@@ -175,7 +177,7 @@ TEST(FrictionSlope, IsHeldAgainstTheSupplyInEveryReadingOfItsUnit) {
   EXPECT_NEAR(found[0].number("slope if the speed is the tachometer's").value, slope * 23.0 / 130.0,
               1e-9);
   Case silent = antenna;
-  silent.friction_tests.constant_speed_slope->value *= 0.01;
+  silent.friction_tests->constant_speed_slope->value *= 0.01;
   EXPECT_THAT(failed(silent, "friction_slope"), IsEmpty());
 }
 
@@ -184,7 +186,7 @@ TEST(CoulombLevels, AreApartByNoMoreThanAHalf) {
   const auto found = failed(antenna, "coulomb_levels");
   ASSERT_EQ(found.size(), 1U);
   EXPECT_NEAR(found[0].number("factor").value, 69.49 / 19.77, 1e-9);
-  antenna.friction_tests.constant_speed_coulomb->value = 1.49 * 19.77;
+  antenna.friction_tests->constant_speed_coulomb->value = 1.49 * 19.77;
   EXPECT_THAT(failed(antenna, "coulomb_levels"), IsEmpty());
 }
 

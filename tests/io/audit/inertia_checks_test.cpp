@@ -6,6 +6,9 @@
 
 #include "io/audit/failed_checks.hpp"
 #include <boresight/io/case/antenna_of.hpp>
+#include <boresight/io/case/case_statements.hpp>
+#include <boresight/io/case/case_structure.hpp>
+#include <boresight/io/case/case_tests.hpp>
 
 namespace boresight::io {
 namespace {
@@ -44,13 +47,13 @@ TEST(InertiaRemainder, IsNoneOfAResonanceOfTheOilAlone) {
     return entry.quantity == "resonance.reflected_inertia";
   });
   antenna.impulse_results.clear();
-  antenna.structure.locked_rotor_frequency.value = 0.2;
+  antenna.structure->locked_rotor_frequency.value = 0.2;
   const auto modes = plant::plant_modes(make_plant(antenna));
-  antenna.resonance_frequency->value = plant::mode_of_oil(modes).frequency;
-  antenna.resonance_of_oil = true;
+  antenna.resonance->frequency->value = plant::mode_of_oil(modes).frequency;
+  antenna.resonance->of_oil = true;
   EXPECT_THAT(failed(antenna, "inertia_remainder"), IsEmpty());
-  antenna.structure.locked_rotor_frequency.value = 2.0;
-  antenna.resonance_of_oil = false;
+  antenna.structure->locked_rotor_frequency.value = 2.0;
+  antenna.resonance->of_oil = false;
   EXPECT_FALSE(failed(antenna, "inertia_remainder").empty());
 }
 

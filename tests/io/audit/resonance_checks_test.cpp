@@ -7,6 +7,10 @@
 
 #include "io/audit/failed_checks.hpp"
 #include <boresight/io/case/antenna_of.hpp>
+#include <boresight/io/case/case_oil.hpp>
+#include <boresight/io/case/case_statements.hpp>
+#include <boresight/io/case/case_structure.hpp>
+#include <boresight/io/case/case_tests.hpp>
 
 namespace boresight::io {
 namespace {
@@ -40,10 +44,10 @@ TEST(ResonanceExpected, IsThatOfTheFlexibleAntenna) {
 TEST(ResonanceExpected, LeavesAloneAnAntennaThatBendsAsMuchAsItsResonanceSays) {
   // A soft gear spring: far below the rigid masses, where the flexible antenna is.
   Case antenna = read_case(case_path("dss14-70m"));
-  antenna.structure.locked_rotor_frequency.value = 0.7;
+  antenna.structure->locked_rotor_frequency.value = 0.7;
   const double frequency = mode_of(antenna).frequency;
   EXPECT_LT(frequency, 0.8 * 0.856);
-  antenna.resonance_frequency->value = frequency;
+  antenna.resonance->frequency->value = frequency;
   EXPECT_THAT(failed(antenna, "resonance_expected"), IsEmpty());
 }
 
@@ -82,7 +86,7 @@ TEST(WaveSpeed, IsOneForTheOilOfAllLines) {
                        std::abs(check.numbers[0].value - shortest) < 1e-9;
               })));
   antenna.stated.clear();
-  for (auto& line : antenna.oil.lines) {
+  for (auto& line : antenna.oil->lines) {
     line.slosh_frequency.value = shortest / (2.0 * line.length.value);
   }
   EXPECT_THAT(failed(antenna, "wave_speed"), IsEmpty());

@@ -4,6 +4,8 @@
 #include "io/oil_case.hpp"
 #include <boresight/io/audit/resonance_verdict.hpp>
 #include <boresight/io/case/antenna_of.hpp>
+#include <boresight/io/case/case_structure.hpp>
+#include <boresight/io/case/case_tests.hpp>
 #include <boresight/io/case/member_ranges.hpp>
 #include <boresight/io/case/plant_numbers.hpp>
 
@@ -50,17 +52,17 @@ TEST(ResonanceVerdict, ContradictsBeyondThreeStandardUncertainties) {
 // A gear spring far softer than the oil.
 TEST(ResonanceVerdict, IsOfTheModeThatTheCaseNames) {
   Case antenna = with_oil(1.229e9);
-  antenna.structure.locked_rotor_frequency.value = 0.2;
+  antenna.structure->locked_rotor_frequency.value = 0.2;
   const auto verdict = resonance_verdict(antenna);
   ASSERT_TRUE(verdict);
   EXPECT_LT(verdict->mode.oil_share, 0.1);
   EXPECT_GT(verdict->oil_mode.oil_share, 0.9);
   EXPECT_FALSE(verdict->rigid);
-  antenna.resonance_of_oil = true;
+  antenna.resonance->of_oil = true;
   const auto of_oil = resonance_verdict(antenna);
   ASSERT_TRUE(of_oil);
   EXPECT_EQ(of_oil->expected, verdict->oil_mode.frequency);
-  antenna.resonance_frequency.reset();
+  antenna.resonance->frequency.reset();
   EXPECT_FALSE(resonance_verdict(antenna));
 }
 

@@ -9,6 +9,9 @@
 #include "io/audit/failed_checks.hpp"
 #include <boresight/design/problem/static_bending.hpp>
 #include <boresight/io/case/antenna_of.hpp>
+#include <boresight/io/case/case_campaign.hpp>
+#include <boresight/io/case/case_mechanics.hpp>
+#include <boresight/io/case/case_structure.hpp>
 #include <boresight/io/case/drive_numbers.hpp>
 #include <boresight/io/case/mission_of.hpp>
 #include <boresight/plant/antenna/motors_held_modes.hpp>
@@ -64,7 +67,7 @@ TEST(GearStiffness, AgreesWithinAThirdOrItsUncertainty) {
   EXPECT_EQ(failed(with_gear_train(EditedCase(), 1.32), check).size(), 1U);
   const auto found = [&](double times, const std::string& uncertainty, bool inertia_exact) {
     Case antenna = with_gear_train(EditedCase(), times, ", uncertainty = \"" + uncertainty + "\"");
-    if (inertia_exact) antenna.antenna.inertia.uncertainty_given = false;
+    if (inertia_exact) antenna.antenna->inertia.uncertainty_given = false;
     return failed(antenna, check).size();
   };
   EXPECT_EQ(found(1.04, "1 %", true), 0U);
@@ -89,7 +92,7 @@ TEST(GearStiffness, IsMadeByAnotherFrequencyOfTheHeaviestMode) {
     EXPECT_EQ(found[0].explanation, "heaviest_mode");
     EXPECT_EQ(found[0].entries.at(0).id, "structure.mode[0].frequency");
     EXPECT_EQ(frequency > 2.4, times < 1.0);
-    antenna.structure.modes.at(0).frequency.value = frequency;
+    antenna.structure->modes.at(0).frequency.value = frequency;
     EXPECT_NEAR(gear_train_of(antenna) / stated, 1.0, 1e-9);
     EXPECT_THAT(failed(antenna, "gear_stiffness"), IsEmpty());
   }
@@ -132,7 +135,7 @@ TEST(StructuralBound, IsOfTheCasesAxis) {
   const auto found = failed(antenna, "structural_bound");
   ASSERT_EQ(found.size(), 1U);
   EXPECT_NEAR(found[0].number("lowest predicted").value, 1.75, 1e-12);
-  antenna.structure.lowest_predicted_axis = antenna.axis;
+  antenna.structure->lowest_predicted_axis = antenna.axis;
   EXPECT_THAT(failed(antenna, "structural_bound"), IsEmpty());
 }
 
@@ -141,9 +144,9 @@ TEST(StructuralPredictions, AgreeWithinATwentieth) {
   const auto held = plant::motors_held_modes(make_plant(antenna).structure);
   Quantity predicted;
   predicted.key = "structure.prediction[0]";
-  antenna.campaign.locked_rotor_frequencies = {predicted};
+  antenna.campaign->locked_rotor_frequencies = {predicted};
   const auto apart = [&](double times) {
-    antenna.campaign.locked_rotor_frequencies[0].value = times * held.at(0).frequency;
+    antenna.campaign->locked_rotor_frequencies[0].value = times * held.at(0).frequency;
     return failed(antenna, "structural_predictions");
   };
   EXPECT_THAT(apart(1.04), IsEmpty());

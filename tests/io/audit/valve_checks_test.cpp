@@ -9,6 +9,7 @@
 #include "io/audit/failed_checks.hpp"
 #include <boresight/design/problem/drive_reach.hpp>
 #include <boresight/io/case/antenna_of.hpp>
+#include <boresight/io/case/case_tests.hpp>
 #include <boresight/io/case/drive_numbers.hpp>
 #include <boresight/plant/nonlinear/nonlinear_drive.hpp>
 

@@ -38,10 +38,10 @@ inline Case broken_campaign(const std::string& campaign, const std::vector<std::
     return std::ranges::find(names, name) != names.end();
   };
   Case antenna = case_of(campaign);
-  std::erase_if(antenna.campaign.records,
+  std::erase_if(antenna.campaign->records,
                 [&](const RecordEntry& entry) { return !among(records, entry.name); });
   const std::string test = testing::UnitTest::GetInstance()->current_test_info()->name();
-  for (RecordEntry& entry : antenna.campaign.records) {
+  for (RecordEntry& entry : antenna.campaign->records) {
     if (!among(spoiled, entry.name)) continue;
     std::ifstream source(folder_of(campaign) + "/" + entry.file);
     entry.file = testing::TempDir() + "/" + test + "_" + entry.name + ".csv";

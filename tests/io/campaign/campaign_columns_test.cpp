@@ -7,6 +7,9 @@
 #include <gtest/gtest.h>
 
 #include "io/one_record.hpp"
+#include <boresight/io/case/case_campaign.hpp>
+#include <boresight/io/case/case_simulation.hpp>
+#include <boresight/io/case/case_tests.hpp>
 
 namespace boresight::io {
 namespace {
@@ -19,16 +22,16 @@ TEST(MakeCampaign, TakesUnitsInAnyCaseAndFromTheCase) {
   record.replace("p1_in [psi]", "P1_IN [PSIG]");
   record.replace("tach [V]", "Tach");
   record.replace("time [s]", "TIME [sec]");
-  record.antenna.campaign.columns.tachometer->unit = "V";
+  record.antenna.campaign->columns.tachometer->unit = "V";
   const auto after = record.make().records.at(0);
   EXPECT_EQ(after.motor_rate.values, before.motor_rate.values);
   EXPECT_EQ(after.inlet_pressure[0].values, before.inlet_pressure[0].values);
-  record.antenna.campaign.columns.tachometer->unit.clear();
+  record.antenna.campaign->columns.tachometer->unit.clear();
   EXPECT_THAT(record.refusal(),
               HasSubstr("expected a unit of column 'Tach', found none in the file or the case (say "
                         "it in the case: record_columns.tachometer = \"Tach [unit]\")"));
   record.replace("Tach", "Tach [mV]");
-  record.antenna.campaign.columns.tachometer->unit = "V";
+  record.antenna.campaign->columns.tachometer->unit = "V";
   EXPECT_THAT(record.refusal(), HasSubstr("Case.csv states, 'mV', or none, found 'V'"));
 }
 
@@ -38,9 +41,9 @@ TEST(MakeCampaign, RefusesColumnsAndUnitsThatDoNotFit) {
     edit(record);
     return record.refusal();
   };
-  EXPECT_THAT(refused([](auto& r) { r.antenna.campaign.columns.tachometer->name = "tacho"; }),
+  EXPECT_THAT(refused([](auto& r) { r.antenna.campaign->columns.tachometer->name = "tacho"; }),
               HasSubstr("record_columns.tachometer: expected a column of "));
-  EXPECT_THAT(refused([](auto& r) { r.antenna.campaign.columns.tachometer->name = "tacho"; }),
+  EXPECT_THAT(refused([](auto& r) { r.antenna.campaign->columns.tachometer->name = "tacho"; }),
               HasSubstr("found 'tacho' (did you mean 'tach'?)"));
   EXPECT_THAT(refused([](auto& r) { r.replace("p2_in", "p1_in"); }),
               HasSubstr("found 2 named 'p1_in'"));
@@ -52,29 +55,30 @@ TEST(MakeCampaign, RefusesColumnsAndUnitsThatDoNotFit) {
               HasSubstr("expected a time in column 'time'"));
   EXPECT_THAT(refused([](auto& r) { r.replace("rate_command [V]", "rate_command [mA]"); }),
               HasSubstr("instruments.rate_command_scale: expected a rate per 'mA'"));
-  EXPECT_THAT(refused([](auto& r) { r.antenna.campaign.instruments->valve_command_scale.reset(); }),
-              HasSubstr("instruments.valve_command_scale: expected a rate per recorded unit, 'V', "
-                        "for 'valve_command'"));
-  EXPECT_THAT(refused([](auto& r) { r.antenna.campaign.instruments->rate_command_shaft.clear(); }),
+  EXPECT_THAT(
+      refused([](auto& r) { r.antenna.campaign->instruments->valve_command_scale.reset(); }),
+      HasSubstr("instruments.valve_command_scale: expected a rate per recorded unit, 'V', "
+                "for 'valve_command'"));
+  EXPECT_THAT(refused([](auto& r) { r.antenna.campaign->instruments->rate_command_shaft.clear(); }),
               HasSubstr("instruments.rate_command_shaft: expected whose rate it is"));
-  EXPECT_THAT(refused([](auto& r) { r.antenna.campaign.tachometer.reset(); }),
+  EXPECT_THAT(refused([](auto& r) { r.antenna.campaign->tachometer.reset(); }),
               HasSubstr("tachometer: expected voltage and shaft_speed of the tachometer"));
   EXPECT_THAT(refused([](auto& r) {
-                r.antenna.campaign.columns.rate_command = r.antenna.campaign.columns.tachometer;
+                r.antenna.campaign->columns.rate_command = r.antenna.campaign->columns.tachometer;
               }),
               HasSubstr("expected a column for each signal, found 'tach' taken for two"));
   EXPECT_THAT(refused([](auto& r) {
-                r.antenna.campaign.columns = {};
+                r.antenna.campaign->columns = {};
                 r.replace("p3_out", "q3_nobody");
               }),
               HasSubstr("expected a column for the outlet pressure of motor 3, found none or "
                         "several that could be it among 'time', 'p1_in'"));
   EXPECT_THAT(refused([](auto& r) {
-                r.antenna.campaign.instruments.reset();
+                r.antenna.campaign->instruments.reset();
                 r.antenna.recorder.reset();
               }),
               HasSubstr("instruments: expected the uncertainties"));
-  EXPECT_THAT(refused([](auto& r) { r.antenna.campaign.records.clear(); }),
+  EXPECT_THAT(refused([](auto& r) { r.antenna.campaign->records.clear(); }),
               HasSubstr("record: expected a list of tables [[record]], found none"));
   EXPECT_THAT(refused([](auto& r) { r.text.resize(3000); }),
               HasSubstr("expected most of 1 records to be of use, found 1 that are not; slow_ramp: "
@@ -84,7 +88,7 @@ TEST(MakeCampaign, RefusesColumnsAndUnitsThatDoNotFit) {
 TEST(MakeCampaign, RefusesAMappedColumnThatNoRecordHas) {
   for (const std::string key : {"rate_command", "valve_command"}) {
     OneRecord record("full", "slow_ramp");
-    auto& columns = record.antenna.campaign.columns;
+    auto& columns = record.antenna.campaign->columns;
     auto& entry = key == "rate_command" ? columns.rate_command : columns.valve_command;
     entry->name = key + "s";
     EXPECT_THAT(record.refusal(), HasSubstr("record_columns." + key +
@@ -95,7 +99,7 @@ TEST(MakeCampaign, RefusesAMappedColumnThatNoRecordHas) {
                                             "'time', 'p1_in'"));
   }
   OneRecord record("full", "slow_ramp");
-  record.antenna.campaign.columns.reversed = {"tach", "p1_inn"};
+  record.antenna.campaign->columns.reversed = {"tach", "p1_inn"};
   EXPECT_THAT(record.refusal(),
               HasSubstr("record_columns.reversed: expected a column of one record at least, found "
                         "'p1_inn' (did you mean 'p1_in'?)"));
@@ -103,8 +107,8 @@ TEST(MakeCampaign, RefusesAMappedColumnThatNoRecordHas) {
 
 TEST(MakeCampaign, SaysWhichRecordsLackAMappedColumn) {
   OneRecord record("full", "slow_ramp");
-  record.antenna.campaign.records.push_back(record.antenna.campaign.records[0]);
-  RecordEntry& whole = record.antenna.campaign.records[1];
+  record.antenna.campaign->records.push_back(record.antenna.campaign->records[0]);
+  RecordEntry& whole = record.antenna.campaign->records[1];
   whole.name = "whole";
   whole.file = folder_of("full") + "/slow_ramp.csv";
   record.replace("rate_command", "rate_commnd");
@@ -120,7 +124,7 @@ TEST(MakeCampaign, SaysWhichRecordsLackAMappedColumn) {
 TEST(MakeCampaign, GuessesNamesInOtherStyles) {
   OneRecord record("small-dish", "slow_ramp");
   const auto before = record.make().records.at(0);
-  record.antenna.campaign.columns = {};
+  record.antenna.campaign->columns = {};
   for (const std::string header :
        {"Time,P1 IN,P1 OUT,P2 IN,P2 OUT,Motor Speed,Speed Cmd,Valve\n"
         "s,bar,bar,bar,bar,rpm,deg/s,V",
@@ -131,7 +135,7 @@ TEST(MakeCampaign, GuessesNamesInOtherStyles) {
         "TIME [s],Motor 1 A [bar],Motor 1 B [bar],Motor 2 A [bar],Motor 2 B [bar],TACH [rpm],"
         "rate setpoint [deg/s],valve [V]"}) {
     OneRecord styled("small-dish", "slow_ramp");
-    styled.antenna.campaign.columns = {};
+    styled.antenna.campaign->columns = {};
     const std::size_t end = styled.text.find('\n');
     std::string rows = styled.text.substr(end);
     const char separator = header.find('\t') != std::string::npos  ? '\t'
@@ -177,7 +181,7 @@ TEST(MakeCampaign, TakesTimesInMillisecondsAndMinutes) {
 
 TEST(MakeCampaign, DoesNotGuessAColumnOfAnotherKind) {
   OneRecord record("full", "slow_ramp");
-  record.antenna.campaign.columns = {};
+  record.antenna.campaign->columns = {};
   record.replace("valve_command [V]", "p1_in_sensor [mA]");
   record.replace("rate_command [V]", "p1_in_temperature [K]");
   record.make();
@@ -187,8 +191,8 @@ TEST(MakeCampaign, DoesNotGuessAColumnOfAnotherKind) {
 
 TEST(MakeCampaign, LeavesAGuessedCommandItCannotScaleOutAndSaysSo) {
   OneRecord record("full", "slow_ramp");
-  record.antenna.campaign.columns = {};
-  record.antenna.campaign.instruments->valve_command_scale.reset();
+  record.antenna.campaign->columns = {};
+  record.antenna.campaign->instruments->valve_command_scale.reset();
   record.replace("rate_command [V]", "rate_command");
   const auto made = record.make().records.at(0);
   EXPECT_FALSE(made.valve_command);
@@ -201,11 +205,11 @@ TEST(MakeCampaign, LeavesAGuessedCommandItCannotScaleOutAndSaysSo) {
 TEST(MakeCampaign, TakesASampleRateWhereTheFileHasNoTimes) {
   OneRecord record("full", "slow_ramp");
   const auto before = record.make().records.at(0);
-  record.antenna.campaign.columns.time.reset();
+  record.antenna.campaign->columns.time.reset();
   Quantity rate;
   rate.value = 200.0;
   rate.text = "200 Hz";
-  record.antenna.campaign.columns.sample_rate = rate;
+  record.antenna.campaign->columns.sample_rate = rate;
   record.replace("time [s]", "counter");
   const auto after = record.make().records.at(0);
   EXPECT_NEAR(after.sample_time, 0.005, 1e-15);

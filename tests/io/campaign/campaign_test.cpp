@@ -11,6 +11,8 @@
 #include "io/one_record.hpp"
 #include <boresight/identification/records/integrated_motion.hpp>
 #include <boresight/io/campaign/loaded_campaign.hpp>
+#include <boresight/io/case/case_campaign.hpp>
+#include <boresight/io/case/case_drive.hpp>
 
 namespace boresight::io {
 namespace {
@@ -23,7 +25,7 @@ TEST(MakeCampaign, ReadsTheThreeCampaignsWithoutAFalseAlarm) {
     CampaignNotes notes;
     const Case antenna = case_of(name);
     const auto campaign = make_campaign(antenna, notes);
-    EXPECT_EQ(campaign.records.size(), antenna.campaign.records.size());
+    EXPECT_EQ(campaign.records.size(), antenna.campaign->records.size());
     EXPECT_TRUE(notes.assumptions.empty());
     for (std::size_t i = 0; i < notes.records.size(); ++i) {
       const RecordNotes& note = notes.records[i];
@@ -47,7 +49,7 @@ TEST(MakeCampaign, ReadsTheThreeCampaignsWithoutAFalseAlarm) {
 TEST(LoadCampaign, HoldsWhatWasRecordedAndMakesTheSameCampaign) {
   const Case antenna = case_of("small-dish");
   LoadedCampaign loaded = load_campaign(antenna, 3);
-  ASSERT_EQ(loaded.records.size(), antenna.campaign.records.size());
+  ASSERT_EQ(loaded.records.size(), antenna.campaign->records.size());
   for (const LoadedRecord& one : loaded.records) {
     EXPECT_GT(one.raw.time.size(), 1000);
     EXPECT_TRUE(one.clean.record);
@@ -109,8 +111,8 @@ TEST(MakeCampaign, GuessesColumnsTestsAndLoopsAndSaysSo) {
     Case antenna = case_of(name);
     CampaignNotes stated_notes;
     const auto stated = make_campaign(antenna, stated_notes);
-    antenna.campaign.columns = {};
-    for (auto& record : antenna.campaign.records) record.test = record.rate_loop = "";
+    antenna.campaign->columns = {};
+    for (auto& record : antenna.campaign->records) record.test = record.rate_loop = "";
     CampaignNotes notes;
     const auto guessed = make_campaign(antenna, notes);
     for (std::size_t i = 0; i < stated.records.size(); ++i) {
@@ -130,11 +132,11 @@ TEST(MakeCampaign, GuessesColumnsTestsAndLoopsAndSaysSo) {
 TEST(MakeCampaign, TurnsOnlyTheSignsItIsTold) {
   OneRecord record("full", "slow_ramp");
   const auto before = record.make().records.at(0);
-  record.antenna.campaign.columns.reversed = {"TACH"};
+  record.antenna.campaign->columns.reversed = {"TACH"};
   EXPECT_THAT(record.refusal(), HasSubstr("case.toml: record_columns: inlet above outlet drives "
                                           "against the tachometer in 1 of 1 records in motion"));
   // With inlets and outlets exchanged beside it, all is in order but for the command.
-  std::swap(record.antenna.campaign.columns.inlet, record.antenna.campaign.columns.outlet);
+  std::swap(record.antenna.campaign->columns.inlet, record.antenna.campaign->columns.outlet);
   const auto after = record.make().records.at(0);
   EXPECT_EQ(after.motor_rate.values, -before.motor_rate.values);
   EXPECT_EQ(after.outlet_pressure[0].values, before.inlet_pressure[0].values);
@@ -150,7 +152,7 @@ TEST(MakeCampaign, TurnsOnlyTheSignsItIsTold) {
 
 TEST(MakeCampaign, TakesACommandOfZerosForAnOpenLoop) {
   OneRecord record("small-dish", "fast_ramp");
-  record.antenna.campaign.records[0].rate_loop = "";
+  record.antenna.campaign->records[0].rate_loop = "";
   std::stringstream lines(record.text);
   std::string line;
   std::getline(lines, line);
@@ -174,7 +176,7 @@ TEST(MakeCampaign, TakesACommandOfZerosForAnOpenLoop) {
 TEST(MakeCampaign, LeavesAMotorOutWhosePortsAreExchanged) {
   OneRecord four("full", "slow_ramp");
   const auto before = four.make();
-  std::swap(four.antenna.campaign.columns.inlet[1], four.antenna.campaign.columns.outlet[1]);
+  std::swap(four.antenna.campaign->columns.inlet[1], four.antenna.campaign->columns.outlet[1]);
   const auto after = four.make();
   const auto torque = [](const identification::Campaign& campaign) {
     return identification::recorded_torque(campaign.records[0], campaign.knowledge);
@@ -184,7 +186,7 @@ TEST(MakeCampaign, LeavesAMotorOutWhosePortsAreExchanged) {
   EXPECT_GT(after.instruments.pressure_zero, before.instruments.pressure_zero);
   EXPECT_GT(after.instruments.unknown_pressure_sum, 0.0);
   OneRecord two("small-dish", "constant_speed_0.14deg_s");
-  std::swap(two.antenna.campaign.columns.inlet[1], two.antenna.campaign.columns.outlet[1]);
+  std::swap(two.antenna.campaign->columns.inlet[1], two.antenna.campaign->columns.outlet[1]);
   EXPECT_THAT(two.refusal(), HasSubstr("which motors have their inlet and outlet exchanged"));
 }
 
@@ -208,7 +210,7 @@ TEST(MakeCampaign, SaysOfEveryRecordWhyItIsOfNoUse) {
 
 TEST(MakeCampaign, RecognisesASloshTestWithoutTachometer) {
   OneRecord record("full", "slosh");
-  record.antenna.campaign.records[0].test = "";
+  record.antenna.campaign->records[0].test = "";
   record.replace("tach [V]", "tach [V],unused [V]");
   std::stringstream lines(record.text);
   std::string line;
@@ -225,7 +227,7 @@ TEST(MakeCampaign, RecognisesASloshTestWithoutTachometer) {
 
 TEST(MakeCampaign, RefusesASupplyBelowTheReturnAtItsPlace) {
   OneRecord record("full", "slow_ramp");
-  record.antenna.drive.supply_pressure.value = 2e5;
+  record.antenna.drive->supply_pressure.value = 2e5;
   EXPECT_THAT(record.refusal(),
               HasSubstr("drive.supply_pressure: expected a supply pressure above the return"));
 }
@@ -253,9 +255,9 @@ TEST(MakeCampaign, RaisesUncertaintiesForADeadTransducer) {
     return std::ranges::count(identification::usable_samples(campaign.records[0], 0.0), true);
   };
   EXPECT_EQ(valid(after), valid(before));
-  record.antenna.campaign.records[0].test = "slosh";
+  record.antenna.campaign->records[0].test = "slosh";
   EXPECT_EQ(valid(record.make()), 0);
-  record.antenna.campaign.records[0].test = "slow-ramp";
+  record.antenna.campaign->records[0].test = "slow-ramp";
   // The sum over the motors is off by what the transducers differ by, far less than a motor's
   // share.
   const auto torque = [](const identification::Campaign& campaign) {

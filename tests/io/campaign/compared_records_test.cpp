@@ -4,6 +4,8 @@
 #include <gtest/gtest.h>
 
 #include <boresight/io/campaign/compared_records.hpp>
+#include <boresight/io/case/case_campaign.hpp>
+#include <boresight/io/case/case_file.hpp>
 #include <boresight/numerics/error.hpp>
 
 namespace boresight::io {
@@ -44,7 +46,7 @@ TEST(ComparedRecords, AreTwoUsableRecordsOfTheCase) {
   EXPECT_THAT(refusal("slosh", "slosh"), HasSubstr("found 'slosh' twice"));
   EXPECT_THAT(refusal("slosh", "none"), HasSubstr("expected a record of the case"));
   Case without = antenna;
-  without.campaign.records.clear();
+  without.campaign->records.clear();
   EXPECT_THROW(compare_records_of(without, "slosh", "none", 1), InvalidInput);
 }
 

@@ -8,6 +8,7 @@
 
 #include "io/one_record.hpp"
 #include <boresight/io/campaign/campaign_identification.hpp>
+#include <boresight/io/case/case_campaign.hpp>
 
 namespace boresight::io {
 namespace {
@@ -30,11 +31,11 @@ void write_dead(const std::string& from, const std::string& to) {
 
 TEST(DeadPressure, LeavesTheCampaignItsMethodsAndIsSaid) {
   Case antenna = case_of("small-dish");
-  std::erase_if(antenna.campaign.records, [](const RecordEntry& entry) {
+  std::erase_if(antenna.campaign->records, [](const RecordEntry& entry) {
     return entry.name != "slosh" && entry.name != "valve_steps" &&
            entry.name != "constant_speed_0.02deg_s" && entry.name != "constant_speed_0.22deg_s";
   });
-  for (RecordEntry& record : antenna.campaign.records) {
+  for (RecordEntry& record : antenna.campaign->records) {
     const std::string dead = testing::TempDir() + "/dead_" + record.name + ".csv";
     write_dead(folder_of("small-dish") + "/" + record.file, dead);
     record.file = dead;

@@ -17,6 +17,9 @@
 #include <boresight/io/campaign/designed_antenna.hpp>
 #include <boresight/io/campaign/recommended_values.hpp>
 #include <boresight/io/case/antenna_of.hpp>
+#include <boresight/io/case/case_campaign.hpp>
+#include <boresight/io/case/case_drive.hpp>
+#include <boresight/io/case/case_structure.hpp>
 #include <boresight/io/case/case_tuning.hpp>
 #include <boresight/io/case/mission_of.hpp>
 #include <boresight/plant/antenna/motors_held_modes.hpp>
@@ -45,7 +48,7 @@ double true_slope(double rate) {
 struct Designed {
   Case stated = [] {
     Case full = case_of("full");
-    std::erase_if(full.campaign.records, [](const RecordEntry& entry) {
+    std::erase_if(full.campaign->records, [](const RecordEntry& entry) {
       return entry.name != "constant_speed_0.5V" && entry.name != "constant_speed_4V" &&
              entry.name != "valve_steps" && entry.name != "valve_chirp";
     });
@@ -79,7 +82,7 @@ void expect_superseded(const std::string& key, double value, double largest_shar
 TEST(IdentifiedPlant, HasTheSlopeLeakageAndValveOfTheRecords) {
   const plant::Antenna& antenna = designed().antenna.mission.antenna;
   const double slope = true_slope(designed().section.knowledge.tracking_rate);
-  EXPECT_GT(slope, 10.0 * designed().stated.drive.viscous_friction.value);
+  EXPECT_GT(slope, 10.0 * designed().stated.drive->viscous_friction.value);
   expect_superseded("drive.viscous_friction", slope, 0.02);
   expect_superseded("drive.leakage_rate", truth()["leakage_rate_1_per_s"], 0.1);
   expect_superseded("drive.valve_frequency", truth()["valve"]["frequency_Hz"], 0.3);
@@ -169,13 +172,13 @@ TEST(IdentifiedPlant, LeavesWhatTheRecordsDoNotSayToTheCase) {
     EXPECT_FALSE(is_superseded(designed().antenna.superseded, key)) << key;
   }
   const Case& antenna = designed().antenna.antenna;
-  EXPECT_EQ(antenna.structure.modes[0].wind_fraction.value,
-            designed().stated.structure.modes[0].wind_fraction.value);
+  EXPECT_EQ(antenna.structure->modes[0].wind_fraction.value,
+            designed().stated.structure->modes[0].wind_fraction.value);
   // A number that the case vouches for better than the records stays.
   Case vouched = designed().stated;
-  vouched.drive.leakage_rate.basis = Basis::measured;
-  vouched.drive.leakage_rate.uncertainty_given = true;
-  vouched.drive.leakage_rate.standard_uncertainty = 1e-3;
+  vouched.drive->leakage_rate.basis = Basis::measured;
+  vouched.drive->leakage_rate.uncertainty_given = true;
+  vouched.drive->leakage_rate.standard_uncertainty = 1e-3;
   const auto parts = taken_parts(vouched, *designed().section.grey_box);
   EXPECT_FALSE(parts.leakage_rate);
   EXPECT_TRUE(parts.friction_slope);

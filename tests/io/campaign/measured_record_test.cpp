@@ -7,6 +7,8 @@
 
 #include "scratch_folder.hpp"
 #include <boresight/io/campaign/measured_record.hpp>
+#include <boresight/io/case/case_campaign.hpp>
+#include <boresight/io/case/case_file.hpp>
 #include <boresight/io/case/drive_numbers.hpp>
 #include <boresight/numerics/angles.hpp>
 #include <boresight/numerics/error.hpp>
@@ -52,7 +54,7 @@ TEST(EncoderColumn, IsTheAntennasAngleAtTheMotor) {
   EXPECT_EQ(angle[0], 0.0);
   const double turned = 1000.0 * degree * gear_ratio(antenna);
   EXPECT_NEAR(angle[1000], turned, 1e-9 * turned);
-  antenna.campaign.columns.reversed.emplace_back("encoder POSITION");
+  antenna.campaign->columns.reversed.emplace_back("encoder POSITION");
   EXPECT_EQ(*encoder_column(antenna, notes, samples)->motor_angle, -angle);
 }
 

@@ -6,6 +6,12 @@
 
 #include "io/edited_case.hpp"
 #include <boresight/io/case/antenna_of.hpp>
+#include <boresight/io/case/case_drive.hpp>
+#include <boresight/io/case/case_mechanics.hpp>
+#include <boresight/io/case/case_oil.hpp>
+#include <boresight/io/case/case_sensors.hpp>
+#include <boresight/io/case/case_simulation.hpp>
+#include <boresight/io/case/case_structure.hpp>
 #include <boresight/io/case/drive_numbers.hpp>
 #include <boresight/io/case/structure_numbers.hpp>
 #include <boresight/plant/nonlinear/nonlinear_drive.hpp>
@@ -44,11 +50,11 @@ TEST(AntennaOf, PlantHasTheNumbersOfTheCase) {
     const Case stated = read_case(file);
     const plant::AntennaPlant plant = linear_plant(antenna_of(stated));
     EXPECT_EQ(plant.drive.oil_stiffness, plant::oil_stiffness(hydraulic_drive(stated)));
-    EXPECT_EQ(plant.drive.leakage_rate, stated.drive.leakage_rate.value);
-    EXPECT_EQ(plant.drive.viscous_friction, stated.drive.viscous_friction.value);
+    EXPECT_EQ(plant.drive.leakage_rate, stated.drive->leakage_rate.value);
+    EXPECT_EQ(plant.drive.viscous_friction, stated.drive->viscous_friction.value);
     const double ratio = gear_ratio(stated);
-    plant::StructureSpecification structure = structure_specification(stated.structure);
-    structure.antenna_inertia = stated.antenna.inertia.value / (ratio * ratio);
+    plant::StructureSpecification structure = structure_specification(*stated.structure);
+    structure.antenna_inertia = stated.antenna->inertia.value / (ratio * ratio);
     const plant::Structure expected = plant::make_structure(structure);
     EXPECT_EQ(plant.structure.gear_stiffness, expected.gear_stiffness);
     ASSERT_EQ(plant.structure.modes.size(), expected.modes.size());
@@ -92,8 +98,8 @@ TEST(AntennaOf, WithoutSimulationHasNoNonlinearDrive) {
 TEST(AntennaOf, ChangesAPlantByTheKeysOfTheCase) {
   const Case stated = reference();
   Case softer = stated;
-  softer.oil.bulk_modulus->value *= 0.8;
-  softer.structure.modes[1].frequency.value *= 1.1;
+  softer.oil->bulk_modulus->value *= 0.8;
+  softer.structure->modes[1].frequency.value *= 1.1;
   const auto edited = make_plant(softer);
   const auto changed = make_plant(stated, {plant::scaled_by("oil.bulk_modulus", 0.8),
                                            plant::scaled_by("structure.mode[1].frequency", 1.1)});
@@ -104,12 +110,12 @@ TEST(AntennaOf, ChangesAPlantByTheKeysOfTheCase) {
 
 TEST(AntennaOf, GivesEveryAntennaOfFrequenciesWithTheMotorsHeld) {
   Case stated = reference();
-  stated.structure.modes.resize(1);
-  stated.structure.modes[0].frequency.value = 4.0;
-  stated.structure.modes[0].inertia_fraction.value = 0.2;
-  stated.structure.modes[0].wind_fraction.value = 1.0;
-  stated.structure.modes[0].beam_weight.value = 0.95;
-  stated.structure.motors_held = true;
+  stated.structure->modes.resize(1);
+  stated.structure->modes[0].frequency.value = 4.0;
+  stated.structure->modes[0].inertia_fraction.value = 0.2;
+  stated.structure->modes[0].wind_fraction.value = 1.0;
+  stated.structure->modes[0].beam_weight.value = 0.95;
+  stated.structure->motors_held = true;
   const auto antennas = antennas_of(stated);
   ASSERT_EQ(antennas.size(), 2U);
   EXPECT_LT(linear_plant(antennas[0]).structure.gear_stiffness,

@@ -10,6 +10,7 @@
 #include "io/edited_case.hpp"
 #include <boresight/design/problem/wind_climate.hpp>
 #include <boresight/io/case/case_file.hpp>
+#include <boresight/io/case/case_wind.hpp>
 
 namespace boresight::io {
 namespace {
@@ -29,15 +30,15 @@ const std::string highest = "highest = \"30 mile/h\"\n";
 
 TEST(CaseClimate, TakesAMeanAndOneExceedance) {
   const io::Case antenna = io::parse_case(with_climate(exceedance + highest), "case.toml");
-  ASSERT_EQ(antenna.wind.climate_parts.size(), 1U);
-  const auto& law = std::get<design::WeibullClimate>(antenna.wind.climate_parts[0].winds);
+  ASSERT_EQ(antenna.wind->climate_parts.size(), 1U);
+  const auto& law = std::get<design::WeibullClimate>(antenna.wind->climate_parts[0].winds);
   EXPECT_NEAR(law.scale * std::tgamma(1.0 + 1.0 / law.shape), 9.0 * mile_per_hour, 1e-9);
   EXPECT_NEAR(std::exp(-std::pow(30.0 * mile_per_hour / law.scale, law.shape)), 0.02, 1e-9);
   EXPECT_NEAR(law.shape, 1.19173678, 1e-8);
   EXPECT_NEAR(law.highest, 30.0 * mile_per_hour, 1e-12);
   // What lies above `highest` does not count.
-  EXPECT_EQ(design::share_of_time(antenna.wind.climate_parts, 30.0 * mile_per_hour), 1.0);
-  for (const auto& one : antenna.wind.climate) EXPECT_LE(one.speed, law.highest);
+  EXPECT_EQ(design::share_of_time(antenna.wind->climate_parts, 30.0 * mile_per_hour), 1.0);
+  for (const auto& one : antenna.wind->climate) EXPECT_LE(one.speed, law.highest);
   for (const char* key : {"mean", "exceeded", "exceeded_share", "highest"}) {
     const std::string path = std::string("wind.climate[0].") + key;
     EXPECT_TRUE(std::ranges::any_of(antenna.quantities, [&](const io::Quantity& one) {
@@ -54,7 +55,7 @@ TEST(CaseClimate, RaisesAMeanAndAnExceedanceFromTheMast) {
   const io::Case antenna =
       io::parse_case(edited.text() + "\n[[wind.climate]]\n" + exceedance + highest, "case.toml");
   const double ratio = std::pow(4.0, 0.14);
-  const auto& law = std::get<design::WeibullClimate>(antenna.wind.climate_parts.at(0).winds);
+  const auto& law = std::get<design::WeibullClimate>(antenna.wind->climate_parts.at(0).winds);
   EXPECT_NEAR(law.scale * std::tgamma(1.0 + 1.0 / law.shape), ratio * 9.0 * mile_per_hour, 1e-9);
   EXPECT_NEAR(law.shape, 1.19173678, 1e-8);
   EXPECT_NEAR(law.highest, ratio * 30.0 * mile_per_hour, 1e-12);

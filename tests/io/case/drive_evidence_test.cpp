@@ -1,6 +1,8 @@
 #include <gtest/gtest.h>
 
 #include "io/edited_case.hpp"
+#include <boresight/io/case/case_mechanics.hpp>
+#include <boresight/io/case/case_tests.hpp>
 #include <boresight/io/case/drive_evidence.hpp>
 #include <boresight/io/case/plant_numbers.hpp>
 #include <boresight/io/case/resonating_mode.hpp>
@@ -17,14 +19,14 @@ TEST(DriveEvidence, HasTheInertiasOfTheCaseAtTheMotorShaft) {
   EXPECT_NEAR(evidence.antenna[0].reflected.standard_uncertainty / antenna_inertia(stated), 0.1,
               1e-12);
   EXPECT_EQ(evidence.antenna[1].reflected.value,
-            antenna_inertia(stated, stated.antenna.alternatives.front()));
-  EXPECT_EQ(evidence.assemblies.size(), stated.gear_train.assemblies.size());
+            antenna_inertia(stated, stated.antenna->alternatives.front()));
+  EXPECT_EQ(evidence.assemblies.size(), stated.gear_train->assemblies.size());
 }
 
 TEST(DriveEvidence, ReadsTheResonanceOnlyWhereTheAntennaRingsAsRigid) {
   Case stated = read_case(case_path("dss14-70m"));
   EXPECT_EQ(make_evidence(stated).resonance_frequency.has_value(), rings_as_rigid(stated));
-  stated.resonance_frequency.reset();
+  stated.resonance->frequency.reset();
   EXPECT_FALSE(make_evidence(stated).resonance_frequency.has_value());
 }
 

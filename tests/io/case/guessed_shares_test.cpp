@@ -2,6 +2,7 @@
 
 #include "io/edited_case.hpp"
 #include <boresight/io/case/antenna_of.hpp>
+#include <boresight/io/case/case_structure.hpp>
 #include <boresight/io/case/guessed_shares.hpp>
 
 namespace boresight::io {
@@ -13,7 +14,7 @@ Case guessing_antenna() {
 }
 
 plant::Structure placed(const Case& antenna, GuessedShares place) {
-  return make_plant(antenna, guessed_share_changes(antenna.structure, place)).structure;
+  return make_plant(antenna, guessed_share_changes(*antenna.structure, place)).structure;
 }
 
 TEST(GuessedShares, AsInertiaLetTheWindTurnAFreeAntennaAsOneBody) {
@@ -47,7 +48,7 @@ TEST(GuessedShares, LeaveAloneWhatIsNoGuessAndSumToOne) {
 // A subreflector's support turns the beam against itself, and the dish has what balances it.
 TEST(GuessedShares, MoveWhatBalancesANegativeOne) {
   Case antenna = guessing_antenna();
-  auto& modes = antenna.structure.modes;
+  auto& modes = antenna.structure->modes;
   modes[2].beam_weight.value = -0.8;
   modes[0].beam_weight.value = 1.45;  // with 0.05, 0.25 and 0.05 on the others
   const auto alone = placed(antenna, GuessedShares::all_at_heaviest);

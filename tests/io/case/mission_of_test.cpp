@@ -6,6 +6,12 @@
 #include "io/edited_case.hpp"
 #include <boresight/design/problem/pointing.hpp>
 #include <boresight/io/case/antenna_of.hpp>
+#include <boresight/io/case/case_drive.hpp>
+#include <boresight/io/case/case_goals.hpp>
+#include <boresight/io/case/case_mechanics.hpp>
+#include <boresight/io/case/case_pointing.hpp>
+#include <boresight/io/case/case_sensors.hpp>
+#include <boresight/io/case/case_wind.hpp>
 #include <boresight/io/case/drive_numbers.hpp>
 #include <boresight/io/case/mission_of.hpp>
 #include <boresight/io/case/plant_numbers.hpp>
@@ -23,8 +29,8 @@ TEST(MissionOf, ProblemIsOfTheCasesAntennaAndOfAnyOther) {
   const auto own = make_problem(stated);
   EXPECT_EQ(own.gear_ratio, gear_ratio(stated));
   EXPECT_EQ(own.plant.drive.oil_stiffness, linear_plant(antenna).drive.oil_stiffness);
-  EXPECT_EQ(own.delay, stated.controller_delay.value);
-  EXPECT_EQ(own.noise.encoder_rms, stated.sensors.encoder_noise.value * gear_ratio(stated));
+  EXPECT_EQ(own.delay, stated.controller->delay.value);
+  EXPECT_EQ(own.noise.encoder_rms, stated.sensors->encoder_noise.value * gear_ratio(stated));
   const auto bare = plant::set_to("motor.flywheel_disks", 0.0);
   EXPECT_EQ(make_problem(stated, {bare}).plant.drive.motor_inertia,
             make_problem(stated, changed(antenna, {bare})).plant.drive.motor_inertia);
@@ -66,33 +72,33 @@ TEST(MissionOf, BudgetsAreTheRmsOfTheirLosses) {
 
 TEST(MissionOf, CrestFactorAsksForTorqueThatTheSupplyHas) {
   Case stated = reference();
-  stated.goals.crest_factor = stated.goals.sensitivity_peak;
+  stated.goals->crest_factor = stated.goals->sensitivity_peak;
   const auto goals = make_goals(stated);
   EXPECT_EQ(goals.gust_torque, torque_for_wind(stated));
   EXPECT_EQ(goals.gust_demand, largest_demand(stated));
-  stated.drive.supply_pressure.value = 1e3;
+  stated.drive->supply_pressure.value = 1e3;
   EXPECT_THROW(make_goals(stated), InvalidInput);
 }
 
 TEST(MissionOf, ClimateWeighsTheCasesWind) {
   Case stated = reference();
   EXPECT_TRUE(make_climate(stated).empty());
-  stated.wind.climate = {{5.0, 0.75}, {12.0, 0.25}};
+  stated.wind->climate = {{5.0, 0.75}, {12.0, 0.25}};
   const auto winds = make_climate(stated);
   ASSERT_EQ(winds.size(), 2U);
   EXPECT_EQ(winds[1].wind.mean_speed, 12.0);
   EXPECT_EQ(winds[1].weight, 0.25);
-  EXPECT_EQ(winds[0].wind.site.dish_diameter, stated.antenna.dish_diameter.value);
+  EXPECT_EQ(winds[0].wind.site.dish_diameter, stated.antenna->dish_diameter.value);
 }
 
 TEST(MissionOf, PointsWhereTheCaseSaysBoth) {
   Case stated = reference();
   EXPECT_FALSE(mission_of(stated).pointing);
-  stated.antenna.elevation = Quantity{};
-  stated.antenna.elevation->value = 0.5;
+  stated.antenna->elevation = Quantity{};
+  stated.antenna->elevation->value = 0.5;
   EXPECT_FALSE(mission_of(stated).pointing);
-  stated.antenna.azimuth = Quantity{};
-  stated.antenna.azimuth->value = 1.5;
+  stated.antenna->azimuth = Quantity{};
+  stated.antenna->azimuth->value = 1.5;
   const auto pointing = mission_of(stated).pointing.value_or(plant::DishDirection{});
   EXPECT_EQ(pointing.azimuth, 1.5);
   EXPECT_EQ(pointing.elevation, 0.5);

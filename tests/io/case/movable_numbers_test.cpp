@@ -10,6 +10,10 @@
 
 #include "io/edited_case.hpp"
 #include <boresight/io/case/antenna_of.hpp>
+#include <boresight/io/case/case_drive.hpp>
+#include <boresight/io/case/case_mechanics.hpp>
+#include <boresight/io/case/case_structure.hpp>
+#include <boresight/io/case/case_wind.hpp>
 #include <boresight/io/case/drive_numbers.hpp>
 #include <boresight/io/case/movable_numbers.hpp>
 
@@ -28,14 +32,14 @@ MovableNumber number_of(const std::vector<MovableNumber>& numbers, const std::st
 }
 
 double wind_shares(const Case& antenna) {
-  double sum = antenna.structure.bull_gear_wind_fraction.value;
-  for (const auto& mode : antenna.structure.modes) sum += mode.wind_fraction.value;
+  double sum = antenna.structure->bull_gear_wind_fraction.value;
+  for (const auto& mode : antenna.structure->modes) sum += mode.wind_fraction.value;
   return sum;
 }
 
 double beam_shares(const Case& antenna) {
-  double sum = antenna.structure.bull_gear_beam_weight.value;
-  for (const auto& mode : antenna.structure.modes) sum += mode.beam_weight.value;
+  double sum = antenna.structure->bull_gear_beam_weight.value;
+  for (const auto& mode : antenna.structure->modes) sum += mode.beam_weight.value;
   return sum;
 }
 
@@ -50,16 +54,16 @@ TEST(MovableNumbers, MoveByWhatTheCaseSaysOrATenth) {
   const auto density = number_of(numbers, "wind.air_density");
   EXPECT_FALSE(density.unstated);
   EXPECT_NEAR(density.moved_by, 0.033, 1e-12);
-  EXPECT_NEAR(moved(antenna, density, true).wind.air_density.value, 1.133, 1e-12);
-  EXPECT_NEAR(moved(antenna, density, false).wind.air_density.value, 1.067, 1e-12);
+  EXPECT_NEAR(moved(antenna, density, true).wind->air_density.value, 1.133, 1e-12);
+  EXPECT_NEAR(moved(antenna, density, false).wind->air_density.value, 1.067, 1e-12);
   const auto coefficient = number_of(numbers, "wind.torque_coefficient");
   EXPECT_TRUE(coefficient.unstated);
-  EXPECT_DOUBLE_EQ(coefficient.moved_by, 0.1 * antenna.wind.torque_coefficient.value);
+  EXPECT_DOUBLE_EQ(coefficient.moved_by, 0.1 * antenna.wind->torque_coefficient.value);
   EXPECT_FALSE(coefficient.share_of_mode);
   // The gusts' strength is kept as the plant takes it.
   const auto drag = number_of(numbers, "wind.surface_drag");
-  EXPECT_NEAR(moved(antenna, drag, true).wind.gusts.surface_drag,
-              1.1 * antenna.wind.gusts.surface_drag, 1e-12);
+  EXPECT_NEAR(moved(antenna, drag, true).wind->gusts.surface_drag,
+              1.1 * antenna.wind->gusts.surface_drag, 1e-12);
 }
 
 TEST(MovableNumbers, LeaveOutWhatRecordsGave) {
@@ -70,7 +74,7 @@ TEST(MovableNumbers, LeaveOutWhatRecordsGave) {
         numbers, [](const MovableNumber& one) { return one.quantity.key == "antenna.inertia"; });
   };
   EXPECT_TRUE(has_inertia());
-  antenna.antenna.inertia.text.clear();
+  antenna.antenna->inertia.text.clear();
   EXPECT_FALSE(has_inertia());
 }
 
@@ -103,13 +107,13 @@ TEST(MovableNumbers, KeepTheSumOfShares) {
   EXPECT_EQ(weight.share_of_mode, 0U);
   const Case heavier = moved(antenna, weight, true);
   const double most = weight.range.value().second;
-  EXPECT_NEAR(heavier.structure.modes[0].beam_weight.value, most, 1e-12);
+  EXPECT_NEAR(heavier.structure->modes[0].beam_weight.value, most, 1e-12);
   EXPECT_NEAR(beam_shares(heavier), beam_shares(antenna), 1e-12);
   EXPECT_EQ(wind_shares(heavier), wind_shares(antenna));
-  const double left = (1.0 - most) / (1.0 - antenna.structure.modes[0].beam_weight.value);
-  for (std::size_t i = 1; i < antenna.structure.modes.size(); ++i) {
-    EXPECT_NEAR(heavier.structure.modes[i].beam_weight.value,
-                left * antenna.structure.modes[i].beam_weight.value, 1e-12);
+  const double left = (1.0 - most) / (1.0 - antenna.structure->modes[0].beam_weight.value);
+  for (std::size_t i = 1; i < antenna.structure->modes.size(); ++i) {
+    EXPECT_NEAR(heavier.structure->modes[i].beam_weight.value,
+                left * antenna.structure->modes[i].beam_weight.value, 1e-12);
   }
 }
 
@@ -118,7 +122,7 @@ TEST(MovableNumbers, GiveWhatAShareLosesToTheOthersInertias) {
   const Case antenna = own_case();
   const auto wind = number_of(movable_numbers(antenna), "structure.mode[0].wind_fraction");
   const Case lighter = moved(antenna, wind, false);
-  const auto &before = antenna.structure.modes, &after = lighter.structure.modes;
+  const auto &before = antenna.structure->modes, &after = lighter.structure->modes;
   const double lost = before[0].wind_fraction.value - wind.range.value().first;
   ASSERT_GT(lost, 0.1);
   EXPECT_NEAR(wind_shares(lighter), wind_shares(antenna), 1e-12);
@@ -165,9 +169,9 @@ TEST(MovableNumbers, MoveTheLeakageRateThatAFlowMakes) {
   const Case antenna = with("0.02455 m3");
   // Its uncertainty is 1 %.
   const Case larger = moved(antenna, number_of(movable_numbers(antenna), "oil.volume_1"), true);
-  const double expected = with("0.0247955 m3").drive.leakage_rate.value;
-  EXPECT_NE(expected, antenna.drive.leakage_rate.value);
-  EXPECT_NEAR(larger.drive.leakage_rate.value, expected, 1e-6 * expected);
+  const double expected = with("0.0247955 m3").drive->leakage_rate.value;
+  EXPECT_NE(expected, antenna.drive->leakage_rate.value);
+  EXPECT_NEAR(larger.drive->leakage_rate.value, expected, 1e-6 * expected);
 }
 
 }  // namespace

@@ -4,6 +4,12 @@
 
 #include <boresight/design/ensembles/plant_distribution.hpp>
 #include <boresight/io/case/antenna_of.hpp>
+#include <boresight/io/case/case_drive.hpp>
+#include <boresight/io/case/case_file.hpp>
+#include <boresight/io/case/case_mechanics.hpp>
+#include <boresight/io/case/case_motor.hpp>
+#include <boresight/io/case/case_structure.hpp>
+#include <boresight/io/case/case_wind.hpp>
 #include <boresight/io/case/member_ranges.hpp>
 #include <boresight/io/case/mission_of.hpp>
 #include <boresight/io/case/plant_numbers.hpp>
@@ -38,7 +44,7 @@ TEST(PlantDistribution, OfRangesKeepsToThem) {
   const double width = ranges.oil_stiffness.upper - ranges.oil_stiffness.lower;
   EXPECT_NEAR(mean, 0.5 * (ranges.oil_stiffness.lower + ranges.oil_stiffness.upper),
               4.0 * width / std::sqrt(12.0 * count));
-  const auto& inertia = reference().antenna.inertia;
+  const auto& inertia = reference().antenna->inertia;
   const double relative = inertia.standard_uncertainty / inertia.value;
   EXPECT_NEAR(std::sqrt(log_square), relative, 4.0 * relative / std::sqrt(2.0 * count));
 }
@@ -61,7 +67,7 @@ TEST(PlantDistribution, SharesAreThoseOfTheDraws) {
 // Draws of known lognormal law with a correlation come back from their fit.
 TEST(PlantDistribution, OfRecordsHasTheirCovariance) {
   const numerics::NormalNumbers normals(11);
-  const double motors = motor_inertia(reference(), reference().motor.flywheel_disks);
+  const double motors = motor_inertia(reference(), reference().motor->flywheel_disks);
   const double rest = motors + gear_train_inertia(reference());
   std::vector<identification::DriveEstimate> records;
   constexpr double of_oil = 0.02, of_inertia = 0.03, correlation = 0.8;
@@ -73,8 +79,8 @@ TEST(PlantDistribution, OfRecordsHasTheirCovariance) {
     draw.motor_inertia = motors;
     draw.inertia = rest + antenna_inertia(reference()) * std::exp(of_inertia * other);
     draw.oil_stiffness = oil_stiffness(reference()) * std::exp(of_oil * pair.real());
-    draw.leakage_rate = reference().drive.leakage_rate.value;
-    draw.lowest_frequency = reference().structure.locked_rotor_frequency.value;
+    draw.leakage_rate = reference().drive->leakage_rate.value;
+    draw.lowest_frequency = reference().structure->locked_rotor_frequency.value;
     records.push_back(draw);
   }
   const auto distribution = design::PlantDistribution::of_records(mission_of(reference()), records);
@@ -100,8 +106,8 @@ TEST(PlantDistribution, OfRecordsHasTheirCovariance) {
 // they do not is left to the ranges of the case.
 TEST(PlantDistribution, OfRecordsHasTheirFrictionSlopeAndValve) {
   const numerics::NormalNumbers normals(12);
-  const double motors = motor_inertia(reference(), reference().motor.flywheel_disks);
-  const double slope = reference().drive.viscous_friction.value;
+  const double motors = motor_inertia(reference(), reference().motor->flywheel_disks);
+  const double slope = reference().drive->viscous_friction.value;
   std::vector<identification::DriveEstimate> records;
   constexpr double of_slope = 0.01, of_lag = 0.05;
   for (std::uint64_t i = 0; i < 4000; ++i) {
@@ -110,8 +116,8 @@ TEST(PlantDistribution, OfRecordsHasTheirFrictionSlopeAndValve) {
     draw.motor_inertia = motors;
     draw.inertia = motors + gear_train_inertia(reference()) + antenna_inertia(reference());
     draw.oil_stiffness = oil_stiffness(reference());
-    draw.leakage_rate = 5.0 * reference().drive.leakage_rate.value;  // a guess
-    draw.lowest_frequency = reference().structure.locked_rotor_frequency.value;
+    draw.leakage_rate = 5.0 * reference().drive->leakage_rate.value;  // a guess
+    draw.lowest_frequency = reference().structure->locked_rotor_frequency.value;
     draw.tracking_slope = slope * std::exp(of_slope * pair.real());
     draw.valve_lag = 0.01 * std::exp(of_lag * pair.imag());
     records.push_back(draw);
@@ -134,7 +140,7 @@ TEST(PlantDistribution, OfRecordsHasTheirFrictionSlopeAndValve) {
     square += log * log / count;
     valve += std::pow(std::log(draw[design::UncertainInput::valve_frequency]), 2) / count;
     const double rate =
-        draw[design::UncertainInput::leakage_rate] * reference().drive.leakage_rate.value;
+        draw[design::UncertainInput::leakage_rate] * reference().drive->leakage_rate.value;
     EXPECT_GE(rate, leakage.lower * (1.0 - 1e-12));
     EXPECT_LE(rate, leakage.upper * (1.0 + 1e-12));
   }
@@ -150,7 +156,7 @@ TEST(PlantDistribution, OfRecordsHasTheirFrictionSlopeAndValve) {
 TEST(PlantDistribution, AFactorOfOneIsTheCase) {
   design::PlantDraw draw;
   draw.values.at(place(design::UncertainInput::friction_slope)) =
-      reference().drive.viscous_friction.value;
+      reference().drive->viscous_friction.value;
   const auto own = make_plant(reference());
   const auto drawn = make_plant(reference(), changes_of(draw));
   EXPECT_EQ(drawn.drive.oil_stiffness, own.drive.oil_stiffness);
@@ -164,10 +170,10 @@ TEST(PlantDistribution, AFactorOfOneIsTheCase) {
 // Two stated uncertainties together, and no other number of a draw moves.
 TEST(PlantDistribution, DrawsTheWindTorqueByItsStatedUncertainties) {
   Case windy = reference();
-  windy.wind.torque_coefficient.uncertainty_given = true;
-  windy.wind.torque_coefficient.standard_uncertainty = 0.2 * windy.wind.torque_coefficient.value;
-  windy.wind.air_density.uncertainty_given = true;
-  windy.wind.air_density.standard_uncertainty = 0.05 * windy.wind.air_density.value;
+  windy.wind->torque_coefficient.uncertainty_given = true;
+  windy.wind->torque_coefficient.standard_uncertainty = 0.2 * windy.wind->torque_coefficient.value;
+  windy.wind->air_density.uncertainty_given = true;
+  windy.wind->air_density.standard_uncertainty = 0.05 * windy.wind->air_density.value;
   const auto calm = design::PlantDistribution::of_ranges(mission_of(reference()));
   const auto distribution = design::PlantDistribution::of_ranges(mission_of(windy));
   EXPECT_EQ(calm.inputs().size() + 1, distribution.inputs().size());

@@ -3,6 +3,9 @@
 #include <gtest/gtest.h>
 
 #include "io/edited_case.hpp"
+#include <boresight/io/case/case_drive.hpp>
+#include <boresight/io/case/case_mechanics.hpp>
+#include <boresight/io/case/case_oil.hpp>
 #include <boresight/io/case/drive_numbers.hpp>
 #include <boresight/io/case/plant_numbers.hpp>
 
@@ -24,7 +27,7 @@ TEST(PlantNumbers, MotorsAndLoadAreEqualAtTheDisksOfUnitRatio) {
 
 TEST(PlantNumbers, AlternativeOnTheSameSpringsKeepsThem) {
   const Case stated = reference();
-  AntennaAlternative other = stated.antenna.alternatives.front();
+  AntennaAlternative other = stated.antenna->alternatives.front();
   other.keeps_springs = true;
   const auto own = make_plant(stated).structure;
   const auto kept = make_plant(stated, changes_of(stated, other)).structure;
@@ -38,9 +41,9 @@ TEST(PlantNumbers, AlternativeOnTheSameSpringsKeepsThem) {
 
 TEST(PlantNumbers, BulkModulusMovesALeakageThatIsAFlow) {
   Case stated = reference();
-  const double own = stated.drive.leakage_rate.value;
+  const double own = stated.drive->leakage_rate.value;
   EXPECT_EQ(make_plant(stated, bulk_modulus_times(stated, 1.5)).drive.leakage_rate, own);
-  stated.drive.leakage_by_flow = true;
+  stated.drive->leakage_by_flow = true;
   const auto drive = make_plant(stated, bulk_modulus_times(stated, 1.5)).drive;
   EXPECT_EQ(drive.leakage_rate, 1.5 * own);
   EXPECT_EQ(drive.oil_stiffness, 1.5 * oil_stiffness(stated));
@@ -48,11 +51,11 @@ TEST(PlantNumbers, BulkModulusMovesALeakageThatIsAFlow) {
 
 TEST(PlantNumbers, LinesHaveTheirMeanBulkModulus) {
   Case stated = reference();
-  stated.oil.bulk_modulus.reset();
+  stated.oil->bulk_modulus.reset();
   double mean = 0.0;
-  for (const auto& line : stated.oil.lines) {
+  for (const auto& line : stated.oil->lines) {
     mean += std::pow(2.0 * line.length.value * line.slosh_frequency.value, 2) *
-            stated.oil.density->value / static_cast<double>(stated.oil.lines.size());
+            stated.oil->density->value / static_cast<double>(stated.oil->lines.size());
   }
   EXPECT_NEAR(bulk_modulus(stated) / mean, 1.0, 1e-12);
 }
@@ -60,7 +63,7 @@ TEST(PlantNumbers, LinesHaveTheirMeanBulkModulus) {
 TEST(PlantNumbers, LargestFrictionIsThatAboutTheTrackingRateOrTheLinearPlants) {
   Case stated = reference();
   EXPECT_EQ(largest_viscous_friction(stated), tracking_friction(stated));
-  stated.drive.viscous_friction.value = 1e3;
+  stated.drive->viscous_friction.value = 1e3;
   EXPECT_EQ(largest_viscous_friction(stated), 1e3);
 }
 

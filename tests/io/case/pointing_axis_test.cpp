@@ -9,6 +9,7 @@
 #include "io/edited_case.hpp"
 #include <boresight/design/tuning/design_study.hpp>
 #include <boresight/io/case/antenna_of.hpp>
+#include <boresight/io/case/case_mechanics.hpp>
 #include <boresight/io/case/mission_of.hpp>
 #include <boresight/io/case/pointing_axis.hpp>
 #include <boresight/numerics/angles.hpp>
@@ -27,14 +28,14 @@ Quantity angle_of(double degrees) {
 Case azimuth_case(double elevation) {
   Case stated = read_case(case_path("dss14-70m"));
   stated.axis = "azimuth";
-  stated.antenna.elevation = angle_of(elevation);
+  stated.antenna->elevation = angle_of(elevation);
   return stated;
 }
 
 Case x_axis_case(double y_angle) {
   Case stated = read_case(case_path("dss14-70m"));
   stated.axis = "X";
-  stated.antenna.y_angle = angle_of(y_angle);
+  stated.antenna->y_angle = angle_of(y_angle);
   return stated;
 }
 
@@ -43,7 +44,7 @@ TEST(PointingAxis, FactorIsTheCosineOfTheElevationOfAnAzimuthAxis) {
   EXPECT_NEAR(pointing_axis(azimuth_case(120.0)).boresight_factor, 0.5, 1e-15);
   EXPECT_NEAR(antenna_of(azimuth_case(80.0)).boresight_factor, std::cos(80.0 * degree), 1e-15);
   Case stated = azimuth_case(60.0);
-  stated.antenna.elevation.reset();
+  stated.antenna->elevation.reset();
   EXPECT_EQ(pointing_axis(stated).boresight_factor, 1.0);
   EXPECT_FALSE(pointing_axis(stated).elevation);
   Case elevation = azimuth_case(60.0);
@@ -56,10 +57,10 @@ TEST(PointingAxis, FactorIsTheCosineOfTheYAngleOfAnXAxis) {
   EXPECT_NEAR(pointing_axis(x_axis_case(-60.0)).boresight_factor, 0.5, 1e-15);
   EXPECT_NEAR(antenna_of(x_axis_case(80.0)).boresight_factor, std::cos(80.0 * degree), 1e-15);
   Case stated = x_axis_case(60.0);
-  stated.antenna.y_angle.reset();
+  stated.antenna->y_angle.reset();
   EXPECT_EQ(pointing_axis(stated).boresight_factor, 1.0);
   stated.axis = "Y";
-  stated.antenna.elevation = angle_of(60.0);
+  stated.antenna->elevation = angle_of(60.0);
   EXPECT_EQ(pointing_axis(stated).boresight_factor, 1.0);
 }
 

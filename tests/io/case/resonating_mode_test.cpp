@@ -2,6 +2,8 @@
 
 #include "io/edited_case.hpp"
 #include <boresight/io/case/antenna_of.hpp>
+#include <boresight/io/case/case_structure.hpp>
+#include <boresight/io/case/case_tests.hpp>
 #include <boresight/io/case/resonating_mode.hpp>
 
 namespace boresight::io {
@@ -12,15 +14,15 @@ TEST(ResonatingMode, IsTheHydraulicOneUnlessTheCaseSaysThatOfTheOil) {
   const auto plant = make_plant(stated);
   const auto modes = plant::plant_modes(plant);
   EXPECT_EQ(resonating_mode(stated, plant).frequency, plant::hydraulic_mode(modes).frequency);
-  stated.resonance_of_oil = true;
+  stated.resonance->of_oil = true;
   EXPECT_EQ(resonating_mode(stated, plant).frequency, plant::mode_of_oil(modes).frequency);
 }
 
 TEST(ResonatingMode, AStiffStructureRingsAsRigidAndASoftOneDoesNot) {
   Case stated = read_case(case_path("dss14-70m"));
   const auto scale = [&](double factor) {
-    stated.structure.locked_rotor_frequency.value *= factor;
-    for (auto& mode : stated.structure.modes) mode.frequency.value *= factor;
+    stated.structure->locked_rotor_frequency.value *= factor;
+    for (auto& mode : stated.structure->modes) mode.frequency.value *= factor;
   };
   scale(10.0);
   EXPECT_TRUE(rings_as_rigid(stated));

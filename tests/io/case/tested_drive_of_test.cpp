@@ -5,6 +5,8 @@
 #include <gtest/gtest.h>
 
 #include "io/edited_case.hpp"
+#include <boresight/io/case/case_campaign.hpp>
+#include <boresight/io/case/case_simulation.hpp>
 #include <boresight/io/case/drive_numbers.hpp>
 #include <boresight/io/case/tested_drive_of.hpp>
 
@@ -30,8 +32,8 @@ TEST(TestedDriveOf, SpreadsTheLinesOverTheMotors) {
 
 TEST(TestedDriveOf, ScalesATachometerOnAnyShaft) {
   Case antenna = reference();
-  ASSERT_TRUE(antenna.campaign.tachometer);
-  RecordedTachometerEntry& tachometer = *antenna.campaign.tachometer;
+  ASSERT_TRUE(antenna.campaign->tachometer);
+  RecordedTachometerEntry& tachometer = *antenna.campaign->tachometer;
   const double volts = 20.0 * std::numbers::pi / 157.0;  // rad/s of the shaft, a volt
   tachometer.motor_teeth.reset();
   tachometer.tachometer_teeth.reset();
@@ -68,15 +70,15 @@ TEST(TestedDriveOf, NamesWhatARecordNeedsBeforeAnythingRuns) {
     }
     return "taken";
   };
-  EXPECT_THAT(refusal([](Case& antenna) { antenna.campaign.lines.clear(); }),
+  EXPECT_THAT(refusal([](Case& antenna) { antenna.campaign->lines.clear(); }),
               HasSubstr("expected an [[oil.line]] with its length"));
   EXPECT_THAT(refusal([](Case& antenna) { antenna.recorder.reset(); }),
               HasSubstr("expected a table [recorder]"));
-  EXPECT_THAT(refusal([](Case& antenna) { antenna.campaign.tachometer.reset(); }),
+  EXPECT_THAT(refusal([](Case& antenna) { antenna.campaign->tachometer.reset(); }),
               HasSubstr("expected a table [tachometer]"));
-  EXPECT_THAT(refusal([](Case& antenna) { antenna.campaign.tachometer->voltage.reset(); }),
+  EXPECT_THAT(refusal([](Case& antenna) { antenna.campaign->tachometer->voltage.reset(); }),
               HasSubstr("expected tachometer.voltage"));
-  EXPECT_THAT(refusal([](Case& antenna) { antenna.campaign.tachometer->recorder_limit.reset(); }),
+  EXPECT_THAT(refusal([](Case& antenna) { antenna.campaign->tachometer->recorder_limit.reset(); }),
               HasSubstr("expected tachometer.recorder_limit"));
   Case linear = reference();
   linear.simulation.reset();

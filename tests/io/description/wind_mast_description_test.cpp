@@ -8,7 +8,7 @@ namespace {
 
 TEST(WindMastDescription, HeightsAreInMetres) {
   RecordingVisitor v;
-  describe(v, WindMast{10.0, 40.0, 0.2, 1.32});
+  describe(v, plant::WindMast{10.0, 40.0, 0.2, 1.32});
   EXPECT_EQ(v.numbers_found.at("height_m"), 10.0);
   EXPECT_EQ(v.numbers_found.at("dish_height_m"), 40.0);
   EXPECT_EQ(v.numbers_found.at("shear_exponent_1"), 0.2);

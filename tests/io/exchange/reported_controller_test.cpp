@@ -7,6 +7,7 @@
 
 #include "io/edited_case.hpp"
 #include "scratch_folder.hpp"
+#include <boresight/io/case/case_tuning.hpp>
 #include <boresight/io/exchange/reported_controller.hpp>
 #include <boresight/numerics/error.hpp>
 

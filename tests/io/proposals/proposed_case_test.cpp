@@ -9,6 +9,15 @@
 #include "io/edited_case.hpp"
 #include "refused_call.hpp"
 #include <boresight/io/case/antenna_of.hpp>
+#include <boresight/io/case/case_campaign.hpp>
+#include <boresight/io/case/case_drive.hpp>
+#include <boresight/io/case/case_goals.hpp>
+#include <boresight/io/case/case_mechanics.hpp>
+#include <boresight/io/case/case_motor.hpp>
+#include <boresight/io/case/case_oil.hpp>
+#include <boresight/io/case/case_sensors.hpp>
+#include <boresight/io/case/case_simulation.hpp>
+#include <boresight/io/case/case_structure.hpp>
 #include <boresight/io/case/drive_numbers.hpp>
 #include <boresight/io/case/member_ranges.hpp>
 #include <boresight/io/case/mission_of.hpp>
@@ -45,9 +54,9 @@ enum class Fractions { of_inertia, effective };
 Case by_motors_held(Fractions fractions) {
   Case antenna = as_is();
   const auto held = plant::motors_held_modes(make_plant(antenna).structure);
-  antenna.structure.motors_held = true;
-  for (std::size_t i = 0; i < antenna.structure.modes.size(); ++i) {
-    StructureModeEntry& mode = antenna.structure.modes[i];
+  antenna.structure->motors_held = true;
+  for (std::size_t i = 0; i < antenna.structure->modes.size(); ++i) {
+    StructureModeEntry& mode = antenna.structure->modes[i];
     mode.frequency.value = held.at(i + 1).frequency;
     if (fractions == Fractions::of_inertia) continue;
     mode.effective_fraction = mode.inertia_fraction;
@@ -76,7 +85,7 @@ Case by_rated_flow() {
 }
 
 double leakage(const Case& antenna) {
-  return antenna.drive.leakage_rate.value;
+  return antenna.drive->leakage_rate.value;
 }
 
 const DerivedChange* find(const ProposedCase& proposed, const std::string& quantity) {
@@ -89,7 +98,7 @@ const DerivedChange* find(const ProposedCase& proposed, const std::string& quant
 TEST(ProposedCase, LeakageRateFollowsVolumesAndBulkModulus) {
   const Case volumes =
       with("[oil]\nvolume_1 = { factor = '0.5' }\nvolume_2 = { factor = '0.25' }\n").antenna;
-  const auto& oil = as_is().oil;
+  const auto& oil = *as_is().oil;
   const double sides = (2.0 / oil.volume_1.value + 4.0 / oil.volume_2.value) /
                        (1.0 / oil.volume_1.value + 1.0 / oil.volume_2.value);
   EXPECT_NEAR(leakage(volumes) / leakage(as_is()), sides, 1e-12);
@@ -119,11 +128,11 @@ TEST(ProposedCase, DisplacementChangesAllThatPressureAndFlowDo) {
   EXPECT_NEAR(oil_stiffness(larger) / oil_stiffness(as_is()), 1.41 * 1.41, 1e-12);
   EXPECT_NEAR(supply_torque(larger) / supply_torque(as_is()), 1.41, 1e-12);
   EXPECT_DOUBLE_EQ(leakage(larger), leakage(as_is()));
-  EXPECT_NEAR(larger.sensors.torque_noise->value / as_is().sensors.torque_noise->value, 1.41,
+  EXPECT_NEAR(larger.sensors->torque_noise->value / as_is().sensors->torque_noise->value, 1.41,
               1e-12);
   EXPECT_NEAR(larger.simulation->valve_stroke.value / as_is().simulation->valve_stroke.value,
               1.0 / 1.41, 1e-12);
-  EXPECT_NEAR(larger.goals.valve_effort.value / as_is().goals.valve_effort.value, 1.0 / 1.41,
+  EXPECT_NEAR(larger.goals->valve_effort.value / as_is().goals->valve_effort.value, 1.0 / 1.41,
               1e-12);
   ASSERT_NE(find(proposed, "oil stiffness K"), nullptr);
   EXPECT_THAT(find(proposed, "oil stiffness K")->follows_from, HasSubstr("D^2"));
@@ -171,7 +180,7 @@ TEST(ProposedCase, GearRatioChangesEveryReflection) {
 
 TEST(ProposedCase, FirstStageLeavesTheMotorsAlone) {
   const Case geared = with("[[gear_train.stage]]\nnumber = 1\ndriven_teeth = '268'\n").antenna;
-  const auto& assemblies = as_is().gear_train.assemblies;
+  const auto& assemblies = as_is().gear_train->assemblies;
   const double at_motors =
       static_cast<double>(assemblies.back().count) * assemblies.back().inertia->value;
   EXPECT_NEAR(gear_train_inertia(geared) - at_motors,
@@ -180,9 +189,9 @@ TEST(ProposedCase, FirstStageLeavesTheMotorsAlone) {
 
 TEST(ProposedCase, FlywheelsChangeTheMotorsInertiaOnly) {
   const Case bare = with("[motor]\nflywheel_disks = 0\n").antenna;
-  const auto& motor = as_is().motor;
-  EXPECT_NEAR(motor_inertia(bare, bare.motor.flywheel_disks), motor_inertia(as_is(), 0.0), 1e-12);
-  EXPECT_NEAR(bare.motor.inertia.value, motor.inertia.value - 24.0 * motor.disk_inertia.value,
+  const auto& motor = *as_is().motor;
+  EXPECT_NEAR(motor_inertia(bare, bare.motor->flywheel_disks), motor_inertia(as_is(), 0.0), 1e-12);
+  EXPECT_NEAR(bare.motor->inertia.value, motor.inertia.value - 24.0 * motor.disk_inertia.value,
               1e-12);
   EXPECT_DOUBLE_EQ(oil_stiffness(bare), oil_stiffness(as_is()));
   const auto plant = make_plant(bare),
@@ -192,11 +201,12 @@ TEST(ProposedCase, FlywheelsChangeTheMotorsInertiaOnly) {
 
 TEST(ProposedCase, LinesCarryTheirShareOfTheVolumes) {
   const Case near = with("[oil]\nline_lengths = { factor = '0.1' }\nline_share = '0.9'\n").antenna;
-  EXPECT_NEAR(near.oil.volume_1.value / as_is().oil.volume_1.value, 0.19, 1e-12);
+  EXPECT_NEAR(near.oil->volume_1.value / as_is().oil->volume_1.value, 0.19, 1e-12);
   EXPECT_NEAR(leakage(near) / leakage(as_is()), 1.0 / 0.19, 1e-9);
   // The lines' pressure waves are faster, the oil the same.
-  EXPECT_NEAR(near.oil.lines[0].slosh_frequency.value / as_is().oil.lines[0].slosh_frequency.value,
-              10.0, 1e-12);
+  EXPECT_NEAR(
+      near.oil->lines[0].slosh_frequency.value / as_is().oil->lines[0].slosh_frequency.value, 10.0,
+      1e-12);
   EXPECT_NEAR(bulk_modulus(near), bulk_modulus(as_is()), 1e-3);
 }
 
@@ -204,7 +214,7 @@ TEST(ProposedCase, PressureFeedsTheValve) {
   const Case strong = with("[drive]\nsupply_pressure = { factor = '1.5' }\n").antenna;
   EXPECT_NEAR(supply_torque(strong) / supply_torque(as_is()), 1.5, 1e-12);
   const double returned = as_is().simulation->return_pressure.value;
-  const double supply = as_is().drive.supply_pressure.value;
+  const double supply = as_is().drive->supply_pressure.value;
   EXPECT_NEAR(strong.simulation->valve_stroke.value / as_is().simulation->valve_stroke.value,
               std::sqrt((1.5 * supply - returned) / (supply - returned)), 1e-12);
 }
@@ -242,12 +252,12 @@ TEST(ProposedCase, RatedFlowGoesWithDisplacementAndPressure) {
   Case antenna = by_rated_flow();
   for (const bool simulated : {true, false}) {
     if (!simulated) {
-      antenna.campaign.return_pressure = antenna.simulation->return_pressure;
+      antenna.campaign->return_pressure = antenna.simulation->return_pressure;
       antenna.simulation.reset();
     }
     const Case after = of(antenna, text).antenna;
     EXPECT_NEAR(largest_demand(after) / rated_stroke(after).value().value, 1.0, 1e-12);
-    EXPECT_NEAR(after.goals.valve_effort.value / antenna.goals.valve_effort.value,
+    EXPECT_NEAR(after.goals->valve_effort.value / antenna.goals->valve_effort.value,
                 largest_demand(after) / largest_demand(antenna), 1e-12);
   }
 }
@@ -270,8 +280,8 @@ TEST(ProposedCase, RefusesARatedFlowThatTheCaseHasNot) {
 
 TEST(ProposedCase, SamplingSetsDeadTimeAndNoiseBandwidth) {
   const Case fast = with("[controller]\nsample_rate = '200 Hz'\n").antenna;
-  EXPECT_NEAR(fast.controller_delay.value, 1.5 / 200.0, 1e-15);
-  EXPECT_NEAR(fast.sensors.noise_bandwidth.value, 100.0, 1e-12);
+  EXPECT_NEAR(fast.controller->delay.value, 1.5 / 200.0, 1e-15);
+  EXPECT_NEAR(fast.sensors->noise_bandwidth.value, 100.0, 1e-12);
 }
 
 TEST(ProposedCase, StatedRangesOfTheEnsembleFollow) {
@@ -305,8 +315,8 @@ TEST(ProposedCase, StifferGearLeavesTheStructureOnIt) {
         EXPECT_DOUBLE_EQ(after.modes[i].wind_fraction, before.modes[i].wind_fraction);
         EXPECT_DOUBLE_EQ(after.modes[i].beam_weight, before.modes[i].beam_weight);
       }
-      EXPECT_DOUBLE_EQ(proposed.antenna.structure.gear_damping_ratio.value,
-                       antenna.structure.gear_damping_ratio.value);
+      EXPECT_DOUBLE_EQ(proposed.antenna.structure->gear_damping_ratio.value,
+                       antenna.structure->gear_damping_ratio.value);
       const auto* spring = find(proposed, "gear spring Kg at the motors");
       ASSERT_NE(spring, nullptr);
       EXPECT_NEAR(spring->before, before.gear_stiffness, 1e-9 * before.gear_stiffness);
@@ -335,13 +345,13 @@ TEST(ProposedCase, StifferGearComesOnTopOfWhatFollows) {
 // In other terms a number is as uncertain for its size, and says as much of where it is from.
 TEST(ProposedCase, StifferGearKeepsWhatNumbersSayOfThemselves) {
   Case antenna = by_motors_held(Fractions::effective);
-  Quantity& second = antenna.structure.modes.at(1).frequency;
+  Quantity& second = antenna.structure->modes.at(1).frequency;
   second.standard_uncertainty = 0.03 * second.value;
   second.uncertainty_given = true;
   const auto& structure =
       of(antenna, "[structure]\ngear_stiffness = { factor = '1.1' }\n").antenna.structure;
-  EXPECT_FALSE(structure.motors_held);
-  const auto& mode = structure.modes.at(1);
+  EXPECT_FALSE(structure->motors_held);
+  const auto& mode = structure->modes.at(1);
   EXPECT_FALSE(mode.effective_fraction);
   EXPECT_LT(mode.frequency.value, second.value);
   EXPECT_NEAR(relative_uncertainty(mode.frequency), 0.03, 1e-12);
@@ -367,11 +377,11 @@ TEST(ProposedCase, SaysWhatFrequenciesDoToTheGearSpring) {
                   1e-9 * found->after);
       EXPECT_EQ(find(proposed, "locked-rotor frequency"), nullptr) << key;
       const auto* mode = find(proposed, lowest);
-      ASSERT_EQ(mode != nullptr, antenna.structure.motors_held) << key;
+      ASSERT_EQ(mode != nullptr, antenna.structure->motors_held) << key;
       if (mode == nullptr) continue;
       EXPECT_NEAR(mode->before, 2.4, 1e-6);
       EXPECT_NEAR(mode->after,
-                  structure_specification(proposed.antenna.structure).modes.at(0).frequency, 1e-9);
+                  structure_specification(*proposed.antenna.structure).modes.at(0).frequency, 1e-9);
     }
   }
   for (const Case& antenna : {as_is(), held}) {

@@ -78,7 +78,7 @@ constexpr auto table = std::to_array<RenamedKey>(
      {"simulated_beam_rms_mdeg", "simulated_boresight_rms_mdeg"},
      {"soft_goal", "objective"},
      {"stable_share_1", "stable_fraction_1"},
-     {"standing", "stability_basis"},
+     {"standing", "stability_verdict"},
      {"starts_hunting", "starts_with_limit_cycle"},
      {"step_peak_to_encoder_held_1", "step_peak_to_flexure_1"},
      {"still_encoder_error_mdeg", "calm_encoder_error_mdeg"},

@@ -255,7 +255,7 @@ void describe_conditions(io::Visitor& v, const MatchSection& section) {
   v.number("wind_speed", section.wind_speed, unit::metre_per_second, "Mean.", known);
   v.text("soft_goal", design::to_string(section.soft_goal.kind), "Which rms is made least.");
   v.count("ensemble_members", section.members,
-          "Plants on which every goal is held; 0: the case's alone.");
+          "Plants on which every constraint is met; 0: the case's alone.");
   v.count("starts", section.starts, "Random starts of each law.");
   v.count("rounds", section.rounds, "Of warm starts.");
   v.flag("settled", section.settled, "The last round gained nothing.");

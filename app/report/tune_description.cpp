@@ -178,9 +178,10 @@ void describe_law(io::Visitor& v, const TuneSection& section, const TunedLaw& ro
   v.group_if("simulated", row.in_time.has_value(),
              "On the nonlinear antenna at that wind speed; null where it did not run.", [&] {
                const LawInTime run = row.in_time.value_or(LawInTime{});
-               v.number("budget_rms", row.budget_rms(), unit::millidegree,
-                        "What budgets are held against: the larger of the linear and the simulated "
-                        "rms, limit cycle added in quadrature; null if a run did not complete.");
+               v.number(
+                   "budget_rms", row.budget_rms(), unit::millidegree,
+                   "What budgets are compared with: the larger of the linear and the simulated "
+                   "rms, limit cycle added in quadrature; null if a run did not complete.");
                v.flag("limit_cycle_within_budget", run.still,
                       "No limit cycle beyond the tightest budget.");
                v.object("effect", row.effect(), "Beyond the linear rms.");

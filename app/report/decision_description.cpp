@@ -43,7 +43,7 @@ struct DecidingInput {
 void describe_chance(io::Visitor& v, std::string_view key, const design::Probability& chance,
                      std::string_view meaning) {
   v.group(key, meaning, [&] {
-    v.defined_as("chance", "A probability with its 95 % interval, for the number of draws.");
+    v.defined_as("probability", "A probability with its 95 % interval, for the number of draws.");
     v.number("value", chance.value, unit::ratio, "The probability.", known);
     v.number("lower_95", chance.lower, unit::ratio, "Lower end.", known);
     v.number("upper_95", chance.upper, unit::ratio, "Upper end.", known);

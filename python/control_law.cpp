@@ -55,7 +55,7 @@ void add_control_law(py::module_& module) {
           },
           "Of the gains, by symbol")
       .def(
-          "controller", [](const ControlLaw& law) { return control::to_state_space(law); },
+          "state_space", [](const ControlLaw& law) { return control::to_state_space(law); },
           "StateSpace: inputs tachometer (rad/s), encoder (rad), rate_disturbance (rad/s, added to "
           "the rate command) and, where it is fed back, motor_torque (N m); outputs valve_demand "
           "(rad/s, before the dead time) and rate_command.")
@@ -84,7 +84,7 @@ void add_control_law(py::module_& module) {
       [](const Plant& plant, const ControlLaw& law, double delay) {
         return control::closed_loop(plant.section.plant, law, delay);
       },
-      py::arg("plant"), py::arg("law"), py::arg("delay"),
+      py::arg("plant"), py::arg("controller"), py::arg("delay"),
       "Plant, law and dead time (s, above 0; as a rational function of order 8) as one StateSpace: "
       "inputs "
       "wind_torque, encoder_noise, tachometer_noise, rate_disturbance and, where it is fed back, "

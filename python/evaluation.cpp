@@ -79,8 +79,8 @@ void add_candidate(py::module_& module) {
       .def_readonly("reflected_inertia", &Candidate::reflected_inertia, "kg m2")
       .def_readonly("motor_to_load_ratio", &Candidate::motor_to_load_ratio)
       .def_property_readonly("fit", &Candidate::feasible,
-                             "Its controller meets every goal, passed its verification and does "
-                             "not hunt beyond the tightest budget")
+                             "Its controller meets every constraint, passed its verification and "
+                             "has no limit cycle beyond the tightest budget")
       .def_property_readonly("structure",
                              of_law<std::string>([](const auto& law) { return law.structure; }),
                              "Of the recommended controller; None if no structure is stable")
@@ -90,8 +90,9 @@ void add_candidate(py::module_& module) {
       .def_property_readonly(
           "beam_rms", of_law<double>([](const auto& law) { return law.compared_rms(); }),
           "rad at the sky, over all plants that may be the true one, as the simulation has it")
-      .def_property_readonly("reversal_error", &Candidate::reversal_error,
-                             "rad at the sky, the largest after turning round at the tracking rate")
+      .def_property_readonly(
+          "reversal_error", &Candidate::reversal_error,
+          "rad at the sky, the largest after a velocity reversal at the tracking rate")
       .def("__repr__", [](const Candidate& candidate) {
         const design::CandidateLaw* law = candidate.chosen_law();
         if (law == nullptr)

@@ -126,7 +126,8 @@ void add_series(py::module_& module) {
             return laws;
           },
           "ControlLaw of each point, or None")
-      .def_readonly("best", &MatchSeries::best, "Index of the point of least beam rms, or None")
+      .def_readonly("best", &MatchSeries::best,
+                    "Index of the point of least boresight rms, or None")
       .def_property_readonly(
           "within_5_percent",
           [](const MatchSeries& series) {
@@ -169,9 +170,8 @@ void add_matching(py::module_& module) {
       py::arg("robust") = true, py::arg("variants") = false, py::arg("time_domain") = "none",
       py::arg("seed") = 1, py::arg("threads") = 0,
       "Tunes every loop structure at every number of flywheel disks, evenly spaced from 0 to "
-      "most_disks (0: as the case has it), beside ratio 1 and as built. robust: over all plants "
-      "that "
-      "may be the true one, else on the case's alone. variants: also what moves the optimum. "
+      "most_disks (0: as the case has it), beside ratio 1 and as built. robust: over all "
+      "ensemble members, else on the case's alone. variants: also what moves the optimum. "
       "time_domain: where laws run on the nonlinear antenna, 'none', 'few' or 'all'. The result "
       "depends on the seed, not on the threads. Ctrl-C stops it.");
 }

@@ -9,7 +9,7 @@ PYBIND11_MODULE(boresight, module) {
       "All values are SI and at the motor shaft unless a docstring says otherwise: angles in rad, "
       "rates in rad/s, frequencies of responses in rad/s, of modes and oscillations in Hz. Angles "
       "and "
-      "rms errors of the beam are rad at the sky: divide by `mdeg` for millidegrees. The "
+      "boresight rms errors are rad at the sky: divide by `mdeg` for millidegrees. The "
       "dictionaries "
       "of to_dict() are those of the program's --json, with units in their keys.";
   module.attr("__version__") = BORESIGHT_VERSION;
@@ -25,4 +25,5 @@ PYBIND11_MODULE(boresight, module) {
   python::add_matching(module);
   python::add_evaluation(module);
   python::add_simulation(module);
+  python::add_renamed_names(module);
 }

@@ -185,9 +185,8 @@ void add_tuning(py::module_& module) {
              py::arg("seed") = 1, py::arg("threads") = 0,
              "Tunes loop structures ('PI', 'DPF+C', ...; none: as the case has it) for mean wind "
              "speeds (m/s; "
-             "none: the design speed), each for the case's plant and robustly over the plants that "
-             "may be the "
-             "true one. goals: changes of the case's [goals], {'valve_effort': '0.4 rad/s'}. "
+             "none: the design speed), each for the case's plant and robustly over the ensemble. "
+             "goals: changes of the case's [goals], {'valve_effort': '0.4 rad/s'}. "
              "starts, threads "
              "= 0: as the case has it, all; the result depends on the seed, not on the threads. "
              "The program "

@@ -5,6 +5,7 @@
 
 #include <boresight/app/benchmark/benchmark_report.hpp>
 #include <boresight/app/report/json_writer.hpp>
+#include <boresight/io/files/renamed_keys.hpp>
 #include <boresight/numerics/error.hpp>
 
 namespace boresight::app {
@@ -48,9 +49,9 @@ ComparedSheet sheet_of(const Json& score, std::string_view wind_model) {
     const double speed = wind.at("mean_speed_m_per_s").get<double>();
     // The case's own coefficient: conditions of an attitude say more behind the speed.
     const bool own = wind.at("condition") == fmt::format("{}, {:g} m/s", wind_model, speed);
-    if (!own || !wind.at("beam_rms_mdeg").is_number()) continue;
+    if (!own || !wind.at("boresight_rms_mdeg").is_number()) continue;
     sheet.wind_speed.push_back(speed);
-    sheet.beam_rms.push_back(wind.at("beam_rms_mdeg").get<double>());
+    sheet.beam_rms.push_back(wind.at("boresight_rms_mdeg").get<double>());
   }
   return sheet;
 }
@@ -61,6 +62,7 @@ void compare_with(BenchmarkReport& report, const std::string& other_json, const 
   Json other;
   try {
     other = Json::parse(other_json);
+    io::use_present_keys(other, name);
     if (other.at("command") != "benchmark") throw InvalidInput("another command");
     const auto protocol = other.at("protocol_version").get<long long>();
     if (protocol != design::rejection_protocol) {

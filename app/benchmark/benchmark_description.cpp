@@ -35,7 +35,8 @@ void describe_course(io::Visitor& v, const control::CourseScore& course, const C
            "When; null where approached asymptotically.");
   v.number("final", course.final_value, units.angle, "Final boresight angle.");
   v.number("return_time", course.return_time, unit::second,
-           "After which the beam stays within return_share_1 of the peak about its end; null if it "
+           "After which the boresight error stays within return_share_1 of the peak about its end; "
+           "null if it "
            "does not within watched_s.");
   v.number("squared_error_integral", course.integral_squared_error, units.square,
            "Over all time, about the end.");
@@ -225,7 +226,8 @@ void describe_score(io::Visitor& v, const BenchmarkReport& report) {
     describe_course(v, score.impulse, course_units("mdeg_per_MN_m_s", "mdeg2_s_per_MN_m_s_squared"),
                     torque);
   });
-  v.group("compliance", "|beam/torque| over frequency.", [&] { describe_compliance(v, score); });
+  v.group("compliance", "|boresight error/torque| over frequency.",
+          [&] { describe_compliance(v, score); });
   v.list("loop_breaks", score.breaks, "Margins of the loop cut at each break.",
          [&](const design::BreakScore& one) { describe_break(v, one); });
   v.group("noise", "What the sensors' noise does.", [&] {
@@ -253,7 +255,8 @@ void describe_score(io::Visitor& v, const BenchmarkReport& report) {
   v.optional_group(
       "nonlinear", report.time_domain, "On the nonlinear antenna; null where not evaluated.",
       [&](const TimeDomainSection& section) { describe_nonlinear(v, section.result); });
-  v.list("compliance_curve", score.compliance, "|beam/torque| at the protocol's frequencies.",
+  v.list("compliance_curve", score.compliance,
+         "|boresight error/torque| at the protocol's frequencies.",
          [&](const design::CompliancePoint& point) {
            v.number("frequency", point.frequency, unit::hertz, "Of the torque.");
            v.number("compliance", point.compliance, compliance_unit, "There.");
@@ -290,6 +293,7 @@ void describe(io::Visitor& v, const BenchmarkReport& report) {
            v.text("key", quantity.key, "Its key in the case file.");
            v.text("as_written", quantity.text, "With its unit.");
          });
+  describe_renamed_keys(v);
 }
 
 std::string to_json(const BenchmarkReport& report) {

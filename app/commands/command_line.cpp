@@ -11,6 +11,7 @@
 
 #include <boresight/app/commands/command_line.hpp>
 #include <boresight/app/commands/program.hpp>
+#include <boresight/io/files/input_files.hpp>
 #include <boresight/numerics/error.hpp>
 
 namespace boresight::app {
@@ -55,7 +56,10 @@ int run_command_line(int argc, char** argv) {
     for (const auto& command : program.commands) {
       if (!command.options->parsed()) continue;
       if (command.outputs != nullptr) command.outputs->command_line = command_line_text(argc, argv);
-      return command.run();
+      const int code = command.run();
+      for (const auto& warning : io::warnings_noted())
+        fmt::print(stderr, "boresight: {}\n", warning);
+      return code;
     }
   } catch (const InvalidInput& error) {
     fmt::print(stderr, "boresight: {}\n", error.what());

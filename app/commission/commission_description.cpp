@@ -195,6 +195,7 @@ void describe(io::Visitor& v, const CommissionReport& report) {
            v.text("key", quantity.key, "in the case file");
            v.text("value", quantity.text, "as written");
          });
+  describe_renamed_keys(v);
 }
 
 std::string to_json(const CommissionReport& report) {

@@ -14,7 +14,7 @@ struct LawModels {
   std::string description;  // the controller, in words
   control::ControlLaw law;
   double dead_time = 0.0;        // s, of the loop
-  plant::StateSpace controller;  // continuous; the dead time is the loop's
+  plant::StateSpace continuous;  // controller; the dead time is the loop's
   /// In the sampled form that the antenna's computer runs: prewarped, Tustin, its sample time two
   /// thirds of the dead time. Hold and one sample of computing are the loop's.
   plant::StateSpace sampled_controller;

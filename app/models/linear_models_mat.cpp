@@ -136,10 +136,10 @@ std::string to_mat(const LinearModels& models, const std::string& command,
   variables.add_structure("plant_response", plant_response_fields(models, frequency));
   if (models.loop) {
     const LawModels& loop = *models.loop;
-    variables.add_text("law", loop.description);
+    variables.add_text("controller_name", loop.description);
     variables.add_text("structure", loop.law.structure.name());
     variables.add_structure("gains", gain_fields(loop.law));
-    variables.add_structure("controller", io::state_space_mat(loop.controller));
+    variables.add_structure("controller", io::state_space_mat(loop.continuous));
     variables.add_structure("sampled_controller", io::state_space_mat(loop.sampled_controller));
     variables.add_structure("closed_loop", io::state_space_mat(loop.closed_loop));
     variables.add_structure("closed_loop_response", closed_loop_response_fields(loop, frequency));

@@ -177,6 +177,7 @@ void describe(io::Visitor& v, const MonteCarloSection& section) {
   describe_assumed(v, section.assumed);
   v.texts("conclusions", section.conclusions, "What the numbers mean, in sentences.");
   describe_figures(v, section.figures);
+  describe_renamed_keys(v);
 }
 
 std::string to_json(const MonteCarloSection& section) {

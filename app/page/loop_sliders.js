@@ -66,7 +66,7 @@
       if (limit.phase_margin_deg !== null && loop.phase_deg < limit.phase_margin_deg - 1e-4) found.push(`phase margin ${loop.phase_deg.toFixed(1)} deg below ${limit.phase_margin_deg.toFixed(1)}, ${where}`);
     });
     const effort = data.limits.valve_effort_rad_per_s;
-    if (rms.effort > effort * (1 + 1e-5)) found.push(`valve effort ${rms.effort.toFixed(3)} rad/s above ${effort}`);
+    if (rms.effort > effort * (1 + 1e-5)) found.push(`control effort ${rms.effort.toFixed(3)} rad/s above ${effort}`);
     return found;
   };
 
@@ -90,8 +90,8 @@
     answer.append(element("small", rms ? `boresight rms per axis; wind ${millidegrees(rms.wind)}, sensors ${millidegrees(rms.noise)}; at the start ${millidegrees(first.rms.beam)}`
       : stability.rate_loop_abscissa >= 0 ? "the rate loop alone" : stability.closed_loop_abscissa >= 0 ? "with both loops closed" : "not shown stable with the exact dead time"));
     const missed = rms ? broken({ rms, margins }) : [];
-    const lines = !rms ? [] : missed.length > 0 ? missed.map((line) => `\u2717 ${line}`) : ["\u2713 meets the constraints on Ms, margins and valve effort, on this plant"];
-    if (rms) lines.push(`valve effort ${rms.effort.toFixed(3)} rad/s`);
+    const lines = !rms ? [] : missed.length > 0 ? missed.map((line) => `\u2717 ${line}`) : ["\u2713 meets the constraints on Ms, margins and control effort, on this plant"];
+    if (rms) lines.push(`control effort ${rms.effort.toFixed(3)} rad/s`);
     verdicts.replaceChildren(...lines.map((line) => element("li", line)));
     rows.replaceChildren(...(margins ?? []).map((loop) => {
       const row = element("tr", "");

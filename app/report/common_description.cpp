@@ -2,6 +2,7 @@
 
 #include <boresight/app/report/common_description.hpp>
 #include <boresight/io/description/visitor.hpp>
+#include <boresight/io/files/renamed_keys.hpp>
 
 namespace boresight::app {
 
@@ -58,6 +59,15 @@ void describe_assumed(io::Visitor& v, const std::vector<io::Quantity>& assumed) 
            v.word("assumed", value ? "value" : "uncertainty", {"value", "uncertainty"},
                   "What of it is assumed.");
            v.text("source", value ? quantity.source : quantity.uncertainty_source, "Why this.");
+         });
+}
+
+void describe_renamed_keys(io::Visitor& v) {
+  v.list("renamed_keys", io::renamed_keys(),
+         "Keys that reports of version 0.1 had under other names; listed in this version only.",
+         [&](const io::RenamedKey& key) {
+           v.text("before", key.before, "In version 0.1; behind a dot: in that object only.");
+           v.text("now", key.now, "In this report.");
          });
 }
 

@@ -33,6 +33,8 @@ void describe_case(io::Visitor& v, std::string_view path, std::string_view title
 void describe_superseded(io::Visitor& v, const std::vector<io::SupersededInput>& inputs);
 /// "assumed_inputs": inputs whose value or uncertainty is assumed.
 void describe_assumed(io::Visitor& v, const std::vector<io::Quantity>& assumed);
+/// "renamed_keys", of every report: io::renamed_keys.
+void describe_renamed_keys(io::Visitor& v);
 /// "share_of_time": fraction of the climate's time up to a speed (m/s); null without a climate or
 /// if the speed is not a number.
 void describe_share_of_time(io::Visitor& v, const std::vector<design::ClimatePart>& climate,

@@ -43,7 +43,7 @@ struct DecidingInput {
 void describe_chance(io::Visitor& v, std::string_view key, const design::Probability& chance,
                      std::string_view meaning) {
   v.group(key, meaning, [&] {
-    v.defined_as("chance", "A probability with its 95 % interval, for the number of draws.");
+    v.defined_as("probability", "A probability with its 95 % interval, for the number of draws.");
     v.number("value", chance.value, unit::ratio, "The probability.", known);
     v.number("lower_95", chance.lower, unit::ratio, "Lower end.", known);
     v.number("upper_95", chance.upper, unit::ratio, "Upper end.", known);
@@ -164,9 +164,10 @@ void describe_decision(io::Visitor& v, const EvaluateSection& section,
   for (const auto& pair : decision.by_structure) {
     by_structure.push_back({name(pair.first), name(pair.second), pair.structures});
   }
-  v.defined_as("decision",
-               "Chances, regrets and what they rest on, by draws with the gains held. Losses are "
-               "beam rms in mdeg.");
+  v.defined_as(
+      "decision",
+      "Probabilities, regrets and what they depend on, by samples with fixed gains. Losses are "
+      "beam rms in mdeg.");
   v.count("draws", decision.draws, "How many.");
   v.text("source", decision.source, "Of the draws.");
   v.list("options", options, "Those with a stable law.",

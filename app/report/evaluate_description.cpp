@@ -72,7 +72,7 @@ void describe_law(io::Visitor& v, const WrittenLaw& written) {
          "Every hard goal on the nominal plant and on each of the ensemble.");
   v.number(
       "ensemble_rms", law.member_rms, unit::millidegree,
-      "Root of the mean square of the beam's rms over the ensemble, of linear loops; null if a "
+      "Root of the mean square of the boresight rms over the ensemble, of linear loops; null if a "
       "plant is unstable.");
   v.number("nonlinear_factor", law.nonlinear_factor(), unit::ratio,
            "Simulated rms (expected_rms) over the linear one; 1 without a run, null if one did not "
@@ -102,9 +102,9 @@ void describe_law(io::Visitor& v, const WrittenLaw& written) {
 
 void describe_slew(io::Visitor& v, const SlewFigures& slew) {
   v.number("distance", slew.distance, unit::degree, "At the sky.", known);
-  v.number("rate", slew.rate, degree_per_second, "Held.", known);
+  v.number("rate", slew.rate, degree_per_second, "Achieved.", known);
   v.number("rate_asked", slew.rate_asked, degree_per_second, "The case's.", known);
-  v.number("acceleration", slew.acceleration, degree_per_second_squared, "Held.", known);
+  v.number("acceleration", slew.acceleration, degree_per_second_squared, "Achieved.", known);
   v.number("reachable_acceleration", slew.reachable_acceleration, degree_per_second_squared,
            "What the drive has reserve for at that rate, whatever is asked.", known);
   v.number("time", slew.time, unit::second, "Null if the supply cannot move it.");
@@ -166,9 +166,10 @@ void describe_figures(io::Visitor& v, const EvaluateSection& section, const Cand
   v.number("slew_rate_margin", figures.slew_rate_margin, unit::ratio,
            "The highest rate that the drive holds against friction and offset, the valve fully "
            "open, over the slew rate; null if the case states no stroke.");
-  v.number("reversal_beam_error", candidate.reversal_error(), unit::millidegree,
-           "Largest error of the beam after turning round at the tracking rate, on the nonlinear "
-           "antenna; null where that did not run.");
+  v.number(
+      "reversal_beam_error", candidate.reversal_error(), unit::millidegree,
+      "Largest boresight error after a velocity reversal at the tracking rate, on the nonlinear "
+      "antenna; null where that did not run.");
   v.optional_group("slew", figures.slew,
                    "A move from rest to rest with the reserve that the drive has; null if the case "
                    "has no [simulation].",

@@ -95,7 +95,8 @@ void describe_reconciled(io::Visitor& v, const identification::ReconciledInertia
            positive);
   v.count("degrees_of_freedom", one.degrees_of_freedom, "Methods less one.");
   v.flag("contradictory", one.degrees_of_freedom > 0 && one.contradictory(),
-         "Q is beyond what chance exceeds once in a thousand times: the mean stands for none of "
+         "Q is beyond what random scatter exceeds once in a thousand times: the mean stands for "
+         "none of "
          "the methods, and there is no reconciled inertia.");
   v.number("motor_to_load_ratio", one.motor_to_load_ratio, unit::ratio, "At the estimate.");
   v.number("motor_to_load_ratio_lower_95", one.ratio_lower, unit::ratio, "Lower end.");

@@ -67,7 +67,7 @@ void describe_time(io::Visitor& v, const MatchTimeDomain& run) {
                      v.number("encoder_error", reversal.encoder_error, unit::millidegree,
                               "Largest after a reversal.");
                      v.number("beam_error", reversal.beam_error, unit::millidegree,
-                              "The same of the beam, about its mean.");
+                              "Boresight error, about its mean.");
                      v.number("encoder_error_without_friction",
                               reversal.encoder_error_without_friction, unit::millidegree,
                               "What a linear loop has too.");
@@ -153,7 +153,7 @@ void describe_law(io::Visitor& v, const PointLaw& one) {
 void describe_smoothness(io::Visitor& v, const design::CurveSmoothness& smooth) {
   v.numbers("third_differences", smooth.third_differences, unit::ratio,
             "Of ln rms along the evenly spaced points.");
-  v.list("kinks", smooth.kinks, "Where what holds the laws changes.",
+  v.list("kinks", smooth.kinks, "Where the active constraints change.",
          [&](const design::CurveKink& kink) {
            v.count("after_grid_point", kink.after,
                    "Number of the evenly spaced point before it, from 0.");
@@ -255,7 +255,7 @@ void describe_conditions(io::Visitor& v, const MatchSection& section) {
   v.number("wind_speed", section.wind_speed, unit::metre_per_second, "Mean.", known);
   v.text("soft_goal", design::to_string(section.soft_goal.kind), "Which rms is made least.");
   v.count("ensemble_members", section.members,
-          "Plants on which every goal is held; 0: the case's alone.");
+          "Plants on which every constraint is met; 0: the case's alone.");
   v.count("starts", section.starts, "Random starts of each law.");
   v.count("rounds", section.rounds, "Of warm starts.");
   v.flag("settled", section.settled, "The last round gained nothing.");

@@ -239,15 +239,15 @@ void describe(io::Visitor& v, const TuningSection& section) {
           "than 2 % or than the same winds leave open.");
   v.object("effect", section.effect,
            "Of its simulation, at least that of the linear plant: budgets are judged by it.");
-  v.number("judged_rms", section.effect.rms(section.design.beam_rms), unit::millidegree,
-           "What budgets are held against in the design wind: beam rms with that effect; null if a "
-           "run was lost.",
-           positive);
+  v.number(
+      "judged_rms", section.effect.rms(section.design.beam_rms), unit::millidegree,
+      "What budgets are compared with in the design wind: beam rms with that effect; null if a "
+      "run was lost.",
+      positive);
   v.count("seeds_within_1_percent", section.seeds_within_1_percent,
           "Seeds whose verified rms is within 1 % of the best.");
   v.number("encoder_held_rms", section.encoder_held_rms, unit::millidegree,
-           "Rms of the bending that no encoder sees, with the encoder held still; not a bound.",
-           positive);
+           "Rms of flexure beyond the encoder, with the encoder at rest; not a bound.", positive);
   v.number("supply_wind_speed", section.supply_wind_speed, unit::metre_per_second,
            "Mean wind speed whose mean torque takes what friction and offset leave of the "
            "supply's; null if there is none.",

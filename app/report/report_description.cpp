@@ -69,6 +69,7 @@ void describe(io::Visitor& v, const Report& report) {
   describe_assumed(v, report.assumed);
   v.texts("conclusions", report.conclusions, "What the numbers mean, in sentences.");
   v.members_if(!report.figures.empty(), [&] { describe_figures(v, report.figures); });
+  describe_renamed_keys(v);
 }
 
 }  // namespace boresight::app

@@ -96,9 +96,9 @@ Json report_schema_with_conditions() {
   Json schema = schema_of<Report>(
       {"Boresight report", schema_comment, "Report of one command of Boresight (--json)."},
       report_conditions());
-  // A law's models are there together.
+  // A controller's models are there together.
   schema["$defs"]["linear_models"]["dependentRequired"] = {
-      {"law", {"dead_time_s", "controller", "sampled_controller"}}};
+      {"controller_name", {"dead_time_s", "controller", "sampled_controller"}}};
   return schema;
 }
 

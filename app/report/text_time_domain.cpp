@@ -173,7 +173,7 @@ Document slew_part(const TimeDomainSection& section) {
 // The rule by which the controller above was chosen (design::recommend).
 std::string choice_text(const TimeDomainSection& section) {
   using Candidate = TimeDomainSection::Candidate;
-  const double error = section.options.settled_error;
+  const double error = section.options.tightest_budget;
   const double amplitude = design::hunting_limit(error);
   const auto simulated = [](const Candidate& one) {
     return std::isfinite(one.result.wind.beam_rms);

@@ -137,7 +137,7 @@ void describe_gains(io::Visitor& v, const TuneSection& section, const TunedLaw& 
 }
 
 void describe_prices(io::Visitor& v, const std::vector<design::LimitingGoal>& limits) {
-  v.list("limits", limits, "Goals with a price, dearest first: what limits the result.",
+  v.list("limits", limits, "Active constraints with their shadow prices, largest first.",
          [&](const design::LimitingGoal& limit) {
            v.text("goal", design::describe(limit.goal), "Which, where and at which frequency.");
            v.text("plant", limit.member.empty() ? "nominal" : limit.member, "On which plant.");
@@ -178,17 +178,19 @@ void describe_law(io::Visitor& v, const TuneSection& section, const TunedLaw& ro
   v.group_if("simulated", row.in_time.has_value(),
              "On the nonlinear antenna at that wind speed; null where it did not run.", [&] {
                const LawInTime run = row.in_time.value_or(LawInTime{});
-               v.number("budget_rms", row.budget_rms(), unit::millidegree,
-                        "What budgets are held against: the larger of the linear and the simulated "
-                        "rms, limit cycle added in quadrature; null if a run did not complete.");
+               v.number(
+                   "budget_rms", row.budget_rms(), unit::millidegree,
+                   "What budgets are compared with: the larger of the linear and the simulated "
+                   "rms, limit cycle added in quadrature; null if a run did not complete.");
                v.flag("limit_cycle_within_budget", run.still,
                       "No limit cycle beyond the tightest budget.");
                v.object("effect", row.effect(), "Beyond the linear rms.");
                v.object("expected_rms", run.expected,
                         "Over several records of wind; null if there was but one.");
              });
-  v.object("ensemble", row.ensemble,
-           "Its gains held on every plant of the ensemble; null without a stable law.");
+  v.object(
+      "ensemble", row.ensemble,
+      "Evaluated with fixed gains on every member of the ensemble; null without a stable law.");
 }
 
 }  // namespace

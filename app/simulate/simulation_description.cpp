@@ -147,6 +147,7 @@ void describe(io::Visitor& v, const SimulationReport& report) {
   v.texts("records", report.written, "Files written.");
   describe_assumed(v, report.assumed);
   describe_figures(v, report.figures);
+  describe_renamed_keys(v);
 }
 
 std::string to_json(const SimulationReport& report) {

@@ -147,7 +147,7 @@ std::string conclude_choice(const TimeDomainSection& section) {
   };
   const auto first = std::ranges::min_element(section.candidates, {}, linear);
   if (first == section.candidates.end() || first->law == section.law) return "";
-  const double error = section.options.settled_error;
+  const double error = section.options.tightest_budget;
   const design::WindResult& wind = first->result.wind;
   const auto& hunting = section.result.hunting;
   std::string text = fmt::format(
@@ -236,7 +236,7 @@ std::optional<TimeDomainSection> section_of(const io::Case& antenna,
 }
 
 std::string not_still(const TimeDomainSection& section) {
-  const double error = section.options.settled_error;
+  const double error = section.options.tightest_budget;
   const auto& hunting = section.result.hunting;
   if (design::holds_still(hunting, error)) return "";
   return fmt::format(
@@ -246,7 +246,7 @@ std::string not_still(const TimeDomainSection& section) {
 }
 
 std::string decide(const TimeDomainSection& section) {
-  const double error = section.options.settled_error;
+  const double error = section.options.tightest_budget;
   const double rms = section.own().simulated_rms() / millidegree;
   // No other did either: such a law is never put before one that did.
   if (!std::isfinite(rms)) {
@@ -292,7 +292,7 @@ std::string decide(const TimeDomainSection& section) {
 std::string conclude(const TimeDomainSection& section) {
   std::string text = conclude_choice(section) + conclude_wind(section) + integration_text(section);
   for (const auto& hunting : section.result.hunting) {
-    text += hunting_text(hunting, section.options.settled_error);
+    text += hunting_text(hunting, section.options.tightest_budget);
   }
   const auto& reversal = section.result.reversal;
   if (reversal && reversal->status == RunStatus::complete) {

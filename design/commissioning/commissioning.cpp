@@ -26,8 +26,7 @@ constexpr double largest_detuning = 64.0;
 void check(const std::vector<EnsembleMember>& members, const CommissioningOptions& options) {
   if (members.size() < 3) {
     throw InvalidInput(
-        fmt::format("plan_commissioning: expected at least 3 plants that may be the "
-                    "true one, found {}",
+        fmt::format("plan_commissioning: expected at least 3 ensemble members, found {}",
                     members.size()));
   }
   const bool in_order = options.largest_step > 1.0 && options.largest_step <= 10.0 &&

@@ -40,13 +40,14 @@ bool is_present(const control::ControlLaw& law, const Mission& mission) {
 
 }  // namespace
 
-BenchmarkedController controller_of(const control::ControlLaw& law, const std::string& description,
-                                    double sample_time) {
+BenchmarkedController controller_of(const control::ControlLaw& tuned,
+                                    const std::string& description, double sample_time) {
   BenchmarkedController controller;
-  controller.law = law;
+  controller.law = tuned;
   controller.description = description;
   controller.system = control::antenna_state_space_controller(
-      sample_time > 0.0 ? control::sampled_law(law, sample_time) : control::to_state_space(law));
+      sample_time > 0.0 ? control::sampled_law(tuned, sample_time)
+                        : control::to_state_space(tuned));
   return controller;
 }
 

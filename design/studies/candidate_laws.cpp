@@ -70,7 +70,7 @@ CandidateLaw candidate_law(const Mission& mission, const ControllerStudy& study,
       law.time_domain = std::move(run->result);
       law.expected = std::move(run->rms);
     }
-    law.still = !law.time_domain || holds_still(law.time_domain->hunting, how.settled_error);
+    law.still = !law.time_domain || holds_still(law.time_domain->hunting, how.tightest_budget);
   }
   law.budgets_met = plants_within_budgets(problem, members, gains, study.tuned.goals,
                                           mission.budgets, law.effect().for_budgets(), 1);

@@ -44,7 +44,7 @@ std::optional<double> limit_cycle_beyond_budget(const Mission& mission,
   auto options = comparison_options(mission, seed);
   options.wind_duration = 1.0;
   const auto run = run_in_time_domain(mission, problem, law, options);
-  if (!run || holds_still(run->hunting, options.settled_error)) return std::nullopt;
+  if (!run || holds_still(run->hunting, options.tightest_budget)) return std::nullopt;
   return hunting_seen(run->hunting) ? hunting_amplitude(run->hunting)
                                     : std::numeric_limits<double>::infinity();
 }

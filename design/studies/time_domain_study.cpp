@@ -24,7 +24,8 @@ TimeDomainStudy plan(const Mission& mission, const TrackingProblem& problem,
   options.tracking_rate = mission.antenna.drive.tracking_rate;
   options.slew_distance = 1.0 * degree;
   options.limits = {mission.antenna.drive.slew_rate, 0.2 * degree};
-  options.settled_error = tightest_budget(mission);
+  options.tightest_budget = tightest_budget(mission);
+  options.settled_error = options.tightest_budget;
   options.threads = threads;
   options.winds = std::make_shared<SharedWinds>();
   return section;

@@ -34,6 +34,9 @@ struct NonlinearVerificationOptions {
   control::CommandLimits limits;
   /// Encoder error (rad) within which a slew counts as settled.
   double settled_error = 0.0;
+  /// Boresight rms (rad at the sky) of the tightest budget. It bounds limit cycles (holds_still);
+  /// no run depends on it.
+  double tightest_budget = 0.0;
   double settling_watched = 40.0;  // s after the end of the command
   unsigned threads = 1;
   /// The records of wind, for several controllers in the same; prepared anew if null.

@@ -178,7 +178,8 @@ std::string contradiction_with_case(const identification::GreyBoxResult& found) 
   if (!conflict.beyond_chance()) return {};
   std::string text = fmt::format(
       "The records and the stated numbers contradict one another: the squares of the distances of "
-      "{} of them, in their uncertainties, add up to {:.0f} where chance makes {} and hardly ever "
+      "{} of them, in their uncertainties, add up to {:.0f} where random scatter makes {} and "
+      "hardly ever "
       "{:.0f}; the {} is {:.1f} uncertainties off.",
       conflict.count, conflict.sum, conflict.count, conflict.limit, conflict.largest,
       std::abs(conflict.departure));

@@ -119,7 +119,7 @@ void describe(Visitor& v, const design::PointingLimit& limit) {
            "Least of any controller that knows the whole state at each sample, effort free.",
            positive);
   v.number("encoder_held_rms", limit.encoder_held_rms, unit::millidegree,
-           "Bending that no encoder sees: beam rms with the encoder held still.", positive);
+           "Flexure beyond the encoder: boresight rms with the encoder at rest.", positive);
   v.list("laws", limit.laws, "Each against the limits.",
          [&](const design::LawAgainstLimit& law) { describe_law(v, law); });
 }

@@ -144,8 +144,8 @@ void describe(Visitor& v, const design::TimeDomainStudy& study) {
   v.number("encoder_resolution", study.encoder_resolution, unit::millidegree,
            "Steps of the encoder: those whose rounding error is its noise.", known);
   v.group("wind",
-          "In wind, against the linear prediction: beam_rms is predicted_rms + chance + sampling + "
-          "the sum of differences + joint.",
+          "In wind, against the linear prediction: boresight_rms is the sum of predicted_rms, "
+          "realisation_error, sampling, all differences and interaction.",
           [&] { describe_wind(v, result.wind, study.options); });
   v.object("expected_rms", study.rms,
            "Over records of wind of that length; null if there was but one.");

@@ -13,6 +13,7 @@
 #include <boresight/io/case/present_gains.hpp>
 #include <boresight/io/exchange/reported_controller.hpp>
 #include <boresight/io/files/input_files.hpp>
+#include <boresight/io/files/renamed_keys.hpp>
 #include <boresight/io/units/wording.hpp>
 #include <boresight/numerics/angles.hpp>
 #include <boresight/numerics/error.hpp>
@@ -22,16 +23,16 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-// One of the "laws" of a report of `boresight tune` as design::recommend compares it.
+// One of the "controllers" of a report of `boresight tune` as design::recommend compares it.
 design::Assessment reported_assessment(const Json& row) {
   const bool robust = row.at("tuned_for") == "robust";
-  const auto& rms = row.at("beam_rms_mdeg");
+  const auto& rms = row.at("boresight_rms_mdeg");
   design::Assessment result;
   result.structure = row.at("structure").get<std::string>();
   result.purpose = robust ? design::DesignPurpose::robust : design::DesignPurpose::nominal;
   result.stable = result.verified = rms.is_number();
   if (rms.is_number()) result.linear_rms = rms.get<double>() * millidegree;
-  result.nominal_constraints_met = row.at("goals_met").get<bool>();
+  result.nominal_constraints_met = row.at("constraints_met").get<bool>();
   result.member_constraints_met = robust && result.nominal_constraints_met;
   if (row.contains("gains_as_written")) result.parts = row.at("gains_as_written").size();
   if (row.contains("design") && row.at("design").is_object()) {
@@ -115,11 +116,12 @@ ReportedController controller_of_report(const Case& antenna, const std::string& 
   if (!file) refuse(path, "no file that can be read");
   note_input(path, text);
   try {
-    const Json report = Json::parse(text);
+    Json report = Json::parse(text);
+    use_present_keys(report, path);
     if (report.contains("tuned")) {
       // What is held on samples may miss its goals.
-      const Json* best =
-          recommended_row(report.at("tuned").at("laws"), structure, design::Fitness::unverified);
+      const Json* best = recommended_row(report.at("tuned").at("controllers"), structure,
+                                         design::Fitness::unverified);
       if (best == nullptr) {
         refuse(path, structure.empty() ? "none" : fmt::format("none of {}", structure));
       }
@@ -146,9 +148,10 @@ ReportedController written_controller_of_report(const Case& antenna, const std::
                                                 const std::string& path,
                                                 const std::string& structure) {
   try {
-    const auto report = Json::parse(text);
-    const Json* row =
-        recommended_row(report.at("tuned").at("laws"), structure, design::Fitness::misses_member);
+    Json report = Json::parse(text);
+    use_present_keys(report, path);
+    const Json* row = recommended_row(report.at("tuned").at("controllers"), structure,
+                                      design::Fitness::misses_member);
     if (row == nullptr) {
       throw InvalidInput(fmt::format(
           "{}: expected a tuned law that meets its goals{}, found none", path,

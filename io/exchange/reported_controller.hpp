@@ -22,7 +22,8 @@ control::LoopStructure structure_named(const Case& antenna, const std::string& n
 /// empty, from the gains of its design in SI. Among tune's controllers, the first wind speed with a
 /// stable one is used. There the one that the report recommends is returned. If the report
 /// recommends none of these, design::recommend chooses by the report's data, whether constraints
-/// are met or not. Data missing in an older report, such as its verification, count as good.
+/// are met or not. Data missing in an older report, such as its verification, count as good;
+/// keys of version 0.1 are read (use_present_keys).
 /// @throws InvalidInput naming the file if there is none.
 ReportedController controller_of_report(const Case& antenna, const std::string& path,
                                         const std::string& structure);

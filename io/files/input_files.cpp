@@ -1,6 +1,7 @@
 #include <array>
 #include <map>
 #include <mutex>
+#include <set>
 #include <span>
 #include <utility>
 
@@ -34,6 +35,7 @@ std::string hexadecimal(std::span<const std::uint8_t> bytes) {
 struct Log {
   std::mutex mutex;
   std::map<std::pair<std::string, std::string>, std::uint64_t> sizes;  // by path and digest
+  std::set<std::string> warnings;
 };
 
 Log& log() {
@@ -66,6 +68,16 @@ std::vector<InputFile> inputs_read() {
   std::vector<InputFile> files;
   for (const auto& [key, bytes] : log().sizes) files.push_back({key.first, bytes, key.second});
   return files;
+}
+
+void note_warning(const std::string& sentence) {
+  const std::lock_guard lock(log().mutex);
+  log().warnings.insert(sentence);
+}
+
+std::vector<std::string> warnings_noted() {
+  const std::lock_guard lock(log().mutex);
+  return {log().warnings.begin(), log().warnings.end()};
 }
 
 }  // namespace boresight::io

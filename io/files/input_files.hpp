@@ -25,4 +25,11 @@ std::string note_input(const std::string& path, std::string_view content);
 /// All noted so far, by path; a file read twice is there once, one that changed meanwhile twice.
 std::vector<InputFile> inputs_read();
 
+/// Registers a sentence on an input for the user, from any thread: what a reader accepts now and
+/// will not in the next version.
+void note_warning(const std::string& sentence);
+
+/// All noted so far, each once, in alphabetical order.
+std::vector<std::string> warnings_noted();
+
 }  // namespace boresight::io

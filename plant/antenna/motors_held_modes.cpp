@@ -172,7 +172,7 @@ void check(const StructureSpecification& stated, const char* fractions) {
       if (!exists(lighter)) continue;
       refuse(fmt::format(
           "inertia fractions of which an antenna has these frequencies with the motors held, found "
-          "none: the mode of {:.6g} Hz would need an inertia_fraction of some {:.2g} in the place "
+          "none: the mode of {:.6g} Hz would need an inertia_fraction of some {:.2g} instead "
           "of {:.6g}, or more distance from the frequencies beside it",
           stated.modes[i].frequency, lighter.modes[i].inertia_fraction,
           stated.modes[i].inertia_fraction));

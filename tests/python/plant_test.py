@@ -80,7 +80,7 @@ def test_closed_loop_is_plant_and_controller_connected(antenna, plant):
     closed = boresight.closed_loop(plant, law, antenna.controller_delay)
     assert closed.poles().real.max() == pytest.approx(-0.0938, abs=5e-5)  # tests/examples
     # Next to no dead time: the connection can be made by hand.
-    controller = law.controller()
+    controller = law.state_space()
     wire = boresight.StateSpace(np.zeros((0, 0)), np.zeros((0, 1)), np.zeros((1, 0)), [[1.0]],
                                 ["valve_demand"], ["valve_command"])
     by_hand = boresight.connect([plant.state_space, controller, wire],
@@ -99,7 +99,7 @@ def test_sampled_law_is_the_continuous_one_at_low_frequencies():
     w = np.array([0.1, 1.0, 3.0])
     rate = [system.frequency_response(w)[:, system.outputs.index("valve_demand"),
                                          system.inputs.index("tachometer")]
-            for system in (law.controller(), sampled)]
+            for system in (law.state_space(), sampled)]
     np.testing.assert_allclose(rate[1], rate[0], rtol=2e-3)
 
 

@@ -84,7 +84,7 @@ def test_best_law_meets_its_goals_and_closes_a_stable_loop(antenna, tuning):
     assert closed.poles().real.max() < 0
     # The law's own state space, with the peak of |S| at the valve found by plain numpy.
     plant = boresight.plant(antenna).state_space
-    controller = best.law.controller()
+    controller = best.law.state_space()
     peak = best.margins["valve command"]
     w = np.append(np.logspace(-2, 2, 4000), peak.sensitivity_frequency)
     p, k = plant.frequency_response(w), controller.frequency_response(w)

@@ -59,7 +59,7 @@ TEST(LinearModels, ComeBackBitByBitFromMatAndJson) {
   ASSERT_TRUE(written.loop);
   const auto& loop = *written.loop;
   for (const auto& [part, system] : {std::pair{"plant", &written.plant},
-                                     {"controller", &loop.controller},
+                                     {"controller", &loop.continuous},
                                      {"sampled_controller", &loop.sampled_controller}}) {
     SCOPED_TRACE(part);
     expect_same(io::controller_from_mat(mat, "m.mat", part), *system);
@@ -67,9 +67,9 @@ TEST(LinearModels, ComeBackBitByBitFromMatAndJson) {
   }
   expect_same(io::controller_from_mat(mat, "m.mat", "closed_loop"), loop.closed_loop);
   // Without asking, the continuous controller.
-  expect_same(io::controller_from_mat(mat, "m.mat"), loop.controller);
-  expect_same(io::controller_from_json(json, "r.json"), loop.controller);
-  EXPECT_EQ(loop.controller.sample_time, 0.0);
+  expect_same(io::controller_from_mat(mat, "m.mat"), loop.continuous);
+  expect_same(io::controller_from_json(json, "r.json"), loop.continuous);
+  EXPECT_EQ(loop.continuous.sample_time, 0.0);
   EXPECT_EQ(loop.sampled_controller.sample_time,
             control::sample_time_of(antenna().controller->delay.value));
   EXPECT_EQ(mat, to_mat(written, "redesign", "case.toml"));

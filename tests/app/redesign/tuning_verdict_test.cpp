@@ -218,7 +218,7 @@ TEST(TuningVerdict, SaysOnWhatAVerdictOnABudgetRests) {
   EXPECT_THAT(unmet_needs(*report.tuning, std::nullopt),
               ElementsAre(HasSubstr("it is met up to 11.5 m/s, by the linear plant.")));
   TimeDomainSection& section = report.time_domain.emplace();
-  section.options.settled_error = 0.5 * millidegree;
+  section.options.settled_error = section.options.tightest_budget = 0.5 * millidegree;
   section.wind_speed = 12.0;
   section.result.wind.predicted_rms = 0.49 * millidegree;
   section.result.wind.beam_rms = 0.51 * millidegree;
@@ -254,7 +254,7 @@ TEST(TuningVerdict, RunsNoDriveThatHunts) {
   Report report = tuned_report();
   EXPECT_THAT(decision(report).front(), HasSubstr("Run the drive"));
   TimeDomainSection& section = report.time_domain.emplace();
-  section.options.settled_error = 0.5 * millidegree;
+  section.options.settled_error = section.options.tightest_budget = 0.5 * millidegree;
   design::HuntingResult rest;
   rest.limit_cycle = true;
   rest.beam_amplitude = 0.7 * millidegree;

@@ -44,7 +44,7 @@ Report report_of_test() {
   auto& run = report.time_domain.emplace();
   run.wind_speed = 10.0;
   run.result.wind.beam_rms = 0.52 * millidegree;
-  run.options.settled_error = millidegree;
+  run.options.settled_error = run.options.tightest_budget = millidegree;
   return report;
 }
 

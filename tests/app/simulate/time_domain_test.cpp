@@ -35,7 +35,7 @@ TimeDomainSection section() {
   section.encoder_resolution = 0.3464 * mdeg;
   section.options.tracking_rate = 4.17 * mdeg;
   section.options.limits = {0.25 * degree, 0.2 * degree};
-  section.options.settled_error = 0.527 * mdeg;
+  section.options.settled_error = section.options.tightest_budget = 0.527 * mdeg;
   auto& wind = section.result.wind;
   wind.predicted_rms = 0.5 * mdeg;
   wind.chance = -0.01 * mdeg;

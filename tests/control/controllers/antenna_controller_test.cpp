@@ -1,6 +1,9 @@
 #include <cmath>
 #include <limits>
 
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
 #include "reference_antenna.hpp"
 #include <boresight/control/controllers/antenna_controller.hpp>
 #include <boresight/control/controllers/sampled_law.hpp>

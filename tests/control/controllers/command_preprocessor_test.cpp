@@ -2,6 +2,9 @@
 #include <cmath>
 #include <limits>
 
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
 #include "random_numbers.hpp"
 #include <boresight/control/controllers/command_preprocessor.hpp>
 #include <boresight/numerics/error.hpp>

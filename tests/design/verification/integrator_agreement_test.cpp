@@ -1,5 +1,8 @@
 #include <cmath>
 
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
 #include "design/reference_problem.hpp"
 #include "reference_nonlinear_antenna.hpp"
 #include <boresight/design/verification/integrator_agreement.hpp>

@@ -221,8 +221,8 @@ TEST(MotorsHeldModes, RefuseWhatIsNoAntenna) {
   // 4 (1 + r) s0 s1 <= (s0 + s1)^2 leaves a fraction of 0.344.
   EXPECT_THAT(refusal(stated), HasSubstr("expected inertia fractions of which an antenna has these "
                                          "frequencies with the motors held, found none: the mode "
-                                         "of 1.9 Hz would need an inertia_fraction of some 0.32 in "
-                                         "the place of 0.8"));
+                                         "of 1.9 Hz would need an inertia_fraction of some 0.32 "
+                                         "instead of 0.8"));
   stated.modes[0].inertia_fraction = 0.32;
   EXPECT_EQ(refusal(stated), "taken");
   const auto refused = [&](const std::function<void(StructureSpecification&)>& change,
